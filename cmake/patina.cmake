@@ -1,0 +1,38 @@
+# Helpers that give every room the same flags.
+
+function(_patina_flags target)
+    target_include_directories(${target} PUBLIC ${CMAKE_SOURCE_DIR})
+    target_compile_options(${target} PRIVATE -Wall -Wextra -fno-math-errno -fvisibility-inlines-hidden)
+    if(PATINA_WERROR)
+        target_compile_options(${target} PRIVATE -Werror)
+    endif()
+    if(PATINA_NATIVE)
+        target_compile_options(${target} PRIVATE -march=native)
+    endif()
+    if(PATINA_SANITIZE)
+        target_compile_options(${target} PRIVATE -fsanitize=${PATINA_SANITIZE} -fno-omit-frame-pointer)
+        target_link_options(${target} PUBLIC -fsanitize=${PATINA_SANITIZE})
+    endif()
+endfunction()
+
+# patina_add_library(name SOURCES... [LIBS libraries...]): a static library of one room.
+function(patina_add_library name)
+    cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
+    add_library(${name} STATIC ${arg_UNPARSED_ARGUMENTS})
+    target_link_libraries(${name} PUBLIC ${arg_LIBS})
+    _patina_flags(${name})
+endfunction()
+
+# patina_add_test(name SOURCES... LIBS libraries...): a googletest program in <build>/tests, where
+# the test runner collects every program.
+function(patina_add_test name)
+    if(NOT PATINA_BUILD_TESTS)
+        return()
+    endif()
+    cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
+    add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
+    target_link_libraries(${name} PRIVATE ${arg_LIBS} GTest::gtest_main)
+    _patina_flags(${name})
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+    add_test(NAME ${name} COMMAND ${name})
+endfunction()

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "hdDelegate/film/film.h"
+#include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/settings.h"
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace patina {
+
+/// What a renderer can tell about its work. Times in seconds.
+struct RenderProgress {
+    double fraction = 0.0;      ///< 0..1 of the expected work
+    int samplesDone = 0;        ///< full passes over the image, in samples per pixel
+    double secondsRendering = 0.0;
+    double secondsLeft = 0.0;   ///< estimate
+    bool converged = false;     ///< all samples taken, tolerance or time limit reached
+    bool failed = false;
+    std::string error;          ///< one line, when failed
+    std::map<std::string, double> statistics; ///< "rays", "samples", "secondsBuild", "trianglesStored", ...
+};
+
+/// Renders a scene into a film, progressively and in the background. All functions return at once
+/// unless they say otherwise, and may be called from any thread.
+class Renderer {
+public:
+    virtual ~Renderer() = default; ///< stops first
+
+    /// Starts rendering the scene's newest state as seen by a camera. A render that runs is
+    /// stopped first; what an edit did not touch since the last start is kept.
+    /// @param film is resized to the settings; samples that it already holds (a resumed render)
+    ///        are kept when its `resumeToken` fits, and continued.
+    virtual void start(std::shared_ptr<Scene> scene, const std::string& camera,
+                       const RenderSettings& settings, std::shared_ptr<Film> film) = 0;
+    virtual void stop() = 0; ///< blocks until no thread works on the film (milliseconds)
+    virtual void pause() = 0;
+    virtual void resume() = 0;
+    virtual bool isRunning() const = 0;
+    virtual void wait() = 0; ///< blocks until converged, failed or stopped
+    virtual RenderProgress progress() const = 0;
+};
+
+/// Makes the back end "embree"; null for an unknown name.
+std::unique_ptr<Renderer> makeRenderer(const std::string& backend);
+
+} // namespace patina

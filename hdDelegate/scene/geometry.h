@@ -1,0 +1,112 @@
+#pragma once
+
+#include "hdDelegate/scene/types.h"
+
+namespace patina {
+
+/// Faces (or curves, or points) of a prim with a material of their own.
+struct GeomSubset {
+    std::string path;
+    std::string material;
+    std::vector<int> faces; ///< indices out of range are dropped with a warning
+};
+
+/// Which rays see a prim.
+struct Visibility {
+    bool camera = true;
+    bool indirect = true;
+    bool shadow = true;
+};
+
+enum class SubdivisionScheme { None, CatmullClark, Loop, Bilinear };
+enum class GeometryKind { Mesh, Curves, Points, Implicit };
+
+/// What all gprims share.
+struct Geometry {
+    std::string path;
+    std::string group; ///< prototype that this prim belongs to; empty means the world itself
+    GeometryKind kind = GeometryKind::Mesh;
+    MotionTransform transform{mat4(1.0f)}; ///< local to group (or world)
+    Visibility visibility;
+    std::string material; ///< path of a MaterialPrim; empty shows displayColor
+    std::vector<GeomSubset> subsets;
+    std::vector<Primvar> primvars; ///< displayColor, displayOpacity, st, normals (on curves, points and meshes)...
+    std::vector<std::string> categories; ///< names of light and shadow link collections that hold it
+    bool doubleSided = true;
+    bool leftHanded = false;
+
+    virtual ~Geometry() = default;
+    const Primvar* primvar(const std::string& name) const;
+};
+
+/// UsdGeomMesh.
+struct Mesh : Geometry {
+    Sampled<std::vector<vec3>> points;
+    std::vector<int> faceVertexCounts;
+    std::vector<int> faceVertexIndices;
+    std::vector<int> holeIndices;
+    SubdivisionScheme scheme = SubdivisionScheme::None;
+    std::string interpolateBoundary = "edgeAndCorner";       ///< none, edgeOnly, edgeAndCorner
+    std::string faceVaryingLinearInterpolation = "cornersPlus1";
+    std::string triangleSubdivisionRule = "catmullClark";    ///< catmullClark, smooth
+    std::vector<int> creaseIndices, creaseLengths;
+    std::vector<float> creaseSharpnesses;
+    std::vector<int> cornerIndices;
+    std::vector<float> cornerSharpnesses;
+    int refineLevel = 0; ///< floor of the refinement (usdview complexity low 0 .. veryhigh 3)
+
+    Mesh() { kind = GeometryKind::Mesh; }
+};
+
+enum class CurveBasis { Linear, Bezier, Bspline, CatmullRom };
+enum class CurveWrap { Nonperiodic, Periodic, Pinned };
+
+/// UsdGeomBasisCurves. With a primvar `normals` the curves are ribbons, else tubes.
+/// Widths (diameters) come as primvar `widths`, any interpolation.
+struct Curves : Geometry {
+    Sampled<std::vector<vec3>> points;
+    std::vector<int> curveVertexCounts;
+    CurveBasis basis = CurveBasis::Linear;
+    CurveWrap wrap = CurveWrap::Nonperiodic;
+
+    Curves() { kind = GeometryKind::Curves; }
+};
+
+/// UsdGeomPoints: spheres of diameter `widths` (primvar), or discs where `normals` are given.
+struct Points : Geometry {
+    Sampled<std::vector<vec3>> points;
+
+    Points() { kind = GeometryKind::Points; }
+};
+
+enum class ImplicitShape { Sphere, Cube, Cone, Cylinder, Capsule, Plane };
+
+/// UsdGeom implicit prims. Sizes are in the prim's own units.
+struct Implicit : Geometry {
+    ImplicitShape shape = ImplicitShape::Sphere;
+    int axis = 2; ///< 0 X, 1 Y, 2 Z
+    float radius = 1.0f;
+    float radiusTop = -1.0f; ///< Cylinder_1 and Capsule_1; negative means as radius
+    float height = 2.0f;     ///< of cone, cylinder, capsule (without caps)
+    float size = 2.0f;       ///< edge of the cube
+    float width = 2.0f;      ///< of the plane
+    float length = 2.0f;     ///< of the plane
+
+    Implicit() { kind = GeometryKind::Implicit; }
+};
+
+/// Many copies of prototypes. A prototype is a group: every prim whose `group` is its name, and
+/// every instancer whose `group` is its name (that is how instancers nest).
+struct Instancer {
+    std::string path;
+    std::string group; ///< group that the instances appear in; empty means the world
+    std::vector<std::string> prototypes;        ///< group names
+    std::vector<int> prototypeIndices;          ///< per instance, into prototypes
+    std::vector<MotionTransform> transforms;    ///< per instance, local to group
+    std::vector<int> ids;                       ///< per instance, for the instanceId AOV; empty = index
+    std::vector<std::vector<std::string>> categories; ///< per instance (light linking); empty = none
+    std::vector<Primvar> primvars;              ///< per instance (Vertex) or constant
+    Visibility visibility;
+};
+
+} // namespace patina

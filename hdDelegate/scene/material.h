@@ -1,0 +1,13 @@
+#pragma once
+
+#include "materialNetwork/network.h"
+
+namespace patina {
+
+/// A UsdShadeMaterial: its network as authored.
+struct MaterialPrim {
+    std::string path;
+    Network network;
+};
+
+} // namespace patina

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "hdDelegate/scene/camera.h"
+#include "hdDelegate/scene/geometry.h"
+#include "hdDelegate/scene/light.h"
+#include "hdDelegate/scene/material.h"
+#include "materialNetwork/diagnostics.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+
+namespace patina {
+
+template <class T> using PrimMap = std::map<std::string, std::shared_ptr<const T>>;
+
+/// The whole scene at one moment. Prims are immutable: an edited prim is another object, so that
+/// a renderer sees what changed by comparing pointers.
+struct SceneState {
+    uint64_t version = 0;
+    PrimMap<Geometry> geometry;
+    PrimMap<Instancer> instancers;
+    PrimMap<Light> lights;
+    PrimMap<Camera> cameras;
+    PrimMap<MaterialPrim> materials;
+    double metersPerUnit = 0.01;
+};
+
+class SceneEdit;
+
+/// The renderer's own scene. Hosts edit it from any thread; renderers read snapshots.
+class Scene {
+public:
+    Scene();
+
+    /// Opens an edit. Several may be open at once, from several threads; each is atomic when it
+    /// commits.
+    SceneEdit edit();
+
+    /// The state after the last commit.
+    std::shared_ptr<const SceneState> snapshot() const;
+
+    Diagnostics& diagnostics() { return _diagnostics; }
+
+private:
+    friend class SceneEdit;
+    mutable std::mutex _mutex;
+    std::shared_ptr<const SceneState> _state;
+    Diagnostics _diagnostics;
+};
+
+/// A batch of changes. Commits when told to, or when it goes out of scope.
+class SceneEdit {
+public:
+    explicit SceneEdit(Scene& scene) : _scene(&scene) {}
+    SceneEdit(SceneEdit&& other) noexcept;
+    SceneEdit(const SceneEdit&) = delete;
+    SceneEdit& operator=(const SceneEdit&) = delete;
+    ~SceneEdit() { commit(); }
+
+    void set(std::shared_ptr<const Geometry> prim);
+    void set(std::shared_ptr<const Instancer> prim);
+    void set(std::shared_ptr<const Light> prim);
+    void set(std::shared_ptr<const Camera> prim);
+    void set(std::shared_ptr<const MaterialPrim> prim);
+    void setMetersPerUnit(double metersPerUnit);
+    void remove(const std::string& path); ///< whatever kind of prim has this path
+    void clear();                         ///< removes everything
+    void commit();
+
+private:
+    Scene* _scene;
+    bool _clear = false;
+    double _metersPerUnit = -1.0;
+    SceneState _changes;
+    std::vector<std::string> _removed;
+};
+
+} // namespace patina

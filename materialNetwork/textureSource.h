@@ -1,0 +1,35 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <string>
+
+namespace patina {
+
+enum class TextureWrap { Black, Clamp, Repeat, Mirror };
+
+/// What a material needs to know to read a texture.
+struct TextureRequest {
+    std::string file;       ///< resolved path; `<UDIM>` stands for the tile number
+    std::string colorSpace; ///< "auto", "raw"/"none", "sRGB"/"srgb_texture", "lin_rec709", or any OCIO name
+    TextureWrap wrapS = TextureWrap::Repeat, wrapT = TextureWrap::Repeat;
+    bool nearest = false;   ///< no filtering at all
+    std::string prim, input; ///< for messages
+};
+
+/// Gives filtered texels in linear Rec.709. Implemented where images are read; thread safe after
+/// open().
+class TextureSource {
+public:
+    virtual ~TextureSource() = default;
+    /// @returns a handle; equal requests share one. A file that cannot be read gives a handle too
+    /// (valid() says false), after a warning.
+    virtual int open(const TextureRequest& request) = 0;
+    virtual bool valid(int handle) const = 0;
+    /// @param uv texture coordinates, v up (0,0 is the lower left corner)
+    /// @param footprint width of the filter in uv units, 0 for the finest level
+    virtual glm::vec4 sample(int handle, glm::vec2 uv, float footprint) const = 0;
+    virtual int channels(int handle) const = 0; ///< of the file: 1..4
+};
+
+} // namespace patina

@@ -1,0 +1,45 @@
+// GLSL side of the shader dialect (GLSL 4.3 and up; GLSL ES 3.0 with PATINA_ALBEDO_TABLE_FETCH).
+// Include it first, after #version. What is missing here is missing from the dialect.
+
+#define PATINA_FN
+#define PATINA_OUT(T) out T
+
+const float PI = 3.14159265358979323846;
+const float INV_PI = 0.318309886183790671538;
+const float TWO_PI = 6.28318530717958647693;
+
+// cond ? a : b with both sides evaluated; the only conditional on data that the dialect has.
+float select(float a, float b, bool cond) {
+    return cond ? a : b;
+}
+int select(int a, int b, bool cond) {
+    return cond ? a : b;
+}
+vec2 select(vec2 a, vec2 b, bool cond) {
+    return cond ? a : b;
+}
+vec3 select(vec3 a, vec3 b, bool cond) {
+    return cond ? a : b;
+}
+
+// x to the power e. Exponent 5 is by far the commonest and costs three products instead of a pow.
+float powSchlick(float x, float e) {
+    float x2 = x * x;
+    float general = x > 0.0 ? pow(max(x, 1e-30), e) : (e == 0.0 ? 1.0 : 0.0);
+    return e == 5.0 ? x2 * x2 * x : general;
+}
+
+// One entry of the baked directional albedo tables. A host without storage buffers defines
+// PATINA_ALBEDO_TABLE_FETCH and its own function of this name before this file; else the floats of
+// patina::albedoTable() are bound as a storage buffer.
+#ifndef PATINA_ALBEDO_TABLE_FETCH
+#ifndef PATINA_ALBEDO_TABLE_BINDING
+#define PATINA_ALBEDO_TABLE_BINDING 7
+#endif
+layout(std430, binding = PATINA_ALBEDO_TABLE_BINDING) readonly buffer PatinaAlbedoTable {
+    float patinaAlbedoTable[];
+};
+float albedoTableFetch(int index) {
+    return patinaAlbedoTable[index];
+}
+#endif

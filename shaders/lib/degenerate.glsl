@@ -1,0 +1,39 @@
+// Every threshold below which a quantity counts as degenerate. Nothing outside this file compares
+// against a magic epsilon.
+
+// GGX alpha: a lobe whose alpha is smaller along both axes is a mirror (delta). When only one axis
+// is smaller, that axis is raised to this value. The lobe is 1 mrad wide there: nothing an image
+// shows, and about the last width at which a float half vector still carries the density to 1e-3.
+const float ALPHA_MIRROR = 1e-3f;
+
+// Relative ior: closer to 1 than this there is no interface (F = 0, light passes straight). F0
+// is 2.5e-9 at the border.
+const float IOR_MATCHED = 1e-4f;
+
+// alpha * |eta - 1|: the width of a refracted lobe. Below it refraction is still sampled through
+// the microfacets, but flagged as delta and not evaluated, because the half vector of two nearly
+// opposite directions has no precision left.
+const float REFRACTION_DELTA = 1e-3f;
+
+// Relative ior is kept within [1 / IOR_MAX, IOR_MAX]; F0 is 0.96 at the border.
+const float IOR_MAX = 100.0f;
+
+// Reflectance at normal incidence above which a Schlick lobe's ior, derived from it, stops growing
+// (ior 63).
+const float F0_MAX = 0.9391f;
+
+// Smallest |cos| to the shading normal for which a direction counts as above or below the surface.
+const float COS_MIN = 0.0f;
+
+// A lobe is scaled by at most the inverse of this when an albedo in a denominator vanishes (total
+// internal reflection, table noise).
+const float ALBEDO_MIN = 1e-3f;
+
+// Guards a division whose numerator vanishes together with the denominator.
+const float TINY = 1e-20f;
+
+// Half vectors shorter than this (wi opposite wo) give no lobe value. Squared length.
+const float HALF_MIN2 = 1e-14f;
+
+// Input range of tints and colours: negative and NaN become 0, Inf becomes this.
+const float COLOR_MAX = 65504.0f;

@@ -1,0 +1,25 @@
+// Multiple scattering between microfacets, as a factor on the single scattering lobe. A method
+// choice: `compensate` 0 leaves the lobe bare, 1 scales it. Not reciprocal (the factor hangs on wo
+// only), keeps the lobe's shape.
+
+// Turquin 2019, "Practical multiple scattering compensation for microfacet models": 1 + favg (1 -
+// ess) / ess, with the average Fresnel of the interface in place of F0. Never lifts an albedo above
+// 1 as long as the lobe's own albedo is at most ess.
+PATINA_FN float energyReflect(float ess, float favg, int compensate) {
+    float k = 1.0f + favg * (1.0f - ess) / max(ess, ALBEDO_MIN);
+    return select(k, 1.0f, compensate != 0);
+}
+
+// The transmitted lobe takes the rest, so that a lossless interface loses nothing. er and et:
+// single scattering albedos; kr: energyReflect.
+PATINA_FN float energyTransmit(float er, float et, float kr, int compensate) {
+    float k = max(1.0f - er * kr, 0.0f) / max(et, ALBEDO_MIN);
+    return select(k, 1.0f, compensate != 0);
+}
+
+// Factor on a transmission lobe that lies under a reflection lobe: the layer above already scaled
+// it by 1 - (albedo of reflection), so what the lobe's own Fresnel removed is given back. With the
+// same ior and alpha on both, layer and transmission are exactly the RT lobe.
+PATINA_FN float energyFused(float reflected, bool fused) {
+    return select(1.0f / max(1.0f - reflected, ALBEDO_MIN), 1.0f, fused);
+}

@@ -1,0 +1,16 @@
+// Every lobe of the dialect, in the order of their dependencies. The files have no guards, since
+// C++ includes them once per scalar type; GLSL needs shaders/compat/glsl.glsl in front.
+#include "shaders/lib/degenerate.glsl"
+#include "shaders/lib/lobe.glsl"
+#include "shaders/lib/sampling.glsl"
+#include "shaders/lib/fresnel.glsl"
+#include "shaders/lib/ggx.glsl"
+#include "shaders/lib/albedoTable.glsl"
+#include "shaders/lib/schlickAlbedo.glsl"
+#include "shaders/lib/energy.glsl"
+#include "shaders/lobes/orenNayarDiffuse.glsl"
+#include "shaders/lobes/burleyDiffuse.glsl"
+#include "shaders/lobes/translucent.glsl"
+#include "shaders/lobes/conductor.glsl"
+#include "shaders/lobes/dielectric.glsl"
+#include "shaders/lobes/generalizedSchlick.glsl"

@@ -1,0 +1,81 @@
+// Rough or smooth metal: GGX reflection with the exact Fresnel equations of a complex ior.
+// MaterialX conductor_bsdf, without thin film. One-sided: no light for wo or wi at or below the
+// horizon. Reciprocal when `compensate` is 0.
+
+struct ConductorLobe {
+    vec3 ior;
+    vec3 extinction;
+    vec3 favg;
+    vec2 alpha;  // 0 = mirror
+    float retro; // -1 sends the lobe back to where it came from, else 1
+    int compensate;
+};
+
+// F by the curve f0 + (1 - f0) (1 - c)^5 - dip c (1 - c)^6 through the exact values at c = 1, 1/7
+// and 0 (Kutz, Hasan and Edmondson 2021).
+PATINA_FN SchlickFresnel conductorFit(vec3 ior, vec3 extinction) {
+    SchlickFresnel s;
+    s.f0 = fresnelConductor(1.0f, ior, extinction);
+    s.f90 = vec3(1.0f);
+    s.exponent = 5.0f;
+    s.dip = vec3(0.0f);
+    float x = 6.0f / 7.0f;
+    float x6 = (x * x) * (x * x) * (x * x);
+    s.dip = (fresnelSchlick(1.0f / 7.0f, s) - fresnelConductor(1.0f / 7.0f, ior, extinction)) *
+            (7.0f / x6);
+    return s;
+}
+
+// ior, extinction: complex ior per channel, relative to the medium outside; not negative.
+// roughness: GGX alpha along x and y.
+PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness,
+                                       bool retroreflective, int compensate) {
+    ConductorLobe l;
+    l.ior = min(max(ior, vec3(0.0f)), vec3(IOR_MAX));
+    l.extinction = min(max(extinction, vec3(0.0f)), vec3(IOR_MAX));
+    l.favg = fresnelSchlickAverage(conductorFit(l.ior, l.extinction));
+    l.alpha = ggxAlpha(roughness);
+    l.retro = select(-1.0f, 1.0f, retroreflective);
+    l.compensate = compensate;
+    return l;
+}
+
+// Factor for multiple scattering at wo; 1 for a mirror.
+PATINA_FN vec3 conductorEnergy(ConductorLobe l, float mu) {
+    if (l.compensate == 0 || l.alpha.x == 0.0f) return vec3(1.0f);
+    float ess = momentAlbedoAt(mu, ggxAlphaMean(l.alpha), 0);
+    return vec3(1.0f) + l.favg * ((1.0f - ess) / max(ess, ALBEDO_MIN));
+}
+
+PATINA_FN LobeEval conductorEval(ConductorLobe l, vec3 wo, vec3 wi) {
+    if (l.alpha.x == 0.0f || wo.z < 0.0f || wi.z <= 0.0f) return lobeEvalNone();
+    GgxPair p = ggxPair(wo, vec3(wi.x * l.retro, wi.y * l.retro, wi.z), l.alpha, 1.0f);
+    LobeEval e;
+    e.value = fresnelConductor(p.c, l.ior, l.extinction) * conductorEnergy(l, wo.z) * p.value;
+    e.pdf = p.pdf;
+    return e;
+}
+
+PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
+    if (wo.z < 0.0f) return lobeSampleNone();
+    bool mirror = l.alpha.x == 0.0f;
+    vec3 m = select(vec3(0.0f, 0.0f, 1.0f),
+                    ggxSampleVisible(wo, max(l.alpha, vec2(ALPHA_MIRROR)), vec2(u.x, u.y)), mirror);
+    float c = clamp(dot(wo, m), 0.0f, 1.0f);
+    GgxBounce b = ggxBounce(wo, m, c, l.alpha, 1.0f, true);
+    if (!b.valid) return lobeSampleNone();
+    LobeSample s;
+    s.wi = vec3(b.wi.x * l.retro, b.wi.y * l.retro, b.wi.z);
+    s.weight = fresnelConductor(c, l.ior, l.extinction) * conductorEnergy(l, wo.z) * b.ratio;
+    s.pdf = b.pdf;
+    s.event = select(LOBE_REFLECT + LOBE_DELTA, LOBE_REFLECT, mirror);
+    s.eta = 1.0f;
+    return s;
+}
+
+PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
+    if (wo.z < 0.0f) return vec3(0.0f);
+    if (l.alpha.x == 0.0f) return fresnelConductor(wo.z, l.ior, l.extinction);
+    SchlickFresnel f = conductorFit(l.ior, l.extinction);
+    return schlickMoments(wo.z, ggxAlphaMean(l.alpha), f) * conductorEnergy(l, wo.z);
+}

@@ -1,0 +1,144 @@
+// Rough or smooth interface between two dielectrics: GGX reflection (R), refraction (T) or both
+// (RT) with the exact Fresnel equations. MaterialX dielectric_bsdf, without thin film.
+//
+// Sides: wo.z >= 0 is outside, wo.z < 0 inside; ior is inside over outside. wi lies on either side.
+// Refraction is in flux form: radiance is not scaled by 1 / eta^2, so that R + T of clear glass is
+// 1 from both sides (for a closed object the factors cancel anyway). Then f(o, i) n(o)^2 = f(i, o)
+// n(i)^2 holds for T, with n(w) the ior on the side of w. R is reciprocal; both only when
+// `compensate` is 0 and the lobe is not fused. ior 1: no interface (nothing reflected, light passes
+// straight). ior 0: Fresnel off, as MaterialX says; R and RT reflect all, T passes all.
+
+struct DielectricLobe {
+    vec3 tint;
+    vec2 alpha; // 0 = mirror
+    float ior;
+    float invIor;
+    float favgOutside;
+    float favgInside;
+    float retro; // -1 sends reflection back to where it came from, else 1
+    int mode;
+    int compensate;
+    bool fused;
+    bool full;    // Fresnel off, reflects everything
+    bool matched; // no interface
+    bool deltaT;  // refraction too narrow to evaluate
+};
+
+// tint: colour factor on R and T. ior: inside over outside. roughness: GGX alpha along x and y.
+// scatterMode: SCATTER_*. fused: a T lobe that lies under a reflection lobe of the same interface.
+// Its own loss to reflection is divided out, because the layer above accounts for it (energyFused).
+PATINA_FN DielectricLobe dielectricSetup(vec3 tint, float ior, vec2 roughness, bool retroreflective,
+                                         int scatterMode, bool fused, int compensate) {
+    DielectricLobe l;
+    bool off = !(ior > 0.0f);
+    float n = select(1.0f, clamp(ior, 1.0f / IOR_MAX, IOR_MAX), off);
+    l.matched = abs(n - 1.0f) < IOR_MATCHED && !(off && scatterMode != SCATTER_T);
+    l.full = off && !l.matched;
+    l.tint = lobeColor(tint);
+    l.alpha = ggxAlpha(roughness);
+    l.ior = select(1.0f, n, l.matched);
+    l.invIor = 1.0f / l.ior;
+    l.favgOutside = select(1.0f, fresnelDielectricAverage(l.ior), l.full);
+    l.favgInside = select(1.0f, fresnelDielectricAverage(l.invIor), l.full);
+    l.retro = select(-1.0f, 1.0f, retroreflective);
+    l.mode = select(SCATTER_R, scatterMode, l.full);
+    l.compensate = compensate;
+    l.fused = fused && scatterMode == SCATTER_T;
+    l.deltaT = min(l.alpha.x, l.alpha.y) * abs(l.ior - 1.0f) < REFRACTION_DELTA * max(l.ior, 1.0f);
+    return l;
+}
+
+PATINA_FN float dielectricEta(DielectricLobe l, float z) {
+    return select(l.ior, l.invIor, z >= 0.0f);
+}
+
+PATINA_FN float dielectricFresnel(DielectricLobe l, float c, float eta) {
+    return select(1.0f, fresnelDielectric(c, eta), l.full);
+}
+
+struct DielectricEnergy {
+    float kr; // factor on R
+    float kt; // factor on T
+    float r;  // albedo of R with its factor, without tint
+    float t;
+};
+
+PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, float z) {
+    DielectricEnergy e;
+    float mu = abs(z);
+    float eta = dielectricEta(l, z);
+    float f = dielectricFresnel(l, mu, eta);
+    e.kr = 1.0f;
+    e.kt = energyFused(f, l.fused);
+    e.r = f;
+    e.t = (1.0f - f) * e.kt;
+    if (l.alpha.x == 0.0f || l.matched) return e;
+    float alpha = ggxAlphaMean(l.alpha);
+    float ess = momentAlbedoAt(mu, alpha, 0);
+    vec2 a = interfaceAlbedo(mu, alpha, eta);
+    float er = select(ess, a.x, l.full);
+    float et = select(0.0f, max(1.0f - a.x - a.y, 0.0f), l.full);
+    e.kr = energyReflect(ess, select(l.favgOutside, l.favgInside, z >= 0.0f), l.compensate);
+    e.r = er * e.kr;
+    e.kt = energyTransmit(er, et, e.kr, l.compensate) * energyFused(e.r, l.fused);
+    e.t = et * e.kt;
+    return e;
+}
+
+PATINA_FN LobeEval dielectricEval(DielectricLobe l, vec3 wo, vec3 wi) {
+    float side = select(1.0f, -1.0f, wo.z >= 0.0f);
+    bool reflects = wi.z * side > 0.0f;
+    bool there = select(l.mode & SCATTER_R, l.mode & SCATTER_T, reflects) != 0;
+    if (!there || l.alpha.x == 0.0f || wi.z == 0.0f || (!reflects && l.deltaT))
+        return lobeEvalNone();
+    float eta = dielectricEta(l, wo.z);
+    float turn = select(l.retro, 1.0f, reflects);
+    vec3 o = vec3(wo.x, wo.y, wo.z * side);
+    vec3 i = vec3(wi.x * turn, wi.y * turn, wi.z * side);
+    GgxPair p = ggxPair(o, i, l.alpha, select(1.0f, eta, reflects));
+    float f = dielectricFresnel(l, p.c, eta);
+    float share = select(f, 1.0f - f, reflects);
+    DielectricEnergy k = dielectricEnergy(l, wo.z);
+    LobeEval e;
+    e.value = l.tint * (p.value * share * select(k.kr, k.kt, reflects));
+    e.pdf = p.pdf * select(share, 1.0f, l.mode == SCATTER_RT);
+    return e;
+}
+
+PATINA_FN LobeSample dielectricSample(DielectricLobe l, vec3 wo, vec3 u) {
+    float side = select(1.0f, -1.0f, wo.z >= 0.0f);
+    float eta = dielectricEta(l, wo.z);
+    bool mirror = l.alpha.x == 0.0f;
+    vec3 o = vec3(wo.x, wo.y, wo.z * side);
+    vec3 m = select(vec3(0.0f, 0.0f, 1.0f),
+                    ggxSampleVisible(o, max(l.alpha, vec2(ALPHA_MIRROR)), vec2(u.x, u.y)), mirror);
+    float c = clamp(dot(o, m), 0.0f, 1.0f);
+    float f = dielectricFresnel(l, c, eta);
+    float chance = select(f, select(1.0f, 0.0f, l.mode == SCATTER_R), l.mode == SCATTER_RT);
+    bool reflects = u.z < chance;
+    GgxBounce b = ggxBounce(o, m, c, l.alpha, eta, reflects);
+    float share = select(f, 1.0f - f, reflects);
+    if (!b.valid || share <= 0.0f) return lobeSampleNone();
+    DielectricEnergy k = dielectricEnergy(l, wo.z);
+    bool isDelta = mirror || (!reflects && l.deltaT);
+    bool both = l.mode == SCATTER_RT;
+    float ratio = select(1.0f, b.ratio, l.matched);
+    float turn = select(l.retro, 1.0f, reflects);
+    LobeSample s;
+    s.wi = vec3(b.wi.x * turn, b.wi.y * turn, b.wi.z * side);
+    s.weight = l.tint * (ratio * select(k.kr, k.kt, reflects) * select(1.0f, share, both));
+    s.pdf = select(1.0f, b.pdf, isDelta) * select(share, 1.0f, both);
+    s.event = select(LOBE_REFLECT, LOBE_TRANSMIT, reflects) + select(LOBE_DELTA, 0, isDelta);
+    s.eta = select(1.0f, 1.0f / eta, reflects);
+    return s;
+}
+
+PATINA_FN vec3 dielectricAlbedoReflect(DielectricLobe l, vec3 wo) {
+    return l.tint * select(dielectricEnergy(l, wo.z).r, 0.0f, (l.mode & SCATTER_R) != 0);
+}
+
+PATINA_FN vec3 dielectricAlbedo(DielectricLobe l, vec3 wo) {
+    DielectricEnergy e = dielectricEnergy(l, wo.z);
+    return l.tint * (select(e.r, 0.0f, (l.mode & SCATTER_R) != 0) +
+                     select(e.t, 0.0f, (l.mode & SCATTER_T) != 0));
+}

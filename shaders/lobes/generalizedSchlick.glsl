@@ -1,0 +1,157 @@
+// GGX interface with a generalized Schlick reflectance: MaterialX generalized_schlick_bsdf, without
+// thin film.
+//
+// Sides and flux form as in dielectric.glsl. The ior that bends T follows from the mean of color0.
+// From the inside the curve is read at the cosine on the outside, and total internal reflection is
+// 1, so that R and T stay reciprocal in the sense of dielectric.glsl.
+
+struct SchlickLobe {
+    SchlickFresnel fresnel;
+    vec3 favg;
+    vec2 alpha; // 0 = mirror
+    float ior;
+    float invIor;
+    float retro; // -1 sends reflection back to where it came from, else 1
+    int mode;
+    int compensate;
+    bool fused;
+    bool deltaT; // refraction too narrow to evaluate
+};
+
+// color0, color90: reflectance at normal and grazing incidence, in [0, 1]. color82: factor on the
+// reflectance at 82 degrees, 1 = off. exponent: 5 is Schlick's. Other inputs as in dielectricSetup.
+// Colours above 1 are clamped.
+PATINA_FN SchlickLobe schlickSetup(vec3 color0, vec3 color82, vec3 color90, float exponent,
+                                   vec2 roughness, bool retroreflective, int scatterMode,
+                                   bool fused, int compensate) {
+    SchlickLobe l;
+    l.fresnel = schlickFresnel(color0, color82, color90, exponent);
+    l.favg = fresnelSchlickAverage(l.fresnel);
+    l.alpha = ggxAlpha(roughness);
+    float r = sqrt(min(lobeMean(l.fresnel.f0), F0_MAX));
+    float n = (1.0f + r) / (1.0f - r);
+    l.ior = select(1.0f, n, n - 1.0f < IOR_MATCHED);
+    l.invIor = 1.0f / l.ior;
+    l.retro = select(-1.0f, 1.0f, retroreflective);
+    l.mode = scatterMode;
+    l.compensate = compensate;
+    l.fused = fused && scatterMode == SCATTER_T;
+    l.deltaT = min(l.alpha.x, l.alpha.y) * (l.ior - 1.0f) < REFRACTION_DELTA * l.ior;
+    return l;
+}
+
+PATINA_FN float schlickEta(SchlickLobe l, float z) {
+    return select(l.ior, l.invIor, z >= 0.0f);
+}
+
+PATINA_FN vec3 schlickReflectance(SchlickLobe l, float c, float eta) {
+    float ct = cosRefracted(c, eta);
+    vec3 f = min(fresnelSchlick(select(ct, c, eta < 1.0f), l.fresnel), vec3(1.0f));
+    return select(vec3(1.0f), f, eta < 1.0f && ct <= 0.0f);
+}
+
+struct SchlickEnergy {
+    vec3 kr; // factor on R
+    vec3 kt; // factor on T
+    vec3 r;  // albedo of R with its factor
+    vec3 t;
+};
+
+PATINA_FN vec3 schlickFused(vec3 r, bool fused) {
+    return vec3(energyFused(r.x, fused), energyFused(r.y, fused), energyFused(r.z, fused));
+}
+
+// How T's albedo follows from the dielectric tables: the kernel of T is that of the dielectric with
+// the same ior, and its mean reflectance is taken as that of R. From the inside so is R's, with the
+// dielectric's mean rise from F0 to 1 in place of the curve's.
+PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, float z) {
+    SchlickEnergy e;
+    float mu = abs(z);
+    float eta = schlickEta(l, z);
+    e.kr = vec3(1.0f);
+    e.r = schlickReflectance(l, mu, eta);
+    e.kt = schlickFused(e.r, l.fused);
+    e.t = (vec3(1.0f) - e.r) * e.kt;
+    if (l.alpha.x == 0.0f) return e;
+    float alpha = ggxAlphaMean(l.alpha);
+    float ess = momentAlbedoAt(mu, alpha, 0);
+    bool compensates = l.compensate != 0;
+    e.kr = vec3(1.0f) +
+           select(l.favg, vec3(0.0f), compensates) * ((1.0f - ess) / max(ess, ALBEDO_MIN));
+    vec3 er = schlickMoments(mu, alpha, l.fresnel);
+    e.r = er * e.kr;
+    if (l.mode == SCATTER_R && z >= 0.0f) return e;
+    vec2 a = interfaceAlbedo(mu, alpha, eta);
+    float f0 = sqr((l.ior - 1.0f) / (l.ior + 1.0f));
+    float fMean = min(a.x / max(ess, ALBEDO_MIN), 1.0f);
+    float rise = clamp((fMean - f0) / (1.0f - f0), 0.0f, 1.0f);
+    er = select(er, mix(l.fresnel.f0, vec3(1.0f), rise) * ess, z >= 0.0f);
+    float kernel = max(1.0f - a.x - a.y, 0.0f) / max(1.0f - fMean, ALBEDO_MIN);
+    vec3 et = max(vec3(1.0f) - er / max(ess, ALBEDO_MIN), vec3(0.0f)) * min(kernel, 1.0f);
+    e.r = er * e.kr;
+    vec3 kt = max(vec3(1.0f) - e.r, vec3(0.0f)) / max(et, vec3(ALBEDO_MIN));
+    e.kt = select(kt, vec3(1.0f), compensates) * schlickFused(e.r, l.fused);
+    e.t = et * e.kt;
+    return e;
+}
+
+// Chance of choosing R at a facet, in RT.
+PATINA_FN float schlickChance(SchlickLobe l, vec3 f) {
+    return select(lobeMean(f), select(1.0f, 0.0f, l.mode == SCATTER_R), l.mode == SCATTER_RT);
+}
+
+PATINA_FN LobeEval schlickEval(SchlickLobe l, vec3 wo, vec3 wi) {
+    float side = select(1.0f, -1.0f, wo.z >= 0.0f);
+    bool reflects = wi.z * side > 0.0f;
+    bool there = select(l.mode & SCATTER_R, l.mode & SCATTER_T, reflects) != 0;
+    if (!there || l.alpha.x == 0.0f || wi.z == 0.0f || (!reflects && l.deltaT))
+        return lobeEvalNone();
+    float eta = schlickEta(l, wo.z);
+    float turn = select(l.retro, 1.0f, reflects);
+    vec3 o = vec3(wo.x, wo.y, wo.z * side);
+    vec3 i = vec3(wi.x * turn, wi.y * turn, wi.z * side);
+    GgxPair p = ggxPair(o, i, l.alpha, select(1.0f, eta, reflects));
+    vec3 f = schlickReflectance(l, p.c, eta);
+    float chance = schlickChance(l, f);
+    SchlickEnergy k = schlickEnergy(l, wo.z);
+    LobeEval e;
+    e.value = select(f * k.kr, (vec3(1.0f) - f) * k.kt, reflects) * p.value;
+    e.pdf = p.pdf * select(chance, 1.0f - chance, reflects);
+    return e;
+}
+
+PATINA_FN LobeSample schlickSample(SchlickLobe l, vec3 wo, vec3 u) {
+    float side = select(1.0f, -1.0f, wo.z >= 0.0f);
+    float eta = schlickEta(l, wo.z);
+    bool mirror = l.alpha.x == 0.0f;
+    vec3 o = vec3(wo.x, wo.y, wo.z * side);
+    vec3 m = select(vec3(0.0f, 0.0f, 1.0f),
+                    ggxSampleVisible(o, max(l.alpha, vec2(ALPHA_MIRROR)), vec2(u.x, u.y)), mirror);
+    float c = clamp(dot(o, m), 0.0f, 1.0f);
+    vec3 f = schlickReflectance(l, c, eta);
+    float chance = schlickChance(l, f);
+    bool reflects = u.z < chance;
+    GgxBounce b = ggxBounce(o, m, c, l.alpha, eta, reflects);
+    float p = select(chance, 1.0f - chance, reflects);
+    if (!b.valid || p <= 0.0f) return lobeSampleNone();
+    SchlickEnergy k = schlickEnergy(l, wo.z);
+    bool isDelta = mirror || (!reflects && l.deltaT);
+    float turn = select(l.retro, 1.0f, reflects);
+    LobeSample s;
+    s.wi = vec3(b.wi.x * turn, b.wi.y * turn, b.wi.z * side);
+    s.weight = select(f * k.kr, (vec3(1.0f) - f) * k.kt, reflects) * (b.ratio / p);
+    s.pdf = select(1.0f, b.pdf, isDelta) * p;
+    s.event = select(LOBE_REFLECT, LOBE_TRANSMIT, reflects) + select(LOBE_DELTA, 0, isDelta);
+    s.eta = select(1.0f, 1.0f / eta, reflects);
+    return s;
+}
+
+PATINA_FN vec3 schlickAlbedoReflect(SchlickLobe l, vec3 wo) {
+    return select(schlickEnergy(l, wo.z).r, vec3(0.0f), (l.mode & SCATTER_R) != 0);
+}
+
+PATINA_FN vec3 schlickAlbedo(SchlickLobe l, vec3 wo) {
+    SchlickEnergy e = schlickEnergy(l, wo.z);
+    return select(e.r, vec3(0.0f), (l.mode & SCATTER_R) != 0) +
+           select(e.t, vec3(0.0f), (l.mode & SCATTER_T) != 0);
+}

@@ -2,9 +2,8 @@
 
 #include <glm/glm.hpp>
 
+#include <atomic>
 #include <cstdint>
-#include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,7 @@ namespace patina {
 
 /// How the samples of a pixel become one value.
 enum class AovKind {
-    Mean,   ///< average over samples (colour, albedo)
+    Mean,   ///< average over the samples that were added (albedo)
     First,  ///< the sample nearest the pixel's centre: no mixing (depth, ids, position, normal, primvars)
 };
 
@@ -21,11 +20,17 @@ struct AovSpec {
     std::string name;   ///< color, alpha, depth, cameraDepth, normal, Neye, position, albedo, primvars:NAME, primId, instanceId, elementId, sampleCount, variance
     int components = 3; ///< floats per pixel
     AovKind kind = AovKind::Mean;
-    float clearValue = 0.0f;
-    bool isInteger = false; ///< ids: stored as float bits of int32 (glm::intBitsToFloat)
+    float clearValue = 0.0f; ///< of pixels that no sample reached
+    bool isInteger = false;  ///< ids: stored as float bits of int32 (glm::intBitsToFloat)
 };
 
-/// The standard spec of an AOV by name. @throws std::invalid_argument naming an unknown AOV.
+/// The standard spec of an AOV by name.
+///
+/// depth is OpenGL's window depth in [0,1] (1 where nothing is), cameraDepth the distance along the
+/// camera's axis in scene units (1e10 where nothing is), normal and position are in world space,
+/// Neye in camera space, ids are -1 where nothing is. primvars:NAME has two components for texture
+/// coordinates (st*, uv*, UV*), one for displayOpacity and widths, otherwise three.
+/// @throws std::invalid_argument naming an unknown AOV.
 AovSpec standardAov(const std::string& name);
 
 /// Accumulates what a renderer finds. Row 0 is the top row. One thread writes one pixel at a time;
@@ -33,7 +38,9 @@ AovSpec standardAov(const std::string& name);
 /// does not matter to the printed digits.
 class Film {
 public:
-    /// Clears everything unless size and AOVs are as before and keep is set.
+    /// Clears everything unless size and AOVs are as before and keep is set. color, alpha,
+    /// sampleCount and variance are always there and may be listed.
+    /// @throws std::invalid_argument for a negative or absurd size, or an AOV listed twice
     void reset(int width, int height, const std::vector<AovSpec>& aovs, bool keep = false);
 
     int width() const { return _width; }
@@ -42,27 +49,33 @@ public:
     int aovIndex(const std::string& name) const; ///< -1 when absent
 
     /// Colour and alpha always exist. Not finite or negative samples are counted and dropped as a
-    /// whole (the sample counts as black); @returns false then.
+    /// whole (the sample counts as black); @returns false then. The alpha of such a sample is kept
+    /// when it is a number, so that a dropped sample makes no hole.
     bool addColor(int x, int y, glm::vec3 radiance, float alpha);
-    /// @param distance of the sample from the pixel's centre, for AovKind::First
+    /// Values that are not finite (and not ids) are counted and dropped as a whole.
+    /// @param distance of the sample from the pixel's centre, for AovKind::First; of equally near
+    ///        samples the earlier one stays
     void addAov(int aov, int x, int y, const float* values, float distance);
 
-    uint32_t sampleCount(int x, int y) const { return _pixels[size_t(y) * _width + x].count; }
+    uint32_t sampleCount(int x, int y) const { return pixel(x, y).count; }
     glm::vec3 color(int x, int y) const; ///< mean so far
     float alpha(int x, int y) const;
     /// Variance of the mean of the luminance: s^2 / n. 0 with fewer than two samples.
     float varianceOfMean(int x, int y) const;
-    float luminance(int x, int y) const;
+    float luminance(int x, int y) const; ///< Rec.709
 
     /// Resolved pixels of any AOV (also color, alpha, sampleCount, variance): components floats per
     /// pixel, top row first. @returns empty for an unknown name.
     std::vector<float> resolve(const std::string& name) const;
+    /// The spec of anything that resolve() knows. @returns false for an unknown name.
+    bool findSpec(const std::string& name, AovSpec& spec) const;
 
-    uint64_t droppedSamples() const { return _dropped; }
+    uint64_t droppedSamples() const { return _dropped.load(std::memory_order_relaxed); }
 
     std::string resumeToken; ///< hash of everything that must be equal to continue the samples
 
-    /// Writes and reads every accumulator, bit for bit. Writing is atomic (temporary, then rename).
+    /// Writes and reads every accumulator, bit for bit. No thread may add samples meanwhile.
+    /// Writing is atomic (temporary, then rename); after a failed load the film is as before.
     /// @throws std::runtime_error with a one-line reason.
     void saveCheckpoint(const std::string& file) const;
     void loadCheckpoint(const std::string& file);
@@ -73,13 +86,25 @@ private:
         double alpha = 0;
         double luminanceSquared = 0;
         uint32_t count = 0;
+        uint32_t reserved = 0; ///< no padding: checkpoints hold the bytes
     };
+    /// Means keep components sums and their count, the others components values and the distance
+    /// of the sample. Only the vector of the AOV's kind is filled.
+    struct Plane {
+        std::vector<double> sums;
+        std::vector<float> nearest;
+    };
+
+    size_t index(int x, int y) const { return size_t(y) * size_t(_width) + size_t(x); }
+    const Pixel& pixel(int x, int y) const { return _pixels[index(x, y)]; }
+    void drop() { _dropped.fetch_add(1, std::memory_order_relaxed); }
+    static Plane clearedPlane(const AovSpec& spec, size_t pixels);
+
     int _width = 0, _height = 0;
     std::vector<AovSpec> _aovs;
     std::vector<Pixel> _pixels;
-    std::vector<std::vector<float>> _planes; ///< per AOV: components + 1 (count or distance) per pixel
-    std::vector<uint64_t> _droppedRow;
-    uint64_t _dropped = 0;
+    std::vector<Plane> _planes; ///< beside _aovs; empty for those that always exist
+    std::atomic<uint64_t> _dropped{0};
 };
 
 } // namespace patina

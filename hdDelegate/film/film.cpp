@@ -1,0 +1,188 @@
+#include "hdDelegate/film/film.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+namespace patina {
+
+namespace {
+
+constexpr int maxSide = 1 << 20;
+constexpr int64_t maxPixels = int64_t(1) << 32;
+constexpr float farAway = std::numeric_limits<float>::infinity();
+
+double luminanceOf(double r, double g, double b) { return 0.2126 * r + 0.7152 * g + 0.0722 * b; }
+
+bool usable(float v) { return v >= 0.0f && v <= std::numeric_limits<float>::max(); }
+
+// Compared as bits, because the clear value of an id is a NaN when seen as a float.
+bool sameSpec(const AovSpec& a, const AovSpec& b) {
+    return a.name == b.name && a.components == b.components && a.kind == b.kind &&
+           a.isInteger == b.isInteger &&
+           std::memcmp(&a.clearValue, &b.clearValue, sizeof(float)) == 0;
+}
+
+bool alwaysThere(const std::string& name) {
+    return name == "color" || name == "alpha" || name == "sampleCount" || name == "variance";
+}
+
+} // namespace
+
+Film::Plane Film::clearedPlane(const AovSpec& spec, size_t pixels) {
+    Plane plane;
+    if (alwaysThere(spec.name)) return plane;
+    size_t stride = size_t(spec.components) + 1;
+    if (spec.kind == AovKind::Mean) {
+        plane.sums.assign(stride * pixels, 0.0);
+        return plane;
+    }
+    plane.nearest.assign(stride * pixels, spec.clearValue);
+    for (size_t i = stride - 1; i < plane.nearest.size(); i += stride) plane.nearest[i] = farAway;
+    return plane;
+}
+
+void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool keep) {
+    if (width < 0 || height < 0 || width > maxSide || height > maxSide ||
+        int64_t(width) * height > maxPixels)
+        throw std::invalid_argument("film size " + std::to_string(width) + "x" +
+                                    std::to_string(height) + " is not possible");
+    std::set<std::string> names;
+    for (const AovSpec& spec : aovs) {
+        if (spec.components < 1 || spec.components > 16)
+            throw std::invalid_argument("AOV " + spec.name + " has " +
+                                        std::to_string(spec.components) +
+                                        " components, not 1 to 16");
+        if (!names.insert(spec.name).second)
+            throw std::invalid_argument("AOV " + spec.name + " is listed twice");
+    }
+    bool same = width == _width && height == _height &&
+                std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec);
+    if (keep && same) return;
+
+    size_t pixels = size_t(width) * size_t(height);
+    _width = width;
+    _height = height;
+    _aovs = aovs;
+    _pixels.assign(pixels, Pixel());
+    _planes.clear();
+    for (const AovSpec& spec : _aovs) _planes.push_back(clearedPlane(spec, pixels));
+    _dropped = 0;
+    resumeToken.clear();
+}
+
+int Film::aovIndex(const std::string& name) const {
+    for (size_t i = 0; i < _aovs.size(); ++i)
+        if (_aovs[i].name == name) return int(i);
+    return -1;
+}
+
+bool Film::findSpec(const std::string& name, AovSpec& spec) const {
+    int aov = aovIndex(name);
+    if (aov < 0 && !alwaysThere(name)) return false;
+    spec = aov >= 0 ? _aovs[size_t(aov)] : standardAov(name);
+    return true;
+}
+
+bool Film::addColor(int x, int y, glm::vec3 radiance, float alpha) {
+    Pixel& p = _pixels[index(x, y)];
+    ++p.count;
+    bool goodAlpha = usable(alpha);
+    if (goodAlpha) p.alpha += alpha;
+    if (!goodAlpha || !usable(radiance.r) || !usable(radiance.g) || !usable(radiance.b)) {
+        drop();
+        return false;
+    }
+    p.sum[0] += radiance.r;
+    p.sum[1] += radiance.g;
+    p.sum[2] += radiance.b;
+    double l = luminanceOf(radiance.r, radiance.g, radiance.b);
+    p.luminanceSquared += l * l;
+    return true;
+}
+
+void Film::addAov(int aov, int x, int y, const float* values, float distance) {
+    const AovSpec& spec = _aovs[size_t(aov)];
+    Plane& plane = _planes[size_t(aov)];
+    size_t n = size_t(spec.components), at = index(x, y) * (n + 1);
+    bool first = spec.kind == AovKind::First;
+    if (first ? plane.nearest.empty() || !(distance < plane.nearest[at + n]) : plane.sums.empty())
+        return;
+    if (!spec.isInteger)
+        for (size_t i = 0; i < n; ++i)
+            if (!std::isfinite(values[i])) return drop();
+    if (first) {
+        std::copy(values, values + n, &plane.nearest[at]);
+        plane.nearest[at + n] = distance;
+    } else {
+        for (size_t i = 0; i < n; ++i) plane.sums[at + i] += values[i];
+        plane.sums[at + n] += 1.0;
+    }
+}
+
+glm::vec3 Film::color(int x, int y) const {
+    const Pixel& p = pixel(x, y);
+    double scale = p.count ? 1.0 / p.count : 0.0;
+    return {float(p.sum[0] * scale), float(p.sum[1] * scale), float(p.sum[2] * scale)};
+}
+
+float Film::alpha(int x, int y) const {
+    const Pixel& p = pixel(x, y);
+    return p.count ? float(p.alpha / p.count) : 0.0f;
+}
+
+float Film::luminance(int x, int y) const {
+    const Pixel& p = pixel(x, y);
+    return p.count ? float(luminanceOf(p.sum[0], p.sum[1], p.sum[2]) / p.count) : 0.0f;
+}
+
+float Film::varianceOfMean(int x, int y) const {
+    const Pixel& p = pixel(x, y);
+    if (p.count < 2) return 0.0f;
+    double n = p.count, l = luminanceOf(p.sum[0], p.sum[1], p.sum[2]);
+    return float(std::max(0.0, (p.luminanceSquared - l * l / n) / (n - 1.0)) / n);
+}
+
+std::vector<float> Film::resolve(const std::string& name) const {
+    AovSpec spec;
+    if (!findSpec(name, spec)) return {};
+    size_t n = size_t(spec.components);
+    std::vector<float> out(_pixels.size() * n);
+    auto eachPixel = [&](auto value) {
+        tbb::parallel_for(0, _height, [&](int y) {
+            for (int x = 0; x < _width; ++x) value(x, y, &out[index(x, y) * n]);
+        });
+    };
+    if (name == "color") {
+        eachPixel([this](int x, int y, float* to) {
+            glm::vec3 c = color(x, y);
+            std::copy(&c.x, &c.x + 3, to);
+        });
+    } else if (name == "alpha") {
+        eachPixel([this](int x, int y, float* to) { *to = alpha(x, y); });
+    } else if (name == "sampleCount") {
+        eachPixel([this](int x, int y, float* to) { *to = float(sampleCount(x, y)); });
+    } else if (name == "variance") {
+        eachPixel([this](int x, int y, float* to) { *to = varianceOfMean(x, y); });
+    } else {
+        const Plane& plane = _planes[size_t(aovIndex(name))];
+        eachPixel([&](int x, int y, float* to) {
+            size_t at = index(x, y) * (n + 1);
+            if (spec.kind == AovKind::First) {
+                std::copy(&plane.nearest[at], &plane.nearest[at] + n, to);
+                return;
+            }
+            double count = plane.sums[at + n];
+            for (size_t i = 0; i < n; ++i)
+                to[i] = count > 0 ? float(plane.sums[at + i] / count) : spec.clearValue;
+        });
+    }
+    return out;
+}
+
+} // namespace patina

@@ -1,0 +1,164 @@
+#include "hdDelegate/film/film.h"
+
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+namespace patina {
+
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+int32_t bitsOf(float value) {
+    int32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+float floatOf(int32_t value) {
+    float bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+} // namespace
+
+TEST(Film, MeanColourAlphaAndVarianceAreThoseOfTheSamples) {
+    Film film;
+    film.reset(3, 2, {});
+    film.addColor(2, 1, {1, 2, 3}, 1.0f);
+    film.addColor(2, 1, {3, 2, 1}, 0.5f);
+    EXPECT_EQ(film.color(2, 1), glm::vec3(2, 2, 2));
+    EXPECT_FLOAT_EQ(film.alpha(2, 1), 0.75f);
+    EXPECT_EQ(film.sampleCount(2, 1), 2u);
+    double l1 = 0.2126 + 2 * 0.7152 + 3 * 0.0722, l2 = 3 * 0.2126 + 2 * 0.7152 + 0.0722;
+    EXPECT_NEAR(film.luminance(2, 1), 0.5 * (l1 + l2), 1e-6);
+    // two samples: s^2 = (l1-l2)^2/2, of the mean half of it
+    EXPECT_NEAR(film.varianceOfMean(2, 1), (l1 - l2) * (l1 - l2) / 4, 1e-6);
+    EXPECT_EQ(film.color(0, 0), glm::vec3(0));
+    EXPECT_EQ(film.varianceOfMean(0, 0), 0.0f);
+}
+
+TEST(Film, VarianceOfEqualSamplesIsZeroAndNeverNegative) {
+    Film film;
+    film.reset(1, 1, {});
+    for (int i = 0; i < 1000; ++i) film.addColor(0, 0, glm::vec3(0.1f, 0.7f, 12345.6f), 1);
+    EXPECT_GE(film.varianceOfMean(0, 0), 0.0f);
+    EXPECT_LT(film.varianceOfMean(0, 0), 1e-9f);
+}
+
+TEST(Film, BadSamplesAreDroppedCountedAndBlack) {
+    Film film;
+    film.reset(2, 1, {});
+    for (glm::vec3 bad : {glm::vec3(nan, 0, 0), glm::vec3(0, inf, 0), glm::vec3(0, 0, -1)})
+        EXPECT_FALSE(film.addColor(0, 0, bad, 1.0f));
+    EXPECT_FALSE(film.addColor(0, 0, {1, 1, 1}, nan));
+    EXPECT_TRUE(film.addColor(0, 0, {5, 5, 5}, 1.0f));
+    EXPECT_EQ(film.droppedSamples(), 4u);
+    EXPECT_EQ(film.sampleCount(0, 0), 5u);
+    EXPECT_EQ(film.color(0, 0), glm::vec3(1));
+    EXPECT_FLOAT_EQ(film.alpha(0, 0), 0.8f) << "only the alpha that is not a number is missing";
+}
+
+TEST(Film, DroppedSamplesAreCountedWithoutRaces) {
+    Film film;
+    film.reset(64, 64, {});
+    tbb::parallel_for(0, 64 * 64, [&](int i) {
+        for (int s = 0; s < 50; ++s) film.addColor(i % 64, i / 64, glm::vec3(nan), 1);
+    });
+    EXPECT_EQ(film.droppedSamples(), 64u * 64u * 50u);
+}
+
+TEST(Film, FirstKeepsTheSampleNearestTheCentre) {
+    Film film;
+    film.reset(2, 2, {standardAov("position"), standardAov("depth")});
+    glm::vec3 far(9), near(1), middle(5), late(7);
+    film.addAov(0, 1, 0, &far.x, 0.5f);
+    film.addAov(0, 1, 0, &near.x, 0.1f);
+    film.addAov(0, 1, 0, &middle.x, 0.3f);
+    film.addAov(0, 1, 0, &late.x, 0.1f);
+    std::vector<float> p = film.resolve("position");
+    EXPECT_EQ(p, (std::vector<float>{0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0}));
+    EXPECT_EQ(film.resolve("depth"), std::vector<float>(4, 1.0f)) << "clear value";
+}
+
+TEST(Film, MeanAovsAverageWhatWasAdded) {
+    Film film;
+    film.reset(1, 1, {standardAov("albedo")});
+    glm::vec3 a(0.2f, 0.4f, 0.6f), b(0.4f, 0.6f, 0.8f), bad(nan, 0, 0);
+    film.addAov(0, 0, 0, &a.x, 0);
+    film.addAov(0, 0, 0, &b.x, 0);
+    film.addAov(0, 0, 0, &bad.x, 0);
+    std::vector<float> v = film.resolve("albedo");
+    EXPECT_FLOAT_EQ(v[0], 0.3f);
+    EXPECT_FLOAT_EQ(v[1], 0.5f);
+    EXPECT_FLOAT_EQ(v[2], 0.7f);
+    EXPECT_EQ(film.droppedSamples(), 1u);
+}
+
+TEST(Film, IdsKeepTheirBitsThoughTheyAreNoNumbers) {
+    Film film;
+    film.reset(2, 1, {standardAov("primId")});
+    float id = floatOf(-1);
+    film.addAov(0, 0, 0, &id, 0.2f);
+    id = floatOf(0x7f800001); // a signalling NaN when seen as a float
+    film.addAov(0, 0, 0, &id, 0.1f);
+    std::vector<float> v = film.resolve("primId");
+    EXPECT_EQ(bitsOf(v[0]), 0x7f800001);
+    EXPECT_EQ(bitsOf(v[1]), -1);
+    EXPECT_EQ(film.droppedSamples(), 0u);
+}
+
+TEST(Film, NamesThatAlwaysExistResolveWithAndWithoutBeingListed) {
+    Film film;
+    film.reset(1, 1, {standardAov("variance"), standardAov("sampleCount")});
+    film.addColor(0, 0, {1, 1, 1}, 1);
+    film.addColor(0, 0, {3, 3, 3}, 1);
+    float ignored = 77;
+    film.addAov(0, 0, 0, &ignored, 0);
+    EXPECT_EQ(film.resolve("sampleCount"), std::vector<float>{2});
+    EXPECT_NEAR(film.resolve("variance")[0], 1.0f, 1e-6f);
+    EXPECT_EQ(film.resolve("color"), (std::vector<float>{2, 2, 2}));
+    EXPECT_EQ(film.resolve("alpha"), std::vector<float>{1});
+    EXPECT_TRUE(film.resolve("nothing").empty());
+}
+
+TEST(Film, ResetKeepsOnlyWhenAskedAndWhenNothingChanged) {
+    Film film;
+    std::vector<AovSpec> aovs = {standardAov("primId"), standardAov("normal")};
+    film.reset(4, 4, aovs);
+    film.addColor(1, 1, {1, 1, 1}, 1);
+    film.reset(4, 4, aovs, true);
+    EXPECT_EQ(film.sampleCount(1, 1), 1u);
+    film.reset(4, 4, aovs);
+    EXPECT_EQ(film.sampleCount(1, 1), 0u);
+    film.addColor(1, 1, {1, 1, 1}, 1);
+    film.reset(4, 5, aovs, true);
+    EXPECT_EQ(film.sampleCount(1, 1), 0u);
+    EXPECT_EQ(film.resolve("color").size(), 60u);
+}
+
+TEST(Film, WrongRequestsAreRefusedByName) {
+    Film film;
+    EXPECT_THROW(film.reset(-1, 4, {}), std::invalid_argument);
+    EXPECT_THROW(film.reset(1 << 30, 1 << 30, {}), std::invalid_argument);
+    EXPECT_THROW(film.reset(1, 1, {standardAov("depth"), standardAov("depth")}),
+                 std::invalid_argument);
+    try {
+        standardAov("shininess");
+        FAIL();
+    } catch (const std::invalid_argument& e) {
+        EXPECT_NE(std::string(e.what()).find("shininess"), std::string::npos);
+    }
+    EXPECT_THROW(standardAov("primvars:"), std::invalid_argument);
+    EXPECT_EQ(standardAov("primvars:st").components, 2);
+    EXPECT_EQ(standardAov("primvars:displayColor").components, 3);
+}
+
+} // namespace patina

@@ -11,9 +11,9 @@
 
 namespace patina {
 
-/// Baked directional albedo tables, shaders/lib/albedoTable.glsl says how they are laid out.
-/// Written by shaders/bake at build time.
-extern const float patinaAlbedoTable[];
+/// Baked directional albedo tables, sh::ALBEDO_TABLE_SIZE floats; shaders/lib/albedoTable.glsl says
+/// how they are laid out. Written by shaders/bake at build time. The rasterizer uploads them.
+extern const float *const patinaAlbedoTable;
 
 namespace sh {
 #include "shaders/compat/cpp.h"

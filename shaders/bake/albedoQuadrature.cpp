@@ -40,18 +40,13 @@ void InterfaceQuadrature::moments(double mu, double alpha, const double *exponen
     forEachNormal(mu, alpha, [&](double weight, double c, vec3 wo, vec3 m) {
         const GgxBounce b = ggxBounce(wo, m, c, vec2(alpha), 1.0, true);
         if (!b.valid) return;
-        // Up to 8 the exponents are the integers, one product each.
-        double power = 1.0;
-        for (int k = 0; k < count; ++k) {
-            const bool stepwise = k <= 8 && exponents[k] == double(k);
-            result[k] += weight * b.ratio * (stepwise ? power : powSchlick(1.0 - c, exponents[k]));
-            power *= 1.0 - c;
-        }
+        for (int k = 0; k < count; ++k)
+            result[k] += weight * b.ratio * powSchlick(1.0 - c, exponents[k]);
     });
 }
 
 vec2 InterfaceQuadrature::dielectric(double mu, double alpha, double eta) const {
-    if (alpha <= 0.0) return vec2(fresnelDielectric(mu, eta), 0.0);
+    if (alpha <= 0.0) return vec2(fresnelDielectric(mu, eta), 1.0 - fresnelDielectric(mu, eta));
     double reflected = 0.0;
     double transmitted = 0.0;
     forEachNormal(mu, alpha, [&](double weight, double c, vec3 wo, vec3 m) {
@@ -61,7 +56,7 @@ vec2 InterfaceQuadrature::dielectric(double mu, double alpha, double eta) const 
         const GgxBounce t = ggxBounce(wo, m, c, vec2(alpha), eta, false);
         if (t.valid && f < 1.0) transmitted += weight * (1.0 - f) * t.ratio;
     });
-    return vec2(reflected, 1.0 - reflected - transmitted);
+    return vec2(reflected, transmitted);
 }
 
 } // namespace patina::bake

@@ -27,17 +27,19 @@ public:
         const std::size_t n = _rule.x.size();
         for (std::size_t j = 0; j < n; ++j)
             for (std::size_t i = 0; i < n; ++i) {
-                const vec2 u((double(i) + 0.5) / double(2 * n), _rule.x[j]);
+                const double y = _rule.x[j];
+                const vec2 u((double(i) + 0.5) / double(2 * n), 1.0 - y * y * y);
                 const vec3 m =
                     alpha > 0.0 ? ggxSampleVisible(wo, vec2(alpha), u) : vec3(0.0, 0.0, 1.0);
-                fn(_rule.w[j] / double(n), std::min(std::max(sh64::dot(wo, m), 0.0), 1.0), wo, m);
+                fn(3.0 * y * y * _rule.w[j] / double(n),
+                   std::min(std::max(sh64::dot(wo, m), 0.0), 1.0), wo, m);
             }
     }
 
     /// E[p](mu, alpha) for `count` exponents at once.
     void moments(double mu, double alpha, const double *exponents, int count, double *result) const;
 
-    /// (reflected, lost) of a dielectric of relative ior `eta`.
+    /// (reflected, transmitted) of a dielectric of relative ior `eta`.
     sh64::vec2 dielectric(double mu, double alpha, double eta) const;
 
 private:

@@ -1,20 +1,20 @@
 // Directional albedo of the bare GGX interface, from tables that shaders/bake writes at build time
 // with the functions of this dialect. Layout and coordinates stand here once: the look-ups use them
-// forwards, the bake program backwards.
+// forwards, the bake program backwards. alpha >= ALPHA_MIRROR throughout; a mirror needs no table.
 //
-// Moment table: E[p](mu, alpha) = integral of D G2 / (4 o.z) (1 - o.h)^p over wi, the albedo of a
-// lobe whose Fresnel curve is (1 - c)^p.
-//   p = 0 is the single scattering albedo of a perfect mirror.
-// Dielectric tables (one for eta >= 1, one for eta <= 1): per (mu, alpha, eta) two floats, the
-// reflected albedo and what is missing from
-//   reflected + transmitted to 1 (light that single scattering loses).
+// Moments: E[p](mu, alpha) = integral of D G2 / (4 o.z) (1 - o.h)^p over wi, the albedo of a lobe
+//   whose Fresnel curve is (1 - c)^p. E[0] is stored as it is, the others as the small d in
+//   E[p] = E[0] (1 - mu + d)^p, which vanishes with alpha.
+// Interface (one table for eta >= 1, one for eta <= 1): two floats per (mu, alpha, eta), the mean
+//   reflectance E_R / E[0] (for eta >= 1 less the Fresnel reflectance at mu), and
+//   1 - (E_R + E_T) / E[0].
 
-const int MOMENT_COUNT = 12;
-const int MOMENT_MU = 32;
+const int MOMENT_COUNT = 11;
+const int MOMENT_MU = 48;
 const int MOMENT_ALPHA = 32;
-const int INTERFACE_MU = 32;
-const int INTERFACE_ALPHA = 24;
-const int INTERFACE_ETA = 24;
+const int INTERFACE_MU = 48;
+const int INTERFACE_ALPHA = 32;
+const int INTERFACE_ETA = 32;
 
 const int MOMENT_SIZE = MOMENT_COUNT * MOMENT_MU * MOMENT_ALPHA;
 const int INTERFACE_SIZE = 2 * INTERFACE_MU * INTERFACE_ALPHA * INTERFACE_ETA;
@@ -22,131 +22,163 @@ const int INTERFACE_ABOVE = MOMENT_SIZE;
 const int INTERFACE_BELOW = MOMENT_SIZE + INTERFACE_SIZE;
 const int ALBEDO_TABLE_SIZE = MOMENT_SIZE + 2 * INTERFACE_SIZE;
 
-// Exponents of the moment table. Exponent e lies in cell momentCell(e).
+// Exponents of the moment table; 5, 6 and 7 (Schlick and its dip) are entries.
 PATINA_FN float momentExponent(int i) {
-    float e = float(i);
+    float e = select(0.0f, 1.0f, i == 0);
+    e = select(1.7f, e, i == 2);
+    e = select(2.5f, e, i == 3);
+    e = select(3.5f, e, i == 4);
+    e = select(float(i), e, i >= 5);
     e = select(10.0f, e, i == 8);
-    e = select(16.0f, e, i == 9);
-    e = select(32.0f, e, i == 10);
-    return select(100.0f, e, i == 11);
+    e = select(20.0f, e, i == 9);
+    return select(50.0f, e, i == 10);
 }
 
+// The entry at or below exponent e, at least 1.
 PATINA_FN int momentCell(float e) {
-    int i = int(min(e, 7.0f));
+    int i = select(2, 1, e >= 1.7f);
+    i = select(3, i, e >= 2.5f);
+    i = select(4, i, e >= 3.5f);
+    i = select(5, i, e >= 5.0f);
+    i = select(6, i, e >= 6.0f);
+    i = select(7, i, e >= 7.0f);
     i = select(8, i, e >= 10.0f);
-    i = select(9, i, e >= 16.0f);
-    return select(10, i, e >= 32.0f);
+    return select(9, i, e >= 20.0f);
 }
 
-// Coordinates in [0, 1].
+// Coordinates in [0, 1] and back.
 PATINA_FN float tableAlphaCoord(float alpha) {
-    return sqrt(alpha);
+    float a0 = sqrt(ALPHA_MIRROR);
+    return (sqrt(alpha) - a0) / (1.0f - a0);
 }
-PATINA_FN float tableAlphaAt(float s) {
-    return s * s;
+
+PATINA_FN float tableAlphaAt(float t) {
+    float a0 = sqrt(ALPHA_MIRROR);
+    return sqr(a0 + t * (1.0f - a0));
 }
-PATINA_FN float tableMuCoord(float mu) {
-    return sqrt(mu);
+
+const float MU_WIDTH = 0.3f;
+
+// Grazing features are as wide as alpha, so mu is spaced logarithmically above that width.
+PATINA_FN float tableMuCoord(float mu, float alpha) {
+    float w = MU_WIDTH * alpha;
+    return log2(1.0f + mu / w) / log2(1.0f + 1.0f / w);
 }
-PATINA_FN float tableMuAt(float t) {
-    return t * t;
+
+PATINA_FN float tableMuAt(float t, float alpha) {
+    float w = MU_WIDTH * alpha;
+    return min((exp2(t * log2(1.0f + 1.0f / w)) - 1.0f) * w, 1.0f);
 }
 
 // x = |eta - 1| / (eta + 1); the features at grazing angles move like its root.
 PATINA_FN float tableEtaCoord(float eta) {
     return sqrt(abs(eta - 1.0f) / (eta + 1.0f));
 }
+
 // Backwards for eta >= 1; the other table has the inverse.
-PATINA_FN float tableEtaAt(float s) {
-    float x = min(s * s, 0.99f);
+PATINA_FN float tableEtaAt(float t) {
+    float x = min(t * t, 0.99f);
     return (1.0f + x) / (1.0f - x);
 }
 
-// For eta < 1 the critical angle (mu = muC) always falls on coordinate 1/2, with a root on both
-// sides, as the reflectance has.
+// For eta < 1 the features lie around the critical angle (mu = muC) and are again as wide as alpha:
+// coordinate 1/2, logarithmic on both sides.
 PATINA_FN float tableMuCritical(float eta) {
     return safeSqrt(1.0f - eta * eta);
 }
-PATINA_FN float tableMuBelowCoord(float mu, float muC) {
-    float inside = safeSqrt((muC - mu) / max(muC, TINY));
-    float outside = safeSqrt((mu - muC) / max(1.0f - muC, TINY));
-    return 0.5f + 0.5f * select(outside, -inside, mu >= muC);
+
+PATINA_FN float tableMuBelowCoord(float mu, float muC, float alpha) {
+    bool right = mu >= muC;
+    float range = max(select(1.0f - muC, muC, right), TINY);
+    float t = tableMuCoord(min(abs(mu - muC) / range, 1.0f), alpha / range);
+    return 0.5f + 0.5f * select(t, -t, right);
 }
-PATINA_FN float tableMuBelowAt(float t, float muC) {
-    float d = 2.0f * t - 1.0f;
-    return clamp(muC + select(d * d * (1.0f - muC), -d * d * muC, d >= 0.0f), 0.0f, 1.0f);
+
+PATINA_FN float tableMuBelowAt(float t, float muC, float alpha) {
+    bool right = t >= 0.5f;
+    float range = max(select(1.0f - muC, muC, right), TINY);
+    float d = range * tableMuAt(abs(2.0f * t - 1.0f), alpha / range);
+    return clamp(muC + select(d, -d, right), 0.0f, 1.0f);
 }
 
 // Cell and fraction of coordinate t on an axis of n nodes.
 PATINA_FN int tableCell(float t, int n) {
     return int(clamp(t * float(n - 1), 0.0f, float(n - 2)));
 }
+
 PATINA_FN float tableFraction(float t, int n) {
     return clamp(t * float(n - 1) - float(tableCell(t, n)), 0.0f, 1.0f);
 }
 
-PATINA_FN float momentBilinear(int base, float fm, float fa) {
+// Where (mu, alpha) lies in the moment table.
+struct MomentPlace {
+    int base;
+    float fm;
+    float fa;
+    float mu;
+};
+
+PATINA_FN MomentPlace momentPlace(float mu, float alpha) {
+    float tm = tableMuCoord(mu, alpha);
+    float ta = tableAlphaCoord(alpha);
+    MomentPlace p;
+    p.base = (tableCell(ta, MOMENT_ALPHA) * MOMENT_MU + tableCell(tm, MOMENT_MU)) * MOMENT_COUNT;
+    p.fm = tableFraction(tm, MOMENT_MU);
+    p.fa = tableFraction(ta, MOMENT_ALPHA);
+    p.mu = mu;
+    return p;
+}
+
+PATINA_FN float momentEntry(MomentPlace p, int i) {
+    int k = p.base + i;
     int stepA = MOMENT_COUNT * MOMENT_MU;
-    float a = mix(albedoTableFetch(base), albedoTableFetch(base + MOMENT_COUNT), fm);
-    float b =
-        mix(albedoTableFetch(base + stepA), albedoTableFetch(base + stepA + MOMENT_COUNT), fm);
-    return mix(a, b, fa);
+    float a = mix(albedoTableFetch(k), albedoTableFetch(k + MOMENT_COUNT), p.fm);
+    float b = mix(albedoTableFetch(k + stepA), albedoTableFetch(k + stepA + MOMENT_COUNT), p.fm);
+    return mix(a, b, p.fa);
 }
 
-PATINA_FN int momentBase(float mu, float alpha) {
-    int im = tableCell(tableMuCoord(mu), MOMENT_MU);
-    int ia = tableCell(tableAlphaCoord(alpha), MOMENT_ALPHA);
-    return (ia * MOMENT_MU + im) * MOMENT_COUNT;
+// E[0]: the albedo of a perfect mirror, single scattering.
+PATINA_FN float momentAlbedo0(MomentPlace p) {
+    return momentEntry(p, 0);
 }
 
-// E[p] for one of the tabulated exponents, p = momentExponent(i).
-PATINA_FN float momentAlbedoAt(float mu, float alpha, int i) {
-    float fm = tableFraction(tableMuCoord(mu), MOMENT_MU);
-    float fa = tableFraction(tableAlphaCoord(alpha), MOMENT_ALPHA);
-    return momentBilinear(momentBase(mu, alpha) + i, fm, fa);
-}
-
-// E[p] for any exponent: geometric interpolation between tabulated ones, between which the moments
-// fall almost exponentially.
-PATINA_FN float momentAlbedo(float mu, float alpha, float exponent) {
-    float fm = tableFraction(tableMuCoord(mu), MOMENT_MU);
-    float fa = tableFraction(tableAlphaCoord(alpha), MOMENT_ALPHA);
+// E[p] / E[0]: the mean of (1 - c)^exponent over the facets seen.
+PATINA_FN float momentMean(MomentPlace p, float exponent) {
     int i = momentCell(exponent);
-    int base = momentBase(mu, alpha) + i;
     float e0 = momentExponent(i);
-    float f = (exponent - e0) / (momentExponent(i + 1) - e0);
-    float a = max(momentBilinear(base, fm, fa), TINY);
-    float b = max(momentBilinear(base + 1, fm, fa), TINY);
-    return select(a, a * exp2(f * log2(b / a)), f <= 0.0f);
+    float f = clamp((exponent - e0) / (momentExponent(i + 1) - e0), 0.0f, 1.0f);
+    float d = mix(momentEntry(p, i), momentEntry(p, i + 1), f);
+    return powSchlick(clamp(1.0f - p.mu + d, 0.0f, 1.0f), exponent);
 }
 
 PATINA_FN vec2 interfaceFetch(int index) {
     return vec2(albedoTableFetch(index), albedoTableFetch(index + 1));
 }
 
-// x: reflected albedo of the dielectric interface; y: the part that single scattering loses.
-// Transmitted is 1 - x - y.
+PATINA_FN vec2 interfaceBilinear(int i, float fm, float fa) {
+    int stepA = 2 * INTERFACE_MU;
+    vec2 a = interfaceFetch(i) * (1.0f - fm) + interfaceFetch(i + 2) * fm;
+    vec2 b = interfaceFetch(i + stepA) * (1.0f - fm) + interfaceFetch(i + stepA + 2) * fm;
+    return a * (1.0f - fa) + b * fa;
+}
+
+// x: E_R / E[0], the mean reflectance over the facets seen; y: E_T / E[0]. Both not negative.
 PATINA_FN vec2 interfaceAlbedo(float mu, float alpha, float eta) {
     bool above = eta >= 1.0f;
-    float tm =
-        select(tableMuCoord(mu), tableMuBelowCoord(mu, tableMuCritical(min(eta, 1.0f))), above);
+    float muC = tableMuCritical(min(eta, 1.0f));
+    float tm = select(tableMuCoord(mu, alpha), tableMuBelowCoord(mu, muC, alpha), above);
     float ta = tableAlphaCoord(alpha);
     float te = tableEtaCoord(eta);
-    int im = tableCell(tm, INTERFACE_MU);
-    int ia = tableCell(ta, INTERFACE_ALPHA);
-    int ie = tableCell(te, INTERFACE_ETA);
+    int cell = tableCell(te, INTERFACE_ETA) * INTERFACE_ALPHA + tableCell(ta, INTERFACE_ALPHA);
+    int i = select(INTERFACE_ABOVE, INTERFACE_BELOW, above) +
+            2 * (cell * INTERFACE_MU + tableCell(tm, INTERFACE_MU));
     float fm = tableFraction(tm, INTERFACE_MU);
     float fa = tableFraction(ta, INTERFACE_ALPHA);
     float fe = tableFraction(te, INTERFACE_ETA);
-    int stepA = 2 * INTERFACE_MU;
-    int stepE = stepA * INTERFACE_ALPHA;
-    int i = select(INTERFACE_ABOVE, INTERFACE_BELOW, above) + ie * stepE + ia * stepA + 2 * im;
-    vec2 c00 = interfaceFetch(i) * (1.0f - fm) + interfaceFetch(i + 2) * fm;
-    vec2 c10 = interfaceFetch(i + stepA) * (1.0f - fm) + interfaceFetch(i + stepA + 2) * fm;
-    i += stepE;
-    vec2 c01 = interfaceFetch(i) * (1.0f - fm) + interfaceFetch(i + 2) * fm;
-    vec2 c11 = interfaceFetch(i + stepA) * (1.0f - fm) + interfaceFetch(i + stepA + 2) * fm;
-    vec2 c0 = c00 * (1.0f - fa) + c10 * fa;
-    vec2 c1 = c01 * (1.0f - fa) + c11 * fa;
-    return c0 * (1.0f - fe) + c1 * fe;
+    vec2 a = interfaceBilinear(i, fm, fa);
+    vec2 b = interfaceBilinear(i + 2 * INTERFACE_MU * INTERFACE_ALPHA, fm, fa);
+    vec2 e = a * (1.0f - fe) + b * fe;
+    e.x += select(fresnelDielectric(mu, eta), 0.0f, above);
+    float r = clamp(e.x, 0.0f, 1.0f);
+    return vec2(r, max(1.0f - r - e.y, 0.0f));
 }

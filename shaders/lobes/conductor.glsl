@@ -43,7 +43,7 @@ PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness
 // Factor for multiple scattering at wo; 1 for a mirror.
 PATINA_FN vec3 conductorEnergy(ConductorLobe l, float mu) {
     if (l.compensate == 0 || l.alpha.x == 0.0f) return vec3(1.0f);
-    float ess = momentAlbedoAt(mu, ggxAlphaMean(l.alpha), 0);
+    float ess = momentAlbedo0(momentPlace(mu, ggxAlphaMean(l.alpha)));
     return vec3(1.0f) + l.favg * ((1.0f - ess) / max(ess, ALBEDO_MIN));
 }
 

@@ -74,10 +74,10 @@ PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, float z) {
     e.t = (1.0f - f) * e.kt;
     if (l.alpha.x == 0.0f || l.matched) return e;
     float alpha = ggxAlphaMean(l.alpha);
-    float ess = momentAlbedoAt(mu, alpha, 0);
+    float ess = momentAlbedo0(momentPlace(mu, alpha));
     vec2 a = interfaceAlbedo(mu, alpha, eta);
-    float er = select(ess, a.x, l.full);
-    float et = select(0.0f, max(1.0f - a.x - a.y, 0.0f), l.full);
+    float er = ess * select(1.0f, a.x, l.full);
+    float et = select(0.0f, ess * a.y, l.full);
     e.kr = energyReflect(ess, select(l.favgOutside, l.favgInside, z >= 0.0f), l.compensate);
     e.r = er * e.kr;
     e.kt = energyTransmit(er, et, e.kr, l.compensate) * energyFused(e.r, l.fused);

@@ -74,7 +74,7 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, float z) {
     e.t = (vec3(1.0f) - e.r) * e.kt;
     if (l.alpha.x == 0.0f) return e;
     float alpha = ggxAlphaMean(l.alpha);
-    float ess = momentAlbedoAt(mu, alpha, 0);
+    float ess = momentAlbedo0(momentPlace(mu, alpha));
     bool compensates = l.compensate != 0;
     e.kr = vec3(1.0f) +
            select(l.favg, vec3(0.0f), compensates) * ((1.0f - ess) / max(ess, ALBEDO_MIN));
@@ -83,10 +83,9 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, float z) {
     if (l.mode == SCATTER_R && z >= 0.0f) return e;
     vec2 a = interfaceAlbedo(mu, alpha, eta);
     float f0 = sqr((l.ior - 1.0f) / (l.ior + 1.0f));
-    float fMean = min(a.x / max(ess, ALBEDO_MIN), 1.0f);
-    float rise = clamp((fMean - f0) / (1.0f - f0), 0.0f, 1.0f);
+    float rise = clamp((a.x - f0) / (1.0f - f0), 0.0f, 1.0f);
     er = select(er, mix(l.fresnel.f0, vec3(1.0f), rise) * ess, z >= 0.0f);
-    float kernel = max(1.0f - a.x - a.y, 0.0f) / max(1.0f - fMean, ALBEDO_MIN);
+    float kernel = ess * a.y / max(1.0f - a.x, ALBEDO_MIN);
     vec3 et = max(vec3(1.0f) - er / max(ess, ALBEDO_MIN), vec3(0.0f)) * min(kernel, 1.0f);
     e.r = er * e.kr;
     vec3 kt = max(vec3(1.0f) - e.r, vec3(0.0f)) / max(et, vec3(ALBEDO_MIN));

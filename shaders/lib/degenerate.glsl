@@ -13,7 +13,7 @@ const float IOR_MATCHED = 1e-4f;
 // alpha * |eta - 1|: the width of a refracted lobe. Below it refraction is still sampled through
 // the microfacets, but flagged as delta and not evaluated, because the half vector of two nearly
 // opposite directions has no precision left.
-const float REFRACTION_DELTA = 1e-3f;
+const float REFRACTION_DELTA = 3e-4f;
 
 // Relative ior is kept within [1 / IOR_MAX, IOR_MAX]; F0 is 0.96 at the border.
 const float IOR_MAX = 100.0f;
@@ -22,18 +22,12 @@ const float IOR_MAX = 100.0f;
 // (ior 63).
 const float F0_MAX = 0.9391f;
 
-// Smallest |cos| to the shading normal for which a direction counts as above or below the surface.
-const float COS_MIN = 0.0f;
-
 // A lobe is scaled by at most the inverse of this when an albedo in a denominator vanishes (total
 // internal reflection, table noise).
 const float ALBEDO_MIN = 1e-3f;
 
 // Guards a division whose numerator vanishes together with the denominator.
 const float TINY = 1e-20f;
-
-// Half vectors shorter than this (wi opposite wo) give no lobe value. Squared length.
-const float HALF_MIN2 = 1e-14f;
 
 // Input range of tints and colours: negative and NaN become 0, Inf becomes this.
 const float COLOR_MAX = 65504.0f;

@@ -25,10 +25,12 @@ PATINA_FN float ggxLength(vec3 w, vec2 alpha) {
 
 // Density of facet normals m (unit) per solid angle and projected area.
 PATINA_FN float ggxD(vec3 m, vec2 alpha) {
-    float x = m.x / alpha.x;
-    float y = m.y / alpha.y;
-    float t = x * x + y * y + m.z * m.z;
-    return 1.0f / (PI * alpha.x * alpha.y * t * t);
+    float a = alpha.x * alpha.y;
+    float x = m.x * alpha.y;
+    float y = m.y * alpha.x;
+    float z = m.z * a;
+    float t = a / (x * x + y * y + z * z);
+    return INV_PI * a * t * t;
 }
 
 // G2 / (o.z i.z); lo and li are ggxLength of both directions.
@@ -70,23 +72,31 @@ struct GgxPair {
 // eta: ior of i's side over that of o's for refraction, 1 for reflection. The Jacobian eta^2 |i.h|
 // / |o + eta i|^2 (Walter et al. 2007, eq. 17) serves both, since for reflection |o + i| = 2 o.h.
 // It counts radiance without the factor 1 / eta^2 (flux form).
+//
+// The half vector is never normalised for D: with H = o + eta i the lengths cancel in D dh/di
+// |o.h|, which saves a root and stays in range for short H. t is bounded for H = 0, where o.H = 0
+// too.
 PATINA_FN GgxPair ggxPair(vec3 o, vec3 i, vec2 alpha, float eta) {
-    vec3 hv = o + i * eta;
-    float len2 = dot(hv, hv);
-    float inv = 1.0f / sqrt(max(len2, HALF_MIN2));
-    vec3 h = hv * select(inv, -inv, hv.z >= 0.0f);
-    float c = dot(o, h);
+    vec3 h = o + i * eta;
+    h = select(h, -h, h.z >= 0.0f);
+    float oh = dot(o, h);
     float ih = dot(i, h);
+    float a = alpha.x * alpha.y;
+    float x = h.x * alpha.y;
+    float y = h.y * alpha.x;
+    float z = h.z * a;
+    float t = a / max(x * x + y * y + z * z, TINY * TINY);
+    bool valid = oh > 0.0f && ih * i.z > 0.0f;
+    float shape = INV_PI * a * eta * eta * (t * oh) * (t * abs(ih));
+    shape = select(shape, 0.0f, valid);
     float oz = max(o.z, 0.0f);
     float iz = abs(i.z);
     float lo = ggxLength(o, alpha);
     float li = ggxLength(i, alpha);
-    bool valid = c > 0.0f && ih * i.z > 0.0f && len2 > HALF_MIN2 && o.z >= 0.0f;
-    float shape = select(ggxD(h, alpha) * c * eta * eta * abs(ih) * inv * inv, 0.0f, valid);
     GgxPair p;
     p.value = shape * iz * ggxG2Ratio(oz, lo, iz, li);
     p.pdf = shape * 2.0f / max(oz + lo, TINY);
-    p.c = clamp(c, 0.0f, 1.0f);
+    p.c = clamp(oh / sqrt(max(dot(h, h), TINY)), 0.0f, 1.0f);
     return p;
 }
 
@@ -107,7 +117,7 @@ PATINA_FN GgxBounce ggxBounce(vec3 o, vec3 m, float c, vec2 alpha, float eta, bo
     float ct = cosRefracted(c, eta);
     // c - eta ct without cancellation for eta near 1.
     float len = (1.0f - eta) * (1.0f + eta) / max(c + eta * ct, TINY);
-    float jacobian = select(0.25f, c * eta * eta * ct / max(len * len, HALF_MIN2), reflects);
+    float jacobian = select(0.25f, c * eta * eta * ct / max(len * len, TINY), reflects);
     GgxBounce b;
     b.wi = select(m * (2.0f * c) - o, m * (c / eta - ct) - o * (1.0f / eta), reflects);
     float iz = select(b.wi.z, -b.wi.z, reflects);

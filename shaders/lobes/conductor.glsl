@@ -9,6 +9,8 @@ struct ConductorLobe {
     vec2 alpha;  // 0 = mirror
     float retro; // -1 sends the lobe back to where it came from, else 1
     int compensate;
+    bool known; // k is that of the wo at hand (conductorAt)
+    vec3 k;     // factor for multiple scattering
 };
 
 // F by the curve f0 + (1 - f0) (1 - c)^5 - dip c (1 - c)^6 through the exact values at c = 1, 1/7
@@ -37,21 +39,27 @@ PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness
     l.alpha = ggxAlpha(roughness);
     l.retro = select(-1.0f, 1.0f, retroreflective);
     l.compensate = compensate;
+    l.known = false;
+    l.k = vec3(1.0f);
     return l;
 }
 
-// Factor for multiple scattering at wo; 1 for a mirror.
-PATINA_FN vec3 conductorEnergy(ConductorLobe l, float mu) {
-    if (l.compensate == 0 || l.alpha.x == 0.0f) return vec3(1.0f);
-    float ess = momentAlbedo0(momentPlace(mu, ggxAlphaMean(l.alpha)));
-    return vec3(1.0f) + l.favg * ((1.0f - ess) / max(ess, ALBEDO_MIN));
+// The lobe with its energy factor for one wo. Optional: a caller that evaluates and samples several
+// times at the same wo saves the table look-up.
+PATINA_FN ConductorLobe conductorAt(ConductorLobe l, vec3 wo) {
+    l.known = true;
+    if (l.compensate == 0 || l.alpha.x == 0.0f) return l;
+    float ess = momentAlbedo0(momentPlace(wo.z, ggxAlphaMean(l.alpha)));
+    l.k = vec3(1.0f) + l.favg * ((1.0f - ess) / max(ess, ALBEDO_MIN));
+    return l;
 }
 
 PATINA_FN LobeEval conductorEval(ConductorLobe l, vec3 wo, vec3 wi) {
     if (l.alpha.x == 0.0f || wo.z < 0.0f || wi.z <= 0.0f) return lobeEvalNone();
     GgxPair p = ggxPair(wo, vec3(wi.x * l.retro, wi.y * l.retro, wi.z), l.alpha, 1.0f);
+    if (!l.known) l = conductorAt(l, wo);
     LobeEval e;
-    e.value = fresnelConductor(p.c, l.ior, l.extinction) * conductorEnergy(l, wo.z) * p.value;
+    e.value = fresnelConductor(p.c, l.ior, l.extinction) * l.k * p.value;
     e.pdf = p.pdf;
     return e;
 }
@@ -59,14 +67,15 @@ PATINA_FN LobeEval conductorEval(ConductorLobe l, vec3 wo, vec3 wi) {
 PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
     if (wo.z < 0.0f) return lobeSampleNone();
     bool mirror = l.alpha.x == 0.0f;
-    vec3 m = select(vec3(0.0f, 0.0f, 1.0f),
-                    ggxSampleVisible(wo, max(l.alpha, vec2(ALPHA_MIRROR)), vec2(u.x, u.y)), mirror);
+    vec3 m = vec3(0.0f, 0.0f, 1.0f);
+    if (!mirror) m = ggxSampleVisible(wo, l.alpha, vec2(u.x, u.y));
     float c = clamp(dot(wo, m), 0.0f, 1.0f);
     GgxBounce b = ggxBounce(wo, m, c, l.alpha, 1.0f, true);
     if (!b.valid) return lobeSampleNone();
+    if (!l.known) l = conductorAt(l, wo);
     LobeSample s;
     s.wi = vec3(b.wi.x * l.retro, b.wi.y * l.retro, b.wi.z);
-    s.weight = fresnelConductor(c, l.ior, l.extinction) * conductorEnergy(l, wo.z) * b.ratio;
+    s.weight = fresnelConductor(c, l.ior, l.extinction) * l.k * b.ratio;
     s.pdf = b.pdf;
     s.event = select(LOBE_REFLECT + LOBE_DELTA, LOBE_REFLECT, mirror);
     s.eta = 1.0f;
@@ -77,5 +86,5 @@ PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
     if (l.alpha.x == 0.0f) return fresnelConductor(wo.z, l.ior, l.extinction);
     SchlickFresnel f = conductorFit(l.ior, l.extinction);
-    return schlickMoments(wo.z, ggxAlphaMean(l.alpha), f) * conductorEnergy(l, wo.z);
+    return schlickMoments(wo.z, ggxAlphaMean(l.alpha), f) * conductorAt(l, wo).k;
 }

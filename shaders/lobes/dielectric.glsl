@@ -22,6 +22,9 @@ struct DielectricLobe {
     bool full;    // Fresnel off, reflects everything
     bool matched; // no interface
     bool deltaT;  // refraction too narrow to evaluate
+    bool known;   // kr and kt are those of the wo at hand (dielectricAt)
+    float kr;     // factors on R and T, see energy.glsl
+    float kt;
 };
 
 // tint: colour factor on R and T. ior: inside over outside. roughness: GGX alpha along x and y.
@@ -45,6 +48,9 @@ PATINA_FN DielectricLobe dielectricSetup(vec3 tint, float ior, vec2 roughness, b
     l.compensate = compensate;
     l.fused = fused && scatterMode == SCATTER_T;
     l.deltaT = min(l.alpha.x, l.alpha.y) * abs(l.ior - 1.0f) < REFRACTION_DELTA * max(l.ior, 1.0f);
+    l.known = false;
+    l.kr = 1.0f;
+    l.kt = 1.0f;
     return l;
 }
 
@@ -85,6 +91,23 @@ PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, float z) {
     return e;
 }
 
+// The lobe with its energy factors for one wo. Optional: a caller that evaluates and samples
+// several times at the same wo saves the table look-ups.
+PATINA_FN DielectricLobe dielectricAt(DielectricLobe l, vec3 wo) {
+    l.known = true;
+    bool plain = (l.compensate == 0 || l.alpha.x == 0.0f) && !l.fused;
+    if (plain || l.matched) return l;
+    if (l.mode == SCATTER_R) {
+        float ess = momentAlbedo0(momentPlace(abs(wo.z), ggxAlphaMean(l.alpha)));
+        l.kr = energyReflect(ess, select(l.favgOutside, l.favgInside, wo.z >= 0.0f), l.compensate);
+        return l;
+    }
+    DielectricEnergy e = dielectricEnergy(l, wo.z);
+    l.kr = e.kr;
+    l.kt = e.kt;
+    return l;
+}
+
 PATINA_FN LobeEval dielectricEval(DielectricLobe l, vec3 wo, vec3 wi) {
     float side = select(1.0f, -1.0f, wo.z >= 0.0f);
     bool reflects = wi.z * side > 0.0f;
@@ -98,9 +121,9 @@ PATINA_FN LobeEval dielectricEval(DielectricLobe l, vec3 wo, vec3 wi) {
     GgxPair p = ggxPair(o, i, l.alpha, select(1.0f, eta, reflects));
     float f = dielectricFresnel(l, p.c, eta);
     float share = select(f, 1.0f - f, reflects);
-    DielectricEnergy k = dielectricEnergy(l, wo.z);
+    if (!l.known) l = dielectricAt(l, wo);
     LobeEval e;
-    e.value = l.tint * (p.value * share * select(k.kr, k.kt, reflects));
+    e.value = l.tint * (p.value * share * select(l.kr, l.kt, reflects));
     e.pdf = p.pdf * select(share, 1.0f, l.mode == SCATTER_RT);
     return e;
 }
@@ -110,8 +133,8 @@ PATINA_FN LobeSample dielectricSample(DielectricLobe l, vec3 wo, vec3 u) {
     float eta = dielectricEta(l, wo.z);
     bool mirror = l.alpha.x == 0.0f;
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
-    vec3 m = select(vec3(0.0f, 0.0f, 1.0f),
-                    ggxSampleVisible(o, max(l.alpha, vec2(ALPHA_MIRROR)), vec2(u.x, u.y)), mirror);
+    vec3 m = vec3(0.0f, 0.0f, 1.0f);
+    if (!mirror) m = ggxSampleVisible(o, l.alpha, vec2(u.x, u.y));
     float c = clamp(dot(o, m), 0.0f, 1.0f);
     float f = dielectricFresnel(l, c, eta);
     float chance = select(f, select(1.0f, 0.0f, l.mode == SCATTER_R), l.mode == SCATTER_RT);
@@ -119,14 +142,14 @@ PATINA_FN LobeSample dielectricSample(DielectricLobe l, vec3 wo, vec3 u) {
     GgxBounce b = ggxBounce(o, m, c, l.alpha, eta, reflects);
     float share = select(f, 1.0f - f, reflects);
     if (!b.valid || share <= 0.0f) return lobeSampleNone();
-    DielectricEnergy k = dielectricEnergy(l, wo.z);
+    if (!l.known) l = dielectricAt(l, wo);
     bool isDelta = mirror || (!reflects && l.deltaT);
     bool both = l.mode == SCATTER_RT;
     float ratio = select(1.0f, b.ratio, l.matched);
     float turn = select(l.retro, 1.0f, reflects);
     LobeSample s;
     s.wi = vec3(b.wi.x * turn, b.wi.y * turn, b.wi.z * side);
-    s.weight = l.tint * (ratio * select(k.kr, k.kt, reflects) * select(1.0f, share, both));
+    s.weight = l.tint * (ratio * select(l.kr, l.kt, reflects) * select(1.0f, share, both));
     s.pdf = select(1.0f, b.pdf, isDelta) * select(share, 1.0f, both);
     s.event = select(LOBE_REFLECT, LOBE_TRANSMIT, reflects) + select(LOBE_DELTA, 0, isDelta);
     s.eta = select(1.0f, 1.0f / eta, reflects);

@@ -16,6 +16,9 @@ struct SchlickLobe {
     int compensate;
     bool fused;
     bool deltaT; // refraction too narrow to evaluate
+    bool known;  // kr and kt are those of the wo at hand (schlickAt)
+    vec3 kr;     // factors on R and T, see energy.glsl
+    vec3 kt;
 };
 
 // color0, color90: reflectance at normal and grazing incidence, in [0, 1]. color82: factor on the
@@ -37,6 +40,9 @@ PATINA_FN SchlickLobe schlickSetup(vec3 color0, vec3 color82, vec3 color90, floa
     l.compensate = compensate;
     l.fused = fused && scatterMode == SCATTER_T;
     l.deltaT = min(l.alpha.x, l.alpha.y) * (l.ior - 1.0f) < REFRACTION_DELTA * l.ior;
+    l.known = false;
+    l.kr = vec3(1.0f);
+    l.kt = vec3(1.0f);
     return l;
 }
 
@@ -94,6 +100,17 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, float z) {
     return e;
 }
 
+// The lobe with its energy factors for one wo, as dielectricAt.
+PATINA_FN SchlickLobe schlickAt(SchlickLobe l, vec3 wo) {
+    l.known = true;
+    bool plain = (l.compensate == 0 || l.alpha.x == 0.0f) && !l.fused;
+    if (plain) return l;
+    SchlickEnergy e = schlickEnergy(l, wo.z);
+    l.kr = e.kr;
+    l.kt = e.kt;
+    return l;
+}
+
 // Chance of choosing R at a facet, in RT.
 PATINA_FN float schlickChance(SchlickLobe l, vec3 f) {
     return select(lobeMean(f), select(1.0f, 0.0f, l.mode == SCATTER_R), l.mode == SCATTER_RT);
@@ -112,9 +129,9 @@ PATINA_FN LobeEval schlickEval(SchlickLobe l, vec3 wo, vec3 wi) {
     GgxPair p = ggxPair(o, i, l.alpha, select(1.0f, eta, reflects));
     vec3 f = schlickReflectance(l, p.c, eta);
     float chance = schlickChance(l, f);
-    SchlickEnergy k = schlickEnergy(l, wo.z);
+    if (!l.known) l = schlickAt(l, wo);
     LobeEval e;
-    e.value = select(f * k.kr, (vec3(1.0f) - f) * k.kt, reflects) * p.value;
+    e.value = select(f * l.kr, (vec3(1.0f) - f) * l.kt, reflects) * p.value;
     e.pdf = p.pdf * select(chance, 1.0f - chance, reflects);
     return e;
 }
@@ -124,8 +141,8 @@ PATINA_FN LobeSample schlickSample(SchlickLobe l, vec3 wo, vec3 u) {
     float eta = schlickEta(l, wo.z);
     bool mirror = l.alpha.x == 0.0f;
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
-    vec3 m = select(vec3(0.0f, 0.0f, 1.0f),
-                    ggxSampleVisible(o, max(l.alpha, vec2(ALPHA_MIRROR)), vec2(u.x, u.y)), mirror);
+    vec3 m = vec3(0.0f, 0.0f, 1.0f);
+    if (!mirror) m = ggxSampleVisible(o, l.alpha, vec2(u.x, u.y));
     float c = clamp(dot(o, m), 0.0f, 1.0f);
     vec3 f = schlickReflectance(l, c, eta);
     float chance = schlickChance(l, f);
@@ -133,12 +150,12 @@ PATINA_FN LobeSample schlickSample(SchlickLobe l, vec3 wo, vec3 u) {
     GgxBounce b = ggxBounce(o, m, c, l.alpha, eta, reflects);
     float p = select(chance, 1.0f - chance, reflects);
     if (!b.valid || p <= 0.0f) return lobeSampleNone();
-    SchlickEnergy k = schlickEnergy(l, wo.z);
+    if (!l.known) l = schlickAt(l, wo);
     bool isDelta = mirror || (!reflects && l.deltaT);
     float turn = select(l.retro, 1.0f, reflects);
     LobeSample s;
     s.wi = vec3(b.wi.x * turn, b.wi.y * turn, b.wi.z * side);
-    s.weight = select(f * k.kr, (vec3(1.0f) - f) * k.kt, reflects) * (b.ratio / p);
+    s.weight = select(f * l.kr, (vec3(1.0f) - f) * l.kt, reflects) * (b.ratio / p);
     s.pdf = select(1.0f, b.pdf, isDelta) * p;
     s.event = select(LOBE_REFLECT, LOBE_TRANSMIT, reflects) + select(LOBE_DELTA, 0, isDelta);
     s.eta = select(1.0f, 1.0f / eta, reflects);

@@ -1,0 +1,231 @@
+#include "hdDelegate/scene/colorSpaces.h"
+
+#include "hdDelegate/scene/colorSpacesBuiltin.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace ocio = OCIO_NAMESPACE;
+
+namespace patina {
+
+namespace {
+
+constexpr const char* renderingSpace = "lin_rec709";
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return text;
+}
+
+std::string oneLine(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+/// OCIO processors one after the other; none at all is the identity.
+class OcioTransform : public ColorTransform {
+public:
+    explicit OcioTransform(const std::vector<ocio::ConstProcessorRcPtr>& processors) {
+        // Lossless only: the default trades pow() for an approximation that is visible in ratios.
+        for (auto& p : processors)
+            if (!p->isNoOp())
+                _steps.push_back(p->getOptimizedCPUProcessor(ocio::OPTIMIZATION_LOSSLESS));
+    }
+    void apply(float* pixels, size_t count, int stride) const override {
+        constexpr size_t mostAtOnce = 1 << 20; // OCIO counts in long
+        for (size_t at = 0; at < count; at += mostAtOnce) {
+            long n = long(std::min(mostAtOnce, count - at));
+            ptrdiff_t step = stride * ptrdiff_t(sizeof(float));
+            ocio::PackedImageDesc image(pixels + at * size_t(stride), n, 1, 3,
+                                        ocio::BIT_DEPTH_F32, sizeof(float), step, step * n);
+            for (auto& s : _steps) s->apply(image);
+        }
+    }
+    bool isIdentity() const override { return _steps.empty(); }
+
+private:
+    std::vector<ocio::ConstCPUProcessorRcPtr> _steps;
+};
+
+ColorTransformPtr transformOf(const std::vector<ocio::ConstProcessorRcPtr>& processors) {
+    return std::make_shared<OcioTransform>(processors);
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (auto& n : names) text += (text.empty() ? "" : ", ") + n;
+    return text;
+}
+
+} // namespace
+
+struct ColorSpaces::Impl {
+    ocio::ConstConfigRcPtr builtin, user; ///< user is null without a configuration of the user's
+    std::string userRendering;            ///< the user's name of linear Rec.709, or what stands for it
+    bool bridge = false;                  ///< go through the interchange role instead of that name
+
+    const ocio::ConstConfigRcPtr& active() const { return user ? user : builtin; }
+    void findRenderingSpace();
+    ColorTransformPtr convert(const std::string& name, bool toRendering) const;
+};
+
+// A user's configuration need not say which of its spaces is linear Rec.709. Exact is the way over
+// ACES2065-1, if it names that; then the usual names; scene_linear is the last resort.
+void ColorSpaces::Impl::findRenderingSpace() {
+    if (user->hasRole(ocio::ROLE_INTERCHANGE_SCENE)) {
+        bridge = true;
+        return;
+    }
+    ocio::ConstColorSpaceRcPtr known = builtin->getColorSpace(renderingSpace);
+    std::vector<std::string> candidates = {renderingSpace};
+    for (size_t i = 0; i < known->getNumAliases(); ++i) candidates.push_back(known->getAlias(i));
+    for (auto& name : candidates) {
+        if (name == "linear" || !user->getColorSpace(name.c_str())) continue;
+        userRendering = name;
+        return;
+    }
+    userRendering = ocio::ROLE_SCENE_LINEAR;
+    if (!user->getColorSpace(userRendering.c_str()))
+        throw std::runtime_error("the OCIO configuration has no role scene_linear");
+}
+
+ColorTransformPtr ColorSpaces::Impl::convert(const std::string& name, bool toRendering) const {
+    if (isData(name)) return transformOf({});
+    try {
+        if (user && user->getColorSpace(name.c_str())) {
+            if (user->getColorSpace(name.c_str())->isData()) return transformOf({});
+            if (bridge)
+                return transformOf({toRendering ? ocio::Config::GetProcessorFromConfigs(
+                                                      user, name.c_str(), builtin, renderingSpace)
+                                                : ocio::Config::GetProcessorFromConfigs(
+                                                      builtin, renderingSpace, user, name.c_str())});
+            return transformOf({toRendering
+                                    ? user->getProcessor(name.c_str(), userRendering.c_str())
+                                    : user->getProcessor(userRendering.c_str(), name.c_str())});
+        }
+        if (!builtin->getColorSpace(name.c_str())) return nullptr;
+        return transformOf({toRendering ? builtin->getProcessor(name.c_str(), renderingSpace)
+                                        : builtin->getProcessor(renderingSpace, name.c_str())});
+    } catch (const ocio::Exception&) {
+        return nullptr;
+    }
+}
+
+ColorSpaces::ColorSpaces(const std::string& configFile) : _impl(new Impl) {
+    _impl->builtin = builtinColorConfig();
+    if (configFile.empty()) return;
+    try {
+        _impl->user = ocio::Config::CreateFromFile(configFile.c_str());
+        _impl->findRenderingSpace();
+    } catch (const std::exception& e) {
+        throw std::runtime_error("cannot use OCIO configuration '" + configFile +
+                                 "': " + oneLine(e.what()));
+    }
+}
+
+ColorSpaces::~ColorSpaces() = default;
+
+namespace {
+
+struct Shared {
+    std::unique_ptr<ColorSpaces> spaces;
+    std::string problem;
+    Shared() {
+        const char* file = std::getenv("OCIO");
+        try {
+            spaces = std::make_unique<ColorSpaces>(file ? file : "");
+        } catch (const std::exception& e) {
+            problem = std::string(e.what()) + "; the built-in colour spaces are used";
+            spaces = std::make_unique<ColorSpaces>();
+        }
+    }
+};
+
+const Shared& sharedSpaces() {
+    static const Shared shared;
+    return shared;
+}
+
+} // namespace
+
+const ColorSpaces& ColorSpaces::shared() { return *sharedSpaces().spaces; }
+
+const std::string& ColorSpaces::sharedProblem() { return sharedSpaces().problem; }
+
+bool ColorSpaces::isData(const std::string& name) {
+    static const char* const names[] = {"",     "raw",      "none",    "non-color",    "noncolor",
+                                        "data", "identity", "unknown", "utility - raw"};
+    std::string n = lower(name);
+    return std::any_of(std::begin(names), std::end(names), [&](const char* d) { return n == d; });
+}
+
+ColorTransformPtr ColorSpaces::toRendering(const std::string& name) const {
+    return _impl->convert(name, true);
+}
+
+ColorTransformPtr ColorSpaces::fromRendering(const std::string& name) const {
+    return _impl->convert(name, false);
+}
+
+ColorTransformPtr ColorSpaces::display(const std::string& display, const std::string& view) const {
+    const ocio::ConstConfigRcPtr& config = _impl->active();
+    std::string d = display.empty() ? config->getDefaultDisplay() : display;
+    std::vector<std::string> known = displays();
+    if (std::find(known.begin(), known.end(), d) == known.end())
+        throw std::runtime_error("unknown display '" + d + "'; known are " + listed(known));
+    std::string v = view.empty() ? config->getDefaultView(d.c_str()) : view;
+    known = views(d);
+    if (std::find(known.begin(), known.end(), v) == known.end())
+        throw std::runtime_error("display '" + d + "' has no view '" + v + "'; known are " +
+                                 listed(known));
+    try {
+        std::vector<ocio::ConstProcessorRcPtr> steps;
+        std::string source = _impl->user ? _impl->userRendering : renderingSpace;
+        if (_impl->user && _impl->bridge) {
+            source = ocio::ROLE_INTERCHANGE_SCENE;
+            steps.push_back(ocio::Config::GetProcessorFromConfigs(_impl->builtin, renderingSpace,
+                                                                  config, source.c_str()));
+        }
+        auto transform = ocio::DisplayViewTransform::Create();
+        transform->setSrc(source.c_str());
+        transform->setDisplay(d.c_str());
+        transform->setView(v.c_str());
+        steps.push_back(config->getProcessor(transform));
+        return transformOf(steps);
+    } catch (const ocio::Exception& e) {
+        throw std::runtime_error("display '" + d + "', view '" + v + "': " + oneLine(e.what()));
+    }
+}
+
+std::vector<std::string> ColorSpaces::displays() const {
+    const ocio::ConstConfigRcPtr& config = _impl->active();
+    std::vector<std::string> names;
+    for (int i = 0; i < config->getNumDisplays(); ++i) names.push_back(config->getDisplay(i));
+    return names;
+}
+
+std::vector<std::string> ColorSpaces::views(const std::string& display) const {
+    const ocio::ConstConfigRcPtr& config = _impl->active();
+    std::vector<std::string> names;
+    for (int i = 0; i < config->getNumViews(display.c_str()); ++i)
+        names.push_back(config->getView(display.c_str(), i));
+    return names;
+}
+
+std::vector<std::string> ColorSpaces::names() const {
+    std::vector<std::string> names;
+    for (auto* config : {&_impl->user, &_impl->builtin}) {
+        if (!*config) continue;
+        for (int i = 0; i < (*config)->getNumColorSpaces(); ++i) {
+            std::string name = (*config)->getColorSpaceNameByIndex(i);
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        }
+    }
+    return names;
+}
+
+} // namespace patina

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// Turns pixels of one colour space into another. Immutable, thread safe.
+class ColorTransform {
+public:
+    virtual ~ColorTransform() = default;
+    /// Converts in place the first three floats of each pixel; what follows them (alpha) stays.
+    /// @param stride floats from one pixel to the next, at least 3
+    virtual void apply(float* pixels, size_t count, int stride) const = 0;
+    virtual bool isIdentity() const = 0;
+};
+
+using ColorTransformPtr = std::shared_ptr<const ColorTransform>;
+
+/// The colour spaces of an OCIO configuration, seen from the rendering space, which is linear
+/// Rec.709 (D65).
+///
+/// The built-in configuration knows the names of MaterialX 1.39, of USD's GfColorSpace and the
+/// usual ones of the ACES configurations. With a configuration of the user's, its names come
+/// first, and the built-in ones hold for names that it lacks. "raw", "none", "Non-Color", "data",
+/// "identity", "unknown" and the empty name mean data that is never converted, in any
+/// configuration. Upper and lower case are the same.
+class ColorSpaces {
+public:
+    /// @param configFile an OCIO configuration; empty for the built-in one alone
+    /// @throws std::runtime_error when it cannot be read
+    explicit ColorSpaces(const std::string& configFile = {});
+    ~ColorSpaces();
+
+    /// What the environment variable OCIO names, else the built-in configuration.
+    static const ColorSpaces& shared();
+    /// Why the file that OCIO names could not be used by shared(); empty when all is well.
+    static const std::string& sharedProblem();
+
+    static bool isData(const std::string& name);
+    /// @returns null for an unknown name
+    ColorTransformPtr toRendering(const std::string& name) const;
+    ColorTransformPtr fromRendering(const std::string& name) const;
+
+    /// From the rendering space to the signal of a display. Empty names take the default of the
+    /// configuration; the built-in default is display "sRGB", view "Standard", which has no tone
+    /// curve. Values above 1 stay above 1.
+    /// @throws std::runtime_error naming what is unknown, and what is known
+    ColorTransformPtr display(const std::string& display = {}, const std::string& view = {}) const;
+
+    std::vector<std::string> displays() const;
+    std::vector<std::string> views(const std::string& display) const;
+    std::vector<std::string> names() const; ///< of all colour spaces, without aliases
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> _impl;
+};
+
+} // namespace patina

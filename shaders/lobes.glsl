@@ -7,6 +7,7 @@
 #include "shaders/lib/ggx.glsl"
 #include "shaders/lib/albedoTable.glsl"
 #include "shaders/lib/schlickAlbedo.glsl"
+#include "shaders/lib/conductorAlbedo.glsl"
 #include "shaders/lib/energy.glsl"
 #include "shaders/lobes/orenNayarDiffuse.glsl"
 #include "shaders/lobes/burleyDiffuse.glsl"

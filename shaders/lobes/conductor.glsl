@@ -13,21 +13,6 @@ struct ConductorLobe {
     vec3 k;     // factor for multiple scattering
 };
 
-// F by the curve f0 + (1 - f0) (1 - c)^5 - dip c (1 - c)^6 through the exact values at c = 1, 1/7
-// and 0 (Kutz, Hasan and Edmondson 2021).
-PATINA_FN SchlickFresnel conductorFit(vec3 ior, vec3 extinction) {
-    SchlickFresnel s;
-    s.f0 = fresnelConductor(1.0f, ior, extinction);
-    s.f90 = vec3(1.0f);
-    s.exponent = 5.0f;
-    s.dip = vec3(0.0f);
-    float x = 6.0f / 7.0f;
-    float x6 = (x * x) * (x * x) * (x * x);
-    s.dip = (fresnelSchlick(1.0f / 7.0f, s) - fresnelConductor(1.0f / 7.0f, ior, extinction)) *
-            (7.0f / x6);
-    return s;
-}
-
 // ior, extinction: complex ior per channel, relative to the medium outside; not negative.
 // roughness: GGX alpha along x and y.
 PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness,
@@ -35,7 +20,7 @@ PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness
     ConductorLobe l;
     l.ior = min(max(ior, vec3(0.0f)), vec3(IOR_MAX));
     l.extinction = min(max(extinction, vec3(0.0f)), vec3(IOR_MAX));
-    l.favg = fresnelSchlickAverage(conductorFit(l.ior, l.extinction));
+    l.favg = conductorAverage(l.ior, l.extinction);
     l.alpha = ggxAlpha(roughness);
     l.retro = select(-1.0f, 1.0f, retroreflective);
     l.compensate = compensate;
@@ -85,6 +70,6 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
 PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
     if (l.alpha.x == 0.0f) return fresnelConductor(wo.z, l.ior, l.extinction);
-    SchlickFresnel f = conductorFit(l.ior, l.extinction);
-    return schlickMoments(wo.z, ggxAlphaMean(l.alpha), f) * conductorAt(l, wo).k;
+    vec3 single = conductorMoments(wo.z, ggxAlphaMean(l.alpha), l.ior, l.extinction);
+    return single * conductorAt(l, wo).k;
 }

@@ -34,6 +34,11 @@ struct RenderSettings {
     bool domeLightCameraVisibility = true;
     float edgeLength = 2.0f; ///< pixels; subdivision refines until edges are this short
 
+    std::vector<std::string> aovs; ///< besides color and alpha: names of standardAov()
+
+    std::string checkpointFile;    ///< the renderer saves the film here now and then; empty: never
+    double checkpointSeconds = 60.0;
+
     std::map<std::string, std::string> methods; ///< choice point -> method, forced by the user
 };
 

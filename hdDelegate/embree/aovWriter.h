@@ -1,0 +1,20 @@
+#pragma once
+
+#include "hdDelegate/embree/cameraRays.h"
+#include "hdDelegate/embree/surface.h"
+#include "hdDelegate/film/film.h"
+
+namespace patina {
+
+/// Where one camera sample writes.
+struct AovTarget {
+    Film& film;
+    int x, y;
+    float distance; ///< from the pixel's centre
+};
+
+/// Writes every AOV but colour and alpha for the first surface that a camera ray meets.
+void writeAovs(const std::vector<AovSpec>& aovs, const AovTarget& target,
+               const CameraRays& camera, const SurfacePoint& point, const Bsdf& bsdf);
+
+} // namespace patina

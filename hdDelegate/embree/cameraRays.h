@@ -1,0 +1,53 @@
+#pragma once
+
+#include "hdDelegate/scene/camera.h"
+#include "hdDelegate/scene/settings.h"
+
+namespace patina {
+
+/// A ray of the camera, with the widening of its cone.
+struct CameraRay {
+    vec3 origin{0.0f};
+    vec3 direction{0, 0, -1};
+    float near = 0.0f, far = 0.0f; ///< distances along direction
+    float time = 0.0f;             ///< 0 shutter open, 1 shutter close
+    float coneWidth = 0.0f;        ///< at the origin, scene units
+    float coneSpread = 0.0f;       ///< growth per unit of distance
+};
+
+/// Makes rays for a camera and an image. The conform policy of the settings decides which aperture
+/// yields when the image has another shape.
+class CameraRays {
+public:
+    CameraRays(const Camera& camera, const RenderSettings& settings);
+
+    /// @param pixel image position in pixels, (0,0) is the top left corner of the top left pixel
+    /// @param lens two numbers for the lens, in [0,1)
+    /// @param time in [0,1)
+    CameraRay ray(vec2 pixel, vec2 lens, float time) const;
+
+    const mat4& worldToCamera() const { return _worldToCamera; } ///< at the middle of the shutter
+    /// Depth in [0,1] as OpenGL's default window depth, of a camera space point.
+    float windowDepth(const vec3& cameraPoint) const;
+    /// The angle (radians; world units when orthographic) that one pixel covers.
+    float pixelSpread() const { return _pixelSpread; }
+    bool orthographic() const { return _camera.orthographic; }
+    const Camera& camera() const { return _camera; }
+
+private:
+    mat4 transformAt(float time) const;
+
+    Camera _camera;
+    bool _dof, _moves;
+    float _shutterOpen, _shutterLength;
+    vec2 _imageSize;
+    vec2 _windowMin, _windowMax; ///< at distance 1 (perspective) or in units (orthographic)
+    float _lensRadius = 0.0f;
+    float _pixelSpread = 0.0f;
+    mat4 _worldToCamera{1.0f};
+};
+
+/// Value of a sampled quantity at a time, linear between samples and constant outside.
+mat4 interpolate(const MotionTransform& transform, float time);
+
+} // namespace patina

@@ -1,0 +1,229 @@
+#include "hdDelegate/embree/embreeRenderer.h"
+
+#include <tbb/parallel_for_each.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace patina {
+
+namespace {
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace
+
+std::unique_ptr<Renderer> makeRenderer(const std::string& backend) {
+    if (backend == "embree")
+        return std::make_unique<EmbreeRenderer>();
+    return nullptr;
+}
+
+EmbreeRenderer::EmbreeRenderer() = default;
+
+EmbreeRenderer::~EmbreeRenderer() { stop(); }
+
+void EmbreeRenderer::start(std::shared_ptr<Scene> scene, const std::string& camera,
+                           const RenderSettings& settings, std::shared_ptr<Film> film) {
+    stop();
+    std::lock_guard<std::mutex> control(_control);
+    _scene = std::move(scene);
+    _film = std::move(film);
+    _settings = settings;
+    _stop = _interrupt = _pause = false;
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        _progress = RenderProgress();
+        _idle = false;
+    }
+    _rays = _shadowRays = _paths = 0;
+    _running = true;
+    _started = _sampling = _lastCheckpoint = Clock::now();
+    _thread = std::thread(&EmbreeRenderer::run, this, _scene->snapshot(), camera);
+}
+
+void EmbreeRenderer::stop() {
+    std::lock_guard<std::mutex> control(_control);
+    _stop = _interrupt = true;
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        _pause = false;
+    }
+    _changed.notify_all();
+    if (_thread.joinable())
+        _thread.join();
+}
+
+void EmbreeRenderer::pause() {
+    std::unique_lock<std::mutex> lock(_mutex);
+    _pause = _interrupt = true;
+    _changed.wait(lock, [&] { return _idle || !_running; });
+}
+
+void EmbreeRenderer::resume() {
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        _pause = false;
+    }
+    _changed.notify_all();
+}
+
+void EmbreeRenderer::wait() {
+    std::unique_lock<std::mutex> lock(_mutex);
+    _changed.wait(lock, [&] { return !_running; });
+}
+
+RenderProgress EmbreeRenderer::progress() const {
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _progress;
+}
+
+void EmbreeRenderer::fail(const std::string& reason) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _progress.failed = true;
+    _progress.error = reason;
+}
+
+void EmbreeRenderer::run(std::shared_ptr<const SceneState> state, std::string cameraPath) {
+    try {
+        if (_settings.width < 1 || _settings.height < 1)
+            throw std::runtime_error("the image has no pixels");
+        const auto camera = state->cameras.find(cameraPath);
+        if (camera == state->cameras.end())
+            throw std::runtime_error("there is no camera " + cameraPath);
+        render(*state, *camera->second);
+    } catch (const std::exception& error) {
+        fail(error.what());
+    }
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        _running = false;
+        _idle = true;
+    }
+    _changed.notify_all();
+}
+
+bool EmbreeRenderer::waitWhilePaused() {
+    std::unique_lock<std::mutex> lock(_mutex);
+    if (_pause) {
+        _idle = true;
+        _changed.notify_all();
+        _changed.wait(lock, [&] { return !_pause; });
+        _idle = false;
+    }
+    _interrupt = bool(_stop);
+    return !_stop;
+}
+
+void EmbreeRenderer::maybeCheckpoint() {
+    if (_settings.checkpointFile.empty() ||
+        secondsSince(_lastCheckpoint) < _settings.checkpointSeconds)
+        return;
+    _film->saveCheckpoint(_settings.checkpointFile);
+    _lastCheckpoint = Clock::now();
+}
+
+void EmbreeRenderer::publish(const TileSchedule& schedule) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _progress.fraction = schedule.fraction();
+    _progress.samplesDone = schedule.samplesDone();
+    _progress.secondsRendering = secondsSince(_sampling);
+    _progress.secondsLeft = _progress.fraction > 0.0 ? _progress.secondsRendering *
+                                                           (1.0 - _progress.fraction) /
+                                                           _progress.fraction
+                                                     : 0.0;
+    _progress.statistics["rays"] = double(_rays + _shadowRays);
+    _progress.statistics["shadowRays"] = double(_shadowRays);
+    _progress.statistics["paths"] = double(_paths);
+    _progress.statistics["droppedSamples"] = double(_film->droppedSamples());
+}
+
+void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& schedule, int tile) {
+    if (_interrupt)
+        return;
+    const int target = schedule.target(tile);
+    const Tile& t = schedule.tiles()[tile];
+    TraceCounters counters;
+    // The last pixel of the tile is done last: its count tells how far the whole tile is.
+    for (int y = t.y0; y < t.y1 && !_interrupt; ++y)
+        for (int x = t.x0; x < t.x1; ++x)
+            for (int i = int(_film->sampleCount(x, y)); i < target; ++i)
+                integrator.sample(*_film, x, y, uint32_t(i), counters);
+    _rays += counters.rays;
+    _shadowRays += counters.shadowRays;
+    _paths += counters.paths;
+}
+
+void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
+    const auto buildStart = Clock::now();
+    if (!_textures || _builtFor != _scene) {
+        _embree.reset();
+        _textures = std::make_unique<TextureSystem>(_scene->diagnostics());
+        _embree = std::make_unique<EmbreeScene>(_scene->diagnostics());
+        _builtFor = _scene;
+    }
+    tbb::task_arena arena(_settings.threads > 0 ? _settings.threads
+                                                : int(tbb::task_arena::automatic));
+    std::unique_ptr<LightSet> lights;
+    arena.execute([&] {
+        _embree->update(state, camera, _settings, *_textures, _stop);
+        if (!_stop)
+            lights = makeLights(state, *_embree, _settings, _scene->diagnostics());
+    });
+    if (_stop)
+        return;
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        _progress.statistics["secondsBuild"] = secondsSince(buildStart);
+        _progress.statistics["trianglesStored"] = double(_embree->trianglesStored());
+        _progress.statistics["instances"] = double(_embree->instanceCount());
+    }
+
+    std::vector<AovSpec> aovs;
+    for (const std::string& name : _settings.aovs)
+        if (name != "color" && name != "alpha" && name != "sampleCount" && name != "variance")
+            aovs.push_back(standardAov(name));
+    _film->reset(_settings.width, _settings.height, aovs, true);
+
+    const CameraRays rays(camera, _settings);
+    const Integrator integrator(*_embree, *lights, rays, _settings, aovs);
+    TileSchedule schedule(*_film, _settings);
+    _sampling = _lastCheckpoint = Clock::now();
+    const auto outOfTime = [&] {
+        return _settings.seconds > 0.0 && secondsSince(_started) > _settings.seconds;
+    };
+    bool haveImage = schedule.samplesDone() > 0; // the time limit never leaves holes
+    while (!_stop) {
+        const std::vector<int> tiles = schedule.pending();
+        if (tiles.empty())
+            break;
+        arena.execute([&] {
+            tbb::parallel_for_each(tiles.begin(), tiles.end(), [&](int tile) {
+                renderTile(integrator, schedule, tile);
+                if (haveImage && outOfTime())
+                    _interrupt = true;
+                if (!_settings.checkpointFile.empty() &&
+                    secondsSince(_lastCheckpoint) > _settings.checkpointSeconds)
+                    _interrupt = true;
+            });
+        });
+        publish(schedule);
+        maybeCheckpoint();
+        if (!waitWhilePaused())
+            return;
+        haveImage = haveImage || schedule.samplesDone() > 0;
+        if (haveImage && outOfTime())
+            break;
+    }
+    if (_stop)
+        return;
+    publish(schedule);
+    std::lock_guard<std::mutex> lock(_mutex);
+    _progress.converged = true;
+    _progress.fraction = 1.0;
+    _progress.secondsLeft = 0.0;
+}
+
+} // namespace patina

@@ -1,0 +1,105 @@
+#pragma once
+
+#include "hdDelegate/embree/embreeGroup.h"
+#include "hdDelegate/scene/camera.h"
+#include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/settings.h"
+#include "materialNetwork/textureSource.h"
+
+#include <atomic>
+#include <map>
+
+namespace patina {
+
+enum RayMask : unsigned { RayCamera = 1, RayIndirect = 2, RayShadow = 4 };
+
+/// A triangle that emits light, in world space.
+struct EmissiveTriangle {
+    const Surface* surface;
+    unsigned primitive;
+    vec3 vertices[3];
+    mat4 groupToWorld;
+    bool instanced;
+};
+
+/// Embree's view of a scene: prims in the world are baked into one acceleration structure,
+/// prototypes into one each, and instances refer to them, nested to any depth.
+class EmbreeScene {
+public:
+    explicit EmbreeScene(Diagnostics& diagnostics);
+    ~EmbreeScene();
+    EmbreeScene(const EmbreeScene&) = delete;
+    EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+    /// Brings the structures to a state of the scene. Prims, materials and prototypes that did not
+    /// change since the last call are kept.
+    /// @param stop is polled; the build gives up early when it becomes true
+    void update(const SceneState& state, const Camera& camera, const RenderSettings& settings,
+                TextureSource& textures, const std::atomic<bool>& stop);
+
+    /// The nearest hit. @param far in: largest distance
+    bool intersect(const vec3& origin, const vec3& direction, float near, float far, float time,
+                   unsigned mask, Hit& hit) const;
+    /// Whether anything blocks the way. Only valid as an answer when allOpaque().
+    bool occluded(const vec3& origin, const vec3& direction, float near, float far, float time,
+                  unsigned mask) const;
+
+    bool allOpaque() const { return _allOpaque; } ///< no material lets shadow rays through
+    const std::vector<EmissiveTriangle>& emissiveTriangles() const { return _emissive; }
+    /// World transforms of a group (for lights inside prototypes).
+    std::vector<mat4> groupTransforms(const std::string& group) const;
+    int category(const std::string& name) const; ///< interned; -1 when nothing belongs to it
+    vec3 boundsMin() const { return _boundsMin; }
+    vec3 boundsMax() const { return _boundsMax; }
+    size_t trianglesStored() const { return _trianglesStored; }
+    size_t instanceCount() const { return _instanceCount; }
+    /// The surface of a prim (for mesh lights); null when there is none.
+    const Surface* surfaceOf(const std::string& path) const;
+
+private:
+    int intern(const std::string& category);
+    std::vector<int> intern(const std::vector<std::string>& categories);
+    MaterialSlot makeSlot(const Surface& surface, const std::string& materialPath,
+                          const SceneState& state, const RenderSettings& settings,
+                          TextureSource& textures);
+    std::shared_ptr<const MaterialProgram> program(const std::string& path, const std::string& user,
+                                                   const SceneState& state,
+                                                   const RenderSettings& settings,
+                                                   TextureSource& textures);
+    std::shared_ptr<Surface> shape(const std::shared_ptr<const Geometry>& prim,
+                                   float edgeLength) const;
+    std::shared_ptr<InstancerNode> node(const std::shared_ptr<const Instancer>& prim);
+    EmbreeGroup* buildGroup(const std::string& name, int depth);
+    void gatherTransforms(const std::string& group, const mat4& tail, int depth,
+                          std::vector<mat4>& out) const;
+    void collectEmissive();
+    bool finishHit(const RTCRayHit& rayHit, const TraceContext& context, Hit& hit) const;
+
+    struct CachedSurface {
+        std::shared_ptr<const Geometry> prim;
+        float edgeLength = 0.0f;
+        std::shared_ptr<Surface> surface;
+    };
+    struct CachedProgram {
+        std::shared_ptr<const MaterialPrim> prim;
+        std::shared_ptr<const MaterialProgram> program;
+    };
+
+    Diagnostics& _diagnostics;
+    RTCDevice _device = nullptr;
+    std::map<std::string, CachedSurface> _surfaces;
+    std::map<std::string, CachedProgram> _programs;
+    std::map<std::string, std::unique_ptr<EmbreeGroup>> _groups; ///< by name; "" is the world
+    std::map<std::string, std::vector<std::shared_ptr<Surface>>> _surfacesOf;     ///< by group
+    std::map<std::string, std::vector<std::shared_ptr<const Instancer>>> _instancersOf;
+    std::map<std::string, bool> _building;
+    EmbreeGroup* _world = nullptr;
+    std::vector<EmissiveTriangle> _emissive;
+    std::map<std::string, int> _categoryIds;
+    float _shutterOpen = 0.0f, _shutterClose = 0.0f;
+    bool _allOpaque = true;
+    vec3 _boundsMin{0.0f}, _boundsMax{0.0f};
+    size_t _trianglesStored = 0, _instanceCount = 0;
+};
+
+} // namespace patina

@@ -1,0 +1,194 @@
+#include "hdDelegate/embree/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+vec3 safeNormalize(const vec3& v, const vec3& fallback) {
+    const float length = glm::length(v);
+    return length > 1e-30f && std::isfinite(length) ? v / length : fallback;
+}
+
+/// Any pair of unit vectors orthogonal to n (Duff et al. 2017).
+void orthonormal(const vec3& n, vec3& t, vec3& b) {
+    const float sign = std::copysign(1.0f, n.z);
+    const float a = -1.0f / (sign + n.z);
+    const float c = n.x * n.y * a;
+    t = vec3(1.0f + sign * n.x * n.x * a, sign * c, -sign * n.x);
+    b = vec3(c, sign + n.y * n.y * a, -n.y);
+}
+
+template <class T> struct StepPair {
+    const std::vector<T>* a;
+    const std::vector<T>* b;
+    float f;
+    T at(size_t i) const { return f == 0.0f ? (*a)[i] : (*a)[i] * (1.0f - f) + (*b)[i] * f; }
+};
+
+template <class T> StepPair<T> stepsAt(const std::vector<std::vector<T>>& steps, float time) {
+    if (steps.size() == 1)
+        return {&steps[0], &steps[0], 0.0f};
+    const float x = std::clamp(time, 0.0f, 1.0f) * float(steps.size() - 1);
+    const size_t i = std::min(size_t(x), steps.size() - 2);
+    return {&steps[i], &steps[i + 1], x - float(i)};
+}
+
+/// Local geometry of a hit, in group space.
+struct Local {
+    vec3 position, geometricNormal, normal, dPdu{0.0f}, dPdv{0.0f};
+    float uvPerLength = 0.0f;
+};
+
+Local triangleLocal(const Hit& hit) {
+    const Surface& surface = *hit.surface;
+    const TriangleMesh& mesh = surface.mesh;
+    const uvec3 tri = mesh.triangles[hit.primitive];
+    const auto positions = stepsAt(mesh.positions, hit.time);
+    const vec3 p[3] = {positions.at(tri.x), positions.at(tri.y), positions.at(tri.z)};
+    const float w = 1.0f - hit.u - hit.v;
+    Local local;
+    local.position = p[0] * w + p[1] * hit.u + p[2] * hit.v;
+    vec3 ng = glm::cross(p[1] - p[0], p[2] - p[0]);
+    const float area2 = glm::length(ng);
+    if (surface.flipNormals)
+        ng = -ng;
+    local.geometricNormal = safeNormalize(ng, vec3(0, 0, 1));
+    local.normal = local.geometricNormal;
+    if (!mesh.normals.empty()) {
+        const auto normals = stepsAt(mesh.normals, hit.time);
+        vec3 n;
+        if (mesh.normalRate == MeshAttribute::Rate::PerCorner) {
+            const size_t c = size_t(hit.primitive) * 3;
+            n = normals.at(c) * w + normals.at(c + 1) * hit.u + normals.at(c + 2) * hit.v;
+        } else if (mesh.normalRate == MeshAttribute::Rate::PerFace) {
+            n = normals.at(mesh.triangleFace[hit.primitive]);
+        } else {
+            n = normals.at(tri.x) * w + normals.at(tri.y) * hit.u + normals.at(tri.z) * hit.v;
+        }
+        local.normal = safeNormalize(n, local.geometricNormal);
+    }
+    float uv[3][4];
+    if (surface.stAttribute >= 0 &&
+        readAttribute(surface, surface.stAttribute, hit.primitive, 0, 0, uv[0]) &&
+        readAttribute(surface, surface.stAttribute, hit.primitive, 1, 0, uv[1]) &&
+        readAttribute(surface, surface.stAttribute, hit.primitive, 0, 1, uv[2])) {
+        const float du1 = uv[1][0] - uv[0][0], dv1 = uv[1][1] - uv[0][1];
+        const float du2 = uv[2][0] - uv[0][0], dv2 = uv[2][1] - uv[0][1];
+        const float determinant = du1 * dv2 - du2 * dv1;
+        if (determinant != 0.0f && std::isfinite(determinant)) {
+            local.dPdu = ((p[1] - p[0]) * dv2 - (p[2] - p[0]) * dv1) / determinant;
+            local.dPdv = ((p[2] - p[0]) * du1 - (p[1] - p[0]) * du2) / determinant;
+            local.uvPerLength = std::sqrt(std::abs(determinant) / std::max(area2, 1e-30f));
+        }
+    }
+    return local;
+}
+
+Local curveLocal(const Hit& hit, const vec3& position) {
+    Local local;
+    local.position = position;
+    local.geometricNormal = local.normal = safeNormalize(hit.groupNormal, vec3(0, 0, 1));
+    return local;
+}
+
+} // namespace
+
+int Surface::findAttribute(const std::string& name) const {
+    const auto& list = attributes();
+    for (size_t i = 0; i < list.size(); ++i)
+        if (list[i].name == name)
+            return int(i);
+    return -1;
+}
+
+const MaterialSlot& Surface::material(unsigned primitive) const {
+    const auto& subsets = shape == Shape::Triangles ? mesh.triangleSubset
+                          : shape == Shape::Curves  ? curves.segmentSubset
+                                                    : points.pointSubset;
+    const size_t subset = primitive < subsets.size() ? subsets[primitive] : 0;
+    return materials[subset < materials.size() ? subset : 0];
+}
+
+int Surface::element(unsigned primitive) const {
+    if (shape == Shape::Triangles)
+        return mesh.triangleFace[primitive];
+    return shape == Shape::Curves ? curves.segmentCurve[primitive] : points.pointIndex[primitive];
+}
+
+bool SurfacePoint::read(int slotIndex, float out[4]) const {
+    const int attribute = slot->attributes[slotIndex];
+    return attribute >= 0 &&
+           readAttribute(*hit->surface, attribute, hit->primitive, hit->u, hit->v, out);
+}
+
+void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& direction,
+                         float coneWidth, SurfacePoint& out) {
+    const Surface& surface = *hit.surface;
+    const vec3 worldHit = origin + direction * hit.distance;
+    Local local;
+    vec3 position = worldHit;
+    mat3 normalMatrix(1.0f), tangentMatrix(1.0f);
+    if (hit.instanced) {
+        tangentMatrix = mat3(hit.groupToWorld);
+        normalMatrix = glm::transpose(glm::inverse(tangentMatrix));
+    }
+    if (surface.shape == Surface::Shape::Triangles) {
+        local = triangleLocal(hit);
+        position = hit.instanced ? vec3(hit.groupToWorld * vec4(local.position, 1.0f))
+                                 : local.position;
+    } else {
+        const vec3 groupPosition =
+            hit.instanced ? vec3(glm::inverse(hit.groupToWorld) * vec4(worldHit, 1.0f)) : worldHit;
+        local = curveLocal(hit, groupPosition);
+    }
+
+    ShadingPoint& s = out.shading;
+    out.hit = &hit;
+    out.slot = &surface.material(hit.primitive);
+    s.primvars = &out;
+    s.position = position;
+    s.objectPosition = vec3(surface.groupToObject * vec4(local.position, 1.0f));
+    s.geometricNormal = local.geometricNormal;
+    s.normal = local.normal;
+    if (hit.instanced) {
+        s.geometricNormal = safeNormalize(normalMatrix * local.geometricNormal, vec3(0, 0, 1));
+        s.normal = safeNormalize(normalMatrix * local.normal, s.geometricNormal);
+    }
+    s.viewDirection = -direction;
+    // Ribbons and discs are seen from both sides alike.
+    const bool flat = !surface.curves.normals.empty() || !surface.points.normals.empty();
+    if (flat && glm::dot(s.geometricNormal, s.viewDirection) < 0.0f) {
+        s.geometricNormal = -s.geometricNormal;
+        s.normal = -s.normal;
+    }
+    if (glm::dot(s.normal, s.geometricNormal) < 0.0f)
+        s.normal = -s.normal;
+
+    vec3 t = tangentMatrix * local.dPdu, b = tangentMatrix * local.dPdv;
+    t -= s.normal * glm::dot(s.normal, t);
+    const float length = glm::length(t);
+    if (length > 1e-20f && std::isfinite(length)) {
+        s.tangent = t / length;
+        const vec3 across = glm::cross(s.normal, s.tangent);
+        s.bitangent = glm::dot(across, b) < 0.0f ? -across : across;
+    } else {
+        orthonormal(s.normal, s.tangent, s.bitangent);
+    }
+    s.objectToWorldNormal =
+        normalMatrix * glm::transpose(mat3(surface.groupToObject));
+    const float scale = hit.instanced ? std::cbrt(std::abs(glm::determinant(tangentMatrix))) : 1.0f;
+    const float cosine = std::max(0.1f, std::abs(glm::dot(s.geometricNormal, s.viewDirection)));
+    s.uvFootprint =
+        local.uvPerLength * coneWidth / (std::max(scale, 1e-20f) * std::sqrt(cosine));
+
+    const vec3 magnitude = glm::abs(s.position);
+    const float largest =
+        std::max({magnitude.x, magnitude.y, magnitude.z, hit.distance * 0.25f});
+    const bool analytic = surface.shape != Surface::Shape::Triangles;
+    out.offset = largest * (analytic ? 1e-4f : 4e-6f);
+}
+
+} // namespace patina

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "hdDelegate/scene/geometry.h"
+#include "hdDelegate/scene/triangleMesh.h"
+#include "materialNetwork/cpu/materialProgram.h"
+#include "materialNetwork/cpu/shadingPoint.h"
+
+#include <memory>
+
+namespace patina {
+
+/// A material as one prim uses it: the program, and where its primvars are found on the prim.
+struct MaterialSlot {
+    std::shared_ptr<const MaterialProgram> program;
+    std::vector<int> attributes; ///< per program->primvars(): index of the prim's attribute, or -1
+};
+
+/// A prim made ready for rays. Positions and normals are those of its group's space (world space
+/// for prims that are not instanced).
+struct Surface {
+    std::shared_ptr<const Geometry> prim;
+    TriangleMesh mesh;
+    CurveSet curves;
+    PointSet points;
+    std::vector<MaterialSlot> materials; ///< [0] the prim's, [i + 1] that of subset i
+    mat4 groupToObject{1.0f};            ///< at the middle of the shutter
+    bool flipNormals = false;            ///< the baked transform mirrors: windings turn
+    int primId = 0;                      ///< for the AOV: rank of the prim's path
+    std::vector<int> categories;         ///< interned names, sorted
+    int stAttribute = -1;
+
+    enum class Shape { Triangles, Curves, Points } shape = Shape::Triangles;
+
+    const std::vector<MeshAttribute>& attributes() const {
+        return shape == Shape::Triangles ? mesh.attributes
+               : shape == Shape::Curves  ? curves.attributes
+                                         : points.attributes;
+    }
+    int findAttribute(const std::string& name) const;
+    const MaterialSlot& material(unsigned primitive) const;
+    int element(unsigned primitive) const; ///< authored face, curve or point index
+};
+
+/// One hit of a ray, before anything is computed from it.
+struct Hit {
+    const Surface* surface = nullptr;
+    unsigned primitive = 0;
+    float u = 0.0f, v = 0.0f, distance = 0.0f, time = 0.0f;
+    vec3 groupNormal{0.0f};   ///< Embree's geometric normal, group space, not normalised
+    bool instanced = false;
+    mat4 groupToWorld{1.0f};
+    int instanceId = -1;
+    const std::vector<int>* instanceCategories = nullptr;
+};
+
+/// Reads an attribute of a surface at a hit. @returns false when the attribute has no value there.
+bool readAttribute(const Surface& surface, int attribute, unsigned primitive, float u, float v,
+                   float out[4]);
+
+/// Everything about the surface at a hit; also the reader of its primvars.
+struct SurfacePoint : PrimvarReader {
+    const Hit* hit = nullptr;
+    const MaterialSlot* slot = nullptr;
+    ShadingPoint shading;
+    float offset = 0.0f; ///< distance by which rays that leave start off the surface
+
+    bool read(int slotIndex, float out[4]) const override;
+};
+
+/// Fills a surface point.
+/// @param origin,direction of the ray in world space
+/// @param coneWidth of the ray at the hit, scene units
+void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& direction,
+                         float coneWidth, SurfacePoint& out);
+
+} // namespace patina

@@ -1,0 +1,90 @@
+#include "hdDelegate/embree/tileSchedule.h"
+
+#include <algorithm>
+#include <climits>
+#include <cmath>
+
+namespace patina {
+
+TileSchedule::TileSchedule(const Film& film, const RenderSettings& settings)
+    : _film(film), _samples(std::max(1, settings.samples)),
+      _minSamples(std::max(2, settings.minSamples)), _tolerance(settings.tolerance) {
+    int x0 = 0, y0 = 0, x1 = film.width(), y1 = film.height();
+    if (settings.dataWindow[2] >= settings.dataWindow[0] &&
+        settings.dataWindow[3] >= settings.dataWindow[1]) {
+        x0 = std::clamp(settings.dataWindow[0], 0, x1);
+        y0 = std::clamp(settings.dataWindow[1], 0, y1);
+        x1 = std::clamp(settings.dataWindow[2] + 1, x0, x1);
+        y1 = std::clamp(settings.dataWindow[3] + 1, y0, y1);
+    }
+    for (int y = y0; y < y1; y += tileSize)
+        for (int x = x0; x < x1; x += tileSize)
+            _tiles.push_back({x, y, std::min(x + tileSize, x1), std::min(y + tileSize, y1)});
+}
+
+int TileSchedule::nextStep(int samples, int most) {
+    const int next = samples == 0 ? 1 : samples < 16 ? samples * 2 : (samples / 16 + 1) * 16;
+    return std::min(next, most);
+}
+
+int TileSchedule::count(int tile) const {
+    const Tile& t = _tiles[tile];
+    return int(_film.sampleCount(t.x1 - 1, t.y1 - 1)); // the pixel that is rendered last
+}
+
+int TileSchedule::target(int tile) const {
+    const int done = count(tile);
+    if (done >= _samples)
+        return 0;
+    if (_tolerance > 0.0 && done >= _minSamples && relativeError(_tiles[tile]) <= _tolerance)
+        return 0;
+    return nextStep(done, _samples);
+}
+
+std::vector<int> TileSchedule::pending() const {
+    std::vector<int> targets(_tiles.size());
+    int lowest = INT_MAX;
+    for (size_t i = 0; i < _tiles.size(); ++i) {
+        targets[i] = target(int(i));
+        if (targets[i] > 0)
+            lowest = std::min(lowest, targets[i]);
+    }
+    std::vector<int> result;
+    for (size_t i = 0; i < _tiles.size(); ++i)
+        if (targets[i] > 0 && targets[i] <= lowest)
+            result.push_back(int(i));
+    return result;
+}
+
+double TileSchedule::fraction() const {
+    double done = 0.0;
+    for (size_t i = 0; i < _tiles.size(); ++i)
+        done += target(int(i)) == 0 ? 1.0 : double(count(int(i))) / _samples;
+    return _tiles.empty() ? 1.0 : done / double(_tiles.size());
+}
+
+int TileSchedule::samplesDone() const {
+    int fewest = _samples;
+    for (size_t i = 0; i < _tiles.size(); ++i)
+        fewest = std::min(fewest, count(int(i)));
+    return fewest;
+}
+
+double TileSchedule::relativeError(const Tile& tile) const {
+    constexpr double meanOfHalfNormal = 0.79788456080286536; // sqrt(2 / pi)
+    // The variance of a pixel is known badly after few samples: the tile's pixels share theirs.
+    double variance = 0.0, luminance = 0.0, relative = 0.0;
+    int pixels = 0;
+    for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x) {
+            const double v = _film.varianceOfMean(x, y), l = _film.luminance(x, y);
+            variance += v;
+            luminance += l;
+            relative += std::sqrt(v) / (l + 0.01);
+            ++pixels;
+        }
+    const double pooled = std::sqrt(variance / pixels) / (luminance / pixels + 0.01);
+    return meanOfHalfNormal * std::max(pooled * 0.5, relative / pixels);
+}
+
+} // namespace patina

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "hdDelegate/film/film.h"
+#include "hdDelegate/scene/settings.h"
+
+#include <vector>
+
+namespace patina {
+
+/// A rectangle of pixels, ends excluded.
+struct Tile {
+    int x0, y0, x1, y1;
+};
+
+/// Decides which tile takes how many samples next.
+///
+/// Every tile steps through the same sample counts (1, 2, 4, 8, 16, then 16 more each). Whether it
+/// goes on is a function of its own pixels at such a count, so neither threads, nor the order of
+/// tiles, nor an interruption changes what a finished image contains.
+class TileSchedule {
+public:
+    static constexpr int tileSize = 16;
+
+    TileSchedule(const Film& film, const RenderSettings& settings);
+
+    const std::vector<Tile>& tiles() const { return _tiles; }
+    /// The sample count that a tile should reach next; 0 when it has enough.
+    int target(int tile) const;
+    /// Tiles that have not reached the next step of the slowest tile.
+    std::vector<int> pending() const;
+    /// 0..1: samples taken over samples that may be needed.
+    double fraction() const;
+    int samplesDone() const; ///< of the tile with the fewest
+
+    /// Mean relative error (one standard deviation of the mean times sqrt(2/pi), over luminance
+    /// + 0.01) of a tile's pixels, as the tolerance is measured.
+    double relativeError(const Tile& tile) const;
+
+    static int nextStep(int samples, int most);
+
+private:
+    int count(int tile) const;
+
+    const Film& _film;
+    int _samples, _minSamples;
+    double _tolerance;
+    std::vector<Tile> _tiles;
+};
+
+} // namespace patina

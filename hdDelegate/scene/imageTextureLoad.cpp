@@ -233,7 +233,9 @@ std::shared_ptr<ImageTexture> loadImageTexture(const ImageSource& source,
                                  oiioType(file).size()]);
         target = buffer.get();
     }
-    if (!image.input->read_image(0, 0, 0, channels, oiioType(file), target))
+    // The TIFF reader says that all is well after a strip that it could not read.
+    bool read = image.input->read_image(0, 0, 0, channels, oiioType(file), target);
+    if (!read || image.input->has_error())
         return unreadable(source, oneLine(image.input->geterror()), diagnostics);
 
     // Isolated: a thread that waits here must not take up another task, which might want this very

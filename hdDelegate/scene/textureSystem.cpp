@@ -2,7 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include <atomic>
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -86,7 +86,8 @@ struct TextureSystem::Entry {
     TextureRequest request;
     bool udim = false, valid = false;
     std::vector<std::shared_ptr<Image>> tiles; ///< one, or by UDIM number with gaps
-    mutable std::unique_ptr<std::atomic<bool>[]> warned; ///< per tile, the last for those beyond
+    size_t watched = 0; ///< tiles that are warned of one by one
+    mutable std::unique_ptr<std::atomic<bool>[]> warned; ///< per watched tile; the last for the rest
 
     ImageSource source(const std::string& file) const {
         return {file, request.colorSpace, request.prim, request.input};
@@ -123,7 +124,8 @@ void TextureSystem::openTiles(Entry& entry) {
     if (!tiles.empty()) entry.tiles.resize(size_t(tiles.back() - firstTile) + 1);
     for (int tile : tiles)
         entry.tiles[size_t(tile - firstTile)] = shareImage(entry.source(withTile(file, tile)));
-    entry.warned.reset(new std::atomic<bool>[entry.tiles.size() + 1]());
+    entry.watched = std::max<size_t>(entry.tiles.size(), 100);
+    entry.warned.reset(new std::atomic<bool>[entry.watched + 1]());
 }
 
 int TextureSystem::open(const TextureRequest& request) {
@@ -140,6 +142,7 @@ int TextureSystem::open(const TextureRequest& request) {
         entry->valid = entry->firstImage() != nullptr;
         handle = int(_entries.push_back(std::move(entry)) - _entries.begin());
         _handles[key] = handle;
+        _count.store(handle + 1, std::memory_order_release);
     }
     const Entry& entry = *_entries[size_t(handle)];
     if (!entry.valid) {
@@ -153,7 +156,8 @@ int TextureSystem::open(const TextureRequest& request) {
 }
 
 bool TextureSystem::valid(int handle) const {
-    return handle >= 0 && size_t(handle) < _entries.size() && _entries[size_t(handle)]->valid;
+    return handle >= 0 && handle < _count.load(std::memory_order_acquire) &&
+           _entries[size_t(handle)]->valid;
 }
 
 int TextureSystem::channels(int handle) const {
@@ -183,8 +187,8 @@ const TextureSystem::Image* TextureSystem::tileAt(const Entry& entry, glm::vec2&
         return image;
     }
     bool inside = corner.x >= 0 && corner.x < 10 && corner.y >= 0 && corner.y < 1000;
-    size_t number = inside ? size_t(corner.x) + 10 * size_t(corner.y) : entry.tiles.size();
-    auto& warned = entry.warned[std::min(number, entry.tiles.size())];
+    size_t number = inside ? size_t(corner.x) + 10 * size_t(corner.y) : entry.watched;
+    auto& warned = entry.warned[std::min(number, entry.watched)];
     if (!warned.exchange(true, std::memory_order_relaxed)) {
         std::string which = inside ? "tile " + std::to_string(firstTile + int(number))
                                    : std::string("texture coordinates outside of all tiles");

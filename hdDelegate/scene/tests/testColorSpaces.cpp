@@ -1,0 +1,173 @@
+#include "hdDelegate/film/tests/tempFolder.h"
+#include "hdDelegate/scene/colorSpaces.h"
+#include "hdDelegate/scene/colorSpacesBuiltin.h"
+
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+namespace patina {
+
+namespace {
+
+glm::vec3 converted(const ColorTransformPtr& transform, glm::vec3 c) {
+    transform->apply(&c.x, 1, 3);
+    return c;
+}
+
+void expectNear(glm::vec3 a, glm::vec3 b, float tolerance) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "channel " << i;
+}
+
+/// IEC 61966-2-1.
+double srgbToLinear(double v) {
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+} // namespace
+
+TEST(ColorSpaces, SrgbIsTheClosedForm) {
+    ColorSpaces spaces;
+    ColorTransformPtr decode = spaces.toRendering("sRGB"), encode = spaces.fromRendering("sRGB");
+    for (int i = 0; i <= 255; ++i) {
+        double v = i / 255.0, linear = srgbToLinear(v);
+        expectNear(converted(decode, glm::vec3(float(v))), glm::vec3(float(linear)), 1.2e-6f);
+        expectNear(converted(encode, glm::vec3(float(linear))), glm::vec3(float(v)), 1.5e-5f);
+    }
+}
+
+TEST(ColorSpaces, GammasAreThoseOfTheirNames) {
+    ColorSpaces spaces;
+    struct {
+        const char* name;
+        double gamma;
+    } cases[] = {{"g22_rec709", 2.2},
+                 {"g18_rec709", 1.8},
+                 {"rec709_display", 2.4},
+                 {"gamma22", 2.2}};
+    for (auto& c : cases)
+        for (float v : {0.0f, 0.01f, 0.2f, 0.5f, 1.0f})
+            expectNear(converted(spaces.toRendering(c.name), glm::vec3(v)),
+                       glm::vec3(float(std::pow(v, c.gamma))), 1e-6f);
+}
+
+TEST(ColorSpaces, WideGamutsMapTheirPrimariesWherePublishedMatricesSay) {
+    ColorSpaces spaces;
+    // ACEScg to linear Rec.709 with Bradford, as the ACES reference implementation gives it
+    expectNear(converted(spaces.toRendering("acescg"), {1, 0, 0}),
+               {1.70505f, -0.13026f, -0.02400f}, 2e-4f);
+    expectNear(converted(spaces.toRendering("lin_ap1"), {0, 1, 0}),
+               {-0.62179f, 1.14080f, -0.12897f}, 2e-4f);
+    expectNear(converted(spaces.toRendering("ACES2065-1"), {0, 0, 1}),
+               {-0.38756f, -0.09624f, 1.16835f}, 2e-4f);
+    // Display P3 red, as CSS Color 4 tabulates it
+    expectNear(converted(spaces.toRendering("lin_displayp3"), {1, 0, 0}),
+               {1.22494f, -0.04206f, -0.01964f}, 1e-4f);
+    expectNear(converted(spaces.toRendering("lin_adobergb"), {1, 0, 0}), {1.39836f, 0, 0}, 1e-4f);
+    expectNear(converted(spaces.toRendering("lin_rec2020"), {0, 1, 0}),
+               {-0.58764f, 1.13290f, -0.10058f}, 1e-4f);
+    expectNear(converted(spaces.toRendering("lin_ciexyzd65"), {0.95046f, 1.0f, 1.08906f}),
+               {1, 1, 1}, 1e-4f);
+}
+
+TEST(ColorSpaces, WhiteStaysWhiteAndEveryWayIsAWayBack) {
+    ColorSpaces spaces;
+    for (const std::string& name : spaces.names()) {
+        ColorTransformPtr to = spaces.toRendering(name), from = spaces.fromRendering(name);
+        ASSERT_TRUE(to && from) << name;
+        if (name != "lin_ciexyzd65")
+            expectNear(converted(to, {1, 1, 1}), {1, 1, 1}, 2e-5f);
+        expectNear(converted(from, converted(to, {0.2f, 0.5f, 0.8f})), {0.2f, 0.5f, 0.8f}, 2e-5f);
+    }
+}
+
+TEST(ColorSpaces, AliasesOfMaterialXAndOfUsdAreKnownInAnyCase) {
+    ColorSpaces spaces;
+    for (const char* name :
+         {"sRGB", "srgb", "srgb_texture", "SRGB_TEXTURE", "srgb_rec709_scene", "lin_rec709",
+          "lin_rec709_scene", "g22_rec709_scene", "g18_rec709_scene", "lin_ap0_scene",
+          "lin_ap1_scene", "acescg", "ACEScg", "lin_p3d65_scene", "srgb_p3d65_scene",
+          "lin_rec2020_scene", "g22_adobergb_scene", "lin_adobergb", "srgb_displayp3", "g22_ap1",
+          "lin_displayp3", "adobergb", "Utility - sRGB - Texture", "Linear Rec.709 (sRGB)"})
+        EXPECT_TRUE(spaces.toRendering(name)) << name;
+    for (const char* data : {"raw", "RAW", "none", "Non-Color", "data", "identity", "", "unknown"}) {
+        ASSERT_TRUE(spaces.toRendering(data)) << data;
+        EXPECT_TRUE(spaces.toRendering(data)->isIdentity()) << data;
+    }
+    EXPECT_FALSE(spaces.toRendering("no such space"));
+    EXPECT_TRUE(spaces.toRendering("lin_rec709")->isIdentity());
+}
+
+TEST(ColorSpaces, TransformsLeaveWhatFollowsTheColour) {
+    ColorSpaces spaces;
+    float pixels[] = {0.5f, 0.5f, 0.5f, 0.25f, 9.0f, 0.5f, 0.5f, 0.5f, 0.75f, 7.0f};
+    spaces.toRendering("sRGB")->apply(pixels, 2, 5);
+    EXPECT_NEAR(pixels[0], srgbToLinear(0.5), 1e-6);
+    EXPECT_NEAR(pixels[7], srgbToLinear(0.5), 1e-6);
+    EXPECT_EQ(pixels[3], 0.25f);
+    EXPECT_EQ(pixels[4], 9.0f);
+    EXPECT_EQ(pixels[9], 7.0f);
+}
+
+TEST(ColorSpaces, DefaultDisplayIsSrgbWithoutToneCurve) {
+    ColorSpaces spaces;
+    ColorTransformPtr display = spaces.display();
+    for (int i = 0; i <= 255; ++i) {
+        double v = i / 255.0;
+        expectNear(converted(display, glm::vec3(float(srgbToLinear(v)))), glm::vec3(float(v)),
+                   1.5e-5f);
+    }
+    EXPECT_GT(converted(display, glm::vec3(4))[0], 1.5f);
+    EXPECT_TRUE(spaces.display("sRGB", "Raw")->isIdentity());
+    try {
+        spaces.display("Cinema");
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("Cinema"), std::string::npos);
+        EXPECT_NE(std::string(e.what()).find("sRGB"), std::string::npos);
+    }
+    EXPECT_THROW(spaces.display("sRGB", "Filmic"), std::runtime_error);
+}
+
+TEST(ColorSpaces, AConfigurationOfTheUsersComesFirstAndIsBridged) {
+    TempFolder temp;
+    // Its scene_linear is ACEScg; one space is its own, and "sRGB" is not defined by it at all.
+    std::ofstream(temp.file("config.ocio"))
+        << "ocio_profile_version: 2\n"
+           "roles: {aces_interchange: AP0, scene_linear: Working, default: AP0}\n"
+           "file_rules: [!<Rule> {name: Default, colorspace: AP0}]\n"
+           "displays:\n  Mine:\n    - !<View> {name: Plain, colorspace: Working}\n"
+           "colorspaces:\n"
+           "  - !<ColorSpace> {name: AP0}\n"
+           "  - !<ColorSpace>\n    name: Working\n"
+           "    to_scene_reference: !<BuiltinTransform> {style: ACEScg_to_ACES2065-1}\n"
+           "  - !<ColorSpace>\n    name: Twice\n"
+           "    to_scene_reference: !<MatrixTransform> {matrix: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, "
+           "0, 0, 0, 0, 1]}\n";
+    ColorSpaces user(temp.file("config.ocio")), builtin;
+    ASSERT_TRUE(user.toRendering("Twice"));
+    glm::vec3 c(0.2f, 0.4f, 0.6f);
+    expectNear(converted(user.toRendering("Twice"), c),
+               2.0f * converted(builtin.toRendering("lin_ap0"), c), 1e-4f);
+    expectNear(converted(user.toRendering("Working"), c),
+               converted(builtin.toRendering("acescg"), c), 1e-4f);
+    ASSERT_TRUE(user.toRendering("sRGB"));
+    expectNear(converted(user.toRendering("sRGB"), c), converted(builtin.toRendering("sRGB"), c),
+               1e-6f);
+    EXPECT_EQ(user.displays(), std::vector<std::string>{"Mine"});
+    expectNear(converted(user.display(), c), converted(builtin.fromRendering("acescg"), c), 1e-4f);
+}
+
+TEST(ColorSpaces, AnUnreadableConfigurationIsNamed) {
+    try {
+        ColorSpaces spaces("/no/such/config.ocio");
+        FAIL();
+    } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("/no/such/config.ocio"), std::string::npos);
+    }
+}
+
+} // namespace patina

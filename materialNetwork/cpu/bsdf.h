@@ -4,6 +4,8 @@
 
 #include <glm/glm.hpp>
 
+#include <cstdint>
+
 namespace patina {
 
 /// Value of a whole material for two directions, and the density with which sample() finds wi.
@@ -20,12 +22,87 @@ struct BsdfSample {
     int event = 0;          ///< LOBE_REFLECT, LOBE_TRANSMIT, LOBE_DELTA bits; 0: no sample
     bool diffuse = false;   ///< which kind of lobe was drawn
     float eta = 1.0f;       ///< ior ratio crossed
-    float roughness = 0.0f; ///< of the lobe drawn, 0..1, to widen the ray cone
+    float roughness = 0.0f; ///< GGX alpha of the lobe drawn (1 for diffuse), to widen the ray cone
+};
+
+enum class LobeKind : uint8_t { OrenNayar, Burley, Translucent, Dielectric, Conductor, Schlick };
+
+/// A leaf of the BSDF, ready for one shading point.
+struct BsdfLobe {
+    LobeKind kind;
+    bool diffuse;          ///< counts as diffuse light (BsdfEval::diffuse)
+    uint8_t frame;         ///< index into the frames of the Bsdf
+    float probability;     ///< of being chosen by sample(); all sum to 1
+    glm::vec3 weight;      ///< product of all weights, mixes and layers above it
+    glm::vec3 albedo;      ///< directional albedo at wo, without weight
+    union {
+        sh::OrenNayarLobe orenNayar;
+        sh::BurleyLobe burley;
+        sh::TranslucentLobe translucent;
+        sh::DielectricLobe dielectric;
+        sh::ConductorLobe conductor;
+        sh::SchlickLobe schlick;
+    };
+};
+
+/// Shading frame of one or more lobes, in world space.
+struct BsdfFrame {
+    glm::vec3 tangent, bitangent, normal;
+    glm::vec3 wo; ///< the outgoing direction in this frame
+
+    glm::vec3 toLocal(const glm::vec3& v) const {
+        return {glm::dot(v, tangent), glm::dot(v, bitangent), glm::dot(v, normal)};
+    }
+    glm::vec3 toWorld(const glm::vec3& v) const {
+        return tangent * v.x + bitangent * v.y + normal * v.z;
+    }
 };
 
 /// The lobes of a material at one shading point: built by MaterialProgram, then asked many times.
-/// Lives on the stack; no allocation. At most maxLobes; what does not fit is merged with a warning
-/// when the program is compiled.
-class Bsdf;
+/// Lives on the stack; no allocation. All directions are in world space and point away from the
+/// surface; the outgoing direction is fixed when the Bsdf is built.
+///
+/// What counts as reflection and what as transmission is decided by the geometric normal together
+/// with the lobe's own normal: where the two disagree the value is 0, so that no light leaks
+/// through a surface because of an interpolated or mapped normal.
+class Bsdf {
+public:
+    static constexpr int maxLobes = 16;  ///< more are dropped, with a warning at compile time
+    static constexpr int maxFrames = 8;
+
+    Bsdf() {} // NOLINT: members are left uninitialised on purpose; evaluate() fills what is used
+
+    /// @returns values and density of the non-delta lobes for wi
+    BsdfEval eval(const glm::vec3& wi) const;
+
+    /// Chooses a lobe in proportion to luminance(weight * albedo) and samples it.
+    /// @param u for the direction; @param uLobe for the choice of the lobe; all in [0, 1)
+    BsdfSample sample(const glm::vec3& u, float uLobe) const;
+
+    /// @returns directional albedo of the whole material at wo (reflection and transmission)
+    glm::vec3 albedo() const;
+
+    /// @returns false when eval() is 0 everywhere (mirrors, clear glass, black)
+    bool hasNonDelta() const { return _nonDelta; }
+
+    /// @returns true when a lobe sends light to the other side
+    bool transmits() const { return _transmits; }
+
+    bool empty() const { return _lobeCount == 0; }
+    int lobeCount() const { return _lobeCount; }
+    const BsdfLobe& lobe(int i) const { return _lobes[i]; }
+    const BsdfFrame& frame(int i) const { return _frames[i]; }
+
+private:
+    friend class BsdfBuilder;
+
+    int _lobeCount = 0;
+    bool _nonDelta = false;
+    bool _transmits = false;
+    bool _woOutside = true; ///< wo lies on the front side of the geometry
+    glm::vec3 _geometricNormal;
+    BsdfFrame _frames[maxFrames];
+    BsdfLobe _lobes[maxLobes];
+};
 
 } // namespace patina

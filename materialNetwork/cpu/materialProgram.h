@@ -1,0 +1,80 @@
+#pragma once
+
+#include "materialNetwork/cpu/bsdf.h"
+#include "materialNetwork/cpu/shadingPoint.h"
+#include "materialNetwork/diagnostics.h"
+#include "materialNetwork/network.h"
+#include "materialNetwork/textureSource.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+struct Plan;
+struct ProgramCode;
+
+/// A primvar that a material reads.
+struct MaterialPrimvar {
+    std::string name;
+    ValueType type = ValueType::Float; ///< what the material wants; up to four components
+};
+
+/// A material compiled for the processor: a list of pattern instructions over vec4 registers, and
+/// the closures that they feed. Immutable and thread safe; shared by all prims that use the
+/// material. Nothing is allocated after compile().
+class MaterialProgram {
+public:
+    /// Compiles a plan. Never fails: what cannot be compiled is reported and left out.
+    /// @param textures must outlive the program
+    static std::shared_ptr<const MaterialProgram> compile(const Plan& plan, TextureSource& textures,
+                                                          Diagnostics& diagnostics);
+    ~MaterialProgram();
+
+    /// Primvars in the order of their slots (PrimvarReader::read).
+    const std::vector<MaterialPrimvar>& primvars() const { return _primvars; }
+
+    bool constant() const { return _constant; }         ///< lobes are the same at every point
+    bool hasEmission() const { return _hasEmission; }
+    bool isOpaque() const { return _isOpaque; }         ///< opacity() is 1 everywhere
+    bool isThinWalled() const { return _isThinWalled; }
+    bool hasTransmission() const { return _hasTransmission; } ///< a lobe may send light through
+    bool hasInterior() const { return _hasInterior; }   ///< absorbs inside closed objects
+    bool usesUv() const { return _usesUv; }             ///< reads texture coordinates
+
+    /// @returns isOpaque() for a prim that lacks some primvars
+    /// @param attributes per slot of primvars(): negative when the prim has no such primvar
+    bool isOpaqueWith(const std::vector<int>& attributes) const;
+
+    /// Presence of the surface, 0..1: the chance that a ray meets it at all.
+    float opacity(const ShadingPoint& point) const;
+
+    /// Radiance emitted towards wo (world space, unit). Both sides emit.
+    glm::vec3 emission(const ShadingPoint& point, const glm::vec3& wo) const;
+
+    /// Absorption coefficient inside the object, per scene unit, not negative.
+    glm::vec3 interiorAbsorption(const ShadingPoint& point) const;
+
+    /// Sets up the lobes at a point, seen from point.viewDirection.
+    void evaluate(const ShadingPoint& point, Bsdf& out) const;
+
+    MaterialProgram(const MaterialProgram&) = delete;
+    MaterialProgram& operator=(const MaterialProgram&) = delete;
+
+private:
+    friend class ProgramBuilder;
+    MaterialProgram();
+
+    std::vector<MaterialPrimvar> _primvars;
+    bool _constant = false;
+    bool _hasEmission = false;
+    bool _isOpaque = true;
+    bool _isThinWalled = false;
+    bool _hasTransmission = false;
+    bool _hasInterior = false;
+    bool _usesUv = false;
+    std::unique_ptr<ProgramCode> _code;
+};
+
+} // namespace patina

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "materialNetwork/cpu/materialProgram.h"
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace patina {
+
+/// Inputs that replace authored ones: "node path.input" or just "input" of the surface node, and
+/// the value that it takes. A connection to that input is dropped.
+using MaterialOverrides = std::map<std::string, Value>;
+
+/// Takes a material from its network as authored to a program: expand, simplify, plan, compile.
+/// Never fails: every problem is reported by prim and input, and a documented fallback used (an
+/// input's default, or black for a surface that cannot be understood at all).
+std::shared_ptr<const MaterialProgram> compileMaterial(const Network& network,
+                                                       TextureSource& textures,
+                                                       Diagnostics& diagnostics);
+
+/// What compileMaterial() makes of a network, as text: the network, the simplified graph, the plan,
+/// and what was cut on the way.
+std::string explainMaterial(const Network& network, Diagnostics& diagnostics);
+
+/// @returns the network with inputs replaced. An override that names no input of the network is
+/// reported through diagnostics.
+Network applyOverrides(const Network& network, const MaterialOverrides& overrides,
+                       Diagnostics& diagnostics);
+
+/// Parses a value written on a command line, "0.5", "1,0,0", "(1, 0, 0)" or text, as the type that
+/// the named input has. @returns false when it cannot be read as that type.
+bool parseOverride(const Network& network, const std::string& target, const std::string& text,
+                   Value& out);
+
+/// The material of prims that have none: a UsdPreviewSurface of roughness 0.5 whose diffuse colour
+/// is the primvar displayColor (0.18 without one) and whose presence is the primvar displayOpacity,
+/// which is how Storm draws such prims.
+Network makeDisplayColorNetwork();
+
+} // namespace patina

@@ -1,0 +1,31 @@
+#include "materialNetwork/diagnostics.h"
+
+namespace patina {
+
+void Diagnostics::warn(const std::string& prim, const std::string& input,
+                       const std::string& message) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    for (Diagnostic& d : _list)
+        if (d.prim == prim && d.input == input && d.message == message) {
+            ++d.count;
+            return;
+        }
+    _list.push_back({prim, input, message});
+}
+
+std::vector<Diagnostic> Diagnostics::all() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _list;
+}
+
+int Diagnostics::count() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return int(_list.size());
+}
+
+void Diagnostics::clear() {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _list.clear();
+}
+
+} // namespace patina

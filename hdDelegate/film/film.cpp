@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <set>
 #include <stdexcept>
 
 namespace patina {
@@ -52,14 +51,11 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
         int64_t(width) * height > maxPixels)
         throw std::invalid_argument("film size " + std::to_string(width) + "x" +
                                     std::to_string(height) + " is not possible");
-    std::set<std::string> names;
     for (const AovSpec& spec : aovs) {
         if (spec.components < 1 || spec.components > 16)
             throw std::invalid_argument("AOV " + spec.name + " has " +
                                         std::to_string(spec.components) +
                                         " components, not 1 to 16");
-        if (!names.insert(spec.name).second)
-            throw std::invalid_argument("AOV " + spec.name + " is listed twice");
     }
     bool same = width == _width && height == _height &&
                 std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec);

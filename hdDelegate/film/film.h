@@ -40,7 +40,7 @@ class Film {
 public:
     /// Clears everything unless size and AOVs are as before and keep is set. color, alpha,
     /// sampleCount and variance are always there and may be listed.
-    /// @throws std::invalid_argument for a negative or absurd size, or an AOV listed twice
+    /// @throws std::invalid_argument for a negative or absurd size or number of components
     void reset(int width, int height, const std::vector<AovSpec>& aovs, bool keep = false);
 
     int width() const { return _width; }

@@ -1,0 +1,135 @@
+#include "hdDelegate/film/imageFile.h"
+
+#include "hdDelegate/film/atomicFile.h"
+#include "hdDelegate/film/imageOutput.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+namespace patina {
+
+namespace {
+
+ChannelStore storeOf(const AovSpec& spec, const ImageOptions& options) {
+    if (spec.isInteger) return options.integerIds ? ChannelStore::Int : ChannelStore::Float;
+    bool picture = spec.name == "color" || spec.name == "alpha" || spec.name == "albedo";
+    return picture && options.half ? ChannelStore::Half : ChannelStore::Float;
+}
+
+void checkOptions(const ImageOptions& options) {
+    if (options.bits != 8 && options.bits != 16 && options.bits != 32)
+        throw std::runtime_error("images have 8, 16 or 32 bits, not " +
+                                 std::to_string(options.bits));
+    if (!(options.pixelAspectRatio > 0.0))
+        throw std::runtime_error("the pixel aspect ratio must be greater than 0");
+}
+
+void checkAovs(const std::string& path, const std::vector<std::string>& aovs) {
+    if (isExr(path)) return;
+    for (auto& name : aovs)
+        if (name != "color" && name != "alpha")
+            throw std::runtime_error("cannot write '" + path + "': only OpenEXR (.exr) holds AOV '" +
+                                     name + "'");
+}
+
+} // namespace
+
+std::vector<std::string> channelNames(const AovSpec& spec) {
+    static const char* const color[] = {"R", "G", "B", "A"};
+    static const char* const space[] = {"X", "Y", "Z", "W"};
+    if (spec.name == "color") return {"R", "G", "B"};
+    if (spec.name == "alpha") return {"A"};
+    if (spec.name == "depth" || spec.name == "cameraDepth") return {spec.name + ".Z"};
+    bool primvar = spec.name.compare(0, 9, "primvars:") == 0;
+    if (spec.components == 1 && !primvar) return {spec.name};
+    std::vector<std::string> names;
+    for (int i = 0; i < spec.components; ++i) {
+        std::string component = std::to_string(i);
+        if (spec.components <= 4) component = spec.name == "albedo" ? color[i] : space[i];
+        names.push_back(spec.name + "." + component);
+    }
+    return names;
+}
+
+void checkImagePath(const std::string& path, const std::vector<std::string>& aovs) {
+    createOutput(path);
+    checkAovs(path, aovs);
+    for (auto& name : aovs) {
+        try {
+            standardAov(name);
+        } catch (const std::invalid_argument& e) {
+            throw std::runtime_error(e.what());
+        }
+    }
+    AtomicFile probe(path);
+}
+
+void writeImage(const Film& film, const std::string& path, const ImageOptions& options,
+                const Metadata& metadata) {
+    checkOptions(options);
+    checkAovs(path, options.aovs);
+    ImagePlacement placement = placementOf(film.width(), film.height(), options);
+    std::vector<std::string> names = options.aovs;
+    if (names.empty()) {
+        names = {"color", "alpha"};
+        for (auto& spec : film.aovs())
+            if (spec.name != "color" && spec.name != "alpha") names.push_back(spec.name);
+    }
+    if (isExr(path)) {
+        std::vector<std::vector<float>> resolved;
+        std::vector<ChannelSource> channels;
+        for (auto& name : names) {
+            AovSpec spec;
+            if (!film.findSpec(name, spec))
+                throw std::runtime_error("the film holds no AOV '" + name + "'");
+            resolved.push_back(film.resolve(name));
+            std::vector<std::string> parts = channelNames(spec);
+            for (size_t c = 0; c < parts.size(); ++c)
+                channels.push_back({parts[c], storeOf(spec, options), resolved.back().data() + c,
+                                    parts.size(), spec.isInteger});
+        }
+        writeExr(channels, film.width(), placement, path, options, metadata);
+        return;
+    }
+    bool alpha = std::find(names.begin(), names.end(), "alpha") != names.end();
+    std::vector<float> color = film.resolve("color"), coverage = film.resolve("alpha");
+    if (std::find(names.begin(), names.end(), "color") == names.end()) {
+        writeDisplayImage(coverage.data(), 1, film.width(), placement, path, options, metadata);
+        return;
+    }
+    std::vector<float> pixels(coverage.size() * 4);
+    for (size_t i = 0; i < coverage.size(); ++i) {
+        std::copy(&color[i * 3], &color[i * 3] + 3, &pixels[i * 4]);
+        pixels[i * 4 + 3] = std::min(coverage[i], 1.0f);
+    }
+    if (alpha)
+        writeDisplayImage(pixels.data(), 4, film.width(), placement, path, options, metadata);
+    else
+        writeDisplayImage(color.data(), 3, film.width(), placement, path, options, metadata);
+}
+
+void writePixels(const ImageData& image, const std::string& path, const ImageOptions& options) {
+    checkOptions(options);
+    size_t n = image.channels.size();
+    if (n < 1 || image.pixels.size() != n * size_t(image.width) * size_t(image.height))
+        throw std::runtime_error("the pixels do not have the size that the image names");
+    ImagePlacement placement = placementOf(image.width, image.height, options);
+    if (isExr(path)) {
+        std::vector<ChannelSource> channels;
+        for (size_t c = 0; c < n; ++c)
+            channels.push_back({image.channels[c],
+                                options.half ? ChannelStore::Half : ChannelStore::Float,
+                                image.pixels.data() + c, n});
+        writeExr(channels, image.width, placement, path, options, image.metadata);
+        return;
+    }
+    size_t kept = n >= 4 ? 4 : n == 3 ? 3 : 1;
+    std::vector<float> pixels(kept * size_t(image.width) * size_t(image.height));
+    for (size_t i = 0; i < pixels.size() / kept; ++i)
+        std::copy(&image.pixels[i * n], &image.pixels[i * n] + kept, &pixels[i * kept]);
+    writeDisplayImage(pixels.data(), int(kept), image.width, placement, path, options,
+                      image.metadata);
+}
+
+} // namespace patina

@@ -1,0 +1,99 @@
+#include "hdDelegate/film/imageFile.h"
+#include "hdDelegate/film/imageOutput.h"
+
+#include <OpenImageIO/half.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+namespace patina {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+    throw std::runtime_error("cannot read '" + path + "': " + firstLine(reason));
+}
+
+Metadata metadataOf(const OIIO::ImageSpec& spec) {
+    Metadata metadata;
+    for (const OIIO::ParamValue& p : spec.extra_attribs) {
+        std::string name = p.name().string();
+        if (p.type() == OIIO::TypeInt) metadata[name] = p.get_int();
+        else if (p.type() == OIIO::TypeFloat) metadata[name] = double(p.get_float());
+        else metadata[name] = p.get_string();
+    }
+    return metadata;
+}
+
+/// One value of a packed pixel as a number; OIIO would scale 32-bit integers as it scales colours.
+float numberAt(const uint8_t* p, OIIO::TypeDesc type) {
+    if (type == OIIO::TypeHalf) {
+        half h;
+        std::memcpy(&h, p, sizeof h);
+        return float(h);
+    }
+    if (type == OIIO::TypeUInt32 || type == OIIO::TypeInt32) {
+        int32_t i;
+        std::memcpy(&i, p, sizeof i);
+        return float(i);
+    }
+    float f;
+    std::memcpy(&f, p, sizeof f);
+    return f;
+}
+
+bool hasIntegers(const OIIO::ImageSpec& spec) {
+    for (int c = 0; c < spec.nchannels; ++c)
+        if (spec.channelformat(c) == OIIO::TypeUInt32 || spec.channelformat(c) == OIIO::TypeInt32)
+            return true;
+    return false;
+}
+
+} // namespace
+
+ImageData readImage(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) fail(path, "the file does not exist");
+    OIIO::ImageSpec hints;
+    hints.attribute("oiio:UnassociatedAlpha", 1);
+    auto input = OIIO::ImageInput::open(path, &hints);
+    if (!input) {
+        std::string reason = OIIO::geterror();
+        fail(path, reason.empty() ? "it is not an image" : reason);
+    }
+    const OIIO::ImageSpec spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1)
+        fail(path, "it holds no flat image");
+    ImageData image;
+    image.width = spec.width;
+    image.height = spec.height;
+    image.x = spec.x - spec.full_x;
+    image.y = spec.y - spec.full_y;
+    image.displayWidth = spec.full_width;
+    image.displayHeight = spec.full_height;
+    image.pixelAspectRatio = spec.get_float_attribute("PixelAspectRatio", 1.0f);
+    image.channels = spec.channelnames;
+    image.metadata = metadataOf(spec);
+    size_t n = size_t(spec.nchannels), count = size_t(spec.width) * size_t(spec.height);
+    image.pixels.resize(count * n);
+    bool read;
+    if (!hasIntegers(spec)) {
+        read = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, image.pixels.data());
+    } else {
+        std::vector<uint8_t> packed(spec.image_bytes(true));
+        read = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, packed.data());
+        const uint8_t* p = packed.data();
+        for (size_t i = 0; read && i < count; ++i)
+            for (size_t c = 0; c < n; ++c) {
+                OIIO::TypeDesc type = spec.channelformat(int(c));
+                image.pixels[i * n + c] = numberAt(p, type);
+                p += type.size();
+            }
+    }
+    if (!read || input->has_error()) fail(path, input->geterror());
+    return image;
+}
+
+} // namespace patina

@@ -11,7 +11,7 @@ struct Fault {
     void add(size_t index) {
         if (count++ == 0) first = index;
     }
-    void report(const Mesh &mesh, const char *input, const char *what, Diagnostics &diagnostics) {
+    void report(const Mesh& mesh, const char* input, const char* what, Diagnostics& diagnostics) {
         if (count > 0)
             diagnostics.warn(mesh.path, input,
                              std::to_string(count) + " " + what +
@@ -19,7 +19,7 @@ struct Fault {
     }
 };
 
-void markHoles(const Mesh &mesh, CageFaces &faces, Diagnostics &diagnostics) {
+void markHoles(const Mesh& mesh, CageFaces& faces, Diagnostics& diagnostics) {
     if (mesh.holeIndices.empty()) return;
     std::vector<uint8_t> authoredHole(faces.authoredFaces);
     Fault outside;
@@ -38,7 +38,7 @@ void markHoles(const Mesh &mesh, CageFaces &faces, Diagnostics &diagnostics) {
 
 } // namespace
 
-CageFaces cageFaces(const Mesh &mesh, const PointSteps &points, Diagnostics &diagnostics) {
+CageFaces cageFaces(const Mesh& mesh, const PointSteps& points, Diagnostics& diagnostics) {
     CageFaces faces;
     faces.authoredFaces = mesh.faceVertexCounts.size();
     faces.authoredCorners = mesh.faceVertexIndices.size();

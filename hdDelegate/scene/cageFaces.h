@@ -20,6 +20,6 @@ struct CageFaces {
 
 /// Sorts out the faces of a mesh. Each kind of fault is one warning with the number of faces and
 /// the first of them.
-CageFaces cageFaces(const Mesh &mesh, const PointSteps &points, Diagnostics &diagnostics);
+CageFaces cageFaces(const Mesh& mesh, const PointSteps& points, Diagnostics& diagnostics);
 
 } // namespace patina

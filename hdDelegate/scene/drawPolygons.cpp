@@ -22,7 +22,7 @@ Rate rateOf(Interpolation interpolation) {
     }
 }
 
-std::vector<vec3> unitVectors(const std::vector<float> &data, size_t &zeros) {
+std::vector<vec3> unitVectors(const std::vector<float>& data, size_t& zeros) {
     std::vector<vec3> out(data.size() / 3);
     for (size_t i = 0; i < out.size(); ++i) {
         const vec3 n(data[3 * i], data[3 * i + 1], data[3 * i + 2]);
@@ -35,7 +35,7 @@ std::vector<vec3> unitVectors(const std::vector<float> &data, size_t &zeros) {
 }
 
 /// Puts geometric normals where authored ones have no direction.
-void repairNormals(TriangleMesh &out) {
+void repairNormals(TriangleMesh& out) {
     const std::vector<vec3> smooth = smoothNormals(out.positions[0], out.triangles);
     for (size_t t = 0; t < out.triangles.size(); ++t)
         for (int k = 0; k < 3; ++k) {
@@ -43,15 +43,15 @@ void repairNormals(TriangleMesh &out) {
             const size_t index = out.normalRate == Rate::PerVertex ? vertex
                                  : out.normalRate == Rate::PerFace ? size_t(out.triangleFace[t])
                                                                    : 3 * t + k;
-            vec3 &n = out.normals[0][index];
+            vec3& n = out.normals[0][index];
             if (n == vec3(0.0f)) n = smooth[vertex];
         }
-    for (vec3 &n : out.normals[0])
+    for (vec3& n : out.normals[0])
         if (n == vec3(0.0f)) n = vec3(0, 0, 1);
 }
 
-void useAuthoredNormals(const Mesh &mesh, const Primvar &primvar, const ElementCounts &counts,
-                        const DrawnTriangles &drawn, Diagnostics &diagnostics, TriangleMesh &out) {
+void useAuthoredNormals(const Mesh& mesh, const Primvar& primvar, const ElementCounts& counts,
+                        const DrawnTriangles& drawn, Diagnostics& diagnostics, TriangleMesh& out) {
     if (primvar.components != 3) {
         diagnostics.warn(mesh.path, "normals", "are not vectors; faces are drawn flat");
         return;
@@ -75,8 +75,8 @@ void useAuthoredNormals(const Mesh &mesh, const Primvar &primvar, const ElementC
 
 } // namespace
 
-TriangleMesh drawPolygons(const Mesh &mesh, PointSteps points, const CageFaces &faces, bool cage,
-                          Diagnostics &diagnostics) {
+TriangleMesh drawPolygons(const Mesh& mesh, PointSteps points, const CageFaces& faces,
+                          CageNormals source, Diagnostics& diagnostics) {
     TriangleMesh out;
     out.positions = std::move(points.steps);
     DrawnTriangles drawn =
@@ -89,13 +89,13 @@ TriangleMesh drawPolygons(const Mesh &mesh, PointSteps points, const CageFaces &
     counts.varying = counts.vertex = out.positions[0].size();
     counts.faceVarying = faces.authoredCorners;
 
-    if (cage) {
-        for (const auto &step : out.positions)
+    if (source == CageNormals::Smooth) {
+        for (const auto& step : out.positions)
             out.normals.push_back(smoothNormals(step, out.triangles));
-    } else if (const Primvar *normals = mesh.primvar("normals")) {
+    } else if (const Primvar* normals = mesh.primvar("normals")) {
         useAuthoredNormals(mesh, *normals, counts, drawn, diagnostics, out);
     }
-    for (const Primvar &primvar : mesh.primvars) {
+    for (const Primvar& primvar : mesh.primvars) {
         if (primvar.name == "normals") continue;
         MeshAttribute attribute;
         attribute.name = primvar.name;

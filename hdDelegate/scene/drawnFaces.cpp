@@ -9,14 +9,14 @@ namespace patina {
 
 namespace {
 
-float angleBetween(const vec3 &a, const vec3 &b) {
+float angleBetween(const vec3& a, const vec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 } // namespace
 
-DrawnTriangles drawFaces(const CageFaces &faces, const std::vector<int> &vertices,
-                         const std::vector<vec3> &positions, bool flip) {
+DrawnTriangles drawFaces(const CageFaces& faces, const std::vector<int>& vertices,
+                         const std::vector<vec3>& positions, bool flip) {
     DrawnTriangles drawn;
     size_t expected = 0;
     for (int count : faces.counts)
@@ -30,7 +30,7 @@ DrawnTriangles drawFaces(const CageFaces &faces, const std::vector<int> &vertice
     for (size_t f = 0; f < faces.size(); ++f) {
         if (faces.isHole(f)) continue;
         const int count = faces.counts[f];
-        const int *face = &vertices[faces.firstCorner[f]];
+        const int* face = &vertices[faces.firstCorner[f]];
         polygon.resize(count);
         for (int k = 0; k < count; ++k)
             polygon[k] = positions[face[k]];
@@ -50,10 +50,10 @@ DrawnTriangles drawFaces(const CageFaces &faces, const std::vector<int> &vertice
     return drawn;
 }
 
-std::vector<vec3> smoothNormals(const std::vector<vec3> &positions,
-                                const std::vector<uvec3> &triangles) {
+std::vector<vec3> smoothNormals(const std::vector<vec3>& positions,
+                                const std::vector<uvec3>& triangles) {
     std::vector<vec3> normals(positions.size(), vec3(0.0f));
-    for (const uvec3 &t : triangles) {
+    for (const uvec3& t : triangles) {
         const vec3 p[3] = {positions[t.x], positions[t.y], positions[t.z]};
         const vec3 n = glm::cross(p[1] - p[0], p[2] - p[0]);
         const float length = glm::length(n);
@@ -62,15 +62,15 @@ std::vector<vec3> smoothNormals(const std::vector<vec3> &positions,
             normals[t[k]] +=
                 n * (angleBetween(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]) / length);
     }
-    for (vec3 &n : normals) {
+    for (vec3& n : normals) {
         const float length = glm::length(n);
         n = length > 0.0f ? n / length : vec3(0, 0, 1);
     }
     return normals;
 }
 
-std::vector<float> gatherCorners(const DrawnTriangles &drawn, const std::vector<float> &values,
-                                 const std::vector<int> &valueIndices, int components) {
+std::vector<float> gatherCorners(const DrawnTriangles& drawn, const std::vector<float>& values,
+                                 const std::vector<int>& valueIndices, int components) {
     std::vector<float> out(drawn.corners.size() * components);
     for (size_t i = 0; i < drawn.corners.size(); ++i) {
         const size_t corner = drawn.corners[i];
@@ -80,8 +80,8 @@ std::vector<float> gatherCorners(const DrawnTriangles &drawn, const std::vector<
     return out;
 }
 
-std::vector<uint16_t> subsetOfElements(const Geometry &prim, size_t elements,
-                                       Diagnostics &diagnostics) {
+std::vector<uint16_t> subsetOfElements(const Geometry& prim, size_t elements,
+                                       Diagnostics& diagnostics) {
     std::vector<uint16_t> subsetOf;
     if (prim.subsets.empty()) return subsetOf;
     subsetOf.resize(elements);
@@ -89,7 +89,7 @@ std::vector<uint16_t> subsetOfElements(const Geometry &prim, size_t elements,
     if (prim.subsets.size() > most)
         diagnostics.warn(prim.path, "subsets", "more than 65534 subsets; the others are ignored");
     for (size_t s = 0; s < std::min(prim.subsets.size(), most); ++s) {
-        const GeomSubset &subset = prim.subsets[s];
+        const GeomSubset& subset = prim.subsets[s];
         size_t outside = 0, taken = 0;
         for (int element : subset.faces) {
             if (element < 0 || size_t(element) >= elements)
@@ -110,7 +110,7 @@ std::vector<uint16_t> subsetOfElements(const Geometry &prim, size_t elements,
     return subsetOf;
 }
 
-void finishMesh(const Mesh &mesh, Diagnostics &diagnostics, TriangleMesh &out) {
+void finishMesh(const Mesh& mesh, Diagnostics& diagnostics, TriangleMesh& out) {
     const std::vector<uint16_t> subsetOf =
         subsetOfElements(mesh, mesh.faceVertexCounts.size(), diagnostics);
     if (!subsetOf.empty()) {
@@ -121,8 +121,8 @@ void finishMesh(const Mesh &mesh, Diagnostics &diagnostics, TriangleMesh &out) {
     if (out.triangles.empty()) return;
     out.boundsMin = vec3(INFINITY);
     out.boundsMax = vec3(-INFINITY);
-    for (const auto &step : out.positions)
-        for (const uvec3 &t : out.triangles)
+    for (const auto& step : out.positions)
+        for (const uvec3& t : out.triangles)
             for (int k = 0; k < 3; ++k) {
                 out.boundsMin = glm::min(out.boundsMin, step[t[k]]);
                 out.boundsMax = glm::max(out.boundsMax, step[t[k]]);

@@ -10,7 +10,7 @@ namespace patina {
 /// Times at which something that moves is evaluated: uniform over the shutter, 2..8 of them, so
 /// chosen that the authored samples inside the shutter fall on steps where that is possible. One
 /// time when nothing changes while the shutter is open.
-inline std::vector<float> motionTimes(const std::vector<float> &authored, float open, float close) {
+inline std::vector<float> motionTimes(const std::vector<float>& authored, float open, float close) {
     constexpr int maxSteps = 8;
     if (authored.size() < 2 || !(close > open) || open >= authored.back() ||
         close <= authored.front())
@@ -39,7 +39,7 @@ struct SampleSpan {
     float fraction = 0.0f;
 };
 
-inline SampleSpan sampleSpan(const std::vector<float> &times, float time) {
+inline SampleSpan sampleSpan(const std::vector<float>& times, float time) {
     if (times.size() < 2 || !(time > times.front())) return {0, 0.0f};
     if (time >= times.back()) return {times.size() - 1, 0.0f};
     const size_t next = size_t(std::upper_bound(times.begin(), times.end(), time) - times.begin());

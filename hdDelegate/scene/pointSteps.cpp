@@ -9,11 +9,11 @@ namespace {
 /// The samples that can be used together.
 struct UsableSamples {
     std::vector<float> times;
-    std::vector<const std::vector<vec3> *> values;
+    std::vector<const std::vector<vec3>*> values;
 };
 
-UsableSamples usableSamples(const Sampled<std::vector<vec3>> &points, const std::string &prim,
-                            Diagnostics &diagnostics) {
+UsableSamples usableSamples(const Sampled<std::vector<vec3>>& points, const std::string& prim,
+                            Diagnostics& diagnostics) {
     UsableSamples result;
     bool timesFit = points.times.size() == points.values.size();
     for (size_t i = 1; timesFit && i < points.times.size(); ++i)
@@ -39,14 +39,14 @@ UsableSamples usableSamples(const Sampled<std::vector<vec3>> &points, const std:
     return result;
 }
 
-bool finite(const vec3 &p) {
+bool finite(const vec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
 } // namespace
 
-PointSteps resamplePoints(const Sampled<std::vector<vec3>> &points, const std::string &prim,
-                          const TessellationOptions &options, Diagnostics &diagnostics) {
+PointSteps resamplePoints(const Sampled<std::vector<vec3>>& points, const std::string& prim,
+                          const TessellationOptions& options, Diagnostics& diagnostics) {
     PointSteps result;
     if (points.empty()) {
         result.steps.resize(1);
@@ -58,18 +58,18 @@ PointSteps resamplePoints(const Sampled<std::vector<vec3>> &points, const std::s
     result.steps.resize(times.size());
     for (size_t step = 0; step < times.size(); ++step) {
         const SampleSpan span = sampleSpan(samples.times, times[step]);
-        std::vector<vec3> &out = result.steps[step];
-        const std::vector<vec3> &a = *samples.values[span.index];
+        std::vector<vec3>& out = result.steps[step];
+        const std::vector<vec3>& a = *samples.values[span.index];
         // Embree reads 16 bytes of the last point.
         out.reserve(a.size() + 1);
         out = a;
         if (span.fraction > 0.0f) {
-            const std::vector<vec3> &b = *samples.values[span.index + 1];
+            const std::vector<vec3>& b = *samples.values[span.index + 1];
             for (size_t i = 0; i < out.size(); ++i)
                 out[i] = a[i] * (1.0f - span.fraction) + b[i] * span.fraction;
         }
     }
-    for (const auto &step : result.steps)
+    for (const auto& step : result.steps)
         for (size_t i = 0; i < step.size(); ++i)
             if (!finite(step[i])) {
                 result.bad.resize(step.size());
@@ -77,7 +77,7 @@ PointSteps resamplePoints(const Sampled<std::vector<vec3>> &points, const std::s
             }
     for (size_t i = 0; i < result.bad.size(); ++i)
         if (result.bad[i])
-            for (auto &step : result.steps)
+            for (auto& step : result.steps)
                 step[i] = vec3(0.0f);
     return result;
 }

@@ -17,7 +17,7 @@ struct PointSteps {
 /// Evaluates points linearly at uniform steps over the shutter. Samples whose number of points
 /// differs from that of the sample nearest to time 0 are left out with a warning, since the
 /// topology holds there.
-PointSteps resamplePoints(const Sampled<std::vector<vec3>> &points, const std::string &prim,
-                          const TessellationOptions &options, Diagnostics &diagnostics);
+PointSteps resamplePoints(const Sampled<std::vector<vec3>>& points, const std::string& prim,
+                          const TessellationOptions& options, Diagnostics& diagnostics);
 
 } // namespace patina

@@ -7,7 +7,7 @@ namespace patina {
 
 namespace {
 
-const char *nameOf(Interpolation interpolation) {
+const char* nameOf(Interpolation interpolation) {
     switch (interpolation) {
     case Interpolation::Constant:
         return "constant";
@@ -23,21 +23,21 @@ const char *nameOf(Interpolation interpolation) {
     return "";
 }
 
-const MeshAttribute *find(const std::vector<MeshAttribute> &list, const std::string &name) {
-    for (const MeshAttribute &attribute : list)
+const MeshAttribute* find(const std::vector<MeshAttribute>& list, const std::string& name) {
+    for (const MeshAttribute& attribute : list)
         if (attribute.name == name) return &attribute;
     return nullptr;
 }
 
 } // namespace
 
-const MeshAttribute *TriangleMesh::attribute(const std::string &name) const {
+const MeshAttribute* TriangleMesh::attribute(const std::string& name) const {
     return find(attributes, name);
 }
-const MeshAttribute *CurveSet::attribute(const std::string &name) const {
+const MeshAttribute* CurveSet::attribute(const std::string& name) const {
     return find(attributes, name);
 }
-const MeshAttribute *PointSet::attribute(const std::string &name) const {
+const MeshAttribute* PointSet::attribute(const std::string& name) const {
     return find(attributes, name);
 }
 
@@ -57,8 +57,8 @@ size_t ElementCounts::of(Interpolation interpolation) const {
     return 1;
 }
 
-bool expandPrimvar(const Primvar &primvar, const ElementCounts &counts, const std::string &prim,
-                   Diagnostics &diagnostics, std::vector<float> &out) {
+bool expandPrimvar(const Primvar& primvar, const ElementCounts& counts, const std::string& prim,
+                   Diagnostics& diagnostics, std::vector<float>& out) {
     const std::string input = "primvars:" + primvar.name;
     const int n = primvar.components;
     if (n < 1 || n > 16) {
@@ -91,7 +91,7 @@ bool expandPrimvar(const Primvar &primvar, const ElementCounts &counts, const st
             std::copy_n(&primvar.values[size_t(index) * n], n, &out[i * n]);
         }
     }
-    for (float &value : out)
+    for (float& value : out)
         if (!std::isfinite(value)) {
             value = 0.0f;
             ++badValues;
@@ -105,8 +105,8 @@ bool expandPrimvar(const Primvar &primvar, const ElementCounts &counts, const st
     return true;
 }
 
-bool expandConstant(const Primvar &primvar, const std::string &prim, Diagnostics &diagnostics,
-                    MeshAttribute &out) {
+bool expandConstant(const Primvar& primvar, const std::string& prim, Diagnostics& diagnostics,
+                    MeshAttribute& out) {
     out.name = primvar.name;
     out.components = primvar.components;
     out.rate = MeshAttribute::Rate::Constant;

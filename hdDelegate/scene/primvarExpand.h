@@ -18,13 +18,13 @@ struct ElementCounts {
 /// Reported with prim and primvar: a wrong number of elements and a number of components outside
 /// 1..16 (nothing is returned), indices out of range and values that are not finite (read as 0).
 /// @returns false when the primvar cannot be used
-bool expandPrimvar(const Primvar &primvar, const ElementCounts &counts, const std::string &prim,
-                   Diagnostics &diagnostics, std::vector<float> &out);
+bool expandPrimvar(const Primvar& primvar, const ElementCounts& counts, const std::string& prim,
+                   Diagnostics& diagnostics, std::vector<float>& out);
 
 /// Expands as above, for prims on which only constant values make sense. Other interpolations are
 /// accepted when they have a single element.
 /// @returns false when the primvar cannot be used
-bool expandConstant(const Primvar &primvar, const std::string &prim, Diagnostics &diagnostics,
-                    MeshAttribute &out);
+bool expandConstant(const Primvar& primvar, const std::string& prim, Diagnostics& diagnostics,
+                    MeshAttribute& out);
 
 } // namespace patina

@@ -7,12 +7,12 @@ namespace patina {
 
 namespace {
 
-template <class T> void merge(PrimMap<T> &into, const PrimMap<T> &changes) {
-    for (const auto &item : changes)
+template <class T> void merge(PrimMap<T>& into, const PrimMap<T>& changes) {
+    for (const auto& item : changes)
         into[item.first] = item.second;
 }
 
-template <class F> void forEachMap(SceneState &state, const F &f) {
+template <class F> void forEachMap(SceneState& state, const F& f) {
     f(state.geometry);
     f(state.instancers);
     f(state.lights);
@@ -21,7 +21,7 @@ template <class F> void forEachMap(SceneState &state, const F &f) {
 }
 
 /// Whether both hold the same prim objects.
-bool sameContent(const SceneState &a, const SceneState &b) {
+bool sameContent(const SceneState& a, const SceneState& b) {
     return a.geometry == b.geometry && a.instancers == b.instancers && a.lights == b.lights &&
            a.cameras == b.cameras && a.materials == b.materials &&
            a.metersPerUnit == b.metersPerUnit;
@@ -29,8 +29,8 @@ bool sameContent(const SceneState &a, const SceneState &b) {
 
 } // namespace
 
-const Primvar *Geometry::primvar(const std::string &name) const {
-    for (const Primvar &candidate : primvars)
+const Primvar* Geometry::primvar(const std::string& name) const {
+    for (const Primvar& candidate : primvars)
         if (candidate.name == name) return &candidate;
     return nullptr;
 }
@@ -46,7 +46,7 @@ std::shared_ptr<const SceneState> Scene::snapshot() const {
     return _state;
 }
 
-SceneEdit::SceneEdit(SceneEdit &&other) noexcept
+SceneEdit::SceneEdit(SceneEdit&& other) noexcept
     : _scene(std::exchange(other._scene, nullptr)), _clear(other._clear),
       _metersPerUnit(other._metersPerUnit), _changes(std::move(other._changes)),
       _removed(std::move(other._removed)) {}
@@ -79,10 +79,10 @@ void SceneEdit::setMetersPerUnit(double metersPerUnit) {
                                    "is not a positive number; the value before is kept");
 }
 
-void SceneEdit::remove(const std::string &path) {
+void SceneEdit::remove(const std::string& path) {
     // What was set before in this edit goes too; what is set after stays, since commit removes
     // first.
-    forEachMap(_changes, [&](auto &map) { map.erase(path); });
+    forEachMap(_changes, [&](auto& map) { map.erase(path); });
     _removed.push_back(path);
 }
 
@@ -95,14 +95,14 @@ void SceneEdit::clear() {
 void SceneEdit::commit() {
     if (!_scene) return;
     bool changed = _clear || !_removed.empty() || _metersPerUnit > 0.0;
-    forEachMap(_changes, [&](auto &map) { changed |= !map.empty(); });
+    forEachMap(_changes, [&](auto& map) { changed |= !map.empty(); });
     if (!changed) return;
 
     std::lock_guard<std::mutex> lock(_scene->_mutex);
-    const SceneState &before = *_scene->_state;
+    const SceneState& before = *_scene->_state;
     auto after = std::make_shared<SceneState>(_clear ? SceneState() : before);
-    for (const std::string &path : _removed)
-        forEachMap(*after, [&](auto &map) { map.erase(path); });
+    for (const std::string& path : _removed)
+        forEachMap(*after, [&](auto& map) { map.erase(path); });
     merge(after->geometry, _changes.geometry);
     merge(after->instancers, _changes.instancers);
     merge(after->lights, _changes.lights);

@@ -1,16 +1,26 @@
 #include "hdDelegate/scene/tessellate.h"
 
 #include "hdDelegate/scene/drawnFaces.h"
+#include "hdDelegate/scene/refineLevel.h"
 
 namespace patina {
 
-TriangleMesh tessellate(const Mesh &mesh, const TessellationOptions &options,
-                        Diagnostics &diagnostics) {
+TriangleMesh tessellate(const Mesh& mesh, const TessellationOptions& options,
+                        Diagnostics& diagnostics) {
     PointSteps points = resamplePoints(mesh.points, mesh.path, options, diagnostics);
     if (points.count() == 0)
         diagnostics.warn(mesh.path, "points", "the mesh has none and is not drawn");
+    else if (mesh.faceVertexCounts.empty())
+        diagnostics.warn(mesh.path, "faceVertexCounts", "the mesh has no faces and is not drawn");
     const CageFaces faces = cageFaces(mesh, points, diagnostics);
-    return drawPolygons(mesh, std::move(points), faces, false, diagnostics);
+    if (mesh.scheme == SubdivisionScheme::None)
+        return drawPolygons(mesh, std::move(points), faces, CageNormals::Authored, diagnostics);
+    const int level = chooseRefineLevel(mesh, points, faces, options, diagnostics);
+    if (level > 0) return drawSubdivided(mesh, std::move(points), faces, level, diagnostics);
+    return drawPolygons(mesh, std::move(points), faces,
+                        mesh.scheme == SubdivisionScheme::Bilinear ? CageNormals::Flat
+                                                                   : CageNormals::Smooth,
+                        diagnostics);
 }
 
 } // namespace patina

@@ -32,24 +32,24 @@ struct TessellationOptions {
 /// or points that are not finite, faces of fewer than three vertices, primvars with a wrong number
 /// of elements, creases and corners that do not fit the mesh. Topology that OpenSubdiv rejects is
 /// drawn as polygons.
-TriangleMesh tessellate(const Mesh &mesh, const TessellationOptions &options,
-                        Diagnostics &diagnostics);
+TriangleMesh tessellate(const Mesh& mesh, const TessellationOptions& options,
+                        Diagnostics& diagnostics);
 
 /// Tessellates an implicit prim with exact normals, hard edges at caps, and an attribute `st`
 /// (round sides: once around and from bottom to top; caps and faces of the cube: 0..1 across).
 /// Sizes that are negative or not finite become 0 with a warning; a prim of size 0 is not drawn.
-TriangleMesh tessellate(const Implicit &implicit, const TessellationOptions &options,
-                        Diagnostics &diagnostics);
+TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& options,
+                        Diagnostics& diagnostics);
 
 /// Prepares curves. Phantom points of pinned curves and wrapped points of periodic ones are added.
 /// Widths (diameters) may have any interpolation; without them they are 1, the fallback that
 /// OpenUSD's own renderer uses. Curves with a vertex count that their basis cannot use are left out
 /// with a warning.
-CurveSet buildCurves(const Curves &curves, const TessellationOptions &options,
-                     Diagnostics &diagnostics);
+CurveSet buildCurves(const Curves& curves, const TessellationOptions& options,
+                     Diagnostics& diagnostics);
 
 /// Prepares points. Widths as for curves. Points that are not finite are left out with a warning.
-PointSet buildPoints(const Points &points, const TessellationOptions &options,
-                     Diagnostics &diagnostics);
+PointSet buildPoints(const Points& points, const TessellationOptions& options,
+                     Diagnostics& diagnostics);
 
 } // namespace patina

@@ -40,7 +40,7 @@ struct TriangleMesh {
     vec3 boundsMin{0.0f}, boundsMax{0.0f}; ///< of all time steps; zero when there are no triangles
     int refineLevel = 0;                   ///< uniform subdivisions that were made
 
-    const MeshAttribute *attribute(const std::string &name) const;
+    const MeshAttribute* attribute(const std::string& name) const;
 };
 
 /// Curves as Embree takes them. Cubic segments have four consecutive control points, linear ones
@@ -57,7 +57,7 @@ struct CurveSet {
     std::vector<MeshAttribute> attributes; ///< Constant, PerFace (curve) or PerCorner (segment end)
     vec3 boundsMin{0.0f}, boundsMax{0.0f};
 
-    const MeshAttribute *attribute(const std::string &name) const;
+    const MeshAttribute* attribute(const std::string& name) const;
 };
 
 /// Spheres, or discs where there are normals.
@@ -69,7 +69,7 @@ struct PointSet {
     std::vector<MeshAttribute> attributes;  ///< Constant or PerVertex
     vec3 boundsMin{0.0f}, boundsMax{0.0f};
 
-    const MeshAttribute *attribute(const std::string &name) const;
+    const MeshAttribute* attribute(const std::string& name) const;
 };
 
 } // namespace patina

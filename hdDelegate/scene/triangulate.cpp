@@ -6,21 +6,21 @@ namespace patina {
 
 namespace {
 
-float turn(const vec2 &a, const vec2 &b, const vec2 &c) {
+float turn(const vec2& a, const vec2& b, const vec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-bool inTriangle(const vec2 &p, const vec2 &a, const vec2 &b, const vec2 &c) {
+bool inTriangle(const vec2& p, const vec2& a, const vec2& b, const vec2& c) {
     return turn(a, b, p) >= 0.0f && turn(b, c, p) >= 0.0f && turn(c, a, p) >= 0.0f;
 }
 
-void fan(int count, std::vector<uvec3> &out) {
+void fan(int count, std::vector<uvec3>& out) {
     for (int i = 1; i + 1 < count; ++i)
         out.push_back(uvec3(0, i, i + 1));
 }
 
 /// A polygon in its plane, counterclockwise.
-std::vector<vec2> project(const vec3 *corners, int count, const vec3 &normal) {
+std::vector<vec2> project(const vec3* corners, int count, const vec3& normal) {
     const vec3 axis = glm::abs(normal);
     int drop = axis.x > axis.y ? (axis.x > axis.z ? 0 : 2) : (axis.y > axis.z ? 1 : 2);
     int u = (drop + 1) % 3, v = (drop + 2) % 3;
@@ -31,7 +31,7 @@ std::vector<vec2> project(const vec3 *corners, int count, const vec3 &normal) {
     return flat;
 }
 
-void quad(const vec3 *p, std::vector<uvec3> &out) {
+void quad(const vec3* p, std::vector<uvec3>& out) {
     const vec3 n = newellNormal(p, 4);
     // The diagonal 0-2 is inside unless the corner 1 or 3 is reflex, and the other way round.
     const auto reflex = [&](int i) {
@@ -49,7 +49,7 @@ void quad(const vec3 *p, std::vector<uvec3> &out) {
     }
 }
 
-void clipEars(const std::vector<vec2> &p, std::vector<uvec3> &out) {
+void clipEars(const std::vector<vec2>& p, std::vector<uvec3>& out) {
     const int count = int(p.size());
     std::vector<int> next(count), previous(count);
     for (int i = 0; i < count; ++i) {
@@ -92,14 +92,14 @@ void clipEars(const std::vector<vec2> &p, std::vector<uvec3> &out) {
 
 } // namespace
 
-vec3 newellNormal(const vec3 *corners, int count) {
+vec3 newellNormal(const vec3* corners, int count) {
     vec3 normal(0.0f);
     for (int i = 1; i + 1 < count; ++i)
         normal += glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
     return normal;
 }
 
-void triangulatePolygon(const vec3 *corners, int count, std::vector<uvec3> &out) {
+void triangulatePolygon(const vec3* corners, int count, std::vector<uvec3>& out) {
     if (count == 3) {
         out.push_back(uvec3(0, 1, 2));
         return;

@@ -9,12 +9,12 @@ namespace patina {
 /// are concave; larger polygons by ear clipping in the plane of their Newell normal. Degenerate and
 /// self-intersecting polygons give some triangulation, always of count - 2 triangles.
 /// @param corners the polygon, count >= 3 finite points
-void triangulatePolygon(const vec3 *corners, int count, std::vector<uvec3> &out);
+void triangulatePolygon(const vec3* corners, int count, std::vector<uvec3>& out);
 
 /// Above this many corners a concave polygon is cut as a fan, since ear clipping is quadratic.
 constexpr int maxEarClipping = 8192;
 
 /// Sum of the cross products of a polygon's edges: its normal, twice its area long.
-vec3 newellNormal(const vec3 *corners, int count);
+vec3 newellNormal(const vec3* corners, int count);
 
 } // namespace patina

@@ -185,7 +185,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     for (const std::string& name : _settings.aovs)
         if (name != "color" && name != "alpha" && name != "sampleCount" && name != "variance")
             aovs.push_back(standardAov(name));
-    _film->reset(_settings.width, _settings.height, aovs, true);
+    _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
 
     const CameraRays rays(camera, _settings);
     const Integrator integrator(*_embree, *lights, rays, _settings, aovs);

@@ -186,6 +186,7 @@ MaterialSlot EmbreeScene::makeSlot(const Surface& surface, const std::string& ma
     slot.program = program(materialPath, surface.prim->path, state, settings, textures);
     for (const auto& primvar : slot.program->primvars())
         slot.attributes.push_back(surface.findAttribute(primvar.name));
+    slot.opaque = slot.program->isOpaqueWith(slot.attributes);
     return slot;
 }
 
@@ -350,7 +351,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
                 surface, subset.material.empty() ? surface.prim->material : subset.material, state,
                 settings, textures));
         for (const MaterialSlot& slot : surface.materials)
-            _allOpaque &= slot.program->isOpaque();
+            _allOpaque &= slot.opaque;
         _surfacesOf[surface.prim->group].push_back(item.cached->surface);
         _trianglesStored += surface.mesh.triangles.size();
     }

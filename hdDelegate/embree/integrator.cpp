@@ -37,7 +37,9 @@ Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
                        const CameraRays& camera, const RenderSettings& settings,
                        const std::vector<AovSpec>& aovs)
     : _scene(scene), _lights(lights), _camera(camera), _settings(settings), _aovs(aovs),
-      _filter(settings.filterRadius) {}
+      _filter(settings.filterRadius), _cullBack(settings.cullStyle.rfind("back", 0) == 0),
+      _cullFront(settings.cullStyle.rfind("front", 0) == 0),
+      _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos) {}
 
 void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters& counters) const {
     Sampler sampler(uint32_t(x), uint32_t(y), _settings.seed, index);
@@ -200,7 +202,7 @@ vec3 Integrator::visibility(const Path& path, const vec3& origin, const vec3& di
         computeSurfacePoint(hit, origin, direction, 0.0f, point);
         if (linked(light.shadowCategory, hit.surface, hit.instanceCategories)) {
             const MaterialProgram& program = *point.slot->program;
-            float opacity = program.isOpaque() ? 1.0f : program.opacity(point.shading);
+            float opacity = point.slot->opaque ? 1.0f : program.opacity(point.shading);
             if (light.shadowFalloff > 0.0f && light.shadowDistance > 0.0f) {
                 const float fade = std::clamp(
                     (light.shadowDistance - hit.distance) / light.shadowFalloff, 0.0f, 1.0f);
@@ -270,11 +272,10 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         const MaterialProgram& program = *point.slot->program;
         const ShadingPoint& s = point.shading;
 
-        // One-sided meshes are not there for rays from behind.
         const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
-        const bool culled = back && !hit.surface->prim->doubleSided && path.fromCamera() &&
-                            _settings.cullSingleSided;
-        float opacity = culled ? 0.0f : program.isOpaque() ? 1.0f : program.opacity(s);
+        const bool culled = path.fromCamera() && (back ? cullsBack(*hit.surface->prim)
+                                                       : cullsFront(*hit.surface->prim));
+        float opacity = culled ? 0.0f : point.slot->opaque ? 1.0f : program.opacity(s);
         if (opacity < 1.0f && !(path.sampler.random() < opacity)) {
             if (++passed > maxPassThroughs)
                 break;

@@ -13,6 +13,7 @@ namespace patina {
 struct MaterialSlot {
     std::shared_ptr<const MaterialProgram> program;
     std::vector<int> attributes; ///< per program->primvars(): index of the prim's attribute, or -1
+    bool opaque = true; ///< opacity is 1 everywhere on this prim
 };
 
 /// A prim made ready for rays. Positions and normals are those of its group's space (world space

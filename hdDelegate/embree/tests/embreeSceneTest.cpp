@@ -1,0 +1,213 @@
+#include "hdDelegate/embree/embreeScene.h"
+
+#include "hdDelegate/scene/textureSystem.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+using namespace patina;
+
+namespace {
+
+std::shared_ptr<Mesh> makeQuad(const std::string& path, const std::string& group = "") {
+    auto mesh = std::make_shared<Mesh>();
+    mesh->path = path;
+    mesh->group = group;
+    mesh->points = std::vector<vec3>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh->faceVertexCounts = {4};
+    mesh->faceVertexIndices = {0, 1, 2, 3};
+    return mesh;
+}
+
+std::shared_ptr<Instancer> makeInstancer(const std::string& path, const std::string& group,
+                                         const std::string& prototype,
+                                         const std::vector<mat4>& transforms) {
+    auto instancer = std::make_shared<Instancer>();
+    instancer->path = path;
+    instancer->group = group;
+    instancer->prototypes = {prototype};
+    for (const mat4& m : transforms) {
+        instancer->transforms.push_back(m);
+        instancer->prototypeIndices.push_back(0);
+    }
+    return instancer;
+}
+
+struct Built {
+    Scene scene;
+    Camera camera;
+    RenderSettings settings;
+    TextureSystem textures{scene.diagnostics()};
+    EmbreeScene embree{scene.diagnostics()};
+    std::atomic<bool> stop{false};
+
+    void update() {
+        embree.update(*scene.snapshot(), camera, settings, textures, stop);
+    }
+    bool hit(const vec3& origin, const vec3& direction, Hit& out, float time = 0.0f) {
+        return embree.intersect(origin, direction, 0, INFINITY, time, RayCamera, out);
+    }
+};
+
+mat4 translate(float x, float y, float z) { return glm::translate(mat4(1.0f), vec3(x, y, z)); }
+
+} // namespace
+
+TEST(EmbreeScene, HitOfAPrimInTheWorld) {
+    Built built;
+    auto quad = makeQuad("/quad");
+    quad->transform = translate(0, 0, -5);
+    built.scene.edit().set(std::shared_ptr<const Geometry>(quad));
+    built.update();
+    Hit hit;
+    ASSERT_TRUE(built.hit({0.25f, 0.5f, 0}, {0, 0, -1}, hit));
+    EXPECT_NEAR(hit.distance, 5.0f, 1e-5f);
+    SurfacePoint point;
+    computeSurfacePoint(hit, {0.25f, 0.5f, 0}, {0, 0, -1}, 0, point);
+    EXPECT_NEAR(point.shading.geometricNormal.z, 1.0f, 1e-6f);
+    EXPECT_NEAR(point.shading.objectPosition.z, 0.0f, 1e-5f);
+    EXPECT_FALSE(built.hit({1.5f, 0, 0}, {0, 0, -1}, hit));
+    EXPECT_EQ(hit.instanceId, -1);
+}
+
+TEST(EmbreeScene, MirroringTransformKeepsTheFrontSide) {
+    Built built;
+    auto quad = makeQuad("/quad");
+    quad->transform = glm::scale(mat4(1.0f), vec3(-1, 1, 1));
+    built.scene.edit().set(std::shared_ptr<const Geometry>(quad));
+    built.update();
+    Hit hit;
+    ASSERT_TRUE(built.hit({0, 0.1f, 3}, {0, 0, -1}, hit));
+    SurfacePoint point;
+    computeSurfacePoint(hit, {0, 0.1f, 3}, {0, 0, -1}, 0, point);
+    EXPECT_NEAR(point.shading.geometricNormal.z, 1.0f, 1e-6f);
+}
+
+TEST(EmbreeScene, InstancesOfThreeLevelsLandWhereTheirTransformsSay) {
+    Built built;
+    SceneEdit edit = built.scene.edit();
+    edit.set(std::shared_ptr<const Geometry>(makeQuad("/leaf", "A")));
+    edit.set(std::shared_ptr<const Instancer>(
+        makeInstancer("/i1", "B", "A", {translate(10, 0, 0), translate(20, 0, 0)})));
+    edit.set(std::shared_ptr<const Instancer>(makeInstancer(
+        "/i2", "C", "B", {translate(0, 100, 0), glm::scale(mat4(1.0f), vec3(2.0f))})));
+    edit.set(std::shared_ptr<const Instancer>(
+        makeInstancer("/i3", "", "C", {translate(0, 0, -7), translate(1000, 0, 0)})));
+    edit.commit();
+    built.update();
+    Hit hit;
+    ASSERT_TRUE(built.hit({20.5f, 100.25f, 0}, {0, 0, -1}, hit));
+    EXPECT_NEAR(hit.distance, 7.0f, 1e-4f);
+    EXPECT_EQ(hit.surface->prim->path, "/leaf");
+    EXPECT_NEAR(hit.groupToWorld[3].x, 20.0f, 1e-4f);
+    EXPECT_NEAR(hit.groupToWorld[3].y, 100.0f, 1e-4f);
+    EXPECT_EQ(hit.instanceId, 1);
+    // The scaled copy reaches from 18 to 22 around x = 20.
+    ASSERT_TRUE(built.hit({1021.5f, 1.5f, 3}, {0, 0, -1}, hit));
+    EXPECT_NEAR(hit.distance, 3.0f, 1e-4f);
+    EXPECT_FALSE(built.hit({1023.0f, 1.5f, 3}, {0, 0, -1}, hit));
+    EXPECT_TRUE(built.embree.occluded({1021.5f, 1.5f, 3}, {0, 0, -1}, 0, 10, 0, RayShadow));
+    EXPECT_FALSE(built.embree.occluded({1023.0f, 1.5f, 3}, {0, 0, -1}, 0, 10, 0, RayShadow));
+    EXPECT_EQ(built.embree.groupTransforms("A").size(), 8u);
+}
+
+TEST(EmbreeScene, ANearerPlainHitIsNotMistakenForAnInstance) {
+    Built built;
+    SceneEdit edit = built.scene.edit();
+    auto front = makeQuad("/front");
+    front->transform = translate(0, 0, -2);
+    edit.set(std::shared_ptr<const Geometry>(front));
+    edit.set(std::shared_ptr<const Geometry>(makeQuad("/leaf", "A")));
+    edit.set(std::shared_ptr<const Instancer>(makeInstancer("/i1", "B", "A", {mat4(1.0f)})));
+    edit.set(
+        std::shared_ptr<const Instancer>(makeInstancer("/i2", "", "B", {translate(0, 0, -4)})));
+    edit.commit();
+    built.update();
+    Hit hit;
+    ASSERT_TRUE(built.hit({0, 0, 0}, {0, 0, -1}, hit));
+    EXPECT_EQ(hit.surface->prim->path, "/front");
+    EXPECT_FALSE(hit.instanced);
+}
+
+TEST(EmbreeScene, CyclesOfInstancersAreReportedAndLeftOut) {
+    Built built;
+    SceneEdit edit = built.scene.edit();
+    edit.set(std::shared_ptr<const Geometry>(makeQuad("/leaf", "A")));
+    edit.set(std::shared_ptr<const Instancer>(makeInstancer("/i1", "A", "A", {mat4(1.0f)})));
+    edit.set(std::shared_ptr<const Instancer>(makeInstancer("/i2", "", "A", {mat4(1.0f)})));
+    edit.commit();
+    built.update();
+    EXPECT_GE(built.scene.diagnostics().count(), 1);
+    Hit hit;
+    EXPECT_TRUE(built.hit({0, 0, 1}, {0, 0, -1}, hit));
+}
+
+TEST(EmbreeScene, SingularInstanceIsReportedAndLeftOut) {
+    Built built;
+    SceneEdit edit = built.scene.edit();
+    edit.set(std::shared_ptr<const Geometry>(makeQuad("/leaf", "A")));
+    edit.set(std::shared_ptr<const Instancer>(
+        makeInstancer("/i", "", "A", {mat4(0.0f), translate(0, 0, -1)})));
+    edit.commit();
+    built.update();
+    Hit hit;
+    ASSERT_TRUE(built.hit({0, 0, 0}, {0, 0, -1}, hit));
+    EXPECT_EQ(hit.instanceId, 1);
+    EXPECT_EQ(built.scene.diagnostics().count(), 1);
+}
+
+TEST(EmbreeScene, MotionOfTransformAndInstance) {
+    Built built;
+    built.camera.shutterOpen = 0.0;
+    built.camera.shutterClose = 1.0;
+    MotionTransform motion;
+    motion.times = {0.0f, 1.0f};
+    motion.values = {mat4(1.0f), translate(4, 0, 0)};
+    auto moving = makeQuad("/moving");
+    moving->transform = motion;
+    SceneEdit edit = built.scene.edit();
+    edit.set(std::shared_ptr<const Geometry>(moving));
+    edit.set(std::shared_ptr<const Geometry>(makeQuad("/leaf", "A")));
+    auto instancer = makeInstancer("/i", "", "A", {mat4(1.0f)});
+    MotionTransform far = motion;
+    for (mat4& m : far.values)
+        m = translate(0, 50, 0) * m;
+    instancer->transforms[0] = far;
+    edit.set(std::shared_ptr<const Instancer>(instancer));
+    edit.commit();
+    built.update();
+    Hit hit;
+    for (float y : {0.0f, 50.0f}) {
+        EXPECT_TRUE(built.hit({0, y, 1}, {0, 0, -1}, hit, 0.0f));
+        EXPECT_FALSE(built.hit({2, y, 1}, {0, 0, -1}, hit, 0.0f));
+        EXPECT_TRUE(built.hit({2, y, 1}, {0, 0, -1}, hit, 0.5f));
+        EXPECT_FALSE(built.hit({0, y, 1}, {0, 0, -1}, hit, 0.75f));
+    }
+}
+
+TEST(EmbreeScene, UnchangedPrimsKeepTheirSurfaces) {
+    Built built;
+    SceneEdit edit = built.scene.edit();
+    edit.set(std::shared_ptr<const Geometry>(makeQuad("/a")));
+    edit.set(std::shared_ptr<const Geometry>(makeQuad("/b")));
+    edit.commit();
+    built.update();
+    const Surface* a = built.embree.surfaceOf("/a");
+    const Surface* b = built.embree.surfaceOf("/b");
+    built.scene.edit().set(std::shared_ptr<const Geometry>(makeQuad("/b")));
+    built.update();
+    EXPECT_EQ(built.embree.surfaceOf("/a"), a);
+    EXPECT_NE(built.embree.surfaceOf("/b"), b);
+}
+
+TEST(EmbreeScene, VisibilityMasksRays) {
+    Built built;
+    auto quad = makeQuad("/quad");
+    quad->visibility = {false, true, true};
+    built.scene.edit().set(std::shared_ptr<const Geometry>(quad));
+    built.update();
+    Hit hit;
+    EXPECT_FALSE(built.hit({0, 0, 1}, {0, 0, -1}, hit));
+    EXPECT_TRUE(
+        built.embree.intersect({0, 0, 1}, {0, 0, -1}, 0, 10, 0, RayIndirect, hit));
+}

@@ -1,0 +1,120 @@
+#include "hdDelegate/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+using namespace patina;
+
+namespace {
+
+std::shared_ptr<Scene> furnaceScene() {
+    auto scene = std::make_shared<Scene>();
+    SceneEdit edit = scene->edit();
+    auto ball = std::make_shared<Implicit>();
+    ball->path = "/ball";
+    edit.set(std::shared_ptr<const Geometry>(ball));
+    auto dome = std::make_shared<Light>();
+    dome->path = "/dome";
+    dome->type = LightType::Dome;
+    edit.set(std::shared_ptr<const Light>(dome));
+    auto camera = std::make_shared<Camera>();
+    camera->path = "/camera";
+    camera->transform.values[0][3] = glm::vec4(0, 0, 5, 1);
+    edit.set(std::shared_ptr<const Camera>(camera));
+    return scene;
+}
+
+RenderSettings smallImage(int samples) {
+    RenderSettings settings;
+    settings.width = 64;
+    settings.height = 36;
+    settings.samples = samples;
+    return settings;
+}
+
+} // namespace
+
+TEST(EmbreeRenderer, UnknownCameraFailsAndConverges) {
+    auto renderer = makeRenderer("embree");
+    renderer->start(furnaceScene(), "/absent", smallImage(1), std::make_shared<Film>());
+    renderer->wait();
+    EXPECT_TRUE(renderer->progress().failed);
+    EXPECT_NE(renderer->progress().error.find("/absent"), std::string::npos);
+}
+
+TEST(EmbreeRenderer, EmptyImageFails) {
+    auto renderer = makeRenderer("embree");
+    RenderSettings settings = smallImage(1);
+    settings.height = 0;
+    renderer->start(furnaceScene(), "/camera", settings, std::make_shared<Film>());
+    renderer->wait();
+    EXPECT_TRUE(renderer->progress().failed);
+}
+
+TEST(EmbreeRenderer, UnknownBackendIsNull) { EXPECT_EQ(makeRenderer("none"), nullptr); }
+
+TEST(EmbreeRenderer, PauseStopsTheSamplesAndResumeGoesOn) {
+    auto renderer = makeRenderer("embree");
+    auto film = std::make_shared<Film>();
+    renderer->start(furnaceScene(), "/camera", smallImage(1 << 20), film);
+    while (renderer->progress().samplesDone < 1)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    renderer->pause();
+    const auto before = film->resolve("sampleCount");
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_EQ(film->resolve("sampleCount"), before);
+    renderer->resume();
+    while (film->resolve("sampleCount") == before)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    renderer->stop();
+    EXPECT_FALSE(renderer->isRunning());
+}
+
+TEST(EmbreeRenderer, PausedStoppedAndResumedGivesTheSameBits) {
+    auto whole = std::make_shared<Film>(), cut = std::make_shared<Film>();
+    auto renderer = makeRenderer("embree");
+    renderer->start(furnaceScene(), "/camera", smallImage(40), whole);
+    renderer->wait();
+    cut->resumeToken = "the same render";
+    renderer->start(furnaceScene(), "/camera", smallImage(40), cut);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    renderer->pause();
+    renderer->resume();
+    renderer->stop();
+    renderer->start(furnaceScene(), "/camera", smallImage(40), cut);
+    renderer->wait();
+    EXPECT_TRUE(renderer->progress().converged);
+    EXPECT_EQ(whole->resolve("color"), cut->resolve("color"));
+}
+
+TEST(EmbreeRenderer, EditsBetweenRendersGiveTheImageOfAFreshOne) {
+    auto scene = furnaceScene();
+    auto renderer = makeRenderer("embree");
+    renderer->start(scene, "/camera", smallImage(4), std::make_shared<Film>());
+    renderer->wait();
+    auto second = std::make_shared<Implicit>();
+    second->path = "/second";
+    second->transform.values[0][3] = glm::vec4(0.5f, 0.5f, 1, 1);
+    scene->edit().set(std::shared_ptr<const Geometry>(second));
+    auto edited = std::make_shared<Film>(), fresh = std::make_shared<Film>();
+    renderer->start(scene, "/camera", smallImage(4), edited);
+    renderer->wait();
+    auto other = makeRenderer("embree");
+    other->start(scene, "/camera", smallImage(4), fresh);
+    other->wait();
+    EXPECT_EQ(edited->resolve("color"), fresh->resolve("color"));
+}
+
+TEST(EmbreeRenderer, ManyStartsAndStopsAreSafe) {
+    auto scene = furnaceScene();
+    auto renderer = makeRenderer("embree");
+    auto film = std::make_shared<Film>();
+    for (int i = 0; i < 20; ++i) {
+        renderer->start(scene, "/camera", smallImage(1 << 16), film);
+        std::this_thread::sleep_for(std::chrono::milliseconds(i));
+    }
+    renderer->stop();
+    SUCCEED();
+}

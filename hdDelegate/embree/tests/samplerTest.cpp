@@ -1,0 +1,78 @@
+#include "hdDelegate/embree/pixelFilter.h"
+#include "hdDelegate/embree/sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+using namespace patina;
+
+namespace {
+
+/// Counts points of every pair drawn per sample in a grid of 16x16 cells.
+std::vector<int> cells(int samples, int pair) {
+    std::vector<int> count(256, 0);
+    for (int i = 0; i < samples; ++i) {
+        Sampler sampler(3, 7, 1, uint32_t(i));
+        glm::vec2 p(0.0f);
+        for (int k = 0; k <= pair; ++k)
+            p = sampler.next2();
+        ++count[size_t(p.x * 16) * 16 + size_t(p.y * 16)];
+    }
+    return count;
+}
+
+} // namespace
+
+TEST(Sampler, EveryPairOf256SamplesFillsA16x16GridOnce) {
+    for (int pair = 0; pair < 6; ++pair)
+        for (int count : cells(256, pair))
+            ASSERT_EQ(count, 1) << "pair " << pair;
+}
+
+TEST(Sampler, NumbersStayBelowOne) {
+    for (uint32_t i = 0; i < 100000; ++i) {
+        Sampler sampler(i % 97, i % 89, i, i * 2654435761u);
+        const glm::vec4 u = sampler.next4();
+        for (int d = 0; d < 4; ++d)
+            ASSERT_TRUE(u[d] >= 0.0f && u[d] < 1.0f);
+        const float r = sampler.random();
+        ASSERT_TRUE(r >= 0.0f && r < 1.0f);
+    }
+}
+
+TEST(Sampler, PairsAndPixelsAreUncorrelated) {
+    // Correlation of n independent uniform pairs has a standard deviation of 1/sqrt(n); 5 of them
+    // are exceeded with probability 6e-7. Fixed seeds.
+    constexpr int n = 1 << 14;
+    double pairs = 0.0, pixels = 0.0;
+    for (uint32_t i = 0; i < n; ++i) {
+        Sampler a(5, 5, 0, i), b(6, 5, 0, i);
+        const float a0 = a.next2().x, a1 = a.next2().x, b0 = b.next2().x;
+        pairs += (a0 - 0.5) * (a1 - 0.5);
+        pixels += (a0 - 0.5) * (b0 - 0.5);
+    }
+    const double limit = 5.0 / std::sqrt(double(n));
+    EXPECT_LT(std::abs(pairs * 12.0 / n), limit);
+    EXPECT_LT(std::abs(pixels * 12.0 / n), limit);
+}
+
+TEST(PixelFilter, GaussianHasTheVarianceOfATruncatedNormal) {
+    // Radius 1, sigma 0.5, cut at 2 sigma: variance sigma^2 (1 - 4 phi(2) / (2 Phi(2) - 1)).
+    const PixelFilter filter(1.0f);
+    double mean = 0.0, square = 0.0;
+    constexpr int n = 100000;
+    for (int i = 0; i < n; ++i) {
+        const double x = filter.sample({(i + 0.5f) / n, 0.5f}).x;
+        mean += x / n;
+        square += x * x / n;
+    }
+    EXPECT_NEAR(mean, 0.0, 1e-5);
+    EXPECT_NEAR(square, 0.25 * (1.0 - 4.0 * 0.0539909665 / 0.9544997361), 1e-4);
+}
+
+TEST(PixelFilter, HalfAPixelIsABox) {
+    const PixelFilter filter(0.5f);
+    EXPECT_FLOAT_EQ(filter.sample({0.0f, 0.75f}).x, -0.5f);
+    EXPECT_FLOAT_EQ(filter.sample({0.0f, 0.75f}).y, 0.25f);
+}

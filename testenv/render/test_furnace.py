@@ -1,0 +1,56 @@
+"""White furnace: a convex object in a uniform dome shows its directional albedo, and nothing else."""
+import numpy as np
+import pytest
+
+from rendering import color, record, scene
+
+SIZE, SAMPLES = 64, 1024
+DIFFUSE = "/World/materials/white/diffuse"
+
+
+def sphere_cosines(image):
+    """Cosine between normal and view of each pixel of the sphere, from the position AOV's stand-in:
+    the scene's camera looks along -z at a unit sphere from (0, 0, 5) with a 20/50 window."""
+    axis = (np.arange(SIZE) + 0.5) / SIZE * 2 - 1
+    x, y = np.meshgrid(axis * 0.2, -axis * 0.2)
+    direction = np.stack([x, y, -np.ones_like(x)], -1)
+    direction /= np.linalg.norm(direction, axis=-1, keepdims=True)
+    b = 5 * direction[..., 2]
+    disc = b * b - 24
+    distance = -b - np.sqrt(np.maximum(disc, 0))
+    position = np.array([0, 0, 5]) + direction * distance[..., None]
+    cosine = -(position * direction).sum(-1)
+    return np.where(disc > 0, cosine, 0)
+
+
+def oren_nayar_albedo(cosine, roughness, color_value):
+    """Directional albedo of the qualitative model (Oren and Nayar 1994, eq. 30) by quadrature."""
+    s2 = roughness * roughness
+    a, b = 1 - 0.5 * s2 / (s2 + 0.33), 0.45 * s2 / (s2 + 0.09)
+    mu = (np.arange(400) + 0.5) / 400
+    phi = (np.arange(400) + 0.5) / 400 * 2 * np.pi
+    mu, phi = np.meshgrid(mu, phi, indexing="ij")
+    sine_i, sine_o = np.sqrt(1 - mu * mu), np.sqrt(1 - cosine * cosine)
+    s = sine_i * sine_o * np.cos(phi)
+    term = np.where(s > 0, s / np.maximum(mu, cosine), 0)
+    return color_value / np.pi * ((a + b * term) * mu).mean() * 2 * np.pi
+
+
+@pytest.mark.parametrize("roughness", [0.0, 0.25, 0.5, 1.0])
+def test_diffuse_sphere_shows_its_albedo(tmp_path, roughness):
+    image = tmp_path / "furnace.exr"
+    record(scene("furnace"), image, "--imageWidth", SIZE, "--imageHeight", SIZE, "--samples", SAMPLES,
+           "--filterRadius", 0.5, "--set", f"{DIFFUSE}.roughness={roughness}")
+    cosine = sphere_cosines(None)
+    inside = cosine > 0.5
+    expected = np.array([oren_nayar_albedo(c, roughness, 0.8) for c in cosine[inside]])
+    found = color(image)[inside].mean(axis=-1)
+    assert found.mean() == pytest.approx(expected.mean(), rel=1e-3)
+    centre = np.argsort(-cosine[inside])[:64]
+    assert found[centre].mean() == pytest.approx(expected[centre].mean(), rel=1e-3)
+
+
+def test_background_is_the_dome(tmp_path):
+    image = tmp_path / "furnace.exr"
+    record(scene("furnace"), image, "--imageWidth", SIZE, "--imageHeight", SIZE, "--samples", 4)
+    assert np.allclose(color(image)[0], 1.0, atol=1e-6)

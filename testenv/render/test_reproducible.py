@@ -1,0 +1,75 @@
+"""A pixel depends on scene, settings and seed: not on threads, interruption or order."""
+import json
+
+import numpy as np
+import pytest
+
+from rendering import color, patina, pixels, record, scene
+
+SMALL = ("--imageWidth", 80, "--imageHeight", 45)
+
+
+def test_thread_count_does_not_change_a_bit(tmp_path):
+    images = []
+    for threads in (1, 2, 3):
+        image = tmp_path / f"t{threads}.exr"
+        record(scene("roughGlass"), image, *SMALL, "--samples", 8, "--threads", threads)
+        images.append(pixels(image))
+    assert np.array_equal(images[0], images[1]) and np.array_equal(images[0], images[2])
+
+
+def test_seed_changes_the_noise_and_not_the_mean(tmp_path):
+    means, images = [], []
+    for seed in (1, 2):
+        image = tmp_path / f"s{seed}.exr"
+        record(scene("diffuseBox"), image, *SMALL, "--samples", 64, "--seed", seed)
+        images.append(color(image))
+        means.append(images[-1].mean())
+    assert not np.array_equal(images[0], images[1])
+    assert means[0] == pytest.approx(means[1], rel=0.02)
+
+
+def test_resumed_render_has_the_bits_of_an_uninterrupted_one(tmp_path):
+    whole, cut = tmp_path / "whole.exr", tmp_path / "cut.exr"
+    record(scene("diffuseBox"), whole, *SMALL, "--samples", 48)
+    # A time limit that is over at once leaves a part and its checkpoint.
+    record(scene("diffuseBox"), cut, *SMALL, "--samples", 48, "--seconds", 0.05, "--keepCheckpoint")
+    assert not np.array_equal(pixels(whole), pixels(cut))
+    record(scene("diffuseBox"), cut, *SMALL, "--samples", 48, "--resume")
+    assert np.array_equal(pixels(whole), pixels(cut))
+
+
+def test_adaptive_render_is_reproducible_and_cheaper(tmp_path):
+    statistics = []
+    images = []
+    for threads in (1, 2):
+        image = tmp_path / f"a{threads}.exr"
+        out = tmp_path / f"a{threads}.json"
+        record(scene("lightDome"), image, *SMALL, "--samples", 256, "--tolerance", 0.02, "--threads", threads,
+               f"--json={out}")
+        statistics.append(json.loads(out.read_text()))
+        images.append(pixels(image))
+    assert np.array_equal(images[0], images[1])
+    assert statistics[0]["samples"] < 256 * 80 * 45
+
+
+def test_tolerance_is_kept(tmp_path):
+    reference, image = tmp_path / "reference.exr", tmp_path / "image.exr"
+    record(scene("lightSphere"), reference, *SMALL, "--samples", 4096, "--seed", 7)
+    record(scene("lightSphere"), image, *SMALL, "--samples", 2048, "--tolerance", 0.02)
+    weights = np.array([0.2126, 0.7152, 0.0722])
+    a, b = color(image) @ weights, color(reference) @ weights
+    assert np.mean(np.abs(a - b) / (b + 0.01)) <= 0.02
+
+
+def test_progressive_error_falls_with_samples(tmp_path):
+    image = tmp_path / "x.exr"
+    errors = []
+    reference = tmp_path / "reference.exr"
+    record(scene("diffuseBox"), reference, *SMALL, "--samples", 4096, "--seed", 99)
+    for samples in (16, 64, 256):
+        record(scene("diffuseBox"), image, *SMALL, "--samples", samples)
+        result = json.loads(patina("compare", image, reference, "--json", "--no-flip").stdout)
+        errors.append(result["rmse"])
+    slope = np.polyfit(np.log([16, 64, 256]), np.log(errors), 1)[0]
+    assert slope <= -0.45

@@ -1,0 +1,230 @@
+// Film, image files and colour of the Python module. Names are PEP 8's; options of images are the
+// fields of ImageOptions in snake case.
+
+#include "hdDelegate/film/imageFile.h"
+#include "hdDelegate/scene/colorSpaces.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+
+namespace py = pybind11;
+
+namespace patina {
+
+namespace {
+
+/// An array that owns the vector's memory: no copy.
+template <class T> py::array_t<T> arrayOf(std::vector<float>&& values, std::vector<size_t> shape) {
+    static_assert(sizeof(T) == sizeof(float), "ids are the bits of floats");
+    auto* owner = new std::vector<float>(std::move(values));
+    py::capsule release(owner, [](void* p) { delete static_cast<std::vector<float>*>(p); });
+    return py::array_t<T>(shape, reinterpret_cast<T*>(owner->data()), release);
+}
+
+py::array resolve(const Film& film, const std::string& name) {
+    AovSpec spec;
+    if (!film.findSpec(name, spec)) throw py::key_error("the film holds no AOV '" + name + "'");
+    std::vector<float> values;
+    {
+        py::gil_scoped_release release;
+        values = film.resolve(name);
+    }
+    std::vector<size_t> shape = {size_t(film.height()), size_t(film.width())};
+    if (spec.components > 1) shape.push_back(size_t(spec.components));
+    if (spec.isInteger) return arrayOf<int32_t>(std::move(values), shape);
+    return arrayOf<float>(std::move(values), shape);
+}
+
+std::vector<std::string> aovNames(const Film& film) {
+    std::vector<std::string> names;
+    for (const AovSpec& spec : film.aovs()) names.push_back(spec.name);
+    return names;
+}
+
+void reset(Film& film, int width, int height, const std::vector<std::string>& aovs, bool keep) {
+    std::vector<AovSpec> specs;
+    for (const std::string& name : aovs) specs.push_back(standardAov(name));
+    film.reset(width, height, specs, keep);
+}
+
+bool addColor(Film& film, int x, int y, std::array<float, 3> c, float alpha) {
+    if (x < 0 || y < 0 || x >= film.width() || y >= film.height())
+        throw py::index_error("there is no such pixel");
+    return film.addColor(x, y, {c[0], c[1], c[2]}, alpha);
+}
+
+Metadata metadataFrom(const py::dict& dict) {
+    Metadata metadata;
+    for (auto item : dict) {
+        std::string name = py::str(item.first);
+        if (py::isinstance<py::int_>(item.second) && !py::isinstance<py::bool_>(item.second)) {
+            long long value = item.second.cast<long long>();
+            if (value == int(value)) metadata[name] = int(value);
+            else metadata[name] = double(value);
+        } else if (py::isinstance<py::float_>(item.second)) {
+            metadata[name] = item.second.cast<double>();
+        } else {
+            metadata[name] = std::string(py::str(item.second));
+        }
+    }
+    return metadata;
+}
+
+py::dict metadataTo(const Metadata& metadata) {
+    py::dict dict;
+    for (auto& [name, value] : metadata) {
+        if (auto text = std::get_if<std::string>(&value)) {
+            // Foreign files hold bytes of any encoding.
+            dict[py::str(name)] = py::reinterpret_steal<py::object>(
+                PyUnicode_DecodeUTF8(text->data(), Py_ssize_t(text->size()), "replace"));
+        } else if (auto number = std::get_if<int>(&value)) {
+            dict[py::str(name)] = *number;
+        } else {
+            dict[py::str(name)] = std::get<double>(value);
+        }
+    }
+    return dict;
+}
+
+ImageOptions optionsFrom(const py::dict& dict) {
+    ImageOptions o;
+    const std::map<std::string, std::function<void(const py::handle&)>> fields = {
+        {"aovs", [&](auto& v) { o.aovs = v.template cast<std::vector<std::string>>(); }},
+        {"display_width", [&](auto& v) { o.displayWidth = v.template cast<int>(); }},
+        {"display_height", [&](auto& v) { o.displayHeight = v.template cast<int>(); }},
+        {"data_window",
+         [&](auto& v) {
+             auto window = v.template cast<std::array<int, 4>>();
+             std::copy(window.begin(), window.end(), o.dataWindow);
+         }},
+        {"pixel_aspect_ratio", [&](auto& v) { o.pixelAspectRatio = v.template cast<double>(); }},
+        {"half", [&](auto& v) { o.half = v.template cast<bool>(); }},
+        {"integer_ids", [&](auto& v) { o.integerIds = v.template cast<bool>(); }},
+        {"compression", [&](auto& v) { o.compression = v.template cast<std::string>(); }},
+        {"bits", [&](auto& v) { o.bits = v.template cast<int>(); }},
+        {"display", [&](auto& v) { o.display = v.template cast<std::string>(); }},
+        {"view", [&](auto& v) { o.view = v.template cast<std::string>(); }},
+        {"raw", [&](auto& v) { o.raw = v.template cast<bool>(); }},
+        {"dither", [&](auto& v) { o.dither = v.template cast<bool>(); }},
+        {"quality", [&](auto& v) { o.quality = v.template cast<int>(); }},
+    };
+    for (auto item : dict) {
+        std::string name = py::str(item.first);
+        auto field = fields.find(name);
+        if (field == fields.end()) throw py::value_error("unknown image option '" + name + "'");
+        try {
+            field->second(item.second);
+        } catch (const py::cast_error&) {
+            throw py::value_error("image option '" + name + "' has a value of the wrong type");
+        }
+    }
+    return o;
+}
+
+void writeFilm(const Film& film, const std::string& path, const py::dict& options,
+               const py::dict& metadata) {
+    ImageOptions o = optionsFrom(options);
+    Metadata m = metadataFrom(metadata);
+    py::gil_scoped_release release;
+    writeImage(film, path, o, m);
+}
+
+std::vector<std::string> usualChannels(size_t count) {
+    static const char* const color[] = {"R", "G", "B", "A"};
+    if (count == 1) return {"Y"};
+    std::vector<std::string> names;
+    for (size_t c = 0; c < count; ++c)
+        names.push_back(c < 4 ? color[c] : "channel" + std::to_string(c));
+    return names;
+}
+
+using FloatArray = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+void writeArray(const std::string& path, const FloatArray& pixels,
+                std::vector<std::string> channels, const py::dict& options,
+                const py::dict& metadata) {
+    if (pixels.ndim() != 2 && pixels.ndim() != 3)
+        throw py::value_error("an image is an array of height, width and, if not grey, channels");
+    ImageData image;
+    image.height = int(pixels.shape(0));
+    image.width = int(pixels.shape(1));
+    size_t count = pixels.ndim() == 3 ? size_t(pixels.shape(2)) : 1;
+    image.channels = channels.empty() ? usualChannels(count) : std::move(channels);
+    if (image.channels.size() != count)
+        throw py::value_error("the array has " + std::to_string(count) + " channels, the names " +
+                              std::to_string(image.channels.size()));
+    image.pixels.assign(pixels.data(), pixels.data() + pixels.size());
+    image.metadata = metadataFrom(metadata);
+    ImageOptions o = optionsFrom(options);
+    py::gil_scoped_release release;
+    writePixels(image, path, o);
+}
+
+} // namespace
+
+void bindFilm(py::module_& m) {
+    py::class_<Film, std::shared_ptr<Film>>(m, "Film", "Accumulates the samples of an image.")
+        .def(py::init<>())
+        .def("reset", &reset, py::arg("width"), py::arg("height"),
+             py::arg("aovs") = std::vector<std::string>{}, py::arg("keep") = false,
+             "Clears the film; ValueError names an unknown AOV.")
+        .def_property_readonly("width", &Film::width)
+        .def_property_readonly("height", &Film::height)
+        .def_property_readonly("aovs", &aovNames, "Names besides color and alpha.")
+        .def_property_readonly("dropped_samples", &Film::droppedSamples)
+        .def_readwrite("resume_token", &Film::resumeToken)
+        .def("resolve", &resolve, py::arg("name"),
+             "Array of height x width (x components), top row first; int32 for ids.")
+        .def("add_color", &addColor, py::arg("x"), py::arg("y"), py::arg("radiance"),
+             py::arg("alpha") = 1.0f)
+        .def("save_checkpoint", &Film::saveCheckpoint, py::arg("file"),
+             py::call_guard<py::gil_scoped_release>())
+        .def("load_checkpoint", &Film::loadCheckpoint, py::arg("file"),
+             py::call_guard<py::gil_scoped_release>());
+
+    py::class_<ImageData>(m, "ImageData", "An image as it is in its file.")
+        .def_readonly("width", &ImageData::width)
+        .def_readonly("height", &ImageData::height)
+        .def_readonly("x", &ImageData::x)
+        .def_readonly("y", &ImageData::y)
+        .def_readonly("display_width", &ImageData::displayWidth)
+        .def_readonly("display_height", &ImageData::displayHeight)
+        .def_readonly("pixel_aspect_ratio", &ImageData::pixelAspectRatio)
+        .def_readonly("channels", &ImageData::channels)
+        .def_property_readonly(
+            "pixels",
+            [](py::object self) {
+                ImageData& image = self.cast<ImageData&>();
+                std::vector<size_t> shape = {size_t(image.height), size_t(image.width),
+                                             image.channels.size()};
+                return py::array_t<float>(shape, image.pixels.data(), self);
+            },
+            "Float array of height x width x channels, top row first, without a copy.")
+        .def_property_readonly("metadata",
+                               [](const ImageData& image) { return metadataTo(image.metadata); });
+
+    m.def("read_image", &readImage, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+          "Reads any image; RuntimeError says in one line why not.");
+    m.def("write_images", &writeFilm, py::arg("film"), py::arg("path"),
+          py::arg("options") = py::dict(), py::arg("metadata") = py::dict(),
+          "Writes a film: OpenEXR with all its AOVs, or an image for the screen.");
+    m.def("write_image", &writeArray, py::arg("path"), py::arg("pixels"),
+          py::arg("channels") = std::vector<std::string>{}, py::arg("options") = py::dict(),
+          py::arg("metadata") = py::dict(), "Writes a float array of linear colour.");
+    m.def("check_image_path", &checkImagePath, py::arg("path"),
+          py::arg("aovs") = std::vector<std::string>{},
+          "RuntimeError says early why an image could not be written.");
+    m.def("displays", [] { return ColorSpaces::shared().displays(); });
+    m.def("views", [](const std::string& display) { return ColorSpaces::shared().views(display); },
+          py::arg("display"));
+    m.def("color_spaces", [] { return ColorSpaces::shared().names(); });
+}
+
+} // namespace patina

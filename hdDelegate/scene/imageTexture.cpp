@@ -112,6 +112,12 @@ ImageTexture::ImageTexture(int width, int height, TexelLayout layout, TexelType 
     _data.reset(new uint8_t[memoryBytes()]); // left as it is: pages are touched when they are filled
     for (size_t i = 0; i < 256; ++i) _plain[i] = float(i) / 255.0f;
     _decode = _plain;
+    switch (_type) {
+    case TexelType::U8: _addFour = addFourOf<uint8_t>(_channels); break;
+    case TexelType::U16: _addFour = addFourOf<uint16_t>(_channels); break;
+    case TexelType::Half: _addFour = addFourOf<half>(_channels); break;
+    case TexelType::Float: _addFour = addFourOf<float>(_channels); break;
+    }
 }
 
 size_t ImageTexture::memoryBytes() const { return _texels * size_t(_channels) * bytesOf(_type); }
@@ -179,31 +185,32 @@ glm::vec4 ImageTexture::expand(const float* c) const {
     return {c[0], c[1], c[2], c[3]};
 }
 
-template <class T>
-void ImageTexture::addTexel(const Level& level, int x, int y, float weight, float* sum) const {
-    const size_t n = size_t(_channels);
-    const T* p = reinterpret_cast<const T*>(_data.get()) +
-                 (level.offset + size_t(y) * size_t(level.width) + size_t(x)) * n;
-    const int alpha = _layout == TexelLayout::GreyAlpha ? 1 : 3;
-    for (int c = 0; c < int(n); ++c)
-        sum[c] += weight * linearOf(p[c], c == alpha ? _plain.data() : _decode.data());
-}
-
-template <class T>
+// The number of channels is a constant here, so that the loops over them unroll.
+template <class T, int N>
 void ImageTexture::addFour(const Level& level, const int* x, const int* y, const float* weights,
                            float* sum) const {
-    for (int i = 0; i < 4; ++i) addTexel<T>(level, x[i & 1], y[i >> 1], weights[i], sum);
+    const T* texels = reinterpret_cast<const T*>(_data.get()) + level.offset * N;
+    const float* color = _decode.data();
+    const float* last = N == 4 || _layout == TexelLayout::GreyAlpha ? _plain.data() : color;
+    const T* rows[2] = {texels + size_t(y[0]) * size_t(level.width) * N,
+                        texels + size_t(y[1]) * size_t(level.width) * N};
+    for (int i = 0; i < 4; ++i) {
+        const T* p = rows[i >> 1] + size_t(x[i & 1]) * N;
+        for (int c = 0; c < N; ++c) sum[c] += weights[i] * linearOf(p[c], c == N - 1 ? last : color);
+    }
+}
+
+template <class T> ImageTexture::AddFour ImageTexture::addFourOf(int channels) {
+    static const AddFour functions[] = {&ImageTexture::addFour<T, 1>, &ImageTexture::addFour<T, 2>,
+                                        &ImageTexture::addFour<T, 3>, &ImageTexture::addFour<T, 4>};
+    return functions[channels - 1];
 }
 
 glm::vec4 ImageTexture::texel(int level, int x, int y) const {
+    const int xs[2] = {x, x}, ys[2] = {y, y};
+    const float weights[4] = {1, 0, 0, 0};
     float sum[4] = {0, 0, 0, 0};
-    const Level& l = _levels[size_t(level)];
-    switch (_type) {
-    case TexelType::U8: addTexel<uint8_t>(l, x, y, 1.0f, sum); break;
-    case TexelType::U16: addTexel<uint16_t>(l, x, y, 1.0f, sum); break;
-    case TexelType::Half: addTexel<half>(l, x, y, 1.0f, sum); break;
-    case TexelType::Float: addTexel<float>(l, x, y, 1.0f, sum); break;
-    }
+    (this->*_addFour)(_levels[size_t(level)], xs, ys, weights, sum);
     return expand(sum);
 }
 
@@ -224,12 +231,7 @@ glm::vec4 ImageTexture::bilinear(int number, glm::vec2 st, TextureWrap wrapS,
         return result;
     }
     float sum[4] = {0, 0, 0, 0};
-    switch (_type) {
-    case TexelType::U8: addFour<uint8_t>(level, x, y, weights, sum); break;
-    case TexelType::U16: addFour<uint16_t>(level, x, y, weights, sum); break;
-    case TexelType::Half: addFour<half>(level, x, y, weights, sum); break;
-    case TexelType::Float: addFour<float>(level, x, y, weights, sum); break;
-    }
+    (this->*_addFour)(level, x, y, weights, sum);
     return expand(sum);
 }
 

@@ -64,16 +64,20 @@ public:
 private:
     glm::vec4 bilinear(int level, glm::vec2 st, TextureWrap wrapS, TextureWrap wrapT) const;
     glm::vec4 expand(const float* channels) const;
-    template <class T> void addTexel(const Level& level, int x, int y, float weight,
-                                     float* sum) const;
-    template <class T> void addFour(const Level& level, const int* x, const int* y,
-                                    const float* weights, float* sum) const;
+    /// Adds four weighted texels; chosen once, by type and channels.
+    using AddFour = void (ImageTexture::*)(const Level& level, const int* x, const int* y,
+                                           const float* weights, float* sum) const;
+    template <class T, int N>
+    void addFour(const Level& level, const int* x, const int* y, const float* weights,
+                 float* sum) const;
+    template <class T> static AddFour addFourOf(int channels);
     template <class T> void buildLevel(int level);
     bool isAlpha(int channel) const;
 
     int _channels;
     TexelLayout _layout;
     TexelType _type;
+    AddFour _addFour = nullptr;
     std::vector<Level> _levels;
     size_t _texels = 0;
     std::unique_ptr<uint8_t[]> _data;

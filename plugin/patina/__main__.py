@@ -1,0 +1,5 @@
+import sys
+
+from patina.cli.main import main
+
+sys.exit(main())

@@ -1,0 +1,12 @@
+"""The compiled module, or a reason why it is not there."""
+from patina.cli.errors import CommandError
+
+
+def load():
+    """:returns: the module _patina"""
+    try:
+        import _patina
+    except ImportError as error:
+        raise CommandError(f"the compiled module is missing or of another Python ({error}); "
+                           "run ./patina of a checkout, which builds it") from error
+    return _patina

@@ -1,0 +1,62 @@
+"""Numbers that say how two images differ. Arrays are (height, width, channels) of floats."""
+import numpy as np
+
+REL_MSE_EPSILON = 0.01  # keeps black pixels of the reference from deciding everything
+
+
+def finite_pixels(a, b):
+    """:returns: mask (height, width) of the pixels that are numbers in both images"""
+    return np.isfinite(a).all(axis=-1) & np.isfinite(b).all(axis=-1)
+
+
+def count_not_finite(image):
+    """:returns: dict of how many values are NaN and how many are infinite"""
+    return {"nan": int(np.isnan(image).sum()), "inf": int(np.isinf(image).sum())}
+
+
+def differences(a, b):
+    """RMSE, relMSE, signed mean error and largest difference of a from the reference b, over the
+    pixels that are numbers in both.
+
+    relMSE is mean((a - b)^2 / (b^2 + 0.01)) over pixels and channels (Rousselle, Knaus and Zwicker
+    2011, with their epsilon).
+    """
+    mask = finite_pixels(a, b)
+    if not mask.any():
+        nothing = float("nan")
+        return {"rmse": nothing, "relMSE": nothing, "meanError": nothing, "relativeMeanError": nothing,
+                "maxDifference": nothing, "maxAt": None}
+    x, y = a[mask].astype(np.float64), b[mask].astype(np.float64)
+    d = x - y
+    largest = np.where(mask, np.abs(np.where(mask[..., None], a - b, 0.0)).max(axis=-1), -1.0)
+    row, column = np.unravel_index(int(np.argmax(largest)), largest.shape)
+    mean = float(y.mean())
+    return {
+        "rmse": float(np.sqrt(np.mean(d * d))),
+        "relMSE": float(np.mean(d * d / (y * y + REL_MSE_EPSILON))),
+        "meanError": float(d.mean()),
+        "relativeMeanError": float(d.mean() / mean) if mean else None,
+        "maxDifference": float(np.abs(d).max()),
+        "maxAt": [int(column), int(row)],
+    }
+
+
+def mean_flip(a, b, high_dynamic_range):
+    """Mean of the FLIP error map, by NVIDIA's own implementation (Andersson et al. 2020, 2021).
+
+    :param high_dynamic_range: linear radiance rather than display values in [0, 1]
+    :returns: the mean, 0..1; None where flip-evaluator is not installed
+    """
+    try:
+        import flip_evaluator
+    except ImportError:
+        return None
+    mask = finite_pixels(a, b)[..., None]
+    test, reference = (np.ascontiguousarray(np.where(mask, image, 0.0), dtype=np.float32) for image in (a, b))
+    if not high_dynamic_range:
+        test, reference = np.clip(test, 0.0, 1.0), np.clip(reference, 0.0, 1.0)
+    elif not (reference > 0.0).any():  # its exposures come from the reference's luminance
+        return 0.0 if np.array_equal(test, reference) else None
+    _, mean, _ = flip_evaluator.evaluate(reference, test, "HDR" if high_dynamic_range else "LDR",
+                                         applyMagma=False)
+    return float(mean)

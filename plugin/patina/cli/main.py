@@ -1,0 +1,110 @@
+"""Chooses the command, turns errors into one line and an exit status: 0 done, 1 failed, 2 usage."""
+import argparse
+import importlib
+import os
+import re
+import sys
+
+from patina import __version__
+from patina.cli.errors import CommandError, UsageError
+
+# name -> module of patina.cli that has HELP, add_arguments(parser) and run(arguments)
+COMMANDS = {
+    "record": "record",
+    "explain": "explain",
+    "bsdf": "bsdf",
+    "compare": "compare",
+    "test": "testRun",
+}
+
+SUMMARIES = {
+    "record": "render a stage to images",
+    "explain": "show what is modelled of a material, and what was left out",
+    "bsdf": "numbers of a material: values, samples, albedo",
+    "compare": "measure how two images differ",
+    "test": "run every test of a checkout",
+}
+
+
+class _Parser(argparse.ArgumentParser):
+    """Flags are never guessed from their beginnings: a script would break when one is added."""
+
+    def __init__(self, **keywords):
+        super().__init__(allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, **keywords)
+
+    def error(self, message):
+        raise UsageError(f"{self.prog}: {message} (see {self.prog} --help)")
+
+
+def _normalise(argv):
+    """Makes plain what argparse would misread: `--json` without a file before a positional
+    argument, and values such as -0.5,0,1 that begin like an option."""
+    out = []
+    for argument in argv:
+        if argument == "--json":
+            argument = "--json=-"
+        if (out and re.match(r"-[\d.]", argument) and re.fullmatch(r"--?[A-Za-z][\w-]*", out[-1])):
+            out[-1] += "=" + argument if out[-1].startswith("--") else argument
+            continue
+        out.append(argument)
+    return out
+
+
+def _overview():
+    lines = ["usage: patina COMMAND ...", "", "Renders USD stages with physically based shading networks.", "",
+             "commands:"]
+    lines += [f"  {name:<10}{text}" for name, text in SUMMARIES.items()]
+    lines += ["", "`patina COMMAND --help` tells everything about one of them.",
+              "Exit status: 0 done, 1 failed with a one-line reason, 2 wrong usage."]
+    return "\n".join(lines)
+
+
+def _dispatch(argv):
+    if not argv or argv[0] in ("-h", "--help", "help"):
+        if len(argv) > 1 and argv[0] == "help":
+            return _dispatch([argv[1], "--help"])
+        print(_overview(), file=sys.stdout if argv else sys.stderr)
+        return 0 if argv else 2
+    if argv[0] == "--version":
+        print(f"patina {__version__}")
+        return 0
+    name = argv[0]
+    if name not in COMMANDS:
+        raise UsageError(f"patina: there is no command '{name}' (there are: {', '.join(COMMANDS)})")
+    module = importlib.import_module("patina.cli." + COMMANDS[name])
+    parser = _Parser(prog=f"patina {name}", description=module.__doc__)
+    module.add_arguments(parser)
+    if getattr(module, "PASSES_ON", False):
+        arguments, arguments_left = parser.parse_known_args(argv[1:])
+        arguments.passed_on = arguments_left
+    else:
+        arguments = parser.parse_args(_normalise(argv[1:]))
+    return module.run(arguments) or 0
+
+
+def _one_line(error):
+    text = " ".join(str(error).split())
+    return text or type(error).__name__
+
+
+def main(argv=None):
+    """:returns: the exit status"""
+    try:
+        return _dispatch(sys.argv[1:] if argv is None else argv)
+    except UsageError as error:
+        print(_one_line(error), file=sys.stderr)
+        return 2
+    except CommandError as error:
+        print(f"patina: {_one_line(error)}", file=sys.stderr)
+        return 1
+    except BrokenPipeError:  # `patina ... | head`
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")
+        return 1
+    except KeyboardInterrupt:
+        print("patina: interrupted", file=sys.stderr)
+        return 1
+    except (ImportError, OSError, RuntimeError, MemoryError) as error:
+        if os.environ.get("PATINA_TRACEBACK"):
+            raise
+        print(f"patina: {_one_line(error)}", file=sys.stderr)
+        return 1

@@ -1,0 +1,230 @@
+"""Bad input gives a message that names the prim, and an image where there can be one."""
+import json
+import os
+import shutil
+
+import numpy as np
+import pytest
+
+from rendering import color, patina, pixels, record, scene
+
+HEAD = '#usda 1.0\n(\n    upAxis = "Y"\n)\n'
+CAMERA = """def Camera "camera"
+{
+    double3 xformOp:translate = (0, 0, 5)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def DomeLight "dome"
+{
+    float inputs:intensity = 1
+}
+"""
+QUAD = """def Mesh "quad" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
+{
+    int[] faceVertexCounts = %(counts)s
+    int[] faceVertexIndices = %(indices)s
+    point3f[] points = %(points)s
+    uniform token subdivisionScheme = "%(scheme)s"
+    rel material:binding = </material>
+    %(extra)s
+}
+"""
+GOOD = {"counts": "[4]", "indices": "[0, 1, 2, 3]", "points": "[(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]",
+        "scheme": "none", "extra": ""}
+PREVIEW = """def Material "material"
+{
+    token outputs:surface.connect = </material/surface.outputs:surface>
+    def Shader "surface"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        %s
+        token outputs:surface
+    }
+    %s
+}
+"""
+TINY = ("--imageWidth", 32, "--imageHeight", 32, "--samples", 4)
+
+
+def render(tmp_path, text, *arguments, check=True):
+    """:returns: the process, the image path and the warnings"""
+    stage, image, out = tmp_path / "stage.usda", tmp_path / "image.exr", tmp_path / "out.json"
+    stage.write_text(HEAD + CAMERA + text)
+    process = record(stage, image, *TINY, f"--json={out}", *arguments, check=check)
+    warnings = json.loads(out.read_text())["warnings"] if out.exists() else []
+    return process, image, warnings
+
+
+def mentions(warnings, *words):
+    return any(all(word in json.dumps(w) for word in words) for w in warnings)
+
+
+def quad(**changes):
+    return QUAD % {**GOOD, **changes}
+
+
+@pytest.mark.parametrize("scheme", ["none", "catmullClark", "loop", "bilinear"])
+@pytest.mark.parametrize("change, word", [
+    ({"indices": "[0, 1, 2, 9]"}, "faceVertexIndices"),
+    ({"indices": "[0, 1, -2, 3]"}, "faceVertexIndices"),
+    ({"counts": "[5]"}, "faceVertexCounts"),
+    ({"counts": "[2, 4]", "indices": "[0, 1, 0, 1, 2, 3]"}, "face"),
+    ({"points": "[(nan, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]"}, "points"),
+    ({"points": "[(inf, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]"}, "points"),
+    ({"extra": "texCoord2f[] primvars:st = [(0, 0)] (interpolation = \"vertex\")"}, "st"),
+    ({"extra": "int[] holeIndices = [7]"}, "holeIndices"),
+    ({"extra": "int[] creaseIndices = [0, 1]\n    int[] creaseLengths = [5]\n    float[] creaseSharpnesses = [1]"}, "crease"),
+])
+def test_broken_mesh(tmp_path, scheme, change, word):
+    _, image, warnings = render(tmp_path, quad(scheme=scheme, **change) + PREVIEW % ("", ""))
+    assert np.isfinite(pixels(image)).all()
+    if scheme == "none" and word in ("holeIndices", "crease"):
+        return  # without subdivision these have no meaning
+    assert mentions(warnings, "/quad", word), warnings
+
+
+@pytest.mark.parametrize("points", ["[]", "[(0, 0, 0), (0, 0, 0), (0, 0, 0), (0, 0, 0)]", "[(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)]"])
+@pytest.mark.parametrize("scheme", ["none", "catmullClark"])
+def test_degenerate_faces_and_empty_meshes(tmp_path, points, scheme):
+    _, image, _ = render(tmp_path, quad(points=points, scheme=scheme) + PREVIEW % ("", ""))
+    assert np.isfinite(pixels(image)).all()
+
+
+def test_missing_texture_is_magenta_and_named(tmp_path):
+    text = quad(extra='texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")') + PREVIEW % (
+        "color3f inputs:emissiveColor.connect = </material/image.outputs:rgb>\n        color3f inputs:diffuseColor = (0, 0, 0)",
+        'def Shader "image"\n    {\n        uniform token info:id = "UsdUVTexture"\n        asset inputs:file = @absent.png@\n        color3f outputs:rgb\n    }')
+    _, image, warnings = render(tmp_path, text)
+    assert mentions(warnings, "/material/image", "absent.png"), warnings
+    r, g, b = color(image)[16, 16]
+    assert r > 0.5 and b > 0.5 and g < 0.3
+
+
+def test_missing_primvar_uses_the_fallback_of_its_reader(tmp_path):
+    text = quad() + PREVIEW % (
+        "color3f inputs:emissiveColor.connect = </material/reader.outputs:result>",
+        'def Shader "reader"\n    {\n        uniform token info:id = "UsdPrimvarReader_float3"\n        string inputs:varname = "absent"\n        float3 inputs:fallback = (0, 5, 0)\n        float3 outputs:result\n    }')
+    _, image, _ = render(tmp_path, text)
+    r, g, b = color(image)[16, 16]
+    assert g > 4 and r < 2 and b < 2
+
+
+def test_cycle_in_a_network(tmp_path):
+    node = 'def Shader "%s"\n    {\n        uniform token info:id = "ND_multiply_color3"\n        color3f inputs:in1.connect = </material/%s.outputs:out>\n        color3f outputs:out\n    }\n'
+    text = quad() + PREVIEW % ("color3f inputs:diffuseColor.connect = </material/a.outputs:out>", node % ("a", "b") + "    " + node % ("b", "a"))
+    _, image, warnings = render(tmp_path, text)
+    assert mentions(warnings, "/material", "cycle"), warnings
+    assert np.isfinite(pixels(image)).all()
+
+
+def test_unknown_node(tmp_path):
+    text = quad() + PREVIEW % ("color3f inputs:diffuseColor.connect = </material/a.outputs:out>",
+                               'def Shader "a"\n    {\n        uniform token info:id = "NoSuchNode"\n        color3f outputs:out\n    }')
+    _, image, warnings = render(tmp_path, text)
+    assert mentions(warnings, "/material/a", "NoSuchNode"), warnings
+
+
+def test_type_mismatch(tmp_path):
+    text = quad() + PREVIEW % ('token inputs:roughness = "very"', "")
+    _, image, warnings = render(tmp_path, text)
+    assert mentions(warnings, "/material/surface", "roughness"), warnings
+    assert np.isfinite(pixels(image)).all()
+
+
+def test_binding_to_a_material_that_is_not_there(tmp_path):
+    _, image, _ = render(tmp_path, quad())
+    assert color(image)[16, 16].max() > 0
+
+
+def test_strict_turns_warnings_into_failure(tmp_path):
+    process, image, _ = render(tmp_path, quad(indices="[0, 1, 2, 9]") + PREVIEW % ("", ""), "--strict", check=False)
+    assert process.returncode == 1
+    assert "/quad" in process.stderr
+
+
+def fails(*arguments):
+    process = patina(*arguments, check=False)
+    assert process.returncode == 1, process.stderr
+    assert "Traceback" not in process.stderr
+    assert process.stderr.strip()
+    return process.stderr
+
+
+def test_camera_that_does_not_exist(tmp_path):
+    assert "/nowhere" in fails("record", scene("furnace"), tmp_path / "a.exr", "--camera", "/nowhere")
+
+
+def test_stage_that_does_not_exist(tmp_path):
+    assert "absent.usda" in fails("record", tmp_path / "absent.usda", tmp_path / "a.exr")
+
+
+@pytest.mark.parametrize("content", [b"", b"#usda 1.0\ndef Mesh {", b"PXR-USDC" + b"\0" * 90, b"PK\x03\x04junk"])
+@pytest.mark.parametrize("suffix", ["usd", "usda", "usdc", "usdz"])
+def test_unreadable_stage(tmp_path, content, suffix):
+    path = tmp_path / f"broken.{suffix}"
+    path.write_bytes(content)
+    assert "broken" in fails("record", path, tmp_path / "a.exr")
+
+
+def test_truncated_crate(tmp_path):
+    from pxr import Usd
+
+    Usd.Stage.Open(scene("diffuseBox")).Export(str(tmp_path / "whole.usdc"))
+    data = (tmp_path / "whole.usdc").read_bytes()
+    (tmp_path / "cut.usdc").write_bytes(data[: len(data) // 2])
+    fails("record", tmp_path / "cut.usdc", tmp_path / "a.exr")
+
+
+def test_missing_sublayer_is_named_and_the_rest_rendered(tmp_path):
+    stage, image, out = tmp_path / "s.usda", tmp_path / "a.exr", tmp_path / "out.json"
+    stage.write_text('#usda 1.0\n(\n    subLayers = [@missingLayer.usda@]\n)\n' + CAMERA + quad())
+    record(stage, image, *TINY, f"--json={out}")
+    assert mentions(json.loads(out.read_text())["warnings"], "missingLayer.usda")
+    assert color(image)[16, 16].max() > 0
+
+
+@pytest.mark.parametrize("size", [("--imageWidth", 0), ("--imageWidth", 10, "--imageHeight", 0), ("--imageWidth", -5)])
+def test_image_without_pixels(tmp_path, size):
+    process = patina("record", scene("furnace"), tmp_path / "a.exr", *size, check=False)
+    assert process.returncode in (1, 2) and "Traceback" not in process.stderr
+    assert not (tmp_path / "a.exr").exists()
+
+
+def test_unwritable_output(tmp_path):
+    fails("record", scene("furnace"), tmp_path / "no" / "such" / "folder" / "a.exr", *TINY)
+    fails("record", scene("furnace"), tmp_path / "a.noSuchFormat", *TINY)
+
+
+def test_failed_render_keeps_the_image_that_was_there(tmp_path):
+    image = tmp_path / "a.exr"
+    record(scene("furnace"), image, *TINY)
+    before = image.read_bytes()
+    fails("record", scene("furnace"), image, "--camera", "/nowhere")
+    stage = tmp_path / "bad.usda"
+    stage.write_text("nonsense")
+    fails("record", stage, image)
+    assert image.read_bytes() == before
+    assert os.listdir(tmp_path) == sorted(["a.exr", "bad.usda"]) or set(os.listdir(tmp_path)) == {"a.exr", "bad.usda"}
+
+
+def test_empty_stage_renders(tmp_path):
+    stage, image = tmp_path / "empty.usda", tmp_path / "a.exr"
+    stage.write_text("#usda 1.0\n")
+    record(stage, image, *TINY)
+    assert np.isfinite(pixels(image)).all()
+
+
+def test_nan_in_lights_and_transforms(tmp_path):
+    text = quad() + PREVIEW % ("", "") + 'def SphereLight "bad"\n{\n    float inputs:intensity = nan\n    double3 xformOp:translate = (nan, 0, 1)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\ndef SphereLight "none"\n{\n    float inputs:radius = 0\n    float3 xformOp:scale = (0, 0, 0)\n    uniform token[] xformOpOrder = ["xformOp:scale"]\n}\n'
+    _, image, warnings = render(tmp_path, text)
+    assert np.isfinite(pixels(image)).all()
+    assert mentions(warnings, "/bad"), warnings
+
+
+def test_usage_errors_have_status_2():
+    for arguments in ([], ["nonsense"], ["record"], ["record", "--noSuchFlag"]):
+        process = patina(*arguments, check=False)
+        assert process.returncode == 2, arguments
+        assert "Traceback" not in process.stderr

@@ -65,7 +65,7 @@ void bakeInterface(bool above) {
                 // Relative to what the look-up will multiply with, not to the exact E[0].
                 const double e0 = momentAlbedo0(momentPlace(mu, alpha));
                 const vec2 e = quadrature.dielectric(mu, alpha, eta);
-                push(e.x / e0 - (above ? fresnelDielectric(mu, eta) : 0.0));
+                push(e.x / e0 - interfaceGuess(mu, alpha, eta));
                 push(1.0 - (e.x + e.y) / e0);
             }
 }

@@ -6,7 +6,7 @@
 //   whose Fresnel curve is (1 - c)^p. E[0] is stored as it is, the others as the small d in
 //   E[p] = E[0] (1 - mu + d)^p, which vanishes with alpha.
 // Interface (one table for eta >= 1, one for eta <= 1): two floats per (mu, alpha, eta), the mean
-//   reflectance E_R / E[0] (for eta >= 1 less the Fresnel reflectance at mu), and
+//   reflectance E_R / E[0] less interfaceGuess, and
 //   1 - (E_R + E_T) / E[0].
 
 const int MOMENT_COUNT = 11;
@@ -58,6 +58,7 @@ PATINA_FN float tableAlphaAt(float t) {
 }
 
 const float MU_WIDTH = 0.3f;
+const float BLUR_WIDTH = 0.5f;
 
 // Grazing features are as wide as alpha, so mu is spaced logarithmically above that width.
 PATINA_FN float tableMuCoord(float mu, float alpha) {
@@ -151,6 +152,20 @@ PATINA_FN float momentMean(MomentPlace p, float exponent) {
     return powSchlick(clamp(1.0f - p.mu + d, 0.0f, 1.0f), exponent);
 }
 
+// What the mean reflectance is about: for eta >= 1 the reflectance at mu. For eta < 1 the same with
+// the kink at the critical angle rounded over the width of the lobe, since a kink that moves with
+// mu cannot be interpolated.
+PATINA_FN float interfaceGuess(float mu, float alpha, float eta) {
+    float n = min(eta, 1.0f);
+    float muC2 = (1.0f - n) * (1.0f + n);
+    float x = mu * mu - muC2;
+    float w = BLUR_WIDTH * alpha * sqrt(muC2) * n;
+    float root = sqrt(x * x + w * w);
+    float ramp = 0.5f * select(x + root, w * w / max(root - x, TINY), x >= 0.0f);
+    float rounded = fresnelFromCosines(sqrt(muC2 + ramp), sqrt(ramp), n);
+    return select(fresnelDielectric(mu, eta), rounded, eta >= 1.0f);
+}
+
 PATINA_FN vec2 interfaceFetch(int index) {
     return vec2(albedoTableFetch(index), albedoTableFetch(index + 1));
 }
@@ -178,7 +193,6 @@ PATINA_FN vec2 interfaceAlbedo(float mu, float alpha, float eta) {
     vec2 a = interfaceBilinear(i, fm, fa);
     vec2 b = interfaceBilinear(i + 2 * INTERFACE_MU * INTERFACE_ALPHA, fm, fa);
     vec2 e = a * (1.0f - fe) + b * fe;
-    e.x += select(fresnelDielectric(mu, eta), 0.0f, above);
-    float r = clamp(e.x, 0.0f, 1.0f);
+    float r = clamp(e.x + interfaceGuess(mu, alpha, eta), 0.0f, 1.0f);
     return vec2(r, max(1.0f - r - e.y, 0.0f));
 }

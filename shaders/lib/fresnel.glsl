@@ -1,21 +1,26 @@
 // Fresnel reflectance: exact for dielectrics and conductors, and the generalized Schlick curve. No
 // approximation hides here.
 
-// Unpolarised dielectric reflectance. c: cosine on the side that light comes from, in [0, 1]. eta:
-// ior of the far side over that of the near side. Total internal reflection gives 1, eta 1 gives
-// exactly 0. Written with (eta^2 - 1) factored out of both amplitudes, so that it keeps its
-// relative precision for eta near 1.
-PATINA_FN float fresnelDielectric(float c, float eta) {
+// Unpolarised dielectric reflectance from both cosines: c on the side that light comes from, g =
+// eta times that on the far side, so that g^2 = c^2 + eta^2 - 1. Written with eta^2 - 1 factored
+// out of both amplitudes, which keeps its relative precision for eta near 1.
+PATINA_FN float fresnelFromCosines(float c, float g, float eta) {
     float e2 = eta * eta;
     float e = (eta - 1.0f) * (eta + 1.0f);
-    float g2 = e + c * c;
-    float g = safeSqrt(g2);
     float ds = c + g;
     float dp = e2 * c + g;
     float rs = e / max(ds * ds, TINY);
     float rp = e * ((e2 + 1.0f) * c * c - 1.0f) / max(dp * dp, TINY);
-    float f = 0.5f * (rs * rs + rp * rp);
-    return select(1.0f, min(f, 1.0f), g2 <= 0.0f && e < 0.0f);
+    return min(0.5f * (rs * rs + rp * rp), 1.0f);
+}
+
+// The same from c in [0, 1] alone. eta: ior of the far side over that of the near side. Total
+// internal reflection gives 1, eta 1 gives exactly 0.
+PATINA_FN float fresnelDielectric(float c, float eta) {
+    float e = (eta - 1.0f) * (eta + 1.0f);
+    float g2 = e + c * c;
+    float f = fresnelFromCosines(c, safeSqrt(g2), eta);
+    return select(1.0f, f, g2 <= 0.0f && e < 0.0f);
 }
 
 // Cosine on the far side of the interface; 0 at and beyond the critical angle.

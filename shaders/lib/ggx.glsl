@@ -115,11 +115,11 @@ PATINA_FN GgxBounce ggxBounce(vec3 o, vec3 m, float c, vec2 alpha, float eta, bo
     bool mirror = alpha.x == 0.0f;
     vec2 a = max(alpha, vec2(ALPHA_MIRROR));
     float ct = cosRefracted(c, eta);
-    // c - eta ct without cancellation for eta near 1.
+    // c - eta ct without cancellation for eta near 1; m len - o is along the refracted direction.
     float len = (1.0f - eta) * (1.0f + eta) / max(c + eta * ct, TINY);
     float jacobian = select(0.25f, c * eta * eta * ct / max(len * len, TINY), reflects);
     GgxBounce b;
-    b.wi = select(m * (2.0f * c) - o, m * (c / eta - ct) - o * (1.0f / eta), reflects);
+    b.wi = select(m * (2.0f * c) - o, normalize(m * len - o), reflects);
     float iz = select(b.wi.z, -b.wi.z, reflects);
     float lo = ggxLength(o, a);
     float li = ggxLength(b.wi, a);

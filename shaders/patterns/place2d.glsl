@@ -1,0 +1,27 @@
+// Placement of texture coordinates.
+
+// angle: degrees, counter-clockwise for the coordinates (so a texture turns clockwise), as
+// MaterialX rotate2d.
+PATINA_FN vec2 patternRotate2d(vec2 v, float angle) {
+    float a = angle * (PI / 180.0f);
+    float s = sin(a);
+    float c = cos(a);
+    return vec2(c * v.x + s * v.y, c * v.y - s * v.x);
+}
+
+// order: 0 scales, rotates, translates; 1 translates, rotates, scales. MaterialX place2d.
+PATINA_FN vec2 patternPlace2d(vec2 uv, vec2 pivot, vec2 scale, float angle, vec2 offset,
+                              int order) {
+    vec2 p = uv - pivot;
+    vec2 inverse = vec2(select(1.0f / scale.x, 0.0f, scale.x != 0.0f),
+                        select(1.0f / scale.y, 0.0f, scale.y != 0.0f));
+    vec2 first = patternRotate2d(p * inverse, angle) - offset;
+    vec2 second = patternRotate2d(p - offset, angle) * inverse;
+    return select(first, second, order == 0) + pivot;
+}
+
+// UsdTransform2d of the UsdPreviewSurface specification: scale, then rotate counter-clockwise
+// (degrees), then translate.
+PATINA_FN vec2 patternTransform2d(vec2 uv, vec2 scale, float angle, vec2 translation) {
+    return patternRotate2d(uv * scale, -angle) + translation;
+}

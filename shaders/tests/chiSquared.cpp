@@ -1,0 +1,155 @@
+#include "shaders/tests/chiSquared.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace patina::test {
+
+// Regularized upper incomplete gamma function Q(k / 2, x / 2): series below the mean, continued
+// fraction (Lentz) above.
+double chiSquaredTail(double x, double freedom) {
+    const double a = 0.5 * freedom;
+    const double y = 0.5 * x;
+    if (y <= 0.0) return 1.0;
+    const double front = std::exp(-y + a * std::log(y) - std::lgamma(a));
+    if (y < a + 1.0) {
+        double term = 1.0 / a;
+        double sum = term;
+        for (int n = 1; n < 10000 && term > 1e-16 * sum; ++n) {
+            term *= y / (a + n);
+            sum += term;
+        }
+        return 1.0 - front * sum;
+    }
+    double b = y + 1.0 - a;
+    double c = 1e300;
+    double d = 1.0 / b;
+    double h = d;
+    for (int n = 1; n < 10000; ++n) {
+        const double an = -n * (n - a);
+        b += 2.0;
+        d = 1.0 / (an * d + b);
+        c = b + an / c;
+        h *= d * c;
+        if (std::fabs(d * c - 1.0) < 1e-14) break;
+    }
+    return front * h;
+}
+
+namespace {
+
+// Integral of the density over a rectangle in (z, phi): tensor Gauss rule, cut in four until the
+// parts agree with the whole.
+class Integrator {
+public:
+    Integrator(const BoundLobe &lobe, vec3 wo) : _lobe(lobe), _wo(wo) {}
+
+    double operator()(double z0, double z1, double p0, double p1) const {
+        return refine(z0, z1, p0, p1, rule(z0, z1, p0, p1), 0);
+    }
+
+private:
+    double rule(double z0, double z1, double p0, double p1) const {
+        static const double x[] = {0.069431844202973714, 0.33000947820757187};
+        static const double w[] = {0.17392742256872693, 0.32607257743127307};
+        double sum = 0.0;
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 4; ++j) {
+                const double s = i < 2 ? x[i] : 1.0 - x[3 - i];
+                const double t = j < 2 ? x[j] : 1.0 - x[3 - j];
+                const vec3 wi = direction(z0 + s * (z1 - z0), p0 + t * (p1 - p0));
+                sum += w[std::min(i, 3 - i)] * w[std::min(j, 3 - j)] * _lobe.eval(_wo, wi).pdf;
+            }
+        return sum * (z1 - z0) * (p1 - p0);
+    }
+
+    double refine(double z0, double z1, double p0, double p1, double whole, int depth) const {
+        const double z = 0.5 * (z0 + z1);
+        const double p = 0.5 * (p0 + p1);
+        const double a = rule(z0, z, p0, p);
+        const double b = rule(z, z1, p0, p);
+        const double c = rule(z0, z, p, p1);
+        const double d = rule(z, z1, p, p1);
+        const double parts = a + b + c + d;
+        const bool fine = std::fabs(parts - whole) < 2e-8 + 2e-5 * whole;
+        if (depth >= 9 || (fine && depth >= (whole > 1e-4 ? 3 : 1))) return parts;
+        return refine(z0, z, p0, p, a, depth + 1) + refine(z, z1, p0, p, b, depth + 1) +
+               refine(z0, z, p, p1, c, depth + 1) + refine(z, z1, p, p1, d, depth + 1);
+    }
+
+    const BoundLobe &_lobe;
+    vec3 _wo;
+};
+
+} // namespace
+
+DensityGrid::DensityGrid(const BoundLobe &lobe, vec3 wo) {
+    const Integrator integrate(lobe, wo);
+    const double height = 2.0 / kRows;
+    const double width = 2.0 * sh64::PI / kColumns;
+    for (int r = 0; r < kRows; ++r)
+        for (int c = 0; c < kColumns; ++c) {
+            // The row across the horizon is cut there: densities jump at it.
+            const double z0 = -1.0 + r * height;
+            const double z1 = z0 + height;
+            const double p0 = c * width;
+            double &cell = _cells[r * kColumns + c];
+            if (z0 < 0.0 && z1 > 0.0)
+                cell = integrate(z0, 0.0, p0, p0 + width) + integrate(0.0, z1, p0, p0 + width);
+            else
+                cell = integrate(z0, z1, p0, p0 + width);
+            _total += cell;
+        }
+}
+
+ChiSquared DensityGrid::test(const BoundLobe &sampler, vec3 wo, int count,
+                             std::uint64_t seed) const {
+    std::mt19937_64 engine(seed);
+    const auto uniform = [&] { return double(engine() >> 40) * 0x1p-24; };
+    std::vector<double> histogram(kRows * kColumns, 0.0);
+    ChiSquared result;
+    for (int i = 0; i < count; ++i) {
+        const double x = uniform();
+        const double y = uniform();
+        const sh64::LobeSample s = sampler.sample(wo, vec3(x, y, uniform()));
+        if (s.event == 0 || (s.event & sh::LOBE_DELTA) != 0) continue;
+        const int r = std::clamp(int((s.wi.z + 1.0) * 0.5 * kRows), 0, kRows - 1);
+        double turn = std::atan2(s.wi.y, s.wi.x) / (2.0 * sh64::PI);
+        turn -= std::floor(turn);
+        histogram[r * kColumns + std::min(int(turn * kColumns), kColumns - 1)] += 1.0;
+        result.hits += 1.0 / count;
+    }
+    // Cells that expect fewer than 5 samples are pooled, smallest first.
+    std::vector<int> order(kRows * kColumns);
+    for (int i = 0; i < kRows * kColumns; ++i)
+        order[i] = i;
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return _cells[a] < _cells[b]; });
+    double statistic = 0.0;
+    double pooledExpected = 0.0;
+    double pooledCount = 0.0;
+    const auto close = [&] {
+        const double d = pooledCount - pooledExpected;
+        statistic += d * d / pooledExpected;
+        ++result.cells;
+        pooledExpected = pooledCount = 0.0;
+    };
+    for (int i : order) {
+        if (_cells[i] == 0.0 && histogram[i] > 0.0) result.stray = true;
+        pooledExpected += _cells[i] * count;
+        pooledCount += histogram[i];
+        if (pooledExpected >= 5.0) close();
+    }
+    // What failed to find a direction, or found a delta one, is a cell of its own.
+    const double missing = (1.0 - _total) * count;
+    if (missing >= 5.0) {
+        pooledExpected += missing;
+        pooledCount += (1.0 - result.hits) * count;
+        close();
+    }
+    result.expected = _total;
+    result.pValue = result.cells > 1 ? chiSquaredTail(statistic, result.cells - 1) : 1.0;
+    return result;
+}
+
+} // namespace patina::test

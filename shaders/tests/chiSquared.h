@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "shaders/tests/lobeCase.h"
+
+namespace patina::test {
+
+/// Outcome of one histogram against the density that it should follow.
+struct ChiSquared {
+    double pValue = 1.0; ///< chance of a histogram at least as far off
+    int cells = 0;       ///< cells after pooling
+    double expected = 0; ///< integral of the density over the sphere
+    double hits = 0;     ///< share of samples that found a non-delta direction
+    bool stray = false;  ///< samples where the density is 0
+};
+
+/// Density of `lobe` at `wo`, integrated over the cells of a (cos theta, phi) grid on the sphere.
+class DensityGrid {
+public:
+    static constexpr int kRows = 31;
+    static constexpr int kColumns = 40;
+
+    DensityGrid(const BoundLobe &lobe, vec3 wo);
+
+    /// Draws `count` directions from `sampler` and compares.
+    ChiSquared test(const BoundLobe &sampler, vec3 wo, int count, std::uint64_t seed) const;
+
+private:
+    double _cells[kRows * kColumns];
+    double _total = 0.0;
+};
+
+/// Upper tail of the chi-squared distribution.
+double chiSquaredTail(double x, double freedom);
+
+} // namespace patina::test

@@ -1,0 +1,111 @@
+#include "shaders/tests/lobeCase.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace patina::test {
+
+namespace {
+
+std::string label(const char *lobe, double a, double b, double c, int mode) {
+    static const char *const modes[] = {"", "R", "T", "RT"};
+    char text[128];
+    std::snprintf(text, sizeof text, "%s%s(%g, %g, %g)", lobe, modes[mode], a, b, c);
+    return text;
+}
+
+void addDiffuse(std::vector<LobeCase> &cases) {
+    for (double r : {0.0, 0.3, 1.0}) {
+        cases.push_back(PATINA_LOBE_CASE(label("orenNayar", r, 0, 0, 0), orenNayar,
+                                         vec3(0.8, 0.5, 0.1), r, false));
+        cases.push_back(
+            PATINA_LOBE_CASE(label("eon", r, 0, 0, 0), orenNayar, vec3(1.0, 0.5, 0.1), r, true));
+        cases.push_back(
+            PATINA_LOBE_CASE(label("burley", r, 0, 0, 0), burley, vec3(0.8, 0.5, 0.1), r));
+    }
+    for (LobeCase &c : cases)
+        c.reciprocal = true;
+    LobeCase t = PATINA_LOBE_CASE("translucent", translucent, vec3(0.8, 0.5, 0.1));
+    t.twoSided = true;
+    t.reciprocal = true;
+    cases.push_back(t);
+}
+
+} // namespace
+
+std::vector<LobeCase> lobeCases(int compensate) {
+    std::vector<LobeCase> cases;
+    addDiffuse(cases);
+    const bool bare = compensate == 0;
+    const double alphas[][2] = {{0.05, 0.05}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.4}};
+    for (const auto &a : alphas) {
+        const double ax = a[0];
+        const double ay = a[1];
+        LobeCase metal =
+            PATINA_LOBE_CASE(label("conductor", ax, ay, 0, 0), conductor, vec3(0.183, 0.421, 1.373),
+                             vec3(3.424, 2.346, 1.77), vec2(ax, ay), ax == 0.3, compensate);
+        metal.alpha = ax;
+        metal.reciprocal = bare;
+        cases.push_back(metal);
+        for (int mode : {1, 2, 3}) {
+            for (double ior : {1.05, 1.5, 0.75}) {
+                LobeCase d = PATINA_LOBE_CASE(label("dielectric", ax, ay, ior, mode), dielectric,
+                                              vec3(1.0, 0.9, 0.2), ior, vec2(ax, ay), false, mode,
+                                              false, compensate);
+                d.alpha = ax * (mode == 1 ? 1.0 : std::min(1.0, std::fabs(ior - 1.0)));
+                d.ior = ior;
+                d.twoSided = true;
+                d.reciprocal = bare;
+                cases.push_back(d);
+            }
+            LobeCase s =
+                PATINA_LOBE_CASE(label("schlick", ax, ay, 0.04, mode), schlick,
+                                 vec3(0.02, 0.04, 0.06), vec3(0.9, 1.0, 0.5), vec3(1.0, 0.9, 1.0),
+                                 5.0, vec2(ax, ay), false, mode, false, compensate);
+            s.alpha = ax * (mode == 1 ? 1.0 : 0.5);
+            s.ior = (1.0 + std::sqrt(0.04)) / (1.0 - std::sqrt(0.04));
+            s.twoSided = true;
+            s.reciprocal = bare;
+            cases.push_back(s);
+        }
+    }
+    return cases;
+}
+
+vec3 direction(double z, double phi) {
+    const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
+    return vec3(r * std::cos(phi), r * std::sin(phi), z);
+}
+
+std::vector<vec3> outgoing(const LobeCase &c) {
+    std::vector<vec3> wo = {direction(1.0, 0.0), direction(0.7071, 0.4), direction(0.1736, 1.9),
+                            direction(0.01745, 5.0)};
+    if (c.twoSided) {
+        wo.push_back(direction(-0.95, 0.4));
+        wo.push_back(direction(-0.75, 2.0));
+        wo.push_back(direction(-0.2, 4.0));
+    }
+    return wo;
+}
+
+vec3 quasiRandom(int i) {
+    const double n = i + 0.5;
+    const auto wrap = [](double x) { return x - std::floor(x); };
+    return vec3(wrap(n * 0.8191725133961645), wrap(n * 0.6710436067037893),
+                wrap(n * 0.5497004779019703));
+}
+
+vec3 sampledAlbedo(const BoundLobe &lobe, vec3 wo, int count) {
+    vec3 sum(0.0);
+    for (int i = 0; i < count; ++i)
+        sum += lobe.sample(wo, quasiRandom(i)).weight;
+    return sum / double(count);
+}
+
+bool finiteAndPositive(vec3 v) {
+    for (int i = 0; i < 3; ++i)
+        if (!(v[i] >= 0.0) || std::isinf(v[i])) return false;
+    return true;
+}
+
+} // namespace patina::test

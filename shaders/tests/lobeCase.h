@@ -1,0 +1,94 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "shaders/shaders.h"
+
+namespace patina::test {
+
+using sh64::vec2;
+using sh64::vec3;
+
+/// One precision of a lobe with its inputs bound, in double at the interface.
+struct BoundLobe {
+    std::function<sh64::LobeEval(vec3 wo, vec3 wi)> eval;
+    std::function<sh64::LobeSample(vec3 wo, vec3 u)> sample;
+    std::function<vec3(vec3 wo)> albedo;
+};
+
+/// A lobe with chosen inputs: the float instance that ships and the double one that judges it.
+struct LobeCase {
+    std::string name;
+    BoundLobe f32;
+    BoundLobe f64;
+    double alpha = 1.0;      ///< smallest roughness, 1 for diffuse lobes
+    double ior = 1.0;        ///< inside over outside
+    bool twoSided = false;   ///< wo below the surface is valid
+    bool reciprocal = false; ///< f(o, i) n(o)^2 = f(i, o) n(i)^2
+};
+
+inline sh64::LobeEval widen(const sh64::LobeEval &e) {
+    return e;
+}
+inline sh64::LobeEval widen(const sh::LobeEval &e) {
+    return {vec3(e.value), double(e.pdf)};
+}
+inline sh64::LobeSample widen(const sh64::LobeSample &s) {
+    return s;
+}
+inline sh64::LobeSample widen(const sh::LobeSample &s) {
+    return {vec3(s.wi), vec3(s.weight), double(s.pdf), s.event, double(s.eta)};
+}
+
+template <typename Vec, typename Lobe, typename Eval, typename Sample, typename Albedo>
+BoundLobe bindLobe(Lobe l, Eval eval, Sample sample, Albedo albedo) {
+    BoundLobe b;
+    b.eval = [=](vec3 wo, vec3 wi) { return widen(eval(l, Vec(wo), Vec(wi))); };
+    b.sample = [=](vec3 wo, vec3 u) { return widen(sample(l, Vec(wo), Vec(u))); };
+    b.albedo = [=](vec3 wo) { return vec3(albedo(l, Vec(wo))); };
+    return b;
+}
+
+/// LobeCase of lobe PREFIX with the inputs of its setup function; vec2 and vec3 in the inputs mean
+/// those of either instance.
+#define PATINA_LOBE_CASE(NAME, PREFIX, ...)                                                        \
+    [&] {                                                                                          \
+        patina::test::LobeCase c;                                                                  \
+        c.name = NAME;                                                                             \
+        {                                                                                          \
+            using patina::sh::vec2;                                                                \
+            using patina::sh::vec3;                                                                \
+            c.f32 = patina::test::bindLobe<vec3>(                                                  \
+                patina::sh::PREFIX##Setup(__VA_ARGS__), patina::sh::PREFIX##Eval,                  \
+                patina::sh::PREFIX##Sample, patina::sh::PREFIX##Albedo);                           \
+        }                                                                                          \
+        {                                                                                          \
+            using patina::sh64::vec2;                                                              \
+            using patina::sh64::vec3;                                                              \
+            c.f64 = patina::test::bindLobe<vec3>(                                                  \
+                patina::sh64::PREFIX##Setup(__VA_ARGS__), patina::sh64::PREFIX##Eval,              \
+                patina::sh64::PREFIX##Sample, patina::sh64::PREFIX##Albedo);                       \
+        }                                                                                          \
+        return c;                                                                                  \
+    }()
+
+/// Every lobe over a grid of regular inputs. compensate: 0 or 1.
+std::vector<LobeCase> lobeCases(int compensate);
+
+/// Unit direction at cosine `z` and azimuth `phi`.
+vec3 direction(double z, double phi);
+
+/// Directions a case is tried from: normal to grazing, and below the surface where that is valid.
+std::vector<vec3> outgoing(const LobeCase &c);
+
+/// Point i of a low-discrepancy sequence in the unit cube (Roberts 2018, generalized golden ratio).
+vec3 quasiRandom(int i);
+
+/// Mean sample weight over `count` quasi-random points: the albedo as the sampler sees it.
+vec3 sampledAlbedo(const BoundLobe &lobe, vec3 wo, int count);
+
+bool finiteAndPositive(vec3 v);
+
+} // namespace patina::test

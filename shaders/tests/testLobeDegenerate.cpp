@@ -1,0 +1,233 @@
+// Extremes of every input: nothing is ever NaN, infinite or negative, mirrors are exact, the switch
+// to a mirror is not seen, and the identities between lobes hold.
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "shaders/tests/lobeCase.h"
+
+using namespace patina;
+using namespace patina::test;
+
+namespace {
+
+const float kNan = std::numeric_limits<float>::quiet_NaN();
+const float kInf = std::numeric_limits<float>::infinity();
+
+const float kRoughness[] = {0.0f, 1e-8f, 1e-4f, 9.99e-4f, 1e-3f, 1e-2f,
+                            0.3f, 1.0f,  7.0f,  -1.0f,    kNan};
+const float kIor[] = {1.5f,  1.0f, 1.000001f, 0.999999f, 1.001f, 0.999f, 0.6f,
+                      10.0f, 0.0f, -2.0f,     1e9f,      1e-9f,  kNan,   kInf};
+
+std::vector<vec3> directions() {
+    std::vector<vec3> all;
+    for (double z : {1.0, 0.7, 1e-1, 1e-3, 1e-6, 1e-8, 0.0, -1e-8, -1e-4, -0.3, -0.75, -1.0})
+        for (double phi : {0.0, 2.0})
+            all.push_back(direction(z, phi));
+    return all;
+}
+
+std::vector<vec3> randoms() {
+    const double last = 1.0 - 0x1p-24;
+    std::vector<vec3> all;
+    for (double x : {0.0, 0.37, last})
+        for (double y : {0.0, 0.61, last})
+            for (double z : {0.0, 0.5, last})
+                all.push_back(vec3(x, y, z));
+    return all;
+}
+
+// Everything a lobe can be asked, from every direction. Returns false at the first bad number.
+::testing::AssertionResult sane(const BoundLobe &lobe) {
+    static const std::vector<vec3> all = directions();
+    static const std::vector<vec3> us = randoms();
+    for (vec3 wo : all) {
+        const auto at = [&](const char *what) {
+            return ::testing::AssertionFailure() << what << " at wo.z " << wo.z;
+        };
+        const vec3 albedo = lobe.albedo(wo);
+        if (!finiteAndPositive(albedo)) return at("albedo") << " " << albedo.x;
+        for (vec3 wi : all) {
+            const sh64::LobeEval e = lobe.eval(wo, wi);
+            if (!finiteAndPositive(e.value)) return at("value") << " wi.z " << wi.z;
+            if (!(e.pdf >= 0.0) || std::isinf(e.pdf)) return at("pdf") << " wi.z " << wi.z;
+        }
+        const sh64::LobeEval opposite = lobe.eval(wo, -wo);
+        if (!finiteAndPositive(opposite.value) || !std::isfinite(opposite.pdf))
+            return at("wi = -wo");
+        for (vec3 u : us) {
+            const sh64::LobeSample s = lobe.sample(wo, u);
+            if (!finiteAndPositive(s.weight)) return at("weight");
+            if (!(s.pdf >= 0.0) || std::isinf(s.pdf)) return at("sample pdf");
+            if (s.event != 0 && !(s.pdf > 0.0)) return at("sample of pdf 0");
+            const double length = sh64::length(s.wi);
+            if (!(std::fabs(length - 1.0) < 1e-4)) return at("direction") << " length " << length;
+        }
+    }
+    return ::testing::AssertionSuccess();
+}
+
+} // namespace
+
+TEST(LobeDegenerate, DielectricIsSane) {
+    for (float ax : kRoughness)
+        for (float ay : {ax, 0.0f, 0.5f})
+            for (float ior : kIor)
+                for (int mode : {1, 2, 3})
+                    for (int variant : {0, 1, 2}) {
+                        const LobeCase c = PATINA_LOBE_CASE("d", dielectric, vec3(1.0, kNan, kInf),
+                                                            ior, vec2(ax, ay), variant == 0, mode,
+                                                            variant == 1, int(variant != 2));
+                        ASSERT_TRUE(sane(c.f32))
+                            << ax << " " << ay << " ior " << ior << " " << mode;
+                    }
+}
+
+TEST(LobeDegenerate, SchlickIsSane) {
+    for (float ax : kRoughness)
+        for (float ay : {ax, 0.0f})
+            for (float f0 : {0.0f, 1e-7f, 0.04f, 1.0f, 3.0f, kNan})
+                for (float f90 : {0.0f, 1.0f})
+                    for (float exponent : {0.0f, 0.5f, 5.0f, 200.0f, -1.0f, kNan})
+                        for (int mode : {1, 2, 3}) {
+                            const LobeCase c = PATINA_LOBE_CASE(
+                                "s", schlick, vec3(f0, 0.0, 1.0), vec3(1.0, 0.0, f0), vec3(f90),
+                                exponent, vec2(ax, ay), false, mode, exponent == 5.0f, 1);
+                            ASSERT_TRUE(sane(c.f32)) << ax << " " << ay << " f0 " << f0 << " f90 "
+                                                     << f90 << " e " << exponent << " " << mode;
+                        }
+}
+
+TEST(LobeDegenerate, ConductorIsSane) {
+    for (float ax : kRoughness)
+        for (float ay : {ax, 0.0f, 0.5f})
+            for (float n : {0.0f, 1e-6f, 1.0f, 1.5f, 50.0f, 1e9f, -1.0f, kNan})
+                for (float k : {0.0f, 1e-8f, 3.0f, kInf, -1.0f}) {
+                    const LobeCase c =
+                        PATINA_LOBE_CASE("c", conductor, vec3(n, 1.0, 0.2), vec3(k, 0.0, 3.0),
+                                         vec2(ax, ay), k == 3.0f, 1);
+                    ASSERT_TRUE(sane(c.f32)) << ax << " " << ay << " n " << n << " k " << k;
+                }
+}
+
+TEST(LobeDegenerate, DiffuseIsSane) {
+    for (float r : {0.0f, 1e-8f, 1.0f, 5.0f, -1.0f, kNan})
+        for (float color : {0.0f, 1.0f, 2.0f, -1.0f, kInf, kNan}) {
+            const LobeCase a = PATINA_LOBE_CASE("a", orenNayar, vec3(color, 1.0, 0.5), r, true);
+            const LobeCase b = PATINA_LOBE_CASE("b", orenNayar, vec3(color, 1.0, 0.5), r, false);
+            const LobeCase c = PATINA_LOBE_CASE("c", burley, vec3(color, 1.0, 0.5), r);
+            const LobeCase d = PATINA_LOBE_CASE("d", translucent, vec3(color, 1.0, 0.5));
+            for (const LobeCase &l : {a, b, c, d})
+                ASSERT_TRUE(sane(l.f32)) << l.name << " r " << r << " color " << color;
+        }
+}
+
+TEST(LobeDegenerate, MirrorGlassFollowsSnell) {
+    const auto glass =
+        sh64::dielectricSetup(vec3(1.0), 1.5, vec2(0.0), false, sh::SCATTER_RT, false, 1);
+    for (double z : {0.9, 0.3, -0.9}) {
+        const vec3 wo = direction(z, 0.7);
+        const double eta = z > 0.0 ? 1.5 : 1.0 / 1.5;
+        const double f = sh64::fresnelDielectric(std::fabs(z), eta);
+        const auto r = sh64::dielectricSample(glass, wo, vec3(0.3, 0.6, 0.0));
+        EXPECT_EQ(r.event, sh::LOBE_REFLECT | sh::LOBE_DELTA);
+        EXPECT_NEAR(sh64::length(r.wi - vec3(-wo.x, -wo.y, wo.z)), 0.0, 1e-12);
+        EXPECT_NEAR(r.pdf, f, 1e-12);
+        const auto t = sh64::dielectricSample(glass, wo, vec3(0.3, 0.6, 0.999));
+        EXPECT_EQ(t.event, sh::LOBE_TRANSMIT | sh::LOBE_DELTA);
+        EXPECT_NEAR(t.wi.x * eta, -wo.x, 1e-12);
+        EXPECT_NEAR(t.wi.y * eta, -wo.y, 1e-12);
+        EXPECT_LT(t.wi.z * wo.z, 0.0);
+        EXPECT_NEAR(t.eta, 1.0 / eta, 1e-12);
+        EXPECT_NEAR(t.weight.x, 1.0, 1e-12);
+        EXPECT_NEAR(t.pdf, 1.0 - f, 1e-12);
+    }
+}
+
+TEST(LobeDegenerate, MatchedIorIsNotThere) {
+    for (double alpha : {0.0, 0.05, 1.0})
+        for (double z : {1.0, 0.2, -0.6}) {
+            const auto l = sh64::dielectricSetup(vec3(0.5), 1.0, vec2(alpha), false, sh::SCATTER_RT,
+                                                 false, alpha > 0.5);
+            const vec3 wo = direction(z, 1.0);
+            const auto s = sh64::dielectricSample(l, wo, vec3(0.9, 0.8, 0.7));
+            EXPECT_EQ(s.event, sh::LOBE_TRANSMIT | sh::LOBE_DELTA);
+            EXPECT_NEAR(sh64::length(s.wi + wo), 0.0, 1e-12);
+            EXPECT_NEAR(s.weight.x, 0.5, 1e-12);
+            EXPECT_NEAR(sh64::dielectricAlbedo(l, wo).x, 0.5, 1e-12);
+            EXPECT_EQ(sh64::dielectricAlbedoReflect(l, wo).x, 0.0);
+        }
+}
+
+TEST(LobeDegenerate, FresnelOff) {
+    const vec3 wo = direction(0.5, 0.0);
+    const auto r = sh64::dielectricSetup(vec3(1.0), 0.0, vec2(0.4), false, sh::SCATTER_R, false, 1);
+    EXPECT_NEAR(sh64::dielectricAlbedo(r, wo).x, 1.0, 1e-12);
+    const auto t = sh64::dielectricSetup(vec3(0.7), 0.0, vec2(0.4), false, sh::SCATTER_T, false, 1);
+    EXPECT_NEAR(sh64::dielectricAlbedo(t, wo).x, 0.7, 1e-7);
+}
+
+TEST(LobeDegenerate, AlbedoIsContinuousAtTheMirrorSwitch) {
+    for (double z : {1.0, 0.7, 0.3, 0.1, 0.05, -0.95, -0.8, -0.5, -0.2}) {
+        const vec3 wo = direction(z, 0.3);
+        const auto albedo = [&](double alpha) {
+            return sh64::dielectricAlbedo(sh64::dielectricSetup(vec3(1.0), 1.5, vec2(alpha), false,
+                                                                sh::SCATTER_R, false, 1),
+                                          wo)
+                .x;
+        };
+        const double mirror = albedo(0.99e-3);
+        EXPECT_NEAR(albedo(1.001e-3) / mirror, 1.0, 5e-3) << z;
+        if (z < 0.0) continue;
+        const auto metal = [&](double alpha) {
+            return sh64::conductorAlbedo(
+                       sh64::conductorSetup(vec3(1.4), vec3(1.8), vec2(alpha), false, 1), wo)
+                .x;
+        };
+        EXPECT_NEAR(metal(1.001e-3) / metal(0.99e-3), 1.0, 5e-3) << z;
+    }
+}
+
+TEST(LobeDegenerate, RotatingByAQuarterSwapsTheAxes) {
+    const LobeCase a =
+        PATINA_LOBE_CASE("a", dielectric, vec3(1.0), 1.5, vec2(0.1, 0.4), false, 3, false, 1);
+    const LobeCase b =
+        PATINA_LOBE_CASE("b", dielectric, vec3(1.0), 1.5, vec2(0.4, 0.1), false, 3, false, 1);
+    for (int i = 0; i < 200; ++i) {
+        const vec3 u = quasiRandom(i);
+        const vec3 v = quasiRandom(i + 999);
+        const vec3 wo = direction(2.0 * u.x - 1.0, 6.28 * u.y);
+        const vec3 wi = direction(2.0 * v.x - 1.0, 6.28 * v.y);
+        const auto e = a.f64.eval(wo, wi);
+        const auto f = b.f64.eval(vec3(-wo.y, wo.x, wo.z), vec3(-wi.y, wi.x, wi.z));
+        EXPECT_NEAR(e.pdf, f.pdf, 1e-12 * (1.0 + e.pdf));
+        EXPECT_NEAR(e.value.x, f.value.x, 1e-12 * (1.0 + e.value.x));
+    }
+}
+
+TEST(LobeDegenerate, SmoothDiffuseIsLambert) {
+    const vec3 color(0.8, 0.5, 0.1);
+    for (bool compensation : {false, true}) {
+        const auto l = sh64::orenNayarSetup(color, 0.0, compensation);
+        for (double z : {1.0, 0.3, 0.01}) {
+            const vec3 wo = direction(z, 0.2);
+            EXPECT_NEAR(sh64::orenNayarEval(l, wo, direction(0.4, 2.0)).value.y,
+                        0.5 * 0.4 / sh64::PI, 1e-12);
+            EXPECT_NEAR(sh64::orenNayarAlbedo(l, wo).x, 0.8, 1e-12);
+        }
+    }
+}
+
+TEST(LobeDegenerate, RetroreflectionMirrorsTheLobe) {
+    const LobeCase a =
+        PATINA_LOBE_CASE("a", conductor, vec3(0.2), vec3(3.0), vec2(0.1, 0.3), false, 1);
+    const LobeCase b =
+        PATINA_LOBE_CASE("b", conductor, vec3(0.2), vec3(3.0), vec2(0.1, 0.3), true, 1);
+    const vec3 wo = direction(0.5, 0.6);
+    const vec3 wi = direction(0.6, 3.5);
+    EXPECT_NEAR(a.f64.eval(wo, wi).pdf, b.f64.eval(wo, vec3(-wi.x, -wi.y, wi.z)).pdf, 1e-12);
+    const auto s = b.f64.sample(wo, vec3(0.2, 0.3, 0.4));
+    EXPECT_NEAR(s.pdf, b.f64.eval(wo, s.wi).pdf, 1e-9 * s.pdf);
+}

@@ -4,8 +4,8 @@
 
 namespace patina {
 
-/// A file that appears all at once: writers fill temporaryPath(), commit() renames it. When commit()
-/// was not reached the temporary is removed, and what stood at the path stays as it was.
+/// A file that appears all at once: writers fill temporaryPath(), commit() renames it. When
+/// commit() was not reached the temporary is removed, and what stood at the path stays as it was.
 class AtomicFile {
 public:
     /// The temporary lies beside the path and keeps its extension, for writers that look at it.

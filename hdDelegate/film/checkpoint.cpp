@@ -54,7 +54,9 @@ public:
         raw(data, size);
     }
     template <class T> void value(T v) { bytes(&v, sizeof v); }
-    template <class T> void array(const std::vector<T>& v) { bytes(v.data(), v.size() * sizeof(T)); }
+    template <class T> void array(const std::vector<T>& v) {
+        bytes(v.data(), v.size() * sizeof(T));
+    }
     void text(const std::string& s) {
         value(uint32_t(s.size()));
         bytes(s.data(), s.size());
@@ -70,7 +72,8 @@ private:
         if (size && std::fwrite(data, 1, size, _file) != size) fail();
     }
     [[noreturn]] void fail() {
-        throw std::runtime_error("cannot write checkpoint '" + _name + "': " + std::strerror(errno));
+        throw std::runtime_error("cannot write checkpoint '" + _name +
+                                 "': " + std::strerror(errno));
     }
     FILE* _file;
     const std::string& _name;

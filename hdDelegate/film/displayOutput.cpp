@@ -75,7 +75,8 @@ void writeDisplayImage(const float* pixels, int channels, int sourceWidth,
     std::vector<float> image(size_t(placement.width) * size_t(placement.height) * size_t(written));
     tbb::parallel_for(0, placement.height, [&](int y) {
         const float* from = pixels + (size_t(placement.sourceY + y) * size_t(sourceWidth) +
-                                      size_t(placement.sourceX)) * size_t(channels);
+                                      size_t(placement.sourceX)) *
+                                         size_t(channels);
         float* to = &image[size_t(y) * size_t(placement.width) * size_t(written)];
         for (int x = 0; x < placement.width; ++x, from += channels, to += written)
             std::copy(from, from + written, to);

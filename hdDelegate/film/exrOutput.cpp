@@ -16,7 +16,9 @@ constexpr float largestHalf = 65504.0f;
 // Chromaticities of the rendering space: Rec.709 red, green, blue and D65.
 constexpr float chromaticities[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
 
-size_t bytesOf(ChannelStore store) { return store == ChannelStore::Half ? 2 : 4; }
+size_t bytesOf(ChannelStore store) {
+    return store == ChannelStore::Half ? 2 : 4;
+}
 
 OIIO::TypeDesc typeOf(ChannelStore store) {
     if (store == ChannelStore::Half) return OIIO::TypeHalf;
@@ -47,8 +49,8 @@ void put(const ChannelSource& channel, const float* from, uint8_t* to) {
 } // namespace
 
 void writeExr(const std::vector<ChannelSource>& channels, int sourceWidth,
-              const ImagePlacement& placement, const std::string& path,
-              const ImageOptions& options, const Metadata& metadata) {
+              const ImagePlacement& placement, const std::string& path, const ImageOptions& options,
+              const Metadata& metadata) {
     OIIO::ImageSpec spec =
         makeSpec(placement, int(channels.size()), OIIO::TypeFloat, options, metadata);
     spec.channelnames.clear();
@@ -76,7 +78,8 @@ void writeExr(const std::vector<ChannelSource>& channels, int sourceWidth,
                 uint8_t* to = &packed[size_t(row) * size_t(placement.width) * pixelBytes];
                 for (int x = 0; x < placement.width; ++x, to += pixelBytes)
                     for (size_t c = 0; c < channels.size(); ++c)
-                        put(channels[c], channels[c].data + (source + size_t(x)) * channels[c].stride,
+                        put(channels[c],
+                            channels[c].data + (source + size_t(x)) * channels[c].stride,
                             to + offsets[c]);
             });
             // Native format: OIIO would scale ids as it scales integer colours.

@@ -16,9 +16,13 @@ constexpr int maxSide = 1 << 20;
 constexpr int64_t maxPixels = int64_t(1) << 32;
 constexpr float farAway = std::numeric_limits<float>::infinity();
 
-double luminanceOf(double r, double g, double b) { return 0.2126 * r + 0.7152 * g + 0.0722 * b; }
+double luminanceOf(double r, double g, double b) {
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+}
 
-bool usable(float v) { return v >= 0.0f && v <= std::numeric_limits<float>::max(); }
+bool usable(float v) {
+    return v >= 0.0f && v <= std::numeric_limits<float>::max();
+}
 
 // Compared as bits, because the clear value of an id is a NaN when seen as a float.
 bool sameSpec(const AovSpec& a, const AovSpec& b) {

@@ -11,13 +11,15 @@ namespace patina {
 
 /// How the samples of a pixel become one value.
 enum class AovKind {
-    Mean,   ///< average over the samples that were added (albedo)
-    First,  ///< the sample nearest the pixel's centre: no mixing (depth, ids, position, normal, primvars)
+    Mean,  ///< average over the samples that were added (albedo)
+    First, ///< the sample nearest the pixel's centre: no mixing (depth, ids, position, normal,
+           ///< primvars)
 };
 
 /// One channel group of the film.
 struct AovSpec {
-    std::string name;   ///< color, alpha, depth, cameraDepth, normal, Neye, position, albedo, primvars:NAME, primId, instanceId, elementId, sampleCount, variance
+    std::string name;   ///< color, alpha, depth, cameraDepth, normal, Neye, position, albedo,
+                        ///< primvars:NAME, primId, instanceId, elementId, sampleCount, variance
     int components = 3; ///< floats per pixel
     AovKind kind = AovKind::Mean;
     float clearValue = 0.0f; ///< of pixels that no sample reached

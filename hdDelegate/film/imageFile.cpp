@@ -29,8 +29,8 @@ void checkAovs(const std::string& path, const std::vector<std::string>& aovs) {
     if (isExr(path)) return;
     for (auto& name : aovs)
         if (name != "color" && name != "alpha")
-            throw std::runtime_error("cannot write '" + path + "': only OpenEXR (.exr) holds AOV '" +
-                                     name + "'");
+            throw std::runtime_error("cannot write '" + path +
+                                     "': only OpenEXR (.exr) holds AOV '" + name + "'");
 }
 
 } // namespace

@@ -31,11 +31,11 @@ struct ImageOptions {
     bool integerIds = false; ///< OpenEXR: ids as UINT; else as float, which is exact below 2^24
     std::string compression = "zip"; ///< OpenEXR: none, rle, zip, zips, piz, pxr24, b44, dwaa...
 
-    int bits = 8;            ///< of other formats: 8, 16, or 32 (TIFF: linear floats)
+    int bits = 8;              ///< of other formats: 8, 16, or 32 (TIFF: linear floats)
     std::string display, view; ///< OCIO's; empty: its defaults
-    bool raw = false;        ///< no display transform: linear values are written
-    bool dither = false;     ///< noise of one step before rounding, the same in every run
-    int quality = 95;        ///< of JPEG and WebP
+    bool raw = false;          ///< no display transform: linear values are written
+    bool dither = false;       ///< noise of one step before rounding, the same in every run
+    int quality = 95;          ///< of JPEG and WebP
     const ColorSpaces* colorSpaces = nullptr; ///< null: ColorSpaces::shared()
 };
 

@@ -24,9 +24,13 @@ std::string extensionOf(const std::string& path) {
 
 } // namespace
 
-std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+std::string firstLine(const std::string& text) {
+    return text.substr(0, text.find('\n'));
+}
 
-bool isExr(const std::string& path) { return extensionOf(path) == ".exr"; }
+bool isExr(const std::string& path) {
+    return extensionOf(path) == ".exr";
+}
 
 ImagePlacement placementOf(int width, int height, const ImageOptions& options) {
     if (width < 1 || height < 1)
@@ -82,9 +86,12 @@ OIIO::ImageSpec makeSpec(const ImagePlacement& placement, int channels, OIIO::Ty
     spec.attribute("PixelAspectRatio", float(options.pixelAspectRatio));
     spec.attribute("Software", "Patina");
     for (auto& [name, value] : metadata) {
-        if (auto text = std::get_if<std::string>(&value)) spec.attribute(name, *text);
-        else if (auto number = std::get_if<int>(&value)) spec.attribute(name, *number);
-        else spec.attribute(name, float(std::get<double>(value)));
+        if (auto text = std::get_if<std::string>(&value))
+            spec.attribute(name, *text);
+        else if (auto number = std::get_if<int>(&value))
+            spec.attribute(name, *number);
+        else
+            spec.attribute(name, float(std::get<double>(value)));
     }
     return spec;
 }

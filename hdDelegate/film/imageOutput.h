@@ -44,8 +44,8 @@ void writeAtomically(const std::string& path, const OIIO::ImageSpec& spec,
                      const std::function<bool(OIIO::ImageOutput&)>& write);
 
 void writeExr(const std::vector<ChannelSource>& channels, int sourceWidth,
-              const ImagePlacement& placement, const std::string& path,
-              const ImageOptions& options, const Metadata& metadata);
+              const ImagePlacement& placement, const std::string& path, const ImageOptions& options,
+              const Metadata& metadata);
 
 /// @param channels 1, 3 or 4: grey, colour, colour multiplied by alpha
 void writeDisplayImage(const float* pixels, int channels, int sourceWidth,

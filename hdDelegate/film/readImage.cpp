@@ -20,9 +20,12 @@ Metadata metadataOf(const OIIO::ImageSpec& spec) {
     Metadata metadata;
     for (const OIIO::ParamValue& p : spec.extra_attribs) {
         std::string name = p.name().string();
-        if (p.type() == OIIO::TypeInt) metadata[name] = p.get_int();
-        else if (p.type() == OIIO::TypeFloat) metadata[name] = double(p.get_float());
-        else metadata[name] = p.get_string();
+        if (p.type() == OIIO::TypeInt)
+            metadata[name] = p.get_int();
+        else if (p.type() == OIIO::TypeFloat)
+            metadata[name] = double(p.get_float());
+        else
+            metadata[name] = p.get_string();
     }
     return metadata;
 }

@@ -40,8 +40,8 @@ public:
         for (size_t at = 0; at < count; at += mostAtOnce) {
             long n = long(std::min(mostAtOnce, count - at));
             ptrdiff_t step = stride * ptrdiff_t(sizeof(float));
-            ocio::PackedImageDesc image(pixels + at * size_t(stride), n, 1, 3,
-                                        ocio::BIT_DEPTH_F32, sizeof(float), step, step * n);
+            ocio::PackedImageDesc image(pixels + at * size_t(stride), n, 1, 3, ocio::BIT_DEPTH_F32,
+                                        sizeof(float), step, step * n);
             for (auto& s : _steps) s->apply(image);
         }
     }
@@ -65,8 +65,8 @@ std::string listed(const std::vector<std::string>& names) {
 
 struct ColorSpaces::Impl {
     ocio::ConstConfigRcPtr builtin, user; ///< user is null without a configuration of the user's
-    std::string userRendering;            ///< the user's name of linear Rec.709, or what stands for it
-    bool bridge = false;                  ///< go through the interchange role instead of that name
+    std::string userRendering; ///< the user's name of linear Rec.709, or what stands for it
+    bool bridge = false;       ///< go through the interchange role instead of that name
 
     const ocio::ConstConfigRcPtr& active() const { return user ? user : builtin; }
     void findRenderingSpace();
@@ -99,10 +99,11 @@ ColorTransformPtr ColorSpaces::Impl::convert(const std::string& name, bool toRen
         if (user && user->getColorSpace(name.c_str())) {
             if (user->getColorSpace(name.c_str())->isData()) return transformOf({});
             if (bridge)
-                return transformOf({toRendering ? ocio::Config::GetProcessorFromConfigs(
-                                                      user, name.c_str(), builtin, renderingSpace)
-                                                : ocio::Config::GetProcessorFromConfigs(
-                                                      builtin, renderingSpace, user, name.c_str())});
+                return transformOf(
+                    {toRendering ? ocio::Config::GetProcessorFromConfigs(user, name.c_str(),
+                                                                         builtin, renderingSpace)
+                                 : ocio::Config::GetProcessorFromConfigs(builtin, renderingSpace,
+                                                                         user, name.c_str())});
             return transformOf({toRendering
                                     ? user->getProcessor(name.c_str(), userRendering.c_str())
                                     : user->getProcessor(userRendering.c_str(), name.c_str())});
@@ -152,9 +153,13 @@ const Shared& sharedSpaces() {
 
 } // namespace
 
-const ColorSpaces& ColorSpaces::shared() { return *sharedSpaces().spaces; }
+const ColorSpaces& ColorSpaces::shared() {
+    return *sharedSpaces().spaces;
+}
 
-const std::string& ColorSpaces::sharedProblem() { return sharedSpaces().problem; }
+const std::string& ColorSpaces::sharedProblem() {
+    return sharedSpaces().problem;
+}
 
 bool ColorSpaces::isData(const std::string& name) {
     static const char* const names[] = {"",     "raw",      "none",    "non-color",    "noncolor",

@@ -37,42 +37,75 @@ const Space spaces[] = {
      {"lin_rec709_scene", "lin_rec709_srgb", "lin_srgb", "linear", "scene-linear Rec.709-sRGB",
       "Linear Rec.709 (sRGB)", "Utility - Linear - sRGB", "Utility - Linear - Rec.709",
       "Linear sRGB", "Linear BT.709"},
-     &rec709, Curve::Linear, 1.0},
+     &rec709,
+     Curve::Linear,
+     1.0},
     {"srgb_texture",
      {"sRGB", "srgb_rec709_scene", "srgb_tx", "sRGB - Texture", "Utility - sRGB - Texture",
       "sRGB Encoded Rec.709 (sRGB)", "srgb_encoded_rec709", "Input - Generic - sRGB - Texture"},
-     &rec709, Curve::Srgb, 2.4},
-    {"srgb_display", {"srgb_rec709_display", "Output - sRGB", "sRGB - Display"}, &rec709,
-     Curve::Srgb, 2.4},
+     &rec709,
+     Curve::Srgb,
+     2.4},
+    {"srgb_display",
+     {"srgb_rec709_display", "Output - sRGB", "sRGB - Display"},
+     &rec709,
+     Curve::Srgb,
+     2.4},
     {"g22_rec709",
      {"g22_rec709_scene", "g22_rec709_tx", "gamma22", "Gamma 2.2 Rec.709 - Texture",
       "Utility - Gamma 2.2 - Rec.709 - Texture"},
-     &rec709, Curve::Gamma, 2.2},
+     &rec709,
+     Curve::Gamma,
+     2.2},
     {"g18_rec709",
-     {"g18_rec709_scene", "g18_rec709_tx", "gamma18", "Gamma 1.8 Rec.709 - Texture"}, &rec709,
-     Curve::Gamma, 1.8},
+     {"g18_rec709_scene", "g18_rec709_tx", "gamma18", "Gamma 1.8 Rec.709 - Texture"},
+     &rec709,
+     Curve::Gamma,
+     1.8},
     {"rec709_display",
-     {"g24_rec709", "g24_rec709_tx", "gamma24", "Gamma 2.4 Rec.709 - Texture"}, &rec709,
-     Curve::Gamma, 2.4},
+     {"g24_rec709", "g24_rec709_tx", "gamma24", "Gamma 2.4 Rec.709 - Texture"},
+     &rec709,
+     Curve::Gamma,
+     2.4},
     {"lin_ap1", {"lin_ap1_scene", "acescg", "ACES - ACEScg", "ACEScg"}, &ap1, Curve::Linear, 1.0},
-    {"g22_ap1", {"g22_ap1_scene", "g22_ap1_tx", "Gamma 2.2 AP1 - Texture"}, &ap1, Curve::Gamma, 2.2},
+    {"g22_ap1",
+     {"g22_ap1_scene", "g22_ap1_tx", "Gamma 2.2 AP1 - Texture"},
+     &ap1,
+     Curve::Gamma,
+     2.2},
     {"srgb_ap1", {"srgb_ap1_scene", "srgb_encoded_ap1_tx"}, &ap1, Curve::Srgb, 2.4},
-    {"lin_ap0", {"lin_ap0_scene", "ACES2065-1", "aces", "ACES - ACES2065-1"}, &ap0, Curve::Linear,
+    {"lin_ap0",
+     {"lin_ap0_scene", "ACES2065-1", "aces", "ACES - ACES2065-1"},
+     &ap0,
+     Curve::Linear,
      1.0},
-    {"lin_rec2020", {"lin_rec2020_scene", "Linear Rec.2020", "Utility - Linear - Rec.2020"},
-     &rec2020, Curve::Linear, 1.0},
-    {"lin_displayp3", {"lin_p3d65", "lin_p3d65_scene", "Linear P3-D65"}, &displayP3, Curve::Linear,
+    {"lin_rec2020",
+     {"lin_rec2020_scene", "Linear Rec.2020", "Utility - Linear - Rec.2020"},
+     &rec2020,
+     Curve::Linear,
+     1.0},
+    {"lin_displayp3",
+     {"lin_p3d65", "lin_p3d65_scene", "Linear P3-D65"},
+     &displayP3,
+     Curve::Linear,
      1.0},
     {"srgb_displayp3",
-     {"srgb_p3d65_scene", "srgb_encoded_p3d65_tx", "sRGB Encoded P3-D65 - Texture"}, &displayP3,
-     Curve::Srgb, 2.4},
+     {"srgb_p3d65_scene", "srgb_encoded_p3d65_tx", "sRGB Encoded P3-D65 - Texture"},
+     &displayP3,
+     Curve::Srgb,
+     2.4},
     {"lin_adobergb", {"lin_adobergb_scene", "Linear AdobeRGB"}, &adobeRgb, Curve::Linear, 1.0},
-    {"adobergb", {"g22_adobergb_scene", "g22_adobergb", "AdobeRGB"}, &adobeRgb, Curve::Gamma,
+    {"adobergb",
+     {"g22_adobergb_scene", "g22_adobergb", "AdobeRGB"},
+     &adobeRgb,
+     Curve::Gamma,
      563.0 / 256.0},
     {"lin_ciexyzd65", {"lin_ciexyzd65_scene", "CIE-XYZ-D65"}, &xyzD65, Curve::Linear, 1.0},
 };
 
-glm::dvec3 xyzOf(const double (&xy)[2]) { return {xy[0], xy[1], 1.0 - xy[0] - xy[1]}; }
+glm::dvec3 xyzOf(const double (&xy)[2]) {
+    return {xy[0], xy[1], 1.0 - xy[0] - xy[1]};
+}
 
 glm::dmat3 toXyz(const Primaries& p) {
     glm::dmat3 axes(xyzOf(p.red), xyzOf(p.green), xyzOf(p.blue));
@@ -82,9 +115,8 @@ glm::dmat3 toXyz(const Primaries& p) {
 }
 
 glm::dmat3 bradford(const double (&fromWhite)[2], const double (&toWhite)[2]) {
-    const glm::dmat3 cone =
-        glm::transpose(glm::dmat3(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389,
-                                  -0.0685, 1.0296));
+    const glm::dmat3 cone = glm::transpose(
+        glm::dmat3(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296));
     glm::dvec3 from = cone * (xyzOf(fromWhite) / fromWhite[1]);
     glm::dvec3 to = cone * (xyzOf(toWhite) / toWhite[1]);
     glm::dvec3 ratio = to / from;
@@ -120,8 +152,8 @@ ocio::TransformRcPtr toReference(const Space& space) {
 } // namespace
 
 std::array<double, 9> matrixToRec709(const Primaries& primaries) {
-    glm::dmat3 m = glm::inverse(toXyz(rec709)) * bradford(primaries.white, rec709.white) *
-                   toXyz(primaries);
+    glm::dmat3 m =
+        glm::inverse(toXyz(rec709)) * bradford(primaries.white, rec709.white) * toXyz(primaries);
     std::array<double, 9> rows;
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column) rows[size_t(row * 3 + column)] = m[column][row];

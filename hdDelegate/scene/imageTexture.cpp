@@ -26,9 +26,7 @@ int wrapped(int i, int n, TextureWrap wrap) {
     switch (wrap) {
     case TextureWrap::Black: return outside;
     case TextureWrap::Clamp: return i < 0 ? 0 : n - 1;
-    case TextureWrap::Mirror:
-        i = positiveModulo(i, 2 * n);
-        return i < n ? i : 2 * n - 1 - i;
+    case TextureWrap::Mirror: i = positiveModulo(i, 2 * n); return i < n ? i : 2 * n - 1 - i;
     case TextureWrap::Repeat: break;
     }
     return positiveModulo(i, n);
@@ -83,17 +81,31 @@ private:
     std::array<uint8_t, cells> _guess;
 };
 
-inline float linearOf(uint8_t v, const float* table) { return table[v]; }
-inline float linearOf(uint16_t v, const float*) { return v * (1.0f / 65535.0f); }
-inline float linearOf(half v, const float*) { return float(v); }
-inline float linearOf(float v, const float*) { return v; }
+inline float linearOf(uint8_t v, const float* table) {
+    return table[v];
+}
+inline float linearOf(uint16_t v, const float*) {
+    return v * (1.0f / 65535.0f);
+}
+inline float linearOf(half v, const float*) {
+    return float(v);
+}
+inline float linearOf(float v, const float*) {
+    return v;
+}
 
-inline void store(float v, const Encoder& encode, uint8_t& to) { to = encode(v); }
+inline void store(float v, const Encoder& encode, uint8_t& to) {
+    to = encode(v);
+}
 inline void store(float v, const Encoder&, uint16_t& to) {
     to = uint16_t(std::min(std::max(v, 0.0f), 1.0f) * 65535.0f + 0.5f);
 }
-inline void store(float v, const Encoder&, half& to) { to = half(v); }
-inline void store(float v, const Encoder&, float& to) { to = v; }
+inline void store(float v, const Encoder&, half& to) {
+    to = half(v);
+}
+inline void store(float v, const Encoder&, float& to) {
+    to = v;
+}
 
 } // namespace
 
@@ -109,7 +121,8 @@ ImageTexture::ImageTexture(int width, int height, TexelLayout layout, TexelType 
         _texels += size_t(w) * size_t(h);
         if (w == 1 && h == 1) break;
     }
-    _data.reset(new uint8_t[memoryBytes()]); // left as it is: pages are touched when they are filled
+    _data.reset(
+        new uint8_t[memoryBytes()]); // left as it is: pages are touched when they are filled
     for (size_t i = 0; i < 256; ++i) _plain[i] = float(i) / 255.0f;
     _decode = _plain;
     switch (_type) {
@@ -120,7 +133,9 @@ ImageTexture::ImageTexture(int width, int height, TexelLayout layout, TexelType 
     }
 }
 
-size_t ImageTexture::memoryBytes() const { return _texels * size_t(_channels) * bytesOf(_type); }
+size_t ImageTexture::memoryBytes() const {
+    return _texels * size_t(_channels) * bytesOf(_type);
+}
 
 const void* ImageTexture::levelData(int level) const {
     return _data.get() + _levels[size_t(level)].offset * size_t(_channels) * bytesOf(_type);
@@ -130,7 +145,9 @@ void* ImageTexture::levelData(int level) {
     return const_cast<void*>(static_cast<const ImageTexture*>(this)->levelData(level));
 }
 
-void ImageTexture::setDecodeTable(const std::array<float, 256>& table) { _decode = table; }
+void ImageTexture::setDecodeTable(const std::array<float, 256>& table) {
+    _decode = table;
+}
 
 bool ImageTexture::isAlpha(int channel) const {
     return (_layout == TexelLayout::GreyAlpha && channel == 1) || channel == 3;
@@ -152,11 +169,12 @@ template <class T> void ImageTexture::buildLevel(int number) {
             for (int j = 0; j < rows.count; ++j)
                 for (int i = 0; i < span.count; ++i) {
                     float weight = rows.weights[j] * span.weights[i];
-                    const T* p = source + (size_t(rows.first + j) * size_t(from.width) +
-                                           size_t(span.first + i)) * n;
+                    const T* p =
+                        source +
+                        (size_t(rows.first + j) * size_t(from.width) + size_t(span.first + i)) * n;
                     for (size_t c = 0; c < n; ++c)
-                        sum[c] += weight * linearOf(p[c], isAlpha(int(c)) ? _plain.data()
-                                                                          : _decode.data());
+                        sum[c] += weight *
+                                  linearOf(p[c], isAlpha(int(c)) ? _plain.data() : _decode.data());
                 }
             T* p = target + (size_t(y) * size_t(to.width) + size_t(x)) * n;
             for (size_t c = 0; c < n; ++c)
@@ -186,9 +204,8 @@ glm::vec4 ImageTexture::expand(const float* c) const {
 }
 
 // The number of channels is a constant here, so that the loops over them unroll.
-template <class T, int N>
-void ImageTexture::addFour(const Level& level, const int* x, const int* y, const float* weights,
-                           float* sum) const {
+template <class T, int N> void ImageTexture::addFour(const Level& level, const int* x, const int* y,
+                                                     const float* weights, float* sum) const {
     const T* texels = reinterpret_cast<const T*>(_data.get()) + level.offset * N;
     const float* color = _decode.data();
     const float* last = N == 4 || _layout == TexelLayout::GreyAlpha ? _plain.data() : color;
@@ -196,7 +213,8 @@ void ImageTexture::addFour(const Level& level, const int* x, const int* y, const
                         texels + size_t(y[1]) * size_t(level.width) * N};
     for (int i = 0; i < 4; ++i) {
         const T* p = rows[i >> 1] + size_t(x[i & 1]) * N;
-        for (int c = 0; c < N; ++c) sum[c] += weights[i] * linearOf(p[c], c == N - 1 ? last : color);
+        for (int c = 0; c < N; ++c)
+            sum[c] += weights[i] * linearOf(p[c], c == N - 1 ? last : color);
     }
 }
 

@@ -67,9 +67,8 @@ private:
     /// Adds four weighted texels; chosen once, by type and channels.
     using AddFour = void (ImageTexture::*)(const Level& level, const int* x, const int* y,
                                            const float* weights, float* sum) const;
-    template <class T, int N>
-    void addFour(const Level& level, const int* x, const int* y, const float* weights,
-                 float* sum) const;
+    template <class T, int N> void addFour(const Level& level, const int* x, const int* y,
+                                           const float* weights, float* sum) const;
     template <class T> static AddFour addFourOf(int channels);
     template <class T> void buildLevel(int level);
     bool isAlpha(int channel) const;

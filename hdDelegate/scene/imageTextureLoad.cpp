@@ -37,7 +37,8 @@ struct OpenImage {
             return;
         }
         OIIO::ImageSpec hints;
-        hints.attribute("oiio:UnassociatedAlpha", 1); // texels as stored: premultiplying loses colour
+        hints.attribute("oiio:UnassociatedAlpha",
+                        1); // texels as stored: premultiplying loses colour
         input = OIIO::ImageInput::open(file, &hints);
         if (!input) {
             error = oneLine(OIIO::geterror());
@@ -98,7 +99,9 @@ bool decodeTable(const ColorTransform& transform, std::array<float, 256>& table)
         transform.apply(&c.x, 1, 3);
         return c;
     };
-    auto close = [](float a, float b) { return std::abs(a - b) <= 2e-6f * std::max(1.0f, std::abs(b)); };
+    auto close = [](float a, float b) {
+        return std::abs(a - b) <= 2e-6f * std::max(1.0f, std::abs(b));
+    };
     for (int i = 0; i < 256; ++i) {
         glm::vec3 c = apply(i, i, i);
         if (!close(c.r, c.g) || !close(c.b, c.g)) return false;
@@ -115,18 +118,30 @@ bool decodeTable(const ColorTransform& transform, std::array<float, 256>& table)
     return true;
 }
 
-float toFloat(uint8_t v) { return float(v) * (1.0f / 255.0f); }
-float toFloat(uint16_t v) { return float(v) * (1.0f / 65535.0f); }
-float toFloat(half v) { return float(v); }
-float toFloat(float v) { return v; }
+float toFloat(uint8_t v) {
+    return float(v) * (1.0f / 255.0f);
+}
+float toFloat(uint16_t v) {
+    return float(v) * (1.0f / 65535.0f);
+}
+float toFloat(half v) {
+    return float(v);
+}
+float toFloat(float v) {
+    return v;
+}
 
-void assign(float v, half& to) { to = half(std::min(std::max(v, -largestHalf), largestHalf)); }
-void assign(float v, float& to) { to = v; }
+void assign(float v, half& to) {
+    to = half(std::min(std::max(v, -largestHalf), largestHalf));
+}
+void assign(float v, float& to) {
+    to = v;
+}
 
 /// Converts one row; source and target may be the same memory when their types are.
-template <class From, class To>
-void convertRow(const From* from, To* to, int width, TexelLayout layout,
-                const ColorTransform& transform, std::atomic<size_t>& bad) {
+template <class From, class To> void convertRow(const From* from, To* to, int width,
+                                                TexelLayout layout, const ColorTransform& transform,
+                                                std::atomic<size_t>& bad) {
     const size_t n = size_t(channelCount(layout));
     const bool grey = layout == TexelLayout::Grey || layout == TexelLayout::GreyAlpha;
     const size_t colors = grey ? 1 : std::min<size_t>(n, 3);
@@ -136,8 +151,10 @@ void convertRow(const From* from, To* to, int width, TexelLayout layout,
         for (size_t c = 0; c < n; ++c) {
             float v = toFloat(from[x * n + c]);
             if (!std::isfinite(v)) v = 0.0f, ++badHere;
-            if (grey && c == 0) row[x * 4] = row[x * 4 + 1] = row[x * 4 + 2] = v;
-            else row[x * 4 + (c < colors ? c : 3)] = v;
+            if (grey && c == 0)
+                row[x * 4] = row[x * 4 + 1] = row[x * 4 + 2] = v;
+            else
+                row[x * 4 + (c < colors ? c : 3)] = v;
         }
     if (badHere) bad += badHere;
     transform.apply(row.data(), size_t(width), 4);
@@ -147,9 +164,9 @@ void convertRow(const From* from, To* to, int width, TexelLayout layout,
             assign(row[x * 4 + (c < colors ? (grey ? 1 : c) : 3)], to[x * n + c]);
 }
 
-template <class From, class To>
-size_t convertRows(const void* from, void* to, int width, int height, TexelLayout layout,
-                   const ColorTransform& transform) {
+template <class From, class To> size_t convertRows(const void* from, void* to, int width,
+                                                   int height, TexelLayout layout,
+                                                   const ColorTransform& transform) {
     std::atomic<size_t> bad{0};
     const size_t rowSize = size_t(width) * size_t(channelCount(layout));
     tbb::parallel_for(0, height, [&](int y) {
@@ -159,9 +176,9 @@ size_t convertRows(const void* from, void* to, int width, int height, TexelLayou
     return bad;
 }
 
-template <class To>
-size_t convertFrom(TexelType type, const void* from, void* to, int width, int height,
-                   TexelLayout layout, const ColorTransform& transform) {
+template <class To> size_t convertFrom(TexelType type, const void* from, void* to, int width,
+                                       int height, TexelLayout layout,
+                                       const ColorTransform& transform) {
     switch (type) {
     case TexelType::U8: return convertRows<uint8_t, To>(from, to, width, height, layout, transform);
     case TexelType::U16:
@@ -253,8 +270,10 @@ std::shared_ptr<ImageTexture> loadImageTexture(const ImageSource& source,
             if (!transform->isIdentity()) texture->setDecodeTable(table);
         } else {
             void* to = texture->levelData(0);
-            size_t bad = (stored == TexelType::Half ? convertFrom<half> : convertFrom<float>)(
-                file, target, to, spec.width, spec.height, layout, *transform);
+            size_t bad =
+                (stored == TexelType::Half ? convertFrom<half>
+                                           : convertFrom<float>)(file, target, to, spec.width,
+                                                                 spec.height, layout, *transform);
             if (bad)
                 diagnostics.warn(source.prim, source.input,
                                  "texture '" + source.file + "' holds " + std::to_string(bad) +

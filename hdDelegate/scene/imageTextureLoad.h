@@ -37,7 +37,7 @@ std::shared_ptr<ImageTexture> loadImageTexture(const ImageSource& source,
 struct ImageRGB {
     int width = 0, height = 0;
     std::vector<glm::vec3> pixels; ///< top row first
-    bool valid = false;            ///< false: the file could not be read, one magenta pixel stands for it
+    bool valid = false; ///< false: the file could not be read, one magenta pixel stands for it
 };
 
 /// Reads an environment or a light's texture; warns and gives magenta when it cannot.

@@ -86,8 +86,9 @@ struct TextureSystem::Entry {
     TextureRequest request;
     bool udim = false, valid = false;
     std::vector<std::shared_ptr<Image>> tiles; ///< one, or by UDIM number with gaps
-    size_t watched = 0; ///< tiles that are warned of one by one
-    mutable std::unique_ptr<std::atomic<bool>[]> warned; ///< per watched tile; the last for the rest
+    size_t watched = 0;                        ///< tiles that are warned of one by one
+    mutable std::unique_ptr<std::atomic<bool>[]>
+        warned; ///< per watched tile; the last for the rest
 
     ImageSource source(const std::string& file) const {
         return {file, request.colorSpace, request.prim, request.input};

@@ -46,7 +46,7 @@ private:
     std::map<std::string, int> _handles;
     std::map<std::string, std::shared_ptr<Image>> _images;
     tbb::concurrent_vector<std::unique_ptr<Entry>> _entries; ///< grows while others read
-    std::atomic<int> _count{0}; ///< entries that are complete
+    std::atomic<int> _count{0};                              ///< entries that are complete
 };
 
 } // namespace patina

@@ -12,8 +12,7 @@ namespace patina {
 class TempFolder {
 public:
     TempFolder() {
-        std::string name =
-            (std::filesystem::temp_directory_path() / "patinaTest.XXXXXX").string();
+        std::string name = (std::filesystem::temp_directory_path() / "patinaTest.XXXXXX").string();
         if (!mkdtemp(&name[0])) throw std::runtime_error("no temporary folder");
         _path = name;
     }

@@ -19,8 +19,7 @@ float encoded(float v) {
 Film& ramp(Film& film, int width = 256) {
     film.reset(width, 2, {});
     for (int x = 0; x < width; ++x)
-        for (int y = 0; y < 2; ++y)
-            film.addColor(x, y, glm::vec3(float(x) / float(width - 1)), 1);
+        for (int y = 0; y < 2; ++y) film.addColor(x, y, glm::vec3(float(x) / float(width - 1)), 1);
     return film;
 }
 

@@ -18,9 +18,10 @@ float bitsOf(int32_t value) {
 
 /// 3x2 pixels whose values tell where they are.
 void fill(Film& film) {
-    film.reset(3, 2, {standardAov("depth"), standardAov("normal"), standardAov("albedo"),
-                      standardAov("primvars:st"), standardAov("primId"), standardAov("sampleCount"),
-                      standardAov("variance")});
+    film.reset(3, 2,
+               {standardAov("depth"), standardAov("normal"), standardAov("albedo"),
+                standardAov("primvars:st"), standardAov("primId"), standardAov("sampleCount"),
+                standardAov("variance")});
     for (int y = 0; y < 2; ++y)
         for (int x = 0; x < 3; ++x) {
             float base = float(y * 3 + x);
@@ -38,8 +39,8 @@ void fill(Film& film) {
 float value(const ImageData& image, const std::string& channel, int x, int y) {
     for (size_t c = 0; c < image.channels.size(); ++c)
         if (image.channels[c] == channel)
-            return image.pixels[(size_t(y) * size_t(image.width) + size_t(x)) *
-                                    image.channels.size() + c];
+            return image
+                .pixels[(size_t(y) * size_t(image.width) + size_t(x)) * image.channels.size() + c];
     ADD_FAILURE() << "no channel " << channel;
     return -1e30f;
 }

@@ -44,10 +44,8 @@ TEST(ColorSpaces, GammasAreThoseOfTheirNames) {
     struct {
         const char* name;
         double gamma;
-    } cases[] = {{"g22_rec709", 2.2},
-                 {"g18_rec709", 1.8},
-                 {"rec709_display", 2.4},
-                 {"gamma22", 2.2}};
+    } cases[] = {
+        {"g22_rec709", 2.2}, {"g18_rec709", 1.8}, {"rec709_display", 2.4}, {"gamma22", 2.2}};
     for (auto& c : cases)
         for (float v : {0.0f, 0.01f, 0.2f, 0.5f, 1.0f})
             expectNear(converted(spaces.toRendering(c.name), glm::vec3(v)),
@@ -57,8 +55,8 @@ TEST(ColorSpaces, GammasAreThoseOfTheirNames) {
 TEST(ColorSpaces, WideGamutsMapTheirPrimariesWherePublishedMatricesSay) {
     ColorSpaces spaces;
     // ACEScg to linear Rec.709 with Bradford, as the ACES reference implementation gives it
-    expectNear(converted(spaces.toRendering("acescg"), {1, 0, 0}),
-               {1.70505f, -0.13026f, -0.02400f}, 2e-4f);
+    expectNear(converted(spaces.toRendering("acescg"), {1, 0, 0}), {1.70505f, -0.13026f, -0.02400f},
+               2e-4f);
     expectNear(converted(spaces.toRendering("lin_ap1"), {0, 1, 0}),
                {-0.62179f, 1.14080f, -0.12897f}, 2e-4f);
     expectNear(converted(spaces.toRendering("ACES2065-1"), {0, 0, 1}),
@@ -78,22 +76,40 @@ TEST(ColorSpaces, WhiteStaysWhiteAndEveryWayIsAWayBack) {
     for (const std::string& name : spaces.names()) {
         ColorTransformPtr to = spaces.toRendering(name), from = spaces.fromRendering(name);
         ASSERT_TRUE(to && from) << name;
-        if (name != "lin_ciexyzd65")
-            expectNear(converted(to, {1, 1, 1}), {1, 1, 1}, 2e-5f);
+        if (name != "lin_ciexyzd65") expectNear(converted(to, {1, 1, 1}), {1, 1, 1}, 2e-5f);
         expectNear(converted(from, converted(to, {0.2f, 0.5f, 0.8f})), {0.2f, 0.5f, 0.8f}, 2e-5f);
     }
 }
 
 TEST(ColorSpaces, AliasesOfMaterialXAndOfUsdAreKnownInAnyCase) {
     ColorSpaces spaces;
-    for (const char* name :
-         {"sRGB", "srgb", "srgb_texture", "SRGB_TEXTURE", "srgb_rec709_scene", "lin_rec709",
-          "lin_rec709_scene", "g22_rec709_scene", "g18_rec709_scene", "lin_ap0_scene",
-          "lin_ap1_scene", "acescg", "ACEScg", "lin_p3d65_scene", "srgb_p3d65_scene",
-          "lin_rec2020_scene", "g22_adobergb_scene", "lin_adobergb", "srgb_displayp3", "g22_ap1",
-          "lin_displayp3", "adobergb", "Utility - sRGB - Texture", "Linear Rec.709 (sRGB)"})
+    for (const char* name : {"sRGB",
+                             "srgb",
+                             "srgb_texture",
+                             "SRGB_TEXTURE",
+                             "srgb_rec709_scene",
+                             "lin_rec709",
+                             "lin_rec709_scene",
+                             "g22_rec709_scene",
+                             "g18_rec709_scene",
+                             "lin_ap0_scene",
+                             "lin_ap1_scene",
+                             "acescg",
+                             "ACEScg",
+                             "lin_p3d65_scene",
+                             "srgb_p3d65_scene",
+                             "lin_rec2020_scene",
+                             "g22_adobergb_scene",
+                             "lin_adobergb",
+                             "srgb_displayp3",
+                             "g22_ap1",
+                             "lin_displayp3",
+                             "adobergb",
+                             "Utility - sRGB - Texture",
+                             "Linear Rec.709 (sRGB)"})
         EXPECT_TRUE(spaces.toRendering(name)) << name;
-    for (const char* data : {"raw", "RAW", "none", "Non-Color", "data", "identity", "", "unknown"}) {
+    for (const char* data :
+         {"raw", "RAW", "none", "Non-Color", "data", "identity", "", "unknown"}) {
         ASSERT_TRUE(spaces.toRendering(data)) << data;
         EXPECT_TRUE(spaces.toRendering(data)->isIdentity()) << data;
     }

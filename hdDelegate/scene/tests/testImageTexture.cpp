@@ -177,8 +177,12 @@ TEST(ImageTexture, ChannelLayouts) {
 
 TEST(ImageTexture, CoordinatesThatAreNoNumbersDoNoHarm) {
     ImageTexture t = greyTexture(3, 3, {1, 1, 1, 1, 1, 1, 1, 1, 1});
-    float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
-                   -std::numeric_limits<float>::infinity(), 3e38f, -3e38f, 1e10f};
+    float bad[] = {std::numeric_limits<float>::quiet_NaN(),
+                   std::numeric_limits<float>::infinity(),
+                   -std::numeric_limits<float>::infinity(),
+                   3e38f,
+                   -3e38f,
+                   1e10f};
     for (float u : bad)
         for (float v : bad)
             for (Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp, Wrap::Black})

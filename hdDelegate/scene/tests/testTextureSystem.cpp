@@ -102,7 +102,8 @@ TEST_F(Textures, EightBitFlavoursWithTheColourSpaceThatAutoMeans) {
 TEST_F(Textures, JpegWithOneAndThreeChannels) {
     writeImage(temp.file("rgb.jpg"), 16, 16, {0.2f, 0.4f, 0.8f}, OIIO::TypeUInt8);
     writeImage(temp.file("grey.jpg"), 16, 16, {0.4f}, OIIO::TypeUInt8);
-    expectMiddle(open(temp.file("rgb.jpg")), {srgb(0.2f), srgb(0.4f), srgb(0.8f), 1}, 0.012f, "rgb");
+    expectMiddle(open(temp.file("rgb.jpg")), {srgb(0.2f), srgb(0.4f), srgb(0.8f), 1}, 0.012f,
+                 "rgb");
     expectMiddle(open(temp.file("grey.jpg")), {0.4f, 0.4f, 0.4f, 1}, 0.005f, "grey");
     EXPECT_EQ(textures.channels(open(temp.file("grey.jpg"))), 1);
 }

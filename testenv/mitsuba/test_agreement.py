@@ -64,7 +64,7 @@ def tiles(image):
 
 
 def render_patina(path, samples, seeds, folder):
-    from patina import _patina
+    import _patina
 
     images = []
     for seed in seeds:
@@ -72,7 +72,8 @@ def render_patina(path, samples, seeds, folder):
         subprocess.run([sys.executable, "-m", "patina", "record", path, out, "--imageWidth", str(WIDTH),
                         "--imageHeight", str(HEIGHT), "--samples", str(samples), "--seed", str(seed),
                         "--filterRadius", "0.5", "--method", "energyCompensation=none", "--quiet"], check=True)
-        images.append(np.asarray(_patina.read_image(out)["pixels"])[..., :3])
+        image = _patina.read_image(out)
+        images.append(np.array(image.pixels)[..., [image.channels.index(c) for c in "RGB"]])
     return np.array(images)
 
 

@@ -26,11 +26,15 @@ def record(stage, image, *arguments, check=True):
 
 
 def pixels(image):
-    """:returns: float array (height, width, channels) of the colour channels, linear for EXR"""
+    """:returns: float array (height, width, channels) of all channels, linear for EXR"""
     import _patina
 
-    return np.asarray(_patina.read_image(str(image))["pixels"])
+    return np.array(_patina.read_image(str(image)).pixels)
 
 
-def color(image):
-    return pixels(image)[..., :3]
+def color(image, channels="RGB"):
+    """:returns: float array (height, width, 3) of the named channels"""
+    import _patina
+
+    found = _patina.read_image(str(image))
+    return np.array(found.pixels)[..., [found.channels.index(c) for c in channels]]

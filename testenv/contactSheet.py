@@ -1,0 +1,90 @@
+"""Renders every stage under a folder and pastes the images into one sheet.
+
+    python testenv/contactSheet.py FOLDER SHEET.png [--width 240] [--samples 32] [--record FLAGS...]
+
+Prints a table: stage, seconds, warnings. Stages that fail are black tiles with a line that says why.
+Run it with the environment that ./patina makes (PYTHONPATH=plugin:build/python).
+"""
+import argparse
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+
+STAGES = (".usd", ".usda", ".usdc", ".usdz")
+
+
+def find(folder):
+    if os.path.isfile(folder):
+        return [folder]
+    return sorted(os.path.join(root, name) for root, _, names in os.walk(folder) for name in names
+                  if name.lower().endswith(STAGES))
+
+
+def render(stage, folder, width, samples, flags):
+    """:returns: (pixels or None, seconds, list of warnings, error)"""
+    image, out = os.path.join(folder, "image.exr"), os.path.join(folder, "out.json")
+    for path in (image, out):
+        if os.path.exists(path):
+            os.remove(path)
+    start = time.perf_counter()
+    process = subprocess.run([sys.executable, "-m", "patina", "record", stage, image, "--imageWidth", str(width),
+                              "--samples", str(samples), "--quiet", f"--json={out}", *flags],
+                             capture_output=True, text=True)
+    seconds = time.perf_counter() - start
+    if process.returncode != 0:
+        return None, seconds, [], process.stderr.strip().splitlines()[-1:] or ["no message"]
+    with open(out, encoding="utf-8") as file:
+        warnings = json.load(file)["warnings"]
+    return read_color(image), seconds, warnings, []
+
+
+def read_color(path):
+    import _patina
+
+    image = _patina.read_image(path)
+    return np.asarray(image.pixels)[..., [image.channels.index(c) for c in "RGB"]]
+
+
+def paste(images, width, columns):
+    height = max([image.shape[0] for image in images if image is not None] or [width])
+    rows = math.ceil(len(images) / columns)
+    sheet = np.full((rows * (height + 4), columns * (width + 4), 3), 0.15, np.float32)
+    for i, image in enumerate(images):
+        y, x = i // columns * (height + 4), i % columns * (width + 4)
+        tile = np.zeros((height, width, 3)) if image is None else image
+        sheet[y:y + tile.shape[0], x:x + width] = tile[:height]
+    return sheet
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder")
+    parser.add_argument("sheet")
+    parser.add_argument("--width", type=int, default=240)
+    parser.add_argument("--samples", type=int, default=32)
+    parser.add_argument("--columns", type=int, default=8)
+    parser.add_argument("--record", nargs=argparse.REMAINDER, default=[])
+    arguments = parser.parse_args()
+    images = []
+    with tempfile.TemporaryDirectory() as folder:
+        for stage in find(arguments.folder):
+            pixels, seconds, warnings, error = render(stage, folder, arguments.width, arguments.samples, arguments.record)
+            images.append(pixels)
+            name = os.path.relpath(stage, arguments.folder)
+            print(f"{len(images) - 1:4d} {seconds:7.2f} s  {name}  {'FAILED ' + error[0] if error else ''}", flush=True)
+            for warning in warnings:
+                print(f"              {warning}")
+    import _patina
+
+    _patina.write_image(arguments.sheet, np.ascontiguousarray(paste(images, arguments.width, arguments.columns), np.float32))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -3,7 +3,6 @@
 #include <tbb/parallel_for_each.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 
 namespace patina {
 
@@ -161,16 +160,18 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     if (!_textures || _builtFor != _scene) {
         _embree.reset();
         _textures = std::make_unique<TextureSystem>(_scene->diagnostics());
+        _lightImages = std::make_unique<LightImages>(_scene->diagnostics());
         _embree = std::make_unique<EmbreeScene>(_scene->diagnostics());
         _builtFor = _scene;
     }
     tbb::task_arena arena(_settings.threads > 0 ? _settings.threads
                                                 : int(tbb::task_arena::automatic));
-    std::unique_ptr<LightSet> lights;
+    std::unique_ptr<SceneLights> lights;
     arena.execute([&] {
         _embree->update(state, camera, _settings, *_textures, _stop);
         if (!_stop)
-            lights = makeLights(state, *_embree, _settings, _scene->diagnostics());
+            lights = std::make_unique<SceneLights>(state, *_embree, camera, _settings, *_lightImages,
+                                                   _scene->diagnostics());
     });
     if (_stop)
         return;

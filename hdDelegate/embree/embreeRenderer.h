@@ -47,6 +47,7 @@ private:
     std::shared_ptr<Scene> _builtFor;
     std::unique_ptr<EmbreeScene> _embree;
     std::unique_ptr<TextureSystem> _textures;
+    std::unique_ptr<LightImages> _lightImages;
 
     std::thread _thread;
     std::mutex _control; ///< start, stop and wait exclude each other

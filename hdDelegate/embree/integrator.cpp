@@ -24,7 +24,14 @@ float powerHeuristic(float a, float b) {
 }
 
 vec3 transmittanceOf(const MediumStack& media, float distance) {
-    return media.empty() ? vec3(1.0f) : glm::exp(-media.absorption() * distance);
+    if (media.empty())
+        return vec3(1.0f);
+    const vec3 a = media.absorption();
+    vec3 result(1.0f); // a clear medium stays clear over an infinite distance
+    for (int c = 0; c < 3; ++c)
+        if (a[c] > 0.0f)
+            result[c] = std::exp(-a[c] * distance);
+    return result;
 }
 
 bool contains(const std::vector<int>& sorted, int value) {
@@ -93,8 +100,7 @@ bool Integrator::addLightsAlong(Path& path, float distance) const {
         const float lightPdf =
             path.specular ? 0.0f
                           : _lights.set().pdf(hits[i].light, path.vertex, path.vertexNormal,
-                                              path.vertexTwoSided, path.direction,
-                                              hits[i]);
+                                              path.vertexTwoSided, path.time, hits[i]);
         addLight(path, hits[i].light, hits[i].radiance, lightPdf, hits[i].distance);
     }
     return false;
@@ -145,36 +151,22 @@ void Integrator::addEscaped(Path& path) const {
 
 /// Light that the surface itself gives off towards the ray.
 void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& hit) const {
-    const auto emit = [&](const vec3& radiance, int light) {
-        if (radiance == vec3(0.0f))
-            return;
-        if (path.specular) {
-            addRadiance(path, radiance);
-            return;
-        }
-        const float lightPdf =
-            light < 0 ? 0.0f
-                      : _lights.set().pdfTriangle(light, path.vertex, path.vertexNormal,
-                                                  path.vertexTwoSided, path.direction,
-                                                  hit.distance, point.shading.geometricNormal);
-        if (light >= 0 && _lights.info(light).prim) {
-            const LightInfo& info = _lights.info(light);
-            if (!linked(info.lightCategory, path.vertexSurface, path.vertexInstanceCategories))
-                return;
-            const vec3 share =
-                path.diffuseShare * info.diffuse + path.specularShare * info.specular;
-            addRadiance(path, share * radiance * powerHeuristic(path.pdf, lightPdf));
-            return;
-        }
-        addRadiance(path, radiance * powerHeuristic(path.pdf, lightPdf));
-    };
-    const MaterialProgram& program = *point.slot->program;
-    const int light = _lights.triangleLight(hit.surface, hit.primitive, hit.groupToWorld);
-    const vec3 meshLight = _lights.meshLightRadiance(hit.surface, point);
-    vec3 total = meshLight;
-    if (program.hasEmission())
-        total += program.emission(point.shading, point.shading.viewDirection);
-    emit(total, light);
+    const vec3 radiance = _lights.emission(point);
+    if (radiance == vec3(0.0f))
+        return;
+    const int light = path.fromCamera()
+                          ? -1
+                          : _lights.triangleLight(hit.surface, hit.primitive, hit.groupToWorld);
+    if (light < 0) {
+        addRadiance(path, radiance);
+        return;
+    }
+    const float lightPdf =
+        path.specular ? 0.0f
+                      : _lights.set().pdfTriangle(light - _lights.set().lightCount(), path.vertex,
+                                                  path.vertexNormal, path.vertexTwoSided,
+                                                  point.shading.position);
+    addLight(path, light, radiance, lightPdf, 0.0f);
 }
 
 /// The part of a light that reaches a point past everything in between.
@@ -241,8 +233,7 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
     const float away = glm::dot(light.direction, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
     const vec3 origin = s.position + s.geometricNormal * (away * point.offset);
     value *= radiance * (weight / light.pdf);
-    if (!path.media.empty())
-        value *= glm::exp(-path.media.absorption() * std::min(light.distance, 1e30f));
+    value *= transmittanceOf(path.media, light.distance);
     return value * visibility(path, origin, light.direction, light.distance, info, counters);
 }
 
@@ -292,11 +283,8 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
             writeAovs(_aovs, target, _camera, point, bsdf);
             aovsWritten = true;
         }
-        // The distance that pdfs of triangle lights need is measured from the last vertex.
-        Hit fromVertex = hit;
-        fromVertex.distance = travelled;
-        addEmission(path, point, fromVertex);
-        if (path.depth >= _settings.maxDepth)
+        addEmission(path, point, hit);
+        if (path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface))
             break;
 
         const vec4 uLight = path.sampler.next4();

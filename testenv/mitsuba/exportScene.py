@@ -29,27 +29,9 @@ def _color(value):
     return {"type": "rgb", "value": [float(x) for x in value]}
 
 
-def _texture(mi, shader):
-    """Follows a UsdUVTexture, through an optional UsdTransform2d, to a Mitsuba bitmap."""
-    image = UsdShade.Shader(shader.GetInput("diffuseColor").GetConnectedSources()[0][0].source)
-    if image.GetIdAttr().Get() != "UsdUVTexture":
-        raise Unsupported(image.GetPath())
-    scale = Gf.Vec2f(1, 1)
-    place = image.GetInput("st").GetConnectedSources()[0]
-    if place:
-        node = UsdShade.Shader(place[0].source)
-        if node.GetIdAttr().Get() == "UsdTransform2d":
-            scale = _value(node, "scale", scale)
-    return {
-        "type": "bitmap",
-        "filename": image.GetInput("file").Get().resolvedPath,
-        "to_uv": mi.ScalarTransform3f.scale([scale[0], scale[1]]),
-    }
-
-
 def bsdf(mi, material):
     """The Mitsuba BSDF of a bound material."""
-    surface = material.ComputeSurfaceSource(["mtlx", ""])[0]
+    surface = material.ComputeSurfaceSource("mtlx")[0] or material.ComputeSurfaceSource()[0]
     if surface.GetIdAttr().Get() == "UsdPreviewSurface":
         raise Unsupported(f"{surface.GetPath()}: UsdPreviewSurface")
     source = UsdShade.Shader(surface.GetInput("bsdf").GetConnectedSources()[0][0].source)
@@ -84,7 +66,7 @@ def _image(mi, source):
     if node.GetIdAttr().Get() not in ("ND_image_color3", "UsdUVTexture"):
         raise Unsupported(node.GetPath())
     return {"type": "bitmap", "filename": node.GetInput("file").Get().resolvedPath,
-            "filter_type": "bilinear"}
+            "filter_type": "nearest"}
 
 
 def _mesh(mi, name, points, counts, indices, uv=None):
@@ -249,7 +231,7 @@ def replace_by_meshes(stage):
     """Replaces spheres, cones and cylinders by meshes and point instancers by copies, so that both
     renderers are given the same shapes."""
     for prim in list(Usd.PrimRange(stage.GetPseudoRoot())):
-        if prim.IsA(UsdGeom.PointInstancer) and not prim.GetParent().IsA(UsdGeom.PointInstancer):
+        if prim.IsValid() and prim.IsA(UsdGeom.PointInstancer) and not prim.GetParent().IsA(UsdGeom.PointInstancer):
             _unroll(stage, UsdGeom.PointInstancer(prim))
     for prim in list(Usd.PrimRange(stage.GetPseudoRoot())):
         kind = prim.GetTypeName()

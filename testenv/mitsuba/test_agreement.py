@@ -37,7 +37,7 @@ CASES = {
     "lightDome": ([], 128, {}),
     "roughConductor": (["/World/sky"], 256, {}),
     "roughDielectricSlab": ([], 512, {}),
-    "texturedMesh": (["/World/sky", "/World/ball"], 128, {}),
+    "texturedDiffuse": ([], 128, {}),
     "depthOfField": (["/World/sky"], 256, {}),
     "instances": (["/World/sky"], 128, {}),
 }

@@ -1,0 +1,233 @@
+#include "hdDelegate/embree/sceneLights.h"
+
+#include "hdDelegate/scene/lightUnits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+float luminance(const vec3& c) { return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+Hit hitOn(const Surface* surface, unsigned primitive, const mat4& place, vec2 uv) {
+    Hit hit;
+    hit.surface = surface;
+    hit.primitive = primitive;
+    hit.u = uv.x;
+    hit.v = uv.y;
+    hit.groupToWorld = place;
+    hit.instanced = !surface->prim->group.empty();
+    return hit;
+}
+
+/// World area of a surface (first time step).
+double areaOf(const Surface& surface, const mat4& place) {
+    double area = 0.0;
+    for (const uvec3& t : surface.mesh.triangles) {
+        vec3 p[3];
+        for (int k = 0; k < 3; ++k)
+            p[k] = vec3(place * vec4(surface.mesh.positions[0][t[k]], 1.0f));
+        area += 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+    }
+    return area;
+}
+
+} // namespace
+
+LightInfo SceneLights::describe(const std::shared_ptr<const Light>& light,
+                                const EmbreeScene& scene, const RenderSettings& settings) {
+    LightInfo info;
+    info.lightCategory = info.shadowCategory = everything;
+    if (!light)
+        return info;
+    info.prim = light;
+    info.dome = light->type == LightType::Dome;
+    info.cameraVisible = light->cameraVisible &&
+                         (!info.dome || settings.domeLightCameraVisibility);
+    if (!light->lightLink.empty())
+        info.lightCategory = scene.category(light->lightLink);
+    if (!light->shadowLink.empty())
+        info.shadowCategory = scene.category(light->shadowLink);
+    info.diffuse = light->diffuse;
+    info.specular = light->specular;
+    info.castsShadows = light->shadowEnable;
+    info.shadowColor = light->shadowColor;
+    info.shadowDistance = light->shadowDistance;
+    info.shadowFalloff = light->shadowFalloff;
+    info.shadowFalloffGamma = light->shadowFalloffGamma;
+    _splitsLobes |= info.diffuse != 1.0f || info.specular != 1.0f;
+    return info;
+}
+
+SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, const Camera& camera,
+                         const RenderSettings& settings, LightImages& images,
+                         Diagnostics& diagnostics) {
+    LightSetInput input;
+    input.shutterOpen = float(camera.shutterOpen);
+    input.shutterClose =
+        settings.enableMotionBlur ? float(camera.shutterClose) : input.shutterOpen;
+    std::map<std::string, std::vector<mat4>> places;
+    std::vector<std::shared_ptr<const Light>> meshLights;
+    for (const auto& item : state.lights) {
+        const auto& light = item.second;
+        if (!light->visible || !settings.enableSceneLights)
+            continue;
+        if (light->type == LightType::Mesh) {
+            meshLights.push_back(light);
+            continue;
+        }
+        if (!places.count(light->group))
+            places[light->group] = scene.groupTransforms(light->group);
+        for (const mat4& place : places[light->group]) {
+            input.lights.push_back({light, place});
+            _infos.push_back(describe(light, scene, settings));
+        }
+    }
+    _glowInfo = int(_infos.size());
+    _infos.push_back(describe(nullptr, scene, settings));
+    _infos.back().triangles = true;
+
+    for (const auto& light : meshLights) {
+        const Surface* surface = scene.surfaceOf(light->geometry);
+        if (!surface || surface->shape != Surface::Shape::Triangles) {
+            diagnostics.warn(light->path, "geometry",
+                             "the mesh light has no mesh and gives no light");
+            continue;
+        }
+        MeshLight meshLight{light, lightBaseRadiance(*light), int(_infos.size())};
+        if (light->normalize) {
+            const auto where = scene.groupTransforms(surface->prim->group);
+            const double area = where.empty() ? 0.0 : areaOf(*surface, where[0]);
+            if (area > 0.0)
+                meshLight.radiance /= float(area);
+        }
+        _infos.push_back(describe(light, scene, settings));
+        _infos.back().triangles = true;
+        _meshLights[surface] = meshLight;
+    }
+
+    std::vector<const Surface*> surfaces;
+    for (const EmissiveTriangle& triangle : scene.emissiveTriangles())
+        if (surfaces.empty() || surfaces.back() != triangle.surface)
+            surfaces.push_back(triangle.surface);
+    for (const auto& item : _meshLights)
+        if (std::find(surfaces.begin(), surfaces.end(), item.first) == surfaces.end())
+            surfaces.push_back(item.first);
+    // In the order of their paths, so that equal scenes give equal light trees.
+    std::sort(surfaces.begin(), surfaces.end(),
+              [](const Surface* a, const Surface* b) { return a->prim->path < b->prim->path; });
+    surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
+    for (const Surface* surface : surfaces)
+        addSurface(*surface, scene, input);
+    _set = std::make_unique<LightSet>(std::move(input), images, diagnostics);
+}
+
+void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
+                             LightSetInput& input) {
+    const auto meshLight = _meshLights.find(&surface);
+    const bool isMeshLight = meshLight != _meshLights.end();
+    for (const mat4& place : scene.groupTransforms(surface.prim->group)) {
+        Emitting emitting{place, std::vector<int>(surface.mesh.triangles.size(), -1)};
+        for (unsigned t = 0; t < surface.mesh.triangles.size(); ++t) {
+            const bool glows = surface.material(t).program->hasEmission();
+            if (!isMeshLight && !glows)
+                continue;
+            LightTriangle triangle;
+            for (int k = 0; k < 3; ++k)
+                triangle.vertices[k] = vec3(
+                    place * vec4(surface.mesh.positions[0][surface.mesh.triangles[t][k]], 1.0f));
+            // One-sided triangles shine along their winding; a mirroring transform turned it.
+            const bool mirrored =
+                surface.flipNormals != (glm::determinant(glm::mat3(place)) < 0.0f);
+            const vec3 ng = glm::cross(triangle.vertices[1] - triangle.vertices[0],
+                                       triangle.vertices[2] - triangle.vertices[0]);
+            const float length = glm::length(ng);
+            if (!(length > 0.0f))
+                continue;
+            triangle.twoSided = glows || mirrored;
+            const vec3 n = ng / length * (mirrored ? -1.0f : 1.0f);
+            float brightest = 0.0f;
+            for (const vec2 uv : {vec2(1 / 3.0f), vec2(0.1f), vec2(0.8f, 0.1f), vec2(0.1f, 0.8f)}) {
+                const Hit hit = hitOn(&surface, t, place, uv);
+                SurfacePoint point;
+                const vec3 p = triangle.vertices[0] * (1 - uv.x - uv.y) +
+                               triangle.vertices[1] * uv.x + triangle.vertices[2] * uv.y;
+                computeSurfacePoint(hit, p + n, -n, 0.0f, point);
+                brightest = std::max(brightest, luminance(emission(point)));
+            }
+            if (!(brightest > 0.0f) && surface.material(t).program->constant())
+                continue;
+            triangle.luminance = std::max(brightest, 1e-6f);
+            emitting.triangles[t] = int(input.triangles.size());
+            input.triangles.push_back(triangle);
+            _sources.push_back({&surface, t, place});
+            _triangleInfos.push_back(isMeshLight ? meshLight->second.info : _glowInfo);
+        }
+        _emitting[&surface].push_back(std::move(emitting));
+    }
+}
+
+int SceneLights::triangleLight(const Surface* surface, unsigned primitive,
+                               const mat4& groupToWorld) const {
+    const auto found = _emitting.find(surface);
+    if (found == _emitting.end())
+        return -1;
+    const Emitting* nearest = &found->second[0];
+    float best = INFINITY;
+    if (found->second.size() > 1)
+        for (const Emitting& candidate : found->second) {
+            float difference = 0.0f;
+            for (int c = 0; c < 4; ++c) {
+                const vec4 d = candidate.place[c] - groupToWorld[c];
+                difference += glm::dot(d, d);
+            }
+            if (difference < best) {
+                best = difference;
+                nearest = &candidate;
+            }
+        }
+    const int triangle = nearest->triangles[primitive];
+    return triangle < 0 ? -1 : triangle + _set->lightCount();
+}
+
+vec3 SceneLights::emission(const SurfacePoint& point) const {
+    const MaterialProgram& program = *point.slot->program;
+    const ShadingPoint& s = point.shading;
+    vec3 glow(0.0f);
+    if (program.hasEmission())
+        glow = program.emission(s, s.viewDirection);
+    if (_meshLights.empty())
+        return glow;
+    const auto found = _meshLights.find(point.hit->surface);
+    if (found == _meshLights.end())
+        return glow;
+    const MeshLight& mesh = found->second;
+    const bool front = glm::dot(s.geometricNormal, s.viewDirection) > 0.0f;
+    const vec3 light = front ? mesh.radiance : vec3(0.0f);
+    if (mesh.light->materialSyncMode == "noMaterialResponse")
+        return light;
+    if (mesh.light->materialSyncMode == "materialGlowTintsLight" && program.hasEmission())
+        return light * glow;
+    return light + glow;
+}
+
+vec3 SceneLights::triangleRadiance(const LightSample& sample, const vec3& from,
+                                   float time) const {
+    const Source& source = _sources[sample.triangle];
+    Hit hit = hitOn(source.surface, source.primitive, source.place, sample.barycentrics);
+    hit.distance = sample.distance;
+    hit.time = time;
+    SurfacePoint point;
+    computeSurfacePoint(hit, from, sample.direction, 0.0f, point);
+    return emission(point);
+}
+
+bool SceneLights::hidesMaterial(const Surface* surface) const {
+    const auto found = _meshLights.find(surface);
+    return found != _meshLights.end() &&
+           found->second.light->materialSyncMode == "noMaterialResponse";
+}
+
+} // namespace patina

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/embree/lights/lightSet.h"
+
+#include <map>
+
+namespace patina {
+
+/// What the integrator must know about a light beyond its shape.
+struct LightInfo {
+    std::shared_ptr<const Light> prim; ///< null for surfaces whose material glows
+    bool cameraVisible = true;
+    bool dome = false;
+    bool triangles = false; ///< the true radiance is that of a surface
+    int lightCategory, shadowCategory;
+    float diffuse = 1.0f, specular = 1.0f;
+    bool castsShadows = true;
+    vec3 shadowColor{0.0f};
+    float shadowDistance = -1.0f, shadowFalloff = -1.0f, shadowFalloffGamma = 1.0f;
+};
+
+/// The lights of a scene and everything that glows, for one shutter. Immutable once built.
+class SceneLights {
+public:
+    /// Category of a light that lights (or is shadowed by) everything.
+    static constexpr int everything = -2;
+
+    SceneLights(const SceneState& state, const EmbreeScene& scene, const Camera& camera,
+                const RenderSettings& settings, LightImages& images, Diagnostics& diagnostics);
+
+    const LightSet& set() const { return *_set; }
+    const LightInfo& info(int light) const {
+        return light < _set->lightCount() ? _infos[light]
+                                          : _infos[_triangleInfos[light - _set->lightCount()]];
+    }
+    /// Some light treats diffuse and other lobes differently.
+    bool splitsLobes() const { return _splitsLobes; }
+
+    /// Light index of a triangle that was hit; -1 when it does not emit.
+    int triangleLight(const Surface* surface, unsigned primitive, const mat4& groupToWorld) const;
+    /// Radiance of a sampled triangle towards a point.
+    vec3 triangleRadiance(const LightSample& sample, const vec3& from, float time) const;
+    /// What a surface emits towards its viewer, by its material and as a mesh light.
+    vec3 emission(const SurfacePoint& point) const;
+    /// A mesh light that is nothing but a light (materialSyncMode noMaterialResponse).
+    bool hidesMaterial(const Surface* surface) const;
+
+private:
+    struct MeshLight {
+        std::shared_ptr<const Light> light;
+        vec3 radiance{0.0f};
+        int info = 0;
+    };
+    struct Emitting {
+        mat4 place;
+        std::vector<int> triangles; ///< per primitive of the surface: index, or -1
+    };
+    struct Source {
+        const Surface* surface;
+        unsigned primitive;
+        mat4 place;
+    };
+
+    LightInfo describe(const std::shared_ptr<const Light>& light, const EmbreeScene& scene,
+                       const RenderSettings& settings);
+    void addSurface(const Surface& surface, const EmbreeScene& scene, LightSetInput& input);
+
+    std::unique_ptr<LightSet> _set;
+    std::vector<LightInfo> _infos;
+    std::vector<int> _triangleInfos;
+    std::vector<Source> _sources; ///< per triangle
+    std::map<const Surface*, std::vector<Emitting>> _emitting;
+    std::map<const Surface*, MeshLight> _meshLights;
+    int _glowInfo = 0;
+    bool _splitsLobes = false;
+};
+
+} // namespace patina

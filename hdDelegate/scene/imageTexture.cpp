@@ -1,6 +1,7 @@
 #include "hdDelegate/scene/imageTexture.h"
 
 #include <OpenImageIO/half.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -126,10 +127,10 @@ ImageTexture::ImageTexture(int width, int height, TexelLayout layout, TexelType 
     for (size_t i = 0; i < 256; ++i) _plain[i] = float(i) / 255.0f;
     _decode = _plain;
     switch (_type) {
-    case TexelType::U8: _addFour = addFourOf<uint8_t>(_channels); break;
-    case TexelType::U16: _addFour = addFourOf<uint16_t>(_channels); break;
-    case TexelType::Half: _addFour = addFourOf<half>(_channels); break;
-    case TexelType::Float: _addFour = addFourOf<float>(_channels); break;
+    case TexelType::U8: _functions = functionsOf<uint8_t>(_channels); break;
+    case TexelType::U16: _functions = functionsOf<uint16_t>(_channels); break;
+    case TexelType::Half: _functions = functionsOf<half>(_channels); break;
+    case TexelType::Float: _functions = functionsOf<float>(_channels); break;
     }
 }
 
@@ -149,47 +150,49 @@ void ImageTexture::setDecodeTable(const std::array<float, 256>& table) {
     _decode = table;
 }
 
-bool ImageTexture::isAlpha(int channel) const {
-    return (_layout == TexelLayout::GreyAlpha && channel == 1) || channel == 3;
+const float* ImageTexture::lastTable() const {
+    bool alpha = _layout == TexelLayout::GreyAlpha || _layout == TexelLayout::Rgba;
+    return alpha ? _plain.data() : _decode.data();
 }
 
-template <class T> void ImageTexture::buildLevel(int number) {
+// The number of channels is a constant in what follows, so that the loops over them unroll.
+
+template <class T, int N> void ImageTexture::buildLevel(int number) {
     const Level from = _levels[size_t(number) - 1], to = _levels[size_t(number)];
-    const size_t n = size_t(_channels);
     const T* source = static_cast<const T*>(levelData(number - 1));
     T* target = static_cast<T*>(levelData(number));
-    const Encoder encodeColor(_decode), encodeAlpha(_plain);
+    const float *color = _decode.data(), *last = lastTable();
+    const Encoder encodeColor(_decode), encodeLast(last == color ? _decode : _plain);
     std::vector<Span> columns;
     for (int x = 0; x < to.width; ++x) columns.emplace_back(x, from.width, to.width);
-    tbb::parallel_for(0, to.height, [&](int y) {
-        Span rows(y, from.height, to.height);
-        for (int x = 0; x < to.width; ++x) {
-            const Span& span = columns[size_t(x)];
-            float sum[4] = {0, 0, 0, 0};
-            for (int j = 0; j < rows.count; ++j)
-                for (int i = 0; i < span.count; ++i) {
-                    float weight = rows.weights[j] * span.weights[i];
-                    const T* p =
-                        source +
-                        (size_t(rows.first + j) * size_t(from.width) + size_t(span.first + i)) * n;
-                    for (size_t c = 0; c < n; ++c)
-                        sum[c] += weight *
-                                  linearOf(p[c], isAlpha(int(c)) ? _plain.data() : _decode.data());
+    tbb::parallel_for(tbb::blocked_range<int>(0, to.height), [&](const auto& range) {
+        std::vector<float> row(size_t(from.width) * N);
+        for (int y = range.begin(); y < range.end(); ++y) {
+            Span rows(y, from.height, to.height);
+            std::fill(row.begin(), row.end(), 0.0f);
+            for (int j = 0; j < rows.count; ++j) {
+                const T* p = source + size_t(rows.first + j) * size_t(from.width) * N;
+                for (size_t i = 0; i < row.size(); i += N)
+                    for (size_t c = 0; c < N; ++c)
+                        row[i + c] +=
+                            rows.weights[j] * linearOf(p[i + c], c == N - 1 ? last : color);
+            }
+            T* p = target + size_t(y) * size_t(to.width) * N;
+            for (int x = 0; x < to.width; ++x, p += N) {
+                const Span& span = columns[size_t(x)];
+                for (int c = 0; c < N; ++c) {
+                    float sum = 0;
+                    for (int i = 0; i < span.count; ++i)
+                        sum += span.weights[i] * row[size_t(span.first + i) * N + size_t(c)];
+                    store(sum, c == N - 1 ? encodeLast : encodeColor, p[c]);
                 }
-            T* p = target + (size_t(y) * size_t(to.width) + size_t(x)) * n;
-            for (size_t c = 0; c < n; ++c)
-                store(sum[c], isAlpha(int(c)) ? encodeAlpha : encodeColor, p[c]);
+            }
         }
     });
 }
 
 void ImageTexture::buildPyramid() {
-    for (int level = 1; level < int(_levels.size()); ++level) switch (_type) {
-        case TexelType::U8: buildLevel<uint8_t>(level); break;
-        case TexelType::U16: buildLevel<uint16_t>(level); break;
-        case TexelType::Half: buildLevel<half>(level); break;
-        case TexelType::Float: buildLevel<float>(level); break;
-        }
+    for (int level = 1; level < int(_levels.size()); ++level) (this->*_functions.buildLevel)(level);
 }
 
 glm::vec4 ImageTexture::expand(const float* c) const {
@@ -203,12 +206,10 @@ glm::vec4 ImageTexture::expand(const float* c) const {
     return {c[0], c[1], c[2], c[3]};
 }
 
-// The number of channels is a constant here, so that the loops over them unroll.
 template <class T, int N> void ImageTexture::addFour(const Level& level, const int* x, const int* y,
                                                      const float* weights, float* sum) const {
     const T* texels = reinterpret_cast<const T*>(_data.get()) + level.offset * N;
-    const float* color = _decode.data();
-    const float* last = N == 4 || _layout == TexelLayout::GreyAlpha ? _plain.data() : color;
+    const float *color = _decode.data(), *last = lastTable();
     const T* rows[2] = {texels + size_t(y[0]) * size_t(level.width) * N,
                         texels + size_t(y[1]) * size_t(level.width) * N};
     for (int i = 0; i < 4; ++i) {
@@ -218,9 +219,12 @@ template <class T, int N> void ImageTexture::addFour(const Level& level, const i
     }
 }
 
-template <class T> ImageTexture::AddFour ImageTexture::addFourOf(int channels) {
-    static const AddFour functions[] = {&ImageTexture::addFour<T, 1>, &ImageTexture::addFour<T, 2>,
-                                        &ImageTexture::addFour<T, 3>, &ImageTexture::addFour<T, 4>};
+template <class T> ImageTexture::Functions ImageTexture::functionsOf(int channels) {
+    static const Functions functions[] = {
+        {&ImageTexture::addFour<T, 1>, &ImageTexture::buildLevel<T, 1>},
+        {&ImageTexture::addFour<T, 2>, &ImageTexture::buildLevel<T, 2>},
+        {&ImageTexture::addFour<T, 3>, &ImageTexture::buildLevel<T, 3>},
+        {&ImageTexture::addFour<T, 4>, &ImageTexture::buildLevel<T, 4>}};
     return functions[channels - 1];
 }
 
@@ -228,7 +232,7 @@ glm::vec4 ImageTexture::texel(int level, int x, int y) const {
     const int xs[2] = {x, x}, ys[2] = {y, y};
     const float weights[4] = {1, 0, 0, 0};
     float sum[4] = {0, 0, 0, 0};
-    (this->*_addFour)(_levels[size_t(level)], xs, ys, weights, sum);
+    (this->*_functions.addFour)(_levels[size_t(level)], xs, ys, weights, sum);
     return expand(sum);
 }
 
@@ -249,7 +253,7 @@ glm::vec4 ImageTexture::bilinear(int number, glm::vec2 st, TextureWrap wrapS,
         return result;
     }
     float sum[4] = {0, 0, 0, 0};
-    (this->*_addFour)(level, x, y, weights, sum);
+    (this->*_functions.addFour)(level, x, y, weights, sum);
     return expand(sum);
 }
 

@@ -64,19 +64,23 @@ public:
 private:
     glm::vec4 bilinear(int level, glm::vec2 st, TextureWrap wrapS, TextureWrap wrapT) const;
     glm::vec4 expand(const float* channels) const;
-    /// Adds four weighted texels; chosen once, by type and channels.
-    using AddFour = void (ImageTexture::*)(const Level& level, const int* x, const int* y,
-                                           const float* weights, float* sum) const;
     template <class T, int N> void addFour(const Level& level, const int* x, const int* y,
                                            const float* weights, float* sum) const;
-    template <class T> static AddFour addFourOf(int channels);
-    template <class T> void buildLevel(int level);
-    bool isAlpha(int channel) const;
+    template <class T, int N> void buildLevel(int level);
+    const float* lastTable() const; ///< decodes the last channel: alpha differs from colour
+
+    /// Chosen once, by type and channels.
+    struct Functions {
+        void (ImageTexture::*addFour)(const Level& level, const int* x, const int* y,
+                                      const float* weights, float* sum) const;
+        void (ImageTexture::*buildLevel)(int level);
+    };
+    template <class T> static Functions functionsOf(int channels);
 
     int _channels;
     TexelLayout _layout;
     TexelType _type;
-    AddFour _addFour = nullptr;
+    Functions _functions;
     std::vector<Level> _levels;
     size_t _texels = 0;
     std::unique_ptr<uint8_t[]> _data;

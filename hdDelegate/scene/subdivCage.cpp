@@ -40,7 +40,7 @@ void addCreases(const Mesh& mesh, const std::vector<int>& vertexOf, SubdivCage& 
                          "there are no creases");
         return;
     }
-    size_t missing = 0, index = 0, edge = 0;
+    size_t missing = 0, bad = 0, index = 0, edge = 0;
     for (size_t c = 0; c < mesh.creaseLengths.size(); ++c) {
         for (int k = 0; k + 1 < mesh.creaseLengths[c]; ++k, ++edge) {
             const int a = mesh.creaseIndices[index + k], b = mesh.creaseIndices[index + k + 1];
@@ -54,7 +54,7 @@ void addCreases(const Mesh& mesh, const std::vector<int>& vertexOf, SubdivCage& 
             cage.creaseEdges.push_back(vertexOf[a]);
             cage.creaseEdges.push_back(vertexOf[b]);
             cage.creaseWeights.push_back(
-                clampSharpness(mesh.creaseSharpnesses[perEdge ? edge : c]));
+                clampSharpness(mesh.creaseSharpnesses[perEdge ? edge : c], bad));
         }
         index += mesh.creaseLengths[c];
     }
@@ -62,6 +62,7 @@ void addCreases(const Mesh& mesh, const std::vector<int>& vertexOf, SubdivCage& 
         diagnostics.warn(mesh.path, "creaseIndices",
                          std::to_string(missing) +
                              " crease edges are not on a drawn face and are ignored");
+    reportBad(mesh, "creaseSharpnesses", bad, diagnostics);
 }
 
 void addCorners(const Mesh& mesh, const std::vector<int>& vertexOf, SubdivCage& cage,
@@ -72,7 +73,7 @@ void addCorners(const Mesh& mesh, const std::vector<int>& vertexOf, SubdivCage& 
                          "corners");
         return;
     }
-    size_t missing = 0;
+    size_t missing = 0, bad = 0;
     for (size_t i = 0; i < mesh.cornerIndices.size(); ++i) {
         const int point = mesh.cornerIndices[i];
         if (point < 0 || size_t(point) >= vertexOf.size() || vertexOf[point] < 0) {
@@ -80,12 +81,13 @@ void addCorners(const Mesh& mesh, const std::vector<int>& vertexOf, SubdivCage& 
             continue;
         }
         cage.cornerVertices.push_back(vertexOf[point]);
-        cage.cornerWeights.push_back(clampSharpness(mesh.cornerSharpnesses[i]));
+        cage.cornerWeights.push_back(clampSharpness(mesh.cornerSharpnesses[i], bad));
     }
     if (missing > 0)
         diagnostics.warn(mesh.path, "cornerIndices",
                          std::to_string(missing) +
                              " corners are not on a drawn face and are ignored");
+    reportBad(mesh, "cornerSharpnesses", bad, diagnostics);
 }
 
 } // namespace

@@ -76,7 +76,7 @@ def _metric(result, name):
     value = result[name]
     if value is None:
         raise CommandError(f"{name} could not be measured" +
-                           (": pip install flip-evaluator" if name == "flip" else ""))
+                           (": pip install flip-evaluator" if name == "flip" else ": no pixel is a number"))
     return value
 
 
@@ -118,6 +118,9 @@ def _show(result, arguments):
         bad = result["notFinite"][label]
         if bad["nan"] or bad["inf"]:
             print(f"{path}: {bad['nan']} NaN, {bad['inf']} infinite values")
+    if result["rmse"] is None:
+        print("no pixel is a number in both images")
+        return
     relative = result["relativeMeanError"]
     print(f"RMSE                {result['rmse']:.6g}")
     print(f"relMSE              {result['relMSE']:.6g}")

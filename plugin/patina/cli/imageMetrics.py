@@ -16,16 +16,14 @@ def count_not_finite(image):
 
 def differences(a, b):
     """RMSE, relMSE, signed mean error and largest difference of a from the reference b, over the
-    pixels that are numbers in both.
+    pixels that are numbers in both; None for all where there is no such pixel.
 
     relMSE is mean((a - b)^2 / (b^2 + 0.01)) over pixels and channels (Rousselle, Knaus and Zwicker
     2011, with their epsilon).
     """
     mask = finite_pixels(a, b)
     if not mask.any():
-        nothing = float("nan")
-        return {"rmse": nothing, "relMSE": nothing, "meanError": nothing, "relativeMeanError": nothing,
-                "maxDifference": nothing, "maxAt": None}
+        return dict.fromkeys(("rmse", "relMSE", "meanError", "relativeMeanError", "maxDifference", "maxAt"))
     x, y = a[mask].astype(np.float64), b[mask].astype(np.float64)
     d = x - y
     largest = np.where(mask, np.abs(np.where(mask[..., None], a - b, 0.0)).max(axis=-1), -1.0)
@@ -53,9 +51,11 @@ def mean_flip(a, b, high_dynamic_range):
         return None
     mask = finite_pixels(a, b)[..., None]
     test, reference = (np.ascontiguousarray(np.where(mask, image, 0.0), dtype=np.float32) for image in (a, b))
-    if not high_dynamic_range:
+    if high_dynamic_range:
+        test, reference = np.maximum(test, 0.0), np.maximum(reference, 0.0)
+    else:
         test, reference = np.clip(test, 0.0, 1.0), np.clip(reference, 0.0, 1.0)
-    elif not (reference > 0.0).any():  # its exposures come from the reference's luminance
+    if high_dynamic_range and not (reference > 0.0).any():  # its exposures come from the reference's luminance
         return 0.0 if np.array_equal(test, reference) else None
     _, mean, _ = flip_evaluator.evaluate(reference, test, "HDR" if high_dynamic_range else "LDR",
                                          applyMagma=False)

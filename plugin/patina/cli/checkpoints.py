@@ -1,0 +1,55 @@
+"""Checkpoints of a render: IMAGE.checkpoint, and the token that says whether one fits."""
+import hashlib
+import json
+import os
+
+# What may change between the two halves of a render: how far it goes and who does the work.
+_FREE = ("samples", "minSamples", "tolerance", "seconds", "threads", "checkpointFile", "checkpointSeconds")
+
+
+def path_of(image):
+    return image + ".checkpoint"
+
+
+def token(stage, settings, others):
+    """Hash of everything that the samples depend on: the stage's layers, the settings, and others.
+
+    Textures are not looked at: one that was painted over between the halves of a render is not
+    noticed.
+    """
+    layers = []
+    for layer in stage.GetUsedLayers():
+        if layer.anonymous:
+            layers.append(layer.ExportToString())
+            continue
+        try:
+            status = os.stat(layer.realPath)
+            layers.append([layer.identifier, status.st_size, status.st_mtime_ns])
+        except OSError:
+            layers.append([layer.identifier])
+    kept = {name: value for name, value in settings.items() if name not in _FREE}
+    text = json.dumps([sorted(layers, key=str), kept, others], sort_keys=True, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def resume(film, path, expected):
+    """Loads a checkpoint if there is one that fits.
+
+    :returns: None, or a sentence why the render starts anew
+    """
+    if not os.path.exists(path):
+        return None
+    try:
+        film.load_checkpoint(path)
+    except RuntimeError as error:
+        return f"{error}; starting anew"
+    if film.resume_token != expected:
+        return f"{path} is of another stage, camera or settings; starting anew"
+    return None
+
+
+def remove(path):
+    try:
+        os.remove(path)
+    except FileNotFoundError:
+        pass

@@ -1,0 +1,55 @@
+"""Shows how far a render is: one line that moves on a terminal, a line now and then elsewhere."""
+import sys
+import time
+
+BAR = 30
+SPARSE_SECONDS = 10.0
+
+
+def _clock(seconds):
+    seconds = int(seconds + 0.5)
+    if seconds < 60:
+        return f"{seconds} s"
+    if seconds < 3600:
+        return f"{seconds // 60}:{seconds % 60:02d} min"
+    return f"{seconds // 3600}:{seconds // 60 % 60:02d} h"
+
+
+class Progress:
+    """Writes to standard error; nothing when quiet."""
+
+    def __init__(self, label, quiet=False, stream=None):
+        self.stream = stream or sys.stderr
+        self.label, self.quiet = label, quiet
+        self.terminal = not quiet and self.stream.isatty()
+        self.last = time.monotonic()
+
+    def show(self, state):
+        """:param state: what Renderer.progress() says"""
+        if self.quiet:
+            return
+        now = time.monotonic()
+        if now - self.last < (0.1 if self.terminal else SPARSE_SECONDS):
+            return
+        self.last = now
+        fraction = min(max(state["fraction"], 0.0), 1.0)
+        text = f"{100 * fraction:3.0f} %  {state['samplesDone']} samples"
+        if state["secondsLeft"] > 0.5:
+            text += f"  {_clock(state['secondsLeft'])} left"
+        if self.terminal:
+            filled = int(BAR * fraction + 0.5)
+            self.stream.write(f"\r\033[K{self.label} [{'#' * filled}{'.' * (BAR - filled)}] {text}")
+        else:
+            self.stream.write(f"{self.label}: {text}\n")
+        self.stream.flush()
+
+    def clear(self):
+        """Leaves an empty line for what is printed next."""
+        if self.terminal:
+            self.stream.write("\r\033[K")
+            self.stream.flush()
+
+    def say(self, text):
+        if not self.quiet:
+            self.clear()
+            print(text, file=self.stream)

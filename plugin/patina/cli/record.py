@@ -1,0 +1,154 @@
+"""Renders a stage to images.
+
+  patina record shot.usda shot.png
+  patina record shot.usda shot.###.exr --frames 101:110 --samples 256 --aov all
+  patina record shot.usda shot.exr --tolerance 0.01 --seconds 600 --json
+
+Ctrl+C ends a render early: the image is written with the samples that are there, and
+IMAGE.checkpoint stays for --resume. An image that was there before is replaced only by a whole one.
+"""
+import time
+
+from patina.cli import checkpoints, compiled, frames, openStage, overrides, recordFlags, statistics
+from patina.cli.errors import CommandError
+from patina.cli.interrupts import Interrupts
+from patina.cli.progress import Progress
+
+add_arguments = recordFlags.add_arguments
+DEFAULT_WIDTH = 960
+MOST_WARNINGS = 20  # lines on the terminal; all of them are in --json
+
+
+def run(arguments):
+    _patina = compiled.load()
+    settings = recordFlags.settings_of(arguments)
+    purposes = recordFlags.purposes_of(arguments)
+    overrides.parse(arguments.set)
+    job = _Job(_patina, arguments, settings, purposes)
+    job.open()
+    try:
+        for frame, image in job.plan:
+            job.render(frame, image)
+            if job.interrupted:
+                break
+    finally:
+        job.report()
+    if job.interrupted:
+        raise CommandError("interrupted; --resume continues" if arguments.checkpointSeconds > 0.0 else "interrupted")
+
+
+class _Job:
+    """One call of the command: a stage, a renderer, one or many frames."""
+
+    def __init__(self, module, arguments, settings, purposes):
+        self.module, self.arguments, self.settings, self.purposes = module, arguments, settings, purposes
+        self.statistics = statistics.Statistics(arguments)
+        self.interrupted = False
+        self.shown = 0
+
+    def open(self):
+        a = self.arguments
+        pattern = a.image
+        # Before anything slow: will the image have a place to go to?
+        self.module.check_image_path(pattern, ["color", "alpha"] + self.settings["aovs"])
+        with self.statistics.phase("open"):
+            self.stage = openStage.open_stage(a.stage, a.mask, a.sessionLayer)
+            overrides.apply(self.stage, a.set)
+        self.plan = frames.plan(a, self.stage)
+        self.renderer = self.module.make_renderer(a.backend)
+        self.scene = self.module.Scene()
+
+    def render(self, frame, image):
+        self.statistics.begin_frame(frame, image)
+        with self.statistics.phase("translate"):
+            info = self._translate(frame)
+        self._check_warnings()
+        settings = dict(self.settings, **self._size(info))
+        film, token = self._film(image, settings, info, frame)
+        if self.arguments.checkpointSeconds > 0.0:
+            settings["checkpointFile"] = checkpoints.path_of(image)
+        self._render(film, image, settings, info.camera)
+        self._check_warnings()
+        with self.statistics.phase("write"):
+            self._write(film, image, settings, info)
+        self.statistics.end_frame()
+
+    def _translate(self, frame):
+        from patina import stage as reader
+
+        options = reader.StageOptions(
+            frame=frame, purposes=self.purposes, complexity=self.arguments.complexity,
+            camera=self.arguments.camera, headlight=not self.arguments.disableCameraLight)
+        with self.scene.edit() as edit:
+            edit.clear()
+            return reader.read_stage(self.stage, edit, options)
+
+    def _size(self, info):
+        """:returns: dict of width and height: what is not given follows from the camera's aperture"""
+        a = self.arguments
+        width, height = a.imageWidth, a.imageHeight
+        aspect = info.aspect / a.pixelAspectRatio if info.aspect > 0.0 else 16.0 / 9.0
+        if width is None:
+            width = DEFAULT_WIDTH if height is None else max(1, round(height * aspect))
+        if height is None:
+            height = max(1, round(width / aspect))
+        if width * height > recordFlags.MOST_PIXELS or max(width, height) > recordFlags.LARGEST_SIZE:
+            raise CommandError(f"an image of {width} x {height} pixels is too large")
+        return {"width": width, "height": height}
+
+    def _film(self, image, settings, info, frame):
+        """:returns: an empty film, or that of a checkpoint, and its token"""
+        film = self.module.Film()
+        token = checkpoints.token(self.stage, settings, [
+            info.camera, frame, self.purposes, self.arguments.complexity, self.arguments.mask, self.arguments.set])
+        if self.arguments.resume:
+            problem = checkpoints.resume(film, checkpoints.path_of(image), token)
+            if problem:
+                self.statistics.warn(image, "", problem)
+                film = self.module.Film()
+        film.resume_token = token
+        return film, token
+
+    def _render(self, film, image, settings, camera):
+        a = self.arguments
+        progress = Progress(image, a.quiet)
+        with self.statistics.phase("render"), Interrupts() as interrupts:
+            self.renderer.start(self.scene, camera, settings, film)
+            while not self.renderer.wait(0.1) and not interrupts.met:
+                progress.show(self.renderer.progress())
+            self.renderer.stop()
+        progress.clear()
+        state = self.renderer.progress()
+        if state["failed"]:
+            raise CommandError(state["error"])
+        self.interrupted = interrupts.met and not state["converged"]
+        self.statistics.rendered(state, film)
+        if self.interrupted or a.keepCheckpoint:
+            if film.width:
+                film.save_checkpoint(checkpoints.path_of(image))
+        if self.interrupted and not state["samplesDone"]:
+            raise CommandError("interrupted before the image was whole; it is not written")
+
+    def _write(self, film, image, settings, info):
+        a = self.arguments
+        options = recordFlags.image_options_of(a)
+        self.module.write_images(film, image, options, self.statistics.metadata(a, settings, info.camera))
+        if not self.interrupted and not a.keepCheckpoint:
+            checkpoints.remove(checkpoints.path_of(image))
+
+    def _check_warnings(self):
+        """Shows what is new; with --strict the render ends here."""
+        self.statistics.collect(self.scene.diagnostics)
+        warnings = self.statistics.warnings()
+        if not self.arguments.quiet:
+            for text in statistics.lines(warnings)[self.shown:MOST_WARNINGS]:
+                Progress("").say("warning: " + text)
+            if len(warnings) > MOST_WARNINGS > self.shown:
+                Progress("").say("warning: more of them are in --json")
+        self.shown = len(warnings)
+        if self.arguments.strict and warnings:
+            raise CommandError(f"--strict: {len(warnings)} warnings, the first: {statistics.lines(warnings)[0]}")
+
+    def report(self):
+        if self.arguments.json:
+            self.statistics.write(self.arguments.json)

@@ -1,0 +1,240 @@
+"""The flags of `patina record`, and the render settings that they mean."""
+import math
+
+from patina.cli import frames, overrides
+from patina.cli.errors import UsageError
+
+COMPLEXITIES = {"low": 1.0, "medium": 1.1, "high": 1.2, "veryhigh": 1.3}
+DEFAULT_SAMPLES = 64
+MOST_SAMPLES = 65536  # where only --tolerance or --seconds ends the render
+ALL_AOVS = ("depth", "cameraDepth", "normal", "Neye", "position", "albedo", "primvars:st", "primId", "instanceId",
+            "elementId", "sampleCount", "variance")
+LARGEST_SIZE = 65536
+MOST_PIXELS = 1 << 28
+
+
+def add_arguments(parser):
+    parser.add_argument("stage", metavar="STAGE", help="a .usd, .usda, .usdc or .usdz file")
+    parser.add_argument("image", metavar="IMAGE",
+                        help="what to write: .exr holds linear colour and all AOVs; .png, .jpg, .tif and others hold "
+                             "the colour as a display shows it. With --frames the name holds the frame's place (###)")
+    _add_stage_flags(parser.add_argument_group("the stage"))
+    _add_render_flags(parser.add_argument_group("the render"))
+    _add_output_flags(parser.add_argument_group("the image"))
+    _add_run_flags(parser.add_argument_group("the run"))
+
+
+def _add_stage_flags(group):
+    group.add_argument("--camera", "-cam", metavar="PATH", help="the camera's prim path, or its name alone (default: "
+                       "the stage's first camera; without any the whole stage is framed)")
+    time = group.add_mutually_exclusive_group()
+    time.add_argument("--frames", "-f", metavar="FRAMESPEC", help=frames.FRAMESPEC_HELP)
+    time.add_argument("--defaultTime", "-d", action="store_true",
+                      help="render the default time (otherwise: the stage's startTimeCode)")
+    group.add_argument("--purposes", metavar="PURPOSE[,PURPOSE...]", default="render",
+                       help="purposes to draw besides `default`: render, proxy, guide; or none (default: render)")
+    group.add_argument("--complexity", "-c", type=_complexity, default=1.0, metavar="LEVEL",
+                       help="least refinement of subdivision surfaces: low, medium, high, veryhigh or a number from "
+                            "1.0 to 2.0; edges are refined to --edgeLength in any case (default: low)")
+    group.add_argument("--mask", metavar="PATH[,PATH...]", help="populate only these prims and what is above and "
+                                                                 "below them")
+    group.add_argument("--sessionLayer", metavar="FILE", help="open the stage with this session layer")
+    group.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE", help=overrides.SET_HELP)
+    group.add_argument("--disableCameraLight", action="store_true",
+                       help="no headlight where the stage has no lights")
+
+
+def _add_render_flags(group):
+    group.add_argument("--backend", default="embree", choices=["embree"], help="what renders (default: embree)")
+    group.add_argument("--samples", type=_count, metavar="N",
+                       help=f"samples per pixel, the most that are taken (default: {DEFAULT_SAMPLES}; with "
+                            f"--tolerance or --seconds: {MOST_SAMPLES})")
+    group.add_argument("--minSamples", type=_count, metavar="N",
+                       help="adaptive sampling takes no fewer (default: 16)")
+    group.add_argument("--tolerance", type=_not_negative, default=0.0, metavar="ERROR",
+                       help="stop where the mean relative error of the luminance is below this, such as 0.02")
+    group.add_argument("--seconds", type=_not_negative, default=0.0, metavar="S", help="stop after so many seconds")
+    group.add_argument("--threads", type=_count, default=0, metavar="N", help="default: all cores")
+    group.add_argument("--seed", type=_seed, default=0, metavar="N",
+                       help="another seed, another noise; the same seed gives the same bits (default: 0)")
+    group.add_argument("--maxDepth", type=_count, default=16, metavar="N", help="bounces of a path (default: 16)")
+    group.add_argument("--rouletteDepth", type=_count, default=4, metavar="N",
+                       help="bounces before paths are ended by chance (default: 4)")
+    group.add_argument("--indirectClamp", type=_not_negative, default=0.0, metavar="L",
+                       help="largest luminance of one indirect sample: less noise, too dark (default: 0, off)")
+    group.add_argument("--filterRadius", type=_not_negative, default=1.0, metavar="R",
+                       help="radius of the pixel filter in pixels; 0.5 is a box (default: 1)")
+    group.add_argument("--edgeLength", type=_positive, default=2.0, metavar="PIXELS",
+                       help="subdivision surfaces are refined until edges are this short (default: 2)")
+    group.add_argument("--method", action="append", default=[], metavar="POINT=NAME",
+                       help="force a method at a choice point (repeatable)")
+    group.add_argument("--cullStyle", default="nothing", metavar="STYLE",
+                       choices=["nothing", "back", "front", "backUnlessDoubleSided", "frontUnlessDoubleSided"],
+                       help="faces that camera rays pass: nothing, back, front, backUnlessDoubleSided, "
+                            "frontUnlessDoubleSided (default: nothing)")
+    group.add_argument("--disableMotionBlur", action="store_true", help="everything as at the frame's time")
+    group.add_argument("--disableDepthOfField", action="store_true", help="a lens without size")
+    group.add_argument("--disableShadows", action="store_true", help="lights pass through everything")
+    dome = group.add_mutually_exclusive_group()
+    dome.add_argument("--enableDomeLightVisibility", action="store_true", default=True,
+                      help="the camera sees dome lights (the default)")
+    dome.add_argument("--disableDomeLightVisibility", action="store_false", dest="enableDomeLightVisibility",
+                      help="dome lights light, but the camera sees through them")
+
+
+def _add_output_flags(group):
+    group.add_argument("--imageWidth", "-w", type=_size, metavar="PIXELS", help="default: 960")
+    group.add_argument("--imageHeight", type=_size, metavar="PIXELS",
+                       help="default: from the width and the camera's aperture")
+    group.add_argument("--pixelAspectRatio", type=_positive, default=1.0, metavar="R",
+                       help="width of a pixel over its height (default: 1)")
+    group.add_argument("--dataWindow", type=_window, metavar="X0,Y0,X1,Y1",
+                       help="render only these pixels, both corners included, counted from the upper left")
+    group.add_argument("--aov", action="append", default=[], metavar="NAME",
+                       help=f"also write this (repeatable, OpenEXR only): {', '.join(ALL_AOVS)}, any primvars:NAME, "
+                            "or all")
+    group.add_argument("--half", action="store_true", help="OpenEXR: colour as 16-bit floats")
+    group.add_argument("--compression", default="zip", metavar="NAME",
+                       choices=["none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"],
+                       help="OpenEXR: none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab (default: zip)")
+    group.add_argument("--bits", type=int, default=8, choices=[8, 16, 32],
+                       help="of PNG and TIFF (default: 8; 32: TIFF with linear floats)")
+    group.add_argument("--display", default="", metavar="NAME", help="OCIO display (default: sRGB, or that of $OCIO)")
+    group.add_argument("--view", default="", metavar="NAME", help="OCIO view (default: the display's first)")
+    group.add_argument("--colorCorrectionMode", "-color", default="openColorIO", metavar="MODE",
+                       choices=["disabled", "sRGB", "openColorIO"],
+                       help="disabled writes linear values; sRGB and openColorIO show them through the display "
+                            "transform (default: openColorIO, which is sRGB unless $OCIO says otherwise)")
+
+
+def _add_run_flags(group):
+    group.add_argument("--resume", action="store_true",
+                       help="continue from IMAGE.checkpoint, if it is there and fits")
+    group.add_argument("--checkpointSeconds", type=_not_negative, default=60.0, metavar="S",
+                       help="save IMAGE.checkpoint so often; it is removed when the image is written; 0: never "
+                            "(default: 60)")
+    group.add_argument("--keepCheckpoint", action="store_true",
+                       help="save the checkpoint at the end and keep it, to add samples later with --resume")
+    group.add_argument("--strict", action="store_true", help="warnings make the render fail")
+    group.add_argument("--json", metavar="FILE",
+                       help="statistics (times by phase, rays, samples, memory, warnings): --json to standard "
+                            "output, --json=FILE to a file")
+    group.add_argument("--quiet", "-q", action="store_true", help="errors only: no progress, no warnings")
+
+
+def settings_of(arguments):
+    """:returns: dict of render settings; width, height and checkpointFile are not known yet"""
+    endless = arguments.tolerance > 0.0 or arguments.seconds > 0.0
+    settings = {
+        "samples": arguments.samples or (MOST_SAMPLES if endless else DEFAULT_SAMPLES),
+        "pixelAspectRatio": arguments.pixelAspectRatio,
+        "enableMotionBlur": not arguments.disableMotionBlur,
+        "enableDepthOfField": not arguments.disableDepthOfField,
+        "enableShadows": not arguments.disableShadows,
+        "domeLightCameraVisibility": arguments.enableDomeLightVisibility,
+        "aovs": aovs_of(arguments),
+        "methods": _methods(arguments.method),
+        "checkpointSeconds": arguments.checkpointSeconds,
+    }
+    for name in ("tolerance", "seconds", "threads", "seed", "maxDepth", "rouletteDepth", "indirectClamp",
+                 "filterRadius", "edgeLength", "cullStyle"):
+        settings[name] = getattr(arguments, name)
+    if arguments.minSamples is not None:
+        settings["minSamples"] = arguments.minSamples
+    if arguments.dataWindow:
+        settings["dataWindow"] = arguments.dataWindow
+    return settings
+
+
+def aovs_of(arguments):
+    """:returns: names besides color and alpha"""
+    names = []
+    for name in arguments.aov:
+        names += ALL_AOVS if name == "all" else [name]
+    return [name for name in dict.fromkeys(names) if name not in ("color", "alpha")]
+
+
+def image_options_of(arguments):
+    """:returns: dict of image options"""
+    options = {"half": arguments.half, "compression": arguments.compression, "bits": arguments.bits,
+               "display": arguments.display, "view": arguments.view, "pixel_aspect_ratio": arguments.pixelAspectRatio,
+               "raw": arguments.colorCorrectionMode == "disabled",
+               "aovs": ["color", "alpha"] + aovs_of(arguments)}
+    if arguments.dataWindow:
+        options["data_window"] = arguments.dataWindow
+    return options
+
+
+def purposes_of(arguments):
+    """:returns: list of purposes, `default` among them"""
+    names = arguments.purposes.replace(",", " ").split()
+    for name in names:
+        if name not in ("default", "render", "proxy", "guide", "none"):
+            raise UsageError(f"patina record: --purposes: there is no purpose '{name}'")
+    return ["default"] + [name for name in dict.fromkeys(names) if name not in ("default", "none")]
+
+
+def _methods(texts):
+    methods = {}
+    for text in texts:
+        point, equals, name = text.partition("=")
+        if not point or not equals or not name:
+            raise UsageError(f"patina record: --method {text}: write it as POINT=NAME")
+        methods[point] = name
+    return methods
+
+
+def _complexity(text):
+    if text in COMPLEXITIES:
+        return COMPLEXITIES[text]
+    value = float(text)
+    if not 1.0 <= value <= 2.0:
+        raise ValueError
+    return value
+
+
+def _integer(text, least, most):
+    value = int(text)
+    if not least <= value <= most:
+        raise ValueError
+    return value
+
+
+def _count(text):
+    return _integer(text, 1, 2**31 - 1)
+
+
+def _size(text):
+    return _integer(text, 1, LARGEST_SIZE)
+
+
+def _seed(text):
+    return _integer(text, 0, 2**32 - 1)
+
+
+def _not_negative(text):
+    value = float(text)
+    if not (value >= 0.0 and math.isfinite(value)):
+        raise ValueError
+    return value
+
+
+def _positive(text):
+    value = float(text)
+    if not (value > 0.0 and math.isfinite(value)):
+        raise ValueError
+    return value
+
+
+def _window(text):
+    values = [int(word) for word in text.split(",")]
+    if len(values) != 4 or values[0] < 0 or values[1] < 0 or values[2] < values[0] or values[3] < values[1]:
+        raise ValueError
+    return values
+
+
+# argparse shows the name of the function in its message about a bad value.
+for _function, _name in ((_complexity, "complexity"), (_count, "count (1 or more)"), (_size, "size in pixels"),
+                         (_seed, "seed"), (_not_negative, "number (0 or more)"), (_positive, "number (above 0)"),
+                         (_window, "window X0,Y0,X1,Y1")):
+    _function.__name__ = _name

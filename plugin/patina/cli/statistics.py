@@ -1,0 +1,133 @@
+"""What --json shows of a render: times by phase, rays, samples, memory, warnings."""
+import contextlib
+import json
+import sys
+import time
+
+from patina import __version__
+
+PHASES = ("open", "translate", "build", "render", "write", "total")
+
+
+def lines(warnings):
+    """:returns: each warning as one line"""
+    return [(w["prim"] + ("." + w["input"] if w["input"] else "") + ": " if w["prim"] else "") + w["message"] +
+            (f" ({w['count']} times)" if w["count"] > 1 else "") for w in warnings]
+
+
+def peak_memory():
+    """:returns: bytes of the most memory that this process has had, or None"""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return None
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak if sys.platform == "darwin" else peak * 1024
+
+
+class Statistics:
+    """Collects the numbers of all frames. Times are in seconds of wall clock."""
+
+    def __init__(self, arguments):
+        self._begin = time.perf_counter()
+        self._total = {"stage": arguments.stage, "backend": arguments.backend, "version": __version__}
+        self._seconds = dict.fromkeys(PHASES, 0.0)
+        self._frames = []
+        self._frame = None
+        self._own, self._scene = [], []
+
+    @contextlib.contextmanager
+    def phase(self, name):
+        begin = time.perf_counter()
+        try:
+            yield
+        finally:
+            spent = time.perf_counter() - begin
+            for times in (self._seconds, *([self._frame["seconds"]] if self._frame else [])):
+                times[name] = times.get(name, 0.0) + spent
+
+    def begin_frame(self, frame, image):
+        self._frame = {"frame": frame, "image": image, "seconds": {}}
+
+    def end_frame(self):
+        self._frames.append(self._frame)
+        self._frame = None
+
+    def rendered(self, state, film):
+        """:param state: what Renderer.progress() said at the end"""
+        numbers = dict(state["statistics"])
+        build = numbers.pop("secondsBuild", 0.0)
+        for times in (self._seconds, self._frame["seconds"]):
+            times["build"] = times.get("build", 0.0) + build
+            times["render"] -= build
+        counts = film.resolve("sampleCount") if film.width else None
+        samples = int(counts.astype("float64").sum()) if counts is not None else 0
+        self._frame.update(
+            width=film.width, height=film.height, samples=samples,
+            samplesPerPixel=samples / counts.size if samples else 0.0, converged=state["converged"],
+            droppedSamples=film.dropped_samples,
+            **{name: int(value) if float(value).is_integer() else value for name, value in numbers.items()
+               if name not in ("samples", "droppedSamples")})
+        if film.width:
+            error = _mean_relative_error(film)
+            if error is not None:
+                self._frame["estimatedError"] = error
+
+    def warn(self, prim, name, message):
+        self._own.append({"prim": prim, "input": name, "message": message, "count": 1})
+
+    def collect(self, diagnostics):
+        """Takes the warnings of a scene: all that were reported so far."""
+        self._scene = [{"prim": d.prim, "input": d.input, "message": d.message, "count": d.count}
+                       for d in diagnostics.all()]
+
+    def warnings(self):
+        return self._own + self._scene
+
+    def metadata(self, arguments, settings, camera):
+        """:returns: dict of what the image's file says about its making"""
+        frame = self._frame
+        values = {"Software": f"Patina {__version__}", "patina:stage": arguments.stage, "patina:camera": camera,
+                  "patina:backend": arguments.backend, "patina:seed": settings["seed"],
+                  "patina:samples": frame["samplesPerPixel"], "patina:maxDepth": settings["maxDepth"],
+                  "patina:seconds": frame["seconds"].get("build", 0.0) + frame["seconds"].get("render", 0.0),
+                  "patina:warnings": len(self.warnings())}
+        if frame["frame"] is not None:
+            values["patina:frame"] = float(frame["frame"])
+        if settings["tolerance"] > 0.0:
+            values["patina:tolerance"] = settings["tolerance"]
+        if arguments.set:
+            values["patina:set"] = " ".join(arguments.set)
+        return values
+
+    def write(self, file):
+        """:param file: a path, or - for standard output"""
+        self._seconds["total"] = time.perf_counter() - self._begin
+        result = dict(self._total, seconds={name: round(s, 6) for name, s in self._seconds.items()})
+        for name in ("samples", "rays", "shadowRays", "paths", "droppedSamples"):
+            if any(name in frame for frame in self._frames):
+                result[name] = sum(frame.get(name, 0) for frame in self._frames)
+        spent = self._seconds["render"]
+        if result.get("rays") and spent > 0.0:
+            result["raysPerSecond"] = result["rays"] / spent
+        result["peakMemoryBytes"] = peak_memory()
+        result["warnings"] = self.warnings()
+        result["frames"] = self._frames
+        text = json.dumps(result, indent=2)
+        if file == "-":
+            print(text)
+        else:
+            with open(file, "w", encoding="utf-8") as out:
+                out.write(text + "\n")
+
+
+def _mean_relative_error(film):
+    """:returns: the mean over the pixels of standard error over luminance, as --tolerance means it"""
+    import numpy as np
+
+    sampled = film.resolve("sampleCount") > 0
+    color, variance = film.resolve("color").astype(np.float64), film.resolve("variance").astype(np.float64)
+    luminance = color @ np.array([0.2126, 0.7152, 0.0722])
+    # Half-normal mean of |error|; 0.01 keeps black pixels from deciding.
+    error = np.sqrt(2.0 / np.pi * np.maximum(variance, 0.0)) / (luminance + 0.01)
+    return float(error[sampled].mean()) if sampled.any() and np.isfinite(error).all() else None

@@ -1,0 +1,192 @@
+#include "hdDelegate/embree/lights/areaShape.h"
+
+#include "hdDelegate/embree/lights/areaShapeParts.h"
+#include "hdDelegate/embree/lights/sphericalRect.h"
+#include "hdDelegate/scene/lightUnits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+/// Whether a rect is sampled by solid angle. Far ones look the same from everywhere, and area
+/// sampling is cheaper.
+bool bySolidAngle(const AreaShape &shape, const vec3 &point) {
+    const vec3 v = point - shape.origin;
+    return shape.rightAngled && shape.area > 0.01f * glm::dot(v, v);
+}
+
+bool rectFrom(const AreaShape &shape, const vec3 &point, SphericalRect &rect) {
+    const vec3 corner = shape.origin - 0.5f * (shape.axes[0] + shape.axes[1]);
+    return rect.setup(corner, shape.axes[0], shape.axes[1], point);
+}
+
+bool facesPlane(const AreaShape &shape, const vec3 &point) {
+    return glm::dot(point - shape.origin, shape.normal) > 0.0f;
+}
+
+/// Concentric map of the square to the disk (Shirley and Chiu 1997).
+vec2 concentricDisk(const vec2 &u) {
+    const vec2 o = 2.0f * u - 1.0f;
+    if (o.x == 0.0f && o.y == 0.0f) return vec2(0.0f);
+    float r, theta;
+    if (std::abs(o.x) > std::abs(o.y)) {
+        r = o.x;
+        theta = 0.25f * lightPi * (o.y / o.x);
+    } else {
+        r = o.y;
+        theta = 0.5f * lightPi - 0.25f * lightPi * (o.x / o.y);
+    }
+    return r * vec2(std::cos(theta), std::sin(theta));
+}
+
+} // namespace
+
+AreaShape makeAreaShape(const Light &light, const mat4 &toWorld) {
+    AreaShape s;
+    vec3 size(std::abs(light.radius));
+    switch (light.type) {
+    case LightType::Rect:
+        s.kind = AreaShape::Kind::Rect;
+        size = vec3(light.width, light.height, 1.0f);
+        break;
+    case LightType::Disk:
+        s.kind = AreaShape::Kind::Disk;
+        size.z = 1.0f;
+        break;
+    case LightType::Cylinder:
+        s.kind = AreaShape::Kind::Cylinder;
+        size.x = light.length;
+        break;
+    default:
+        s.kind = AreaShape::Kind::Sphere;
+        break;
+    }
+    s.origin = vec3(toWorld[3]);
+    glm::dmat3 axes;
+    for (int i = 0; i < 3; ++i)
+        axes[i] = glm::dvec3(vec3(toWorld[i])) * double(size[i]);
+    s.area = float(lightSizeFactor(light, toWorld));
+    if (s.kind == AreaShape::Kind::Rect || s.kind == AreaShape::Kind::Disk) {
+        // The plane's own normal takes the place of the third axis, on the side of local -z.
+        const glm::dvec3 n = glm::cross(axes[0], axes[1]);
+        const double length = glm::length(n);
+        const double side = glm::dot(n, axes[2]) < 0.0 ? 1.0 : -1.0;
+        axes[2] = n * (side / length);
+        s.normal = vec3(axes[2]);
+        const double across = std::abs(glm::dot(axes[0], axes[1]));
+        s.rightAngled = across <= 1e-5 * glm::length(axes[0]) * glm::length(axes[1]);
+    }
+    s.axes = mat3(axes);
+    const double det = glm::determinant(axes);
+    s.determinant = float(std::abs(det));
+    s.inverse = mat3(glm::inverse(axes));
+    bool finite = std::isfinite(s.area) && std::isfinite(s.determinant);
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            finite = finite && std::isfinite(s.axes[i][k]) && std::isfinite(s.inverse[i][k]);
+    for (int k = 0; k < 3; ++k)
+        finite = finite && std::isfinite(s.origin[k]);
+    s.valid = finite && s.area > 0.0f && s.determinant > 0.0f;
+    return s;
+}
+
+bool sampleShape(const AreaShape &shape, const vec3 &point, const vec2 &u, ShapeSample &out) {
+    if (shape.kind == AreaShape::Kind::Sphere) return sampleSphere(shape, point, u, out);
+    if (shape.kind == AreaShape::Kind::Cylinder) return sampleCylinder(shape, point, u, out);
+    if (!facesPlane(shape, point)) return false;
+    out.normal = shape.normal;
+    if (shape.kind == AreaShape::Kind::Rect) {
+        SphericalRect rect;
+        if (bySolidAngle(shape, point) && rectFrom(shape, point, rect)) {
+            out.position = rect.sample(u);
+            out.pdf = rect.pdf();
+            return true;
+        }
+        const vec2 q = u - 0.5f;
+        out.position = shape.origin + q.x * shape.axes[0] + q.y * shape.axes[1];
+    } else {
+        const vec2 q = concentricDisk(u);
+        out.position = shape.origin + q.x * shape.axes[0] + q.y * shape.axes[1];
+    }
+    out.pdf = areaToSolidAngle(1.0f / shape.area, point, out.position, out.normal);
+    return out.pdf > 0.0f;
+}
+
+float shapePdf(const AreaShape &shape, const vec3 &point, const vec3 &position,
+               const vec3 &normal) {
+    if (shape.kind == AreaShape::Kind::Sphere) return spherePdf(shape, point, position);
+    if (shape.kind == AreaShape::Kind::Cylinder) return cylinderPdf(shape, point, position, normal);
+    if (!facesPlane(shape, point)) return 0.0f;
+    SphericalRect rect;
+    if (shape.kind == AreaShape::Kind::Rect && bySolidAngle(shape, point) &&
+        rectFrom(shape, point, rect))
+        return rect.pdf();
+    return areaToSolidAngle(1.0f / shape.area, point, position, shape.normal);
+}
+
+bool intersectShape(const AreaShape &shape, const vec3 &origin, const vec3 &direction, float near,
+                    float far, float &distance, vec3 &normal) {
+    const vec3 q = shape.local(origin), d = shape.inverse * direction;
+    const auto inRange = [&](float t) { return t > near && t < far; };
+    if (shape.kind == AreaShape::Kind::Rect || shape.kind == AreaShape::Kind::Disk) {
+        // Local z runs along the normal: only rays that come down on it see light.
+        if (!(q.z > 0.0f && d.z < 0.0f)) return false;
+        const float t = -q.z / d.z;
+        if (!inRange(t)) return false;
+        const vec2 p = vec2(q) + t * vec2(d);
+        const bool inside = shape.kind == AreaShape::Kind::Rect
+                                ? std::abs(p.x) <= 0.5f && std::abs(p.y) <= 0.5f
+                                : glm::dot(p, p) <= 1.0f;
+        if (!inside) return false;
+        distance = t;
+        normal = shape.normal;
+        return true;
+    }
+    const bool cylinder = shape.kind == AreaShape::Kind::Cylinder;
+    const vec3 mask(cylinder ? 0.0f : 1.0f, 1.0f, 1.0f);
+    const vec3 f = q * mask, l = d * mask;
+    const float ll = glm::dot(l, l);
+    if (!(ll > 0.0f) || glm::dot(f, f) <= 1.0f)
+        return false; // from within there is nothing that emits
+    const float b = -glm::dot(f, l) / ll;
+    const vec3 closest = f + b * l; // numerically safer than the textbook discriminant
+    const float discriminant = 1.0f - glm::dot(closest, closest);
+    if (discriminant < 0.0f) return false;
+    const float t = b - std::sqrt(discriminant / ll);
+    if (!inRange(t)) return false;
+    vec3 p = q + t * d;
+    if (cylinder) {
+        if (std::abs(p.x) > 0.5f) return false;
+        p.x = 0.0f;
+    }
+    distance = t;
+    normal = glm::normalize(p * shape.inverse); // the inverse's transpose
+    return true;
+}
+
+void growBounds(const AreaShape &shape, vec3 &low, vec3 &high) {
+    vec3 extent;
+    const vec3 a = glm::abs(shape.axes[0]), b = glm::abs(shape.axes[1]),
+               c = glm::abs(shape.axes[2]);
+    switch (shape.kind) {
+    case AreaShape::Kind::Rect:
+        extent = 0.5f * (a + b);
+        break;
+    case AreaShape::Kind::Disk:
+        extent = glm::sqrt(a * a + b * b);
+        break;
+    case AreaShape::Kind::Sphere:
+        extent = glm::sqrt(a * a + b * b + c * c);
+        break;
+    case AreaShape::Kind::Cylinder:
+        extent = 0.5f * a + glm::sqrt(b * b + c * c);
+        break;
+    }
+    low = glm::min(low, shape.origin - extent);
+    high = glm::max(high, shape.origin + extent);
+}
+
+} // namespace patina

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "hdDelegate/embree/lights/distribution2d.h"
+#include "hdDelegate/scene/imageTextureLoad.h"
+#include "hdDelegate/scene/types.h"
+
+#include <memory>
+#include <string>
+
+namespace patina {
+
+/// How an image lies around a dome (UsdLux texture:format).
+enum class EnvironmentFormat { Automatic, Latlong, MirroredBall, Angular, CubeMapVerticalCross };
+/// Unknown names are automatic: a vertical cross when the image is 3 wide and 4 high, else latlong.
+EnvironmentFormat environmentFormat(const std::string &name);
+
+/// An image that surrounds the scene, with a density to sample it by.
+///
+/// Directions are in the dome's frame: y is the pole, and all formats have +z in their middle and
+/// -x at its right, as OpenEXR's latlong has: longitude 0 is +z, longitude pi/2 is +x, and the
+/// image's left edge has longitude pi. A mirrored ball shows the reflection that a distant viewer
+/// of a mirror ball sees, with +z reflected in the middle; angular is the same with radius
+/// proportional to angle. The cross has rows (. +y .), (+x +z -x), (. -y .), (. -z .), the last
+/// upside down.
+///
+/// Radiance is the bilinear interpolation of the texels; the density is constant over cells of a
+/// latlong grid and covers what bilinear interpolation spreads into neighbours.
+class EnvironmentMap {
+public:
+    EnvironmentMap(std::shared_ptr<const ImageRGB> image, EnvironmentFormat format);
+
+    bool black() const { return _distribution.empty(); }
+    vec3 radiance(const vec3 &direction) const;
+    vec3 mean() const { return _mean; } ///< of the radiance over the sphere
+
+    /// @param pdf receives the density over solid angle
+    vec3 sample(const vec2 &u, float &pdf) const;
+    float pdf(const vec3 &direction) const;
+
+private:
+    void build();
+    std::vector<vec3> latlongGrid(int width, int height) const;
+    vec3 bilinear(float x, float y, bool wrap) const;
+    vec3 bilinearIn(float x, float y, int x0, int y0, int x1, int y1) const;
+    vec3 cross(const vec3 &direction) const;
+    float bandHeight(int row) const; ///< difference of cos(theta) across a row
+
+    std::shared_ptr<const ImageRGB> _image;
+    EnvironmentFormat _format;
+    Distribution2d _distribution;
+    std::vector<float> _cosines; ///< of the rows' edges
+    vec3 _mean{0.0f};
+};
+
+} // namespace patina

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "hdDelegate/embree/lights/areaShape.h"
+#include "hdDelegate/embree/lights/environmentMap.h"
+#include "hdDelegate/embree/lights/lightTree.h"
+#include "hdDelegate/scene/lightShaping.h"
+
+#include <memory>
+
+namespace patina {
+
+class LightImages;
+class Diagnostics;
+
+/// Light that comes from one emitter to one point.
+struct EmitterSample {
+    vec3 direction{0.0f}, normal{0.0f}, radiance{0.0f};
+    float distance = 0.0f, pdf = 0.0f; ///< pdf of delta emitters is 1
+};
+
+/// One light made ready for sampling. Area lights sample points on their shape; point and line
+/// stand-ins (treatAsPoint, treatAsLine, or no radius with `normalize` on) and distant lights of
+/// angle 0 are delta emitters that no ray can hit.
+class LightEmitter {
+public:
+    enum class Kind { None, Area, Point, Line, Distant, Dome };
+
+    LightEmitter() = default;
+    /// A light that gives no light, for whatever reason, becomes Kind::None. Reasons that look
+    /// like mistakes are warned about.
+    LightEmitter(const Light &light, const mat4 &groupToWorld, float shutterOpen,
+                 float shutterClose, LightImages &images, Diagnostics &diagnostics);
+
+    Kind kind() const { return _kind; }
+    bool atInfinity() const { return _kind == Kind::Distant || _kind == Kind::Dome; }
+    bool delta() const { return _delta; }
+
+    /// @param normal,twoSided as of LightSet::sample(); constant domes sample by the cosine
+    bool sample(const vec3 &point, const vec3 &normal, bool twoSided, const vec2 &u, float time,
+                EmitterSample &out) const;
+    /// Density with which sample() finds a position of an area light.
+    float pdf(const vec3 &point, const vec3 &position, const vec3 &normal, float time) const;
+    bool intersect(const vec3 &origin, const vec3 &direction, float near, float far, float time,
+                   float &distance, vec3 &normal) const;
+    /// Radiance of a position on an area light, towards `direction`.
+    vec3 radiance(const vec3 &position, const vec3 &direction, float time) const;
+
+    /// Lights at infinity.
+    vec3 environment(const vec3 &direction, float time) const;
+    float environmentPdf(const vec3 &normal, bool twoSided, const vec3 &direction,
+                         float time) const;
+    /// Estimate of the irradiance on a plane that faces the light; lights at infinity only.
+    float irradiance() const { return _irradiance; }
+    /// False when all of a light at infinity is behind a surface that does not transmit.
+    bool reaches(const vec3 &normal, bool twoSided, float time) const;
+
+    /// What the light tree has to know; lights that are not at infinity only.
+    LightTreeLeaf leaf(int id) const;
+
+private:
+    /// Where the light is at one time.
+    struct Pose {
+        AreaShape shape;
+        LightShaping shaping;
+        vec3 position{0.0f}; ///< of points, middle of lines
+        vec3 along{0.0f};    ///< of lines, all of its length
+        vec3 toLight{0.0f};  ///< of distant lights
+        mat3 domeToWorld{1.0f};
+    };
+
+    Pose makePose(const mat4 &toWorld) const;
+    const Pose &poseAt(float time, Pose &scratch) const;
+    bool setUpDome(LightImages &images);
+    bool choosesKind(const mat4 &toWorld, Diagnostics &diagnostics);
+    void loadProfile(Diagnostics &diagnostics);
+    bool sampleLine(const Pose &pose, const vec3 &point, float u, EmitterSample &out) const;
+    bool sampleDistant(const Pose &pose, const vec2 &u, EmitterSample &out) const;
+    bool sampleDome(const Pose &pose, const vec3 &normal, bool twoSided, const vec2 &u,
+                    EmitterSample &out) const;
+    vec3 texture(const AreaShape &shape, const vec3 &position) const;
+    vec3 shaped(const Pose &pose, const vec3 &direction) const;
+
+    Kind _kind = Kind::None;
+    bool _delta = false, _moves = false;
+    Light _light;
+    mat4 _group{1.0f};
+    std::vector<float> _times; ///< at which the motion has corners, in the shutter
+    Pose _pose;                ///< at the shutter's opening
+    vec3 _radiance{0.0f};      ///< points: intensity; lines: intensity across per length
+    float _halfAngle = 0.0f, _oneMinusCos = 0.0f; ///< distant
+    float _irradiance = 0.0f;
+    float _meanTexture = 1.0f;
+    std::shared_ptr<const ImageRGB> _texture;
+    std::shared_ptr<const EnvironmentMap> _environment;
+    std::shared_ptr<const IesProfile> _profile;
+};
+
+} // namespace patina

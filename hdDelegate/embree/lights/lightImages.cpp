@@ -1,0 +1,57 @@
+#include "hdDelegate/embree/lights/lightImages.h"
+
+namespace patina {
+
+LightImages::LightImages(Diagnostics &diagnostics)
+    : _loader([&diagnostics](const std::string &file, const std::string &colorSpace,
+                             const std::string &prim, const std::string &input) {
+          return loadImageLinear(file, colorSpace, diagnostics, prim, input);
+      }) {}
+
+std::shared_ptr<const ImageRGB> LightImages::image(const std::string &file,
+                                                   const std::string &colorSpace,
+                                                   const std::string &prim,
+                                                   const std::string &input) {
+    const std::string key = colorSpace + '\n' + file;
+    std::lock_guard<std::mutex> lock(_mutex);
+    std::shared_ptr<const ImageRGB> &entry = _images[key];
+    if (entry) return entry;
+    auto image = std::make_shared<ImageRGB>(_loader(file, colorSpace, prim, input));
+    const bool usable = image->width > 0 && image->height > 0 &&
+                        image->pixels.size() >= size_t(image->width) * size_t(image->height);
+    if (!usable) {
+        image->width = image->height = 1;
+        image->pixels.assign(1, vec3(1.0f, 0.0f, 1.0f));
+        image->valid = false;
+    }
+    if (!image->valid) {
+        // Not kept: the file may be there the next time.
+        std::shared_ptr<const ImageRGB> result = std::move(image);
+        _images.erase(key);
+        return result;
+    }
+    entry = std::move(image);
+    return entry;
+}
+
+std::shared_ptr<const EnvironmentMap> LightImages::environment(const std::string &file,
+                                                               const std::string &colorSpace,
+                                                               EnvironmentFormat format,
+                                                               const std::string &prim,
+                                                               const std::string &input) {
+    const std::string key = std::to_string(int(format)) + '\n' + colorSpace + '\n' + file;
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        const auto found = _environments.find(key);
+        if (found != _environments.end()) return found->second;
+    }
+    const std::shared_ptr<const ImageRGB> source = image(file, colorSpace, prim, input);
+    auto map = std::make_shared<const EnvironmentMap>(source, format);
+    if (source->valid) {
+        std::lock_guard<std::mutex> lock(_mutex);
+        _environments[key] = map;
+    }
+    return map;
+}
+
+} // namespace patina

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "hdDelegate/embree/lights/environmentMap.h"
+#include "hdDelegate/scene/imageTextureLoad.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace patina {
+
+/// Reads the images of lights and keeps them, with what importance sampling needs, from one build
+/// of the lights to the next. Thread safe.
+class LightImages {
+public:
+    /// Reads one image. The default reads through loadImageLinear().
+    using Loader = std::function<ImageRGB(const std::string &file, const std::string &colorSpace,
+                                          const std::string &prim, const std::string &input)>;
+
+    explicit LightImages(Loader loader) : _loader(std::move(loader)) {}
+    explicit LightImages(Diagnostics &diagnostics);
+
+    /// @returns never null; one magenta pixel where the file cannot be read
+    std::shared_ptr<const ImageRGB> image(const std::string &file, const std::string &colorSpace,
+                                          const std::string &prim, const std::string &input);
+    /// An environment; `format` as of UsdLux's texture:format.
+    std::shared_ptr<const EnvironmentMap>
+    environment(const std::string &file, const std::string &colorSpace, EnvironmentFormat format,
+                const std::string &prim, const std::string &input);
+
+private:
+    Loader _loader;
+    std::mutex _mutex;
+    std::map<std::string, std::shared_ptr<const ImageRGB>> _images;
+    std::map<std::string, std::shared_ptr<const EnvironmentMap>> _environments;
+};
+
+} // namespace patina

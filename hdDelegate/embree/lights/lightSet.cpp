@@ -1,0 +1,209 @@
+#include "hdDelegate/embree/lights/lightSet.h"
+
+#include "hdDelegate/embree/lights/sphericalTriangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+LightSet::LightSet(LightSetInput input, LightImages &images, Diagnostics &diagnostics)
+    : _input(std::move(input)), _lightCount(int(_input.lights.size())) {
+    std::vector<LightTreeLeaf> leaves;
+    _emitters.resize(_input.lights.size());
+    for (int i = 0; i < _lightCount; ++i) {
+        const LightInstance &instance = _input.lights[i];
+        if (!instance.light) continue;
+        _emitters[i] = LightEmitter(*instance.light, instance.groupToWorld, _input.shutterOpen,
+                                    _input.shutterClose, images, diagnostics);
+        const LightEmitter &emitter = _emitters[i];
+        if (emitter.kind() == LightEmitter::Kind::None) continue;
+        if (emitter.atInfinity()) {
+            _infinite.push_back(i);
+            if (!emitter.delta()) _visibleInfinite.push_back(i);
+            continue;
+        }
+        leaves.push_back(emitter.leaf(i));
+        _hasIntersectable = _hasIntersectable || leaves.back().hittable;
+    }
+    for (int t = 0; t < int(_input.triangles.size()); ++t)
+        addTriangle(t, leaves);
+    _tree = LightTree(leaves);
+}
+
+void LightSet::addTriangle(int triangle, std::vector<LightTreeLeaf> &leaves) {
+    const LightTriangle &t = _input.triangles[triangle];
+    const vec3 n = glm::cross(t.vertices[1] - t.vertices[0], t.vertices[2] - t.vertices[0]);
+    const float length = glm::length(n);
+    if (!(length > 0.0f) || !std::isfinite(length) || !(t.luminance > 0.0f) ||
+        !std::isfinite(t.luminance))
+        return;
+    LightTreeLeaf leaf;
+    leaf.id = _lightCount + triangle;
+    leaf.low = glm::min(t.vertices[0], glm::min(t.vertices[1], t.vertices[2]));
+    leaf.high = glm::max(t.vertices[0], glm::max(t.vertices[1], t.vertices[2]));
+    leaf.axis = n / length;
+    leaf.intensity = t.luminance * 0.5f * length;
+    leaf.twoSided = t.twoSided;
+    leaves.push_back(leaf);
+}
+
+/// The weights among lights at infinity and the tree, for one point. Half of the choice follows the
+/// estimates of irradiance; the other half is even, as the estimates know nothing of occlusion.
+LightSet::Choice LightSet::makeChoice(const vec3 &point, const vec3 &normal, bool twoSided,
+                                      float time) const {
+    Choice c;
+    c.tree = _tree.importance(point, normal, twoSided);
+    c.total = c.tree;
+    c.count = c.tree > 0.0f ? 1 : 0;
+    for (int light : _infinite)
+        if (_emitters[light].reaches(normal, twoSided, time)) {
+            c.total += _emitters[light].irradiance();
+            ++c.count;
+        }
+    return c;
+}
+
+float LightSet::share(const Choice &choice, float weight) const {
+    if (!std::isfinite(choice.total)) return 1.0f / float(choice.count);
+    return 0.5f / float(choice.count) + 0.5f * weight / choice.total;
+}
+
+bool LightSet::sample(const vec3 &point, const vec3 &normal, bool twoSided, const vec3 &u,
+                      float time, LightSample &out) const {
+    const Choice choice = makeChoice(point, normal, twoSided, time);
+    if (choice.count == 0) return false;
+    float chosen = std::min(u.z, 0x1.fffffep-1f), selection = 0.0f;
+    int light = -1;
+    for (int candidate : _infinite) {
+        if (!_emitters[candidate].reaches(normal, twoSided, time))
+            continue;
+        // Without a tree the last candidate stays when rounding runs past the end.
+        light = candidate;
+        selection = share(choice, _emitters[candidate].irradiance());
+        if (chosen < selection)
+            break;
+        chosen -= selection;
+        if (choice.tree > 0.0f)
+            light = -1;
+    }
+    if (light < 0) {
+        const float p = share(choice, choice.tree);
+        float below;
+        light = _tree.choose(point, normal, twoSided, std::min(chosen / p, 0x1.fffffep-1f), below);
+        selection = p * below;
+        if (light < 0 || !(selection > 0.0f))
+            return false;
+    }
+    out.light = light;
+    out.triangle = -1;
+    if (light >= _lightCount)
+        return sampleTriangleLight(light - _lightCount, point, vec2(u), selection, out);
+    EmitterSample s;
+    if (!_emitters[light].sample(point, normal, twoSided, vec2(u), time, s)) return false;
+    out.direction = s.direction;
+    out.distance = s.distance;
+    out.radiance = s.radiance;
+    out.pdf = s.pdf * selection;
+    out.delta = _emitters[light].delta();
+    out.normal = s.normal;
+    return out.pdf > 0.0f && std::isfinite(out.pdf);
+}
+
+bool LightSet::sampleTriangleLight(int triangle, const vec3 &point, const vec2 &u, float selection,
+                                   LightSample &out) const {
+    const LightTriangle &t = _input.triangles[triangle];
+    TriangleSample s;
+    if (!sampleTriangle(t.vertices, t.twoSided, point, u, s)) return false;
+    const vec3 v = s.position - point;
+    out.distance = glm::length(v);
+    if (!(out.distance > 0.0f)) return false;
+    out.direction = v / out.distance;
+    out.radiance = vec3(1.0f);
+    out.pdf = s.pdf * selection;
+    out.delta = false;
+    out.normal = s.normal;
+    out.triangle = triangle;
+    out.barycentrics = s.barycentrics;
+    return out.pdf > 0.0f && std::isfinite(out.pdf);
+}
+
+int LightSet::intersect(const vec3 &origin, const vec3 &direction, float near, float far,
+                        float time, LightHit *hits, int maxHits) const {
+    int count = 0;
+    if (!_hasIntersectable || maxHits < 1) return 0;
+    _tree.visitRay(origin, direction, near, far, [&](int light) {
+        LightHit hit;
+        if (light >= _lightCount || !_emitters[light].intersect(origin, direction, near, far, time,
+                                                                hit.distance, hit.normal))
+            return;
+        hit.light = light;
+        hit.time = time;
+        hit.position = origin + hit.distance * direction;
+        hit.radiance = _emitters[light].radiance(hit.position, -direction, time);
+        if (count < maxHits) {
+            hits[count++] = hit;
+            return;
+        }
+        LightHit *farthest =
+            std::max_element(hits, hits + count, [](const LightHit &a, const LightHit &b) {
+                return a.distance < b.distance;
+            });
+        if (hit.distance < farthest->distance) *farthest = hit;
+    });
+    return count;
+}
+
+float LightSet::selectionProbability(int light, const vec3 &point, const vec3 &normal,
+                                     bool twoSided, float time) const {
+    if (light < 0) return 0.0f;
+    const Choice choice = makeChoice(point, normal, twoSided, time);
+    if (choice.count == 0) return 0.0f;
+    if (light < _lightCount && _emitters[light].kind() == LightEmitter::Kind::None) return 0.0f;
+    if (light < _lightCount && _emitters[light].atInfinity())
+        return _emitters[light].reaches(normal, twoSided, time)
+                   ? share(choice, _emitters[light].irradiance())
+                   : 0.0f;
+    if (!(choice.tree > 0.0f)) return 0.0f;
+    return share(choice, choice.tree) * _tree.probability(light, point, normal, twoSided);
+}
+
+float LightSet::pdf(const LightHit &hit, const vec3 &point, const vec3 &normal,
+                    bool twoSided) const {
+    if (hit.light < 0 || hit.light >= _lightCount) return 0.0f;
+    const float shape = _emitters[hit.light].pdf(point, hit.position, hit.normal, hit.time);
+    return shape > 0.0f ? shape * selectionProbability(hit.light, point, normal, twoSided, hit.time)
+                        : 0.0f;
+}
+
+float LightSet::pdfInfinite(int light, const vec3 &point, const vec3 &normal, bool twoSided,
+                            const vec3 &direction, float time) const {
+    if (light < 0 || light >= _lightCount) return 0.0f;
+    const float p = _emitters[light].environmentPdf(normal, twoSided, direction, time);
+    return p > 0.0f ? p * selectionProbability(light, point, normal, twoSided, time) : 0.0f;
+}
+
+float LightSet::pdfTriangle(int light, const vec3 &point, const vec3 &normal, bool twoSided,
+                            const vec3 &direction, float distance, float time) const {
+    const int triangle = light - _lightCount;
+    if (triangle < 0 || size_t(triangle) >= _input.triangles.size()) return 0.0f;
+    const LightTriangle &t = _input.triangles[triangle];
+    const float p = trianglePdf(t.vertices, t.twoSided, point, point + distance * direction);
+    return p > 0.0f && std::isfinite(p)
+               ? p * selectionProbability(light, point, normal, twoSided, time)
+               : 0.0f;
+}
+
+vec3 LightSet::environment(int light, const vec3 &direction, float time) const {
+    return light >= 0 && light < _lightCount ? _emitters[light].environment(direction, time)
+                                             : vec3(0.0f);
+}
+
+vec3 LightSet::environment(const vec3 &direction, float time) const {
+    vec3 sum(0.0f);
+    for (int light : _visibleInfinite)
+        sum += _emitters[light].environment(direction, time);
+    return sum;
+}
+
+} // namespace patina

@@ -1,0 +1,132 @@
+#pragma once
+
+#include "hdDelegate/embree/lights/lightEmitter.h"
+#include "hdDelegate/embree/lights/lightImages.h"
+#include "hdDelegate/embree/lights/lightTree.h"
+#include "hdDelegate/scene/light.h"
+#include "materialNetwork/diagnostics.h"
+
+#include <memory>
+#include <vector>
+
+namespace patina {
+
+/// A light where it stands in the world. Lights of a prototype are listed once per instance.
+struct LightInstance {
+    std::shared_ptr<const Light> light;
+    mat4 groupToWorld{1.0f}; ///< on top of the light's own transform
+};
+
+/// A triangle of a surface that glows, world space. Its true radiance is the integrator's business.
+struct LightTriangle {
+    vec3 vertices[3]; ///< one-sided triangles shine where (v1 - v0) x (v2 - v0) points
+    float luminance =
+        1.0f; ///< estimate of the radiance that it emits; chooses how often it is sampled
+    bool twoSided = false;
+};
+
+/// Everything that a LightSet is built from.
+struct LightSetInput {
+    std::vector<LightInstance> lights; ///< mesh lights may be in the list; they are left out here
+    std::vector<LightTriangle> triangles;
+    float shutterOpen = 0.0f, shutterClose = 0.0f; ///< time codes relative to the frame
+};
+
+/// A direction in which light comes to a point.
+struct LightSample {
+    vec3 direction{0.0f};  ///< unit, from the point to the light
+    float distance = 0.0f; ///< infinity for lights at infinity
+    vec3 radiance{
+        0.0f}; ///< that arrives; 1 for triangles; for delta lights the irradiance on a facing plane
+    float pdf =
+        0.0f; ///< solid angle density, selection included; of delta lights the selection alone
+    bool delta = false;      ///< no ray can find it
+    int light = -1;          ///< index, see LightSet
+    vec3 normal{0.0f};       ///< of the light's surface, zero where it has none
+    int triangle = -1;       ///< index into LightSetInput::triangles, or -1
+    vec2 barycentrics{0.0f}; ///< weights of vertices 1 and 2 of the triangle
+};
+
+/// An area light met by a ray.
+struct LightHit {
+    int light = -1;
+    float distance = 0.0f; ///< along the ray
+    vec3 position{0.0f}, normal{0.0f};
+    vec3 radiance{0.0f}; ///< against the ray's direction
+    float time = 0.0f;   ///< of the ray
+};
+
+/// All lights of a scene during one shutter. Immutable, so threads share it; equal inputs give
+/// equal results. Light index i < lightCount() is LightSetInput::lights[i]; index lightCount() + t
+/// is triangle t. Lights that give no light (zero power, no size, broken transforms) keep their
+/// index but are never sampled nor hit.
+///
+/// One light is chosen by a light tree (Conty Estevez and Kulla 2018), with lights at infinity
+/// beside the tree, then a direction towards it. pdf functions give the density with which
+/// sample() with the same point, normal and time would have found a direction, for multiple
+/// importance sampling.
+class LightSet {
+public:
+    LightSet(LightSetInput input, LightImages &images, Diagnostics &diagnostics);
+
+    bool empty() const { return _tree.empty() && _infinite.empty(); }
+    /// Whether any area light can be met by a ray.
+    bool hasIntersectable() const { return _hasIntersectable; }
+    int lightCount() const { return _lightCount; }
+    /// Domes, and distant lights of more than a point.
+    const std::vector<int> &infiniteLights() const { return _visibleInfinite; }
+
+    /// @param normal side of the surface that light is wanted from, unit; zero where there is none
+    /// @param twoSided light from the other side matters as well
+    /// @param u uniform in [0,1): x, y place the sample, z chooses the light
+    /// @returns false when no light was found; that counts as a sample of zero
+    bool sample(const vec3 &point, const vec3 &normal, bool twoSided, const vec3 &u, float time,
+                LightSample &out) const;
+
+    /// Area lights between `near` and `far` that shine towards the ray's origin, in no order.
+    /// @returns how many; of more than maxHits the nearest ones
+    int intersect(const vec3 &origin, const vec3 &direction, float near, float far, float time,
+                  LightHit *hits, int maxHits) const;
+
+    /// Density of an area light that a ray hit.
+    /// @param point where the ray's path comes from: sample()'s point
+    float pdf(const LightHit &hit, const vec3 &point, const vec3 &normal, bool twoSided) const;
+    /// Density of a direction to a light at infinity.
+    float pdfInfinite(int light, const vec3 &point, const vec3 &normal, bool twoSided,
+                      const vec3 &direction, float time) const;
+    /// Density of a point on a triangle. @param light its light index, lightCount() + triangle
+    float pdfTriangle(int light, const vec3 &point, const vec3 &normal, bool twoSided,
+                      const vec3 &direction, float distance, float time) const;
+
+    /// Radiance that arrives from a light at infinity.
+    vec3 environment(int light, const vec3 &direction, float time) const;
+    /// Sum over all lights at infinity.
+    vec3 environment(const vec3 &direction, float time) const;
+
+    /// Probability with which sample() chooses a light.
+    float selectionProbability(int light, const vec3 &point, const vec3 &normal, bool twoSided,
+                               float time) const;
+
+private:
+    /// What chooses between the lights at infinity and the tree at one point.
+    struct Choice {
+        float tree = 0.0f, total = 0.0f; ///< estimates of irradiance
+        int count = 0;                   ///< candidates; the tree is one
+    };
+
+    void addTriangle(int triangle, std::vector<LightTreeLeaf> &leaves);
+    Choice makeChoice(const vec3 &point, const vec3 &normal, bool twoSided, float time) const;
+    float share(const Choice &choice, float weight) const;
+    bool sampleTriangleLight(int triangle, const vec3 &point, const vec2 &u, float selection,
+                             LightSample &out) const;
+
+    LightSetInput _input;
+    int _lightCount = 0;
+    std::vector<LightEmitter> _emitters; ///< per light
+    std::vector<int> _infinite;          ///< emitters at infinity, delta ones too
+    std::vector<int> _visibleInfinite;
+    LightTree _tree; ///< leaf ids are light indices
+    bool _hasIntersectable = false;
+};
+
+} // namespace patina

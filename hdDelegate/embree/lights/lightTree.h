@@ -1,0 +1,119 @@
+#pragma once
+
+#include "hdDelegate/scene/types.h"
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace patina {
+
+/// What the tree knows about one light. Directions: normals of the surface lie within `spread` of
+/// `axis`, and light leaves within `reach` of a normal (theta_o and theta_e of Conty Estevez and
+/// Kulla).
+struct LightTreeLeaf {
+    int id = 0;
+    vec3 low{0.0f}, high{0.0f}; ///< bounds
+    vec3 axis{0.0f, 0.0f, 1.0f};
+    float spread = 0.0f, reach = 1.5707963f; ///< radians
+    float intensity = 0.0f;                  ///< luminous intensity along the brightest direction
+    bool twoSided = false;                   ///< shines against the axis as well
+    bool hittable = false;                   ///< rays can meet it
+};
+
+/// Bounding cone of directions.
+struct DirectionCone {
+    vec3 axis{0.0f, 0.0f, 1.0f};
+    float spread = 0.0f, reach = 0.0f;
+};
+DirectionCone unite(const DirectionCone &a, const DirectionCone &b);
+
+/// Chooses among many lights in proportion to an estimate of what each gives to a point (Conty
+/// Estevez and Kulla 2018, Importance Sampling of Many Lights with Adaptive Tree Splitting; one
+/// random number picks one light). Building takes O(n log n), choosing O(log n). The tree serves
+/// as the bounding volumes for rays, too.
+class LightTree {
+public:
+    LightTree() = default;
+    explicit LightTree(const std::vector<LightTreeLeaf> &leaves);
+
+    bool empty() const { return _nodes.empty(); }
+    size_t nodeCount() const { return _nodes.size(); }
+
+    /// Estimate of the irradiance from all lights at a point; 0 only when there is none.
+    float importance(const vec3 &point, const vec3 &normal, bool twoSided) const {
+        return empty() ? 0.0f : importance(_nodes[0], point, normal, twoSided);
+    }
+
+    /// @param u uniform in [0, 1)
+    /// @returns id of a light, or -1 when nothing reaches the point on this way down
+    int choose(const vec3 &point, const vec3 &normal, bool twoSided, float u,
+               float &probability) const;
+
+    /// Probability with which choose() gives this light; 0 for an id that is not in the tree.
+    float probability(int id, const vec3 &point, const vec3 &normal, bool twoSided) const;
+
+    /// Calls visit(id) for the hittable lights whose bounds the ray meets. `far` may shrink while
+    /// it goes on.
+    template <class Visit>
+    void visitRay(const vec3 &origin, const vec3 &direction, float near, const float &far,
+                  const Visit &visit) const;
+
+private:
+    struct Node {
+        vec3 low, high, axis;
+        float cosSpread, sinSpread, cosReach;
+        float intensity;
+        int32_t left = -1, right = -1; ///< right is the id of the light in a leaf (left < 0)
+        int32_t parent = -1;
+        bool twoSided = false, hittable = false;
+    };
+
+    static float importance(const Node &node, const vec3 &point, const vec3 &normal, bool twoSided);
+
+    std::vector<Node> _nodes;
+    std::vector<int32_t> _leafOf; ///< node of each id, or -1
+};
+
+template <class Visit>
+void LightTree::visitRay(const vec3 &origin, const vec3 &direction, float near, const float &far,
+                         const Visit &visit) const {
+    if (empty()) return;
+    const vec3 inverse = 1.0f / direction;
+    std::vector<int32_t> deep; // only for degenerate trees
+    int32_t stack[64];
+    int size = 0;
+    stack[size++] = 0;
+    while (size > 0 || !deep.empty()) {
+        int32_t index;
+        if (!deep.empty()) {
+            index = deep.back();
+            deep.pop_back();
+        } else {
+            index = stack[--size];
+        }
+        const Node &node = _nodes[index];
+        if (!node.hittable) continue;
+        float t0 = near, t1 = far;
+        for (int k = 0; k < 3; ++k) {
+            const float a = (node.low[k] - origin[k]) * inverse[k];
+            const float b = (node.high[k] - origin[k]) * inverse[k];
+            // NaN (a ray in the plane of a flat box) leaves the interval as it is.
+            t0 = std::fmax(t0, std::fmin(a, b) * (1.0f - 1e-6f));
+            t1 = std::fmin(t1, std::fmax(a, b) * (1.0f + 1e-6f));
+        }
+        if (t0 > t1) continue;
+        if (node.left < 0) {
+            visit(int(node.right));
+            continue;
+        }
+        for (const int32_t child : {node.left, node.right}) {
+            if (size < 64)
+                stack[size++] = child;
+            else
+                deep.push_back(child);
+        }
+    }
+}
+
+} // namespace patina

@@ -73,7 +73,6 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
     _planes.clear();
     for (const AovSpec& spec : _aovs) _planes.push_back(clearedPlane(spec, pixels));
     _dropped = 0;
-    resumeToken.clear();
 }
 
 int Film::aovIndex(const std::string& name) const {

@@ -74,7 +74,9 @@ public:
 
     uint64_t droppedSamples() const { return _dropped.load(std::memory_order_relaxed); }
 
-    std::string resumeToken; ///< hash of everything that must be equal to continue the samples
+    /// Hash of everything that must be equal to continue the samples. Its owner sets and compares
+    /// it; reset() leaves it alone.
+    std::string resumeToken;
 
     /// Writes and reads every accumulator, bit for bit. No thread may add samples meanwhile.
     /// Writing is atomic (temporary, then rename); after a failed load the film is as before.

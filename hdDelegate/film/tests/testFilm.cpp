@@ -142,6 +142,9 @@ TEST(Film, ResetKeepsOnlyWhenAskedAndWhenNothingChanged) {
     film.reset(4, 5, aovs, true);
     EXPECT_EQ(film.sampleCount(1, 1), 0u);
     EXPECT_EQ(film.resolve("color").size(), 60u);
+    film.resumeToken = "scene 1";
+    film.reset(5, 5, aovs);
+    EXPECT_EQ(film.resumeToken, "scene 1") << "hosts set it before the renderer resets";
 }
 
 TEST(Film, WrongRequestsAreRefusedByName) {

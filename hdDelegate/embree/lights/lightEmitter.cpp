@@ -204,10 +204,9 @@ float LightEmitter::environmentPdf(const vec3 &normal, bool twoSided, const vec3
     return twoSided ? std::abs(cosine) / (2.0f * lightPi) : std::max(0.0f, cosine) / lightPi;
 }
 
-bool LightEmitter::reaches(const vec3 &normal, bool twoSided, float time) const {
-    if (_kind != Kind::Distant || twoSided || normal == vec3(0.0f)) return true;
-    Pose scratch;
-    return glm::dot(poseAt(time, scratch).toLight, normal) >
+bool LightEmitter::reaches(const vec3 &normal, bool twoSided) const {
+    if (_kind != Kind::Distant || _moves || twoSided || normal == vec3(0.0f)) return true;
+    return glm::dot(_pose.toLight, normal) >
            -std::sin(std::min(_halfAngle, 0.5f * lightPi)) - 1e-4f;
 }
 

@@ -52,7 +52,7 @@ public:
     /// Estimate of the irradiance on a plane that faces the light; lights at infinity only.
     float irradiance() const { return _irradiance; }
     /// False when all of a light at infinity is behind a surface that does not transmit.
-    bool reaches(const vec3 &normal, bool twoSided, float time) const;
+    bool reaches(const vec3 &normal, bool twoSided) const;
 
     /// What the light tree has to know; lights that are not at infinity only.
     LightTreeLeaf leaf(int id) const;

@@ -50,14 +50,13 @@ void LightSet::addTriangle(int triangle, std::vector<LightTreeLeaf> &leaves) {
 
 /// The weights among lights at infinity and the tree, for one point. Half of the choice follows the
 /// estimates of irradiance; the other half is even, as the estimates know nothing of occlusion.
-LightSet::Choice LightSet::makeChoice(const vec3 &point, const vec3 &normal, bool twoSided,
-                                      float time) const {
+LightSet::Choice LightSet::makeChoice(const vec3 &point, const vec3 &normal, bool twoSided) const {
     Choice c;
     c.tree = _tree.importance(point, normal, twoSided);
     c.total = c.tree;
     c.count = c.tree > 0.0f ? 1 : 0;
     for (int light : _infinite)
-        if (_emitters[light].reaches(normal, twoSided, time)) {
+        if (_emitters[light].reaches(normal, twoSided)) {
             c.total += _emitters[light].irradiance();
             ++c.count;
         }
@@ -71,29 +70,25 @@ float LightSet::share(const Choice &choice, float weight) const {
 
 bool LightSet::sample(const vec3 &point, const vec3 &normal, bool twoSided, const vec3 &u,
                       float time, LightSample &out) const {
-    const Choice choice = makeChoice(point, normal, twoSided, time);
+    const Choice choice = makeChoice(point, normal, twoSided);
     if (choice.count == 0) return false;
     float chosen = std::min(u.z, 0x1.fffffep-1f), selection = 0.0f;
     int light = -1;
     for (int candidate : _infinite) {
-        if (!_emitters[candidate].reaches(normal, twoSided, time))
-            continue;
+        if (!_emitters[candidate].reaches(normal, twoSided)) continue;
         // Without a tree the last candidate stays when rounding runs past the end.
         light = candidate;
         selection = share(choice, _emitters[candidate].irradiance());
-        if (chosen < selection)
-            break;
+        if (chosen < selection) break;
         chosen -= selection;
-        if (choice.tree > 0.0f)
-            light = -1;
+        if (choice.tree > 0.0f) light = -1;
     }
     if (light < 0) {
         const float p = share(choice, choice.tree);
         float below;
         light = _tree.choose(point, normal, twoSided, std::min(chosen / p, 0x1.fffffep-1f), below);
         selection = p * below;
-        if (light < 0 || !(selection > 0.0f))
-            return false;
+        if (light < 0 || !(selection > 0.0f)) return false;
     }
     out.light = light;
     out.triangle = -1;
@@ -138,7 +133,6 @@ int LightSet::intersect(const vec3 &origin, const vec3 &direction, float near, f
                                                                 hit.distance, hit.normal))
             return;
         hit.light = light;
-        hit.time = time;
         hit.position = origin + hit.distance * direction;
         hit.radiance = _emitters[light].radiance(hit.position, -direction, time);
         if (count < maxHits) {
@@ -155,42 +149,40 @@ int LightSet::intersect(const vec3 &origin, const vec3 &direction, float near, f
 }
 
 float LightSet::selectionProbability(int light, const vec3 &point, const vec3 &normal,
-                                     bool twoSided, float time) const {
+                                     bool twoSided) const {
     if (light < 0) return 0.0f;
-    const Choice choice = makeChoice(point, normal, twoSided, time);
+    const Choice choice = makeChoice(point, normal, twoSided);
     if (choice.count == 0) return 0.0f;
     if (light < _lightCount && _emitters[light].kind() == LightEmitter::Kind::None) return 0.0f;
     if (light < _lightCount && _emitters[light].atInfinity())
-        return _emitters[light].reaches(normal, twoSided, time)
+        return _emitters[light].reaches(normal, twoSided)
                    ? share(choice, _emitters[light].irradiance())
                    : 0.0f;
     if (!(choice.tree > 0.0f)) return 0.0f;
     return share(choice, choice.tree) * _tree.probability(light, point, normal, twoSided);
 }
 
-float LightSet::pdf(const LightHit &hit, const vec3 &point, const vec3 &normal,
-                    bool twoSided) const {
-    if (hit.light < 0 || hit.light >= _lightCount) return 0.0f;
-    const float shape = _emitters[hit.light].pdf(point, hit.position, hit.normal, hit.time);
-    return shape > 0.0f ? shape * selectionProbability(hit.light, point, normal, twoSided, hit.time)
-                        : 0.0f;
+float LightSet::pdf(int light, const vec3 &point, const vec3 &normal, bool twoSided, float time,
+                    const LightHit &hit) const {
+    if (light < 0 || light >= _lightCount) return 0.0f;
+    const float shape = _emitters[light].pdf(point, hit.position, hit.normal, time);
+    return shape > 0.0f ? shape * selectionProbability(light, point, normal, twoSided) : 0.0f;
 }
 
 float LightSet::pdfInfinite(int light, const vec3 &point, const vec3 &normal, bool twoSided,
                             const vec3 &direction, float time) const {
     if (light < 0 || light >= _lightCount) return 0.0f;
     const float p = _emitters[light].environmentPdf(normal, twoSided, direction, time);
-    return p > 0.0f ? p * selectionProbability(light, point, normal, twoSided, time) : 0.0f;
+    return p > 0.0f ? p * selectionProbability(light, point, normal, twoSided) : 0.0f;
 }
 
-float LightSet::pdfTriangle(int light, const vec3 &point, const vec3 &normal, bool twoSided,
-                            const vec3 &direction, float distance, float time) const {
-    const int triangle = light - _lightCount;
+float LightSet::pdfTriangle(int triangle, const vec3 &point, const vec3 &normal, bool twoSided,
+                            const vec3 &position) const {
     if (triangle < 0 || size_t(triangle) >= _input.triangles.size()) return 0.0f;
     const LightTriangle &t = _input.triangles[triangle];
-    const float p = trianglePdf(t.vertices, t.twoSided, point, point + distance * direction);
+    const float p = trianglePdf(t.vertices, t.twoSided, point, position);
     return p > 0.0f && std::isfinite(p)
-               ? p * selectionProbability(light, point, normal, twoSided, time)
+               ? p * selectionProbability(_lightCount + triangle, point, normal, twoSided)
                : 0.0f;
 }
 

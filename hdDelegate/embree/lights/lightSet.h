@@ -53,7 +53,6 @@ struct LightHit {
     float distance = 0.0f; ///< along the ray
     vec3 position{0.0f}, normal{0.0f};
     vec3 radiance{0.0f}; ///< against the ray's direction
-    float time = 0.0f;   ///< of the ray
 };
 
 /// All lights of a scene during one shutter. Immutable, so threads share it; equal inputs give
@@ -90,13 +89,14 @@ public:
 
     /// Density of an area light that a ray hit.
     /// @param point where the ray's path comes from: sample()'s point
-    float pdf(const LightHit &hit, const vec3 &point, const vec3 &normal, bool twoSided) const;
+    float pdf(int light, const vec3 &point, const vec3 &normal, bool twoSided, float time,
+              const LightHit &hit) const;
     /// Density of a direction to a light at infinity.
     float pdfInfinite(int light, const vec3 &point, const vec3 &normal, bool twoSided,
                       const vec3 &direction, float time) const;
-    /// Density of a point on a triangle. @param light its light index, lightCount() + triangle
-    float pdfTriangle(int light, const vec3 &point, const vec3 &normal, bool twoSided,
-                      const vec3 &direction, float distance, float time) const;
+    /// Density of a position on a triangle. @param triangle index into LightSetInput::triangles
+    float pdfTriangle(int triangle, const vec3 &point, const vec3 &normal, bool twoSided,
+                      const vec3 &position) const;
 
     /// Radiance that arrives from a light at infinity.
     vec3 environment(int light, const vec3 &direction, float time) const;
@@ -104,8 +104,8 @@ public:
     vec3 environment(const vec3 &direction, float time) const;
 
     /// Probability with which sample() chooses a light.
-    float selectionProbability(int light, const vec3 &point, const vec3 &normal, bool twoSided,
-                               float time) const;
+    float selectionProbability(int light, const vec3 &point, const vec3 &normal,
+                               bool twoSided) const;
 
 private:
     /// What chooses between the lights at infinity and the tree at one point.
@@ -115,7 +115,7 @@ private:
     };
 
     void addTriangle(int triangle, std::vector<LightTreeLeaf> &leaves);
-    Choice makeChoice(const vec3 &point, const vec3 &normal, bool twoSided, float time) const;
+    Choice makeChoice(const vec3 &point, const vec3 &normal, bool twoSided) const;
     float share(const Choice &choice, float weight) const;
     bool sampleTriangleLight(int triangle, const vec3 &point, const vec2 &u, float selection,
                              LightSample &out) const;

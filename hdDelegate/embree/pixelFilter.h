@@ -16,7 +16,6 @@ class PixelFilter {
 public:
     explicit PixelFilter(float radius) : _radius(std::max(0.0f, radius)), _box(radius <= 0.5f) {
         double sum = 0.0;
-        std::array<double, size + 1> cdf{};
         for (int i = 0; i < fine; ++i) {
             const double x = ((i + 0.5) / fine * 2.0 - 1.0) * 2.0; // in standard deviations
             sum += std::exp(-0.5 * x * x);

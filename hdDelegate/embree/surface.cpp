@@ -1,5 +1,8 @@
 #include "hdDelegate/embree/surface.h"
 
+#include "hdDelegate/scene/primvarEval.h"
+#include "hdDelegate/scene/tangentFrames.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,15 +13,6 @@ namespace {
 vec3 safeNormalize(const vec3& v, const vec3& fallback) {
     const float length = glm::length(v);
     return length > 1e-30f && std::isfinite(length) ? v / length : fallback;
-}
-
-/// Any pair of unit vectors orthogonal to n (Duff et al. 2017).
-void orthonormal(const vec3& n, vec3& t, vec3& b) {
-    const float sign = std::copysign(1.0f, n.z);
-    const float a = -1.0f / (sign + n.z);
-    const float c = n.x * n.y * a;
-    t = vec3(1.0f + sign * n.x * n.x * a, sign * c, -sign * n.x);
-    b = vec3(c, sign + n.y * n.y * a, -n.y);
 }
 
 template <class T> struct StepPair {
@@ -118,6 +112,19 @@ int Surface::element(unsigned primitive) const {
     return shape == Shape::Curves ? curves.segmentCurve[primitive] : points.pointIndex[primitive];
 }
 
+bool readAttribute(const Surface& surface, int attribute, unsigned primitive, float u, float v,
+                   float out[4]) {
+    const MeshAttribute& a = surface.attributes()[attribute];
+    switch (surface.shape) {
+    case Surface::Shape::Curves:
+        return evalAttribute(surface.curves, a, primitive, u, out);
+    case Surface::Shape::Points:
+        return evalAttribute(surface.points, a, primitive, out);
+    default:
+        return evalAttribute(surface.mesh, a, primitive, u, v, out);
+    }
+}
+
 bool SurfacePoint::read(int slotIndex, float out[4]) const {
     const int attribute = slot->attributes[slotIndex];
     return attribute >= 0 &&
@@ -175,7 +182,7 @@ void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& directi
         const vec3 across = glm::cross(s.normal, s.tangent);
         s.bitangent = glm::dot(across, b) < 0.0f ? -across : across;
     } else {
-        orthonormal(s.normal, s.tangent, s.bitangent);
+        orthonormalBasis(s.normal, s.tangent, s.bitangent);
     }
     s.objectToWorldNormal =
         normalMatrix * glm::transpose(mat3(surface.groupToObject));

@@ -1,0 +1,312 @@
+#include "hdDelegate/scene/sceneDump.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+
+namespace patina {
+
+namespace {
+
+const char* const interpolationNames[] = {"constant", "uniform", "varying", "vertex",
+                                          "faceVarying"};
+const char* const schemeNames[] = {"none", "catmullClark", "loop", "bilinear"};
+const char* const basisNames[] = {"linear", "bezier", "bspline", "catmullRom"};
+const char* const wrapNames[] = {"nonperiodic", "periodic", "pinned"};
+const char* const shapeNames[] = {"sphere", "cube", "cone", "cylinder", "capsule", "plane"};
+const char* const lightNames[] = {"distant", "dome", "sphere", "disk", "rect", "cylinder", "mesh"};
+
+std::string number(double x) {
+    if (x == 0.0) return "0"; // no negative zero
+    char text[32];
+    std::snprintf(text, sizeof(text), "%.6g", x);
+    return text;
+}
+
+std::string text(const std::string& s) {
+    return '"' + s + '"';
+}
+std::string text(double x) {
+    return number(x);
+}
+std::string text(bool x) {
+    return x ? "true" : "false";
+}
+
+/// Writes the fields of prims, leaving out what is as the default.
+class Writer {
+public:
+    explicit Writer(int maxValues) : _maxValues(size_t(maxValues < 0 ? 0 : maxValues)) {}
+
+    void prim(const std::string& kind, const std::string& path) {
+        _out << kind << ' ' << path << '\n';
+    }
+    template <class T> void field(const char* name, const T& value, const T& fallback) {
+        if (value != fallback) line(name, text(value));
+    }
+    void field(const char* name, float value, float fallback) {
+        if (value != fallback) line(name, number(value));
+    }
+    void field(const char* name, int value, int fallback) {
+        if (value != fallback) line(name, number(value));
+    }
+    void line(const std::string& name, const std::string& value) {
+        _out << "  " << name << " = " << value << '\n';
+    }
+    /// @param group numbers that belong together
+    template <class T>
+    void array(const std::string& name, const T* data, size_t count, int group = 1) {
+        if (count) line(name, list(data, count, group));
+    }
+    void array(const std::string& name, const std::vector<int>& v) {
+        array(name, v.data(), v.size());
+    }
+    void array(const std::string& name, const std::vector<float>& v) {
+        array(name, v.data(), v.size());
+    }
+    void names(const std::string& name, const std::vector<std::string>& v) {
+        if (v.empty()) return;
+        std::string all;
+        for (const std::string& s : v)
+            all += (all.empty() ? "" : " ") + s;
+        line(name, all);
+    }
+    void transform(const std::string& name, const MotionTransform& m) {
+        if (!m.moves() && !m.empty() && m.first() == mat4(1.0f)) return;
+        for (size_t i = 0; i < m.values.size(); ++i)
+            array(timed(name, m.times, i), &m.values[i][0][0], 16, 4);
+    }
+    void points(const Sampled<std::vector<vec3>>& p) {
+        for (size_t i = 0; i < p.values.size(); ++i)
+            if (!p.values[i].empty())
+                array(timed("points", p.times, i), &p.values[i][0].x, 3 * p.values[i].size(), 3);
+    }
+    std::string str() const { return _out.str(); }
+
+private:
+    static std::string timed(const std::string& name, const std::vector<float>& times, size_t i) {
+        return times.size() > 1 ? name + "@" + number(times[i]) : name;
+    }
+    template <class T> std::string list(const T* data, size_t count, int group) const {
+        std::string all;
+        const size_t shown =
+            count <= _maxValues ? count : _maxValues - _maxValues % size_t(group);
+        for (size_t i = 0; i < shown; ++i)
+            all += (i == 0 ? "" : i % size_t(group) ? " " : (group > 1 ? ", " : " ")) +
+                   number(double(data[i]));
+        if (shown < count) {
+            // FNV-1a over the rounded text of what is not shown would be slow; bits are enough.
+            uint32_t hash = 2166136261u;
+            for (size_t i = shown; i < count; ++i) {
+                uint32_t bits;
+                static_assert(sizeof(T) == sizeof(bits), "floats and ints");
+                std::memcpy(&bits, &data[i], sizeof(bits));
+                hash = (hash ^ bits) * 16777619u;
+            }
+            char tail[64];
+            std::snprintf(tail, sizeof(tail), "%s... %zu values, %08x", all.empty() ? "" : " ",
+                          count, hash);
+            all += tail;
+        }
+        return all;
+    }
+
+    std::ostringstream _out;
+    size_t _maxValues;
+};
+
+void writePrimvars(Writer& w, const std::vector<Primvar>& primvars) {
+    for (const Primvar& p : primvars) {
+        std::string name = "primvar " + p.name + " " + interpolationNames[int(p.interpolation)];
+        if (p.components > 1) name += " x" + std::to_string(p.components);
+        w.array(name, p.values.data(), p.values.size(), p.components);
+        w.array("primvar " + p.name + " indices", p.indices);
+    }
+}
+
+void writeVisibility(Writer& w, const Visibility& v) {
+    w.field("visibility camera", v.camera, true);
+    w.field("visibility indirect", v.indirect, true);
+    w.field("visibility shadow", v.shadow, true);
+}
+
+void writeMesh(Writer& w, const Mesh& m) {
+    const Mesh d;
+    w.points(m.points);
+    w.array("faceVertexCounts", m.faceVertexCounts);
+    w.array("faceVertexIndices", m.faceVertexIndices);
+    w.array("holeIndices", m.holeIndices);
+    if (m.scheme != d.scheme) w.line("scheme", schemeNames[int(m.scheme)]);
+    w.field("interpolateBoundary", m.interpolateBoundary, d.interpolateBoundary);
+    w.field("faceVaryingLinearInterpolation", m.faceVaryingLinearInterpolation,
+            d.faceVaryingLinearInterpolation);
+    w.field("triangleSubdivisionRule", m.triangleSubdivisionRule, d.triangleSubdivisionRule);
+    w.array("creaseIndices", m.creaseIndices);
+    w.array("creaseLengths", m.creaseLengths);
+    w.array("creaseSharpnesses", m.creaseSharpnesses);
+    w.array("cornerIndices", m.cornerIndices);
+    w.array("cornerSharpnesses", m.cornerSharpnesses);
+    w.field("refineLevel", m.refineLevel, d.refineLevel);
+}
+
+void writeImplicit(Writer& w, const Implicit& i) {
+    const Implicit d;
+    w.line("shape", shapeNames[int(i.shape)]);
+    w.field("axis", i.axis, d.axis);
+    w.field("radius", i.radius, d.radius);
+    w.field("radiusTop", i.radiusTop, d.radiusTop);
+    w.field("height", i.height, d.height);
+    w.field("size", i.size, d.size);
+    w.field("width", i.width, d.width);
+    w.field("length", i.length, d.length);
+}
+
+void writeGeometry(Writer& w, const Geometry& g) {
+    static const char* const kinds[] = {"Mesh", "Curves", "Points", "Implicit"};
+    w.prim(kinds[int(g.kind)], g.path);
+    w.field("group", g.group, std::string());
+    w.transform("transform", g.transform);
+    writeVisibility(w, g.visibility);
+    w.field("material", g.material, std::string());
+    w.field("doubleSided", g.doubleSided, true);
+    w.field("leftHanded", g.leftHanded, false);
+    w.names("categories", g.categories);
+    if (const auto* mesh = dynamic_cast<const Mesh*>(&g)) writeMesh(w, *mesh);
+    if (const auto* implicit = dynamic_cast<const Implicit*>(&g)) writeImplicit(w, *implicit);
+    if (const auto* points = dynamic_cast<const Points*>(&g)) w.points(points->points);
+    if (const auto* curves = dynamic_cast<const Curves*>(&g)) {
+        w.points(curves->points);
+        w.array("curveVertexCounts", curves->curveVertexCounts);
+        w.line("basis", basisNames[int(curves->basis)]);
+        if (curves->wrap != CurveWrap::Nonperiodic) w.line("wrap", wrapNames[int(curves->wrap)]);
+    }
+    for (const GeomSubset& s : g.subsets)
+        w.array("subset " + s.path + " material " + text(s.material), s.faces);
+    writePrimvars(w, g.primvars);
+}
+
+void writeInstancer(Writer& w, const Instancer& i) {
+    w.prim("Instancer", i.path);
+    w.field("group", i.group, std::string());
+    writeVisibility(w, i.visibility);
+    w.names("prototypes", i.prototypes);
+    w.array("prototypeIndices", i.prototypeIndices);
+    for (size_t k = 0; k < i.transforms.size() && k < 64; ++k)
+        w.transform("transform " + std::to_string(k), i.transforms[k]);
+    w.line("instances", std::to_string(i.transforms.size()));
+    w.array("ids", i.ids);
+    for (size_t k = 0; k < i.categories.size() && k < 64; ++k)
+        w.names("categories " + std::to_string(k), i.categories[k]);
+    writePrimvars(w, i.primvars);
+}
+
+void writeVector(Writer& w, const char* name, const vec3& v, const vec3& fallback) {
+    if (v != fallback) w.array(name, &v.x, 3);
+}
+
+void writeLight(Writer& w, const Light& l) {
+    const Light d;
+    w.prim("Light", l.path);
+    w.line("type", lightNames[int(l.type)]);
+    w.field("group", l.group, d.group);
+    w.transform("transform", l.transform);
+    w.field("visible", l.visible, d.visible);
+    w.field("cameraVisible", l.cameraVisible, d.cameraVisible);
+    writeVector(w, "color", l.color, d.color);
+    w.field("intensity", l.intensity, d.intensity);
+    w.field("exposure", l.exposure, d.exposure);
+    w.field("diffuse", l.diffuse, d.diffuse);
+    w.field("specular", l.specular, d.specular);
+    w.field("normalize", l.normalize, d.normalize);
+    w.field("enableColorTemperature", l.enableColorTemperature, d.enableColorTemperature);
+    w.field("colorTemperature", l.colorTemperature, d.colorTemperature);
+    w.field("angle", l.angle, d.angle);
+    w.field("radius", l.radius, d.radius);
+    w.field("width", l.width, d.width);
+    w.field("height", l.height, d.height);
+    w.field("length", l.length, d.length);
+    w.field("treatAsPoint", l.treatAsPoint, d.treatAsPoint);
+    w.field("treatAsLine", l.treatAsLine, d.treatAsLine);
+    w.field("textureFile", l.textureFile, d.textureFile);
+    w.field("textureFormat", l.textureFormat, d.textureFormat);
+    w.field("textureColorSpace", l.textureColorSpace, d.textureColorSpace);
+    w.field("shapingFocus", l.shapingFocus, d.shapingFocus);
+    writeVector(w, "shapingFocusTint", l.shapingFocusTint, d.shapingFocusTint);
+    w.field("shapingConeAngle", l.shapingConeAngle, d.shapingConeAngle);
+    w.field("shapingConeSoftness", l.shapingConeSoftness, d.shapingConeSoftness);
+    w.field("shapingConeAuthored", l.shapingConeAuthored, d.shapingConeAuthored);
+    w.field("iesFile", l.iesFile, d.iesFile);
+    w.field("iesAngleScale", l.iesAngleScale, d.iesAngleScale);
+    w.field("iesNormalize", l.iesNormalize, d.iesNormalize);
+    w.field("shadowEnable", l.shadowEnable, d.shadowEnable);
+    writeVector(w, "shadowColor", l.shadowColor, d.shadowColor);
+    w.field("shadowDistance", l.shadowDistance, d.shadowDistance);
+    w.field("shadowFalloff", l.shadowFalloff, d.shadowFalloff);
+    w.field("shadowFalloffGamma", l.shadowFalloffGamma, d.shadowFalloffGamma);
+    w.field("lightLink", l.lightLink, d.lightLink);
+    w.field("shadowLink", l.shadowLink, d.shadowLink);
+    w.field("geometry", l.geometry, d.geometry);
+    w.field("materialSyncMode", l.materialSyncMode, d.materialSyncMode);
+}
+
+void writeCamera(Writer& w, const Camera& c) {
+    const Camera d;
+    w.prim("Camera", c.path);
+    w.transform("transform", c.transform);
+    w.field("orthographic", c.orthographic, d.orthographic);
+    w.field("horizontalAperture", c.horizontalAperture, d.horizontalAperture);
+    w.field("verticalAperture", c.verticalAperture, d.verticalAperture);
+    w.field("horizontalApertureOffset", c.horizontalApertureOffset, d.horizontalApertureOffset);
+    w.field("verticalApertureOffset", c.verticalApertureOffset, d.verticalApertureOffset);
+    w.field("focalLength", c.focalLength, d.focalLength);
+    w.field("fStop", c.fStop, d.fStop);
+    w.field("focusDistance", c.focusDistance, d.focusDistance);
+    w.field("clipNear", c.clipNear, d.clipNear);
+    w.field("clipFar", c.clipFar, d.clipFar);
+    if (!c.clippingPlanes.empty())
+        w.array("clippingPlanes", &c.clippingPlanes[0].x, 4 * c.clippingPlanes.size(), 4);
+    w.field("shutterOpen", c.shutterOpen, d.shutterOpen);
+    w.field("shutterClose", c.shutterClose, d.shutterClose);
+    w.field("exposureScale", c.exposureScale, d.exposureScale);
+}
+
+void writeMaterial(Writer& w, const MaterialPrim& m) {
+    w.prim("Material", m.path);
+    for (const auto& [name, c] : m.network.terminals)
+        w.line("terminal " + name, c.node + (c.output.empty() ? "" : "." + c.output));
+    for (const NetworkNode& node : m.network.nodes) {
+        w.line("node " + node.path, node.id);
+        for (const auto& [name, value] : node.inputs) {
+            const std::string label = "  " + std::string(valueTypeName(value.type)) + " " + name;
+            if (valueTypeComponents(value.type) == 0)
+                w.line(label, text(value.text));
+            else
+                w.array(label, value.numbers);
+            if (!value.colorSpace.empty()) w.line("  colorSpace " + name, value.colorSpace);
+        }
+        for (const auto& [name, c] : node.connections)
+            w.line("  connect " + name, c.node + (c.output.empty() ? "" : "." + c.output));
+    }
+}
+
+} // namespace
+
+std::string dumpScene(const SceneState& scene, int maxValues) {
+    Writer w(maxValues);
+    if (scene.metersPerUnit != 0.01) w.line("metersPerUnit", number(scene.metersPerUnit));
+    for (const auto& item : scene.cameras)
+        writeCamera(w, *item.second);
+    for (const auto& item : scene.geometry)
+        writeGeometry(w, *item.second);
+    for (const auto& item : scene.instancers)
+        writeInstancer(w, *item.second);
+    for (const auto& item : scene.lights)
+        writeLight(w, *item.second);
+    for (const auto& item : scene.materials)
+        writeMaterial(w, *item.second);
+    return w.str();
+}
+
+} // namespace patina

@@ -1,0 +1,193 @@
+// The scene, its edits, lights and cameras.
+
+#include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/sceneDump.h"
+#include "plugin/python/fields.h"
+
+namespace py = pybind11;
+
+namespace patina {
+
+void bindSceneGeometry(py::class_<SceneEdit>& edit);
+
+namespace {
+
+void setLight(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+    auto light = std::make_shared<Light>();
+    light->path = path;
+    Fields("set_light", path, values)
+        .read("group", light->group)
+        .read("type", light->type)
+        .read("transform", light->transform)
+        .read("visible", light->visible)
+        .read("camera_visible", light->cameraVisible)
+        .read("color", light->color)
+        .read("intensity", light->intensity)
+        .read("exposure", light->exposure)
+        .read("diffuse", light->diffuse)
+        .read("specular", light->specular)
+        .read("normalize", light->normalize)
+        .read("enable_color_temperature", light->enableColorTemperature)
+        .read("color_temperature", light->colorTemperature)
+        .read("angle", light->angle)
+        .read("radius", light->radius)
+        .read("width", light->width)
+        .read("height", light->height)
+        .read("length", light->length)
+        .read("treat_as_point", light->treatAsPoint)
+        .read("treat_as_line", light->treatAsLine)
+        .read("texture_file", light->textureFile)
+        .read("texture_format", light->textureFormat)
+        .read("texture_color_space", light->textureColorSpace)
+        .read("guide_radius", light->guideRadius)
+        .read("shaping_focus", light->shapingFocus)
+        .read("shaping_focus_tint", light->shapingFocusTint)
+        .read("shaping_cone_angle", light->shapingConeAngle)
+        .read("shaping_cone_softness", light->shapingConeSoftness)
+        .read("shaping_cone_authored", light->shapingConeAuthored)
+        .read("ies_file", light->iesFile)
+        .read("ies_angle_scale", light->iesAngleScale)
+        .read("ies_normalize", light->iesNormalize)
+        .read("shadow_enable", light->shadowEnable)
+        .read("shadow_color", light->shadowColor)
+        .read("shadow_distance", light->shadowDistance)
+        .read("shadow_falloff", light->shadowFalloff)
+        .read("shadow_falloff_gamma", light->shadowFalloffGamma)
+        .read("light_link", light->lightLink)
+        .read("shadow_link", light->shadowLink)
+        .read("geometry", light->geometry)
+        .read("material_sync_mode", light->materialSyncMode)
+        .finish();
+    edit.set(std::shared_ptr<const Light>(std::move(light)));
+}
+
+void setCamera(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+    auto camera = std::make_shared<Camera>();
+    camera->path = path;
+    Fields("set_camera", path, values)
+        .read("transform", camera->transform)
+        .read("orthographic", camera->orthographic)
+        .read("horizontal_aperture", camera->horizontalAperture)
+        .read("vertical_aperture", camera->verticalAperture)
+        .read("horizontal_aperture_offset", camera->horizontalApertureOffset)
+        .read("vertical_aperture_offset", camera->verticalApertureOffset)
+        .read("focal_length", camera->focalLength)
+        .read("f_stop", camera->fStop)
+        .read("focus_distance", camera->focusDistance)
+        .read("clip_near", camera->clipNear)
+        .read("clip_far", camera->clipFar)
+        .read("clipping_planes", camera->clippingPlanes)
+        .read("shutter_open", camera->shutterOpen)
+        .read("shutter_close", camera->shutterClose)
+        .read("exposure_scale", camera->exposureScale)
+        .finish();
+    edit.set(std::shared_ptr<const Camera>(std::move(camera)));
+}
+
+void setMaterial(SceneEdit& edit, const std::string& path, const Network& network) {
+    auto material = std::make_shared<MaterialPrim>();
+    material->path = path;
+    material->network = network;
+    edit.set(std::shared_ptr<const MaterialPrim>(std::move(material)));
+}
+
+template <class T> const T& find(const PrimMap<T>& prims, const std::string& path) {
+    const auto found = prims.find(path);
+    if (found == prims.end()) throw py::key_error(path);
+    return *found->second;
+}
+
+py::dict cameraDict(const Scene& scene, const std::string& path) {
+    const auto state = scene.snapshot();
+    const Camera& camera = find(state->cameras, path);
+    py::dict dict;
+    dict["path"] = camera.path;
+    dict["orthographic"] = camera.orthographic;
+    dict["horizontal_aperture"] = camera.horizontalAperture;
+    dict["vertical_aperture"] = camera.verticalAperture;
+    dict["horizontal_aperture_offset"] = camera.horizontalApertureOffset;
+    dict["vertical_aperture_offset"] = camera.verticalApertureOffset;
+    dict["focal_length"] = camera.focalLength;
+    dict["f_stop"] = camera.fStop;
+    dict["focus_distance"] = camera.focusDistance;
+    dict["shutter_open"] = camera.shutterOpen;
+    dict["shutter_close"] = camera.shutterClose;
+    dict["exposure_scale"] = camera.exposureScale;
+    return dict;
+}
+
+template <class T> std::vector<std::string> keys(const PrimMap<T>& prims) {
+    std::vector<std::string> paths;
+    for (const auto& item : prims)
+        paths.push_back(item.first);
+    return paths;
+}
+
+std::vector<std::string> paths(const Scene& scene, const std::string& kind) {
+    const auto state = scene.snapshot();
+    if (kind == "geometry") return keys(state->geometry);
+    if (kind == "instancers") return keys(state->instancers);
+    if (kind == "lights") return keys(state->lights);
+    if (kind == "cameras") return keys(state->cameras);
+    if (kind == "materials") return keys(state->materials);
+    throw py::value_error("there is no kind of prim '" + kind + "'");
+}
+
+py::list warnings(Scene& scene) {
+    py::list list;
+    for (const Diagnostic& d : scene.diagnostics().all()) {
+        py::dict item;
+        item["prim"] = d.prim;
+        item["input"] = d.input;
+        item["message"] = d.message;
+        item["count"] = d.count;
+        list.append(item);
+    }
+    return list;
+}
+
+} // namespace
+
+void bindScene(py::module_& m) {
+    py::class_<SceneEdit> edit(m, "SceneEdit", "A batch of changes to a scene.");
+    bindSceneGeometry(edit);
+    edit.def("set_light", &setLight, "A UsdLux light; keywords are the fields of Light.")
+        .def("set_camera", &setCamera, "A UsdGeomCamera; keywords are the fields of Camera.")
+        .def("set_material", &setMaterial, py::arg("path"), py::arg("network"))
+        .def("set_meters_per_unit", &SceneEdit::setMetersPerUnit, py::arg("meters_per_unit"))
+        .def("remove", &SceneEdit::remove, py::arg("path"))
+        .def("clear", &SceneEdit::clear, "Removes everything that was there before.")
+        .def("commit", &SceneEdit::commit, py::call_guard<py::gil_scoped_release>())
+        .def("__enter__", [](py::object self) { return self; })
+        .def("__exit__", [](SceneEdit& self, const py::args&) { self.commit(); });
+
+    py::class_<Scene, std::shared_ptr<Scene>>(m, "Scene", "The renderer's own scene.")
+        .def(py::init<>())
+        .def(
+            "edit", [](Scene& scene) { return std::make_unique<SceneEdit>(scene); },
+            py::keep_alive<0, 1>())
+        .def_property_readonly("version", [](const Scene& s) { return s.snapshot()->version; })
+        .def_property_readonly("meters_per_unit",
+                               [](const Scene& s) { return s.snapshot()->metersPerUnit; })
+        .def("paths", &paths, py::arg("kind"))
+        .def("camera", &cameraDict, py::arg("path"))
+        .def(
+            "material",
+            [](const Scene& s, const std::string& path) {
+                return find(s.snapshot()->materials, path).network;
+            },
+            py::arg("path"))
+        .def(
+            "dump",
+            [](const Scene& s, int values) { return dumpScene(*s.snapshot(), values); },
+            py::arg("values") = 16)
+        .def(
+            "warn",
+            [](Scene& s, const std::string& prim, const std::string& input,
+               const std::string& message) { s.diagnostics().warn(prim, input, message); },
+            py::arg("prim"), py::arg("input"), py::arg("message"))
+        .def("warnings", &warnings)
+        .def("clear_warnings", [](Scene& s) { s.diagnostics().clear(); });
+}
+
+} // namespace patina

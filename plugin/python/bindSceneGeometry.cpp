@@ -1,0 +1,114 @@
+// Geometry of a scene edit.
+
+#include "hdDelegate/scene/scene.h"
+#include "plugin/python/fields.h"
+
+namespace py = pybind11;
+
+namespace patina {
+
+namespace {
+
+Fields& readCommon(Fields& fields, Geometry& g) {
+    return fields.read("group", g.group)
+        .read("transform", g.transform)
+        .read("visibility", g.visibility)
+        .read("material", g.material)
+        .read("subsets", g.subsets)
+        .read("primvars", g.primvars)
+        .read("categories", g.categories)
+        .read("double_sided", g.doubleSided)
+        .read("left_handed", g.leftHanded);
+}
+
+void setMesh(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+    auto mesh = std::make_shared<Mesh>();
+    mesh->path = path;
+    Fields fields("set_mesh", path, values);
+    readCommon(fields, *mesh)
+        .read("points", mesh->points)
+        .read("face_vertex_counts", mesh->faceVertexCounts)
+        .read("face_vertex_indices", mesh->faceVertexIndices)
+        .read("hole_indices", mesh->holeIndices)
+        .read("scheme", mesh->scheme)
+        .read("interpolate_boundary", mesh->interpolateBoundary)
+        .read("face_varying_linear_interpolation", mesh->faceVaryingLinearInterpolation)
+        .read("triangle_subdivision_rule", mesh->triangleSubdivisionRule)
+        .read("crease_indices", mesh->creaseIndices)
+        .read("crease_lengths", mesh->creaseLengths)
+        .read("crease_sharpnesses", mesh->creaseSharpnesses)
+        .read("corner_indices", mesh->cornerIndices)
+        .read("corner_sharpnesses", mesh->cornerSharpnesses)
+        .read("refine_level", mesh->refineLevel)
+        .finish();
+    edit.set(std::shared_ptr<const Geometry>(std::move(mesh)));
+}
+
+void setCurves(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+    auto curves = std::make_shared<Curves>();
+    curves->path = path;
+    Fields fields("set_curves", path, values);
+    readCommon(fields, *curves)
+        .read("points", curves->points)
+        .read("curve_vertex_counts", curves->curveVertexCounts)
+        .read("basis", curves->basis)
+        .read("wrap", curves->wrap)
+        .finish();
+    edit.set(std::shared_ptr<const Geometry>(std::move(curves)));
+}
+
+void setPoints(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+    auto points = std::make_shared<Points>();
+    points->path = path;
+    Fields fields("set_points", path, values);
+    readCommon(fields, *points).read("points", points->points).finish();
+    edit.set(std::shared_ptr<const Geometry>(std::move(points)));
+}
+
+void setImplicit(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+    auto implicit = std::make_shared<Implicit>();
+    implicit->path = path;
+    Fields fields("set_implicit", path, values);
+    readCommon(fields, *implicit)
+        .read("shape", implicit->shape)
+        .read("axis", implicit->axis)
+        .read("radius", implicit->radius)
+        .read("radius_top", implicit->radiusTop)
+        .read("height", implicit->height)
+        .read("size", implicit->size)
+        .read("width", implicit->width)
+        .read("length", implicit->length)
+        .finish();
+    edit.set(std::shared_ptr<const Geometry>(std::move(implicit)));
+}
+
+void setInstancer(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+    auto instancer = std::make_shared<Instancer>();
+    instancer->path = path;
+    Fields fields("set_instancer", path, values);
+    fields.read("group", instancer->group)
+        .read("prototypes", instancer->prototypes)
+        .read("prototype_indices", instancer->prototypeIndices)
+        .read("transforms", instancer->transforms)
+        .read("ids", instancer->ids)
+        .read("categories", instancer->categories)
+        .read("primvars", instancer->primvars)
+        .read("visibility", instancer->visibility)
+        .finish();
+    if (instancer->transforms.size() != instancer->prototypeIndices.size())
+        throw py::value_error("set_instancer: " + path +
+                              ": needs as many transforms as prototype_indices");
+    edit.set(std::shared_ptr<const Instancer>(std::move(instancer)));
+}
+
+} // namespace
+
+void bindSceneGeometry(py::class_<SceneEdit>& edit) {
+    edit.def("set_mesh", &setMesh, "A UsdGeomMesh; keywords are the fields of Mesh.")
+        .def("set_curves", &setCurves, "A UsdGeomBasisCurves; keywords are the fields of Curves.")
+        .def("set_points", &setPoints, "A UsdGeomPoints; keywords are the fields of Points.")
+        .def("set_implicit", &setImplicit, "Sphere, cube, cone, cylinder, capsule or plane.")
+        .def("set_instancer", &setInstancer, "Copies of groups; keywords are Instancer's fields.");
+}
+
+} // namespace patina

@@ -79,7 +79,8 @@ RenderSettings settingsFrom(const py::dict& dict) {
         try {
             field->second.set(settings, item.second);
         } catch (const py::cast_error&) {
-            throw py::value_error("render setting '" + name + "' has a value of the wrong type or size");
+            throw py::value_error("render setting '" + name +
+                                  "' has a value of the wrong type or size");
         }
     }
     return settings;
@@ -95,8 +96,7 @@ py::dict defaults() {
 
 void start(Renderer& renderer, std::shared_ptr<Scene> scene, const std::string& camera,
            const py::dict& settings, std::shared_ptr<Film> film) {
-    if (!scene || !film)
-        throw py::value_error("a render needs a scene and a film");
+    if (!scene || !film) throw py::value_error("a render needs a scene and a film");
     const RenderSettings s = settingsFrom(settings);
     py::gil_scoped_release release;
     renderer.start(std::move(scene), camera, s, std::move(film));
@@ -107,15 +107,15 @@ bool wait(Renderer& renderer, double timeout) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
     for (int step = 0; renderer.isRunning(); ++step) {
-        if (timeout >= 0.0 && std::chrono::duration<double>(Clock::now() - begin).count() >= timeout)
+        if (timeout >= 0.0 &&
+            std::chrono::duration<double>(Clock::now() - begin).count() >= timeout)
             return false;
         {
             py::gil_scoped_release release;
             // Short renders are not held up by the first steps.
             std::this_thread::sleep_for(std::chrono::milliseconds(step < 20 ? 1 : 10));
         }
-        if (PyErr_CheckSignals() != 0)
-            throw py::error_already_set();
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     }
     return true;
 }
@@ -136,8 +136,7 @@ py::dict progress(const Renderer& renderer) {
 
 std::unique_ptr<Renderer> make(const std::string& backend) {
     std::unique_ptr<Renderer> renderer = makeRenderer(backend);
-    if (!renderer)
-        throw py::value_error("there is no back end '" + backend + "'");
+    if (!renderer) throw py::value_error("there is no back end '" + backend + "'");
     return renderer;
 }
 
@@ -145,7 +144,8 @@ std::unique_ptr<Renderer> make(const std::string& backend) {
 
 void bindRender(py::module_& m) {
     py::class_<Renderer>(m, "Renderer", "Renders a scene into a film, in the background.")
-        .def("start", &start, py::arg("scene"), py::arg("camera"), py::arg("settings"), py::arg("film"),
+        .def("start", &start, py::arg("scene"), py::arg("camera"), py::arg("settings"),
+             py::arg("film"),
              "Starts rendering the scene's newest state; ValueError names an unknown setting.")
         .def("stop", &Renderer::stop, py::call_guard<py::gil_scoped_release>(),
              "Returns when no thread works on the film any more.")

@@ -31,6 +31,7 @@ def add_arguments(parser):
     parser.add_argument("--fail", action="append", default=[], metavar="METRIC=LIMIT",
                         help=f"exit with 1 if a metric's size is above a limit; one of {', '.join(METRICS)} "
                              "(repeatable)")
+    parser.add_argument("--no-flip", action="store_true", help="leave FLIP out: it takes the longest")
     parser.add_argument("--json", metavar="FILE", help="write the numbers as JSON: --json to standard output, "
                                                        "--json=FILE to a file")
 
@@ -40,7 +41,8 @@ def run(arguments):
     a, b = (_read(path, arguments.aov) for path in (arguments.a, arguments.b))
     if a.shape != b.shape:
         raise CommandError(f"{arguments.a} is {_size(a)}, but {arguments.b} is {_size(b)}")
-    result = measure(a, b, _is_linear(arguments.a) and _is_linear(arguments.b))
+    result = measure(a, b, _is_linear(arguments.a) and _is_linear(arguments.b),
+                     not arguments.no_flip)
     _show(result, arguments)
     over = [f"{name} {value:.6g} > {limit:.6g}" for name, limit in limits.items()
             for value in [_metric(result, name)] if not abs(value) <= limit]
@@ -48,12 +50,12 @@ def run(arguments):
         raise CommandError(f"{arguments.a} differs too much from {arguments.b}: {', '.join(over)}")
 
 
-def measure(a, b, linear):
+def measure(a, b, linear, with_flip=True):
     """:returns: dict of everything that the command shows"""
     result = {"width": a.shape[1], "height": a.shape[0], "channels": a.shape[2],
               "notFinite": {"a": imageMetrics.count_not_finite(a), "b": imageMetrics.count_not_finite(b)}}
     result.update(imageMetrics.differences(a, b))
-    result["flip"] = imageMetrics.mean_flip(a, b, linear) if a.shape[2] == 3 else None
+    result["flip"] = imageMetrics.mean_flip(a, b, linear) if with_flip and a.shape[2] == 3 else None
     return result
 
 
@@ -129,5 +131,5 @@ def _show(result, arguments):
           ("" if relative is None else f" ({100 * relative:+.4g} %)"))
     where = result["maxAt"]
     print(f"largest difference  {result['maxDifference']:.6g}" + (f" at {where[0]}, {where[1]}" if where else ""))
-    if result["flip"] is None and result["channels"] == 3:
+    if result["flip"] is None and result["channels"] == 3 and not arguments.no_flip:
         print("FLIP needs the PyPI package flip-evaluator", file=sys.stderr)

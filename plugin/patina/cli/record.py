@@ -7,8 +7,6 @@
 Ctrl+C ends a render early: the image is written with the samples that are there, and
 IMAGE.checkpoint stays for --resume. An image that was there before is replaced only by a whole one.
 """
-import time
-
 from patina.cli import checkpoints, compiled, frames, openStage, overrides, recordFlags, statistics
 from patina.cli.errors import CommandError
 from patina.cli.interrupts import Interrupts
@@ -87,7 +85,10 @@ class _Job:
         """:returns: dict of width and height: what is not given follows from the camera's aperture"""
         a = self.arguments
         width, height = a.imageWidth, a.imageHeight
-        aspect = info.aspect / a.pixelAspectRatio if info.aspect > 0.0 else 16.0 / 9.0
+        camera = self.scene.camera(info.camera)
+        apertures = camera["horizontal_aperture"], camera["vertical_aperture"]
+        aspect = apertures[0] / apertures[1] if min(apertures) > 0.0 else 16.0 / 9.0
+        aspect /= a.pixelAspectRatio
         if width is None:
             width = DEFAULT_WIDTH if height is None else max(1, round(height * aspect))
         if height is None:
@@ -138,7 +139,7 @@ class _Job:
 
     def _check_warnings(self):
         """Shows what is new; with --strict the render ends here."""
-        self.statistics.collect(self.scene.diagnostics)
+        self.statistics.collect(self.scene)
         warnings = self.statistics.warnings()
         if not self.arguments.quiet:
             for text in statistics.lines(warnings)[self.shown:MOST_WARNINGS]:

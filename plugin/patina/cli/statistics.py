@@ -76,10 +76,9 @@ class Statistics:
     def warn(self, prim, name, message):
         self._own.append({"prim": prim, "input": name, "message": message, "count": 1})
 
-    def collect(self, diagnostics):
+    def collect(self, scene):
         """Takes the warnings of a scene: all that were reported so far."""
-        self._scene = [{"prim": d.prim, "input": d.input, "message": d.message, "count": d.count}
-                       for d in diagnostics.all()]
+        self._scene = scene.warnings()
 
     def warnings(self):
         return self._own + self._scene

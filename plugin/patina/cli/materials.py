@@ -1,0 +1,78 @@
+"""MATERIAL arguments: FILE[:/prim/path] of a stage, or FILE.mtlx[:name]."""
+import os
+
+from patina.cli import compiled, openStage, overrides
+from patina.cli.errors import CommandError
+
+MATERIAL_HELP = "FILE[:/prim/path] of a stage or FILE.mtlx[:name]; without a path or name: the only material of the file"
+
+
+def split(text):
+    """:returns: the file, and the path or name behind its last colon ('' when there is none)"""
+    if os.path.exists(text):
+        return text, ""
+    file, colon, name = text.rpartition(":")
+    if not colon:
+        return text, ""
+    return file, name
+
+
+def is_document(file):
+    return file.lower().endswith(".mtlx")
+
+
+def load(text, set_texts=(), every=False):
+    """Reads the networks that an argument means, with --set done.
+
+    :param every: all materials of the file where none is named; otherwise there must be one
+    :returns: list of (name, network), and the list of warnings that reading gave
+    """
+    file, name = split(text)
+    if not os.path.exists(file):
+        raise CommandError(f"there is no file {file}")
+    warnings = []
+    found = _of_document(file, warnings) if is_document(file) else _of_stage(file, set_texts, warnings)
+    if name:
+        chosen = [pair for pair in found if pair[0] == name or pair[0].rpartition("/")[2] == name]
+        if not chosen:
+            raise CommandError(f"{file} has no material {name}" + _list(found))
+        found = chosen[:1]
+    if not found:
+        reason = warnings[0]["message"] if warnings else "it holds no materials"
+        raise CommandError(f"{file}: {reason}")
+    if len(found) > 1 and not every:
+        raise CommandError(f"{file} holds {len(found)} materials, name one" + _list(found))
+    if is_document(file) and set_texts:
+        found = [(label, _override(network, set_texts)) for label, network in found]
+    return found, warnings
+
+
+def _list(found):
+    names = [label for label, _ in found]
+    return f" (there are: {', '.join(names[:12])}{', ...' if len(names) > 12 else ''})" if names else ""
+
+
+def _of_document(file, warnings):
+    networks = compiled.load().read_mtlx(file, warnings)
+    return [(network.path.rpartition(":")[2], network) for network in networks]
+
+
+def _of_stage(file, set_texts, warnings):
+    from patina import stage as reader
+
+    stage = openStage.open_stage(file)
+    overrides.apply(stage, set_texts)
+    return reader.read_materials(stage, warnings)
+
+
+def _override(network, set_texts):
+    inputs = {}
+    for text in set_texts:
+        target, equals, value = text.partition("=")
+        if not equals:
+            raise CommandError(f"--set {text}: write it as NODE.INPUT=VALUE")
+        inputs[target] = value
+    try:
+        return compiled.load().override_material(network, inputs)
+    except ValueError as error:
+        raise CommandError(f"--set: {error}") from error

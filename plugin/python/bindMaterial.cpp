@@ -1,0 +1,237 @@
+// Materials of the Python module: numbers of a BSDF, explanations, MaterialX documents. Arrays of
+// directions have a row of three for each; unit vectors in the shading frame (z normal, x tangent).
+
+#include "hdDelegate/scene/textureSystem.h"
+#include "materialNetwork/material.h"
+#include "materialNetwork/mtlx/document.h"
+#include "materialNetwork/nodeTable.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace py = pybind11;
+
+namespace patina {
+
+namespace {
+
+using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+void appendWarnings(const Diagnostics& diagnostics, py::object& list) {
+    if (list.is_none()) return;
+    for (const Diagnostic& d : diagnostics.all()) {
+        py::dict warning;
+        warning["prim"] = d.prim;
+        warning["input"] = d.input;
+        warning["message"] = d.message;
+        warning["count"] = d.count;
+        list.attr("append")(warning);
+    }
+}
+
+/// A compiled material with all that it needs to live.
+struct MaterialProbe {
+    Diagnostics diagnostics;
+    TextureSystem textures{diagnostics};
+    std::shared_ptr<const MaterialProgram> program;
+
+    explicit MaterialProbe(const Network& network) {
+        py::gil_scoped_release release;
+        program = compileMaterial(network, textures, diagnostics);
+    }
+};
+
+ShadingPoint pointSeenFrom(const glm::vec3& wo) {
+    ShadingPoint point;
+    point.viewDirection = wo;
+    return point;
+}
+
+size_t rows(const Floats& array, size_t columns, const char* name) {
+    if (array.ndim() != 2 || size_t(array.shape(1)) != columns)
+        throw py::value_error(std::string(name) + " must be an array of rows of " +
+                              std::to_string(columns) + " numbers");
+    return size_t(array.shape(0));
+}
+
+void sameRows(size_t a, size_t b) {
+    if (a != b) throw py::value_error("the arrays have different numbers of rows");
+}
+
+glm::vec3 row(const float* data, size_t i) {
+    return {data[3 * i], data[3 * i + 1], data[3 * i + 2]};
+}
+
+void store(float* data, size_t i, const glm::vec3& v) {
+    for (int c = 0; c < 3; ++c)
+        data[3 * i + size_t(c)] = v[c];
+}
+
+Floats triples(size_t n) {
+    return Floats(std::vector<size_t>{n, 3});
+}
+
+py::tuple eval(const MaterialProbe& probe, const Floats& wo, const Floats& wi) {
+    const size_t n = rows(wo, 3, "wo");
+    sameRows(n, rows(wi, 3, "wi"));
+    Floats f = triples(n), pdf(static_cast<py::ssize_t>(n));
+    const float *outgoing = wo.data(), *incoming = wi.data();
+    float *values = f.mutable_data(), *densities = pdf.mutable_data();
+    {
+        py::gil_scoped_release release;
+        for (size_t i = 0; i < n; ++i) {
+            Bsdf bsdf;
+            probe.program->evaluate(pointSeenFrom(row(outgoing, i)), bsdf);
+            const glm::vec3 direction = row(incoming, i);
+            const BsdfEval e = bsdf.eval(direction);
+            const float cosine = std::abs(direction.z);
+            store(values, i, cosine > 0.0f ? (e.diffuse + e.specular) / cosine : glm::vec3(0.0f));
+            densities[i] = e.pdf;
+        }
+    }
+    return py::make_tuple(f, pdf);
+}
+
+py::dict sample(const MaterialProbe& probe, const Floats& wo, const Floats& u) {
+    const size_t n = rows(wo, 3, "wo");
+    sameRows(n, rows(u, 4, "u"));
+    Floats wi = triples(n), weight = triples(n), pdf(static_cast<py::ssize_t>(n));
+    py::array_t<int> event(static_cast<py::ssize_t>(n));
+    const float *outgoing = wo.data(), *random = u.data();
+    float *directions = wi.mutable_data(), *weights = weight.mutable_data(),
+          *densities = pdf.mutable_data();
+    int* events = event.mutable_data();
+    {
+        py::gil_scoped_release release;
+        for (size_t i = 0; i < n; ++i) {
+            Bsdf bsdf;
+            probe.program->evaluate(pointSeenFrom(row(outgoing, i)), bsdf);
+            const float* r = random + 4 * i;
+            const BsdfSample s = bsdf.sample({r[0], r[1], r[2]}, r[3]);
+            store(directions, i, s.event ? s.wi : glm::vec3(0.0f));
+            store(weights, i, s.event ? s.weight : glm::vec3(0.0f));
+            densities[i] = s.event ? s.pdf : 0.0f;
+            events[i] = s.event;
+        }
+    }
+    py::dict result;
+    result["wi"] = wi;
+    result["weight"] = weight;
+    result["pdf"] = pdf;
+    result["event"] = event;
+    return result;
+}
+
+/// One colour for each outgoing direction.
+template <class Function> Floats perDirection(const Floats& wo, Function function) {
+    const size_t n = rows(wo, 3, "wo");
+    Floats result = triples(n);
+    const float* outgoing = wo.data();
+    float* values = result.mutable_data();
+    {
+        py::gil_scoped_release release;
+        for (size_t i = 0; i < n; ++i)
+            store(values, i, function(row(outgoing, i)));
+    }
+    return result;
+}
+
+Floats albedo(const MaterialProbe& probe, const Floats& wo) {
+    return perDirection(wo, [&](const glm::vec3& direction) {
+        Bsdf bsdf;
+        probe.program->evaluate(pointSeenFrom(direction), bsdf);
+        return bsdf.albedo();
+    });
+}
+
+Floats emission(const MaterialProbe& probe, const Floats& wo) {
+    return perDirection(wo, [&](const glm::vec3& direction) {
+        return probe.program->emission(pointSeenFrom(direction), direction);
+    });
+}
+
+py::list warningsOf(const MaterialProbe& probe) {
+    py::list list;
+    py::object target = list;
+    appendWarnings(probe.diagnostics, target);
+    return list;
+}
+
+py::dict nodeInputs(const std::string& id) {
+    const NodeDef* def = NodeTable::get().find(id);
+    if (!def)
+        if (const ShadingModel* model = ModelLibrary::get().find(id)) def = &model->def;
+    py::dict dict;
+    if (def)
+        for (const InputDef& input : def->inputs)
+            dict[py::str(input.name)] = valueTypeName(input.type);
+    return dict;
+}
+
+Network overridden(const Network& network, const std::map<std::string, std::string>& texts) {
+    MaterialOverrides overrides;
+    for (const auto& [target, text] : texts) {
+        Value value;
+        if (!parseOverride(network, target, text, value))
+            throw py::value_error(network.path + " has no input " + target + " that can be '" +
+                                  text + "'");
+        overrides[target] = value;
+    }
+    Diagnostics diagnostics;
+    Network result = applyOverrides(network, overrides, diagnostics);
+    for (const Diagnostic& d : diagnostics.all())
+        throw py::value_error(d.prim + (d.input.empty() ? "" : "." + d.input) + ": " + d.message);
+    return result;
+}
+
+} // namespace
+
+void bindMaterial(py::module_& m) {
+    py::class_<MaterialProbe>(m, "MaterialProbe", "A compiled material at one shading point.")
+        .def(py::init<const Network&>(), py::arg("network"))
+        .def("eval", &eval, py::arg("wo"), py::arg("wi"),
+             "f without the cosine, and the density of sample(); delta lobes have no part in it.")
+        .def("sample", &sample, py::arg("wo"), py::arg("u"),
+             "wi, weight (f cos / pdf), pdf and event (0: no sample) for rows of four random "
+             "numbers.")
+        .def("albedo", &albedo, py::arg("wo"), "Directional albedo, delta lobes included.")
+        .def("emission", &emission, py::arg("wo"))
+        .def("opacity", [](const MaterialProbe& p) { return p.program->opacity(ShadingPoint()); })
+        .def_property_readonly("warnings", &warningsOf);
+
+    m.def(
+        "explain_material",
+        [](const Network& network, py::object warnings) {
+            Diagnostics diagnostics;
+            std::string text = explainMaterial(network, diagnostics);
+            appendWarnings(diagnostics, warnings);
+            return text;
+        },
+        py::arg("network"), py::arg("warnings") = py::none(),
+        "What is modelled of a material, as text. Warnings are appended to the list.");
+    m.def("override_material", &overridden, py::arg("network"), py::arg("inputs"),
+          "The network with inputs replaced, given as text; ValueError names what cannot be.");
+    m.def("display_color_network", &makeDisplayColorNetwork, "The material of prims without one.");
+    m.def("node_inputs", &nodeInputs, py::arg("id"),
+          "Names and MaterialX types of a node's inputs; empty for an unknown node.");
+    m.def(
+        "read_mtlx",
+        [](const std::string& path, py::object warnings) {
+            Diagnostics diagnostics;
+            std::vector<Network> networks;
+            {
+                py::gil_scoped_release release;
+                networks = readMtlx(path, diagnostics);
+            }
+            appendWarnings(diagnostics, warnings);
+            return networks;
+        },
+        py::arg("path"), py::arg("warnings") = py::none(),
+        "The materials of a MaterialX document. Warnings are appended to the list.");
+}
+
+} // namespace patina

@@ -99,8 +99,8 @@ bool Integrator::addLightsAlong(Path& path, float distance) const {
     for (int i = 0; i < count; ++i) {
         const float lightPdf =
             path.specular ? 0.0f
-                          : _lights.set().pdf(hits[i], path.vertex, path.vertexNormal,
-                                              path.vertexTwoSided);
+                          : _lights.set().pdf(hits[i].light, path.vertex, path.vertexNormal,
+                                              path.vertexTwoSided, path.time, hits[i]);
         addLight(path, hits[i].light, hits[i].radiance, lightPdf, hits[i].distance);
     }
     return false;
@@ -163,10 +163,9 @@ void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& h
     }
     const float lightPdf =
         path.specular ? 0.0f
-                      : _lights.set().pdfTriangle(
-                            light, path.vertex, path.vertexNormal, path.vertexTwoSided,
-                            path.direction, glm::length(point.shading.position - path.vertex),
-                            path.time);
+                      : _lights.set().pdfTriangle(light - _lights.set().lightCount(), path.vertex,
+                                                  path.vertexNormal, path.vertexTwoSided,
+                                                  point.shading.position);
     addLight(path, light, radiance, lightPdf, 0.0f);
 }
 

@@ -28,8 +28,8 @@ GaussRule::GaussRule(int n) : x(n), w(n) {
     }
 }
 
-void InterfaceQuadrature::moments(double mu, double alpha, const double *exponents, int count,
-                                  double *result) const {
+void InterfaceQuadrature::moments(double mu, double alpha, const double* exponents, int count,
+                                  double* result) const {
     for (int k = 0; k < count; ++k)
         result[k] = 0.0;
     if (alpha <= 0.0) {

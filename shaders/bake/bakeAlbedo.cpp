@@ -19,7 +19,7 @@ void push(double value) {
 } // namespace
 
 namespace patina {
-const float *const patinaAlbedoTable = entries;
+const float* const patinaAlbedoTable = entries;
 } // namespace patina
 
 namespace {
@@ -29,7 +29,8 @@ using namespace patina::sh64;
 
 // Points per side of the product rule.
 constexpr int kMomentPoints = 64;
-constexpr int kInterfacePoints = 20;
+constexpr int kAbovePoints = 20;
+constexpr int kBelowPoints = 28; // total reflection has a kink
 
 // The entry for mu = 0 is taken at this fraction of the first cell: exactly at 0 the albedos jump.
 constexpr double kFirst = 0.1;
@@ -52,7 +53,7 @@ void bakeMoments() {
 }
 
 void bakeInterface(bool above) {
-    const bake::InterfaceQuadrature quadrature(kInterfacePoints);
+    const bake::InterfaceQuadrature quadrature(above ? kAbovePoints : kBelowPoints);
     for (int i = 0; i < INTERFACE_ETA; ++i)
         for (int a = 0; a < INTERFACE_ALPHA; ++a)
             for (int m = 0; m < INTERFACE_MU; ++m) {
@@ -72,7 +73,7 @@ void bakeInterface(bool above) {
 
 } // namespace
 
-int main(int argc, char **argv) {
+int main(int argc, char** argv) {
     if (argc != 2) {
         std::fprintf(stderr, "usage: bakeAlbedo OUT.cpp\n");
         return 2;
@@ -85,7 +86,7 @@ int main(int argc, char **argv) {
                      ALBEDO_TABLE_SIZE);
         return 1;
     }
-    std::FILE *out = std::fopen(argv[1], "w");
+    std::FILE* out = std::fopen(argv[1], "w");
     if (!out) {
         std::fprintf(stderr, "bakeAlbedo: cannot write %s\n", argv[1]);
         return 1;

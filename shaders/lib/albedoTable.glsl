@@ -138,7 +138,8 @@ PATINA_FN float momentEntry(MomentPlace p, int i) {
     return mix(a, b, p.fa);
 }
 
-// E[0]: the albedo of a perfect mirror, single scattering.
+// E[0]: the albedo of a perfect mirror, single scattering. Anisotropic lobes ask at ggxAlphaLoss,
+// and for means at ggxAlphaSeen.
 PATINA_FN float momentAlbedo0(MomentPlace p) {
     return momentEntry(p, 0);
 }

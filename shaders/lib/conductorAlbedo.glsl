@@ -1,4 +1,4 @@
-// Single scattering albedo of a GGX lobe on a conductor. The exact reflectance, read at six
+// Mean reflectance of a conductor over the facets that wo sees. The exact reflectance, read at six
 // cosines, is written as a sum of (1 - c)^p, p = 0, 1.7, 2.5, 5, 10, 20, whose albedos the moment
 // table has. The matrix is the inverse of that basis at those cosines, printed by
 // shaders/bake/conductorBasis.py. The sum meets the exact curve within 3e-3 for metals (mean 3e-4),
@@ -7,7 +7,7 @@
 const vec3 CONDUCTOR_COS = vec3(0.0894427191f, 0.252982213f, 0.464758002f);
 const float CONDUCTOR_COS3 = 0.715541753f;
 
-PATINA_FN vec3 conductorMoments(float mu, float alpha, vec3 n, vec3 k) {
+PATINA_FN vec3 conductorMean(float mu, float alpha, vec3 n, vec3 k) {
     vec3 f1 = fresnelConductor(CONDUCTOR_COS.x, n, k);
     vec3 f2 = fresnelConductor(CONDUCTOR_COS.y, n, k);
     vec3 f3 = fresnelConductor(CONDUCTOR_COS.z, n, k);
@@ -27,7 +27,7 @@ PATINA_FN vec3 conductorMoments(float mu, float alpha, vec3 n, vec3 k) {
     MomentPlace p = momentPlace(mu, alpha);
     vec3 mean = f5 + a1 * momentMean(p, 1.7f) + a2 * momentMean(p, 2.5f) +
                 a3 * momentMean(p, 5.0f) + a4 * momentMean(p, 10.0f) + a5 * momentMean(p, 20.0f);
-    return min(max(mean, vec3(0.0f)), one) * momentAlbedo0(p);
+    return min(max(mean, vec3(0.0f)), one);
 }
 
 // Hemispherical average of the reflectance: three point Gauss rule in c^2, within 1e-2.

@@ -26,6 +26,9 @@ const float F0_MAX = 0.9391f;
 // internal reflection, table noise).
 const float ALBEDO_MIN = 1e-3f;
 
+// Most that energy compensation multiplies a transmission lobe with.
+const float TRANSMIT_GAIN_MAX = 2.5f;
+
 // Guards a division whose numerator vanishes together with the denominator.
 const float TINY = 1e-20f;
 

@@ -11,10 +11,14 @@ PATINA_FN float energyReflect(float ess, float favg, int compensate) {
 }
 
 // The transmitted lobe takes the rest, so that a lossless interface loses nothing. er and et:
-// single scattering albedos; kr: energyReflect.
-PATINA_FN float energyTransmit(float er, float et, float kr, int compensate) {
-    float k = max(1.0f - er * kr, 0.0f) / max(et, ALBEDO_MIN);
-    return select(k, 1.0f, compensate != 0);
+// single scattering albedos; kr: energyReflect. Where little is transmitted (close to total
+// reflection) the factor is bounded, and energyRest gives the remainder back to reflection.
+PATINA_FN float energyTransmit(float er, float et, float kr) {
+    return clamp((1.0f - er * kr) / max(et, ALBEDO_MIN), 0.0f, TRANSMIT_GAIN_MAX);
+}
+
+PATINA_FN float energyRest(float er, float et, float kt) {
+    return max(1.0f - et * kt, 0.0f) / max(er, ALBEDO_MIN);
 }
 
 // Factor on a transmission lobe that lies under a reflection lobe: the layer above already scaled

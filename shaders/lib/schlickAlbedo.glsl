@@ -1,9 +1,8 @@
-// Single scattering reflected albedo of a GGX lobe with a generalized Schlick curve, exact but for
-// the tables (and the curve's clamp at 0).
-PATINA_FN vec3 schlickMoments(float mu, float alpha, SchlickFresnel s) {
+// Mean reflectance of a generalized Schlick curve over the facets that wo sees: exact but for the
+// tables (and the curve's clamp at 0). Times E[0] it is the single scattering albedo.
+PATINA_FN vec3 schlickMean(float mu, float alpha, SchlickFresnel s) {
     MomentPlace p = momentPlace(mu, alpha);
-    float m0 = momentAlbedo0(p);
-    float mp = m0 * momentMean(p, s.exponent);
-    float m67 = m0 * (momentMean(p, 6.0f) - momentMean(p, 7.0f));
-    return max(s.f0 * (m0 - mp) + s.f90 * mp - s.dip * m67, vec3(0.0f));
+    float rise = momentMean(p, s.exponent);
+    float dip = momentMean(p, 6.0f) - momentMean(p, 7.0f);
+    return min(max(mix(s.f0, s.f90, rise) - s.dip * dip, vec3(0.0f)), vec3(1.0f));
 }

@@ -34,7 +34,7 @@ PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness
 PATINA_FN ConductorLobe conductorAt(ConductorLobe l, vec3 wo) {
     l.known = true;
     if (l.compensate == 0 || l.alpha.x == 0.0f) return l;
-    float ess = momentAlbedo0(momentPlace(wo.z, ggxAlphaMean(l.alpha)));
+    float ess = momentAlbedo0(momentPlace(wo.z, ggxAlphaLoss(wo, l.alpha)));
     l.k = vec3(1.0f) + l.favg * ((1.0f - ess) / max(ess, ALBEDO_MIN));
     return l;
 }
@@ -70,6 +70,7 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
 PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
     if (l.alpha.x == 0.0f) return fresnelConductor(wo.z, l.ior, l.extinction);
-    vec3 single = conductorMoments(wo.z, ggxAlphaMean(l.alpha), l.ior, l.extinction);
-    return single * conductorAt(l, wo).k;
+    vec3 mean = conductorMean(wo.z, ggxAlphaSeen(wo, l.alpha), l.ior, l.extinction);
+    float ess = momentAlbedo0(momentPlace(wo.z, ggxAlphaLoss(wo, l.alpha)));
+    return mean * conductorAt(l, wo).k * ess;
 }

@@ -69,8 +69,9 @@ struct DielectricEnergy {
     float t;
 };
 
-PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, float z) {
+PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, vec3 wo) {
     DielectricEnergy e;
+    float z = wo.z;
     float mu = abs(z);
     float eta = dielectricEta(l, z);
     float f = dielectricFresnel(l, mu, eta);
@@ -79,14 +80,18 @@ PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, float z) {
     e.r = f;
     e.t = (1.0f - f) * e.kt;
     if (l.alpha.x == 0.0f || l.matched) return e;
-    float alpha = ggxAlphaMean(l.alpha);
-    float ess = momentAlbedo0(momentPlace(mu, alpha));
-    vec2 a = interfaceAlbedo(mu, alpha, eta);
+    float ess = momentAlbedo0(momentPlace(mu, ggxAlphaLoss(wo, l.alpha)));
+    vec2 a = interfaceAlbedo(mu, ggxAlphaSeen(wo, l.alpha), eta);
     float er = ess * select(1.0f, a.x, l.full);
-    float et = select(0.0f, ess * a.y, l.full);
+    float et = ess * select(0.0f, a.y, l.full);
     e.kr = energyReflect(ess, select(l.favgOutside, l.favgInside, z >= 0.0f), l.compensate);
+    e.kt = 1.0f;
+    if (l.compensate != 0 && !l.full) {
+        e.kt = energyTransmit(er, et, e.kr);
+        if (e.kt == TRANSMIT_GAIN_MAX) e.kr = energyRest(er, et, e.kt);
+    }
     e.r = er * e.kr;
-    e.kt = energyTransmit(er, et, e.kr, l.compensate) * energyFused(e.r, l.fused);
+    e.kt *= energyFused(e.r, l.fused);
     e.t = et * e.kt;
     return e;
 }
@@ -97,12 +102,13 @@ PATINA_FN DielectricLobe dielectricAt(DielectricLobe l, vec3 wo) {
     l.known = true;
     bool plain = (l.compensate == 0 || l.alpha.x == 0.0f) && !l.fused;
     if (plain || l.matched) return l;
-    if (l.mode == SCATTER_R) {
-        float ess = momentAlbedo0(momentPlace(abs(wo.z), ggxAlphaMean(l.alpha)));
+    // From the denser side R may take over what T cannot: only then does R need T's albedo.
+    if (l.mode == SCATTER_R && (l.full || dielectricEta(l, wo.z) > 1.0f)) {
+        float ess = momentAlbedo0(momentPlace(abs(wo.z), ggxAlphaLoss(wo, l.alpha)));
         l.kr = energyReflect(ess, select(l.favgOutside, l.favgInside, wo.z >= 0.0f), l.compensate);
         return l;
     }
-    DielectricEnergy e = dielectricEnergy(l, wo.z);
+    DielectricEnergy e = dielectricEnergy(l, wo);
     l.kr = e.kr;
     l.kt = e.kt;
     return l;
@@ -157,11 +163,11 @@ PATINA_FN LobeSample dielectricSample(DielectricLobe l, vec3 wo, vec3 u) {
 }
 
 PATINA_FN vec3 dielectricAlbedoReflect(DielectricLobe l, vec3 wo) {
-    return l.tint * select(dielectricEnergy(l, wo.z).r, 0.0f, (l.mode & SCATTER_R) != 0);
+    return l.tint * select(dielectricEnergy(l, wo).r, 0.0f, (l.mode & SCATTER_R) != 0);
 }
 
 PATINA_FN vec3 dielectricAlbedo(DielectricLobe l, vec3 wo) {
-    DielectricEnergy e = dielectricEnergy(l, wo.z);
+    DielectricEnergy e = dielectricEnergy(l, wo);
     return l.tint * (select(e.r, 0.0f, (l.mode & SCATTER_R) != 0) +
                      select(e.t, 0.0f, (l.mode & SCATTER_T) != 0));
 }

@@ -70,8 +70,9 @@ PATINA_FN vec3 schlickFused(vec3 r, bool fused) {
 // How T's albedo follows from the dielectric tables: the kernel of T is that of the dielectric with
 // the same ior, and its mean reflectance is taken as that of R. From the inside so is R's, with the
 // dielectric's mean rise from F0 to 1 in place of the curve's.
-PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, float z) {
+PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
     SchlickEnergy e;
+    float z = wo.z;
     float mu = abs(z);
     float eta = schlickEta(l, z);
     e.kr = vec3(1.0f);
@@ -79,23 +80,30 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, float z) {
     e.kt = schlickFused(e.r, l.fused);
     e.t = (vec3(1.0f) - e.r) * e.kt;
     if (l.alpha.x == 0.0f) return e;
-    float alpha = ggxAlphaMean(l.alpha);
-    float ess = momentAlbedo0(momentPlace(mu, alpha));
+    float ess = momentAlbedo0(momentPlace(mu, ggxAlphaLoss(wo, l.alpha)));
+    float alpha = ggxAlphaSeen(wo, l.alpha);
     bool compensates = l.compensate != 0;
-    e.kr = vec3(1.0f) +
-           select(l.favg, vec3(0.0f), compensates) * ((1.0f - ess) / max(ess, ALBEDO_MIN));
-    vec3 er = schlickMoments(mu, alpha, l.fresnel);
-    e.r = er * e.kr;
+    vec3 gain = select(l.favg, vec3(0.0f), compensates);
+    e.kr = vec3(1.0f) + gain * ((1.0f - ess) / max(ess, ALBEDO_MIN));
+    vec3 mean = schlickMean(mu, alpha, l.fresnel);
+    e.r = mean * e.kr * ess;
     if (l.mode == SCATTER_R && z >= 0.0f) return e;
     vec2 a = interfaceAlbedo(mu, alpha, eta);
     float f0 = sqr((l.ior - 1.0f) / (l.ior + 1.0f));
     float rise = clamp((a.x - f0) / (1.0f - f0), 0.0f, 1.0f);
-    er = select(er, mix(l.fresnel.f0, vec3(1.0f), rise) * ess, z >= 0.0f);
-    float kernel = ess * a.y / max(1.0f - a.x, ALBEDO_MIN);
-    vec3 et = max(vec3(1.0f) - er / max(ess, ALBEDO_MIN), vec3(0.0f)) * min(kernel, 1.0f);
+    mean = select(mean, mix(l.fresnel.f0, vec3(1.0f), rise), z >= 0.0f);
+    vec3 er = mean * ess;
+    vec3 et = (vec3(1.0f) - mean) * min(ess * a.y / max(1.0f - a.x, ALBEDO_MIN), 1.0f);
+    if (compensates) {
+        vec3 kt = max(vec3(1.0f) - er * e.kr, vec3(0.0f)) / max(et, vec3(ALBEDO_MIN));
+        e.kt = min(kt, vec3(TRANSMIT_GAIN_MAX));
+        vec3 rest = max(vec3(1.0f) - et * e.kt, vec3(0.0f)) / max(er, vec3(ALBEDO_MIN));
+        e.kr = vec3(select(rest.x, e.kr.x, kt.x > e.kt.x), select(rest.y, e.kr.y, kt.y > e.kt.y),
+                    select(rest.z, e.kr.z, kt.z > e.kt.z));
+    } else
+        e.kt = vec3(1.0f);
     e.r = er * e.kr;
-    vec3 kt = max(vec3(1.0f) - e.r, vec3(0.0f)) / max(et, vec3(ALBEDO_MIN));
-    e.kt = select(kt, vec3(1.0f), compensates) * schlickFused(e.r, l.fused);
+    e.kt *= schlickFused(e.r, l.fused);
     e.t = et * e.kt;
     return e;
 }
@@ -105,7 +113,7 @@ PATINA_FN SchlickLobe schlickAt(SchlickLobe l, vec3 wo) {
     l.known = true;
     bool plain = (l.compensate == 0 || l.alpha.x == 0.0f) && !l.fused;
     if (plain) return l;
-    SchlickEnergy e = schlickEnergy(l, wo.z);
+    SchlickEnergy e = schlickEnergy(l, wo);
     l.kr = e.kr;
     l.kt = e.kt;
     return l;
@@ -163,11 +171,11 @@ PATINA_FN LobeSample schlickSample(SchlickLobe l, vec3 wo, vec3 u) {
 }
 
 PATINA_FN vec3 schlickAlbedoReflect(SchlickLobe l, vec3 wo) {
-    return select(schlickEnergy(l, wo.z).r, vec3(0.0f), (l.mode & SCATTER_R) != 0);
+    return select(schlickEnergy(l, wo).r, vec3(0.0f), (l.mode & SCATTER_R) != 0);
 }
 
 PATINA_FN vec3 schlickAlbedo(SchlickLobe l, vec3 wo) {
-    SchlickEnergy e = schlickEnergy(l, wo.z);
+    SchlickEnergy e = schlickEnergy(l, wo);
     return select(e.r, vec3(0.0f), (l.mode & SCATTER_R) != 0) +
            select(e.t, vec3(0.0f), (l.mode & SCATTER_T) != 0);
 }

@@ -43,10 +43,12 @@ namespace {
 // parts agree with the whole.
 class Integrator {
 public:
-    Integrator(const BoundLobe &lobe, vec3 wo) : _lobe(lobe), _wo(wo) {}
+    Integrator(const BoundLobe& lobe, vec3 wo) : _lobe(lobe), _wo(wo) {}
 
     double operator()(double z0, double z1, double p0, double p1) const {
-        return refine(z0, z1, p0, p1, rule(z0, z1, p0, p1), 0);
+        const double whole = rule(z0, z1, p0, p1);
+        // A cell with a peak in it is cut before it is trusted.
+        return refine(z0, z1, p0, p1, whole, whole > 1e-4 ? -2 : 0);
     }
 
 private:
@@ -72,19 +74,19 @@ private:
         const double c = rule(z0, z, p, p1);
         const double d = rule(z, z1, p, p1);
         const double parts = a + b + c + d;
-        const bool fine = std::fabs(parts - whole) < 2e-8 + 2e-5 * whole;
-        if (depth >= 9 || (fine && depth >= (whole > 1e-4 ? 3 : 1))) return parts;
+        const bool fine = std::fabs(parts - whole) < 1e-7 + 5e-5 * whole;
+        if (depth >= 9 || (fine && depth >= 1)) return parts;
         return refine(z0, z, p0, p, a, depth + 1) + refine(z, z1, p0, p, b, depth + 1) +
                refine(z0, z, p, p1, c, depth + 1) + refine(z, z1, p, p1, d, depth + 1);
     }
 
-    const BoundLobe &_lobe;
+    const BoundLobe& _lobe;
     vec3 _wo;
 };
 
 } // namespace
 
-DensityGrid::DensityGrid(const BoundLobe &lobe, vec3 wo) {
+DensityGrid::DensityGrid(const BoundLobe& lobe, vec3 wo) {
     const Integrator integrate(lobe, wo);
     const double height = 2.0 / kRows;
     const double width = 2.0 * sh64::PI / kColumns;
@@ -94,7 +96,7 @@ DensityGrid::DensityGrid(const BoundLobe &lobe, vec3 wo) {
             const double z0 = -1.0 + r * height;
             const double z1 = z0 + height;
             const double p0 = c * width;
-            double &cell = _cells[r * kColumns + c];
+            double& cell = _cells[r * kColumns + c];
             if (z0 < 0.0 && z1 > 0.0)
                 cell = integrate(z0, 0.0, p0, p0 + width) + integrate(0.0, z1, p0, p0 + width);
             else
@@ -103,7 +105,7 @@ DensityGrid::DensityGrid(const BoundLobe &lobe, vec3 wo) {
         }
 }
 
-ChiSquared DensityGrid::test(const BoundLobe &sampler, vec3 wo, int count,
+ChiSquared DensityGrid::test(const BoundLobe& sampler, vec3 wo, int count,
                              std::uint64_t seed) const {
     std::mt19937_64 engine(seed);
     const auto uniform = [&] { return double(engine() >> 40) * 0x1p-24; };
@@ -142,7 +144,7 @@ ChiSquared DensityGrid::test(const BoundLobe &sampler, vec3 wo, int count,
     }
     // What failed to find a direction, or found a delta one, is a cell of its own.
     const double missing = (1.0 - _total) * count;
-    if (missing >= 5.0) {
+    if (missing >= 2e-3 * count) {
         pooledExpected += missing;
         pooledCount += (1.0 - result.hits) * count;
         close();

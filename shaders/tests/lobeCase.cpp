@@ -7,14 +7,14 @@ namespace patina::test {
 
 namespace {
 
-std::string label(const char *lobe, double a, double b, double c, int mode) {
-    static const char *const modes[] = {"", "R", "T", "RT"};
+std::string label(const char* lobe, double a, double b, double c, int mode) {
+    static const char* const modes[] = {"", "R", "T", "RT"};
     char text[128];
     std::snprintf(text, sizeof text, "%s%s(%g, %g, %g)", lobe, modes[mode], a, b, c);
     return text;
 }
 
-void addDiffuse(std::vector<LobeCase> &cases) {
+void addDiffuse(std::vector<LobeCase>& cases) {
     for (double r : {0.0, 0.3, 1.0}) {
         cases.push_back(PATINA_LOBE_CASE(label("orenNayar", r, 0, 0, 0), orenNayar,
                                          vec3(0.8, 0.5, 0.1), r, false));
@@ -23,7 +23,7 @@ void addDiffuse(std::vector<LobeCase> &cases) {
         cases.push_back(
             PATINA_LOBE_CASE(label("burley", r, 0, 0, 0), burley, vec3(0.8, 0.5, 0.1), r));
     }
-    for (LobeCase &c : cases)
+    for (LobeCase& c : cases)
         c.reciprocal = true;
     LobeCase t = PATINA_LOBE_CASE("translucent", translucent, vec3(0.8, 0.5, 0.1));
     t.twoSided = true;
@@ -38,7 +38,7 @@ std::vector<LobeCase> lobeCases(int compensate) {
     addDiffuse(cases);
     const bool bare = compensate == 0;
     const double alphas[][2] = {{0.05, 0.05}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.4}};
-    for (const auto &a : alphas) {
+    for (const auto& a : alphas) {
         const double ax = a[0];
         const double ay = a[1];
         LobeCase metal =
@@ -77,7 +77,7 @@ vec3 direction(double z, double phi) {
     return vec3(r * std::cos(phi), r * std::sin(phi), z);
 }
 
-std::vector<vec3> outgoing(const LobeCase &c) {
+std::vector<vec3> outgoing(const LobeCase& c) {
     std::vector<vec3> wo = {direction(1.0, 0.0), direction(0.7071, 0.4), direction(0.1736, 1.9),
                             direction(0.01745, 5.0)};
     if (c.twoSided) {
@@ -95,7 +95,7 @@ vec3 quasiRandom(int i) {
                 wrap(n * 0.5497004779019703));
 }
 
-vec3 sampledAlbedo(const BoundLobe &lobe, vec3 wo, int count) {
+vec3 sampledAlbedo(const BoundLobe& lobe, vec3 wo, int count) {
     vec3 sum(0.0);
     for (int i = 0; i < count; ++i)
         sum += lobe.sample(wo, quasiRandom(i)).weight;

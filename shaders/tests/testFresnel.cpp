@@ -79,7 +79,7 @@ TEST(Fresnel, Color82ScalesTheReflectanceAt82Degrees) {
 }
 
 TEST(Fresnel, AveragesMatchTheirIntegrals) {
-    const auto average = [](auto &&f) {
+    const auto average = [](auto&& f) {
         double sum = 0.0;
         for (int i = 0; i < 20000; ++i)
             sum += f(std::sqrt((i + 0.5) / 20000.0)) / 20000.0;

@@ -14,7 +14,7 @@ namespace {
 constexpr int kSamples = 400;
 
 // Rounding of a float direction, seen through a lobe of width alpha.
-double floatTolerance(const LobeCase &c, double wz) {
+double floatTolerance(const LobeCase& c, double wz) {
     return 1e-4 + 2e-6 / c.alpha + 2e-7 / (c.alpha * std::max(std::fabs(wz), 1e-3));
 }
 
@@ -26,7 +26,7 @@ double largest(vec3 v) {
 
 TEST(LobeConsistency, SampleWeightIsValueOverPdf) {
     for (int compensate : {0, 1})
-        for (const LobeCase &c : lobeCases(compensate))
+        for (const LobeCase& c : lobeCases(compensate))
             for (vec3 wo : outgoing(c))
                 for (int i = 0; i < kSamples; ++i) {
                     const sh64::LobeSample s = c.f64.sample(wo, quasiRandom(i));
@@ -43,7 +43,7 @@ TEST(LobeConsistency, SampleWeightIsValueOverPdf) {
 }
 
 TEST(LobeConsistency, FloatSamplesHaveThePdfOfFloatEval) {
-    for (const LobeCase &c : lobeCases(1))
+    for (const LobeCase& c : lobeCases(1))
         for (vec3 wo : outgoing(c))
             for (int i = 0; i < kSamples; ++i) {
                 const sh64::LobeSample s = c.f32.sample(wo, quasiRandom(i));
@@ -61,7 +61,7 @@ TEST(LobeConsistency, FloatSamplesHaveThePdfOfFloatEval) {
 }
 
 TEST(LobeConsistency, FloatEqualsDouble) {
-    for (const LobeCase &c : lobeCases(1))
+    for (const LobeCase& c : lobeCases(1))
         for (vec3 wo : outgoing(c)) {
             EXPECT_LT(largest(c.f32.albedo(wo) - c.f64.albedo(wo)), 1e-4) << c.name << wo.z;
             for (int i = 0; i < kSamples; ++i) {
@@ -88,7 +88,7 @@ TEST(LobeConsistency, FloatEqualsDouble) {
 }
 
 TEST(LobeConsistency, PdfIsPositiveWhereTheLobeIs) {
-    for (const LobeCase &c : lobeCases(1))
+    for (const LobeCase& c : lobeCases(1))
         for (vec3 wo : outgoing(c))
             for (int i = 0; i < kSamples; ++i) {
                 const vec3 u = quasiRandom(i);
@@ -103,7 +103,7 @@ TEST(LobeConsistency, PdfIsPositiveWhereTheLobeIs) {
 }
 
 TEST(LobeConsistency, OneSidedLobesAreBlackFromBelow) {
-    for (const LobeCase &c : lobeCases(1)) {
+    for (const LobeCase& c : lobeCases(1)) {
         if (c.twoSided) continue;
         const vec3 up = direction(0.6, 1.0);
         const vec3 down = direction(-0.6, 2.0);

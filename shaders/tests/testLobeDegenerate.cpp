@@ -40,11 +40,11 @@ std::vector<vec3> randoms() {
 }
 
 // Everything a lobe can be asked, from every direction. Returns false at the first bad number.
-::testing::AssertionResult sane(const BoundLobe &lobe) {
+::testing::AssertionResult sane(const BoundLobe& lobe) {
     static const std::vector<vec3> all = directions();
     static const std::vector<vec3> us = randoms();
     for (vec3 wo : all) {
-        const auto at = [&](const char *what) {
+        const auto at = [&](const char* what) {
             return ::testing::AssertionFailure() << what << " at wo.z " << wo.z;
         };
         const vec3 albedo = lobe.albedo(wo);
@@ -119,7 +119,7 @@ TEST(LobeDegenerate, DiffuseIsSane) {
             const LobeCase b = PATINA_LOBE_CASE("b", orenNayar, vec3(color, 1.0, 0.5), r, false);
             const LobeCase c = PATINA_LOBE_CASE("c", burley, vec3(color, 1.0, 0.5), r);
             const LobeCase d = PATINA_LOBE_CASE("d", translucent, vec3(color, 1.0, 0.5));
-            for (const LobeCase &l : {a, b, c, d})
+            for (const LobeCase& l : {a, b, c, d})
                 ASSERT_TRUE(sane(l.f32)) << l.name << " r " << r << " color " << color;
         }
 }

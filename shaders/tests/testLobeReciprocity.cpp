@@ -13,7 +13,7 @@ using namespace patina::test;
 namespace {
 
 // Largest relative difference between both ways over a set of direction pairs.
-double asymmetry(const LobeCase &c) {
+double asymmetry(const LobeCase& c) {
     double worst = 0.0;
     for (int i = 0; i < 500; ++i) {
         const vec3 u = quasiRandom(i);
@@ -40,7 +40,7 @@ double asymmetry(const LobeCase &c) {
 } // namespace
 
 TEST(LobeReciprocity, BareLobesAreReciprocal) {
-    for (const LobeCase &c : lobeCases(0)) {
+    for (const LobeCase& c : lobeCases(0)) {
         ASSERT_TRUE(c.reciprocal) << c.name;
         // The ior of a Schlick lobe is known to float precision only.
         EXPECT_LT(asymmetry(c), 1e-6) << c.name;
@@ -49,7 +49,7 @@ TEST(LobeReciprocity, BareLobesAreReciprocal) {
 
 TEST(LobeReciprocity, EnergyFactorBreaksIt) {
     int checked = 0;
-    for (const LobeCase &c : lobeCases(1))
+    for (const LobeCase& c : lobeCases(1))
         if (!c.reciprocal && c.alpha > 0.9) {
             EXPECT_GT(asymmetry(c), 1e-3) << c.name;
             ++checked;

@@ -40,10 +40,10 @@ TEST(ChiSquared, RejectsAWrongSampler) {
 TEST(LobeSampling, DrawsFromItsPdf) {
     const std::vector<LobeCase> cases = lobeCases(0);
     int runs = 0;
-    for (const LobeCase &c : cases)
+    for (const LobeCase& c : cases)
         runs += int(outgoing(c).size()) * 3;
     const double significance = 1.0 - std::pow(1.0 - 0.01, 1.0 / runs);
-    for (const LobeCase &c : cases) {
+    for (const LobeCase& c : cases) {
         // Narrower lobes fit into a few cells: the half vector density is the same code.
         if (c.alpha < 0.02) continue;
         for (vec3 wo : outgoing(c)) {

@@ -1,0 +1,100 @@
+// The lobes as GLSL: every file of the dialect compiles as a compute shader (with storage buffer)
+// and as an OpenGL ES 3.0 fragment shader (with the host's own table look-up).
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+const std::string kRoot = PATINA_SOURCE_DIR;
+const std::string kValidator = PATINA_GLSLANG_VALIDATOR;
+
+// Text of a file with its #include lines replaced by what they name, as the rasterizer reads it.
+std::string flatten(const std::string& path) {
+    std::ifstream in(kRoot + "/" + path);
+    EXPECT_TRUE(in.good()) << path;
+    std::string text, line;
+    while (std::getline(in, line)) {
+        const std::string directive = "#include \"";
+        if (line.compare(0, directive.size(), directive) == 0) {
+            const std::size_t end = line.find('"', directive.size());
+            text += flatten(line.substr(directive.size(), end - directive.size()));
+        } else
+            text += line + "\n";
+    }
+    return text;
+}
+
+// Compiles through the validator; returns its output, empty when all is well.
+std::string compile(const std::string& source, const std::string& stage) {
+    const std::string file = ::testing::TempDir() + "patinaDialect." + stage;
+    std::ofstream(file) << source;
+    std::FILE* pipe = popen((kValidator + " -S " + stage + " " + file + " 2>&1").c_str(), "r");
+    if (!pipe) return "cannot run " + kValidator;
+    std::string output;
+    char buffer[512];
+    while (std::fgets(buffer, sizeof buffer, pipe))
+        output += buffer;
+    const int status = pclose(pipe);
+    std::remove(file.c_str());
+    return status == 0 ? std::string() : output + "\nstatus " + std::to_string(status);
+}
+
+// A shader that calls every lobe, so that nothing is left unlinked.
+const char* const kCalls = R"(
+vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
+    OrenNayarLobe o = orenNayarSetup(vec3(0.8), 0.3, true);
+    BurleyLobe b = burleySetup(vec3(0.8), 0.3);
+    TranslucentLobe t = translucentSetup(vec3(0.8));
+    ConductorLobe c = conductorSetup(vec3(0.2), vec3(3.0), vec2(0.2), false, 1);
+    DielectricLobe d = dielectricSetup(vec3(1.0), 1.5, vec2(0.2), false, SCATTER_RT, false, 1);
+    SchlickLobe s = schlickSetup(vec3(0.04), vec3(1.0), vec3(1.0), 5.0, vec2(0.2), false,
+                                 SCATTER_RT, false, 1);
+    vec3 sum = orenNayarEval(o, wo, wi).value + burleyEval(b, wo, wi).value +
+               translucentEval(t, wo, wi).value + conductorEval(c, wo, wi).value +
+               dielectricEval(d, wo, wi).value + schlickEval(s, wo, wi).value;
+    sum += orenNayarSample(o, wo, u).weight + burleySample(b, wo, u).weight +
+           translucentSample(t, wo, u).weight + conductorSample(c, wo, u).weight +
+           dielectricSample(d, wo, u).weight + schlickSample(s, wo, u).weight;
+    sum += orenNayarAlbedo(o, wo) + burleyAlbedo(b, wo) + translucentAlbedo(t, wo) +
+           conductorAlbedo(c, wo) + dielectricAlbedo(d, wo) + schlickAlbedo(s, wo);
+    return sum + dielectricAlbedoReflect(d, wo) + schlickAlbedoReflect(s, wo);
+}
+)";
+
+} // namespace
+
+TEST(GlslDialect, CompilesAsComputeShader) {
+    if (kValidator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
+    const std::string source = "#version 450\n" + flatten("shaders/compat/glsl.glsl") +
+                               flatten("shaders/lobes.glsl") + kCalls +
+                               "layout(local_size_x = 64) in;\n"
+                               "layout(std430, binding = 0) buffer Out { vec4 result[]; };\n"
+                               "void main() { result[gl_GlobalInvocationID.x] = "
+                               "vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)), 1); }\n";
+    EXPECT_EQ(compile(source, "comp"), "");
+}
+
+TEST(GlslDialect, CompilesAsEsFragmentShader) {
+    if (kValidator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
+    const std::string source =
+        "#version 300 es\nprecision highp float;\nprecision highp int;\n"
+        "uniform highp sampler2D table;\n"
+        "#define PATINA_ALBEDO_TABLE_FETCH\n"
+        "float albedoTableFetch(int i) {"
+        " return texelFetch(table, ivec2(i & 1023, i >> 10), 0).x; }\n" +
+        flatten("shaders/compat/glsl.glsl") + flatten("shaders/lobes.glsl") + kCalls +
+        "out vec4 color;\nvoid main() { color = vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), "
+        "vec3(0.5)), 1); }\n";
+    EXPECT_EQ(compile(source, "frag"), "");
+}
+
+TEST(GlslDialect, RejectsWhatIsNotGlsl) {
+    if (kValidator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
+    EXPECT_NE(compile("#version 450\nvoid main() { float x = nothing(); }\n", "vert"), "");
+}

@@ -58,12 +58,11 @@ def _attribute(prim, name):
         if attribute:
             return attribute
     if prim.IsA(UsdShade.Material):
-        material = UsdShade.Material(prim)
-        for context in ("mtlx", ""):
-            source = material.ComputeSurfaceSource([context] if context else [])
-            shader = source[0] if isinstance(source, tuple) else source
-            if shader and shader.GetPrim() != prim:
-                return _attribute(shader.GetPrim(), name)
+        # The universal surface, where there is none for this context.
+        source = UsdShade.Material(prim).ComputeSurfaceSource("mtlx")
+        shader = source[0] if isinstance(source, tuple) else source
+        if shader and shader.GetPrim() != prim:
+            return _attribute(shader.GetPrim(), name)
     if prim.IsA(UsdShade.Shader):
         kind = _defined_type(UsdShade.Shader(prim).GetIdAttr().Get(), name)
         if kind is not None:

@@ -1,0 +1,152 @@
+"""The launcher decides rightly what to install and what to build. Its tools are stand-ins that note
+that they were called."""
+import os
+import shutil
+import stat
+import subprocess
+import time
+
+import pytest
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(__file__), "..", ".."))
+FOLDERS = ("cmake", "shaders", "materialNetwork", "hdDelegate/scene/tests", "plugin/python")
+
+CMAKE = """#!/bin/sh
+echo "cmake $*" >> "$CALLS"
+case $* in
+*--build*) [ -z "$BUILD_FAILS" ] || { echo 'a.cpp:1: error: broken'; exit 1; } ;;
+*) echo "CMAKE_HOME_DIRECTORY:INTERNAL=$ROOT" > "$ROOT/build/CMakeCache.txt" ;;
+esac
+"""
+# Stands for the environment's Python: says what it was given instead of running it.
+PYTHON = """#!/bin/sh
+case $1 in
+-c) exit 0 ;;
+-m) [ "$2" = pip ] && { echo "pip $*" >> "$CALLS"; exit 0; } ;;
+esac
+echo "ran $*"
+"""
+
+
+def write(path, text, program=False):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+    if program:
+        path.chmod(path.stat().st_mode | stat.S_IXUSR | stat.S_IXGRP | stat.S_IXOTH)
+
+
+@pytest.fixture
+def checkout(tmp_path):
+    return Checkout(tmp_path / "a checkout", tmp_path / "calls", tmp_path / "tools")
+
+
+class Checkout:
+    def __init__(self, root, calls, tools):
+        self.root, self.calls, self.tools = root, calls, tools
+        for folder in FOLDERS:
+            write(root / folder / "a.txt", "text")
+        for name in ("patina", "requirements.txt", "requirements-test.txt", "CMakeLists.txt"):
+            shutil.copy(os.path.join(ROOT, name), root / name)
+        write(root / ".venv" / "bin" / "python", PYTHON, program=True)
+        write(tools / "cmake", CMAKE, program=True)
+        self.say_installed(everything=True)
+        write(tools / "id", "#!/bin/sh\necho 1000\n", program=True)
+        write(tools / "sudo", "#!/bin/sh\nexit 1\n", program=True)
+        write(tools / "apt-get", '#!/bin/sh\necho "apt-get $*" >> "$CALLS"\n', program=True)
+        past = time.time() - 100  # sources are older than the first build
+        for folder, folders, files in os.walk(root):
+            for name in [*folders, *files, "."]:
+                os.utime(os.path.join(folder, name), (past, past))
+
+    def say_installed(self, everything):
+        echo = 'shift 2; for p in "$@"; do echo "installed $p"; done' if everything else "exit 1"
+        write(self.tools / "dpkg-query", f"#!/bin/sh\n{echo}\n", program=True)
+
+    def run(self, *arguments, program=None, **environment):
+        """:returns: the process, and the commands that were called"""
+        self.calls.write_text("")
+        variables = {"PATH": f"{self.tools}:{os.environ['PATH']}", "CALLS": str(self.calls), "ROOT": str(self.root),
+                     "HOME": str(self.root), **environment}
+        process = subprocess.run([str(program or self.root / "patina"), *arguments], capture_output=True, text=True,
+                                 env=variables, stdin=subprocess.DEVNULL, cwd="/")
+        return process, self.calls.read_text().splitlines()
+
+
+def builds(calls):
+    return [call for call in calls if call.startswith("cmake --build")]
+
+
+def test_first_call_sets_up_and_the_second_only_runs(checkout):
+    process, calls = checkout.run("record", "a b.usda", "c.png")
+    assert process.returncode == 0, process.stderr
+    assert process.stdout == "ran -m patina record a b.usda c.png\n"
+    assert any(call.startswith("pip") for call in calls)
+    assert len(builds(calls)) == 1 and "--target _patina" in builds(calls)[0]
+    process, calls = checkout.run("record", "x")
+    assert calls == [] and process.stdout == "ran -m patina record x\n" and process.stderr == ""
+
+
+def test_a_changed_source_is_built_again(checkout):
+    checkout.run("record")
+    (checkout.root / "shaders" / "a.txt").write_text("other")
+    assert len(builds(checkout.run("record")[1])) == 1
+    assert builds(checkout.run("record")[1]) == []
+
+
+def test_a_removed_and_an_added_source_are_noticed(checkout):
+    checkout.run("record")
+    (checkout.root / "shaders" / "a.txt").unlink()
+    assert len(builds(checkout.run("record")[1])) == 1
+    (checkout.root / "materialNetwork" / "new.cpp").write_text("")
+    assert len(builds(checkout.run("record")[1])) == 1
+
+
+def test_tests_are_built_for_test_only(checkout):
+    checkout.run("record")
+    (checkout.root / "hdDelegate" / "scene" / "tests" / "a.txt").write_text("other")
+    assert checkout.run("record")[1] == []
+    calls = checkout.run("test")[1]
+    assert "--target all" in builds(calls)[0] and any("PATINA_BUILD_TESTS=ON" in call for call in calls)
+    assert checkout.run("test")[1] == []
+    assert checkout.run("record")[1] == []
+
+
+def test_other_requirements_are_installed(checkout):
+    checkout.run("record")
+    (checkout.root / "requirements.txt").write_text("numpy\n")
+    calls = checkout.run("record")[1]
+    assert any(call.startswith("pip") for call in calls)
+
+
+def test_missing_packages_without_root_are_named_and_the_build_goes_on(checkout):
+    checkout.say_installed(everything=False)
+    process, calls = checkout.run("record")
+    assert process.returncode == 0
+    assert "libembree-dev" in process.stderr and "apt-get install" in process.stderr
+    assert not any(call.startswith("apt-get") for call in calls) and len(builds(calls)) == 1
+
+
+def test_missing_packages_are_installed_by_root(checkout):
+    checkout.say_installed(everything=False)
+    write(checkout.tools / "id", "#!/bin/sh\necho 0\n", program=True)
+    calls = checkout.run("record")[1]
+    installs = [call for call in calls if call.startswith("apt-get install")]
+    assert len(installs) == 1 and "--no-install-recommends" in installs[0] and "libembree-dev" in installs[0]
+
+
+def test_a_failed_build_says_why_and_is_tried_again(checkout):
+    process, calls = checkout.run("record", BUILD_FAILS="1")
+    assert process.returncode == 1 and "error: broken" in process.stderr and "ran" not in process.stdout
+    assert len(builds(checkout.run("record")[1])) == 1
+
+
+def test_help_needs_no_build(checkout):
+    process, calls = checkout.run("record", "--help")
+    assert process.returncode == 0 and calls == [] and "ran -m patina record --help" in process.stdout
+
+
+def test_it_is_found_through_a_link(checkout, tmp_path):
+    checkout.run("record")
+    os.symlink(checkout.root / "patina", tmp_path / "link")
+    process, _ = checkout.run("compare", program=tmp_path / "link")
+    assert process.stdout == "ran -m patina compare\n"

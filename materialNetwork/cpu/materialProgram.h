@@ -47,7 +47,9 @@ public:
     /// @param attributes per slot of primvars(): negative when the prim has no such primvar
     bool isOpaqueWith(const std::vector<int>& attributes) const;
 
-    /// Presence of the surface, 0..1: the chance that a ray meets it at all.
+    /// Presence of the surface, 0..1: the chance that a ray meets it at all, instead of passing
+    /// straight on. Lobes that would pass light straight on without tint are part of this and no
+    /// lobes of the Bsdf, so that shadow rays see through them; it then depends on viewDirection.
     float opacity(const ShadingPoint& point) const;
 
     /// Radiance emitted towards wo (world space, unit). Both sides emit.

@@ -1,0 +1,239 @@
+#include "materialNetwork/cpu/bsdfBuilder.h"
+
+#include "materialNetwork/cpu/lobeOps.h"
+#include "materialNetwork/cpu/lobeSetup.h"
+#include "materialNetwork/cpu/shadingFrame.h"
+
+#include <algorithm>
+
+namespace patina {
+
+namespace {
+
+/// Space for one value per closure; on the stack unless the material is huge.
+template <class T> class Scratch {
+public:
+    explicit Scratch(size_t n) : _data(_local) {
+        if (n > localCount) {
+            static thread_local std::vector<T> large;
+            if (large.size() < n)
+                large.resize(n);
+            _data = large.data();
+        }
+    }
+    T& operator[](int i) { return _data[i]; }
+
+private:
+    static constexpr size_t localCount = 48;
+    T _local[localCount];
+    T* _data;
+};
+
+float luminance(const glm::vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+float largest(const glm::vec4& c) { return std::max(c.x, std::max(c.y, c.z)); }
+float unit(float x) { return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; }
+
+/// Authored factors: negative and NaN count as 0.
+glm::vec3 factor(const glm::vec4& c) {
+    return sh::max(glm::vec3(c), glm::vec3(0.0f));
+}
+
+} // namespace
+
+void BsdfBuilder::build(const ProgramCode& code, const ShadingPoint& point,
+                        const glm::vec4* registers, Bsdf& out) {
+    place(code, point, registers, out);
+    if (code.lobes.empty())
+        return;
+    if (code.hasStraight) {
+        // The surface is only met with the chance that light does not pass straight.
+        const float met = 1.0f - straightWeight(code, out);
+        const float scale = met > 0.0f ? 1.0f / met : 0.0f;
+        for (size_t i = 0; i < code.lobes.size(); ++i)
+            out._lobes[i].weight *= code.lobes[i].straight ? 0.0f : scale;
+    }
+    choose(code, out);
+}
+
+float BsdfBuilder::straight(const ProgramCode& code, const ShadingPoint& point,
+                            const glm::vec4* registers) {
+    Bsdf bsdf;
+    place(code, point, registers, bsdf);
+    return straightWeight(code, bsdf);
+}
+
+float BsdfBuilder::straightWeight(const ProgramCode& code, const Bsdf& bsdf) {
+    float sum = 0.0f;
+    for (size_t i = 0; i < code.lobes.size(); ++i)
+        if (code.lobes[i].straight)
+            sum += bsdf._lobes[i].weight.x;
+    return unit(sum);
+}
+
+void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
+                        const glm::vec4* registers, Bsdf& out) {
+    out._lobeCount = 0;
+    out._nonDelta = false;
+    out._transmits = false;
+    out._geometricNormal = point.geometricNormal;
+    out._woOutside = glm::dot(point.viewDirection, point.geometricNormal) >= 0.0f;
+    if (code.lobes.empty())
+        return;
+    for (size_t i = 0; i < code.frames.size(); ++i) {
+        const FrameTemplate& f = code.frames[i];
+        glm::vec3 n, t;
+        if (f.normal >= 0)
+            n = glm::vec3(registers[f.normal]);
+        if (f.tangent >= 0)
+            t = glm::vec3(registers[f.tangent]);
+        out._frames[i] =
+            makeFrame(point, f.normal >= 0 ? &n : nullptr, f.tangent >= 0 ? &t : nullptr, f.flips);
+    }
+    for (size_t i = 0; i < code.lobes.size(); ++i) {
+        const LobeTemplate& t = code.lobes[i];
+        BsdfLobe& l = out._lobes[i];
+        if (t.constant) {
+            l = t.prebuilt;
+        } else {
+            l.kind = t.prebuilt.kind;
+            l.diffuse = t.prebuilt.diffuse;
+            l.frame = t.prebuilt.frame;
+            setupLobe(t, registers, l);
+        }
+        l.weight = glm::vec3(0.0f);
+    }
+    setWeights(code, registers, out);
+}
+
+void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers, Bsdf& out) {
+    const int n = int(code.bsdf.size());
+    // Upwards: what the tops of layers let through.
+    Scratch<float> passed(size_t(n) + 1);
+    const auto passedBy = [&](int i) { return i < 0 ? 1.0f : passed[i]; };
+    for (int i = 0; i < n; ++i) {
+        const ClosureOp& op = code.bsdf[size_t(i)];
+        if (!op.needsPassed)
+            continue;
+        switch (op.kind) {
+        case ClosureKind::Layer:
+            passed[i] = passedBy(op.a) * passedBy(op.b);
+            break;
+        case ClosureKind::Mix: {
+            const float m = unit(registers[op.factor].x);
+            passed[i] = passedBy(op.a) * m + passedBy(op.b) * (1.0f - m);
+            break;
+        }
+        case ClosureKind::Add:
+            passed[i] = std::max(passedBy(op.a) + passedBy(op.b) - 1.0f, 0.0f);
+            break;
+        case ClosureKind::Multiply:
+            passed[i] = 1.0f - unit(largest(registers[op.factor])) * (1.0f - passedBy(op.a));
+            break;
+        default: {
+            const float weight = unit(registers[op.factor].x);
+            float taken = weight;
+            if (op.lobe < 0)
+                taken = 0.0f;
+            else if (op.interface && weight > 0.0f) {
+                const BsdfLobe& l = out._lobes[op.lobe];
+                taken *= unit(lobeReflected(l, out._frames[l.frame].wo));
+            }
+            passed[i] = 1.0f - taken;
+        }
+        }
+    }
+    // Downwards: a closure's weight is the sum over the wholes it is part of.
+    Scratch<glm::vec3> weight(size_t(n) + 1);
+    for (int i = 0; i < n; ++i)
+        weight[i] = glm::vec3(0.0f);
+    weight[n - 1] = glm::vec3(1.0f);
+    for (int i = n - 1; i >= 0; --i) {
+        const ClosureOp& op = code.bsdf[size_t(i)];
+        const glm::vec3 w = weight[i];
+        switch (op.kind) {
+        case ClosureKind::Layer:
+            weight[op.a] += w;
+            weight[op.b] += w * passed[op.a];
+            break;
+        case ClosureKind::Mix: {
+            const float m = unit(registers[op.factor].x);
+            if (op.a >= 0)
+                weight[op.a] += w * m;
+            if (op.b >= 0)
+                weight[op.b] += w * (1.0f - m);
+            break;
+        }
+        case ClosureKind::Add:
+            if (op.a >= 0)
+                weight[op.a] += w;
+            if (op.b >= 0)
+                weight[op.b] += w;
+            break;
+        case ClosureKind::Multiply:
+            weight[op.a] += w * factor(registers[op.factor]);
+            break;
+        default:
+            if (op.lobe >= 0)
+                out._lobes[op.lobe].weight = w * unit(registers[op.factor].x);
+        }
+    }
+}
+
+void BsdfBuilder::choose(const ProgramCode& code, Bsdf& out) {
+    int count = 0;
+    for (int i = 0; i < int(code.lobes.size()); ++i) {
+        if (!(luminance(out._lobes[i].weight) > 0.0f))
+            continue;
+        if (count != i)
+            out._lobes[count] = out._lobes[i];
+        ++count;
+    }
+    float sum = 0.0f;
+    for (int i = 0; i < count; ++i) {
+        BsdfLobe& l = out._lobes[i];
+        const glm::vec3& wo = out._frames[l.frame].wo;
+        // A lone lobe needs no share.
+        l.probability = count == 1 ? 1.0f : luminance(l.weight * lobeAlbedo(l, wo));
+        sum += l.probability;
+        out._transmits |= lobeTransmits(l);
+        out._nonDelta |= lobeNonDelta(l);
+        lobeFixWo(l, wo);
+    }
+    if (!(sum > 0.0f)) {
+        out._nonDelta = false;
+        return;
+    }
+    // Lobes whose albedo is 0 at wo (below their horizon) are never drawn, and evaluate to 0.
+    for (int i = 0; i < count; ++i)
+        out._lobes[i].probability /= sum;
+    out._lobeCount = count;
+}
+
+glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* registers) {
+    const int n = int(ops.size());
+    if (n == 0)
+        return glm::vec3(0.0f);
+    Scratch<glm::vec3> value(size_t(n) + 1);
+    const auto of = [&](int i) { return i < 0 ? glm::vec3(0.0f) : value[i]; };
+    for (int i = 0; i < n; ++i) {
+        const ClosureOp& op = ops[size_t(i)];
+        switch (op.kind) {
+        case ClosureKind::Mix: {
+            const float m = unit(registers[op.factor].x);
+            value[i] = of(op.a) * m + of(op.b) * (1.0f - m);
+            break;
+        }
+        case ClosureKind::Add:
+            value[i] = of(op.a) + of(op.b);
+            break;
+        case ClosureKind::Multiply:
+            value[i] = of(op.a) * factor(registers[op.factor]);
+            break;
+        default:
+            value[i] = factor(registers[op.factor]);
+        }
+    }
+    return value[n - 1];
+}
+
+} // namespace patina

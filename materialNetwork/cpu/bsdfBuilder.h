@@ -1,0 +1,30 @@
+#pragma once
+
+#include "materialNetwork/cpu/programCode.h"
+#include "materialNetwork/cpu/shadingPoint.h"
+
+namespace patina {
+
+/// Fills a Bsdf from the registers of a program: frames, lobes, weights, probabilities.
+class BsdfBuilder {
+public:
+    static void build(const ProgramCode& code, const ShadingPoint& point,
+                      const glm::vec4* registers, Bsdf& out);
+
+    /// @returns the share of light that lobes pass straight on, 0..1. Those lobes are no part of
+    /// what build() makes; they count as absence of the surface.
+    static float straight(const ProgramCode& code, const ShadingPoint& point,
+                          const glm::vec4* registers);
+
+private:
+    static void place(const ProgramCode& code, const ShadingPoint& point,
+                      const glm::vec4* registers, Bsdf& out);
+    static float straightWeight(const ProgramCode& code, const Bsdf& bsdf);
+    static void setWeights(const ProgramCode& code, const glm::vec4* registers, Bsdf& out);
+    static void choose(const ProgramCode& code, Bsdf& out);
+};
+
+/// Value of a tree of EDFs or VDFs, which are linear: sum of leaf values times factors.
+glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* registers);
+
+} // namespace patina

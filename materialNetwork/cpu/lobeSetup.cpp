@@ -1,0 +1,82 @@
+#include "materialNetwork/cpu/lobeSetup.h"
+
+namespace patina {
+
+namespace {
+
+const char* const orenNayarNames[] = {"color", "roughness", nullptr};
+const char* const burleyNames[] = {"color", "roughness", nullptr};
+const char* const translucentNames[] = {"color", nullptr};
+const char* const dielectricNames[] = {"tint", "ior", "roughness", nullptr};
+const char* const conductorNames[] = {"ior", "extinction", "roughness", nullptr};
+const char* const schlickNames[] = {"color0", "color82", "color90", "exponent", "roughness",
+                                    nullptr};
+const char* const noNames[] = {nullptr};
+
+} // namespace
+
+const char* const* lobeParameters(ClosureKind kind) {
+    switch (kind) {
+    case ClosureKind::OrenNayar:
+        return orenNayarNames;
+    case ClosureKind::Burley:
+        return burleyNames;
+    case ClosureKind::Translucent:
+        return translucentNames;
+    case ClosureKind::Dielectric:
+        return dielectricNames;
+    case ClosureKind::Conductor:
+        return conductorNames;
+    case ClosureKind::Schlick:
+        return schlickNames;
+    default:
+        return noNames;
+    }
+}
+
+LobeKind lobeKind(ClosureKind kind) {
+    switch (kind) {
+    case ClosureKind::Burley:
+        return LobeKind::Burley;
+    case ClosureKind::Translucent:
+        return LobeKind::Translucent;
+    case ClosureKind::Dielectric:
+        return LobeKind::Dielectric;
+    case ClosureKind::Conductor:
+        return LobeKind::Conductor;
+    case ClosureKind::Schlick:
+        return LobeKind::Schlick;
+    default:
+        return LobeKind::OrenNayar;
+    }
+}
+
+void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
+    const auto color = [&](int i) { return glm::vec3(r[t.parameters[i]]); };
+    const auto pair = [&](int i) { return glm::vec2(r[t.parameters[i]]); };
+    const auto number = [&](int i) { return r[t.parameters[i]].x; };
+    switch (t.prebuilt.kind) {
+    case LobeKind::OrenNayar:
+        out.orenNayar = sh::orenNayarSetup(color(0), number(1), t.flagA);
+        return;
+    case LobeKind::Burley:
+        out.burley = sh::burleySetup(color(0), number(1));
+        return;
+    case LobeKind::Translucent:
+        out.translucent = sh::translucentSetup(color(0));
+        return;
+    case LobeKind::Dielectric:
+        out.dielectric = sh::dielectricSetup(color(0), number(1), pair(2), t.flagA, t.mode,
+                                             t.fused, t.compensate);
+        return;
+    case LobeKind::Conductor:
+        out.conductor = sh::conductorSetup(color(0), color(1), pair(2), t.flagA, t.compensate);
+        return;
+    case LobeKind::Schlick:
+        out.schlick = sh::schlickSetup(color(0), color(1), color(2), number(3), pair(4), t.flagA,
+                                       t.mode, t.fused, t.compensate);
+        return;
+    }
+}
+
+} // namespace patina

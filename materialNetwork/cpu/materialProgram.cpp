@@ -1,0 +1,99 @@
+#include "materialNetwork/cpu/materialProgram.h"
+
+#include "materialNetwork/cpu/bsdfBuilder.h"
+#include "materialNetwork/cpu/programBuilder.h"
+
+#include <cstring>
+
+namespace patina {
+
+RegisterFile::RegisterFile(const ProgramCode& code) : _data(_local) {
+    if (code.registerCount > localCount) {
+        static thread_local std::vector<glm::vec4> large;
+        if (int(large.size()) < code.registerCount)
+            large.resize(size_t(code.registerCount));
+        _data = large.data();
+    }
+    std::memcpy(static_cast<void*>(_data), code.constants.data(),
+                code.constants.size() * sizeof(glm::vec4));
+}
+
+void RegisterFile::run(const ProgramCode& code, const std::vector<Instruction>& instructions,
+                       const ShadingPoint& point) {
+    const PatternContext context{&point, code.textures};
+    for (const Instruction& i : instructions)
+        i.function({_data, code.inputPool.data() + i.firstInput, i.output, i.data, context});
+}
+
+MaterialProgram::MaterialProgram() = default;
+MaterialProgram::~MaterialProgram() = default;
+
+std::shared_ptr<const MaterialProgram> MaterialProgram::compile(const Plan& plan,
+                                                                TextureSource& textures,
+                                                                Diagnostics& diagnostics) {
+    return ProgramBuilder(plan, textures, diagnostics).build();
+}
+
+float MaterialProgram::opacity(const ShadingPoint& point) const {
+    float x;
+    if (_code->opacityCode.empty()) {
+        x = _code->constants[_code->opacity].x;
+    } else {
+        RegisterFile registers(*_code);
+        registers.run(*_code, _code->opacityCode, point);
+        x = registers.data()[_code->opacity].x;
+    }
+    x = x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
+    if (!_code->hasStraight || x == 0.0f)
+        return x;
+    if (_code->surfaceCode.empty())
+        return x * (1.0f - BsdfBuilder::straight(*_code, point, _code->constants.data()));
+    RegisterFile registers(*_code);
+    registers.run(*_code, _code->surfaceCode, point);
+    return x * (1.0f - BsdfBuilder::straight(*_code, point, registers.data()));
+}
+
+bool MaterialProgram::isOpaqueWith(const std::vector<int>& attributes) const {
+    if (_isOpaque)
+        return true;
+    if (_code->hasStraight || !_code->opacityFromPrimvars)
+        return false;
+    for (const Instruction& i : _code->opacityCode)
+        if (i.data.slot >= 0 &&
+            (size_t(i.data.slot) >= attributes.size() || attributes[size_t(i.data.slot)] >= 0))
+            return false;
+    // Without primvars every reader gives its fallback.
+    return opacity(ShadingPoint()) >= 1.0f;
+}
+
+glm::vec3 MaterialProgram::emission(const ShadingPoint& point, const glm::vec3&) const {
+    if (!_hasEmission)
+        return glm::vec3(0.0f);
+    if (_code->emissionCode.empty())
+        return linearClosure(_code->edf, _code->constants.data());
+    RegisterFile registers(*_code);
+    registers.run(*_code, _code->emissionCode, point);
+    return linearClosure(_code->edf, registers.data());
+}
+
+glm::vec3 MaterialProgram::interiorAbsorption(const ShadingPoint& point) const {
+    if (!_hasInterior)
+        return glm::vec3(0.0f);
+    if (_code->interiorCode.empty())
+        return linearClosure(_code->vdf, _code->constants.data());
+    RegisterFile registers(*_code);
+    registers.run(*_code, _code->interiorCode, point);
+    return linearClosure(_code->vdf, registers.data());
+}
+
+void MaterialProgram::evaluate(const ShadingPoint& point, Bsdf& out) const {
+    if (_code->surfaceCode.empty()) {
+        BsdfBuilder::build(*_code, point, _code->constants.data(), out);
+        return;
+    }
+    RegisterFile registers(*_code);
+    registers.run(*_code, _code->surfaceCode, point);
+    BsdfBuilder::build(*_code, point, registers.data(), out);
+}
+
+} // namespace patina

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "materialNetwork/cpu/shadingPoint.h"
+#include "materialNetwork/textureSource.h"
+#include "materialNetwork/network.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace patina {
+
+/// What an instruction knows from compile time.
+struct PatternData {
+    int size = 1;        ///< components of the first input
+    int handle = -1;     ///< texture
+    int slot = -1;       ///< primvar
+    int mode = 0;        ///< whatever a string or uniform input selects
+    glm::vec4 value{0.0f};
+};
+
+/// What an instruction may read at run time. While constants are folded there is no point.
+struct PatternContext {
+    const ShadingPoint* point = nullptr;
+    const TextureSource* textures = nullptr;
+};
+
+/// One call of a pattern function. Values live in registers of four floats. A scalar fills all four
+/// components, so that scalar-vector variants of a node share their function; components beyond
+/// the size of a vector hold anything.
+struct PatternCall {
+    glm::vec4* registers;
+    const uint16_t* inputs; ///< register of each input of the node definition
+    uint16_t output;        ///< register of the first output, further ones follow
+    const PatternData& data;
+    const PatternContext& context;
+
+    const glm::vec4& in(int i) const { return registers[inputs[i]]; }
+    float x(int i) const { return registers[inputs[i]].x; }
+    glm::vec4& out(int i = 0) const { return registers[output + i]; }
+    const ShadingPoint& point() const { return *context.point; }
+};
+
+using PatternFunction = void (*)(const PatternCall& call);
+
+/// What a node may ask for when its instruction is compiled.
+class PatternSetup {
+public:
+    virtual ~PatternSetup() = default;
+    /// @returns the constant value of an input (its default when not authored), or null when the
+    /// input varies
+    virtual const Value* constant(const char* input) const = 0;
+    virtual bool authored(const char* input) const = 0;
+    virtual int openTexture(const TextureRequest& request) = 0;
+    virtual bool textureValid(int handle) const = 0;
+    virtual int primvarSlot(const std::string& name, ValueType type) = 0;
+    virtual void warn(const char* input, const std::string& message) = 0;
+
+    std::string text(const char* input) const {
+        const Value* v = constant(input);
+        return v ? v->text : std::string();
+    }
+    float number(const char* input, float fallback) const {
+        const Value* v = constant(input);
+        return v && !v->numbers.empty() ? v->numbers[0] : fallback;
+    }
+};
+
+using PatternPrepare = void (*)(PatternSetup& setup, PatternData& data);
+
+} // namespace patina

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "materialNetwork/cpu/bsdf.h"
+#include "materialNetwork/cpu/pattern.h"
+#include "materialNetwork/plan.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace patina {
+
+using Register = uint16_t;
+
+struct Instruction {
+    PatternFunction function;
+    Register output;
+    uint32_t firstInput; ///< into ProgramCode::inputPool
+    PatternData data;
+};
+
+/// Parameters of a lobe: registers in the order of lobeParameters(), and what is known at compile
+/// time.
+struct LobeTemplate {
+    static constexpr int maxParameters = 6;
+
+    BsdfLobe prebuilt;    ///< set up already when constant; kind, diffuse and frame always
+    bool constant = false;
+    bool flagA = false;   ///< retroreflective, or energy_compensation
+    bool fused = false;
+    bool straight = false; ///< passes light straight on without tint: part of the presence
+    int mode = 0;         ///< SCATTER_*
+    int compensate = 1;
+    Register parameters[maxParameters] = {};
+};
+
+/// A closure of the plan with registers for operands. Parts come before wholes.
+struct ClosureOp {
+    ClosureKind kind = ClosureKind::None;
+    int a = -1, b = -1;
+    int lobe = -1;         ///< index of the lobe, for lobes
+    bool interface = false; ///< a top of this kind takes what it reflects (else its weight)
+    bool needsPassed = false; ///< stands somewhere in a layer's top
+    Register factor = 0;   ///< lobe: weight; Mix: mix; Multiply: factor; EDF and VDF: value
+};
+
+struct FrameTemplate {
+    int normal = -1, tangent = -1; ///< registers, -1 for the shading frame's own
+    bool flips = true;             ///< turns to the viewer; false where the surface has an inside
+};
+
+struct ProgramCode {
+    std::vector<glm::vec4> constants; ///< the first registers
+    int registerCount = 0;
+    std::vector<Register> inputPool;
+    std::vector<Instruction> opacityCode, emissionCode, interiorCode, surfaceCode;
+
+    std::vector<ClosureOp> bsdf, edf, vdf; ///< the last op is the root
+    std::vector<LobeTemplate> lobes;
+    std::vector<FrameTemplate> frames;
+    Register opacity = 0;
+    bool hasStraight = false;         ///< a lobe is straight
+    bool opacityFromPrimvars = false; ///< only primvars can make opacity less than 1
+    const TextureSource* textures = nullptr;
+};
+
+/// The registers of one evaluation. Small programs live on the stack.
+class RegisterFile {
+public:
+    explicit RegisterFile(const ProgramCode& code);
+    glm::vec4* data() { return _data; }
+    void run(const ProgramCode& code, const std::vector<Instruction>& instructions,
+             const ShadingPoint& point);
+
+private:
+    static constexpr int localCount = 192;
+    glm::vec4 _local[localCount];
+    glm::vec4* _data;
+};
+
+} // namespace patina

@@ -1,0 +1,66 @@
+#include "materialNetwork/material.h"
+
+#include "materialNetwork/dump.h"
+#include "materialNetwork/expand.h"
+#include "materialNetwork/simplify.h"
+
+namespace patina {
+
+namespace {
+
+/// A shading model knows its inputs and their types only through its definition.
+Plan planMaterial(const Network& network, Diagnostics& diagnostics) {
+    const Network expanded = expand(network, diagnostics);
+    std::vector<std::string> cuts;
+    Graph graph = simplify(buildGraph(expanded, diagnostics), cuts);
+    return makePlan(std::move(graph), std::move(cuts), diagnostics);
+}
+
+} // namespace
+
+std::shared_ptr<const MaterialProgram> compileMaterial(const Network& network,
+                                                       TextureSource& textures,
+                                                       Diagnostics& diagnostics) {
+    if (network.terminals.empty())
+        diagnostics.warn(network.path, "outputs:surface",
+                         "the material has no terminal; black is shown");
+    return MaterialProgram::compile(planMaterial(network, diagnostics), textures, diagnostics);
+}
+
+std::string explainMaterial(const Network& network, Diagnostics& diagnostics) {
+    const Network expanded = expand(network, diagnostics);
+    std::vector<std::string> cuts;
+    const Graph graph = buildGraph(expanded, diagnostics);
+    Graph simple = simplify(graph, cuts);
+    const size_t before = graph.nodes.size();
+    std::string text = dumpNetwork(network) + "\n" + dumpGraph(simple);
+    text += "(" + std::to_string(before) + " nodes before simplification, " +
+            std::to_string(simple.nodes.size()) + " after)\n\n";
+    return text + dumpPlan(makePlan(std::move(simple), std::move(cuts), diagnostics));
+}
+
+Network makeDisplayColorNetwork() {
+    NetworkNode color;
+    color.path = "/displayColor/color";
+    color.id = "UsdPrimvarReader_float3";
+    color.inputs["varname"] = Value::makeString("displayColor");
+    color.inputs["fallback"] = Value::makeVec3(0.18f, 0.18f, 0.18f);
+    NetworkNode opacity;
+    opacity.path = "/displayColor/opacity";
+    opacity.id = "UsdPrimvarReader_float";
+    opacity.inputs["varname"] = Value::makeString("displayOpacity");
+    opacity.inputs["fallback"] = Value::makeFloat(1.0f);
+    NetworkNode surface;
+    surface.path = "/displayColor/surface";
+    surface.id = "UsdPreviewSurface";
+    surface.inputs["opacityMode"] = Value::makeString("presence");
+    surface.connections["diffuseColor"] = {color.path, "result"};
+    surface.connections["opacity"] = {opacity.path, "result"};
+    Network network;
+    network.path = "/displayColor";
+    network.nodes = {color, opacity, surface};
+    network.terminals["surface"] = {surface.path, "surface"};
+    return network;
+}
+
+} // namespace patina

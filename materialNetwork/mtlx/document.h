@@ -1,0 +1,28 @@
+#pragma once
+
+#include "materialNetwork/models.h"
+
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// What a MaterialX document defines.
+struct MtlxDocument {
+    std::vector<ShadingModel> models; ///< node definitions with their graphs
+    std::vector<Network> materials;   ///< one per material; node paths are "/graph/node"
+};
+
+/// Parses the text of a `.mtlx` document (1.38 or 1.39).
+/// @param path of the file, for messages and relative file names
+/// @param wantMaterials false when only the node definitions are of interest (a model library)
+/// @returns false, after a warning, when the text is no MaterialX document at all
+bool parseMtlx(const std::string& text, const std::string& path, bool wantMaterials,
+               MtlxDocument& out, Diagnostics& diagnostics);
+
+/// Reads the materials of a `.mtlx` file. Node definitions of the document itself are expanded, so
+/// the networks stand on their own. Network::path is "file:material name". A document without
+/// materials gives one network per surface shader. Empty, after a warning, when unreadable.
+std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics);
+
+} // namespace patina

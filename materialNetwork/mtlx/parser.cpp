@@ -1,0 +1,317 @@
+#include "materialNetwork/mtlx/parser.h"
+
+#include "materialNetwork/nodeTable.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+namespace patina {
+
+namespace {
+
+// Elements of a document that are not nodes.
+const std::set<std::string> otherElements = {
+    "nodedef",     "nodegraph", "implementation", "look",       "lookgroup",   "collection",
+    "propertyset", "variantset", "typedef",       "geominfo",   "geompropdef", "unitdef",
+    "unittypedef", "targetdef", "xi:include",     "input",      "output",      "token",
+    "backdrop",    "comment",   "attributedef",   "parameter"};
+
+bool isPort(const char* name) {
+    return !std::strcmp(name, "input") || !std::strcmp(name, "parameter");
+}
+
+std::vector<std::string> splitList(std::string text) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, ',');) {
+        const size_t first = part.find_first_not_of(" \t");
+        const size_t last = part.find_last_not_of(" \t");
+        parts.push_back(first == std::string::npos ? "" : part.substr(first, last - first + 1));
+    }
+    return parts;
+}
+
+} // namespace
+
+std::string MtlxParser::where(const Element& element) const {
+    std::string path;
+    for (Element e = element; e && std::strcmp(e.name(), "materialx") != 0; e = e.parent())
+        if (!isPort(e.name()))
+            path = "/" + std::string(e.attribute("name").value()) + path;
+    return _path + ":" + path;
+}
+
+std::string MtlxParser::inherited(const Element& element, const char* attribute) const {
+    for (Element e = element; e; e = e.parent())
+        if (const auto a = e.attribute(attribute))
+            return a.value();
+    return "";
+}
+
+Value MtlxParser::readValue(const Element& port) const {
+    Value v;
+    v.type = valueTypeFromName(port.attribute("type").value());
+    const std::string text = port.attribute("value").value();
+    const int n = valueTypeComponents(v.type);
+    if (v.type == ValueType::Filename) {
+        namespace fs = std::filesystem;
+        std::string prefix;
+        for (Element e = port; e; e = e.parent())
+            prefix = e.attribute("fileprefix").value() + prefix;
+        fs::path file(prefix + text);
+        if (!text.empty() && file.is_relative())
+            file = fs::path(_path).parent_path() / file;
+        v.text = text.empty() ? "" : file.lexically_normal().string();
+        // Only colours have a colour space; a file says so itself, or is read by a colour node.
+        const std::string nodeType = port.parent().attribute("type").value();
+        v.colorSpace = nodeType.rfind("color", 0) == 0 || nodeType == "multioutput"
+                           ? inherited(port, "colorspace")
+                           : port.attribute("colorspace").value();
+    } else if (n == 0) {
+        v.text = text;
+    } else if (v.type == ValueType::Bool) {
+        v.numbers = {text == "true" || text == "1" ? 1.0f : 0.0f};
+    } else {
+        std::string plain = text;
+        std::replace(plain.begin(), plain.end(), ',', ' ');
+        std::istringstream stream(plain);
+        stream.imbue(std::locale::classic());
+        for (float x; int(v.numbers.size()) < n && stream >> x;)
+            v.numbers.push_back(x);
+        if (v.numbers.empty() && !text.empty()) {
+            // A name on a numeric input may stand for an enumerated value.
+            v.type = ValueType::String;
+            v.text = text;
+        } else {
+            v.numbers.resize(size_t(n), v.numbers.size() == 1 ? v.numbers[0] : 0.0f);
+        }
+        if (v.type == ValueType::Color3 || v.type == ValueType::Color4)
+            v.colorSpace = inherited(port, "colorspace");
+    }
+    return v;
+}
+
+void MtlxParser::readDef(const Element& element, NodeDef& def) const {
+    def.id = element.attribute("name").value();
+    def.category = element.attribute("node").value();
+    for (const Element& child : element.children()) {
+        if (isPort(child.name())) {
+            InputDef input;
+            input.name = child.attribute("name").value();
+            input.type = valueTypeFromName(child.attribute("type").value());
+            input.value = readValue(child);
+            input.geomprop = child.attribute("defaultgeomprop").value();
+            if (const auto values = child.attribute("enumvalues")) {
+                const auto names = splitList(child.attribute("enum").value());
+                const auto numbers = splitList(values.value());
+                for (size_t i = 0; i < std::min(names.size(), numbers.size()); ++i) {
+                    input.enumNames.push_back(names[i]);
+                    input.enumValues.push_back(float(std::atof(numbers[i].c_str())));
+                }
+            }
+            def.inputs.push_back(std::move(input));
+        } else if (!std::strcmp(child.name(), "output")) {
+            def.outputs.push_back({child.attribute("name").value(),
+                                   valueTypeFromName(child.attribute("type").value())});
+        }
+    }
+    // Up to 1.37 a nodedef named its only output by its own type.
+    if (def.outputs.empty())
+        def.outputs.push_back({"out", valueTypeFromName(element.attribute("type").value())});
+}
+
+std::string MtlxParser::resolveId(const Element& element,
+                                  const std::map<std::string, ValueType>& inputTypes) const {
+    if (const auto def = element.attribute("nodedef"))
+        return def.value();
+    const std::string category = element.name();
+    const ValueType type = valueTypeFromName(element.attribute("type").value());
+    for (const ShadingModel& model : *_models)
+        if (model.def.category == category && nodeDefFit(model.def, type, inputTypes) >= 0)
+            return model.def.id;
+    if (const NodeDef* def = NodeTable::get().resolve(category, type, inputTypes))
+        return def->id;
+    // A category is enough: graph() looks models up by it and reports what nobody knows.
+    return category;
+}
+
+bool MtlxParser::connect(const Element& port, const Scope& scope, Connection& out) {
+    const std::string output = port.attribute("output").value();
+    if (const auto node = port.attribute("nodename")) {
+        out = {scope.prefix + node.value(), output};
+        return true;
+    }
+    const auto graphName = port.attribute("nodegraph");
+    if (!graphName)
+        return false;
+    const auto graph = _graphs.find(graphName.value());
+    if (graph == _graphs.end()) {
+        _diagnostics.warn(where(port.parent()), port.attribute("name").value(),
+                          std::string("node graph '") + graphName.value() +
+                              "' does not exist; the default is used");
+        return false;
+    }
+    for (const Element& child : graph->second.children("output"))
+        if (output.empty() || output == child.attribute("name").value()) {
+            // An output may itself lead to another graph; a circle of those has no end.
+            if (++_depth > 64) {
+                --_depth;
+                return false;
+            }
+            const Scope inner{graph->second, "/" + graph->first + "/", false};
+            const bool found = connect(child, inner, out);
+            --_depth;
+            return found;
+        }
+    _diagnostics.warn(where(port.parent()), port.attribute("name").value(),
+                      std::string("node graph '") + graphName.value() + "' has no output '" +
+                          output + "'; the default is used");
+    return false;
+}
+
+bool MtlxParser::connectInterface(const Element& port, const Scope& scope, NetworkNode& node,
+                                  const std::string& name) {
+    const std::string interface = port.attribute("interfacename").value();
+    if (interface.empty())
+        return false;
+    if (scope.functional) {
+        node.connections[name] = {ShadingModel::interfaceNode, interface};
+        return true;
+    }
+    for (const Element& child : scope.element.children())
+        if (isPort(child.name()) && interface == child.attribute("name").value()) {
+            const Scope outer{scope.element.parent(), "/", false};
+            Connection c;
+            if (connect(child, outer, c))
+                node.connections[name] = c;
+            else if (child.attribute("value"))
+                node.inputs[name] = readValue(child);
+            return true;
+        }
+    _diagnostics.warn(where(port.parent()), name,
+                      "the graph has no input '" + interface + "'; the default is used");
+    return true;
+}
+
+void MtlxParser::readInput(const Element& input, const Scope& scope, NetworkNode& node) {
+    const std::string name = input.attribute("name").value();
+    if (connectInterface(input, scope, node, name))
+        return;
+    Connection c;
+    if (connect(input, scope, c))
+        node.connections[name] = c;
+    else if (input.attribute("value"))
+        node.inputs[name] = readValue(input);
+    if (input.attribute("channels"))
+        _diagnostics.warn(where(input.parent()), name,
+                          "the attribute 'channels' of MaterialX 1.38 is not supported and ignored");
+}
+
+void MtlxParser::readNode(const Element& element, const Scope& scope,
+                          std::vector<NetworkNode>& nodes) {
+    NetworkNode node;
+    node.path = scope.prefix + element.attribute("name").value();
+    std::map<std::string, ValueType> types;
+    for (const Element& child : element.children())
+        if (isPort(child.name())) {
+            types[child.attribute("name").value()] =
+                valueTypeFromName(child.attribute("type").value());
+            readInput(child, scope, node);
+        }
+    node.id = resolveId(element, types);
+    nodes.push_back(std::move(node));
+}
+
+void MtlxParser::readNodes(const Scope& scope, std::vector<NetworkNode>& nodes) {
+    for (const Element& child : scope.element.children())
+        if (child.type() == pugi::node_element && !otherElements.count(child.name()))
+            readNode(child, scope, nodes);
+}
+
+void MtlxParser::readModel(const Element& graph, const NodeDef& def, ShadingModel& model) {
+    model.def = def;
+    const Scope scope{graph, "", true};
+    readNodes(scope, model.nodes);
+    for (const Element& child : graph.children("output")) {
+        Connection c;
+        if (connect(child, scope, c))
+            model.outputs[child.attribute("name").value()] = c;
+    }
+}
+
+void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocument& out) {
+    _models = &out.models;
+    std::map<std::string, Element> defs, functional;
+    for (const Element& child : root.children()) {
+        const std::string kind = child.name();
+        const std::string name = child.attribute("name").value();
+        if (kind == "nodedef")
+            defs[name] = child;
+        else if (kind == "nodegraph" && child.attribute("nodedef"))
+            functional[child.attribute("nodedef").value()] = child;
+        else if (kind == "nodegraph")
+            _graphs[name] = child;
+        else if (kind == "xi:include")
+            _diagnostics.warn(_path, "", "included documents are not read: " +
+                                             std::string(child.attribute("href").value()));
+    }
+    for (const Element& child : root.children("implementation")) {
+        const auto graph = _graphs.find(child.attribute("nodegraph").value());
+        if (graph != _graphs.end())
+            functional[child.attribute("nodedef").value()] = graph->second;
+    }
+    // The interfaces come first, because graphs use each other's definitions.
+    std::vector<Element> bodies;
+    for (const auto& [name, element] : defs) {
+        const auto body = functional.find(name);
+        if (body == functional.end())
+            continue;
+        ShadingModel model;
+        readDef(element, model.def);
+        out.models.push_back(std::move(model));
+        bodies.push_back(body->second);
+    }
+    for (size_t i = 0; i < bodies.size(); ++i) {
+        const NodeDef def = out.models[i].def;
+        readModel(bodies[i], def, out.models[i]);
+    }
+    if (!wantMaterials)
+        return;
+
+    Network all;
+    readNodes({root, "/", false}, all.nodes);
+    for (const auto& [name, element] : _graphs)
+        readNodes({element, "/" + name + "/", false}, all.nodes);
+    const auto addMaterial = [&](const std::string& name) -> Network& {
+        Network network;
+        network.path = _path + ":" + name;
+        network.nodes = all.nodes;
+        out.materials.push_back(std::move(network));
+        return out.materials.back();
+    };
+    for (const NetworkNode& node : all.nodes) {
+        if (node.id != "ND_surfacematerial" && node.id != "ND_volumematerial")
+            continue;
+        Network& material = addMaterial(node.path.substr(1));
+        for (const auto& [input, terminal] :
+             {std::pair{"surfaceshader", "surface"}, std::pair{"displacementshader", "displacement"},
+              std::pair{"volumeshader", "volume"}}) {
+            const auto c = node.connections.find(input);
+            if (c != node.connections.end())
+                material.terminals[terminal] = c->second;
+        }
+    }
+    if (!out.materials.empty())
+        return;
+    for (const Element& child : root.children())
+        if (!std::strcmp(child.attribute("type").value(), "surfaceshader") &&
+            !otherElements.count(child.name())) {
+            const std::string name = child.attribute("name").value();
+            addMaterial(name).terminals["surface"] = {"/" + name, ""};
+        }
+}
+
+} // namespace patina

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "materialNetwork/cpu/pattern.h"
+#include "materialNetwork/network.h"
+
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// What a node that is not a pattern does.
+enum class ClosureKind {
+    None, ///< a pattern
+    OrenNayar,
+    Burley,
+    Translucent,
+    Dielectric,
+    Conductor,
+    Schlick,
+    UniformEdf,
+    AbsorptionVdf,
+    AnisotropicVdf,
+    Layer, ///< (top, base)
+    Mix,   ///< (fg, bg, mix)
+    Add,
+    Multiply,
+    Surface,
+    SurfaceUnlit,
+    Volume,
+    Material,
+    Unsupported ///< known by name and inputs; renders as nothing, with a warning
+};
+
+struct InputDef {
+    std::string name;
+    ValueType type = ValueType::Unknown;
+    Value value;          ///< default; empty for closures
+    std::string geomprop; ///< default taken from the geometry: "Nworld", "Tworld", "UV0"...
+    /// Names that stand for numbers when a string is authored on a numeric input.
+    std::vector<std::string> enumNames;
+    std::vector<float> enumValues;
+};
+
+struct OutputDef {
+    std::string name;
+    ValueType type = ValueType::Unknown;
+};
+
+/// How simplify() may replace a node beyond folding it: each is the algebra of one node.
+enum class Algebra {
+    None,
+    Alias,     ///< output is input 0 (dot, constant)
+    Add,       ///< 0 is neutral
+    Subtract,  ///< a 0 on the right is neutral
+    Multiply,  ///< 1 is neutral, 0 absorbs
+    Divide,    ///< a 1 on the right is neutral
+    Mix,       ///< (fg, bg, mix) at mix 0 and 1
+    IfGreater, ///< (value1, value2, in1, in2)
+    IfGreaterEq,
+    IfEqual,
+    Switch,    ///< (in1.., which)
+    NormalMap, ///< (in, scale, normal...) with a neutral colour
+    IsUniform  ///< 1 when the input is the same everywhere, else 0
+};
+
+/// One node definition: a row of the table.
+struct NodeDef {
+    std::string id;       ///< "ND_add_color3"
+    std::string category; ///< "add"
+    std::vector<InputDef> inputs;
+    std::vector<OutputDef> outputs;
+    ClosureKind closure = ClosureKind::None;
+    PatternFunction function = nullptr;
+    PatternPrepare prepare = nullptr; ///< reads strings, opens textures, asks for primvars
+    bool varying = false;             ///< reads the shading point, so it cannot be folded
+    Algebra algebra = Algebra::None;
+
+    int findInput(const std::string& name) const;  ///< -1 when there is none
+    int findOutput(const std::string& name) const; ///< "" finds the first; -1 when there is none
+};
+
+/// A closure or shader type: not a number, not a string.
+bool isClosureType(ValueType type);
+
+} // namespace patina

@@ -1,0 +1,59 @@
+// Choices.
+#include "materialNetwork/nodeTable.h"
+
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+using glm::vec4;
+using Call = const PatternCall&;
+
+void ifGreater(Call c) { c.out() = c.x(0) > c.x(1) ? c.in(2) : c.in(3); }
+void ifGreaterEq(Call c) { c.out() = c.x(0) >= c.x(1) ? c.in(2) : c.in(3); }
+void ifEqual(Call c) { c.out() = c.x(0) == c.x(1) ? c.in(2) : c.in(3); }
+void logicAnd(Call c) { c.out() = vec4(c.x(0) != 0.0f && c.x(1) != 0.0f ? 1.0f : 0.0f); }
+void logicOr(Call c) { c.out() = vec4(c.x(0) != 0.0f || c.x(1) != 0.0f ? 1.0f : 0.0f); }
+void logicXor(Call c) { c.out() = vec4((c.x(0) != 0.0f) != (c.x(1) != 0.0f) ? 1.0f : 0.0f); }
+void logicNot(Call c) { c.out() = vec4(c.x(0) == 0.0f ? 1.0f : 0.0f); }
+
+void switched(Call c) {
+    const float which = std::floor(c.x(10));
+    c.out() = which >= 0.0f && which < 10.0f ? c.in(int(which)) : vec4(0.0f);
+}
+
+const char* const types = "float integer color3 color4 vector2 vector3 vector4";
+#define PATINA_SWITCH_INPUTS                                                                       \
+    "$ in1=0, $ in2=0, $ in3=0, $ in4=0, $ in5=0, $ in6=0, $ in7=0, $ in8=0, $ in9=0, $ in10=0, "
+
+const NodeRow rows[] = {
+    {"ND_ifgreater_$", "ifgreater", "float value1=1, float value2=0, $ in1=0, $ in2=0", "$",
+     ifGreater, Algebra::IfGreater, types},
+    {"ND_ifgreater_$I", "ifgreater", "integer value1=1, integer value2=0, $ in1=0, $ in2=0", "$",
+     ifGreater, Algebra::IfGreater, types},
+    {"ND_ifgreatereq_$", "ifgreatereq", "float value1=1, float value2=0, $ in1=0, $ in2=0", "$",
+     ifGreaterEq, Algebra::IfGreaterEq, types},
+    {"ND_ifgreatereq_$I", "ifgreatereq", "integer value1=1, integer value2=0, $ in1=0, $ in2=0",
+     "$", ifGreaterEq, Algebra::IfGreaterEq, types},
+    {"ND_ifequal_$", "ifequal", "float value1=0, float value2=0, $ in1=0, $ in2=0", "$", ifEqual,
+     Algebra::IfEqual, types},
+    {"ND_ifequal_$I", "ifequal", "integer value1=0, integer value2=0, $ in1=0, $ in2=0", "$",
+     ifEqual, Algebra::IfEqual, types},
+    {"ND_ifequal_$B", "ifequal", "boolean value1=0, boolean value2=0, $ in1=0, $ in2=0", "$",
+     ifEqual, Algebra::IfEqual, types},
+    {"ND_switch_$", "switch", PATINA_SWITCH_INPUTS "float which=0", "$", switched, Algebra::Switch,
+     types},
+    {"ND_switch_$I", "switch", PATINA_SWITCH_INPUTS "integer which=0", "$", switched,
+     Algebra::Switch, types},
+    {"ND_logical_and", "and", "boolean in1=0, boolean in2=0", "boolean", logicAnd},
+    {"ND_logical_or", "or", "boolean in1=0, boolean in2=0", "boolean", logicOr},
+    {"ND_logical_xor", "xor", "boolean in1=0, boolean in2=0", "boolean", logicXor},
+    {"ND_logical_not", "not", "boolean in=0", "boolean", logicNot},
+};
+
+} // namespace
+
+NodeRows conditionalNodes() { return {std::begin(rows), std::end(rows)}; }
+
+} // namespace patina

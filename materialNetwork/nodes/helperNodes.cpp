@@ -1,0 +1,54 @@
+// Nodes that turn artistic parameters into those of lobes.
+#include "materialNetwork/nodeTable.h"
+
+#include "shaders/patterns.h"
+
+namespace patina {
+
+namespace {
+
+using glm::vec2;
+using glm::vec4;
+using Call = const PatternCall&;
+
+void roughnessAnisotropy(Call c) {
+    c.out() = vec4(sh::patternRoughnessAnisotropy(c.x(0), c.x(1)), 0.0f, 0.0f);
+}
+
+void roughnessDual(Call c) { c.out() = vec4(sh::patternRoughnessDual(vec2(c.in(0))), 0.0f, 0.0f); }
+
+void glossinessAnisotropy(Call c) {
+    c.out() = vec4(sh::patternRoughnessAnisotropy(1.0f - c.x(0), c.x(1)), 0.0f, 0.0f);
+}
+
+void artisticIor(Call c) {
+    vec4 ior(0.0f), extinction(0.0f);
+    for (int i = 0; i < 3; ++i) {
+        ior[i] = sh::patternArtisticIor(c.in(0)[i], c.in(1)[i]);
+        extinction[i] = sh::patternArtisticExtinction(c.in(0)[i], ior[i]);
+    }
+    c.out(0) = ior;
+    c.out(1) = extinction;
+}
+
+/// Reached at run time only by an input that varies.
+void isUniform(Call c) { c.out() = vec4(0.0f); }
+
+const NodeRow rows[] = {
+    {"ND_roughness_anisotropy", "roughness_anisotropy", "float roughness=0, float anisotropy=0",
+     "vector2", roughnessAnisotropy},
+    {"ND_roughness_dual", "roughness_dual", "vector2 roughness=0", "vector2", roughnessDual},
+    {"ND_glossiness_anisotropy", "glossiness_anisotropy", "float glossiness=1, float anisotropy=0",
+     "vector2", glossinessAnisotropy},
+    {"ND_artistic_ior", "artistic_ior",
+     "color3 reflectivity=0.944 0.776 0.373, color3 edge_color=0.998 0.981 0.751",
+     "color3 ior, color3 extinction", artisticIor},
+    {"ND_isuniform_$", "isuniform", "$ in=0", "float", isUniform, Algebra::IsUniform,
+     "float color3"},
+};
+
+} // namespace
+
+NodeRows helperNodes() { return {std::begin(rows), std::end(rows)}; }
+
+} // namespace patina

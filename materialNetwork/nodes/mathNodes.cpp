@@ -1,0 +1,150 @@
+// Arithmetic, component by component. Scalars fill their register, so one function serves all
+// sizes and the scalar-vector variants.
+#include "materialNetwork/nodeTable.h"
+
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+using glm::vec4;
+using Call = const PatternCall&;
+
+template <float (*F)(float)> void map1(Call c) {
+    const vec4 a = c.in(0);
+    c.out() = vec4(F(a.x), F(a.y), F(a.z), F(a.w));
+}
+
+template <float (*F)(float, float)> void map2(Call c) {
+    const vec4 a = c.in(0), b = c.in(1);
+    c.out() = vec4(F(a.x, b.x), F(a.y, b.y), F(a.z, b.z), F(a.w, b.w));
+}
+
+float divided(float a, float b) { return b == 0.0f ? 0.0f : a / b; }
+float powered(float a, float b) {
+    const float p = std::pow(a, b);
+    return std::isfinite(p) ? p : 0.0f;
+}
+float modulo(float a, float b) { return b == 0.0f ? 0.0f : a - b * std::floor(a / b); }
+float root(float a) { return std::sqrt(a > 0.0f ? a : 0.0f); }
+float logarithm(float a) { return std::log(a > 1e-37f ? a : 1e-37f); }
+float exponential(float a) { return std::exp(a < 80.0f ? a : 80.0f); }
+float sign(float a) { return float(a > 0.0f) - float(a < 0.0f); }
+float absolute(float a) { return std::fabs(a); }
+float floored(float a) { return std::floor(a); }
+float ceiled(float a) { return std::ceil(a); }
+float rounded(float a) { return std::round(a); }
+float fraction(float a) { return a - std::floor(a); }
+float sine(float a) { return std::sin(a); }
+float cosine(float a) { return std::cos(a); }
+float tangent(float a) { return std::tan(a); }
+float arcsine(float a) { return std::asin(glm::clamp(a, -1.0f, 1.0f)); }
+float arccosine(float a) { return std::acos(glm::clamp(a, -1.0f, 1.0f)); }
+float arctangent(float y, float x) { return std::atan2(y, x); }
+float larger(float a, float b) { return a > b ? a : b; }
+float smaller(float a, float b) { return a < b ? a : b; }
+
+void constant(Call c) { c.out() = c.in(0); }
+void add(Call c) { c.out() = c.in(0) + c.in(1); }
+void subtract(Call c) { c.out() = c.in(0) - c.in(1); }
+void multiply(Call c) { c.out() = c.in(0) * c.in(1); }
+void invert(Call c) { c.out() = c.in(1) - c.in(0); }
+void clamped(Call c) { c.out() = glm::min(glm::max(c.in(0), c.in(1)), c.in(2)); }
+void mixed(Call c) { c.out() = c.in(1) + (c.in(0) - c.in(1)) * c.in(2); }
+
+void smoothstep(Call c) {
+    for (int i = 0; i < 4; ++i) {
+        const float low = c.in(1)[i], high = c.in(2)[i], x = c.in(0)[i];
+        const float t = high > low ? glm::clamp((x - low) / (high - low), 0.0f, 1.0f)
+                                   : float(x >= high);
+        c.out()[i] = t * t * (3.0f - 2.0f * t);
+    }
+}
+
+void remap(Call c) {
+    for (int i = 0; i < 4; ++i) {
+        const float t = divided(c.in(0)[i] - c.in(1)[i], c.in(2)[i] - c.in(1)[i]);
+        c.out()[i] = c.in(3)[i] + t * (c.in(4)[i] - c.in(3)[i]);
+    }
+}
+
+const char* const types = allTypes;
+const char* const tuples = tupleTypes;
+
+const NodeRow rows[] = {
+    {"ND_constant_$", "constant", "$ value=0", "$", constant, Algebra::Alias,
+     "float color3 color4 vector2 vector3 vector4 integer boolean"},
+    {"ND_constant_string", "constant", "string value=", "string", nullptr, Algebra::Alias},
+    {"ND_constant_filename", "constant", "filename value=", "filename", nullptr, Algebra::Alias},
+    {"ND_dot_$", "dot", "$ in=0", "$", constant, Algebra::Alias,
+     "float color3 color4 vector2 vector3 vector4 integer boolean"},
+    {"ND_dot_string", "dot", "string in=", "string", nullptr, Algebra::Alias},
+    {"ND_dot_filename", "dot", "filename in=", "filename", nullptr, Algebra::Alias},
+    {"ND_add_$", "add", "$ in1=0, $ in2=0", "$", add, Algebra::Add, types},
+    {"ND_add_integer", "add", "integer in1=0, integer in2=0", "integer", add, Algebra::Add},
+    {"ND_add_$FA", "add", "$ in1=0, float in2=0", "$", add, Algebra::Add, tuples},
+    {"ND_subtract_$", "subtract", "$ in1=0, $ in2=0", "$", subtract, Algebra::Subtract, types},
+    {"ND_subtract_integer", "subtract", "integer in1=0, integer in2=0", "integer", subtract,
+     Algebra::Subtract},
+    {"ND_subtract_$FA", "subtract", "$ in1=0, float in2=0", "$", subtract, Algebra::Subtract,
+     tuples},
+    {"ND_multiply_$", "multiply", "$ in1=0, $ in2=1", "$", multiply, Algebra::Multiply, types},
+    {"ND_multiply_$FA", "multiply", "$ in1=0, float in2=1", "$", multiply, Algebra::Multiply,
+     tuples},
+    {"ND_divide_$", "divide", "$ in1=0, $ in2=1", "$", map2<divided>, Algebra::Divide, types},
+    {"ND_divide_$FA", "divide", "$ in1=0, float in2=1", "$", map2<divided>, Algebra::Divide,
+     tuples},
+    {"ND_modulo_$", "modulo", "$ in1=0, $ in2=1", "$", map2<modulo>, Algebra::None, types},
+    {"ND_modulo_$FA", "modulo", "$ in1=0, float in2=1", "$", map2<modulo>, Algebra::None, tuples},
+    {"ND_power_$", "power", "$ in1=0, $ in2=1", "$", map2<powered>, Algebra::None, types},
+    {"ND_power_$FA", "power", "$ in1=0, float in2=1", "$", map2<powered>, Algebra::None, tuples},
+    {"ND_min_$", "min", "$ in1=0, $ in2=0", "$", map2<smaller>, Algebra::None, types},
+    {"ND_min_$FA", "min", "$ in1=0, float in2=0", "$", map2<smaller>, Algebra::None, tuples},
+    {"ND_max_$", "max", "$ in1=0, $ in2=0", "$", map2<larger>, Algebra::None, types},
+    {"ND_max_$FA", "max", "$ in1=0, float in2=0", "$", map2<larger>, Algebra::None, tuples},
+    {"ND_clamp_$", "clamp", "$ in=0, $ low=0, $ high=1", "$", clamped, Algebra::None, types},
+    {"ND_clamp_$FA", "clamp", "$ in=0, float low=0, float high=1", "$", clamped, Algebra::None,
+     tuples},
+    {"ND_mix_$", "mix", "$ fg=0, $ bg=0, float mix=0", "$", mixed, Algebra::Mix, types},
+    {"ND_mix_$_$", "mix", "$ fg=0, $ bg=0, $ mix=0", "$", mixed, Algebra::Mix, tuples},
+    {"ND_invert_$", "invert", "$ in=0, $ amount=1", "$", invert, Algebra::None, types},
+    {"ND_invert_$FA", "invert", "$ in=0, float amount=1", "$", invert, Algebra::None, tuples},
+    {"ND_absval_$", "absval", "$ in=0", "$", map1<absolute>, Algebra::None, types},
+    {"ND_sign_$", "sign", "$ in=0", "$", map1<sign>, Algebra::None, types},
+    {"ND_floor_$", "floor", "$ in=0", "$", map1<floored>, Algebra::None, types},
+    {"ND_ceil_$", "ceil", "$ in=0", "$", map1<ceiled>, Algebra::None, types},
+    {"ND_round_$", "round", "$ in=0", "$", map1<rounded>, Algebra::None, types},
+    {"ND_fract_$", "fract", "$ in=0", "$", map1<fraction>, Algebra::None, types},
+    {"ND_sqrt_$", "sqrt", "$ in=0", "$", map1<root>, Algebra::None, "float vector2 vector3 vector4"},
+    {"ND_ln_$", "ln", "$ in=1", "$", map1<logarithm>, Algebra::None,
+     "float vector2 vector3 vector4"},
+    {"ND_exp_$", "exp", "$ in=0", "$", map1<exponential>, Algebra::None,
+     "float vector2 vector3 vector4"},
+    {"ND_sin_$", "sin", "$ in=0", "$", map1<sine>, Algebra::None, "float vector2 vector3 vector4"},
+    {"ND_cos_$", "cos", "$ in=0", "$", map1<cosine>, Algebra::None,
+     "float vector2 vector3 vector4"},
+    {"ND_tan_$", "tan", "$ in=0", "$", map1<tangent>, Algebra::None,
+     "float vector2 vector3 vector4"},
+    {"ND_asin_$", "asin", "$ in=0", "$", map1<arcsine>, Algebra::None,
+     "float vector2 vector3 vector4"},
+    {"ND_acos_$", "acos", "$ in=0", "$", map1<arccosine>, Algebra::None,
+     "float vector2 vector3 vector4"},
+    {"ND_atan2_$", "atan2", "$ iny=0, $ inx=1", "$", map2<arctangent>, Algebra::None,
+     "float vector2 vector3 vector4"},
+    {"ND_smoothstep_$", "smoothstep", "$ in=0, $ low=0, $ high=1", "$", smoothstep, Algebra::None,
+     types},
+    {"ND_smoothstep_$FA", "smoothstep", "$ in=0, float low=0, float high=1", "$", smoothstep,
+     Algebra::None, tuples},
+    {"ND_remap_$", "remap", "$ in=0, $ inlow=0, $ inhigh=1, $ outlow=0, $ outhigh=1", "$", remap,
+     Algebra::None, types},
+    {"ND_remap_$FA", "remap",
+     "$ in=0, float inlow=0, float inhigh=1, float outlow=0, float outhigh=1", "$", remap,
+     Algebra::None, tuples},
+};
+
+} // namespace
+
+NodeRows mathNodes() { return {std::begin(rows), std::end(rows)}; }
+
+} // namespace patina

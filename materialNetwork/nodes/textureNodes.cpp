@@ -1,0 +1,106 @@
+// MaterialX image nodes.
+#include "materialNetwork/nodeTable.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+using glm::vec2;
+using glm::vec4;
+using Call = const PatternCall&;
+
+TextureWrap addressMode(PatternSetup& setup, const char* input) {
+    const std::string mode = setup.text(input);
+    if (mode == "constant")
+        return TextureWrap::Black;
+    if (mode == "clamp")
+        return TextureWrap::Clamp;
+    if (mode == "mirror")
+        return TextureWrap::Mirror;
+    if (mode != "periodic" && !mode.empty())
+        setup.warn(input, "unknown address mode '" + mode + "'; periodic is used");
+    return TextureWrap::Repeat;
+}
+
+/// data.handle stays negative when the authored default stands in for the image.
+void prepareImage(PatternSetup& setup, PatternData& data) {
+    TextureRequest request;
+    const Value* file = setup.constant("file");
+    if (!file) {
+        setup.warn("file", "the file name varies over the surface; the default is used");
+        return;
+    }
+    if (file->text.empty()) {
+        setup.warn("file", "no file is given; the default is used");
+        return;
+    }
+    request.file = file->text;
+    request.colorSpace = file->colorSpace.empty() ? "raw" : file->colorSpace;
+    request.wrapS = addressMode(setup, "uaddressmode");
+    request.wrapT = addressMode(setup, "vaddressmode");
+    request.nearest = setup.text("filtertype") == "closest";
+    request.input = "file";
+    const int handle = setup.openTexture(request);
+    // Without an authored default the source's own sign of a missing texture shows.
+    if (setup.textureValid(handle) || !setup.authored("default"))
+        data.handle = handle;
+}
+
+void write(Call c, vec2 uv, float footprint) {
+    if (c.data.handle < 0) {
+        c.out() = c.in(1);
+        return;
+    }
+    const vec4 t = c.context.textures->sample(c.data.handle, uv, footprint);
+    c.out() = t;
+}
+
+void writeScalar(Call c, vec2 uv, float footprint) {
+    write(c, uv, footprint);
+    c.out() = vec4(c.out().x);
+}
+
+vec2 tiledUv(Call c) {
+    const vec2 image(c.in(5)), tile(c.in(6));
+    const vec2 uv = vec2(c.in(2)) * vec2(c.in(3)) - vec2(c.in(4));
+    return vec2(image.x != 0.0f ? uv.x / image.x * tile.x : 0.0f,
+                image.y != 0.0f ? uv.y / image.y * tile.y : 0.0f);
+}
+
+float tiledFootprint(Call c) {
+    const vec2 scale = glm::abs(vec2(c.in(3)));
+    return c.point().uvFootprint * std::max(scale.x, scale.y);
+}
+
+void imageTuple(Call c) { write(c, vec2(c.in(2)), c.point().uvFootprint); }
+void imageScalar(Call c) { writeScalar(c, vec2(c.in(2)), c.point().uvFootprint); }
+void tiledTuple(Call c) { write(c, tiledUv(c), tiledFootprint(c)); }
+void tiledScalar(Call c) { writeScalar(c, tiledUv(c), tiledFootprint(c)); }
+
+#define PATINA_IMAGE "filename file=, $ default=0, vector2 texcoord=@UV0, "
+#define PATINA_ADDRESS                                                                             \
+    "string uaddressmode=periodic, string vaddressmode=periodic, string filtertype=linear"
+#define PATINA_TILED                                                                               \
+    PATINA_IMAGE "vector2 uvtiling=1, vector2 uvoffset=0, vector2 realworldimagesize=1, "          \
+                 "vector2 realworldtilesize=1, string filtertype=linear, "                         \
+                 "string uaddressmode=periodic, string vaddressmode=periodic"
+
+const NodeRow rows[] = {
+    {"ND_image_float", "image", "filename file=, float default=0, vector2 texcoord=@UV0, "
+     PATINA_ADDRESS, "float", imageScalar, Algebra::None, nullptr, prepareImage, true},
+    {"ND_image_$", "image", PATINA_IMAGE PATINA_ADDRESS, "$", imageTuple, Algebra::None, tupleTypes,
+     prepareImage, true},
+    {"ND_tiledimage_$", "tiledimage", PATINA_TILED, "$", tiledScalar, Algebra::None, "float",
+     prepareImage, true},
+    {"ND_tiledimage_$", "tiledimage", PATINA_TILED, "$", tiledTuple, Algebra::None, tupleTypes,
+     prepareImage, true},
+};
+
+} // namespace
+
+NodeRows textureNodes() { return {std::begin(rows), std::end(rows)}; }
+
+} // namespace patina

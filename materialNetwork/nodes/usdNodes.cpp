@@ -1,0 +1,81 @@
+// UsdUVTexture of the UsdPreviewSurface specification.
+#include "materialNetwork/nodeTable.h"
+
+namespace patina {
+
+namespace {
+
+using glm::vec2;
+using glm::vec4;
+using Call = const PatternCall&;
+
+/// "useMetadata" without metadata in the file means black, as the specification says; MaterialX
+/// spells repeat "periodic".
+TextureWrap wrapMode(PatternSetup& setup, const char* input) {
+    const std::string mode = setup.text(input);
+    if (mode == "repeat" || mode == "periodic")
+        return TextureWrap::Repeat;
+    if (mode == "clamp")
+        return TextureWrap::Clamp;
+    if (mode == "mirror")
+        return TextureWrap::Mirror;
+    if (mode != "black" && mode != "useMetadata" && !mode.empty())
+        setup.warn(input, "unknown wrap mode '" + mode + "'; black is used");
+    return TextureWrap::Black;
+}
+
+void prepareUvTexture(PatternSetup& setup, PatternData& data) {
+    const Value* file = setup.constant("file");
+    if (!file || file->text.empty()) {
+        setup.warn("file", "no file is given; the fallback is used");
+        return;
+    }
+    TextureRequest request;
+    request.file = file->text;
+    request.colorSpace = setup.text("sourceColorSpace");
+    // The colour space of the asset itself is the more specific statement.
+    if ((request.colorSpace.empty() || request.colorSpace == "auto") && !file->colorSpace.empty())
+        request.colorSpace = file->colorSpace;
+    if (request.colorSpace.empty())
+        request.colorSpace = "auto";
+    request.wrapS = wrapMode(setup, "wrapS");
+    request.wrapT = wrapMode(setup, "wrapT");
+    request.input = "inputs:file";
+    const int handle = setup.openTexture(request);
+    if (setup.textureValid(handle) || !setup.authored("fallback"))
+        data.handle = handle;
+}
+
+/// Outputs r, g, b, a, rgb, rgba.
+void uvTexture(Call c) {
+    vec4 t = c.in(4);
+    if (c.data.handle >= 0)
+        t = c.context.textures->sample(c.data.handle, vec2(c.in(1)), c.point().uvFootprint) *
+                c.in(2) +
+            c.in(3);
+    for (int i = 0; i < 4; ++i)
+        c.out(i) = vec4(t[i]);
+    c.out(4) = t;
+    c.out(5) = t;
+}
+
+#define PATINA_UV_TEXTURE                                                                          \
+    "filename file=, vector2 st=@UV0, vector4 scale=1, vector4 bias=0, vector4 fallback=0 0 0 1, "
+#define PATINA_UV_OUTPUTS "float r, float g, float b, float a, color3 rgb, color4 rgba"
+
+const NodeRow rows[] = {
+    {"UsdUVTexture", "UsdUVTexture",
+     PATINA_UV_TEXTURE "string wrapS=useMetadata, string wrapT=useMetadata, "
+                       "string sourceColorSpace=auto",
+     PATINA_UV_OUTPUTS, uvTexture, Algebra::None, nullptr, prepareUvTexture, true},
+    {"ND_UsdUVTexture", "UsdUVTexture",
+     PATINA_UV_TEXTURE "string wrapS=periodic, string wrapT=periodic, "
+                       "string sourceColorSpace=auto",
+     PATINA_UV_OUTPUTS, uvTexture, Algebra::None, nullptr, prepareUvTexture, true},
+};
+
+} // namespace
+
+NodeRows usdNodes() { return {std::begin(rows), std::end(rows)}; }
+
+} // namespace patina

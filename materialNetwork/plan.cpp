@@ -1,0 +1,267 @@
+#include "materialNetwork/plan.h"
+
+#include "materialNetwork/nodeTable.h"
+
+#include "shaders/shaders.h"
+
+#include <map>
+
+namespace patina {
+
+namespace {
+
+class Planner {
+public:
+    Planner(Plan& plan, Diagnostics& diagnostics) : _plan(plan), _diagnostics(diagnostics) {}
+
+    void run() {
+        _plan.opacity.value = Value::makeFloat(1.0f);
+        const auto surface = _plan.graph.terminals.find("surface");
+        if (surface != _plan.graph.terminals.end())
+            planSurface(surface->second, "surface");
+        const auto volume = _plan.graph.terminals.find("volume");
+        if (volume != _plan.graph.terminals.end())
+            planVolume(volume->second);
+        const auto displacement = _plan.graph.terminals.find("displacement");
+        if (displacement != _plan.graph.terminals.end())
+            planDisplacement(displacement->second);
+    }
+
+private:
+    const GraphNode& nodeOf(int node) const { return _plan.graph.nodes[size_t(node)]; }
+
+    const Operand& input(const GraphNode& node, const char* name) const {
+        return node.inputs[size_t(node.def->findInput(name))];
+    }
+
+    void planSurface(const Operand& operand, const char* terminal) {
+        if (operand.isConstant())
+            return;
+        const GraphNode& node = nodeOf(operand.node);
+        switch (node.def->closure) {
+        case ClosureKind::Material:
+            if (!input(node, "backsurfaceshader").isConstant())
+                leaveOut(node, "backsurfaceshader is not modelled");
+            planSurface(input(node, "surfaceshader"), terminal);
+            return;
+        case ClosureKind::Surface: {
+            _plan.opacity = input(node, "opacity");
+            float thin = 0.0f;
+            if (!constantNumber(input(node, "thin_walled"), thin))
+                leaveOut(node, "thin_walled varies over the surface and is taken as false");
+            _plan.thinWalled = thin != 0.0f;
+            _plan.bsdf = build(input(node, "bsdf"), false);
+            _plan.edf = build(input(node, "edf"), false);
+            return;
+        }
+        case ClosureKind::SurfaceUnlit:
+            planUnlit(operand.node);
+            return;
+        default:
+            break;
+        }
+        // A bare closure on the terminal is understood as a surface made of it.
+        const ValueType type = node.def->outputs[size_t(operand.output)].type;
+        if (type == ValueType::Bsdf)
+            _plan.bsdf = build(operand, false);
+        else if (type == ValueType::Edf)
+            _plan.edf = build(operand, false);
+        else
+            _diagnostics.warn(node.path, terminal,
+                              node.def->category + " is not a surface; black is shown");
+    }
+
+    void planUnlit(int index) {
+        const GraphNode node = nodeOf(index);
+        _plan.opacity = input(node, "opacity");
+        if (!isConstantValue(input(node, "transmission"), 0.0f))
+            leaveOut(node, "transmission of an unlit surface is not modelled");
+        const Operand color =
+            append("ND_multiply_color3FA", {input(node, "emission_color"), input(node, "emission")},
+                   node.path);
+        const Operand edf = append("ND_uniform_edf", {color}, node.path);
+        _plan.edf = build(edf, false);
+    }
+
+    Operand append(const char* id, std::vector<Operand> inputs, const std::string& path) {
+        GraphNode node;
+        node.def = NodeTable::get().find(id);
+        node.path = path;
+        node.authored.assign(inputs.size(), true);
+        node.inputs = std::move(inputs);
+        _plan.graph.nodes.push_back(std::move(node));
+        return {int(_plan.graph.nodes.size()) - 1, 0, {}};
+    }
+
+    void planVolume(const Operand& operand) {
+        if (operand.isConstant())
+            return;
+        const GraphNode& node = nodeOf(operand.node);
+        if (node.def->closure == ClosureKind::Material) {
+            planVolume(input(node, "volumeshader"));
+        } else if (node.def->closure == ClosureKind::Volume) {
+            _plan.vdf = build(input(node, "vdf"), false);
+            if (!input(node, "edf").isConstant())
+                leaveOut(node, "emission inside a volume is not modelled");
+        } else if (node.def->outputs[size_t(operand.output)].type == ValueType::Vdf) {
+            _plan.vdf = build(operand, false);
+        } else {
+            _diagnostics.warn(node.path, "volume",
+                              node.def->category + " is not a volume; it is ignored");
+        }
+    }
+
+    void planDisplacement(const Operand& operand) {
+        if (operand.isConstant())
+            return;
+        const GraphNode& node = nodeOf(operand.node);
+        const int i = node.def->findInput("displacement");
+        if (i < 0 || !isConstantValue(node.inputs[size_t(i)], 0.0f))
+            leaveOut(node, "displacement is not modelled");
+    }
+
+    void leaveOut(const GraphNode& node, const std::string& what) {
+        _plan.leftOut.push_back(node.path + ": " + what);
+    }
+
+    /// @returns index in Plan::closures, -1 for no closure
+    int build(const Operand& operand, bool fused) {
+        if (operand.isConstant())
+            return -1;
+        const auto key = std::make_pair(operand.node, fused);
+        const auto known = _built.find(key);
+        if (known != _built.end())
+            return known->second;
+        const int index = buildNode(operand.node, fused);
+        _built[key] = index;
+        return index;
+    }
+
+    int buildNode(int index, bool fused) {
+        PlanClosure closure;
+        const GraphNode node = nodeOf(index);
+        closure.kind = node.def->closure;
+        closure.node = index;
+        switch (closure.kind) {
+        case ClosureKind::Layer: {
+            closure.a = build(node.inputs[0], fused);
+            if (node.def->inputs[1].type == ValueType::Vdf) {
+                addInterior(node);
+                return closure.a;
+            }
+            closure.b = build(node.inputs[1], fused || reflects(closure.a));
+            if (closure.a < 0)
+                return closure.b;
+            if (closure.b < 0)
+                return closure.a;
+            break;
+        }
+        case ClosureKind::Mix:
+        case ClosureKind::Add:
+            closure.a = build(node.inputs[0], fused);
+            closure.b = build(node.inputs[1], fused);
+            if (closure.a < 0 && closure.b < 0)
+                return -1;
+            break;
+        case ClosureKind::Multiply:
+            closure.a = build(node.inputs[0], fused);
+            if (closure.a < 0)
+                return -1;
+            break;
+        case ClosureKind::Dielectric:
+        case ClosureKind::Schlick:
+            closure.fused = fused && scatterMode(_plan, closure) == sh::SCATTER_T;
+            checkMicrofacet(node);
+            break;
+        case ClosureKind::Conductor:
+            checkMicrofacet(node);
+            break;
+        case ClosureKind::AnisotropicVdf:
+            if (!isConstantValue(input(node, "scattering"), 0.0f))
+                leaveOut(node, "scattering inside a volume is not modelled");
+            break;
+        case ClosureKind::OrenNayar:
+        case ClosureKind::Burley:
+        case ClosureKind::Translucent:
+        case ClosureKind::UniformEdf:
+        case ClosureKind::AbsorptionVdf:
+            break;
+        default:
+            _diagnostics.warn(node.path, "",
+                              node.def->category + " cannot stand here; it is left out");
+            return -1;
+        }
+        _plan.closures.push_back(closure);
+        return int(_plan.closures.size()) - 1;
+    }
+
+    void addInterior(const GraphNode& layer) {
+        const int vdf = build(layer.inputs[1], false);
+        if (vdf < 0 || vdf == _plan.vdf)
+            return;
+        if (_plan.vdf >= 0)
+            leaveOut(layer, "a second medium inside the same object is not modelled");
+        else
+            _plan.vdf = vdf;
+    }
+
+    /// Whether a closure contains the reflecting half of an interface.
+    bool reflects(int index) const {
+        if (index < 0)
+            return false;
+        const PlanClosure& c = _plan.closures[size_t(index)];
+        if (c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Schlick)
+            return (scatterMode(_plan, c) & sh::SCATTER_R) != 0;
+        return reflects(c.a) || reflects(c.b);
+    }
+
+    void checkMicrofacet(const GraphNode& node) {
+        if (!isConstantValue(input(node, "thinfilm_thickness"), 0.0f))
+            leaveOut(node, "thin film is not modelled");
+        const Operand& distribution = input(node, "distribution");
+        if (distribution.value.text != "ggx")
+            _diagnostics.warn(node.path, "distribution",
+                              "'" + distribution.value.text + "' is not known; ggx is used");
+        if (node.def->findInput("scatter_mode") < 0)
+            return;
+        const std::string& mode = input(node, "scatter_mode").value.text;
+        if (mode != "R" && mode != "T" && mode != "RT")
+            _diagnostics.warn(node.path, "scatter_mode",
+                              "'" + mode + "' is not known; R is used");
+    }
+
+    Plan& _plan;
+    Diagnostics& _diagnostics;
+    std::map<std::pair<int, bool>, int> _built;
+};
+
+} // namespace
+
+Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnostics) {
+    Plan plan;
+    plan.graph = std::move(graph);
+    plan.leftOut = std::move(cuts);
+    Planner(plan, diagnostics).run();
+    return plan;
+}
+
+const Operand& closureInput(const Plan& plan, const PlanClosure& closure, const char* name) {
+    const GraphNode& node = plan.graph.nodes[size_t(closure.node)];
+    return node.inputs[size_t(node.def->findInput(name))];
+}
+
+int scatterMode(const Plan& plan, const PlanClosure& closure) {
+    const std::string& mode = closureInput(plan, closure, "scatter_mode").value.text;
+    return mode == "T" ? sh::SCATTER_T : mode == "RT" ? sh::SCATTER_RT : sh::SCATTER_R;
+}
+
+bool refracts(const Plan& plan, const PlanClosure& closure) {
+    if (closure.kind != ClosureKind::Dielectric && closure.kind != ClosureKind::Schlick)
+        return false;
+    if ((scatterMode(plan, closure) & sh::SCATTER_T) == 0)
+        return false;
+    return closure.kind == ClosureKind::Schlick ||
+           !isConstantValue(closureInput(plan, closure, "ior"), 1.0f);
+}
+
+} // namespace patina

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "materialNetwork/graph.h"
+
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// A closure of the plan: a lobe, an EDF or VDF leaf, or a combination of two earlier ones.
+struct PlanClosure {
+    ClosureKind kind = ClosureKind::None;
+    int node = -1;      ///< of Plan::graph; its operands are the parameters
+    int a = -1, b = -1; ///< Layer: top, base. Mix: fg, bg. Add: both. Multiply: a
+    bool fused = false; ///< a transmission lobe under a reflection lobe, see Plan
+
+    bool isLobe() const {
+        return kind >= ClosureKind::OrenNayar && kind <= ClosureKind::Schlick;
+    }
+};
+
+/// What a back end has to render: closures with their parameters, and the patterns these need.
+///
+/// Three meanings that the field leaves open are fixed here:
+/// - A layer lets through 1 - E of its top. E is the top's directional albedo at wo without tint,
+///   the largest channel where the interface itself is coloured, so that no channel gains energy.
+///   A diffuse or metal top lets through 1 - weight, mix and add follow from their parts, and a
+///   product counts by the largest channel of its factor.
+/// - A reflection lobe over a transmission lobe is one interface ("fused"): the layer has already
+///   taken what was reflected, so the transmission lobe leaves out its own loss. Without that the
+///   loss would count twice.
+/// - thin_walled surfaces have no inside: transmission goes straight on and nothing is absorbed.
+struct Plan {
+    Graph graph;                       ///< simplified
+    std::vector<PlanClosure> closures; ///< parts before wholes
+    int bsdf = -1, edf = -1, vdf = -1; ///< roots in closures, -1 for none
+    Operand opacity;                   ///< presence
+    bool thinWalled = false;
+    int compensate = 1;                ///< energy compensation of microfacet lobes (shaders/lib/energy.glsl)
+    std::vector<std::string> leftOut;  ///< what is not modelled, one line each
+};
+
+/// @param graph simplified
+/// @param cuts what simplify() removed; becomes the beginning of Plan::leftOut
+Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnostics);
+
+/// Index of an input of the closure's node by name.
+const Operand& closureInput(const Plan& plan, const PlanClosure& closure, const char* name);
+
+/// The scatter_mode of a dielectric or Schlick lobe: sh::SCATTER_*.
+int scatterMode(const Plan& plan, const PlanClosure& closure);
+
+/// Whether light that is transmitted changes direction, so that the surface has an inside.
+bool refracts(const Plan& plan, const PlanClosure& closure);
+
+} // namespace patina

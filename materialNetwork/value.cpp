@@ -1,0 +1,141 @@
+#include "materialNetwork/value.h"
+
+#include "shaders/patterns.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace patina {
+
+namespace {
+
+bool isNumeric(ValueType type) { return valueTypeComponents(type) > 0; }
+bool isScalar(ValueType type) {
+    return type == ValueType::Bool || type == ValueType::Int || type == ValueType::Float;
+}
+bool isMatrix(ValueType type) {
+    return type == ValueType::Matrix33 || type == ValueType::Matrix44;
+}
+
+/// @returns false for a colour space that is not known here
+bool toLinearRec709(float* c, const std::string& space) {
+    if (space.empty() || space == "lin_rec709" || space == "none" || space == "raw" ||
+        space == "auto" || space == "lin_srgb" || space == "linear")
+        return true;
+    float gamma = 0.0f;
+    if (space == "srgb_texture" || space == "sRGB" || space == "srgb") {
+        for (int i = 0; i < 3; ++i)
+            c[i] = sh::srgbToLinear(c[i]);
+        return true;
+    }
+    if (space == "g22_rec709")
+        gamma = 2.2f;
+    else if (space == "g18_rec709")
+        gamma = 1.8f;
+    if (gamma > 0.0f) {
+        for (int i = 0; i < 3; ++i)
+            c[i] = std::pow(std::max(c[i], 0.0f), gamma);
+        return true;
+    }
+    if (space == "acescg" || space == "lin_ap1") {
+        // ACEScg primaries (AMPAS S-2014-004) to Rec.709, white adapted by Bradford.
+        const float r = c[0], g = c[1], b = c[2];
+        c[0] = 1.7050510f * r - 0.6217921f * g - 0.0832589f * b;
+        c[1] = -0.1302564f * r + 1.1408048f * g - 0.0105484f * b;
+        c[2] = -0.0240034f * r - 0.1289690f * g + 1.1529724f * b;
+        return true;
+    }
+    return false;
+}
+
+} // namespace
+
+Coercion coercion(ValueType from, ValueType to) {
+    if (from == to)
+        return Coercion::Free;
+    const bool texts = (from == ValueType::String && to == ValueType::Filename) ||
+                       (from == ValueType::Filename && to == ValueType::String);
+    if (texts)
+        return Coercion::Free;
+    if (!isNumeric(from) || !isNumeric(to) || isMatrix(from) || isMatrix(to))
+        return Coercion::None;
+    if (isScalar(from))
+        return Coercion::Free;
+    const int n = valueTypeComponents(from), m = valueTypeComponents(to);
+    if (m == 1)
+        return Coercion::None;
+    if (n >= m)
+        return Coercion::Free;
+    if (n == 3 && m == 4)
+        return Coercion::AppendOne;
+    return n == 2 && m == 3 ? Coercion::Append : Coercion::None;
+}
+
+bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string& problem) {
+    out = from;
+    out.type = to.type;
+    if (from.type == ValueType::String && isNumeric(to.type)) {
+        for (size_t i = 0; i < to.enumNames.size(); ++i)
+            if (to.enumNames[i] == from.text) {
+                out.numbers = {to.enumValues[i]};
+                out.text.clear();
+                return true;
+            }
+        problem = "'" + from.text + "' is not " + valueTypeName(to.type);
+        return false;
+    }
+    const Coercion c = coercion(from.type, to.type);
+    if (c == Coercion::None) {
+        problem = std::string("type mismatch: ") + valueTypeName(from.type) + " given, " +
+                  valueTypeName(to.type) + " expected";
+        return false;
+    }
+    if (!isNumeric(to.type))
+        return true;
+    for (const float x : from.numbers)
+        if (!std::isfinite(x)) {
+            problem = "the value is not a finite number";
+            return false;
+        }
+    const size_t n = size_t(valueTypeComponents(to.type));
+    if (from.numbers.empty()) {
+        problem = "no value given";
+        return false;
+    }
+    const float fill = from.numbers.size() == 1 ? from.numbers[0]
+                       : c == Coercion::AppendOne ? 1.0f
+                                                  : 0.0f;
+    out.numbers.resize(n, fill);
+    if ((to.type == ValueType::Color3 || to.type == ValueType::Color4) &&
+        !toLinearRec709(out.numbers.data(), from.colorSpace)) {
+        problem = "unknown colour space '" + from.colorSpace + "'";
+        return false;
+    }
+    if (to.type != ValueType::Filename)
+        out.colorSpace.clear();
+    return true;
+}
+
+bool sameValue(const Value& a, const Value& b) {
+    return a.type == b.type && a.numbers == b.numbers && a.text == b.text &&
+           a.colorSpace == b.colorSpace;
+}
+
+std::string valueText(const Value& value) {
+    if (valueTypeComponents(value.type) == 0)
+        return isClosureType(value.type) ? "none" : "'" + value.text + "'";
+    bool uniform = true;
+    for (const float x : value.numbers)
+        uniform &= x == value.numbers[0];
+    std::string text;
+    for (size_t i = 0; i < value.numbers.size(); ++i) {
+        char number[32];
+        std::snprintf(number, sizeof number, "%.6g", double(value.numbers[i]));
+        text += (i ? " " : "") + std::string(number);
+        if (uniform)
+            break;
+    }
+    return text;
+}
+
+} // namespace patina

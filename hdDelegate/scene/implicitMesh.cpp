@@ -13,6 +13,12 @@ using Rate = MeshAttribute::Rate;
 constexpr int aroundSegments = 128; // of everything round
 constexpr int sphereRings = 64;     // from pole to pole
 
+/// Cosine and sine of s turns, exactly the same at 0 and 1 so that the seam closes.
+vec2 turn(float s) {
+    const float phi = s < 1.0f ? glm::two_pi<float>() * s : 0.0f;
+    return vec2(std::cos(phi), std::sin(phi));
+}
+
 /// Builds a mesh in the frame whose z is the prim's axis. Vertices of different sides are never
 /// shared, so one normal and st per vertex is enough.
 class ShapeBuilder {
@@ -48,19 +54,21 @@ public:
             }
     }
 
-    /// A flat disc across the axis. @param side +1 faces up, -1 down
+    /// A flat disc across the axis, whose rim has exactly the points of the sides that it closes.
+    /// @param side +1 faces up, -1 down
     void disc(float radius, float z, float side) {
         if (!(radius > 0.0f)) return;
         const uint32_t centre = uint32_t(_out.positions[0].size());
         const vec3 normal(0, 0, side);
         vertex(vec3(0, 0, z), normal, vec2(0.5f));
         for (int i = 0; i < aroundSegments; ++i) {
-            const float phi = side * glm::two_pi<float>() * float(i) / aroundSegments;
-            const vec2 rim(std::cos(phi), std::sin(phi));
+            const vec2 rim = turn(float(i) / float(aroundSegments));
             vertex(vec3(radius * rim, z), normal, 0.5f + 0.5f * vec2(side * rim.x, rim.y));
         }
-        for (uint32_t i = 0; i < aroundSegments; ++i)
-            triangle(centre, centre + 1 + i, centre + 1 + (i + 1) % aroundSegments);
+        for (uint32_t i = 0; i < uint32_t(aroundSegments); ++i) {
+            const uint32_t a = centre + 1 + i, b = centre + 1 + (i + 1) % aroundSegments;
+            triangle(centre, side > 0.0f ? a : b, side > 0.0f ? b : a);
+        }
         ++_faces;
     }
 
@@ -103,12 +111,6 @@ private:
     int _faces = 0;
 };
 
-/// Cosine and sine of s turns, exactly the same at 0 and 1 so that the seam closes.
-vec2 turn(float s) {
-    const float phi = s < 1.0f ? glm::two_pi<float>() * s : 0.0f;
-    return vec2(std::cos(phi), std::sin(phi));
-}
-
 /// Part of a sphere between two latitudes (radians).
 void sphereZone(ShapeBuilder& shape, float radius, float z, float from, float to, int rings,
                 vec2 tRange = vec2(0.0f, 1.0f)) {
@@ -131,7 +133,7 @@ void side(ShapeBuilder& shape, float bottom, float top, float height,
     const vec2 slope = glm::normalize(vec2(height, bottom - top));
     const auto surface = [&](const vec2& st, vec3& position, vec3& normal) {
         const vec2 around = turn(st.x);
-        position = vec3((bottom + (top - bottom) * st.y) * around, height * (st.y - 0.5f));
+        position = vec3((bottom * (1.0f - st.y) + top * st.y) * around, height * (st.y - 0.5f));
         normal = vec3(slope.x * around, slope.y);
     };
     shape.grid(aroundSegments, rows, surface, tRange);

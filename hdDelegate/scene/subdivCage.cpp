@@ -18,8 +18,16 @@ bool usesPointTwice(const int* face, int count, std::vector<int>& scratch) {
     return std::adjacent_find(scratch.begin(), scratch.end()) != scratch.end();
 }
 
-float clampSharpness(float s) {
+/// Sharpness in OpenSubdiv's range; negative and NaN ones are 0 and counted.
+float clampSharpness(float s, size_t& bad) {
+    bad += !(s >= 0.0f);
     return s > 0.0f ? std::min(s, infinitelySharp) : 0.0f;
+}
+
+void reportBad(const Mesh& mesh, const char* input, size_t bad, Diagnostics& diagnostics) {
+    if (bad > 0)
+        diagnostics.warn(mesh.path, input,
+                         std::to_string(bad) + " are negative or not a number; 0 is used");
 }
 
 void addCreases(const Mesh& mesh, const std::vector<int>& vertexOf, SubdivCage& cage,

@@ -73,9 +73,10 @@ TEST(CurveLayout, segmentCountsAreThoseOfUsd) {
                 const CurveLayout layout = curveLayout(n, basis, wrap);
                 for (const auto& p : layout.points)
                     EXPECT_TRUE(p.a >= 0 && p.a < n && p.b < n);
-                if (layout.segments > 0)
+                if (layout.segments > 0) {
                     EXPECT_GE(int(layout.points.size()),
                               (layout.segments - 1) * layout.step + (basis == B::Linear ? 2 : 4));
+                }
             }
 }
 

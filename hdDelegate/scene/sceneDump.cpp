@@ -91,10 +91,11 @@ private:
     }
     template <class T> std::string list(const T* data, size_t count, int group) const {
         std::string all;
-        const size_t shown =
-            count <= _maxValues ? count : _maxValues - _maxValues % size_t(group);
+        const size_t shown = count <= _maxValues ? count : _maxValues - _maxValues % size_t(group);
         for (size_t i = 0; i < shown; ++i)
-            all += (i == 0 ? "" : i % size_t(group) ? " " : (group > 1 ? ", " : " ")) +
+            all += (i == 0              ? ""
+                    : i % size_t(group) ? " "
+                                        : (group > 1 ? ", " : " ")) +
                    number(double(data[i]));
         if (shown < count) {
             // FNV-1a over the rounded text of what is not shown would be slow; bits are enough.

@@ -1,6 +1,6 @@
 // The scene, its edits, lights and cameras.
 
-#include "hdDelegate/scene/scene.h"
+#include "plugin/python/sceneEdit.h"
 #include "hdDelegate/scene/sceneDump.h"
 #include "plugin/python/fields.h"
 
@@ -8,11 +8,11 @@ namespace py = pybind11;
 
 namespace patina {
 
-void bindSceneGeometry(py::class_<SceneEdit>& edit);
+void bindSceneGeometry(py::class_<PythonEdit>& edit);
 
 namespace {
 
-void setLight(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+void setLight(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
     auto light = std::make_shared<Light>();
     light->path = path;
     Fields("set_light", path, values)
@@ -61,7 +61,7 @@ void setLight(SceneEdit& edit, const std::string& path, const py::kwargs& values
     edit.set(std::shared_ptr<const Light>(std::move(light)));
 }
 
-void setCamera(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+void setCamera(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
     auto camera = std::make_shared<Camera>();
     camera->path = path;
     Fields("set_camera", path, values)
@@ -84,7 +84,7 @@ void setCamera(SceneEdit& edit, const std::string& path, const py::kwargs& value
     edit.set(std::shared_ptr<const Camera>(std::move(camera)));
 }
 
-void setMaterial(SceneEdit& edit, const std::string& path, const Network& network) {
+void setMaterial(PythonEdit& edit, const std::string& path, const Network& network) {
     auto material = std::make_shared<MaterialPrim>();
     material->path = path;
     material->network = network;
@@ -149,23 +149,29 @@ py::list warnings(Scene& scene) {
 } // namespace
 
 void bindScene(py::module_& m) {
-    py::class_<SceneEdit> edit(m, "SceneEdit", "A batch of changes to a scene.");
+    py::class_<PythonEdit> edit(m, "SceneEdit", "A batch of changes to a scene.");
     bindSceneGeometry(edit);
     edit.def("set_light", &setLight, "A UsdLux light; keywords are the fields of Light.")
         .def("set_camera", &setCamera, "A UsdGeomCamera; keywords are the fields of Camera.")
         .def("set_material", &setMaterial, py::arg("path"), py::arg("network"))
-        .def("set_meters_per_unit", &SceneEdit::setMetersPerUnit, py::arg("meters_per_unit"))
-        .def("remove", &SceneEdit::remove, py::arg("path"))
-        .def("clear", &SceneEdit::clear, "Removes everything that was there before.")
-        .def("commit", &SceneEdit::commit, py::call_guard<py::gil_scoped_release>())
+        .def("set_meters_per_unit", &PythonEdit::setMetersPerUnit, py::arg("meters_per_unit"))
+        .def("remove", &PythonEdit::remove, py::arg("path"))
+        .def("clear", &PythonEdit::clear, "Removes everything that was there before.")
+        .def("commit", &PythonEdit::commit, py::call_guard<py::gil_scoped_release>())
+        .def(
+            "warn",
+            [](PythonEdit& edit, const std::string& prim, const std::string& input,
+               const std::string& message) {
+                edit.scene->diagnostics().warn(prim, input, message);
+            },
+            py::arg("prim"), py::arg("input"), py::arg("message"))
         .def("__enter__", [](py::object self) { return self; })
-        .def("__exit__", [](SceneEdit& self, const py::args&) { self.commit(); });
+        .def("__exit__", [](PythonEdit& self, const py::args&) { self.commit(); });
 
     py::class_<Scene, std::shared_ptr<Scene>>(m, "Scene", "The renderer's own scene.")
         .def(py::init<>())
-        .def(
-            "edit", [](Scene& scene) { return std::make_unique<SceneEdit>(scene); },
-            py::keep_alive<0, 1>())
+        .def("edit",
+             [](std::shared_ptr<Scene> s) { return std::make_unique<PythonEdit>(std::move(s)); })
         .def_property_readonly("version", [](const Scene& s) { return s.snapshot()->version; })
         .def_property_readonly("meters_per_unit",
                                [](const Scene& s) { return s.snapshot()->metersPerUnit; })
@@ -178,8 +184,7 @@ void bindScene(py::module_& m) {
             },
             py::arg("path"))
         .def(
-            "dump",
-            [](const Scene& s, int values) { return dumpScene(*s.snapshot(), values); },
+            "dump", [](const Scene& s, int values) { return dumpScene(*s.snapshot(), values); },
             py::arg("values") = 16)
         .def(
             "warn",

@@ -1,6 +1,6 @@
 // Geometry of a scene edit.
 
-#include "hdDelegate/scene/scene.h"
+#include "plugin/python/sceneEdit.h"
 #include "plugin/python/fields.h"
 
 namespace py = pybind11;
@@ -21,7 +21,7 @@ Fields& readCommon(Fields& fields, Geometry& g) {
         .read("left_handed", g.leftHanded);
 }
 
-void setMesh(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+void setMesh(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
     auto mesh = std::make_shared<Mesh>();
     mesh->path = path;
     Fields fields("set_mesh", path, values);
@@ -44,7 +44,7 @@ void setMesh(SceneEdit& edit, const std::string& path, const py::kwargs& values)
     edit.set(std::shared_ptr<const Geometry>(std::move(mesh)));
 }
 
-void setCurves(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+void setCurves(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
     auto curves = std::make_shared<Curves>();
     curves->path = path;
     Fields fields("set_curves", path, values);
@@ -57,7 +57,7 @@ void setCurves(SceneEdit& edit, const std::string& path, const py::kwargs& value
     edit.set(std::shared_ptr<const Geometry>(std::move(curves)));
 }
 
-void setPoints(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+void setPoints(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
     auto points = std::make_shared<Points>();
     points->path = path;
     Fields fields("set_points", path, values);
@@ -65,7 +65,7 @@ void setPoints(SceneEdit& edit, const std::string& path, const py::kwargs& value
     edit.set(std::shared_ptr<const Geometry>(std::move(points)));
 }
 
-void setImplicit(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+void setImplicit(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
     auto implicit = std::make_shared<Implicit>();
     implicit->path = path;
     Fields fields("set_implicit", path, values);
@@ -82,7 +82,7 @@ void setImplicit(SceneEdit& edit, const std::string& path, const py::kwargs& val
     edit.set(std::shared_ptr<const Geometry>(std::move(implicit)));
 }
 
-void setInstancer(SceneEdit& edit, const std::string& path, const py::kwargs& values) {
+void setInstancer(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
     auto instancer = std::make_shared<Instancer>();
     instancer->path = path;
     Fields fields("set_instancer", path, values);
@@ -103,7 +103,7 @@ void setInstancer(SceneEdit& edit, const std::string& path, const py::kwargs& va
 
 } // namespace
 
-void bindSceneGeometry(py::class_<SceneEdit>& edit) {
+void bindSceneGeometry(py::class_<PythonEdit>& edit) {
     edit.def("set_mesh", &setMesh, "A UsdGeomMesh; keywords are the fields of Mesh.")
         .def("set_curves", &setCurves, "A UsdGeomBasisCurves; keywords are the fields of Curves.")
         .def("set_points", &setPoints, "A UsdGeomPoints; keywords are the fields of Points.")

@@ -110,7 +110,9 @@ void bindNetwork(py::module_& m) {
         .def(
             "set_terminal",
             [](Network& network, const std::string& name, const std::string& node,
-               const std::string& output) { network.terminals[name] = Connection{node, output}; },
+               const std::string& output) {
+                network.terminals[name] = Connection{node, output};
+            },
             py::arg("name"), py::arg("node"), py::arg("output") = "")
         .def_property_readonly("empty", &Network::empty)
         .def("nodes", &nodes)

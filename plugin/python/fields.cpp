@@ -101,10 +101,18 @@ void convert(py::handle from, vec3& to) {
     to = values[0];
 }
 
-void convert(py::handle from, std::vector<int>& to) { to = elements<int, 1, int32_t>(from); }
-void convert(py::handle from, std::vector<float>& to) { to = elements<float, 1, float>(from); }
-void convert(py::handle from, std::vector<vec3>& to) { to = elements<vec3, 3, float>(from); }
-void convert(py::handle from, std::vector<vec4>& to) { to = elements<vec4, 4, float>(from); }
+void convert(py::handle from, std::vector<int>& to) {
+    to = elements<int, 1, int32_t>(from);
+}
+void convert(py::handle from, std::vector<float>& to) {
+    to = elements<float, 1, float>(from);
+}
+void convert(py::handle from, std::vector<vec3>& to) {
+    to = elements<vec3, 3, float>(from);
+}
+void convert(py::handle from, std::vector<vec4>& to) {
+    to = elements<vec4, 4, float>(from);
+}
 
 void convert(py::handle from, MotionTransform& to) {
     std::vector<float> times;

@@ -1,0 +1,77 @@
+"""Files that a stage names: resolved paths, UDIM patterns, and files inside of packages."""
+import atexit
+import hashlib
+import os
+import re
+import shutil
+import tempfile
+
+from pxr import Ar, Sdf
+
+_UDIM = "<UDIM>"
+_folder = None  # where files of packages are put; removed at exit
+
+
+def resolve(context, attribute):
+    """The file that an asset attribute names, as a path that any program can open.
+
+    :returns: a path; what the stage says, when there is no such file; empty when nothing is said"""
+    value = attribute.Get(context.time)
+    path = getattr(value, "path", value)
+    if not path:
+        return ""
+    resolved = getattr(value, "resolvedPath", "")
+    if _UDIM in path:
+        return _resolve_tiles(attribute, context, path)
+    if not resolved:
+        return str(_anchored(attribute, context, path))
+    if Ar.IsPackageRelativePath(resolved):
+        return extract(resolved) or resolved
+    return resolved
+
+
+def _anchored(attribute, context, path):
+    """:returns: a path relative to the layer that says it, as an absolute one"""
+    for spec in attribute.GetPropertyStack(context.time):
+        if spec.hasInfo("default") if hasattr(spec, "hasInfo") else spec.HasInfo("default"):
+            return Sdf.ComputeAssetPathRelativeToLayer(spec.layer, path) or path
+    return path
+
+
+def _resolve_tiles(attribute, context, path):
+    anchored = _anchored(attribute, context, path)
+    if not Ar.IsPackageRelativePath(anchored):
+        return anchored
+    found = ""
+    for tile in range(1001, 1101):
+        inside = anchored.replace(_UDIM, str(tile))
+        file = extract(inside)
+        if file:
+            found = re.sub(r"%d(?=[^/]*$)" % tile, _UDIM, file)
+    return found or anchored
+
+
+def extract(path):
+    """Copies a file of a package (usdz) into a temporary folder.
+
+    :param path: package-relative, "a.usdz[b.png]"
+    :returns: path of the copy, None when it cannot be read"""
+    global _folder
+    asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path))
+    if not asset:
+        return None
+    if _folder is None:
+        _folder = tempfile.mkdtemp(prefix="patina-")
+        atexit.register(shutil.rmtree, _folder, ignore_errors=True)
+    package, inner = Ar.SplitPackageRelativePathInner(path)
+    # One folder per folder of a package: tiles stay together, equal names of others apart.
+    key = hashlib.sha1((package + "\0" + os.path.dirname(inner)).encode()).hexdigest()[:16]
+    file = os.path.join(_folder, key, os.path.basename(inner) or "file")
+    if not os.path.exists(file):
+        os.makedirs(os.path.dirname(file), exist_ok=True)
+        with asset:
+            data = asset.GetBuffer()
+        with open(file + ".part", "wb") as out:
+            out.write(data)
+        os.replace(file + ".part", file)
+    return file

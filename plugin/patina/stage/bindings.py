@@ -1,0 +1,55 @@
+"""Which material each prim shows."""
+from pxr import UsdShade
+
+from . import compat
+
+
+class Bindings:
+    """Resolves material bindings in bulk and collects the materials that are shown."""
+
+    def __init__(self):
+        self.materials = {}  # path in the scene -> UsdShade.Material
+
+    @staticmethod
+    def compute(prims):
+        """:returns: list of (Material or None, whether it is stronger than bindings below)"""
+        if not prims:
+            return []
+        stronger = UsdShade.Tokens.strongerThanDescendants
+        return [(material if material else None,
+                 bool(rel) and UsdShade.MaterialBindingAPI.GetMaterialBindingStrength(rel) == stronger)
+                for material, rel in compat.bound_materials(prims)]
+
+    def name(self, material, group):
+        """:returns: the path of a material in the scene"""
+        path = str(material.GetPath())
+        if group.source and (path == group.source or path.startswith(group.source + "/")):
+            path = group.path(material.GetPrim())
+        self.materials.setdefault(path, material)
+        return path
+
+    def resolve(self, founds):
+        """:returns: for each found prim (material path, [(subset prim, material path)])"""
+        subsets = [_subsets(found.prim) for found in founds]
+        prims = []
+        for found, own in zip(founds, subsets):
+            prims.append(found.prim)
+            prims.extend(s.GetPrim() for s in own)
+        bound = iter(self.compute(prims))
+        resolved = []
+        for found, own in zip(founds, subsets):
+            path = self._show(next(bound), found.state.group)
+            resolved.append((path, [(s, self._show(next(bound), found.state.group)) for s in own]))
+        return resolved
+
+    def _show(self, bound, group):
+        material = bound[0]
+        if group.material and (group.material_rules or material is None):
+            return group.material
+        return self.name(material, group) if material else ""
+
+
+def _subsets(prim):
+    if not any(child.GetTypeName() == "GeomSubset" for child in prim.GetAllChildren()):
+        return []
+    return [s for s in UsdShade.MaterialBindingAPI(prim).GetMaterialBindSubsets() if s.GetPrim().IsActive()]

@@ -1,0 +1,104 @@
+"""Cameras: those of the stage, and the one that frames a stage without any."""
+import math
+
+import numpy as np
+from pxr import Gf, UsdGeom, UsdRender, UsdUtils
+
+from . import compat
+from .context import get
+from .errors import StageError
+from .transforms import transform_of
+
+FRAMING = "/patinaFramingCamera"
+_FIELDS = {
+    "horizontalAperture": "horizontal_aperture", "verticalAperture": "vertical_aperture",
+    "horizontalApertureOffset": "horizontal_aperture_offset",
+    "verticalApertureOffset": "vertical_aperture_offset", "focalLength": "focal_length", "fStop": "f_stop",
+    "focusDistance": "focus_distance",
+}
+
+
+def choose(context, founds):
+    """:param founds: all cameras of the stage
+    :returns: the Found camera to render from, None when the stage has none and is to be framed
+    :raises StageError: when the one that was asked for is not there"""
+    wanted = context.options.camera
+    by_path = {found.path: found for found in founds}
+    if wanted:
+        wanted = str(wanted)
+        if wanted in by_path:
+            return by_path[wanted]
+        named = [found for found in founds if found.prim.GetName() == wanted]
+        if named:
+            return named[0]
+        there = ", ".join(list(by_path)[:12]) or "none"
+        raise StageError(f"there is no camera {wanted} (there are: {there}{', ...' if len(by_path) > 12 else ''})")
+    settings = UsdRender.Settings.GetStageRenderSettings(context.stage)
+    if settings:
+        for target in settings.GetCameraRel().GetForwardedTargets():
+            if str(target) in by_path:
+                return by_path[str(target)]
+    primary = [found for found in founds if found.prim.GetName() == UsdUtils.GetPrimaryCameraName()]
+    chosen = (primary or founds or [None])[0]
+    if chosen and len(founds) > 1:
+        context.notes.append(f"no camera was named; {chosen.path} of {len(founds)} is used")
+    return chosen
+
+
+def shutter_of(context, found):
+    """:returns: (open, close) in time codes relative to the frame"""
+    if context.options.shutter is not None:
+        return tuple(map(float, context.options.shutter))
+    if not found:
+        return (0.0, 0.0)
+    opens, closes = (float(get(found.prim, "shutter:" + n, context.time, 0.0)) for n in ("open", "close"))
+    if not (math.isfinite(opens) and math.isfinite(closes)) or closes < opens:
+        context.warn(found.path, "shutter:close", "is before shutter:open; nothing is blurred")
+        return (0.0, 0.0)
+    return (opens, closes)
+
+
+def emit(context, found):
+    prim, time = found.prim, context.time
+    fields = {key: float(value) for name, key in _FIELDS.items()
+              if (value := get(prim, name, time)) is not None}
+    near, far = get(prim, "clippingRange", time, (1.0, 1e6))
+    planes = get(prim, "clippingPlanes", time, [])
+    opens, closes = context.shutter
+    context.edit.set_camera(
+        found.path, transform=transform_of(context, prim, None),
+        orthographic=get(prim, "projection", time) == "orthographic",
+        clip_near=float(near), clip_far=float(far),
+        clipping_planes=np.asarray(planes, dtype=np.float32).reshape(-1, 4) if len(planes) else None,
+        shutter_open=opens, shutter_close=closes,
+        exposure_scale=compat.exposure_scale(UsdGeom.Camera(prim), time), **fields)
+    context.count("cameras")
+
+
+def emit_framing(context):
+    """A camera from the front that shows everything, as usdrecord does.
+
+    :returns: (path, matrix)"""
+    cache = UsdGeom.BBoxCache(context.time, sorted(context.purposes), useExtentsHint=True)
+    box = cache.ComputeWorldBound(context.stage.GetPseudoRoot()).ComputeAlignedRange()
+    ends = (box.GetMin(), box.GetMax())
+    if box.IsEmpty() or not all(math.isfinite(x) for end in ends for x in end):
+        context.warn("/", "", "the stage has no extents to frame; the camera looks at the origin")
+        box = Gf.Range3d(Gf.Vec3d(-1), Gf.Vec3d(1))
+    z_up = UsdGeom.GetStageUpAxis(context.stage) == UsdGeom.Tokens.z
+    size, centre = box.GetSize(), box.GetMidpoint()
+    width, height, depth = (size[0], size[2], size[1]) if z_up else size
+    aperture, focal = (20.955, 15.2908), 50.0
+    margin = 1.05
+    distance = max(width * margin * focal / aperture[0], height * margin * focal / aperture[1], 1e-3) + depth * 0.5
+    matrix = Gf.Matrix4d(1.0)
+    if z_up:
+        matrix.SetRotate(Gf.Rotation(Gf.Vec3d(1, 0, 0), 90.0))
+    back = Gf.Vec3d(0, -1, 0) if z_up else Gf.Vec3d(0, 0, 1)
+    matrix.SetTranslateOnly(centre + back * distance)
+    reach = max(size.GetLength(), distance)
+    context.edit.set_camera(FRAMING, transform=np.array(matrix, dtype=np.float32), horizontal_aperture=aperture[0],
+                            vertical_aperture=aperture[1], focal_length=focal, focus_distance=distance,
+                            clip_near=reach * 1e-4, clip_far=reach * 100.0)
+    context.notes.append("the stage has no camera; it is framed from the front")
+    return FRAMING, matrix

@@ -1,0 +1,45 @@
+"""Model draw modes: models that stand as a box, an origin or cards."""
+import numpy as np
+from pxr import Kind, Usd, UsdGeom
+
+from .context import get
+from .transforms import transform_of
+
+_EDGES = [(0, 1), (2, 3), (4, 5), (6, 7), (0, 2), (1, 3), (4, 6), (5, 7), (0, 4), (1, 5), (2, 6), (3, 7)]
+
+
+def of(prim, inherited):
+    """:returns: (draw mode that children inherit, whether this prim stands for its subtree)"""
+    mode = get(prim, "model:drawMode", 0.0, "inherited")
+    if mode == "inherited":
+        mode = inherited
+    if mode == "default":
+        return mode, False
+    component = Kind.Registry.IsA(Usd.ModelAPI(prim).GetKind(), Kind.Tokens.component)
+    return mode, bool(component or get(prim, "model:applyDrawMode", 0.0, False))
+
+
+def emit(context, found, mode):
+    """Draws a model's extents as lines; the axes of its origin for the mode `origin`."""
+    prim = found.prim
+    box = UsdGeom.BBoxCache(context.time, sorted(context.purposes), useExtentsHint=True)
+    extent = box.ComputeUntransformedBound(prim).ComputeAlignedRange()
+    if mode == "cards":
+        context.warn(prim.GetPath(), "model:drawMode", "cards are not drawn; the extents are shown instead")
+    if extent.IsEmpty():
+        return
+    low, high = np.array(extent.GetMin()), np.array(extent.GetMax())
+    size = float(np.linalg.norm(high - low)) or 1.0
+    if mode == "origin":
+        points = [p for axis in np.eye(3) * size * 0.5 for p in ((0.0, 0.0, 0.0), axis)]
+    else:
+        corners = [[(low, high)[i >> a & 1][a] for a in range(3)] for i in range(8)]
+        points = [corners[i] for edge in _EDGES for i in edge]
+    color = get(prim, "model:drawModeColor", context.time, (0.18, 0.18, 0.18))
+    context.edit.set_curves(
+        found.path, group=found.state.group.name, basis="linear",
+        transform=transform_of(context, prim, found.state.group.anchor),
+        points=np.array(points, dtype=np.float32), curve_vertex_counts=np.full(len(points) // 2, 2, np.int32),
+        primvars=[("widths", "constant", np.array([size * 0.005], np.float32)),
+                  ("displayColor", "constant", np.array([color], np.float32))])
+    context.count("drawModes")

@@ -1,0 +1,110 @@
+"""Gprims: meshes, curves, points and implicit shapes."""
+import numpy as np
+from pxr import UsdGeom
+
+from . import meshes, skinning
+from .context import get
+from .primvars import add_builtin, read_primvars
+from .transforms import transform_of
+
+_AXES = {"X": 0, "Y": 1, "Z": 2}
+_SIZES = {  # kind -> names of the attributes that are sizes
+    "sphere": ("radius",), "cube": ("size",), "cone": ("height", "radius"), "cylinder": ("height", "radius"),
+    "capsule": ("height", "radius"), "plane": ("width", "length"),
+}
+
+
+def emit(context, found, kind, bound, categories):
+    """:param bound: what Bindings.resolve() tells of the prim"""
+    prim, group = found.prim, found.state.group
+    material, subsets = bound
+    skin = skinning.skin_of(found)
+    common = {
+        "group": group.name,
+        "transform": skin.transform(context, group.anchor) if skin else transform_of(context, prim, group.anchor),
+        "material": material,
+        "categories": categories,
+        "double_sided": bool(get(prim, "doubleSided", context.time, False)),
+        "left_handed": get(prim, "orientation", context.time) == "leftHanded",
+        "primvars": read_primvars(context, prim, found.state.primvars),
+    }
+    if subsets:
+        common["subsets"] = [_subset(context, subset, path, group) for subset, path in subsets]
+    context.count(kind)
+    if kind == "mesh":
+        meshes.emit(context, found, common, points_of(context, prim, skin), skin)
+    elif kind == "curves":
+        _curves(context, found, common, skin)
+    elif kind == "points":
+        _add_builtins(context, prim, UsdGeom.Points(prim), common["primvars"])
+        context.edit.set_points(found.path, points=points_of(context, prim, skin), **common)
+    else:
+        _implicit(context, found, kind, common)
+
+
+def _subset(context, subset, material, group):
+    indices = subset.GetIndicesAttr().Get(context.time)
+    return (group.path(subset.GetPrim()), material, np.asarray(indices if indices is not None else [], np.int32))
+
+
+def points_of(context, prim, skin=None):
+    """:returns: what `_patina` takes as points: authored samples, velocities or skinning inside the
+    shutter"""
+    based = UsdGeom.PointBased(prim)
+    attribute = based.GetPointsAttr()
+    if skin and skin.deforms:
+        offsets = skin.offsets(context) if context.moving else [0.0]
+        return _sampled(offsets, [skin.points(context, t) for t in offsets])
+    offsets = context.attribute_offsets(attribute)
+    velocities = based.GetVelocitiesAttr()
+    if context.moving and velocities and velocities.HasAuthoredValue():
+        offsets = list(context.shutter)
+        values = based.ComputePointsAtTimes([context.time_at(t) for t in offsets], context.time)
+        if len(values) == len(offsets):
+            return _sampled(offsets, values)
+        offsets = [0.0]
+    return _sampled(offsets, [attribute.Get(context.time_at(t)) for t in offsets])
+
+
+def _sampled(offsets, values):
+    arrays = [np.asarray(v if v is not None else [], dtype=np.float32).reshape(-1, 3) for v in values]
+    if len(arrays) == 1:
+        return arrays[0]
+    return (list(offsets), arrays)
+
+
+def _add_builtins(context, prim, schema, primvars):
+    add_builtin(context, prim, "widths", schema.GetWidthsInterpolation(), primvars)
+    add_builtin(context, prim, "normals", schema.GetNormalsInterpolation(), primvars)
+
+
+def _curves(context, found, common, skin):
+    prim = found.prim
+    _add_builtins(context, prim, UsdGeom.BasisCurves(prim), common["primvars"])
+    linear = get(prim, "type", context.time, "cubic") == "linear"
+    basis = "linear" if linear else get(prim, "basis", context.time, "bezier")
+    wrap = get(prim, "wrap", context.time, "nonperiodic")
+    if basis not in ("linear", "bezier", "bspline", "catmullRom"):
+        context.warn(prim.GetPath(), "basis", f"'{basis}' is unknown; bezier is drawn")
+        basis = "bezier"
+    if wrap not in ("nonperiodic", "periodic", "pinned"):
+        context.warn(prim.GetPath(), "wrap", f"'{wrap}' is unknown; nonperiodic is drawn")
+        wrap = "nonperiodic"
+    counts = get(prim, "curveVertexCounts", context.time, [])
+    context.edit.set_curves(found.path, points=points_of(context, prim, skin), basis=basis, wrap=wrap,
+                            curve_vertex_counts=np.asarray(counts, dtype=np.int32), **common)
+
+
+def _implicit(context, found, kind, common):
+    prim, time = found.prim, context.time
+    sizes = {}
+    for name in _SIZES[kind]:
+        value = get(prim, name, time)
+        if value is not None:
+            sizes[name] = float(value)
+    if prim.GetTypeName() in ("Cylinder_1", "Capsule_1"):
+        sizes["radius"] = float(get(prim, "radiusBottom", time, 1.0 if kind == "cylinder" else 0.5))
+        sizes["radius_top"] = float(get(prim, "radiusTop", time, 1.0 if kind == "cylinder" else 0.5))
+    context.edit.set_implicit(found.path, shape=kind, axis=_AXES.get(get(prim, "axis", time, "Z"), 2),
+                              **sizes, **common)
+

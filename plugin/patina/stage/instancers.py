@@ -1,0 +1,115 @@
+"""Point instancers and native instances."""
+import numpy as np
+from pxr import UsdGeom
+
+from .context import get
+from .primvars import numbers
+from .transforms import matrix_at, sample_times
+
+
+def emit_instancer(context, found, names, linking):
+    """A point instancer. Instances that it hides or that are broken are left out."""
+    prim, group = found.prim, found.state.group
+    path, schema = prim.GetPath(), UsdGeom.PointInstancer(prim)
+    indices = np.asarray(get(prim, "protoIndices", context.time, []), dtype=np.int32)
+    if not len(indices):
+        return
+    offsets, samples = _matrices(context, schema, len(indices))
+    if samples is None:
+        context.warn(path, "positions", "or another array does not fit protoIndices; nothing is drawn of it")
+        return
+    samples = [local @ np.array(matrix_at(context, prim, group.anchor, t)) for t, local in zip(offsets, samples)]
+    keep = _mask(schema, context.time, len(indices))
+    keep = keep & ((indices >= 0) & (indices < len(names)))
+    broken = int(np.count_nonzero((indices < 0) | (indices >= len(names))))
+    if broken:
+        context.warn(path, "protoIndices", f"has {broken} indices that no prototype has; these are not drawn")
+    finite = np.all([np.isfinite(s).all(axis=(1, 2)) for s in samples], axis=0)
+    if not finite.all():
+        context.warn(path, "positions", f"gives {int((~finite).sum())} instances that are not finite; these are not drawn")
+    keep = keep & finite
+    ids = get(prim, "ids", context.time)
+    ids = np.asarray(ids) if ids is not None and len(ids) == len(indices) else np.arange(len(indices))
+    transforms = [np.ascontiguousarray(s[keep], dtype=np.float32) for s in samples]
+    categories = linking.categories(prim)
+    context.edit.set_instancer(
+        found.path, group=group.name, prototypes=names, prototype_indices=indices[keep],
+        transforms=transforms[0] if len(transforms) == 1 else (offsets, transforms),
+        ids=ids[keep].astype(np.int64).astype(np.int32), primvars=_primvars(context, prim, keep),
+        categories=[categories] * int(keep.sum()) if categories else None)
+    context.count("pointInstancers")
+    context.count("instances", int(keep.sum()))
+
+
+def _matrices(context, schema, count):
+    """:returns: (times, list of arrays of matrices without the prototypes' own transforms)"""
+    exclude, ignore = UsdGeom.PointInstancer.ExcludeProtoXform, UsdGeom.PointInstancer.IgnoreMask
+    offsets = sample_times(context, schema.GetPrim(), None)
+    if context.moving:
+        attributes = [schema.GetPositionsAttr(), schema.GetOrientationsAttr(), schema.GetScalesAttr(),
+                      schema.GetPrim().GetAttribute("orientationsf")]
+        samples = {s for a in attributes if a and a.ValueMightBeTimeVarying()
+                   for s in a.GetTimeSamplesInInterval(context.shutter_interval())}
+        moves = any(a and a.ValueMightBeTimeVarying() for a in attributes)
+        moves = moves or schema.GetVelocitiesAttr().HasAuthoredValue()
+        moves = moves or schema.GetAngularVelocitiesAttr().HasAuthoredValue()
+        if moves:
+            offsets = sorted({*context.motion_offsets(samples), *(offsets if len(offsets) > 1 else [])})
+    arrays = []
+    for offset in offsets:
+        value = schema.ComputeInstanceTransformsAtTime(context.time_at(offset), context.time, exclude, ignore)
+        array = np.asarray(value, dtype=np.float64)
+        if array.size != 16 * count:
+            return offsets, None
+        arrays.append(array.reshape(count, 4, 4))
+    return offsets, arrays
+
+
+def _mask(schema, time, count):
+    mask = schema.ComputeMaskAtTime(time)
+    return np.asarray(mask, dtype=bool) if mask and len(mask) == count else np.ones(count, dtype=bool)
+
+
+def _primvars(context, prim, keep):
+    """:returns: primvars with a value per instance"""
+    found = []
+    for primvar in UsdGeom.PrimvarsAPI(prim).GetPrimvarsWithValues():
+        if primvar.GetInterpolation() == "constant":
+            continue  # the prototypes inherit it
+        values = numbers(primvar.ComputeFlattened(context.time))
+        if values is None:
+            continue
+        if len(values) != len(keep):
+            context.warn(prim.GetPath(), primvar.GetName(), f"has {len(values)} values for {len(keep)} instances; it is left out")
+            continue
+        found.append((primvar.GetPrimvarName(), "vertex", values[keep], None))
+    return found
+
+
+def emit_instances(context, outer, prototype, founds, linking):
+    """All native instances of one prototype in one group, as one instancer.
+
+    :param outer: name of the group that they appear in
+    :param prototype: name of the prototype's group"""
+    moving = {}  # number of instance -> (times, matrices)
+    matrices = np.empty((len(founds), 4, 4), dtype=np.float32)
+    for i, found in enumerate(founds):
+        anchor = found.state.group.anchor
+        times = sample_times(context, found.prim, anchor)
+        matrices[i] = np.array(matrix_at(context, found.prim, anchor, times[0]))
+        if len(times) > 1:
+            moving[i] = times
+    transforms = matrices
+    if moving:
+        times = sorted({t for own in moving.values() for t in own})
+        samples = [matrices.copy() for _ in times]
+        for i in moving:
+            for sample, t in zip(samples, times):
+                sample[i] = np.array(matrix_at(context, founds[i].prim, founds[i].state.group.anchor, t))
+        transforms = (times, samples)
+    categories = [linking.categories(found.prim) for found in founds]
+    context.edit.set_instancer(
+        founds[0].path, group=outer, prototypes=[prototype],
+        prototype_indices=np.zeros(len(founds), dtype=np.int32), transforms=transforms,
+        categories=categories if any(categories) else None)
+    context.count("instances", len(founds))

@@ -1,0 +1,49 @@
+"""Meshes."""
+import numpy as np
+from pxr import UsdGeom
+
+from .context import get
+from .primvars import add_builtin
+
+_INTS = {
+    "faceVertexCounts": "face_vertex_counts", "faceVertexIndices": "face_vertex_indices",
+    "holeIndices": "hole_indices", "creaseIndices": "crease_indices", "creaseLengths": "crease_lengths",
+    "cornerIndices": "corner_indices",
+}
+_FLOATS = {"creaseSharpnesses": "crease_sharpnesses", "cornerSharpnesses": "corner_sharpnesses"}
+_TOKENS = {
+    "subdivisionScheme": ("scheme", "catmullClark", ("none", "catmullClark", "loop", "bilinear")),
+    "interpolateBoundary": ("interpolate_boundary", "edgeAndCorner", ("none", "edgeOnly", "edgeAndCorner")),
+    "faceVaryingLinearInterpolation": (
+        "face_varying_linear_interpolation", "cornersPlus1",
+        ("none", "cornersOnly", "cornersPlus1", "cornersPlus2", "boundaries", "all")),
+    "triangleSubdivisionRule": ("triangle_subdivision_rule", "catmullClark", ("catmullClark", "smooth")),
+}
+
+
+def emit(context, found, common, points, skin):
+    prim, time = found.prim, context.time
+    fields = {}
+    for name, key in _INTS.items():
+        value = get(prim, name, time)
+        if value is not None and len(value):
+            fields[key] = np.asarray(value, dtype=np.int32)
+    for name, key in _FLOATS.items():
+        value = get(prim, name, time)
+        if value is not None and len(value):
+            fields[key] = np.asarray(value, dtype=np.float32)
+    for name, (key, fallback, allowed) in _TOKENS.items():
+        value = get(prim, name, time, fallback)
+        if value not in allowed:
+            context.warn(prim.GetPath(), name, f"'{value}' is unknown; {fallback} is used")
+            value = fallback
+        fields[key] = value
+    if skin and skin.deforms:
+        # Normals of the rest pose would light the deformed mesh wrongly.
+        common["primvars"] = [p for p in common["primvars"] if p[0] != "normals"]
+        normals = skin.normals(context, found)
+        if normals is not None:
+            common["primvars"].append(normals)
+    else:
+        add_builtin(context, prim, "normals", UsdGeom.Mesh(prim).GetNormalsInterpolation(), common["primvars"])
+    context.edit.set_mesh(found.path, points=points, refine_level=context.options.refine_level, **fields, **common)

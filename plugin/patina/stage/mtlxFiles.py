@@ -1,0 +1,97 @@
+"""References to MaterialX documents, which pxr without its MaterialX plugin cannot open.
+
+Before such a stage is read, an anonymous layer stands in for each document: a Material prim for each
+material, where the plugin would put it, with the document as metadata. The networks themselves come
+from `_patina.read_mtlx`.
+"""
+import os
+
+from pxr import Sdf, Usd
+
+_KEY = "patina:mtlx"
+_networks = {}  # (file, material) -> Network
+
+
+def network_of(material):
+    """:returns: the Network of a material that stands for one of a document, else None"""
+    mark = material.GetPrim().GetCustomDataByKey(_KEY)
+    return _networks.get(tuple(mark.rsplit("\n", 1))) if mark else None
+
+
+def supply(context, stage, errors, module):
+    """Adds what pxr could not reference.
+
+    :param errors: of compat.composition_errors()
+    :returns: the errors that are left"""
+    left, wanted = [], set()
+    for path, text in errors:
+        if ".mtlx" in text:
+            wanted.add(path)
+        else:
+            left.append((path, text))
+    if not wanted:
+        return left
+    if not hasattr(module, "read_mtlx"):
+        return errors
+    with Usd.EditContext(stage, stage.GetSessionLayer()):
+        for path in sorted(wanted):
+            prim = stage.GetPrimAtPath(path)
+            if prim:
+                _supply_prim(context, prim, module)
+    return left
+
+
+def _supply_prim(context, prim, module):
+    done = set()
+    for spec, offset in prim.GetPrimStackWithLayerOffsets():
+        del offset
+        for items in (spec.referenceList, spec.payloadList):
+            for item in items.GetAddedOrExplicitItems():
+                if not item.assetPath.endswith(".mtlx"):
+                    continue
+                file = Sdf.ComputeAssetPathRelativeToLayer(spec.layer, item.assetPath)
+                if (file, item.primPath) in done:
+                    continue
+                done.add((file, item.primPath))
+                layer = _layer_of(context, prim, file, module)
+                if layer:
+                    target = item.primPath or Sdf.Path("/MaterialX")
+                    if layer.GetPrimAtPath(target):
+                        prim.GetReferences().AddReference(layer.identifier, target)
+                        _KEEP.append(layer)
+                    else:
+                        context.warn(prim.GetPath(), "references", f"{file} has no {target}")
+
+
+_KEEP = []  # anonymous layers live as long as someone holds them
+_layers = {}
+
+
+def _layer_of(context, prim, file, module):
+    if not os.path.exists(file):
+        context.warn(prim.GetPath(), "references", f"there is no file {file}")
+        return None
+    stamp = (file, os.path.getmtime(file))
+    if stamp in _layers:
+        return _layers[stamp]
+    warnings = []
+    networks = module.read_mtlx(file, warnings)
+    for warning in warnings:
+        context.warn(warning["prim"], warning["input"], warning["message"])
+    layer = Sdf.Layer.CreateAnonymous(os.path.basename(file) + ".usda")
+    for network in networks:
+        name = network.path.rpartition(":")[2]
+        _networks[(file, name)] = network
+        spec = Sdf.CreatePrimInLayer(layer, Sdf.Path("/MaterialX/Materials").AppendChild(_valid(name)))
+        spec.specifier, spec.typeName = Sdf.SpecifierDef, "Material"
+        spec.customData = {_KEY: f"{file}\n{name}"}
+    for path in ("/MaterialX", "/MaterialX/Materials"):
+        spec = Sdf.CreatePrimInLayer(layer, path)
+        spec.specifier = Sdf.SpecifierDef
+    _layers[stamp] = layer
+    return layer
+
+
+def _valid(name):
+    clean = "".join(c if c.isalnum() or c == "_" else "_" for c in name)
+    return clean if Sdf.Path.IsValidIdentifier(clean) else "_" + clean

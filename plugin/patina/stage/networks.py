@@ -1,0 +1,139 @@
+"""UsdShade networks -> `_patina.Network`."""
+import numpy as np
+from pxr import Sdf, UsdShade
+
+from . import assets, mtlxFiles
+
+_TERMINALS = (("surface", "ComputeSurfaceSource"), ("displacement", "ComputeDisplacementSource"),
+              ("volume", "ComputeVolumeSource"))
+_CONTEXT = "mtlx"  # preferred to the universal terminals, which pxr falls back to by itself
+_TEXT = ("string", "token", "asset")
+
+
+def network_of(context, material, path, module):
+    """:param path: of the material in the scene
+    :param module: `_patina`
+    :returns: its Network; without terminals when it has none that can be used"""
+    document = mtlxFiles.network_of(material)
+    if document is not None:
+        return document
+    return _Translation(context, material, path, module).run()
+
+
+class _Translation:
+    def __init__(self, context, material, path, module):
+        self.context, self.material, self.time = context, material, context.time
+        self.source, self.shown = str(material.GetPath()), path
+        self.network = module.Network(path)
+        self._names = {}  # path on the stage -> path in the network
+        self._todo = []
+
+    def run(self):
+        for terminal, compute in _TERMINALS:
+            shader, output, _ = getattr(self.material, compute)(_CONTEXT)
+            if shader:
+                node = self._node(shader)
+                if node:
+                    self.network.set_terminal(terminal, node, output)
+        while self._todo:
+            self._inputs(*self._todo.pop())
+        if self.network.empty:
+            others = sorted(o.GetFullName() for o in self.material.GetOutputs() if o.HasConnectedSource())
+            self._warn(self.material.GetPrim(), "", "has no surface, displacement or volume that can be shown"
+                       + (f" (it has {', '.join(others)})" if others else "") + "; displayColor is shown")
+        return self.network
+
+    def _warn(self, prim, input_, message):
+        self.context.warn(prim.GetPath(), input_, message)
+
+    def _node(self, shader):
+        """:returns: path of the shader's node in the network, None when it has no id"""
+        prim = shader.GetPrim()
+        path = str(prim.GetPath())
+        if path in self._names:
+            return self._names[path]
+        name = path
+        if path.startswith(self.source + "/"):
+            name = self.shown + path[len(self.source):]
+        self._names[path] = name
+        identifier = shader.GetShaderId() or ""
+        if not identifier:
+            source = shader.GetImplementationSource()
+            if source == UsdShade.Tokens.id:
+                self._warn(prim, "info:id", "is not authored; the shader is left out")
+            else:
+                self._warn(prim, "info:implementationSource", f"shaders given as {source} cannot be used")
+            self._names[path] = None
+            return None
+        self.network.add_node(name, identifier)
+        self._todo.append((shader, name))
+        return name
+
+    def _inputs(self, shader, node):
+        for input_ in shader.GetInputs():
+            name = input_.GetBaseName()
+            connected, attribute = self._source(input_)
+            if connected:
+                source = self._node(connected[0])
+                if source:
+                    self.network.connect(node, name, source, connected[1])
+                    continue
+            if attribute:
+                self._value(node, name, attribute, shader.GetPrim())
+
+    def _source(self, input_):
+        """Follows connections through node graphs.
+
+        :returns: ((shader, output), attribute): the one that gives the value, or the other, or none"""
+        port, met = input_, set()
+        while True:
+            path = port.GetAttr().GetPath()
+            if path in met:
+                self._warn(input_.GetPrim(), input_.GetBaseName(), f"is connected in a cycle through {path}; "
+                           "it has no value")
+                return None, None
+            met.add(path)
+            sources, broken = port.GetConnectedSources()
+            if not sources:
+                if broken:
+                    self._warn(input_.GetPrim(), input_.GetBaseName(), f"is connected to {broken[0]}, which does "
+                               "not exist; its own value is used")
+                attribute = port.GetAttr()
+                return None, attribute if attribute.HasValue() else None
+            source = sources[0]
+            if len(sources) > 1:
+                self._warn(input_.GetPrim(), input_.GetBaseName(), "has several connections; the first is used")
+            api, is_output = source.source, source.sourceType == UsdShade.AttributeType.Output
+            prim = api.GetPrim()
+            if is_output and not api.IsContainer():
+                return (UsdShade.Shader(prim), source.sourceName), input_.GetAttr()
+            port = api.GetOutput(source.sourceName) if is_output else api.GetInput(source.sourceName)
+            if not port or not port.GetAttr().IsDefined():
+                self._warn(input_.GetPrim(), input_.GetBaseName(),
+                           f"is connected to {prim.GetPath()}.{source.sourceName}, which does not exist")
+                attribute = input_.GetAttr()
+                return None, attribute if attribute.HasValue() else None
+
+    def _value(self, node, name, attribute, prim):
+        type_ = attribute.GetTypeName()
+        space = attribute.GetColorSpace() if attribute.HasColorSpace() else ""
+        value = attribute.Get(self.time)
+        if value is None:
+            return
+        if type_.isArray:
+            self._warn(prim, name, f"values of type {type_} cannot be used; the default is")
+            return
+        if type_ == Sdf.ValueTypeNames.Asset:
+            value = assets.resolve(self.context, attribute)
+        elif str(type_) not in _TEXT:
+            value = _numbers(value)
+        try:
+            self.network.set_input(node, name, str(type_), value, space)
+        except (ValueError, TypeError) as error:
+            self._warn(prim, name, f"{error}; the default is used")
+
+
+def _numbers(value):
+    if isinstance(value, (bool, int, float)):
+        return value
+    return np.array(value, dtype=np.float32).reshape(-1)

@@ -1,0 +1,47 @@
+"""What a caller may ask of the reader, and what the reader tells."""
+from dataclasses import dataclass, field
+
+
+@dataclass
+class StageOptions:
+    """How to read a stage.
+
+    frame: time code, or None for default values
+    purposes: drawn besides those of purpose "default"
+    complexity: of usdrecord: a name (low, medium, high, veryhigh) or 1.0 ... 1.3 and more; each 0.1
+        is one level of subdivision
+    camera: path or name; None takes the stage's own (render settings, main_cam, the first), and
+        frames the stage when there is none
+    shutter: (open, close) in time codes relative to the frame; None takes the camera's
+    headlight: light a stage that has no lights
+    """
+    frame: object = None
+    purposes: tuple = ("default", "render")
+    complexity: object = 1.0
+    camera: object = None
+    shutter: object = None
+    headlight: bool = True
+
+    @property
+    def refine_level(self):
+        names = {"low": 0, "medium": 1, "high": 2, "veryhigh": 3}
+        if self.complexity in names:
+            return names[self.complexity]
+        return min(max(round((float(self.complexity) - 1.0) * 10.0), 0), 8)
+
+
+@dataclass
+class StageInfo:
+    """What was read."""
+    camera: str = ""  # path in the scene
+    cameras: list = field(default_factory=list)
+    framed: bool = False  # the stage had no camera
+    headlight: bool = False  # the stage had no lights
+    up_axis: str = "Y"
+    meters_per_unit: float = 0.01
+    start_time_code: float = 0.0
+    end_time_code: float = 0.0
+    time_codes_per_second: float = 24.0
+    shutter: tuple = (0.0, 0.0)  # relative to the frame
+    counts: dict = field(default_factory=dict)  # prims by kind
+    notes: list = field(default_factory=list)  # what was decided for the user, one line each

@@ -1,0 +1,78 @@
+"""Primvars as arrays."""
+import numpy as np
+from pxr import UsdGeom
+
+from .context import get
+
+# Not for shading: they drive skinning.
+_IGNORED = ("skel:",)
+
+
+def read_primvars(context, prim, inherited):
+    """:param inherited: inheritable primvars of the prim's ancestors
+    :returns: list of (name, interpolation, values, indices) of all numeric primvars"""
+    found = []
+    api = UsdGeom.PrimvarsAPI(prim)
+    for primvar in api.FindPrimvarsWithInheritance(inherited):
+        item = read_primvar(context, primvar, prim)
+        if item:
+            found.append(item)
+    return found
+
+
+def read_primvar(context, primvar, prim):
+    name = primvar.GetPrimvarName()
+    if name.startswith(_IGNORED):
+        return None
+    values = numbers(primvar.Get(context.time))
+    if values is None:
+        return None
+    size = primvar.GetElementSize()
+    if size > 1:
+        if len(values) % size:
+            context.warn(prim.GetPath(), "primvars:" + name,
+                         f"has {len(values)} values, no multiple of its elementSize {size}; it is left out")
+            return None
+        values = values.reshape(len(values) // size, -1)
+    if values[0:1].size > 16:
+        return None
+    indices = primvar.GetIndices(context.time) if primvar.IsIndexed() else None
+    indices = np.asarray(indices, dtype=np.int32) if indices is not None and len(indices) else None
+    return (name, primvar.GetInterpolation(), values, indices)
+
+
+def numbers(value):
+    """:returns: an array of at least one dimension without a copy where pxr has an array, or None
+    for what is not numeric or is empty"""
+    if value is None or isinstance(value, str):
+        return None
+    if hasattr(value, "GetImaginary"):  # a quaternion
+        value = [value.GetReal(), *value.GetImaginary()]
+        return np.array([value], dtype=np.float32)
+    try:
+        array = np.asarray(value)
+    except (TypeError, ValueError):
+        return None
+    if array.dtype.kind not in "fiub":
+        return None
+    if array.dtype.kind == "b":
+        array = array.astype(np.float32)
+    if not _is_array(value):
+        array = array.reshape((1, -1)) if array.ndim else array.reshape(1)
+    return array if array.size else None
+
+
+def _is_array(value):
+    return type(value).__module__ == "pxr.Vt"
+
+
+def add_builtin(context, prim, name, interpolation, into):
+    """Adds a plain attribute (normals, widths) as a primvar unless there is a primvar of this name,
+    which stands above it.
+
+    :param into: list of primvars"""
+    if any(item[0] == name for item in into):
+        return
+    values = numbers(get(prim, name, context.time))
+    if values is not None:
+        into.append((name, interpolation, values, None))

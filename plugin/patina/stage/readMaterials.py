@@ -1,0 +1,29 @@
+"""The materials of a stage alone."""
+from pxr import Usd, UsdShade
+
+from . import compat, mtlxFiles
+from .context import Context
+from .networks import network_of
+from .options import StageOptions
+
+
+def read_materials(stage, warnings=None, frame=None):
+    """:param warnings: list that gets dicts of prim, input, message and count
+    :returns: list of (path, `_patina.Network`) of every material of the stage, bound or not"""
+    import _patina
+
+    scene = _patina.Scene()
+    networks = []
+    with scene.edit() as edit:
+        context = Context(stage, edit, StageOptions(frame=frame))
+        with compat.QuietDiagnostics() as quiet:
+            mtlxFiles.supply(context, stage, compat.composition_errors(stage), _patina)
+            for prim in Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies()):
+                if prim.IsA(UsdShade.Material):
+                    path = str(prim.GetPath())
+                    networks.append((path, network_of(context, UsdShade.Material(prim), path, _patina)))
+        for text in quiet.texts:
+            context.warn("/", "", text)
+    if warnings is not None:
+        warnings.extend(scene.warnings())
+    return networks

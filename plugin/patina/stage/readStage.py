@@ -1,0 +1,92 @@
+"""Translates one frame of a stage into an edit of the scene."""
+from pxr import UsdGeom
+
+from . import cameras, compat, drawModes, geometry, headlight, instancers, lights, mtlxFiles, networks
+from .bindings import Bindings
+from .context import Context
+from .kinds import Kinds
+from .linking import Linking
+from .options import StageInfo, StageOptions
+from .transforms import transform_of
+from .walk import Walk
+
+
+def read_stage(stage, edit, options=None):
+    """Sets every prim of a frame in an edit; what is wrong becomes warnings of the scene.
+
+    :param stage: Usd.Stage; materials of MaterialX documents are added to its session layer
+    :param edit: `_patina.SceneEdit`, not committed here
+    :returns: StageInfo
+    :raises StageError: when the camera that was asked for is not there"""
+    context = Context(stage, edit, options or StageOptions())
+    with compat.QuietDiagnostics() as quiet:
+        try:
+            info = _read(context)
+        finally:
+            context.xform_cache().Clear()
+    for text in quiet.texts:
+        context.warn("/", "", text)
+    return info
+
+
+def _read(context):
+    import _patina
+
+    stage, edit = context.stage, context.edit
+    errors = mtlxFiles.supply(context, stage, compat.composition_errors(stage), _patina)
+    for path, text in errors:
+        context.warn(path, "", text)
+    edit.set_meters_per_unit(UsdGeom.GetStageMetersPerUnit(stage))
+
+    bindings = Bindings()
+    walked = Walk(context, bindings).run()
+    chosen = cameras.choose(context, walked.cameras)
+    context.shutter = cameras.shutter_of(context, chosen)
+    linking = Linking(context)
+    has_lights = _emit_lights(context, walked, linking)
+    _emit_geometry(context, walked, bindings, linking)
+    for found in walked.cameras:
+        cameras.emit(context, found)
+    for path, material in bindings.materials.items():
+        edit.set_material(path, networks.network_of(context, material, path, _patina))
+        context.count("materials")
+    info = _info(context, walked)
+    if chosen:
+        info.camera, placed = chosen.path, transform_of(context, chosen.prim, None)
+    else:
+        info.framed = True
+        info.camera, placed = cameras.emit_framing(context)
+    if not has_lights and context.options.headlight:
+        info.headlight = True
+        headlight.emit(context, placed)
+    return info
+
+
+def _emit_lights(context, walked, linking):
+    """:returns: whether there are lights"""
+    founds = walked.lights + [f for f in walked.gprims if f.prim.IsA(UsdGeom.Mesh) and lights.is_mesh_light(f.prim)]
+    for found in founds:
+        if not found.state.hidden:
+            lights.emit(context, found, linking)
+    return bool(founds)
+
+
+def _emit_geometry(context, walked, bindings, linking):
+    kinds = Kinds()
+    for found, bound in zip(walked.gprims, bindings.resolve(walked.gprims)):
+        geometry.emit(context, found, kinds.of(found.prim)[0], bound, linking.categories(found.prim))
+    for found, names in walked.instancers:
+        instancers.emit_instancer(context, found, names, linking)
+    for (outer, prototype), founds in walked.instances.items():
+        instancers.emit_instances(context, outer, prototype, founds, linking)
+    for found, mode in walked.boxes:
+        drawModes.emit(context, found, mode)
+
+
+def _info(context, walked):
+    stage = context.stage
+    return StageInfo(
+        cameras=[found.path for found in walked.cameras], up_axis=str(UsdGeom.GetStageUpAxis(stage)),
+        meters_per_unit=UsdGeom.GetStageMetersPerUnit(stage), start_time_code=stage.GetStartTimeCode(),
+        end_time_code=stage.GetEndTimeCode(), time_codes_per_second=context.time_codes_per_second,
+        shutter=context.shutter, counts=context.counts, notes=context.notes)

@@ -1,0 +1,133 @@
+"""UsdSkel: skinned points by pxr's own queries, blend shapes first."""
+import numpy as np
+from pxr import Gf, Usd, UsdGeom, UsdSkel, Vt
+
+from .context import get
+from .transforms import as_transform, matrix_at, sample_times
+
+
+def skinning_of(context, root):
+    """:param root: a SkelRoot
+    :returns: dict from prim path to Skin of what is skinned below it"""
+    cache, skel_root = UsdSkel.Cache(), UsdSkel.Root(root)
+    predicate = Usd.PrimDefaultPredicate
+    skins = {}
+    if not cache.Populate(skel_root, predicate):
+        return skins
+    for binding in cache.ComputeSkelBindings(skel_root, predicate):
+        skeleton = binding.GetSkeleton()
+        query = cache.GetSkelQuery(skeleton)
+        for target in binding.GetSkinningTargets():
+            prim = target.GetPrim()
+            if not query or not (target.HasJointInfluences() or target.HasBlendShapes()):
+                context.warn(prim.GetPath(), "skel", "has no usable skeleton or joint influences; it is drawn unskinned")
+                continue
+            skins[prim.GetPath()] = Skin(skeleton.GetPrim(), query, target)
+    return skins
+
+
+def skin_of(found):
+    """:returns: the Skin of a found prim or None"""
+    skins = found.state.skinning
+    return skins.get(found.prim.GetPath()) if skins else None
+
+
+class Skin:
+    """How one prim is skinned."""
+
+    def __init__(self, skeleton, query, target):
+        self.skeleton, self.query, self.target = skeleton, query, target
+        self.has_joints = target.HasJointInfluences()
+        self.rigid = self.has_joints and target.IsRigidlyDeformed()
+        self.deforms = target.HasBlendShapes() or (self.has_joints and not self.rigid)
+
+    def offsets(self, context):
+        """:returns: times relative to the frame at which the pose is evaluated"""
+        interval = context.shutter_interval()
+        samples = set(self.target.GetTimeSamplesInInterval(interval))
+        animation = self.query.GetAnimQuery()
+        if animation:
+            samples.update(animation.GetJointTransformTimeSamplesInInterval(interval))
+            samples.update(animation.GetBlendShapeWeightTimeSamplesInInterval(interval))
+        return context.motion_offsets(samples)
+
+    def transform(self, context, anchor):
+        """Skinned points are in the space of the skeleton."""
+        place = self.skeleton if self.has_joints else self.target.GetPrim()
+        times = sample_times(context, place, anchor)
+        if self.rigid and context.moving:
+            times = sorted({*times, *self.offsets(context)})
+        matrices = [matrix_at(context, place, anchor, t) for t in times]
+        if self.rigid:
+            matrices = [self._rigid(context.time_at(t)) * m for t, m in zip(times, matrices)]
+        return as_transform(times, matrices)
+
+    def _rigid(self, time):
+        pose = self.query.ComputeSkinningTransforms(time)
+        moved = self.target.ComputeSkinnedTransform(pose, time) if pose else None
+        return Gf.Matrix4d(moved) if moved else self.target.GetGeomBindTransform(time)
+
+    def points(self, context, offset):
+        """:returns: deformed points, or those of the rest pose where pxr cannot compute them"""
+        time, prim = context.time_at(offset), self.target.GetPrim()
+        points = UsdGeom.PointBased(prim).GetPointsAttr().Get(time)
+        if points is None or not len(points):
+            return []
+        if self.target.HasBlendShapes():
+            points = self._blend(time, points)
+        if self.has_joints and not self.rigid:
+            pose = self.query.ComputeSkinningTransforms(time)
+            skinned = self.target.ComputeSkinnedPoints(pose, points, time) if pose else None
+            if skinned is None:
+                context.warn(prim.GetPath(), "skel", "cannot be skinned; it is drawn in its rest pose")
+                bind = np.array(self.target.GetGeomBindTransform(time), dtype=np.float32)
+                skinned = np.asarray(points) @ bind[:3, :3] + bind[3, :3]
+            points = skinned
+        return points
+
+    def _blend(self, time, points):
+        animation = self.query.GetAnimQuery()
+        weights = animation.ComputeBlendShapeWeights(time) if animation else None
+        if not weights:
+            return points
+        mapped = self.target.GetBlendShapeMapper().Remap(weights)
+        shapes = UsdSkel.BlendShapeQuery(UsdSkel.BindingAPI(self.target.GetPrim()))
+        parts = shapes.ComputeSubShapeWeights(mapped)
+        if not mapped or not parts:
+            return points
+        moved = Vt.Vec3fArray(points)
+        # pxr changes the array in place where it can be shared, else it returns another.
+        result = shapes.ComputeDeformedPoints(*parts, shapes.ComputeBlendShapePointIndices(),
+                                              shapes.ComputeSubShapePointOffsets(), moved)
+        return moved if isinstance(result, bool) or result is None else result
+
+    def normals(self, context, found):
+        """:returns: a primvar of smooth normals of the deformed points, None when subdivision makes
+        its own or the rest pose had none"""
+        prim, time = found.prim, context.time
+        if get(prim, "subdivisionScheme", time, "catmullClark") != "none":
+            return None
+        if get(prim, "normals", time) is None and get(prim, "primvars:normals", time) is None:
+            return None
+        points = np.asarray(self.points(context, 0.0), dtype=np.float32).reshape(-1, 3)
+        counts = np.asarray(get(prim, "faceVertexCounts", time, []), dtype=np.int64)
+        indices = np.asarray(get(prim, "faceVertexIndices", time, []), dtype=np.int64)
+        if not len(counts) or counts.min() < 3 or counts.sum() != len(indices) or indices.min() < 0 \
+                or indices.max() >= len(points):
+            return None
+        return ("normals", "vertex", smooth_normals(points, counts, indices), None)
+
+
+def smooth_normals(points, counts, indices):
+    """:returns: area-weighted vertex normals; Newell's sum over the edges of each face"""
+    first = np.repeat(np.cumsum(counts) - counts, counts)
+    corner = np.arange(len(indices)) - first
+    following = indices[first + (corner + 1) % np.repeat(counts, counts)]
+    cross = np.cross(points[indices], points[following])
+    face = np.repeat(np.arange(len(counts)), counts)
+    normals = np.zeros((len(counts), 3))
+    np.add.at(normals, face, cross)
+    total = np.zeros(points.shape)
+    np.add.at(total, indices, normals[face])
+    length = np.linalg.norm(total, axis=1, keepdims=True)
+    return (total / np.where(length > 0.0, length, 1.0)).astype(np.float32)

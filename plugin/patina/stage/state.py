@@ -1,0 +1,52 @@
+"""What prims inherit on the way down, and what the walk finds."""
+from dataclasses import dataclass, field, replace
+
+
+@dataclass(frozen=True)
+class Group:
+    """Where prims are placed: the world, or a prototype."""
+    name: str = ""  # as the scene calls it
+    anchor: object = None  # prim that transforms are relative to; None: the world
+    source: str = ""  # path of the prototype's root on the stage ...
+    shown: str = ""  # ... and the path that stands for it in the scene
+    material: str = ""  # bound by the instance; the prototype's own bindings are stronger ...
+    material_rules: bool = False  # ... unless this is set
+    chain: tuple = ()  # prototypes of point instancers that this one is drawn inside of
+
+    def path(self, prim):
+        """:returns: the path of a prim in the scene"""
+        path = str(prim.GetPath())
+        return self.shown + path[len(self.source):] if self.source else path
+
+
+@dataclass(frozen=True)
+class State:
+    """What is inherited."""
+    group: Group = Group()
+    purpose: str = "default"
+    primvars: tuple = ()  # inheritable ones
+    skinning: object = None  # inside a SkelRoot: prim path -> its skinning
+    draw_mode: str = "default"
+    hidden: bool = False
+
+    def with_(self, **changes):
+        return replace(self, **changes)
+
+
+@dataclass
+class Found:
+    """A prim that the walk found worth drawing."""
+    prim: object
+    state: State
+    path: str  # in the scene
+
+
+@dataclass
+class Walked:
+    """Everything that the walk found, in the stage's order."""
+    gprims: list = field(default_factory=list)
+    lights: list = field(default_factory=list)
+    cameras: list = field(default_factory=list)
+    instancers: list = field(default_factory=list)  # (Found, group names of the prototypes)
+    instances: dict = field(default_factory=dict)  # (group, prototype group) -> list of Found
+    boxes: list = field(default_factory=list)  # (Found, draw mode)

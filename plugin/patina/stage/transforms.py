@@ -1,0 +1,46 @@
+"""Transforms of prims, moving or not."""
+import numpy as np
+from pxr import UsdGeom
+
+
+def sample_times(context, prim, anchor):
+    """:returns: times relative to the frame at which the way from a prim up to its anchor changes"""
+    if not context.moving:
+        return [0.0]
+    samples, moves, interval = set(), False, context.shutter_interval()
+    while prim and prim != anchor and not prim.IsPseudoRoot():
+        xformable = UsdGeom.Xformable(prim)
+        if xformable:
+            if xformable.TransformMightBeTimeVarying():
+                moves = True
+                samples.update(xformable.GetTimeSamplesInInterval(interval))
+            if xformable.GetResetXformStack():
+                break
+        prim = prim.GetParent()
+    return context.motion_offsets(samples) if moves else [0.0]
+
+
+def matrix_at(context, prim, anchor, offset):
+    cache = context.xform_cache(offset)
+    if anchor is None:
+        return cache.GetLocalToWorldTransform(prim)
+    return cache.ComputeRelativeTransform(prim, anchor)[0]
+
+
+def transform_of(context, prim, anchor, after=None):
+    """The transform from a prim to its anchor (None: the world).
+
+    :param after: a function of the offset that gives a matrix to apply first
+    :returns: what `_patina` takes as transform"""
+    times = sample_times(context, prim, anchor)
+    matrices = [matrix_at(context, prim, anchor, t) for t in times]
+    if after:
+        matrices = [after(t) * m for t, m in zip(times, matrices)]
+    return as_transform(times, matrices)
+
+
+def as_transform(times, matrices):
+    arrays = [np.array(m, dtype=np.float32) for m in matrices]
+    if all(np.array_equal(arrays[0], a) for a in arrays[1:]):
+        return arrays[0]
+    return (list(times), arrays)

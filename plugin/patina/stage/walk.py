@@ -1,0 +1,156 @@
+"""The walk over a stage: finds what is to be drawn, each prototype once.
+
+Native instances stay instances. Prims of a prototype are walked once for each set of things that
+they inherit from outside (material, purpose, primvars), since those make them look different.
+"""
+from pxr import Usd, UsdGeom
+
+from . import drawModes
+from .context import get
+from .kinds import GPRIM_KINDS, Kinds
+from .skinning import skinning_of
+from .state import Found, Group, State, Walked
+
+_ANY = Usd.PrimIsActive & Usd.PrimIsLoaded  # prototypes of point instancers may be overs and classes
+
+
+class Walk:
+    def __init__(self, context, bindings):
+        self.context, self.bindings = context, bindings
+        self.walked = Walked()
+        self._kinds = Kinds()
+        self._pending = []  # native instances whose prototype is not chosen yet
+        self._todo = []  # (prims, state, predicate)
+        self._native = {}  # what prims of a prototype inherit -> group
+        self._pointed = {}  # the same for prototypes of point instancers
+
+    def run(self):
+        """:returns: Walked"""
+        root = self.context.stage.GetPseudoRoot()
+        self._todo.append((root.GetChildren(), State(), Usd.PrimDefaultPredicate))
+        while self._todo or self._pending:
+            while self._todo:
+                self._walk(*self._todo.pop())
+            self._place_instances()
+        return self.walked
+
+    def _walk(self, prims, state, predicate):
+        stack = [(prim, state) for prim in reversed(prims)]
+        while stack:
+            prim, state = stack.pop()
+            state = self._visit(prim, state)
+            if state is not None:
+                children = prim.GetFilteredChildren(predicate)
+                if children:
+                    stack.extend((child, state) for child in reversed(children))
+
+    def _visit(self, prim, state):
+        """:returns: the state of the prim's children, None when they are not walked"""
+        kind, imageable = self._kinds.of(prim)
+        if state.hidden:
+            if kind == "camera":
+                self._camera(prim, state)
+            return state
+        own = state  # what the prim itself inherits
+        if imageable:
+            if get(prim, "visibility", self.context.time) == "invisible":
+                return self._visit(prim, state.with_(hidden=True))
+            purpose = prim.GetAttribute("purpose")
+            if purpose and purpose.HasAuthoredValue():
+                own = state = state.with_(purpose=purpose.Get() or "default")
+            inherited = UsdGeom.PrimvarsAPI(prim).FindIncrementallyInheritablePrimvars(state.primvars)
+            if inherited:
+                state = state.with_(primvars=tuple(inherited))
+        if prim.IsModel():
+            mode, applied = drawModes.of(prim, state.draw_mode)
+            if mode != state.draw_mode:
+                state = state.with_(draw_mode=mode)
+            if applied:
+                if self._drawn(state):
+                    self.walked.boxes.append((Found(prim, own, state.group.path(prim)), mode))
+                return None
+        if kind == "instancer":
+            if self._drawn(state):
+                self._instancer(prim, own, state)
+            return None
+        if kind == "skelRoot":
+            state = state.with_(skinning=skinning_of(self.context, prim))
+        elif kind == "camera":
+            self._camera(prim, own)
+        elif kind == "light":
+            self.walked.lights.append(Found(prim, own, state.group.path(prim)))
+        elif kind == "unsupported":
+            self.context.warn(prim.GetPath(), "", f"prims of type {prim.GetTypeName()} are not drawn")
+        elif kind in GPRIM_KINDS:
+            if self._drawn(own):
+                self.walked.gprims.append(Found(prim, own, state.group.path(prim)))
+            if prim.IsInstance():
+                return None
+        if prim.IsInstance():
+            self._pending.append(Found(prim, state, state.group.path(prim)))
+            return None
+        return state
+
+    def _drawn(self, state):
+        return state.purpose in self.context.purposes
+
+    def _camera(self, prim, state):
+        if not state.group.name:
+            self.walked.cameras.append(Found(prim, state, str(prim.GetPath())))
+
+    def _place_instances(self):
+        """Chooses the group of each native instance; new groups are walked next."""
+        pending, self._pending = self._pending, []
+        bound = self.bindings.compute([found.prim for found in pending])
+        for found, (material, stronger) in zip(pending, bound):
+            state, outer = found.state, found.state.group
+            prototype = found.prim.GetPrototype()
+            material = material and self.bindings.name(material, outer)
+            rules = stronger
+            if outer.material and (outer.material_rules or not material):
+                material, rules = outer.material, outer.material_rules
+            key = (str(prototype.GetPath()), material, rules, state.purpose, _paths(state.primvars))
+            group = self._native.get(key)
+            if group is None:
+                group = Group(name=found.path, anchor=prototype, source=str(prototype.GetPath()),
+                              shown=found.path, material=material or "", material_rules=rules,
+                              chain=outer.chain)
+                self._native[key] = group
+                self._todo.append((prototype.GetChildren(), state.with_(group=group),
+                                   Usd.PrimDefaultPredicate))
+            self.walked.instances.setdefault((outer.name, group.name), []).append(found)
+
+    def _instancer(self, prim, own, state):
+        found = Found(prim, own, own.group.path(prim))
+        names = []
+        for index, target in enumerate(prim.GetRelationship("prototypes").GetForwardedTargets()):
+            names.append(self._prototype(prim, target, state, f"{found.path}[{index}]"))
+        self.walked.instancers.append((found, names))
+
+    def _prototype(self, instancer, target, state, name):
+        """:returns: the name of the group of one prototype of a point instancer"""
+        root = self.context.stage.GetPrimAtPath(target)
+        if not root or not root.IsActive():
+            self.context.warn(instancer.GetPath(), "prototypes", f"there is no prim {target}; it is not drawn")
+            return name
+        if instancer.GetPath().HasPrefix(target) or str(target) in state.group.chain:
+            self.context.warn(instancer.GetPath(), "prototypes", f"{target} holds itself; it is not drawn")
+            return name
+        key = (str(target), state.group.name, state.purpose, _paths(state.primvars))
+        if key in self._pointed:
+            return self._pointed[key]
+        self._pointed[key] = name
+        outer = state.group
+        inside = root.GetPath().HasPrefix(instancer.GetPath())
+        shown = outer.path(root) if inside else f"{outer.path(instancer)}/{root.GetName()}"
+        group = Group(name=name, anchor=root.GetParent(), source=str(target), shown=shown,
+                      material=outer.material, material_rules=outer.material_rules,
+                      chain=outer.chain + (str(target),))
+        concrete = root.IsDefined() and not root.IsAbstract()
+        self._todo.append(([root], state.with_(group=group),
+                           Usd.PrimDefaultPredicate if concrete else _ANY))
+        return name
+
+
+def _paths(primvars):
+    return tuple(str(p.GetAttr().GetPath()) for p in primvars)

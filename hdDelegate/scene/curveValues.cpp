@@ -79,7 +79,7 @@ void CurveValues::asBezier(const CurveBatch& batch, size_t curve, int segment, f
             atPoint(batch, curve, segment * batch.layouts[curve].step + k, in[k]);
     for (int i = 0; i < _components; ++i) {
         const float p[4] = {in[0][i], in[1][i], in[2][i], in[3][i]};
-        float bezier[4];
+        float bezier[4] = {};
         toBezier(basis, p, bezier);
         for (int k = 0; k < 4; ++k)
             out[k * _components + i] = bezier[k];

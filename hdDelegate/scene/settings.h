@@ -33,7 +33,7 @@ struct RenderSettings {
     bool enableDepthOfField = true;
     bool domeLightCameraVisibility = true;
     std::string cullStyle = "nothing"; ///< for camera rays, Hydra's names: nothing, back, front, backUnlessDoubleSided, frontUnlessDoubleSided
-    float edgeLength = 2.0f; ///< pixels; subdivision refines until edges are this short
+    float edgeLength = 4.0f; ///< pixels; subdivision refines until edges are this short
 
     std::vector<std::string> aovs; ///< besides color and alpha: names of standardAov()
 

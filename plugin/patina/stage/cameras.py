@@ -75,14 +75,34 @@ def emit(context, found):
     context.count("cameras")
 
 
-def emit_framing(context):
-    """A camera from the front that shows everything, as usdrecord does.
-
-    :returns: (path, matrix)"""
+def _bounds(context, gprims):
+    """:returns: range of the whole stage; authored extents that hold nothing are computed anew"""
     cache = UsdGeom.BBoxCache(context.time, sorted(context.purposes), useExtentsHint=True)
     box = cache.ComputeWorldBound(context.stage.GetPseudoRoot()).ComputeAlignedRange()
-    ends = (box.GetMin(), box.GetMax())
-    if box.IsEmpty() or not all(math.isfinite(x) for end in ends for x in end):
+    if _is_usable(box):
+        return box
+    box = Gf.Range3d()
+    for found in gprims:
+        extent = UsdGeom.Boundable.ComputeExtentFromPlugins(UsdGeom.Boundable(found.prim), context.time)
+        if extent and not found.state.group.name:
+            world = context.xform_cache().GetLocalToWorldTransform(found.prim)
+            own = Gf.BBox3d(Gf.Range3d(Gf.Vec3d(extent[0]), Gf.Vec3d(extent[1])), world).ComputeAlignedRange()
+            if _is_usable(own):
+                box.UnionWith(own)
+    return box
+
+
+def _is_usable(box):
+    return not box.IsEmpty() and all(math.isfinite(x) for end in (box.GetMin(), box.GetMax()) for x in end)
+
+
+def emit_framing(context, gprims):
+    """A camera from the front that shows everything, as usdrecord does.
+
+    :param gprims: all that were found
+    :returns: (path, matrix)"""
+    box = _bounds(context, gprims)
+    if not _is_usable(box):
         context.warn("/", "", "the stage has no extents to frame; the camera looks at the origin")
         box = Gf.Range3d(Gf.Vec3d(-1), Gf.Vec3d(1))
     z_up = UsdGeom.GetStageUpAxis(context.stage) == UsdGeom.Tokens.z

@@ -1,4 +1,5 @@
 """What every part of the reader needs: the stage, the time, the edit, and caches."""
+import numpy as np
 from pxr import Gf, Usd, UsdGeom
 
 MOST_MOTION_SAMPLES = 16
@@ -15,6 +16,7 @@ class Context:
         self.time_codes_per_second = stage.GetTimeCodesPerSecond() or 24.0
         self.counts = {}
         self.notes = []
+        self.reported = set()  # texts of composition errors, which pxr also prints
         self._xforms = {}
 
     def warn(self, prim, input_, message):
@@ -65,3 +67,41 @@ def get(prim, name, time, fallback=None):
     attribute = prim.GetAttribute(name)
     value = attribute.Get(time) if attribute else None
     return fallback if value is None else value
+
+
+def array(context, prim, name, value, components, dtype=np.float32):
+    """:param value: of an attribute; its authored type may be any, whatever the schema says
+    :returns: an array of elements x components (of elements alone for 1), without a copy where the
+    type is the wanted one; empty, after a warning, when the value is none"""
+    shape = (0, components) if components > 1 else (0,)
+    if value is None:
+        return np.zeros(shape, dtype)
+    try:
+        found = np.asarray(value)
+        fits = found.dtype.kind in "fiu" and (found.ndim == 2 and found.shape[1] == components > 1 or
+                                              found.ndim == 1 == components)
+    except (TypeError, ValueError):
+        found, fits = None, False
+    if not fits:
+        if found is None or found.size:
+            kind = "integers" if dtype == np.int32 else "numbers"
+            context.warn(prim.GetPath(), name, f"is no array of {components} {kind} per element; it is taken as empty")
+        return np.zeros(shape, dtype)
+    return found.astype(dtype, copy=False)
+
+
+class Guard:
+    """Turns an error while one prim is read into a warning: one broken prim is not drawn, the rest is."""
+
+    def __init__(self, context, prim):
+        self.context, self.prim = context, prim
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, error, trace):
+        if kind is None or not issubclass(kind, Exception):
+            return False
+        text = " ".join(str(error).split())[:300] or kind.__name__
+        self.context.warn(self.prim.GetPath(), "", f"cannot be read and is not drawn: {text}")
+        return True

@@ -3,7 +3,7 @@ import numpy as np
 from pxr import UsdGeom
 
 from . import meshes, skinning
-from .context import get
+from .context import array, get
 from .primvars import add_builtin, read_primvars
 from .transforms import transform_of
 
@@ -44,7 +44,7 @@ def emit(context, found, kind, bound, categories):
 
 def _subset(context, subset, material, group):
     indices = subset.GetIndicesAttr().Get(context.time)
-    return (group.path(subset.GetPrim()), material, np.asarray(indices if indices is not None else [], np.int32))
+    return (group.path(subset.GetPrim()), material, array(context, subset.GetPrim(), "indices", indices, 1, np.int32))
 
 
 def points_of(context, prim, skin=None):
@@ -54,20 +54,20 @@ def points_of(context, prim, skin=None):
     attribute = based.GetPointsAttr()
     if skin and skin.deforms:
         offsets = skin.offsets(context) if context.moving else [0.0]
-        return _sampled(offsets, [skin.points(context, t) for t in offsets])
+        return _sampled(context, prim, offsets, [skin.points(context, t) for t in offsets])
     offsets = context.attribute_offsets(attribute)
     velocities = based.GetVelocitiesAttr()
     if context.moving and velocities and velocities.HasAuthoredValue():
         offsets = list(context.shutter)
         values = based.ComputePointsAtTimes([context.time_at(t) for t in offsets], context.time)
         if len(values) == len(offsets):
-            return _sampled(offsets, values)
+            return _sampled(context, prim, offsets, values)
         offsets = [0.0]
-    return _sampled(offsets, [attribute.Get(context.time_at(t)) for t in offsets])
+    return _sampled(context, prim, offsets, [attribute.Get(context.time_at(t)) for t in offsets])
 
 
-def _sampled(offsets, values):
-    arrays = [np.asarray(v if v is not None else [], dtype=np.float32).reshape(-1, 3) for v in values]
+def _sampled(context, prim, offsets, values):
+    arrays = [array(context, prim, "points", v, 3) for v in values]
     if len(arrays) == 1:
         return arrays[0]
     return (list(offsets), arrays)
@@ -90,9 +90,9 @@ def _curves(context, found, common, skin):
     if wrap not in ("nonperiodic", "periodic", "pinned"):
         context.warn(prim.GetPath(), "wrap", f"'{wrap}' is unknown; nonperiodic is drawn")
         wrap = "nonperiodic"
-    counts = get(prim, "curveVertexCounts", context.time, [])
+    counts = array(context, prim, "curveVertexCounts", get(prim, "curveVertexCounts", context.time), 1, np.int32)
     context.edit.set_curves(found.path, points=points_of(context, prim, skin), basis=basis, wrap=wrap,
-                            curve_vertex_counts=np.asarray(counts, dtype=np.int32), **common)
+                            curve_vertex_counts=counts, **common)
 
 
 def _implicit(context, found, kind, common):

@@ -2,7 +2,7 @@
 import numpy as np
 from pxr import UsdGeom
 
-from .context import get
+from .context import array, get
 from .primvars import numbers
 from .transforms import matrix_at, sample_times
 
@@ -11,7 +11,7 @@ def emit_instancer(context, found, names, linking):
     """A point instancer. Instances that it hides or that are broken are left out."""
     prim, group = found.prim, found.state.group
     path, schema = prim.GetPath(), UsdGeom.PointInstancer(prim)
-    indices = np.asarray(get(prim, "protoIndices", context.time, []), dtype=np.int32)
+    indices = array(context, prim, "protoIndices", get(prim, "protoIndices", context.time), 1, np.int32)
     if not len(indices):
         return
     offsets, samples = _matrices(context, schema, len(indices))

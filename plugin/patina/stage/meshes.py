@@ -2,7 +2,7 @@
 import numpy as np
 from pxr import UsdGeom
 
-from .context import get
+from .context import array, get
 from .primvars import add_builtin
 
 _INTS = {
@@ -25,13 +25,9 @@ def emit(context, found, common, points, skin):
     prim, time = found.prim, context.time
     fields = {}
     for name, key in _INTS.items():
-        value = get(prim, name, time)
-        if value is not None and len(value):
-            fields[key] = np.asarray(value, dtype=np.int32)
+        fields[key] = array(context, prim, name, get(prim, name, time), 1, np.int32)
     for name, key in _FLOATS.items():
-        value = get(prim, name, time)
-        if value is not None and len(value):
-            fields[key] = np.asarray(value, dtype=np.float32)
+        fields[key] = array(context, prim, name, get(prim, name, time), 1)
     for name, (key, fallback, allowed) in _TOKENS.items():
         value = get(prim, name, time, fallback)
         if value not in allowed:

@@ -8,7 +8,7 @@ import os
 
 from pxr import Sdf, Usd
 
-_KEY = "patina:mtlx"
+_KEY = "patinaDocument"
 _networks = {}  # (file, material) -> Network
 
 
@@ -84,7 +84,7 @@ def _layer_of(context, prim, file, module):
         _networks[(file, name)] = network
         spec = Sdf.CreatePrimInLayer(layer, Sdf.Path("/MaterialX/Materials").AppendChild(_valid(name)))
         spec.specifier, spec.typeName = Sdf.SpecifierDef, "Material"
-        spec.customData = {_KEY: f"{file}\n{name}"}
+        spec.customData[_KEY] = f"{file}\n{name}"
     for path in ("/MaterialX", "/MaterialX/Materials"):
         spec = Sdf.CreatePrimInLayer(layer, path)
         spec.specifier = Sdf.SpecifierDef

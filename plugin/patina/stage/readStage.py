@@ -3,7 +3,7 @@ from pxr import UsdGeom
 
 from . import cameras, compat, drawModes, geometry, headlight, instancers, lights, mtlxFiles, networks
 from .bindings import Bindings
-from .context import Context
+from .context import Context, Guard
 from .kinds import Kinds
 from .linking import Linking
 from .options import StageInfo, StageOptions
@@ -25,7 +25,8 @@ def read_stage(stage, edit, options=None):
         finally:
             context.xform_cache().Clear()
     for text in quiet.texts:
-        context.warn("/", "", text)
+        if not any(known in text for known in context.reported):
+            context.warn("/", "", text)
     return info
 
 
@@ -33,8 +34,9 @@ def _read(context):
     import _patina
 
     stage, edit = context.stage, context.edit
-    errors = mtlxFiles.supply(context, stage, compat.composition_errors(stage), _patina)
-    for path, text in errors:
+    errors = compat.composition_errors(stage)
+    context.reported = {text for _, text in errors}
+    for path, text in mtlxFiles.supply(context, stage, errors, _patina):
         context.warn(path, "", text)
     edit.set_meters_per_unit(UsdGeom.GetStageMetersPerUnit(stage))
 
@@ -46,16 +48,18 @@ def _read(context):
     has_lights = _emit_lights(context, walked, linking)
     _emit_geometry(context, walked, bindings, linking)
     for found in walked.cameras:
-        cameras.emit(context, found)
+        with Guard(context, found.prim):
+            cameras.emit(context, found)
     for path, material in bindings.materials.items():
-        edit.set_material(path, networks.network_of(context, material, path, _patina))
-        context.count("materials")
+        with Guard(context, material.GetPrim()):
+            edit.set_material(path, networks.network_of(context, material, path, _patina))
+            context.count("materials")
     info = _info(context, walked)
     if chosen:
         info.camera, placed = chosen.path, transform_of(context, chosen.prim, None)
     else:
         info.framed = True
-        info.camera, placed = cameras.emit_framing(context)
+        info.camera, placed = cameras.emit_framing(context, walked.gprims)
     if not has_lights and context.options.headlight:
         info.headlight = True
         headlight.emit(context, placed)
@@ -66,7 +70,7 @@ def _emit_lights(context, walked, linking):
     """:returns: whether there are lights"""
     founds = walked.lights + [f for f in walked.gprims if f.prim.IsA(UsdGeom.Mesh) and lights.is_mesh_light(f.prim)]
     for found in founds:
-        if not found.state.hidden:
+        with Guard(context, found.prim):
             lights.emit(context, found, linking)
     return bool(founds)
 
@@ -74,13 +78,16 @@ def _emit_lights(context, walked, linking):
 def _emit_geometry(context, walked, bindings, linking):
     kinds = Kinds()
     for found, bound in zip(walked.gprims, bindings.resolve(walked.gprims)):
-        geometry.emit(context, found, kinds.of(found.prim)[0], bound, linking.categories(found.prim))
+        with Guard(context, found.prim):
+            geometry.emit(context, found, kinds.of(found.prim)[0], bound, linking.categories(found.prim))
     for found, names in walked.instancers:
-        instancers.emit_instancer(context, found, names, linking)
+        with Guard(context, found.prim):
+            instancers.emit_instancer(context, found, names, linking)
     for (outer, prototype), founds in walked.instances.items():
         instancers.emit_instances(context, outer, prototype, founds, linking)
     for found, mode in walked.boxes:
-        drawModes.emit(context, found, mode)
+        with Guard(context, found.prim):
+            drawModes.emit(context, found, mode)
 
 
 def _info(context, walked):

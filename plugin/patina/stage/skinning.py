@@ -77,8 +77,8 @@ class Skin:
             points = self._blend(time, points)
         if self.has_joints and not self.rigid:
             pose = self.query.ComputeSkinningTransforms(time)
-            skinned = self.target.ComputeSkinnedPoints(pose, points, time) if pose else None
-            if skinned is None:
+            skinned = Vt.Vec3fArray(points)  # pxr changes it in place
+            if not pose or not self.target.ComputeSkinnedPoints(pose, skinned, time):
                 context.warn(prim.GetPath(), "skel", "cannot be skinned; it is drawn in its rest pose")
                 bind = np.array(self.target.GetGeomBindTransform(time), dtype=np.float32)
                 skinned = np.asarray(points) @ bind[:3, :3] + bind[3, :3]
@@ -95,11 +95,10 @@ class Skin:
         parts = shapes.ComputeSubShapeWeights(mapped)
         if not mapped or not parts:
             return points
-        moved = Vt.Vec3fArray(points)
-        # pxr changes the array in place where it can be shared, else it returns another.
-        result = shapes.ComputeDeformedPoints(*parts, shapes.ComputeBlendShapePointIndices(),
-                                              shapes.ComputeSubShapePointOffsets(), moved)
-        return moved if isinstance(result, bool) or result is None else result
+        moved = Vt.Vec3fArray(points)  # pxr changes it in place
+        shapes.ComputeDeformedPoints(*parts, shapes.ComputeBlendShapePointIndices(),
+                                     shapes.ComputeSubShapePointOffsets(), moved)
+        return moved
 
     def normals(self, context, found):
         """:returns: a primvar of smooth normals of the deformed points, None when subdivision makes

@@ -6,7 +6,7 @@ they inherit from outside (material, purpose, primvars), since those make them l
 from pxr import Usd, UsdGeom
 
 from . import drawModes
-from .context import get
+from .context import Guard, get
 from .kinds import GPRIM_KINDS, Kinds
 from .skinning import skinning_of
 from .state import Found, Group, State, Walked
@@ -38,7 +38,8 @@ class Walk:
         stack = [(prim, state) for prim in reversed(prims)]
         while stack:
             prim, state = stack.pop()
-            state = self._visit(prim, state)
+            with Guard(self.context, prim):
+                state = self._visit(prim, state)
             if state is not None:
                 children = prim.GetFilteredChildren(predicate)
                 if children:

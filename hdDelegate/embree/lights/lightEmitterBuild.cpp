@@ -70,7 +70,10 @@ LightEmitter::LightEmitter(const Light &light, const mat4 &groupToWorld, float s
         return;
     }
     if (lightBaseRadiance(light) == vec3(0.0f)) return;
-    if (!choosesKind(toWorld, diagnostics)) return;
+    if (!choosesKind(toWorld, diagnostics)) {
+        _kind = Kind::None;
+        return;
+    }
     const vec3 signedRadiance = _radiance;
     _radiance = glm::max(_radiance, vec3(0.0f));
     if (_radiance != signedRadiance)

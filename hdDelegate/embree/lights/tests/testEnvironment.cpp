@@ -1,0 +1,214 @@
+// Domes with images: orientation, formats, importance sampling.
+
+#include "hdDelegate/embree/lights/tests/lightTools.h"
+
+#include <gtest/gtest.h>
+
+using namespace patina;
+
+namespace {
+
+std::shared_ptr<ImageRGB> image(int width, int height, const std::function<vec3(int, int)>& pixel) {
+    auto result = std::make_shared<ImageRGB>();
+    result->width = width;
+    result->height = height;
+    result->valid = true;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            result->pixels.push_back(pixel(x, y));
+    return result;
+}
+
+/// The directions' own colours: what an image of this format shows when the world has colour
+/// 0.5 + 0.5 d in direction d.
+vec3 worldColor(const vec3& d) {
+    return 0.5f + 0.5f * d;
+}
+
+vec3 latlongDirection(float u, float v) {
+    const float longitude = float(testPi) * (1.0f - 2.0f * u), theta = float(testPi) * v;
+    return vec3(std::sin(theta) * std::sin(longitude), std::cos(theta),
+                std::sin(theta) * std::cos(longitude));
+}
+
+} // namespace
+
+TEST(Environment, latlongStandsAsOpenExrSays) {
+    const auto pixels = image(64, 32, [](int x, int y) {
+        return worldColor(latlongDirection((x + 0.5f) / 64.0f, (y + 0.5f) / 32.0f));
+    });
+    const EnvironmentMap map(pixels, EnvironmentFormat::Latlong);
+    Random random(31);
+    for (int i = 0; i < 1000; ++i) {
+        const vec3 d = random.direction();
+        if (std::abs(d.y) < 0.95f) {
+            EXPECT_LT(glm::length(map.radiance(d) - worldColor(d)), 0.03f);
+        }
+    }
+    // Left and right edge meet at longitude pi, -z; a quarter from the left is +x.
+    const auto quarters = image(8, 4, [](int x, int) { return vec3(float(x)); });
+    const EnvironmentMap steps(quarters, EnvironmentFormat::Latlong);
+    EXPECT_NEAR(steps.radiance(vec3(1.0f, 0.0f, 0.0f)).x, 1.5f, 1e-4f);
+    EXPECT_NEAR(steps.radiance(vec3(0.0f, 0.0f, 1.0f)).x, 3.5f, 1e-4f);
+    EXPECT_NEAR(steps.radiance(vec3(-1.0f, 0.0f, 0.0f)).x, 5.5f, 1e-4f);
+    EXPECT_NEAR(steps.radiance(vec3(0.0f, 0.0f, -1.0f)).x, 3.5f, 1e-4f); // mean of 0 and 7
+}
+
+TEST(Environment, angularAndMirroredBall) {
+    for (const EnvironmentFormat format :
+         {EnvironmentFormat::Angular, EnvironmentFormat::MirroredBall}) {
+        const int size = 256;
+        const auto pixels = image(size, size, [&](int x, int y) {
+            const vec2 p = 1.0f - 2.0f * (vec2(x, y) + 0.5f) / float(size);
+            const float r = std::min(glm::length(p), 1.0f);
+            const vec2 side = r > 0.0f ? glm::normalize(p) : vec2(0.0f);
+            if (format == EnvironmentFormat::Angular)
+                return worldColor(
+                    vec3(std::sin(float(testPi) * r) * side, std::cos(float(testPi) * r)));
+            // Reflection of the view along -z at the ball's normal.
+            const vec3 n(r * side, std::sqrt(1.0f - r * r)), view(0.0f, 0.0f, -1.0f);
+            return worldColor(view - 2.0f * glm::dot(view, n) * n);
+        });
+        const EnvironmentMap map(pixels, format);
+        Random random(32);
+        for (int i = 0; i < 1000; ++i) {
+            const vec3 d = random.direction();
+            if (d.z > -0.9f) {
+                EXPECT_LT(glm::length(map.radiance(d) - worldColor(d)), 0.03f);
+            }
+        }
+    }
+}
+
+TEST(Environment, verticalCross) {
+    const int size = 32;
+    const auto pixels = image(3 * size, 4 * size, [&](int x, int y) {
+        const int column = x / size, row = y / size;
+        const float s = 2.0f * (x % size + 0.5f) / size - 1.0f;
+        const float t = 2.0f * (y % size + 0.5f) / size - 1.0f;
+        vec3 d(0.0f);
+        if (column == 1) {
+            const vec3 faces[4] = {vec3(-s, 1.0f, t), vec3(-s, -t, 1.0f), vec3(-s, -1.0f, -t),
+                                   vec3(-s, t, -1.0f)};
+            d = faces[row];
+        } else if (row == 1) {
+            d = column == 0 ? vec3(1.0f, -t, s) : vec3(-1.0f, -t, -s);
+        } else {
+            return vec3(100.0f); // never seen
+        }
+        return worldColor(glm::normalize(d));
+    });
+    const EnvironmentMap map(pixels, EnvironmentFormat::Automatic);
+    Random random(33);
+    for (int i = 0; i < 2000; ++i) {
+        const vec3 d = random.direction();
+        EXPECT_LT(glm::length(map.radiance(d) - worldColor(d)), 0.06f);
+    }
+}
+
+TEST(Environment, densityIntegratesToOneAndCoversTheImage) {
+    Random noise(34);
+    for (const EnvironmentFormat format :
+         {EnvironmentFormat::Latlong, EnvironmentFormat::Angular}) {
+        const int height = format == EnvironmentFormat::Latlong ? 16 : 32;
+        const auto pixels = image(32, height, [&](int, int) {
+            return noise() < 0.7f ? vec3(0.0f) : vec3(10.0f * noise());
+        });
+        const EnvironmentMap map(pixels, format);
+        Random random(35);
+        const Estimate total =
+            estimate(200000, [&] { return 4.0 * testPi * map.pdf(random.direction()); });
+        EXPECT_TRUE(total.agrees(1.0)) << total.mean << " +- " << total.error;
+        int different = 0; // on a cell's edge rounding may land in the neighbour
+        for (int i = 0; i < 20000; ++i) {
+            float pdf;
+            const vec3 d = map.sample(vec2(random(), random()), pdf);
+            different += std::abs(map.pdf(d) / pdf - 1.0f) > 1e-3f;
+            EXPECT_NEAR(glm::length(d), 1.0f, 1e-5f);
+            const vec3 e = random.direction();
+            if (format == EnvironmentFormat::Latlong && map.radiance(e).x > 1e-4f) {
+                EXPECT_GT(map.pdf(e), 0.0f);
+            }
+        }
+        EXPECT_LT(different, 20);
+    }
+}
+
+TEST(Environment, oneBrightPixel) {
+    // A sun of one pixel in a dim sky: importance sampling finds it, and its irradiance is exact.
+    const int width = 256, height = 128;
+    const float bright = 20000.0f;
+    const auto pixels = image(
+        width, height, [&](int x, int y) { return vec3(x == 100 && y == 40 ? bright : 0.1f); });
+    LightScene scene([&](const std::string&, const std::string&, const std::string&,
+                         const std::string&) { return *pixels; });
+    auto light = makeLight(LightType::Dome);
+    light->textureFile = "sun";
+    const LightSet& set = scene.build(light);
+    double exact = 0.0; // over the cells that the bright pixel's bilinear tent covers, finely
+    const int fine = 32;
+    for (int y = 38 * fine; y < 43 * fine; ++y)
+        for (int x = 98 * fine; x < 103 * fine; ++x) {
+            const double theta = testPi * (y + 0.5) / (height * fine);
+            const double tx = 1.0 - std::abs((x + 0.5) / fine - 100.5);
+            const double ty = 1.0 - std::abs((y + 0.5) / fine - 40.5);
+            if (tx > 0.0 && ty > 0.0)
+                exact += (bright - 0.1) * tx * ty * std::sin(theta) * std::cos(theta);
+        }
+    exact *= testPi / (height * fine) * 2.0 * testPi / (width * fine);
+    exact += 0.1 * testPi;
+    const vec3 up(0.0f, 1.0f, 0.0f);
+    const Estimate e = irradiance(set, vec3(0.0f), up, 50000, 36);
+    EXPECT_TRUE(e.agrees(exact, 2e-3)) << e.mean << " +- " << e.error << ", exactly " << exact;
+    EXPECT_LT(e.deviation / e.mean, 1.5); // uniform sampling: about 70
+    LightSample s;
+    ASSERT_TRUE(set.sample(vec3(0.0f), up, false, vec3(0.3f, 0.7f, 0.5f), 0.0f, s));
+    EXPECT_NEAR(set.pdfInfinite(0, vec3(0.0f), up, false, s.direction, 0.0f) / s.pdf, 1.0f, 1e-3f);
+    EXPECT_LT(glm::length(set.environment(0, s.direction, 0.0f) - s.radiance),
+              1e-3f * glm::length(s.radiance) + 1e-4f);
+}
+
+TEST(Environment, turnsWithItsTransform) {
+    const auto pixels =
+        image(8, 4, [](int x, int) { return vec3(x == 3 || x == 4 ? 1.0f : 0.0f); });
+    LightScene scene([&](const std::string&, const std::string&, const std::string&,
+                         const std::string&) { return *pixels; });
+    // Lit around +z in its own frame; turned a quarter about y it is lit around +x. Scale is
+    // ignored.
+    auto light =
+        makeLight(LightType::Dome,
+                  glm::scale(glm::rotate(mat4(1.0f), float(testPi / 2.0), vec3(0.0f, 1.0f, 0.0f)),
+                             vec3(3.0f)));
+    light->textureFile = "front";
+    const LightSet& set = scene.build(light);
+    EXPECT_NEAR(set.environment(vec3(1.0f, 0.0f, 0.0f), 0.0f).x, 1.0f, 1e-4f);
+    EXPECT_NEAR(set.environment(vec3(-1.0f, 0.0f, 0.0f), 0.0f).x, 0.0f, 1e-4f);
+    EXPECT_NEAR(set.environment(vec3(0.0f, 0.0f, 1.0f), 0.0f).x, 0.0f, 1e-4f);
+}
+
+TEST(Environment, missingImageIsMagentaAndBlackOneIsNoLight) {
+    LightScene missing;
+    auto light = makeLight(LightType::Dome);
+    light->textureFile = "missing.hdr";
+    EXPECT_EQ(missing.build(light).environment(vec3(0.0f, 1.0f, 0.0f), 0.0f),
+              vec3(1.0f, 0.0f, 1.0f));
+    const auto black = image(4, 2, [](int, int) { return vec3(0.0f); });
+    LightScene dark([&](const std::string&, const std::string&, const std::string&,
+                        const std::string&) { return *black; });
+    EXPECT_TRUE(dark.build(light).empty());
+}
+
+TEST(Environment, imagesAreKeptBetweenBuilds) {
+    int loaded = 0;
+    const auto pixels = image(4, 2, [](int, int) { return vec3(1.0f); });
+    LightScene scene(
+        [&](const std::string&, const std::string&, const std::string&, const std::string&) {
+            ++loaded;
+            return *pixels;
+        });
+    auto light = makeLight(LightType::Dome);
+    light->textureFile = "a.hdr";
+    scene.build(light);
+    scene.build(light);
+    EXPECT_EQ(loaded, 1);
+}

@@ -1,0 +1,187 @@
+// Densities: what sample() reports, what the pdf functions say of the same direction, and that they
+// integrate to 1.
+
+#include "hdDelegate/embree/lights/tests/lightTools.h"
+
+#include <gtest/gtest.h>
+
+using namespace patina;
+
+namespace {
+
+mat4 place(const vec3& scale, float shear) {
+    mat4 m = glm::translate(mat4(1.0f), vec3(0.3f, 0.2f, -1.6f));
+    m = glm::rotate(m, 2.6f, glm::normalize(vec3(0.2f, 1.0f, 0.1f)));
+    m = glm::scale(m, scale);
+    m[0] += shear * m[1];
+    return m;
+}
+
+std::vector<std::shared_ptr<Light>> areaLights() {
+    std::vector<std::shared_ptr<Light>> lights;
+    for (const LightType type :
+         {LightType::Sphere, LightType::Rect, LightType::Disk, LightType::Cylinder})
+        for (const mat4& m : {place(vec3(1.0f), 0.0f), place(vec3(1.5f, 0.6f, 1.0f), 0.4f)})
+            lights.push_back(makeLight(type, m));
+    return lights;
+}
+
+} // namespace
+
+TEST(Density, integratesToOne) {
+    for (const auto& light : areaLights()) {
+        LightScene scene;
+        const LightSet& set = scene.build(light);
+        Random random(11);
+        const Estimate e = estimate(400000, [&] {
+            const vec3 d = random.direction();
+            LightHit hit;
+            if (!set.intersect(vec3(0.0f), d, 0.0f, INFINITY, 0.0f, &hit, 1)) return 0.0;
+            return 4.0 * testPi * set.pdf(0, vec3(0.0f), vec3(0.0f), false, 0.0f, hit);
+        });
+        EXPECT_TRUE(e.agrees(1.0)) << int(light->type) << ": " << e.mean << " +- " << e.error;
+    }
+}
+
+TEST(Density, sampleAndHitAgree) {
+    for (const auto& light : areaLights()) {
+        LightScene scene;
+        const LightSet& set = scene.build(light);
+        Random random(12);
+        int missed = 0, compared = 0;
+        for (int i = 0; i < 5000; ++i) {
+            LightSample s;
+            if (!set.sample(vec3(0.0f), vec3(0.0f), false, random.cube(), 0.0f, s)) continue;
+            ++compared;
+            EXPECT_NEAR(glm::length(s.direction), 1.0f, 1e-5f);
+            LightHit hit;
+            if (!set.intersect(vec3(0.0f), s.direction, 0.0f, INFINITY, 0.0f, &hit, 1)) {
+                ++missed; // at the silhouette
+                continue;
+            }
+            const float pdf = set.pdf(0, vec3(0.0f), vec3(0.0f), false, 0.0f, hit);
+            EXPECT_NEAR(hit.distance, s.distance, 2e-2f * s.distance);
+            // Grazing points lose digits to the cosine.
+            if (glm::dot(-s.direction, s.normal) > 0.05f) {
+                EXPECT_NEAR(pdf / s.pdf, 1.0f, 1e-2f) << int(light->type);
+                EXPECT_NEAR(hit.radiance.y, s.radiance.y, 1e-4f * s.radiance.y);
+            }
+        }
+        EXPECT_GT(compared, 4900);
+        EXPECT_LT(missed, 25);
+    }
+}
+
+TEST(Density, samplesFollowIt) {
+    // Pearson's chi-squared over bins of direction, significance 1e-5 per light, fixed seed.
+    for (const auto& light : areaLights()) {
+        LightScene scene;
+        const LightSet& set = scene.build(light);
+        constexpr int rows = 24, columns = 48, drawn = 100000;
+        std::vector<double> expected(rows * columns, 0.0), found(rows * columns, 0.0);
+        const auto bin = [](const vec3& d) {
+            const int row = std::min(int(0.5f * (d.z + 1.0f) * rows), rows - 1);
+            const float phi = std::atan2(d.y, d.x) / (2.0f * float(testPi)) + 0.5f;
+            return row * columns + std::min(int(phi * columns), columns - 1);
+        };
+        constexpr int fine = 40; // midpoints per bin and axis
+        for (int r = 0; r < rows * fine; ++r)
+            for (int c = 0; c < columns * fine; ++c) {
+                const float z = 2.0f * (r + 0.5f) / (rows * fine) - 1.0f;
+                const float phi = 2.0f * float(testPi) * ((c + 0.5f) / (columns * fine) - 0.5f);
+                const float s = std::sqrt(1.0f - z * z);
+                const vec3 d(s * std::cos(phi), s * std::sin(phi), z);
+                LightHit hit;
+                if (set.intersect(vec3(0.0f), d, 0.0f, INFINITY, 0.0f, &hit, 1))
+                    expected[(r / fine) * columns + c / fine] +=
+                        set.pdf(0, vec3(0.0f), vec3(0.0f), false, 0.0f, hit) * 4.0 * testPi /
+                        (double(rows) * columns * fine * fine) * drawn;
+            }
+        Random random(13);
+        for (int i = 0; i < drawn; ++i) {
+            LightSample s;
+            if (set.sample(vec3(0.0f), vec3(0.0f), false, random.cube(), 0.0f, s))
+                found[bin(s.direction)] += 1.0;
+        }
+        double chi = 0.0, pooledExpected = 0.0, pooledFound = 0.0;
+        int freedom = -1;
+        for (size_t i = 0; i < expected.size(); ++i) {
+            // Bins at the silhouette are integrated poorly; they are pooled with the thin ones.
+            if (expected[i] < 200.0) {
+                pooledExpected += expected[i];
+                pooledFound += found[i];
+                continue;
+            }
+            chi += (found[i] - expected[i]) * (found[i] - expected[i]) / expected[i];
+            if (getenv("DBG") && std::abs(found[i] - expected[i]) > 4 * std::sqrt(expected[i]))
+                printf("%d bin %zu %zu: %g %g\n", int(light->type), i / columns, i % columns,
+                       found[i], expected[i]);
+            ++freedom;
+        }
+        if (getenv("DBG")) printf("pooled %g %g\n", pooledFound, pooledExpected);
+        if (pooledExpected > 5.0) {
+            chi += (pooledFound - pooledExpected) * (pooledFound - pooledExpected) / pooledExpected;
+            ++freedom;
+        }
+        ASSERT_GT(freedom, 5);
+        // Wilson and Hilferty's normal approximation of the quantile, z = 4.26.
+        const double k = freedom, a = 2.0 / (9.0 * k);
+        const double limit = k * std::pow(1.0 - a + 4.26 * std::sqrt(a), 3.0);
+        EXPECT_LT(chi, limit * 1.25) << int(light->type) << " with " << freedom; // quadrature error
+    }
+}
+
+TEST(Density, lightsAtInfinity) {
+    auto distant = makeLight(LightType::Distant);
+    distant->angle = 40.0f;
+    for (const bool twoSided : {false, true})
+        for (const auto& light : {distant, makeLight(LightType::Dome)})
+            for (const vec3 normal : {vec3(0.0f), vec3(0.0f, 0.6f, 0.8f)}) {
+                LightScene scene;
+                const LightSet& set = scene.build(light);
+                Random random(14);
+                const Estimate e = estimate(200000, [&] {
+                    return 4.0 * testPi *
+                           set.pdfInfinite(0, vec3(0.0f), normal, twoSided, random.direction(),
+                                           0.0f);
+                });
+                EXPECT_TRUE(e.agrees(1.0, 1e-5)) << e.mean << " +- " << e.error;
+                LightSample s;
+                ASSERT_TRUE(set.sample(vec3(0.0f), normal, twoSided, random.cube(), 0.0f, s));
+                EXPECT_NEAR(set.pdfInfinite(0, vec3(0.0f), normal, twoSided, s.direction, 0.0f) /
+                                s.pdf,
+                            1.0f, 1e-4f);
+                EXPECT_EQ(set.environment(0, s.direction, 0.0f), s.radiance);
+            }
+}
+
+TEST(Density, triangles) {
+    LightScene scene;
+    LightTriangle t;
+    t.vertices[0] = vec3(-1.0f, 1.0f, -1.0f);
+    t.vertices[1] = vec3(2.0f, 1.5f, -0.5f);
+    t.vertices[2] = vec3(0.2f, 0.8f, 1.4f);
+    t.twoSided = true;
+    scene.input.triangles = {t, t};
+    for (vec3& v : scene.input.triangles[1].vertices)
+        v = 0.03f * v + vec3(1.0f, 2.0f, 0.0f);
+    const LightSet& set = scene.build();
+    Random random(15);
+    int seen[2] = {0, 0};
+    for (int i = 0; i < 2000; ++i) {
+        LightSample s;
+        ASSERT_TRUE(set.sample(vec3(0.0f), vec3(0.0f), false, random.cube(), 0.0f, s));
+        ASSERT_EQ(s.light, s.triangle);
+        ++seen[s.triangle];
+        const LightTriangle& hit = scene.input.triangles[s.triangle];
+        const vec2 b = s.barycentrics;
+        EXPECT_TRUE(b.x >= 0.0f && b.y >= 0.0f && b.x + b.y <= 1.0001f);
+        const vec3 p =
+            hit.vertices[0] * (1.0f - b.x - b.y) + hit.vertices[1] * b.x + hit.vertices[2] * b.y;
+        EXPECT_LT(glm::length(p - s.distance * s.direction), 1e-4f);
+        EXPECT_NEAR(set.pdfTriangle(s.triangle, vec3(0.0f), vec3(0.0f), false, p) / s.pdf, 1.0f,
+                    2e-3f);
+    }
+    EXPECT_GT(seen[0], 100);
+    EXPECT_GT(seen[1], 0);
+}

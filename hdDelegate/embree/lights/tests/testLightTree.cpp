@@ -1,0 +1,183 @@
+// Choosing among many lights.
+
+#include "hdDelegate/embree/lights/tests/lightTools.h"
+
+#include <gtest/gtest.h>
+
+using namespace patina;
+
+namespace {
+
+const vec3 up(0.0f, 1.0f, 0.0f);
+
+/// Lights of all kinds in a slab above the plane y = 0, wholly above it.
+void scatter(LightScene& scene, int count, uint32_t seed) {
+    Random random(seed);
+    for (int i = 0; i < count; ++i) {
+        const vec3 p(100.0f * random() - 50.0f, 1.0f + 8.0f * random(), 100.0f * random() - 50.0f);
+        auto light = makeLight(LightType::Sphere, glm::translate(mat4(1.0f), p));
+        light->radius = 0.05f + 0.2f * random();
+        light->intensity = std::exp2(6.0f * random());
+        light->treatAsPoint = i % 3 == 0;
+        scene.input.lights.push_back({light, mat4(1.0f)});
+    }
+}
+
+double exactIrradiance(const LightScene& scene, const vec3& point) {
+    double sum = 0.0;
+    for (const LightInstance& instance : scene.input.lights) {
+        const Light& light = *instance.light;
+        const glm::dvec3 v = glm::dvec3(vec3(light.transform.first()[3]) - point);
+        const double d = glm::length(v);
+        sum += testPi * light.intensity * light.radius * light.radius * v.y / (d * d * d);
+    }
+    return sum;
+}
+
+} // namespace
+
+TEST(LightTree, probabilitiesSumToOne) {
+    LightScene scene;
+    scatter(scene, 500, 21);
+    scene.input.lights.push_back({makeLight(LightType::Dome), mat4(1.0f)});
+    scene.input.lights.push_back({makeLight(LightType::Distant), mat4(1.0f)});
+    const LightSet& set = scene.build();
+    for (const vec3 point : {vec3(0.0f), vec3(30.0f, 4.0f, -20.0f), vec3(500.0f, 0.0f, 0.0f)}) {
+        double sum = 0.0;
+        for (int i = 0; i < set.lightCount(); ++i)
+            sum += set.selectionProbability(i, point, vec3(0.0f), true);
+        EXPECT_NEAR(sum, 1.0, 1e-4);
+    }
+}
+
+TEST(LightTree, choosesWithTheProbabilityThatItTells) {
+    LightScene scene;
+    scatter(scene, 60, 22);
+    const LightSet& set = scene.build();
+    const vec3 point(3.0f, 0.0f, 2.0f);
+    std::vector<int> chosen(scene.input.lights.size(), 0);
+    Random random(23);
+    constexpr int draws = 200000;
+    for (int i = 0; i < draws; ++i) {
+        LightSample s;
+        if (set.sample(point, up, false, random.cube(), 0.0f, s)) ++chosen[s.light];
+    }
+    for (size_t i = 0; i < chosen.size(); ++i) {
+        const double p = set.selectionProbability(int(i), point, up, false);
+        const double error = std::sqrt(p * (1.0 - p) / draws);
+        EXPECT_NEAR(double(chosen[i]) / draws, p, testSigmas * error + 1e-5) << i;
+    }
+}
+
+TEST(LightTree, thousandLightsWithoutBias) {
+    LightScene scene;
+    scatter(scene, 1000, 24);
+    const LightSet& set = scene.build();
+    for (const vec3 point : {vec3(0.0f), vec3(-30.0f, 0.0f, 12.0f), vec3(49.0f, 0.0f, 49.0f)}) {
+        const Estimate e = irradiance(set, point, up, 50000, 25);
+        EXPECT_TRUE(e.agrees(exactIrradiance(scene, point), 1e-4))
+            << e.mean << " +- " << e.error << ", exactly " << exactIrradiance(scene, point);
+    }
+}
+
+TEST(LightTree, tenThousandLightsAreStillTold) {
+    LightScene scene;
+    scatter(scene, 10000, 26);
+    const LightSet& set = scene.build();
+    const vec3 point(5.0f, 0.0f, -7.0f);
+    const double exact = exactIrradiance(scene, point);
+    const Estimate e = irradiance(set, point, up, 50000, 27);
+    EXPECT_TRUE(e.agrees(exact, 1e-4)) << e.mean << " +- " << e.error << ", exactly " << exact;
+    // An even choice has a relative deviation of more than 5 here; the tree's stays near 1.
+    EXPECT_LT(e.deviation / e.mean, 2.0);
+    double evenSquares = 0.0;
+    for (const LightInstance& instance : scene.input.lights) {
+        LightScene one;
+        one.input.lights = {instance};
+        const double single = exactIrradiance(one, point);
+        evenSquares += single * single * double(scene.input.lights.size());
+    }
+    EXPECT_GT(std::sqrt(evenSquares) / exact, 5.0);
+}
+
+TEST(LightTree, raysFindTheLightsThatAScanFinds) {
+    LightScene scene;
+    scatter(scene, 400, 28);
+    const LightSet& set = scene.build();
+    Random random(29);
+    int total = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const vec3 origin(60.0f * random() - 30.0f, 10.0f * random(), 60.0f * random() - 30.0f);
+        const vec3 d = random.direction();
+        int expected = 0;
+        for (const LightInstance& instance : scene.input.lights) {
+            const Light& light = *instance.light;
+            const vec3 v = vec3(light.transform.first()[3]) - origin;
+            const float along = glm::dot(v, d), off2 = glm::dot(v, v) - along * along;
+            expected += !light.treatAsPoint && along > 0.0f && off2 < light.radius * light.radius &&
+                        glm::dot(v, v) > light.radius * light.radius;
+        }
+        LightHit hits[64];
+        const int found = set.intersect(origin, d, 0.0f, INFINITY, 0.0f, hits, 64);
+        total += found;
+        EXPECT_EQ(found, expected);
+        if (found > 1) { // with less room the nearest are kept
+            float nearest = INFINITY;
+            for (int k = 0; k < found; ++k)
+                nearest = std::min(nearest, hits[k].distance);
+            LightHit one;
+            EXPECT_EQ(set.intersect(origin, d, 0.0f, INFINITY, 0.0f, &one, 1), 1);
+            EXPECT_FLOAT_EQ(one.distance, nearest);
+        }
+    }
+    EXPECT_GT(total, 5);
+}
+
+TEST(LightTree, lightsThatAimElsewhereAreNotChosen) {
+    LightScene scene;
+    // Fifty rects aim up, one aims down at the origin.
+    const mat4 down = glm::rotate(mat4(1.0f), float(-testPi / 2.0), vec3(1.0f, 0.0f, 0.0f));
+    const mat4 upwards = glm::rotate(mat4(1.0f), float(testPi / 2.0), vec3(1.0f, 0.0f, 0.0f));
+    for (int i = 0; i < 51; ++i)
+        scene.input.lights.push_back(
+            {makeLight(LightType::Rect,
+                       glm::translate(mat4(1.0f), vec3(2.0f * (i - 25), 100.0f, 0.0f)) *
+                           (i == 25 ? down : upwards)),
+             mat4(1.0f)});
+    const LightSet& set = scene.build();
+    EXPECT_GT(set.selectionProbability(25, vec3(0.0f), up, false), 0.99f);
+}
+
+TEST(LightTree, surfacesBelowTheHorizonAreNotChosen) {
+    LightScene scene;
+    for (const float y : {-5.0f, 5.0f})
+        scene.input.lights.push_back(
+            {makeLight(LightType::Sphere, glm::translate(mat4(1.0f), vec3(0.0f, y, 0.0f))),
+             mat4(1.0f)});
+    const LightSet& set = scene.build();
+    EXPECT_EQ(set.selectionProbability(0, vec3(0.0f), up, false), 0.0f);
+    EXPECT_NEAR(set.selectionProbability(1, vec3(0.0f), up, false), 1.0f, 1e-5f);
+    EXPECT_NEAR(set.selectionProbability(0, vec3(0.0f), up, true), 0.5f, 1e-3f);
+}
+
+TEST(LightTree, coincidentLightsDoNotDeepenItWithoutEnd) {
+    LightScene scene;
+    for (int i = 0; i < 5000; ++i)
+        scene.input.lights.push_back({makeLight(LightType::Sphere), mat4(1.0f)});
+    const LightSet& set = scene.build();
+    EXPECT_NEAR(set.selectionProbability(17, vec3(9.0f), vec3(0.0f), true), 1.0f / 5000.0f, 1e-6f);
+}
+
+TEST(LightTree, unionOfConesHoldsBoth) {
+    Random random(30);
+    for (int i = 0; i < 2000; ++i) {
+        const DirectionCone a{random.direction(), 2.0f * random() * random(), 0.5f};
+        const DirectionCone b{random.direction(), 2.0f * random() * random(), 1.0f};
+        const DirectionCone u = unite(a, b);
+        EXPECT_EQ(u.reach, 1.0f);
+        for (const DirectionCone& c : {a, b}) {
+            const float off = std::acos(std::clamp(glm::dot(u.axis, c.axis), -1.0f, 1.0f));
+            EXPECT_GE(u.spread + 1e-3f, std::min(off + c.spread, float(testPi)));
+        }
+    }
+}

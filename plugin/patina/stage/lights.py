@@ -23,7 +23,7 @@ def emit(context, found, linking):
     _read_shaping(context, prim, fields)
     _read_shadow(context, prim, fields)
     fields["light_link"], fields["shadow_link"] = linking.links_of(prim)
-    if prim.HasRelationship("light:filters") and prim.GetRelationship("light:filters").HasAuthoredTargets():
+    if prim.HasRelationship("light:filters") and prim.GetRelationship("light:filters").GetTargets():
         context.warn(prim.GetPath(), "light:filters", "light filters are not applied")
 
     after = None

@@ -29,6 +29,9 @@ const float ALBEDO_MIN = 1e-3f;
 // Most that energy compensation multiplies a transmission lobe with.
 const float TRANSMIT_GAIN_MAX = 2.5f;
 
+// Smallest z of a sampled facet normal before it is scaled by alpha; guards rounding only.
+const float NORMAL_Z_MIN = 1e-7f;
+
 // Guards a division whose numerator vanishes together with the denominator.
 const float TINY = 1e-20f;
 

@@ -51,7 +51,7 @@ PATINA_FN vec3 ggxSampleVisible(vec3 wo, vec2 alpha, vec2 u) {
     float r = safeSqrt(1.0f - z * z);
     vec3 h = vec3(r * cos(phi), r * sin(phi), z) + o;
     // h.z = (1 - u.y)(1 + o.z) is above 0 for u.y < 1; the bound only guards rounding.
-    return normalize(vec3(alpha.x * h.x, alpha.y * h.y, max(h.z, 1e-7f)));
+    return normalize(vec3(alpha.x * h.x, alpha.y * h.y, max(h.z, NORMAL_Z_MIN)));
 }
 
 // Isotropic alphas that stand in for the anisotropic one where tables are read. For the

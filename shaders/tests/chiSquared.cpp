@@ -48,7 +48,7 @@ public:
     double operator()(double z0, double z1, double p0, double p1) const {
         const double whole = rule(z0, z1, p0, p1);
         // A cell with a peak in it is cut before it is trusted.
-        return refine(z0, z1, p0, p1, whole, whole > 1e-4 ? -2 : 0);
+        return refine(z0, z1, p0, p1, whole, whole > 5e-3 ? -2 : 0);
     }
 
 private:
@@ -74,7 +74,7 @@ private:
         const double c = rule(z0, z, p, p1);
         const double d = rule(z, z1, p, p1);
         const double parts = a + b + c + d;
-        const bool fine = std::fabs(parts - whole) < 1e-7 + 5e-5 * whole;
+        const bool fine = std::fabs(parts - whole) < 2e-7 + 1e-4 * whole;
         if (depth >= 9 || (fine && depth >= 1)) return parts;
         return refine(z0, z, p0, p, a, depth + 1) + refine(z, z1, p0, p, b, depth + 1) +
                refine(z0, z, p, p1, c, depth + 1) + refine(z, z1, p, p1, d, depth + 1);

@@ -83,7 +83,7 @@ TEST(CurveLayout, segmentCountsAreThoseOfUsd) {
 TEST(CurveBasisWeights, sumToOneAndMatchTheirBezierForm) {
     const float p[4] = {1.0f, -2.0f, 4.0f, 3.0f};
     for (auto basis : {CurveBasis::Bezier, CurveBasis::Bspline, CurveBasis::CatmullRom}) {
-        float bezier[4];
+        float bezier[4] = {};
         toBezier(basis, p, bezier);
         for (float u : {0.0f, 0.3f, 0.5f, 1.0f}) {
             const vec4 w = basisWeights(basis, u), b = basisWeights(CurveBasis::Bezier, u);

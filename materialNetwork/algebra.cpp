@@ -33,8 +33,7 @@ ValueType typeOf(const Graph& graph, const Operand& operand) {
 /// An operand in the place of a node's output: a constant takes the type of that output.
 bool take(const GraphNode& node, const Operand& operand, Operand& out) {
     out = operand;
-    if (!out.isConstant())
-        return true;
+    if (!out.isConstant()) return true;
     const ValueType type = node.def->outputs[0].type;
     const size_t n = size_t(valueTypeComponents(type));
     if (out.value.numbers.size() == 1)
@@ -46,10 +45,8 @@ bool take(const GraphNode& node, const Operand& operand, Operand& out) {
 }
 
 bool same(const Operand& a, const Operand& b) {
-    if (a.isConstant() != b.isConstant())
-        return false;
-    if (!a.isConstant())
-        return a.node == b.node && a.output == b.output;
+    if (a.isConstant() != b.isConstant()) return false;
+    if (!a.isConstant()) return a.node == b.node && a.output == b.output;
     return a.value.numbers == b.value.numbers && a.value.text == b.value.text;
 }
 
@@ -60,10 +57,8 @@ bool choose(const GraphNode& node, bool condition, Operand& out) {
 /// A scalar standing where a tuple is expected still fills its register, so it may be taken for it.
 bool rewriteCondition(const GraphNode& node, Operand& out) {
     float a = 0.0f, b = 0.0f;
-    if (same(node.inputs[2], node.inputs[3]))
-        return take(node, node.inputs[2], out);
-    if (!constantNumber(node.inputs[0], a) || !constantNumber(node.inputs[1], b))
-        return false;
+    if (same(node.inputs[2], node.inputs[3])) return take(node, node.inputs[2], out);
+    if (!constantNumber(node.inputs[0], a) || !constantNumber(node.inputs[1], b)) return false;
     switch (node.def->algebra) {
     case Algebra::IfGreater:
         return choose(node, a > b, out);
@@ -76,8 +71,7 @@ bool rewriteCondition(const GraphNode& node, Operand& out) {
 
 bool rewriteSwitch(const GraphNode& node, Operand& out) {
     float which = 0.0f;
-    if (!constantNumber(node.inputs.back(), which))
-        return false;
+    if (!constantNumber(node.inputs.back(), which)) return false;
     which = std::floor(which);
     if (which < 0.0f || which >= float(node.inputs.size() - 1)) {
         out = constantOf(node.def->outputs[0].type, 0.0f);
@@ -89,8 +83,7 @@ bool rewriteSwitch(const GraphNode& node, Operand& out) {
 /// A map whose texel says "straight up" is the normal itself.
 bool rewriteNormalMap(const GraphNode& node, Operand& out) {
     const Operand& in = node.inputs[0];
-    if (!in.isConstant() || in.value.numbers.size() < 3)
-        return false;
+    if (!in.isConstant() || in.value.numbers.size() < 3) return false;
     const std::vector<float>& v = in.value.numbers;
     const bool black = v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f;
     const bool up = v[0] == 0.5f && v[1] == 0.5f && v[2] > 0.5f;
@@ -101,30 +94,27 @@ bool rewriteNormalMap(const GraphNode& node, Operand& out) {
 
 bool foldPattern(const GraphNode& node, std::vector<Value>& outputs) {
     const NodeDef& def = *node.def;
-    if (def.inputs.size() > 16 || def.outputs.size() > 8)
-        return false;
+    if (def.inputs.size() > 16 || def.outputs.size() > 8) return false;
     glm::vec4 registers[24];
     uint16_t inputs[16];
     for (size_t i = 0; i < node.inputs.size(); ++i) {
         const Value& value = node.inputs[i].value;
-        if (value.numbers.size() > 4)
-            return false;
+        if (value.numbers.size() > 4) return false;
         const float fill = value.numbers.size() == 1 ? value.numbers[0] : 0.0f;
         for (int k = 0; k < 4; ++k)
             registers[i][k] = k < int(value.numbers.size()) ? value.numbers[size_t(k)] : fill;
         inputs[i] = uint16_t(i);
     }
     PatternData data;
-    data.size = std::max(1, valueTypeComponents(def.inputs.empty() ? ValueType::Float
-                                                                   : def.inputs[0].type));
+    data.size = std::max(
+        1, valueTypeComponents(def.inputs.empty() ? ValueType::Float : def.inputs[0].type));
     const PatternContext context;
     def.function({registers, inputs, uint16_t(16), data, context});
     for (size_t k = 0; k < def.outputs.size(); ++k) {
         Value value;
         value.type = def.outputs[k].type;
         const int n = valueTypeComponents(value.type);
-        if (n < 1 || n > 4)
-            return false;
+        if (n < 1 || n > 4) return false;
         for (int c = 0; c < n; ++c)
             value.numbers.push_back(registers[16 + k][c]);
         outputs.push_back(std::move(value));
@@ -134,8 +124,8 @@ bool foldPattern(const GraphNode& node, std::vector<Value>& outputs) {
 
 bool rewritePattern(const Graph&, const GraphNode& node, Operand& out) {
     const auto& in = node.inputs;
-    const ValueType type = node.def->outputs.empty() ? ValueType::Unknown
-                                                     : node.def->outputs[0].type;
+    const ValueType type =
+        node.def->outputs.empty() ? ValueType::Unknown : node.def->outputs[0].type;
     switch (node.def->algebra) {
     case Algebra::None:
         return false;
@@ -143,8 +133,7 @@ bool rewritePattern(const Graph&, const GraphNode& node, Operand& out) {
         out = in[0];
         return !out.isConstant() || valueTypeComponents(type) == 0 ? true : take(node, in[0], out);
     case Algebra::Add:
-        if (isConstantValue(in[0], 0.0f))
-            return take(node, in[1], out);
+        if (isConstantValue(in[0], 0.0f)) return take(node, in[1], out);
         return isConstantValue(in[1], 0.0f) && take(node, in[0], out);
     case Algebra::Subtract:
         return isConstantValue(in[1], 0.0f) && take(node, in[0], out);
@@ -153,14 +142,12 @@ bool rewritePattern(const Graph&, const GraphNode& node, Operand& out) {
             out = constantOf(type, 0.0f);
             return true;
         }
-        if (isConstantValue(in[0], 1.0f))
-            return take(node, in[1], out);
+        if (isConstantValue(in[0], 1.0f)) return take(node, in[1], out);
         return isConstantValue(in[1], 1.0f) && take(node, in[0], out);
     case Algebra::Divide:
         return isConstantValue(in[1], 1.0f) && take(node, in[0], out);
     case Algebra::Mix:
-        if (isConstantValue(in[2], 0.0f) || same(in[0], in[1]))
-            return take(node, in[1], out);
+        if (isConstantValue(in[2], 0.0f) || same(in[0], in[1])) return take(node, in[1], out);
         return isConstantValue(in[2], 1.0f) && take(node, in[0], out);
     case Algebra::IfGreater:
     case Algebra::IfGreaterEq:
@@ -187,8 +174,7 @@ bool rewriteClosure(const Graph& graph, const GraphNode& node, Operand& out, std
     };
     const auto keep = [&](const Operand& operand, const char* why) {
         out = operand;
-        if (out.isConstant())
-            out = none(type);
+        if (out.isConstant()) out = none(type);
         reason = why;
         return true;
     };
@@ -212,8 +198,7 @@ bool rewriteClosure(const Graph& graph, const GraphNode& node, Operand& out, std
             return keep(in[1], isNone(in[1]) ? "" : "layer without a top");
         return isNone(in[1]) && keep(in[0], isNone(in[0]) ? "" : "layer without a base");
     case ClosureKind::Mix: {
-        if (isNone(in[0]) && isNone(in[1]))
-            return keep(in[0], "");
+        if (isNone(in[0]) && isNone(in[1])) return keep(in[0], "");
         if (isConstantValue(in[2], 0.0f))
             return keep(in[1], isNone(in[0]) ? "" : "mix 0: foreground left out");
         if (isConstantValue(in[2], 1.0f))
@@ -221,14 +206,11 @@ bool rewriteClosure(const Graph& graph, const GraphNode& node, Operand& out, std
         return same(in[0], in[1]) && keep(in[0], "mix of equals");
     }
     case ClosureKind::Add:
-        if (isNone(in[0]))
-            return keep(in[1], "");
+        if (isNone(in[0])) return keep(in[1], "");
         return isNone(in[1]) && keep(in[0], "");
     case ClosureKind::Multiply:
-        if (isNone(in[0]))
-            return keep(in[0], "");
-        if (isConstantValue(in[1], 0.0f))
-            return cut("factor 0");
+        if (isNone(in[0])) return keep(in[0], "");
+        if (isConstantValue(in[1], 0.0f)) return cut("factor 0");
         return isConstantValue(in[1], 1.0f) && keep(in[0], "");
     default:
         return false;

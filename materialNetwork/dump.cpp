@@ -13,12 +13,10 @@ std::string connectionText(const Connection& c) {
 }
 
 std::string operandText(const Graph& graph, const Operand& operand) {
-    if (operand.isConstant())
-        return valueText(operand.value);
+    if (operand.isConstant()) return valueText(operand.value);
     const NodeDef& def = *graph.nodes[size_t(operand.node)].def;
     std::string text = "%" + std::to_string(operand.node);
-    if (def.outputs.size() > 1)
-        text += "." + def.outputs[size_t(operand.output)].name;
+    if (def.outputs.size() > 1) text += "." + def.outputs[size_t(operand.output)].name;
     return text;
 }
 
@@ -28,13 +26,12 @@ std::string nodeText(const Graph& graph, const GraphNode& node) {
     for (size_t i = 0; i < node.inputs.size(); ++i) {
         const InputDef& def = node.def->inputs[i];
         const Operand& operand = node.inputs[i];
-        const bool standard = operand.isConstant() ? sameValue(operand.value, def.value) &&
-                                                         def.geomprop.empty()
-                                                   : !def.geomprop.empty() &&
-                                                         graph.nodes[size_t(operand.node)].path ==
-                                                             "<" + def.geomprop + ">";
-        if (standard)
-            continue;
+        const bool standard =
+            operand.isConstant()
+                ? sameValue(operand.value, def.value) && def.geomprop.empty()
+                : !def.geomprop.empty() &&
+                      graph.nodes[size_t(operand.node)].path == "<" + def.geomprop + ">";
+        if (standard) continue;
         text += (first ? "" : ", ") + def.name + ": " + operandText(graph, operand);
         first = false;
     }
@@ -48,16 +45,14 @@ public:
     std::string run() {
         std::string text = "material " + _plan.graph.path + "\n";
         text += "presence " + operandText(_plan.graph, _plan.opacity) + "\n";
-        if (_plan.thinWalled)
-            text += "thin walled\n";
+        if (_plan.thinWalled) text += "thin walled\n";
         for (size_t i = 0; i < _plan.graph.nodes.size(); ++i)
             if (_plan.graph.nodes[i].def->closure == ClosureKind::None)
                 text += "pattern %" + std::to_string(i) + " = " +
                         nodeText(_plan.graph, _plan.graph.nodes[i]) + "\n";
         int lobes = 0;
         for (size_t i = 0; i < _plan.closures.size(); ++i)
-            if (_plan.closures[i].isLobe())
-                _lobe[i] = lobes++;
+            if (_plan.closures[i].isLobe()) _lobe[i] = lobes++;
         text += section(_plan.bsdf, "lobe");
         text += section(_plan.edf, "emission");
         text += section(_plan.vdf, "interior");
@@ -69,16 +64,14 @@ public:
 private:
     /// Leaves below a root with their weights.
     std::string section(int root, const std::string& title) {
-        if (root < 0)
-            return "";
+        if (root < 0) return "";
         std::vector<std::string> weights(_plan.closures.size());
         weights[size_t(root)] = "1";
         std::string text;
         std::vector<std::string> lines;
         for (int i = root; i >= 0; --i) {
             const std::string weight = weights[size_t(i)];
-            if (weight.empty())
-                continue;
+            if (weight.empty()) continue;
             const PlanClosure& c = _plan.closures[size_t(i)];
             if (c.a < 0 && c.b < 0)
                 lines.push_back(leafText(i, title, weight));
@@ -95,15 +88,13 @@ private:
         const PlanClosure& c = _plan.closures[size_t(i)];
         const GraphNode& node = _plan.graph.nodes[size_t(c.node)];
         std::string text = title;
-        if (_lobe[size_t(i)] >= 0)
-            text += " " + std::to_string(_lobe[size_t(i)]);
+        if (_lobe[size_t(i)] >= 0) text += " " + std::to_string(_lobe[size_t(i)]);
         text += ": " + nodeText(_plan.graph, node) + (c.fused ? " fused" : "");
         return text + " * " + weight + "\n";
     }
 
     static std::string product(const std::string& a, const std::string& b) {
-        if (a == "1")
-            return b;
+        if (a == "1") return b;
         return b == "1" ? a : a + " * " + b;
     }
 
@@ -115,8 +106,7 @@ private:
                     std::vector<std::string>& weights) const {
         const GraphNode& node = _plan.graph.nodes[size_t(c.node)];
         const auto give = [&](int child, const std::string& factor) {
-            if (child >= 0)
-                accumulate(weights[size_t(child)], product(weight, factor));
+            if (child >= 0) accumulate(weights[size_t(child)], product(weight, factor));
         };
         switch (c.kind) {
         case ClosureKind::Layer:
@@ -140,8 +130,7 @@ private:
 
     /// What a layer's top lets through.
     std::string passed(int i) const {
-        if (i < 0)
-            return "1";
+        if (i < 0) return "1";
         const PlanClosure& c = _plan.closures[size_t(i)];
         const GraphNode& node = _plan.graph.nodes[size_t(c.node)];
         if (c.isLobe()) {
@@ -185,7 +174,7 @@ std::string dumpNetwork(const Network& network) {
         for (const auto& [name, value] : node->inputs)
             text += "    " + std::string(valueTypeName(value.type)) + " " + name + " = " +
                     valueText(value) +
-                    (value.colorSpace.empty() ? "" : " [" + value.colorSpace + "]") + "\n";
+                    (value.colorSpace.empty() || value.numbers.empty() ? "" : " [" + value.colorSpace + "]") + "\n";
         for (const auto& [name, c] : node->connections)
             text += "    " + name + " = " + connectionText(c) + "\n";
     }
@@ -201,6 +190,8 @@ std::string dumpGraph(const Graph& graph) {
     return text;
 }
 
-std::string dumpPlan(const Plan& plan) { return PlanText(plan).run(); }
+std::string dumpPlan(const Plan& plan) {
+    return PlanText(plan).run();
+}
 
 } // namespace patina

@@ -9,7 +9,7 @@ namespace patina {
 
 namespace {
 
-constexpr int maxDepth = 16;       ///< of models within models
+constexpr int maxDepth = 16;        ///< of models within models
 constexpr size_t maxNodes = 200000; ///< a network that grows beyond this is cut off
 
 class Expander {
@@ -28,8 +28,7 @@ public:
             const auto [path, depth] = _queue.front();
             _queue.pop_front();
             const auto found = _source.find(path);
-            if (found != _source.end())
-                visit(*found->second, depth);
+            if (found != _source.end()) visit(*found->second, depth);
         }
         for (NetworkNode& node : _result.nodes)
             for (auto& [input, c] : node.connections)
@@ -46,8 +45,7 @@ private:
     };
 
     void request(const std::string& path, int depth) {
-        if (_seen.insert(path).second)
-            _queue.emplace_back(path, depth);
+        if (_seen.insert(path).second) _queue.emplace_back(path, depth);
     }
 
     void visit(const NetworkNode& node, int depth) {
@@ -83,8 +81,7 @@ private:
         for (const auto& [input, value] : node.inputs)
             check(input);
         for (const auto& [input, c] : node.connections)
-            if (!node.inputs.count(input))
-                check(input);
+            if (!node.inputs.count(input)) check(input);
     }
 
     NetworkNode instantiate(const NetworkNode& inner, const NetworkNode& outer,
@@ -99,8 +96,7 @@ private:
                 continue;
             }
             const int i = model.def.findInput(c.output);
-            if (i >= 0)
-                bind(node, input, outer, model.def.inputs[size_t(i)], depth);
+            if (i >= 0) bind(node, input, outer, model.def.inputs[size_t(i)], depth);
         }
         return node;
     }
@@ -118,18 +114,15 @@ private:
         }
         const Value value = authored(outer, def);
         // A default taken from the geometry is that of the inner node as well.
-        if (def.geomprop.empty() || outer.inputs.count(def.name))
-            node.inputs[input] = value;
+        if (def.geomprop.empty() || outer.inputs.count(def.name)) node.inputs[input] = value;
     }
 
     Value authored(const NetworkNode& outer, const InputDef& def) {
         const auto v = outer.inputs.find(def.name);
-        if (v == outer.inputs.end())
-            return def.value;
+        if (v == outer.inputs.end()) return def.value;
         Value value;
         std::string problem;
-        if (coerceValue(v->second, def, value, problem))
-            return value;
+        if (coerceValue(v->second, def, value, problem)) return value;
         _diagnostics.warn(outer.path, def.name, problem + "; the default is used");
         return def.value;
     }
@@ -152,8 +145,7 @@ private:
     Connection resolved(Connection c) const {
         for (int guard = 0; guard <= maxDepth + 1; ++guard) {
             const auto found = _instances.find(c.node);
-            if (found == _instances.end())
-                return c;
+            if (found == _instances.end()) return c;
             const ShadingModel& model = *found->second.model;
             const int i = model.def.findOutput(c.output);
             const auto out =

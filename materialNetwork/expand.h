@@ -9,8 +9,8 @@ namespace patina {
 using ModelLookup = std::function<const ShadingModel*(const std::string& id)>;
 
 /// Replaces every node that is a shading model by the model's graph, until only primitive nodes are
-/// left. Nodes that no terminal reaches are dropped. An input of the model that is connected becomes
-/// a `dot` node named "node.input", which carries the type of the input and its default.
+/// left. Nodes that no terminal reaches are dropped. An input of the model that is connected
+/// becomes a `dot` node named "node.input", which carries the type of the input and its default.
 Network expand(const Network& network, const ModelLookup& models, Diagnostics& diagnostics);
 
 /// expand() with the models of the library.

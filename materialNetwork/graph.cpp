@@ -21,8 +21,7 @@ public:
     Graph run() {
         _graph.path = _network.path;
         for (const auto& [name, c] : _network.terminals) {
-            if (c.node.empty())
-                continue;
+            if (c.node.empty()) continue;
             Operand operand;
             std::string problem;
             if (follow(c, operand, problem))
@@ -49,8 +48,7 @@ private:
 
     bool follow(const Connection& c, Operand& out, std::string& problem) {
         const int node = build(c.node, problem);
-        if (node < 0)
-            return false;
+        if (node < 0) return false;
         const NodeDef& def = *_graph.nodes[size_t(node)].def;
         const int output = def.findOutput(c.output);
         if (output < 0) {
@@ -111,8 +109,7 @@ private:
         for (const auto& [input, value] : node.inputs)
             check(input);
         for (const auto& [input, c] : node.connections)
-            if (!node.inputs.count(input))
-                check(input);
+            if (!node.inputs.count(input)) check(input);
         _graph.nodes.push_back(std::move(result));
         return int(_graph.nodes.size()) - 1;
     }
@@ -144,8 +141,7 @@ private:
             }
             warn(node.path, input.name, problem + "; the default is used");
         }
-        if (!input.geomprop.empty())
-            return geomprop(input);
+        if (!input.geomprop.empty()) return geomprop(input);
         operand.value = input.value;
         return operand;
     }
@@ -160,10 +156,8 @@ private:
         const ValueType from =
             _graph.nodes[size_t(operand.node)].def->outputs[size_t(operand.output)].type;
         const Coercion c = coercion(from, to);
-        if (c == Coercion::None)
-            return false;
-        if (c == Coercion::Free)
-            return true;
+        if (c == Coercion::None) return false;
+        if (c == Coercion::Free) return true;
         GraphNode node;
         node.def = NodeTable::get().find(c == Coercion::AppendOne ? "ND_convert_vector3_vector4"
                                                                   : "ND_convert_vector2_vector3");
@@ -196,8 +190,7 @@ private:
         for (const Row& row : rows)
             if (input.geomprop == row.name) {
                 const auto known = _geomprops.find(row.name);
-                if (known != _geomprops.end())
-                    return {known->second, 0, {}};
+                if (known != _geomprops.end()) return {known->second, 0, {}};
                 NetworkNode node;
                 node.path = std::string("<") + row.name + ">";
                 node.id = row.id;
@@ -227,18 +220,15 @@ Graph buildGraph(const Network& network, Diagnostics& diagnostics) {
 }
 
 bool constantNumber(const Operand& operand, float& out, int i) {
-    if (!operand.isConstant() || int(operand.value.numbers.size()) <= i)
-        return false;
+    if (!operand.isConstant() || int(operand.value.numbers.size()) <= i) return false;
     out = operand.value.numbers[size_t(i)];
     return true;
 }
 
 bool isConstantValue(const Operand& operand, float x) {
-    if (!operand.isConstant() || operand.value.numbers.empty())
-        return false;
+    if (!operand.isConstant() || operand.value.numbers.empty()) return false;
     for (const float n : operand.value.numbers)
-        if (n != x)
-            return false;
+        if (n != x) return false;
     return true;
 }
 

@@ -20,7 +20,7 @@ struct Operand {
 
 struct GraphNode {
     const NodeDef* def = nullptr;
-    std::string path; ///< where it comes from, for messages
+    std::string path;            ///< where it comes from, for messages
     std::vector<Operand> inputs; ///< in the order of the definition
     std::vector<bool> authored;  ///< whether each input was given by the network
 };

@@ -8,12 +8,21 @@ namespace patina {
 
 namespace {
 
-/// A shading model knows its inputs and their types only through its definition.
+const char* const displayColorPath = "/displayColor";
+
 Plan planMaterial(const Network& network, Diagnostics& diagnostics) {
     const Network expanded = expand(network, diagnostics);
+    const Graph graph = buildGraph(expanded, diagnostics);
+    // Nothing is known of this surface; grey or the prim's own colour is better than a black hole.
+    const bool lost = !graph.terminals.count("surface") && !graph.terminals.count("volume");
+    if (lost && network.path != displayColorPath) {
+        diagnostics.warn(network.path, "outputs:surface",
+                         "the material has no usable surface; displayColor is shown");
+        return planMaterial(makeDisplayColorNetwork(), diagnostics);
+    }
     std::vector<std::string> cuts;
-    Graph graph = simplify(buildGraph(expanded, diagnostics), cuts);
-    return makePlan(std::move(graph), std::move(cuts), diagnostics);
+    Graph simple = simplify(graph, cuts);
+    return makePlan(std::move(simple), std::move(cuts), diagnostics);
 }
 
 } // namespace
@@ -21,9 +30,6 @@ Plan planMaterial(const Network& network, Diagnostics& diagnostics) {
 std::shared_ptr<const MaterialProgram> compileMaterial(const Network& network,
                                                        TextureSource& textures,
                                                        Diagnostics& diagnostics) {
-    if (network.terminals.empty())
-        diagnostics.warn(network.path, "outputs:surface",
-                         "the material has no terminal; black is shown");
     return MaterialProgram::compile(planMaterial(network, diagnostics), textures, diagnostics);
 }
 
@@ -57,7 +63,7 @@ Network makeDisplayColorNetwork() {
     surface.connections["diffuseColor"] = {color.path, "result"};
     surface.connections["opacity"] = {opacity.path, "result"};
     Network network;
-    network.path = "/displayColor";
+    network.path = displayColorPath;
     network.nodes = {color, opacity, surface};
     network.terminals["surface"] = {surface.path, "surface"};
     return network;

@@ -25,8 +25,7 @@ ModelLibrary::ModelLibrary() {
             std::vector<fs::path> files;
             for (fs::directory_iterator it(folder, error), end; !error && it != end;
                  it.increment(error))
-                if (it->path().extension() == ".mtlx")
-                    files.push_back(it->path());
+                if (it->path().extension() == ".mtlx") files.push_back(it->path());
             std::sort(files.begin(), files.end());
             for (const fs::path& file : files) {
                 std::ifstream stream(file);
@@ -42,8 +41,7 @@ ModelLibrary::ModelLibrary() {
 
 void ModelLibrary::add(const std::string& text, const std::string& path) {
     MtlxDocument document;
-    if (!parseMtlx(text, path, false, document, _diagnostics))
-        return;
+    if (!parseMtlx(text, path, false, document, _diagnostics)) return;
     for (ShadingModel& model : document.models) {
         _models.push_back(std::make_unique<ShadingModel>(std::move(model)));
         const ShadingModel* added = _models.back().get();
@@ -64,8 +62,7 @@ ModelLibrary::resolve(const std::string& category, ValueType outputType,
     const ShadingModel* best = nullptr;
     int bestFit = -1;
     for (const auto& model : _models) {
-        if (model->def.category != category)
-            continue;
+        if (model->def.category != category) continue;
         // A model may have more outputs than the one that a document names.
         const bool several = model->def.outputs.size() > 1;
         const int fit =

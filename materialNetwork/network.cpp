@@ -78,8 +78,7 @@ const TypeRow typeRows[] = {
 
 const TypeRow& rowOf(ValueType type) {
     for (const TypeRow& row : typeRows)
-        if (row.type == type)
-            return row;
+        if (row.type == type) return row;
     return typeRows[0];
 }
 
@@ -92,21 +91,32 @@ Value makeNumbers(ValueType type, std::vector<float> numbers) {
 
 } // namespace
 
-const char* valueTypeName(ValueType type) { return rowOf(type).name; }
+const char* valueTypeName(ValueType type) {
+    return rowOf(type).name;
+}
 
 ValueType valueTypeFromName(const std::string& s) {
     for (const TypeRow& row : typeRows)
-        if (s == row.name)
-            return row.type;
+        if (s == row.name) return row.type;
     return ValueType::Unknown;
 }
 
-int valueTypeComponents(ValueType type) { return rowOf(type).components; }
+int valueTypeComponents(ValueType type) {
+    return rowOf(type).components;
+}
 
-Value Value::makeFloat(float x) { return makeNumbers(ValueType::Float, {x}); }
-Value Value::makeInt(int x) { return makeNumbers(ValueType::Int, {float(x)}); }
-Value Value::makeBool(bool x) { return makeNumbers(ValueType::Bool, {x ? 1.0f : 0.0f}); }
-Value Value::makeVec2(float x, float y) { return makeNumbers(ValueType::Vec2, {x, y}); }
+Value Value::makeFloat(float x) {
+    return makeNumbers(ValueType::Float, {x});
+}
+Value Value::makeInt(int x) {
+    return makeNumbers(ValueType::Int, {float(x)});
+}
+Value Value::makeBool(bool x) {
+    return makeNumbers(ValueType::Bool, {x ? 1.0f : 0.0f});
+}
+Value Value::makeVec2(float x, float y) {
+    return makeNumbers(ValueType::Vec2, {x, y});
+}
 Value Value::makeVec3(float x, float y, float z) {
     return makeNumbers(ValueType::Vec3, {x, y, z});
 }
@@ -130,8 +140,7 @@ Value Value::makeFilename(const std::string& s, const std::string& colorSpace) {
 
 const NetworkNode* Network::find(const std::string& nodePath) const {
     for (const NetworkNode& node : nodes)
-        if (node.path == nodePath)
-            return &node;
+        if (node.path == nodePath) return &node;
     return nullptr;
 }
 

@@ -31,7 +31,7 @@ enum class ValueType {
     Material
 };
 
-const char* valueTypeName(ValueType type);        ///< MaterialX name: "float", "color3", "BSDF"...
+const char* valueTypeName(ValueType type);         ///< MaterialX name: "float", "color3", "BSDF"...
 ValueType valueTypeFromName(const std::string& s); ///< accepts MaterialX and Sdf type names
 int valueTypeComponents(ValueType type);           ///< floats needed; 0 for strings and closures
 

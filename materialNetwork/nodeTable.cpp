@@ -48,8 +48,7 @@ InputDef parseInput(const std::string& text) {
     const size_t nameEnd = equals == std::string::npos ? text.size() : equals;
     input.name = text.substr(space + 1, nameEnd - space - 1);
     const std::string value = equals == std::string::npos ? "" : text.substr(equals + 1);
-    if (!value.empty() && value[0] == '@')
-        input.geomprop = value.substr(1);
+    if (!value.empty() && value[0] == '@') input.geomprop = value.substr(1);
     input.value = parseDefault(input.type, input.geomprop.empty() ? value : "");
     return input;
 }
@@ -58,22 +57,21 @@ InputDef parseInput(const std::string& text) {
 
 int NodeDef::findInput(const std::string& name) const {
     for (size_t i = 0; i < inputs.size(); ++i)
-        if (inputs[i].name == name)
-            return int(i);
+        if (inputs[i].name == name) return int(i);
     return -1;
 }
 
 int NodeDef::findOutput(const std::string& name) const {
-    if (name.empty())
-        return outputs.empty() ? -1 : 0;
+    if (name.empty()) return outputs.empty() ? -1 : 0;
     for (size_t i = 0; i < outputs.size(); ++i)
-        if (outputs[i].name == name)
-            return int(i);
+        if (outputs[i].name == name) return int(i);
     // USD writes "out" or "surface" for nodes with one output, whatever the definition calls it.
     return outputs.size() == 1 ? 0 : -1;
 }
 
-bool isClosureType(ValueType type) { return type >= ValueType::Bsdf; }
+bool isClosureType(ValueType type) {
+    return type >= ValueType::Bsdf;
+}
 
 const NodeTable& NodeTable::get() {
     static const NodeTable table;
@@ -101,8 +99,7 @@ NodeTable::NodeTable() {
     for (const char* type : {"float", "float2", "float3", "float4", "int", "string", "point",
                              "normal", "vector", "matrix"}) {
         const std::string id = std::string("UsdPrimvarReader_") + type;
-        if (find(id))
-            alias(("ND_" + id).c_str(), id.c_str());
+        if (find(id)) alias(("ND_" + id).c_str(), id.c_str());
     }
     alias("ND_UsdPrimvarReader_integer", "UsdPrimvarReader_int");
     alias("ND_UsdPrimvarReader_vector2", "UsdPrimvarReader_float2");
@@ -115,8 +112,7 @@ NodeTable::NodeTable() {
 }
 
 void NodeTable::alias(const char* name, const char* id) {
-    if (const NodeDef* def = find(id))
-        _byId.emplace(name, def);
+    if (const NodeDef* def = find(id)) _byId.emplace(name, def);
 }
 
 void NodeTable::add(const NodeRow& row) {
@@ -162,8 +158,7 @@ int nodeDefFit(const NodeDef& def, ValueType outputType,
     int fit = 0;
     for (const auto& [name, type] : inputTypes) {
         const int i = def.findInput(name);
-        if (i < 0)
-            continue;
+        if (i < 0) continue;
         fit += def.inputs[size_t(i)].type == type ? 2 : -1;
     }
     return fit < 0 ? 0 : fit;

@@ -12,8 +12,7 @@ namespace patina {
 namespace {
 
 const NodeDef* definition(const std::string& id) {
-    if (const ShadingModel* model = ModelLibrary::get().find(id))
-        return &model->def;
+    if (const ShadingModel* model = ModelLibrary::get().find(id)) return &model->def;
     return NodeTable::get().find(id);
 }
 
@@ -28,23 +27,19 @@ int findTarget(const Network& network, const std::string& target, std::string& i
         input = target.substr(point + 1);
     } else {
         const auto surface = network.terminals.find("surface");
-        if (surface != network.terminals.end())
-            node = surface->second.node;
+        if (surface != network.terminals.end()) node = surface->second.node;
         input = target;
     }
     // USD writes inputs with their namespace.
-    if (input.rfind("inputs:", 0) == 0)
-        input = input.substr(7);
+    if (input.rfind("inputs:", 0) == 0) input = input.substr(7);
     for (size_t i = 0; i < network.nodes.size(); ++i) {
         const std::string& path = network.nodes[i].path;
         const bool named = path == node || (path.size() > node.size() && !node.empty() &&
                                             path.compare(path.size() - node.size() - 1,
                                                          std::string::npos, "/" + node) == 0);
-        if (!named)
-            continue;
+        if (!named) continue;
         const NodeDef* def = definition(network.nodes[i].id);
-        if (def && def->findInput(input) >= 0)
-            return int(i);
+        if (def && def->findInput(input) >= 0) return int(i);
     }
     return -1;
 }
@@ -55,8 +50,7 @@ bool parseOverride(const Network& network, const std::string& target, const std:
                    Value& out) {
     std::string input;
     const int node = findTarget(network, target, input);
-    if (node < 0)
-        return false;
+    if (node < 0) return false;
     const NodeDef& def = *definition(network.nodes[size_t(node)].id);
     const InputDef& port = def.inputs[size_t(def.findInput(input))];
     const int n = valueTypeComponents(port.type);
@@ -77,14 +71,12 @@ bool parseOverride(const Network& network, const std::string& target, const std:
     }
     std::string plain = text;
     for (char& c : plain)
-        if (c == ',' || c == '(' || c == ')')
-            c = ' ';
+        if (c == ',' || c == '(' || c == ')') c = ' ';
     std::istringstream stream(plain);
     stream.imbue(std::locale::classic());
     for (float x; stream >> x;)
         out.numbers.push_back(x);
-    if (!stream.eof() || (out.numbers.size() != 1 && int(out.numbers.size()) != n))
-        return false;
+    if (!stream.eof() || (out.numbers.size() != 1 && int(out.numbers.size()) != n)) return false;
     out.numbers.resize(size_t(n), out.numbers[0]);
     return true;
 }

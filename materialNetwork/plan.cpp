@@ -17,14 +17,11 @@ public:
     void run() {
         _plan.opacity.value = Value::makeFloat(1.0f);
         const auto surface = _plan.graph.terminals.find("surface");
-        if (surface != _plan.graph.terminals.end())
-            planSurface(surface->second, "surface");
+        if (surface != _plan.graph.terminals.end()) planSurface(surface->second, "surface");
         const auto volume = _plan.graph.terminals.find("volume");
-        if (volume != _plan.graph.terminals.end())
-            planVolume(volume->second);
+        if (volume != _plan.graph.terminals.end()) planVolume(volume->second);
         const auto displacement = _plan.graph.terminals.find("displacement");
-        if (displacement != _plan.graph.terminals.end())
-            planDisplacement(displacement->second);
+        if (displacement != _plan.graph.terminals.end()) planDisplacement(displacement->second);
     }
 
 private:
@@ -35,8 +32,7 @@ private:
     }
 
     void planSurface(const Operand& operand, const char* terminal) {
-        if (operand.isConstant())
-            return;
+        if (operand.isConstant()) return;
         const GraphNode& node = nodeOf(operand.node);
         switch (node.def->closure) {
         case ClosureKind::Material:
@@ -94,8 +90,7 @@ private:
     }
 
     void planVolume(const Operand& operand) {
-        if (operand.isConstant())
-            return;
+        if (operand.isConstant()) return;
         const GraphNode& node = nodeOf(operand.node);
         if (node.def->closure == ClosureKind::Material) {
             planVolume(input(node, "volumeshader"));
@@ -112,8 +107,7 @@ private:
     }
 
     void planDisplacement(const Operand& operand) {
-        if (operand.isConstant())
-            return;
+        if (operand.isConstant()) return;
         const GraphNode& node = nodeOf(operand.node);
         const int i = node.def->findInput("displacement");
         if (i < 0 || !isConstantValue(node.inputs[size_t(i)], 0.0f))
@@ -126,12 +120,10 @@ private:
 
     /// @returns index in Plan::closures, -1 for no closure
     int build(const Operand& operand, bool fused) {
-        if (operand.isConstant())
-            return -1;
+        if (operand.isConstant()) return -1;
         const auto key = std::make_pair(operand.node, fused);
         const auto known = _built.find(key);
-        if (known != _built.end())
-            return known->second;
+        if (known != _built.end()) return known->second;
         const int index = buildNode(operand.node, fused);
         _built[key] = index;
         return index;
@@ -150,23 +142,19 @@ private:
                 return closure.a;
             }
             closure.b = build(node.inputs[1], fused || reflects(closure.a));
-            if (closure.a < 0)
-                return closure.b;
-            if (closure.b < 0)
-                return closure.a;
+            if (closure.a < 0) return closure.b;
+            if (closure.b < 0) return closure.a;
             break;
         }
         case ClosureKind::Mix:
         case ClosureKind::Add:
             closure.a = build(node.inputs[0], fused);
             closure.b = build(node.inputs[1], fused);
-            if (closure.a < 0 && closure.b < 0)
-                return -1;
+            if (closure.a < 0 && closure.b < 0) return -1;
             break;
         case ClosureKind::Multiply:
             closure.a = build(node.inputs[0], fused);
-            if (closure.a < 0)
-                return -1;
+            if (closure.a < 0) return -1;
             break;
         case ClosureKind::Dielectric:
         case ClosureKind::Schlick:
@@ -197,8 +185,7 @@ private:
 
     void addInterior(const GraphNode& layer) {
         const int vdf = build(layer.inputs[1], false);
-        if (vdf < 0 || vdf == _plan.vdf)
-            return;
+        if (vdf < 0 || vdf == _plan.vdf) return;
         if (_plan.vdf >= 0)
             leaveOut(layer, "a second medium inside the same object is not modelled");
         else
@@ -207,8 +194,7 @@ private:
 
     /// Whether a closure contains the reflecting half of an interface.
     bool reflects(int index) const {
-        if (index < 0)
-            return false;
+        if (index < 0) return false;
         const PlanClosure& c = _plan.closures[size_t(index)];
         if (c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Schlick)
             return (scatterMode(_plan, c) & sh::SCATTER_R) != 0;
@@ -222,12 +208,10 @@ private:
         if (distribution.value.text != "ggx")
             _diagnostics.warn(node.path, "distribution",
                               "'" + distribution.value.text + "' is not known; ggx is used");
-        if (node.def->findInput("scatter_mode") < 0)
-            return;
+        if (node.def->findInput("scatter_mode") < 0) return;
         const std::string& mode = input(node, "scatter_mode").value.text;
         if (mode != "R" && mode != "T" && mode != "RT")
-            _diagnostics.warn(node.path, "scatter_mode",
-                              "'" + mode + "' is not known; R is used");
+            _diagnostics.warn(node.path, "scatter_mode", "'" + mode + "' is not known; R is used");
     }
 
     Plan& _plan;
@@ -258,8 +242,7 @@ int scatterMode(const Plan& plan, const PlanClosure& closure) {
 bool refracts(const Plan& plan, const PlanClosure& closure) {
     if (closure.kind != ClosureKind::Dielectric && closure.kind != ClosureKind::Schlick)
         return false;
-    if ((scatterMode(plan, closure) & sh::SCATTER_T) == 0)
-        return false;
+    if ((scatterMode(plan, closure) & sh::SCATTER_T) == 0) return false;
     return closure.kind == ClosureKind::Schlick ||
            !isConstantValue(closureInput(plan, closure, "ior"), 1.0f);
 }

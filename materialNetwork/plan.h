@@ -14,9 +14,7 @@ struct PlanClosure {
     int a = -1, b = -1; ///< Layer: top, base. Mix: fg, bg. Add: both. Multiply: a
     bool fused = false; ///< a transmission lobe under a reflection lobe, see Plan
 
-    bool isLobe() const {
-        return kind >= ClosureKind::OrenNayar && kind <= ClosureKind::Schlick;
-    }
+    bool isLobe() const { return kind >= ClosureKind::OrenNayar && kind <= ClosureKind::Schlick; }
 };
 
 /// What a back end has to render: closures with their parameters, and the patterns these need.
@@ -36,8 +34,8 @@ struct Plan {
     int bsdf = -1, edf = -1, vdf = -1; ///< roots in closures, -1 for none
     Operand opacity;                   ///< presence
     bool thinWalled = false;
-    int compensate = 1;                ///< energy compensation of microfacet lobes (shaders/lib/energy.glsl)
-    std::vector<std::string> leftOut;  ///< what is not modelled, one line each
+    int compensate = 1; ///< energy compensation of microfacet lobes (shaders/lib/energy.glsl)
+    std::vector<std::string> leftOut; ///< what is not modelled, one line each
 };
 
 /// @param graph simplified

@@ -26,8 +26,7 @@ public:
 
 private:
     Operand mapped(const Operand& operand) const {
-        return operand.isConstant() ? operand
-                                    : _map[size_t(operand.node)][size_t(operand.output)];
+        return operand.isConstant() ? operand : _map[size_t(operand.node)][size_t(operand.output)];
     }
 
     void visit(size_t index) {
@@ -35,8 +34,7 @@ private:
         for (Operand& operand : node.inputs)
             operand = mapped(operand);
         std::vector<Operand>& results = _map[index];
-        if (fold(node, results))
-            return;
+        if (fold(node, results)) return;
         Operand replacement;
         std::string reason;
         const bool replaced = node.def->closure == ClosureKind::None
@@ -44,8 +42,7 @@ private:
                                   : rewriteClosure(_out, node, replacement, reason);
         if (replaced) {
             results = {replacement};
-            if (!reason.empty())
-                _cuts.push_back(node.path + ": " + reason);
+            if (!reason.empty()) _cuts.push_back(node.path + ": " + reason);
             return;
         }
         const int merged = add(node);
@@ -56,14 +53,11 @@ private:
     /// Runs the pattern function when all inputs are constants.
     bool fold(const GraphNode& node, std::vector<Operand>& results) const {
         const NodeDef& def = *node.def;
-        if (!def.function || def.varying || def.algebra == Algebra::IsUniform)
-            return false;
+        if (!def.function || def.varying || def.algebra == Algebra::IsUniform) return false;
         for (const Operand& operand : node.inputs)
-            if (!operand.isConstant())
-                return false;
+            if (!operand.isConstant()) return false;
         std::vector<Value> values;
-        if (!foldPattern(node, values))
-            return false;
+        if (!foldPattern(node, values)) return false;
         for (Value& value : values) {
             Operand operand;
             operand.value = std::move(value);
@@ -83,14 +77,13 @@ private:
         for (const bool a : node.authored)
             key += a ? '1' : '0';
         const auto [it, added] = _known.emplace(std::move(key), int(_out.nodes.size()));
-        if (added)
-            _out.nodes.push_back(node);
+        if (added) _out.nodes.push_back(node);
         return it->second;
     }
 
     static std::string exactText(const Value& value) {
-        std::string text = std::to_string(int(value.type)) + ":" + value.text + ":" +
-                           value.colorSpace;
+        std::string text =
+            std::to_string(int(value.type)) + ":" + value.text + ":" + value.colorSpace;
         for (const float x : value.numbers) {
             char number[40];
             std::snprintf(number, sizeof number, ",%a", double(x));
@@ -102,24 +95,20 @@ private:
     Graph prune() const {
         std::vector<bool> used(_out.nodes.size(), false);
         for (const auto& [name, operand] : _out.terminals)
-            if (!operand.isConstant())
-                used[size_t(operand.node)] = true;
+            if (!operand.isConstant()) used[size_t(operand.node)] = true;
         for (size_t i = _out.nodes.size(); i-- > 0;)
             if (used[i])
                 for (const Operand& operand : _out.nodes[i].inputs)
-                    if (!operand.isConstant())
-                        used[size_t(operand.node)] = true;
+                    if (!operand.isConstant()) used[size_t(operand.node)] = true;
         Graph result;
         result.path = _out.path;
         std::vector<int> renumbered(_out.nodes.size(), -1);
         const auto renumber = [&](Operand operand) {
-            if (!operand.isConstant())
-                operand.node = renumbered[size_t(operand.node)];
+            if (!operand.isConstant()) operand.node = renumbered[size_t(operand.node)];
             return operand;
         };
         for (size_t i = 0; i < _out.nodes.size(); ++i) {
-            if (!used[i])
-                continue;
+            if (!used[i]) continue;
             GraphNode node = _out.nodes[i];
             for (Operand& operand : node.inputs)
                 operand = renumber(operand);

@@ -10,10 +10,11 @@ enum class TextureWrap { Black, Clamp, Repeat, Mirror };
 
 /// What a material needs to know to read a texture.
 struct TextureRequest {
-    std::string file;       ///< resolved path; `<UDIM>` stands for the tile number
-    std::string colorSpace; ///< "auto", "raw"/"none", "sRGB"/"srgb_texture", "lin_rec709", or any OCIO name
+    std::string file; ///< resolved path; `<UDIM>` stands for the tile number
+    std::string
+        colorSpace; ///< "auto", "raw"/"none", "sRGB"/"srgb_texture", "lin_rec709", or any OCIO name
     TextureWrap wrapS = TextureWrap::Repeat, wrapT = TextureWrap::Repeat;
-    bool nearest = false;   ///< no filtering at all
+    bool nearest = false;    ///< no filtering at all
     std::string prim, input; ///< for messages
 };
 

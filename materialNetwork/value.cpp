@@ -9,7 +9,9 @@ namespace patina {
 
 namespace {
 
-bool isNumeric(ValueType type) { return valueTypeComponents(type) > 0; }
+bool isNumeric(ValueType type) {
+    return valueTypeComponents(type) > 0;
+}
 bool isScalar(ValueType type) {
     return type == ValueType::Bool || type == ValueType::Int || type == ValueType::Float;
 }
@@ -51,23 +53,16 @@ bool toLinearRec709(float* c, const std::string& space) {
 } // namespace
 
 Coercion coercion(ValueType from, ValueType to) {
-    if (from == to)
-        return Coercion::Free;
+    if (from == to) return Coercion::Free;
     const bool texts = (from == ValueType::String && to == ValueType::Filename) ||
                        (from == ValueType::Filename && to == ValueType::String);
-    if (texts)
-        return Coercion::Free;
-    if (!isNumeric(from) || !isNumeric(to) || isMatrix(from) || isMatrix(to))
-        return Coercion::None;
-    if (isScalar(from))
-        return Coercion::Free;
+    if (texts) return Coercion::Free;
+    if (!isNumeric(from) || !isNumeric(to) || isMatrix(from) || isMatrix(to)) return Coercion::None;
+    if (isScalar(from)) return Coercion::Free;
     const int n = valueTypeComponents(from), m = valueTypeComponents(to);
-    if (m == 1)
-        return Coercion::None;
-    if (n >= m)
-        return Coercion::Free;
-    if (n == 3 && m == 4)
-        return Coercion::AppendOne;
+    if (m == 1) return Coercion::None;
+    if (n >= m) return Coercion::Free;
+    if (n == 3 && m == 4) return Coercion::AppendOne;
     return n == 2 && m == 3 ? Coercion::Append : Coercion::None;
 }
 
@@ -90,8 +85,7 @@ bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string&
                   valueTypeName(to.type) + " expected";
         return false;
     }
-    if (!isNumeric(to.type))
-        return true;
+    if (!isNumeric(to.type)) return true;
     for (const float x : from.numbers)
         if (!std::isfinite(x)) {
             problem = "the value is not a finite number";
@@ -102,7 +96,7 @@ bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string&
         problem = "no value given";
         return false;
     }
-    const float fill = from.numbers.size() == 1 ? from.numbers[0]
+    const float fill = from.numbers.size() == 1   ? from.numbers[0]
                        : c == Coercion::AppendOne ? 1.0f
                                                   : 0.0f;
     out.numbers.resize(n, fill);
@@ -111,8 +105,7 @@ bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string&
         problem = "unknown colour space '" + from.colorSpace + "'";
         return false;
     }
-    if (to.type != ValueType::Filename)
-        out.colorSpace.clear();
+    if (to.type != ValueType::Filename) out.colorSpace.clear();
     return true;
 }
 
@@ -123,7 +116,10 @@ bool sameValue(const Value& a, const Value& b) {
 
 std::string valueText(const Value& value) {
     if (valueTypeComponents(value.type) == 0)
-        return isClosureType(value.type) ? "none" : "'" + value.text + "'";
+        return isClosureType(value.type)
+                   ? "none"
+                   : "'" + value.text + "'" +
+                         (value.colorSpace.empty() ? "" : " [" + value.colorSpace + "]");
     bool uniform = true;
     for (const float x : value.numbers)
         uniform &= x == value.numbers[0];
@@ -132,8 +128,7 @@ std::string valueText(const Value& value) {
         char number[32];
         std::snprintf(number, sizeof number, "%.6g", double(value.numbers[i]));
         text += (i ? " " : "") + std::string(number);
-        if (uniform)
-            break;
+        if (uniform) break;
     }
     return text;
 }

@@ -16,8 +16,7 @@ BsdfEval Bsdf::eval(const glm::vec3& wi) const {
             local = f.toLocal(wi);
             frame = l.frame;
         }
-        if (((local.z > 0.0f) == (f.wo.z >= 0.0f)) != reflects)
-            continue;
+        if (((local.z > 0.0f) == (f.wo.z >= 0.0f)) != reflects) continue;
         const sh::LobeEval e = lobeEval(l, f.wo, local);
         (l.diffuse ? result.diffuse : result.specular) += l.weight * e.value;
         result.pdf += l.probability * e.pdf;
@@ -27,20 +26,17 @@ BsdfEval Bsdf::eval(const glm::vec3& wi) const {
 
 BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
     BsdfSample result;
-    if (_lobeCount == 0)
-        return result;
+    if (_lobeCount == 0) return result;
     int chosen = 0;
     for (float sum = _lobes[0].probability; chosen + 1 < _lobeCount && uLobe >= sum;)
         sum += _lobes[++chosen].probability;
     const BsdfLobe& l = _lobes[chosen];
     const BsdfFrame& f = _frames[l.frame];
     const sh::LobeSample s = lobeSample(l, f.wo, u);
-    if (s.event == 0)
-        return result;
+    if (s.event == 0) return result;
     const glm::vec3 wi = f.toWorld(s.wi);
     const bool reflects = (s.event & sh::LOBE_REFLECT) != 0;
-    if (((glm::dot(wi, _geometricNormal) > 0.0f) == _woOutside) != reflects)
-        return result;
+    if (((glm::dot(wi, _geometricNormal) > 0.0f) == _woOutside) != reflects) return result;
 
     result.wi = wi;
     result.event = s.event;
@@ -55,13 +51,11 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
     glm::vec3 value = l.weight * (s.weight * s.pdf);
     float pdf = l.probability * s.pdf;
     for (int i = 0; i < _lobeCount; ++i) {
-        if (i == chosen)
-            continue;
+        if (i == chosen) continue;
         const BsdfLobe& other = _lobes[i];
         const BsdfFrame& frame = _frames[other.frame];
         const glm::vec3 local = other.frame == l.frame ? s.wi : frame.toLocal(wi);
-        if (((local.z > 0.0f) == (frame.wo.z >= 0.0f)) != reflects)
-            continue;
+        if (((local.z > 0.0f) == (frame.wo.z >= 0.0f)) != reflects) continue;
         const sh::LobeEval e = lobeEval(other, frame.wo, local);
         value += other.weight * e.value;
         pdf += other.probability * e.pdf;

@@ -10,7 +10,8 @@ namespace patina {
 
 /// Value of a whole material for two directions, and the density with which sample() finds wi.
 struct BsdfEval {
-    glm::vec3 diffuse{0.0f};  ///< f * |cos|, part of the diffuse lobes (light input `diffuse` scales it)
+    glm::vec3 diffuse{
+        0.0f}; ///< f * |cos|, part of the diffuse lobes (light input `diffuse` scales it)
     glm::vec3 specular{0.0f}; ///< f * |cos|, part of all other lobes
     float pdf = 0.0f;         ///< solid angle
 };
@@ -30,11 +31,12 @@ enum class LobeKind : uint8_t { OrenNayar, Burley, Translucent, Dielectric, Cond
 /// A leaf of the BSDF, ready for one shading point.
 struct BsdfLobe {
     LobeKind kind;
-    bool diffuse;          ///< counts as diffuse light (BsdfEval::diffuse)
-    uint8_t frame;         ///< index into the frames of the Bsdf
-    float probability;     ///< of being chosen by sample(); all sum to 1
-    glm::vec3 weight;      ///< product of all weights, mixes and layers above it
-    glm::vec3 albedo;      ///< directional albedo at wo, without weight
+    bool diffuse;      ///< counts as diffuse light (BsdfEval::diffuse)
+    uint8_t frame;     ///< index into the frames of the Bsdf
+    float probability; ///< of being chosen by sample(); all sum to 1
+    glm::vec3 weight;  ///< product of all weights, mixes and layers above it
+    glm::vec3
+        albedo; ///< directional albedo at wo without weight; an estimate unless a layer needs it
     union {
         sh::OrenNayarLobe orenNayar;
         sh::BurleyLobe burley;
@@ -67,7 +69,7 @@ struct BsdfFrame {
 /// through a surface because of an interpolated or mapped normal.
 class Bsdf {
 public:
-    static constexpr int maxLobes = 16;  ///< more are dropped, with a warning at compile time
+    static constexpr int maxLobes = 16; ///< more are dropped, with a warning at compile time
     static constexpr int maxFrames = 8;
 
     Bsdf() {} // NOLINT: members are left uninitialised on purpose; evaluate() fills what is used

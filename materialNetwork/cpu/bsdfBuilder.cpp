@@ -16,8 +16,7 @@ public:
     explicit Scratch(size_t n) : _data(_local) {
         if (n > localCount) {
             static thread_local std::vector<T> large;
-            if (large.size() < n)
-                large.resize(n);
+            if (large.size() < n) large.resize(n);
             _data = large.data();
         }
     }
@@ -29,9 +28,15 @@ private:
     T* _data;
 };
 
-float luminance(const glm::vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
-float largest(const glm::vec4& c) { return std::max(c.x, std::max(c.y, c.z)); }
-float unit(float x) { return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; }
+float luminance(const glm::vec3& c) {
+    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+}
+float largest(const glm::vec4& c) {
+    return std::max(c.x, std::max(c.y, c.z));
+}
+float unit(float x) {
+    return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
+}
 
 /// Authored factors: negative and NaN count as 0.
 glm::vec3 factor(const glm::vec4& c) {
@@ -43,8 +48,7 @@ glm::vec3 factor(const glm::vec4& c) {
 void BsdfBuilder::build(const ProgramCode& code, const ShadingPoint& point,
                         const glm::vec4* registers, Bsdf& out) {
     place(code, point, registers, out);
-    if (code.lobes.empty())
-        return;
+    if (code.lobes.empty()) return;
     if (code.hasStraight) {
         // The surface is only met with the chance that light does not pass straight.
         const float met = 1.0f - straightWeight(code, out);
@@ -65,8 +69,7 @@ float BsdfBuilder::straight(const ProgramCode& code, const ShadingPoint& point,
 float BsdfBuilder::straightWeight(const ProgramCode& code, const Bsdf& bsdf) {
     float sum = 0.0f;
     for (size_t i = 0; i < code.lobes.size(); ++i)
-        if (code.lobes[i].straight)
-            sum += bsdf._lobes[i].weight.x;
+        if (code.lobes[i].straight) sum += bsdf._lobes[i].weight.x;
     return unit(sum);
 }
 
@@ -77,20 +80,19 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
     out._transmits = false;
     out._geometricNormal = point.geometricNormal;
     out._woOutside = glm::dot(point.viewDirection, point.geometricNormal) >= 0.0f;
-    if (code.lobes.empty())
-        return;
+    if (code.lobes.empty()) return;
     for (size_t i = 0; i < code.frames.size(); ++i) {
         const FrameTemplate& f = code.frames[i];
         glm::vec3 n, t;
-        if (f.normal >= 0)
-            n = glm::vec3(registers[f.normal]);
-        if (f.tangent >= 0)
-            t = glm::vec3(registers[f.tangent]);
+        if (f.normal >= 0) n = glm::vec3(registers[f.normal]);
+        if (f.tangent >= 0) t = glm::vec3(registers[f.tangent]);
         out._frames[i] =
             makeFrame(point, f.normal >= 0 ? &n : nullptr, f.tangent >= 0 ? &t : nullptr, f.flips);
     }
+    float kept[Bsdf::maxLobes];
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const LobeTemplate& t = code.lobes[i];
+        kept[i] = 0.0f;
         BsdfLobe& l = out._lobes[i];
         if (t.constant) {
             l = t.prebuilt;
@@ -101,19 +103,21 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
             setupLobe(t, registers, l);
         }
         l.weight = glm::vec3(0.0f);
+        l.albedo = glm::vec3(0.0f);
+        if (registers[t.weight].x > 0.0f) kept[i] = unit(lobeFixWo(l, out._frames[l.frame].wo));
     }
-    setWeights(code, registers, out);
+    setWeights(code, registers, kept, out);
 }
 
-void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers, Bsdf& out) {
+void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers, const float* kept,
+                             Bsdf& out) {
     const int n = int(code.bsdf.size());
     // Upwards: what the tops of layers let through.
     Scratch<float> passed(size_t(n) + 1);
     const auto passedBy = [&](int i) { return i < 0 ? 1.0f : passed[i]; };
     for (int i = 0; i < n; ++i) {
         const ClosureOp& op = code.bsdf[size_t(i)];
-        if (!op.needsPassed)
-            continue;
+        if (!op.needsPassed) continue;
         switch (op.kind) {
         case ClosureKind::Layer:
             passed[i] = passedBy(op.a) * passedBy(op.b);
@@ -129,17 +133,8 @@ void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers
         case ClosureKind::Multiply:
             passed[i] = 1.0f - unit(largest(registers[op.factor])) * (1.0f - passedBy(op.a));
             break;
-        default: {
-            const float weight = unit(registers[op.factor].x);
-            float taken = weight;
-            if (op.lobe < 0)
-                taken = 0.0f;
-            else if (op.interface && weight > 0.0f) {
-                const BsdfLobe& l = out._lobes[op.lobe];
-                taken *= unit(lobeReflected(l, out._frames[l.frame].wo));
-            }
-            passed[i] = 1.0f - taken;
-        }
+        default:
+            passed[i] = op.lobe < 0 ? 1.0f : 1.0f - unit(registers[op.factor].x) * kept[op.lobe];
         }
     }
     // Downwards: a closure's weight is the sum over the wholes it is part of.
@@ -157,24 +152,19 @@ void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers
             break;
         case ClosureKind::Mix: {
             const float m = unit(registers[op.factor].x);
-            if (op.a >= 0)
-                weight[op.a] += w * m;
-            if (op.b >= 0)
-                weight[op.b] += w * (1.0f - m);
+            if (op.a >= 0) weight[op.a] += w * m;
+            if (op.b >= 0) weight[op.b] += w * (1.0f - m);
             break;
         }
         case ClosureKind::Add:
-            if (op.a >= 0)
-                weight[op.a] += w;
-            if (op.b >= 0)
-                weight[op.b] += w;
+            if (op.a >= 0) weight[op.a] += w;
+            if (op.b >= 0) weight[op.b] += w;
             break;
         case ClosureKind::Multiply:
             weight[op.a] += w * factor(registers[op.factor]);
             break;
         default:
-            if (op.lobe >= 0)
-                out._lobes[op.lobe].weight = w * unit(registers[op.factor].x);
+            if (op.lobe >= 0) out._lobes[op.lobe].weight = w * unit(registers[op.factor].x);
         }
     }
 }
@@ -182,22 +172,18 @@ void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers
 void BsdfBuilder::choose(const ProgramCode& code, Bsdf& out) {
     int count = 0;
     for (int i = 0; i < int(code.lobes.size()); ++i) {
-        if (!(luminance(out._lobes[i].weight) > 0.0f))
-            continue;
-        if (count != i)
-            out._lobes[count] = out._lobes[i];
+        if (!(luminance(out._lobes[i].weight) > 0.0f)) continue;
+        if (count != i) out._lobes[count] = out._lobes[i];
         ++count;
     }
     float sum = 0.0f;
     for (int i = 0; i < count; ++i) {
         BsdfLobe& l = out._lobes[i];
-        const glm::vec3& wo = out._frames[l.frame].wo;
         // A lone lobe needs no share.
-        l.probability = count == 1 ? 1.0f : luminance(l.weight * lobeAlbedo(l, wo));
+        l.probability = count == 1 ? 1.0f : luminance(l.weight * l.albedo);
         sum += l.probability;
         out._transmits |= lobeTransmits(l);
         out._nonDelta |= lobeNonDelta(l);
-        lobeFixWo(l, wo);
     }
     if (!(sum > 0.0f)) {
         out._nonDelta = false;
@@ -211,8 +197,7 @@ void BsdfBuilder::choose(const ProgramCode& code, Bsdf& out) {
 
 glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* registers) {
     const int n = int(ops.size());
-    if (n == 0)
-        return glm::vec3(0.0f);
+    if (n == 0) return glm::vec3(0.0f);
     Scratch<glm::vec3> value(size_t(n) + 1);
     const auto of = [&](int i) { return i < 0 ? glm::vec3(0.0f) : value[i]; };
     for (int i = 0; i < n; ++i) {

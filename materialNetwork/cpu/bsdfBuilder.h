@@ -20,7 +20,8 @@ private:
     static void place(const ProgramCode& code, const ShadingPoint& point,
                       const glm::vec4* registers, Bsdf& out);
     static float straightWeight(const ProgramCode& code, const Bsdf& bsdf);
-    static void setWeights(const ProgramCode& code, const glm::vec4* registers, Bsdf& out);
+    static void setWeights(const ProgramCode& code, const glm::vec4* registers, const float* kept,
+                           Bsdf& out);
     static void choose(const ProgramCode& code, Bsdf& out);
 };
 

@@ -2,6 +2,8 @@
 
 #include "materialNetwork/cpu/bsdf.h"
 
+#include <algorithm>
+
 // Dispatch from a BsdfLobe to the functions of its kind. Directions are in the lobe's frame.
 
 namespace patina {
@@ -60,14 +62,50 @@ inline glm::vec3 lobeAlbedo(const BsdfLobe& l, const glm::vec3& wo) {
     return glm::vec3(0.0f);
 }
 
-/// Looks up what depends on wo alone, once for all evaluations.
-inline void lobeFixWo(BsdfLobe& l, const glm::vec3& wo) {
-    if (l.kind == LobeKind::Dielectric)
-        l.dielectric = sh::dielectricAt(l.dielectric, wo);
-    else if (l.kind == LobeKind::Conductor)
+/// Looks up what depends on wo alone, once for all evaluations. Sets l.albedo, exact for interfaces
+/// and else an estimate that is good enough to choose lobes by.
+/// @returns the share that an interface keeps from the base of a layer: its largest channel,
+/// without tint. 1 for all other lobes.
+inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo) {
+    switch (l.kind) {
+    case LobeKind::OrenNayar:
+        l.albedo = l.orenNayar.color;
+        return 1.0f;
+    case LobeKind::Burley:
+        l.albedo = l.burley.color;
+        return 1.0f;
+    case LobeKind::Translucent:
+        l.albedo = l.translucent.color;
+        return 1.0f;
+    case LobeKind::Conductor:
         l.conductor = sh::conductorAt(l.conductor, wo);
-    else if (l.kind == LobeKind::Schlick)
-        l.schlick = sh::schlickAt(l.schlick, wo);
+        l.albedo = sh::fresnelConductor(glm::clamp(wo.z, 0.0f, 1.0f), l.conductor.ior,
+                                        l.conductor.extinction);
+        return 1.0f;
+    case LobeKind::Dielectric: {
+        sh::DielectricLobe& d = l.dielectric;
+        const sh::DielectricEnergy e = sh::dielectricEnergy(d, wo);
+        d.known = true;
+        d.kr = e.kr;
+        d.kt = e.kt;
+        const float kept = ((d.mode & sh::SCATTER_R) != 0 ? e.r : 0.0f) +
+                           ((d.mode & sh::SCATTER_T) != 0 ? e.t : 0.0f);
+        l.albedo = d.tint * kept;
+        return d.mode == sh::SCATTER_T ? 1.0f : kept;
+    }
+    case LobeKind::Schlick: {
+        sh::SchlickLobe& d = l.schlick;
+        const sh::SchlickEnergy e = sh::schlickEnergy(d, wo);
+        d.known = true;
+        d.kr = e.kr;
+        d.kt = e.kt;
+        l.albedo = ((d.mode & sh::SCATTER_R) != 0 ? e.r : glm::vec3(0.0f)) +
+                   ((d.mode & sh::SCATTER_T) != 0 ? e.t : glm::vec3(0.0f));
+        const glm::vec3& a = l.albedo;
+        return d.mode == sh::SCATTER_T ? 1.0f : std::max(a.x, std::max(a.y, a.z));
+    }
+    }
+    return 1.0f;
 }
 
 inline bool lobeTransmits(const BsdfLobe& l) {
@@ -110,21 +148,6 @@ inline float lobeRoughness(const BsdfLobe& l) {
     default:
         return 1.0f;
     }
-}
-
-/// What an interface reflects away from the base of a layer: the largest channel, without tint.
-inline float lobeReflected(const BsdfLobe& l, const glm::vec3& wo) {
-    if (l.kind == LobeKind::Dielectric) {
-        if (l.dielectric.mode == sh::SCATTER_T)
-            return 1.0f;
-        sh::DielectricLobe untinted = l.dielectric;
-        untinted.tint = glm::vec3(1.0f);
-        return sh::dielectricAlbedo(untinted, wo).x;
-    }
-    if (l.schlick.mode == sh::SCATTER_T)
-        return 1.0f;
-    const glm::vec3 a = sh::schlickAlbedo(l.schlick, wo);
-    return a.x > a.y ? (a.x > a.z ? a.x : a.z) : (a.y > a.z ? a.y : a.z);
 }
 
 } // namespace patina

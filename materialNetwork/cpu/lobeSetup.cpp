@@ -9,8 +9,8 @@ const char* const burleyNames[] = {"color", "roughness", nullptr};
 const char* const translucentNames[] = {"color", nullptr};
 const char* const dielectricNames[] = {"tint", "ior", "roughness", nullptr};
 const char* const conductorNames[] = {"ior", "extinction", "roughness", nullptr};
-const char* const schlickNames[] = {"color0", "color82", "color90", "exponent", "roughness",
-                                    nullptr};
+const char* const schlickNames[] = {"color0",   "color82",   "color90",
+                                    "exponent", "roughness", nullptr};
 const char* const noNames[] = {nullptr};
 
 } // namespace
@@ -66,8 +66,8 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
         out.translucent = sh::translucentSetup(color(0));
         return;
     case LobeKind::Dielectric:
-        out.dielectric = sh::dielectricSetup(color(0), number(1), pair(2), t.flagA, t.mode,
-                                             t.fused, t.compensate);
+        out.dielectric = sh::dielectricSetup(color(0), number(1), pair(2), t.flagA, t.mode, t.fused,
+                                             t.compensate);
         return;
     case LobeKind::Conductor:
         out.conductor = sh::conductorSetup(color(0), color(1), pair(2), t.flagA, t.compensate);

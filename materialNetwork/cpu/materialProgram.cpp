@@ -10,8 +10,7 @@ namespace patina {
 RegisterFile::RegisterFile(const ProgramCode& code) : _data(_local) {
     if (code.registerCount > localCount) {
         static thread_local std::vector<glm::vec4> large;
-        if (int(large.size()) < code.registerCount)
-            large.resize(size_t(code.registerCount));
+        if (int(large.size()) < code.registerCount) large.resize(size_t(code.registerCount));
         _data = large.data();
     }
     std::memcpy(static_cast<void*>(_data), code.constants.data(),
@@ -28,9 +27,8 @@ void RegisterFile::run(const ProgramCode& code, const std::vector<Instruction>& 
 MaterialProgram::MaterialProgram() = default;
 MaterialProgram::~MaterialProgram() = default;
 
-std::shared_ptr<const MaterialProgram> MaterialProgram::compile(const Plan& plan,
-                                                                TextureSource& textures,
-                                                                Diagnostics& diagnostics) {
+std::shared_ptr<const MaterialProgram>
+MaterialProgram::compile(const Plan& plan, TextureSource& textures, Diagnostics& diagnostics) {
     return ProgramBuilder(plan, textures, diagnostics).build();
 }
 
@@ -44,8 +42,7 @@ float MaterialProgram::opacity(const ShadingPoint& point) const {
         x = registers.data()[_code->opacity].x;
     }
     x = x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
-    if (!_code->hasStraight || x == 0.0f)
-        return x;
+    if (!_code->hasStraight || x == 0.0f) return x;
     if (_code->surfaceCode.empty())
         return x * (1.0f - BsdfBuilder::straight(*_code, point, _code->constants.data()));
     RegisterFile registers(*_code);
@@ -54,10 +51,8 @@ float MaterialProgram::opacity(const ShadingPoint& point) const {
 }
 
 bool MaterialProgram::isOpaqueWith(const std::vector<int>& attributes) const {
-    if (_isOpaque)
-        return true;
-    if (_code->hasStraight || !_code->opacityFromPrimvars)
-        return false;
+    if (_isOpaque) return true;
+    if (_code->hasStraight || !_code->opacityFromPrimvars) return false;
     for (const Instruction& i : _code->opacityCode)
         if (i.data.slot >= 0 &&
             (size_t(i.data.slot) >= attributes.size() || attributes[size_t(i.data.slot)] >= 0))
@@ -67,20 +62,16 @@ bool MaterialProgram::isOpaqueWith(const std::vector<int>& attributes) const {
 }
 
 glm::vec3 MaterialProgram::emission(const ShadingPoint& point, const glm::vec3&) const {
-    if (!_hasEmission)
-        return glm::vec3(0.0f);
-    if (_code->emissionCode.empty())
-        return linearClosure(_code->edf, _code->constants.data());
+    if (!_hasEmission) return glm::vec3(0.0f);
+    if (_code->emissionCode.empty()) return linearClosure(_code->edf, _code->constants.data());
     RegisterFile registers(*_code);
     registers.run(*_code, _code->emissionCode, point);
     return linearClosure(_code->edf, registers.data());
 }
 
 glm::vec3 MaterialProgram::interiorAbsorption(const ShadingPoint& point) const {
-    if (!_hasInterior)
-        return glm::vec3(0.0f);
-    if (_code->interiorCode.empty())
-        return linearClosure(_code->vdf, _code->constants.data());
+    if (!_hasInterior) return glm::vec3(0.0f);
+    if (_code->interiorCode.empty()) return linearClosure(_code->vdf, _code->constants.data());
     RegisterFile registers(*_code);
     registers.run(*_code, _code->interiorCode, point);
     return linearClosure(_code->vdf, registers.data());

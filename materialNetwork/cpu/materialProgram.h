@@ -35,13 +35,13 @@ public:
     /// Primvars in the order of their slots (PrimvarReader::read).
     const std::vector<MaterialPrimvar>& primvars() const { return _primvars; }
 
-    bool constant() const { return _constant; }         ///< lobes are the same at every point
+    bool constant() const { return _constant; } ///< lobes are the same at every point
     bool hasEmission() const { return _hasEmission; }
-    bool isOpaque() const { return _isOpaque; }         ///< opacity() is 1 everywhere
+    bool isOpaque() const { return _isOpaque; } ///< opacity() is 1 everywhere
     bool isThinWalled() const { return _isThinWalled; }
     bool hasTransmission() const { return _hasTransmission; } ///< a lobe may send light through
-    bool hasInterior() const { return _hasInterior; }   ///< absorbs inside closed objects
-    bool usesUv() const { return _usesUv; }             ///< reads texture coordinates
+    bool hasInterior() const { return _hasInterior; }         ///< absorbs inside closed objects
+    bool usesUv() const { return _usesUv; }                   ///< reads texture coordinates
 
     /// @returns isOpaque() for a prim that lacks some primvars
     /// @param attributes per slot of primvars(): negative when the prim has no such primvar

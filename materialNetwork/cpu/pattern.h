@@ -13,10 +13,10 @@ namespace patina {
 
 /// What an instruction knows from compile time.
 struct PatternData {
-    int size = 1;        ///< components of the first input
-    int handle = -1;     ///< texture
-    int slot = -1;       ///< primvar
-    int mode = 0;        ///< whatever a string or uniform input selects
+    int size = 1;    ///< components of the first input
+    int handle = -1; ///< texture
+    int slot = -1;   ///< primvar
+    int mode = 0;    ///< whatever a string or uniform input selects
     glm::vec4 value{0.0f};
 };
 

@@ -14,8 +14,7 @@ public:
     const Value* constant(const char* input) const override {
         const GraphNode& node = _b.nodeOf(_index);
         const int i = node.def->findInput(input);
-        if (i < 0 || !node.inputs[size_t(i)].isConstant())
-            return nullptr;
+        if (i < 0 || !node.inputs[size_t(i)].isConstant()) return nullptr;
         return &node.inputs[size_t(i)].value;
     }
     bool authored(const char* input) const override {
@@ -33,8 +32,7 @@ public:
     int primvarSlot(const std::string& name, ValueType type) override {
         auto& list = _b._program->_primvars;
         for (size_t i = 0; i < list.size(); ++i)
-            if (list[i].name == name)
-                return int(i);
+            if (list[i].name == name) return int(i);
         list.push_back({name, type});
         return int(list.size()) - 1;
     }
@@ -48,8 +46,7 @@ private:
 };
 
 void ProgramBuilder::prepareNode(int node) {
-    if (_prepared[size_t(node)])
-        return;
+    if (_prepared[size_t(node)]) return;
     _prepared[size_t(node)] = true;
     const NodeDef& def = *nodeOf(node).def;
     PatternData& data = _data[size_t(node)];
@@ -58,8 +55,7 @@ void ProgramBuilder::prepareNode(int node) {
         Setup setup(*this, node);
         def.prepare(setup, data);
     }
-    if (def.category == "texcoord" || _readsTexture[size_t(node)])
-        _program->_usesUv = true;
+    if (def.category == "texcoord" || _readsTexture[size_t(node)]) _program->_usesUv = true;
 }
 
 Register ProgramBuilder::allocate(int count) {
@@ -75,15 +71,12 @@ Register ProgramBuilder::allocate(int count) {
 /// Constants take the first registers, so all of them are made before the first instruction.
 Register ProgramBuilder::constant(const Value& value) {
     std::vector<float> key = value.numbers;
-    if (key.empty())
-        key.push_back(0.0f);
-    if (key.size() == 1)
-        key.resize(4, key[0]);
+    if (key.empty()) key.push_back(0.0f);
+    if (key.size() == 1) key.resize(4, key[0]);
     // Matrices take a register per four numbers; no instruction reads more than the first yet.
     key.resize(4, 0.0f);
     const auto known = _constants.find(key);
-    if (known != _constants.end())
-        return known->second;
+    if (known != _constants.end()) return known->second;
     if (_constants.size() >= 30000) {
         _overflow = true;
         return 0;
@@ -95,14 +88,12 @@ Register ProgramBuilder::constant(const Value& value) {
 }
 
 Register ProgramBuilder::registerOf(const Operand& operand) {
-    if (operand.isConstant())
-        return constant(operand.value);
+    if (operand.isConstant()) return constant(operand.value);
     return Register(_register[size_t(operand.node)] + operand.output);
 }
 
 void ProgramBuilder::mark(const Operand& operand, std::vector<bool>& needed) const {
-    if (!operand.isConstant())
-        needed[size_t(operand.node)] = true;
+    if (!operand.isConstant()) needed[size_t(operand.node)] = true;
 }
 
 void ProgramBuilder::emit(const std::vector<bool>& roots, std::vector<Instruction>& code) {
@@ -113,8 +104,7 @@ void ProgramBuilder::emit(const std::vector<bool>& roots, std::vector<Instructio
                 mark(operand, needed);
     for (size_t i = 0; i < needed.size(); ++i) {
         const GraphNode& node = nodeOf(int(i));
-        if (!needed[i] || !node.def->function)
-            continue;
+        if (!needed[i] || !node.def->function) continue;
         prepareNode(int(i));
         Instruction instruction;
         instruction.function = node.def->function;
@@ -136,13 +126,13 @@ std::vector<ClosureOp> ProgramBuilder::linearOps(int root, std::vector<bool>& ne
         op.a = c.a;
         op.b = c.b;
         // Parts of other trees stand in the same list; they get no value and are never read.
-        const char* name = c.kind == ClosureKind::Mix        ? "mix"
-                           : c.kind == ClosureKind::Multiply ? "in2"
-                           : c.kind == ClosureKind::UniformEdf ? "color"
-                           : c.kind == ClosureKind::AbsorptionVdf ||
-                                   c.kind == ClosureKind::AnisotropicVdf
-                               ? "absorption"
-                               : nullptr;
+        const char* name =
+            c.kind == ClosureKind::Mix          ? "mix"
+            : c.kind == ClosureKind::Multiply   ? "in2"
+            : c.kind == ClosureKind::UniformEdf ? "color"
+            : c.kind == ClosureKind::AbsorptionVdf || c.kind == ClosureKind::AnisotropicVdf
+                ? "absorption"
+                : nullptr;
         if (name) {
             const Operand& operand = closureInput(_plan, c, name);
             mark(operand, needed);
@@ -158,13 +148,10 @@ std::vector<ClosureOp> ProgramBuilder::linearOps(int root, std::vector<bool>& ne
 void ProgramBuilder::markTops(std::vector<ClosureOp>& ops) const {
     for (size_t i = ops.size(); i-- > 0;) {
         ClosureOp& op = ops[i];
-        if (op.kind == ClosureKind::Layer && op.a >= 0)
-            ops[size_t(op.a)].needsPassed = true;
+        if (op.kind == ClosureKind::Layer && op.a >= 0) ops[size_t(op.a)].needsPassed = true;
         if (op.needsPassed) {
-            if (op.a >= 0)
-                ops[size_t(op.a)].needsPassed = true;
-            if (op.b >= 0)
-                ops[size_t(op.b)].needsPassed = true;
+            if (op.a >= 0) ops[size_t(op.a)].needsPassed = true;
+            if (op.b >= 0) ops[size_t(op.b)].needsPassed = true;
         }
     }
 }
@@ -179,14 +166,11 @@ void ProgramBuilder::bsdfOps(std::vector<bool>& needed) {
                    nodeOf(c.node).def->inputs[1].type == ValueType::Color3;
     }
     std::vector<bool> reached(_plan.closures.size(), false);
-    if (_plan.bsdf >= 0)
-        reached[size_t(_plan.bsdf)] = true;
+    if (_plan.bsdf >= 0) reached[size_t(_plan.bsdf)] = true;
     for (int i = _plan.bsdf; i >= 0; --i)
         if (reached[size_t(i)])
-            for (const int child :
-                 {_plan.closures[size_t(i)].a, _plan.closures[size_t(i)].b})
-                if (child >= 0)
-                    reached[size_t(child)] = true;
+            for (const int child : {_plan.closures[size_t(i)].a, _plan.closures[size_t(i)].b})
+                if (child >= 0) reached[size_t(child)] = true;
     for (int i = 0; i <= _plan.bsdf; ++i) {
         const PlanClosure& c = _plan.closures[size_t(i)];
         ClosureOp op;
@@ -216,14 +200,12 @@ int ProgramBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bo
     const auto choose = [&](const char* input, const char* standard) {
         const GraphNode& node = nodeOf(closure.node);
         const int i = node.def->findInput(input);
-        if (i < 0)
-            return -1;
+        if (i < 0) return -1;
         const Operand& operand = node.inputs[size_t(i)];
         // A default that comes from the geometry is the shading point's own.
         if (!operand.isConstant()) {
             const GraphNode& source = nodeOf(operand.node);
-            if (source.def->id == standard && source.inputs[0].value.text == "world")
-                return -1;
+            if (source.def->id == standard && source.inputs[0].value.text == "world") return -1;
         }
         mark(operand, needed);
         return int(registerOf(operand));
@@ -258,7 +240,8 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.prebuilt.diffuse = closure.kind == ClosureKind::OrenNayar ||
                          closure.kind == ClosureKind::Burley ||
                          closure.kind == ClosureKind::Translucent;
-    op.interface = closure.kind == ClosureKind::Dielectric || closure.kind == ClosureKind::Schlick;
+    const bool interface =
+        closure.kind == ClosureKind::Dielectric || closure.kind == ClosureKind::Schlick;
     t.fused = closure.fused;
     t.compensate = _plan.compensate;
     const auto flag = [&](const char* input) {
@@ -266,12 +249,11 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
         return node.def->findInput(input) >= 0 &&
                constantNumber(closureInput(_plan, closure, input), x) && x != 0.0f;
     };
-    t.flagA = flag(closure.kind == ClosureKind::OrenNayar ? "energy_compensation"
-                                                          : "retroreflective");
-    if (op.interface)
-        t.mode = scatterMode(_plan, closure);
+    t.flagA =
+        flag(closure.kind == ClosureKind::OrenNayar ? "energy_compensation" : "retroreflective");
+    if (interface) t.mode = scatterMode(_plan, closure);
     // Metals and diffuse lobes show the same face on both sides; an interface has an inside.
-    const bool flips = !op.interface || !hasInside;
+    const bool flips = !interface || !hasInside;
     t.prebuilt.frame = uint8_t(frame(closure, flips, needed));
     t.prebuilt.weight = t.prebuilt.albedo = glm::vec3(0.0f);
     t.prebuilt.probability = 0.0f;
@@ -292,11 +274,10 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     }
     t.straight = isStraight(closure);
     _code->hasStraight |= t.straight;
-    if (t.constant)
-        setupLobe(t, _code->constants.data(), t.prebuilt);
+    if (t.constant) setupLobe(t, _code->constants.data(), t.prebuilt);
     const Operand& weight = closureInput(_plan, closure, "weight");
     mark(weight, needed);
-    op.factor = registerOf(weight);
+    op.factor = t.weight = registerOf(weight);
     op.lobe = int(_code->lobes.size());
     _code->lobes.push_back(t);
 }
@@ -315,8 +296,8 @@ void ProgramBuilder::setFlags() {
     p._constant = _code->surfaceCode.empty();
     p._isThinWalled = _plan.thinWalled;
     p._hasEmission = !_code->edf.empty();
-    p._isOpaque = !_code->hasStraight && _plan.opacity.isConstant() && !_plan.opacity.value.numbers.empty() &&
-                  _plan.opacity.value.numbers[0] >= 1.0f;
+    p._isOpaque = !_code->hasStraight && _plan.opacity.isConstant() &&
+                  !_plan.opacity.value.numbers.empty() && _plan.opacity.value.numbers[0] >= 1.0f;
     for (const LobeTemplate& t : _code->lobes)
         p._hasTransmission |= t.prebuilt.kind == LobeKind::Translucent ||
                               (!t.straight && (t.mode & sh::SCATTER_T) != 0);
@@ -338,8 +319,7 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
     // graph gets its register now.
     for (size_t i = 0; i < n; ++i)
         for (const Operand& operand : nodeOf(int(i)).inputs)
-            if (operand.isConstant())
-                constant(operand.value);
+            if (operand.isConstant()) constant(operand.value);
     constant(_plan.opacity.value);
     constant(Value::makeFloat(0.0f));
     constant(Value::makeFloat(1.0f));

@@ -39,10 +39,10 @@ private:
     Diagnostics& _diagnostics;
     std::shared_ptr<MaterialProgram> _program;
     ProgramCode* _code = nullptr;
-    std::vector<PatternData> _data;    ///< per graph node
-    std::vector<bool> _prepared;       ///< per graph node
-    std::vector<bool> _readsTexture;   ///< per graph node
-    std::vector<int> _register;        ///< of the first output, per graph node; -1 when none
+    std::vector<PatternData> _data;  ///< per graph node
+    std::vector<bool> _prepared;     ///< per graph node
+    std::vector<bool> _readsTexture; ///< per graph node
+    std::vector<int> _register;      ///< of the first output, per graph node; -1 when none
     std::map<std::vector<float>, Register> _constants;
     bool _overflow = false;
     bool _tinted = false; ///< some closure is multiplied by a colour

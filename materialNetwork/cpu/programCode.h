@@ -23,13 +23,14 @@ struct Instruction {
 struct LobeTemplate {
     static constexpr int maxParameters = 6;
 
-    BsdfLobe prebuilt;    ///< set up already when constant; kind, diffuse and frame always
+    BsdfLobe prebuilt; ///< set up already when constant; kind, diffuse and frame always
     bool constant = false;
-    bool flagA = false;   ///< retroreflective, or energy_compensation
+    bool flagA = false; ///< retroreflective, or energy_compensation
     bool fused = false;
     bool straight = false; ///< passes light straight on without tint: part of the presence
-    int mode = 0;         ///< SCATTER_*
+    int mode = 0;          ///< SCATTER_*
     int compensate = 1;
+    Register weight = 0;
     Register parameters[maxParameters] = {};
 };
 
@@ -37,10 +38,9 @@ struct LobeTemplate {
 struct ClosureOp {
     ClosureKind kind = ClosureKind::None;
     int a = -1, b = -1;
-    int lobe = -1;         ///< index of the lobe, for lobes
-    bool interface = false; ///< a top of this kind takes what it reflects (else its weight)
+    int lobe = -1;            ///< index of the lobe, for lobes
     bool needsPassed = false; ///< stands somewhere in a layer's top
-    Register factor = 0;   ///< lobe: weight; Mix: mix; Multiply: factor; EDF and VDF: value
+    Register factor = 0;      ///< lobe: weight; Mix: mix; Multiply: factor; EDF and VDF: value
 };
 
 struct FrameTemplate {

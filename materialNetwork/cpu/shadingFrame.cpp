@@ -9,7 +9,9 @@ namespace {
 // Sine of the smallest angle that the mirror direction keeps from the surface.
 constexpr float margin = 1e-3f;
 
-bool usable(float length) { return length > 1e-12f && std::isfinite(length); }
+bool usable(float length) {
+    return length > 1e-12f && std::isfinite(length);
+}
 
 /// Any unit vector orthogonal to n (Duff et al. 2017).
 glm::vec3 anyTangent(const glm::vec3& n) {
@@ -32,12 +34,10 @@ glm::vec3 bendNormal(glm::vec3 n, const glm::vec3& v, const glm::vec3& g) {
     const float above = glm::dot(mirror, g);
     // Near grazing even the geometric normal's own mirror direction lies below the margin.
     const float wanted = std::min(margin, glm::dot(v, g));
-    if (above >= wanted)
-        return n;
+    if (above >= wanted) return n;
     const glm::vec3 lifted = mirror + g * (wanted - above);
     const float length = glm::length(lifted);
-    if (!usable(length))
-        return g;
+    if (!usable(length)) return g;
     const glm::vec3 half = v + lifted / length;
     const float halfLength = glm::length(half);
     return usable(halfLength) ? half / halfLength : g;
@@ -50,19 +50,16 @@ BsdfFrame makeFrame(const ShadingPoint& point, const glm::vec3* normal, const gl
     glm::vec3 n = point.normal;
     if (normal) {
         const float length = glm::length(*normal);
-        if (usable(length))
-            n = *normal / length;
+        if (usable(length)) n = *normal / length;
     }
     BsdfFrame frame;
     const glm::vec3 facing = bendNormal(n * side, v, point.geometricNormal * side);
     frame.normal = flips ? facing : facing * side;
     glm::vec3 t = point.tangent;
-    if (tangent && usable(glm::length(*tangent)))
-        t = *tangent;
+    if (tangent && usable(glm::length(*tangent))) t = *tangent;
     t -= frame.normal * glm::dot(frame.normal, t);
     const float length = glm::length(t);
-    frame.tangent =
-        length > 1e-6f && std::isfinite(length) ? t / length : anyTangent(frame.normal);
+    frame.tangent = length > 1e-6f && std::isfinite(length) ? t / length : anyTangent(frame.normal);
     frame.bitangent = glm::cross(frame.normal, frame.tangent);
     frame.wo = frame.toLocal(v);
     return frame;

@@ -20,10 +20,11 @@ struct ShadingPoint {
     glm::vec3 geometricNormal{0, 0, 1}; ///< points out of the front side
     glm::vec3 normal{0, 0, 1};          ///< interpolated; same hemisphere as geometricNormal
     glm::vec3 tangent{1, 0, 0};         ///< along dP/du, orthogonal to normal
-    glm::vec3 bitangent{0, 1, 0};       ///< along dP/dv, orthogonal to normal (carries the handedness of uv)
-    glm::vec3 viewDirection{0, 0, 1};   ///< towards the viewer
+    glm::vec3 bitangent{0, 1,
+                        0}; ///< along dP/dv, orthogonal to normal (carries the handedness of uv)
+    glm::vec3 viewDirection{0, 0, 1}; ///< towards the viewer
     glm::mat3 objectToWorldNormal{1.0f};
-    float uvFootprint = 0.0f;           ///< width of the ray cone in units of the default uv set
+    float uvFootprint = 0.0f; ///< width of the ray cone in units of the default uv set
     const PrimvarReader* primvars = nullptr;
 };
 

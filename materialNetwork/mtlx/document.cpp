@@ -36,12 +36,10 @@ std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics)
     std::ostringstream text;
     text << stream.rdbuf();
     MtlxDocument document;
-    if (!parseMtlx(text.str(), path, true, document, diagnostics))
-        return {};
+    if (!parseMtlx(text.str(), path, true, document, diagnostics)) return {};
     const auto find = [&](const std::string& id) -> const ShadingModel* {
         for (const ShadingModel& model : document.models)
-            if (model.def.id == id)
-                return &model;
+            if (model.def.id == id) return &model;
         return nullptr;
     };
     for (Network& network : document.materials)

@@ -14,10 +14,10 @@ namespace {
 
 // Elements of a document that are not nodes.
 const std::set<std::string> otherElements = {
-    "nodedef",     "nodegraph", "implementation", "look",       "lookgroup",   "collection",
-    "propertyset", "variantset", "typedef",       "geominfo",   "geompropdef", "unitdef",
-    "unittypedef", "targetdef", "xi:include",     "input",      "output",      "token",
-    "backdrop",    "comment",   "attributedef",   "parameter"};
+    "nodedef",     "nodegraph",  "implementation", "look",     "lookgroup",   "collection",
+    "propertyset", "variantset", "typedef",        "geominfo", "geompropdef", "unitdef",
+    "unittypedef", "targetdef",  "xi:include",     "input",    "output",      "token",
+    "backdrop",    "comment",    "attributedef",   "parameter"};
 
 bool isPort(const char* name) {
     return !std::strcmp(name, "input") || !std::strcmp(name, "parameter");
@@ -39,15 +39,13 @@ std::vector<std::string> splitList(std::string text) {
 std::string MtlxParser::where(const Element& element) const {
     std::string path;
     for (Element e = element; e && std::strcmp(e.name(), "materialx") != 0; e = e.parent())
-        if (!isPort(e.name()))
-            path = "/" + std::string(e.attribute("name").value()) + path;
+        if (!isPort(e.name())) path = "/" + std::string(e.attribute("name").value()) + path;
     return _path + ":" + path;
 }
 
 std::string MtlxParser::inherited(const Element& element, const char* attribute) const {
     for (Element e = element; e; e = e.parent())
-        if (const auto a = e.attribute(attribute))
-            return a.value();
+        if (const auto a = e.attribute(attribute)) return a.value();
     return "";
 }
 
@@ -62,8 +60,7 @@ Value MtlxParser::readValue(const Element& port) const {
         for (Element e = port; e; e = e.parent())
             prefix = e.attribute("fileprefix").value() + prefix;
         fs::path file(prefix + text);
-        if (!text.empty() && file.is_relative())
-            file = fs::path(_path).parent_path() / file;
+        if (!text.empty() && file.is_relative()) file = fs::path(_path).parent_path() / file;
         v.text = text.empty() ? "" : file.lexically_normal().string();
         // Only colours have a colour space; a file says so itself, or is read by a colour node.
         const std::string nodeType = port.parent().attribute("type").value();
@@ -125,15 +122,13 @@ void MtlxParser::readDef(const Element& element, NodeDef& def) const {
 
 std::string MtlxParser::resolveId(const Element& element,
                                   const std::map<std::string, ValueType>& inputTypes) const {
-    if (const auto def = element.attribute("nodedef"))
-        return def.value();
+    if (const auto def = element.attribute("nodedef")) return def.value();
     const std::string category = element.name();
     const ValueType type = valueTypeFromName(element.attribute("type").value());
     for (const ShadingModel& model : *_models)
         if (model.def.category == category && nodeDefFit(model.def, type, inputTypes) >= 0)
             return model.def.id;
-    if (const NodeDef* def = NodeTable::get().resolve(category, type, inputTypes))
-        return def->id;
+    if (const NodeDef* def = NodeTable::get().resolve(category, type, inputTypes)) return def->id;
     // A category is enough: graph() looks models up by it and reports what nobody knows.
     return category;
 }
@@ -145,8 +140,7 @@ bool MtlxParser::connect(const Element& port, const Scope& scope, Connection& ou
         return true;
     }
     const auto graphName = port.attribute("nodegraph");
-    if (!graphName)
-        return false;
+    if (!graphName) return false;
     const auto graph = _graphs.find(graphName.value());
     if (graph == _graphs.end()) {
         _diagnostics.warn(where(port.parent()), port.attribute("name").value(),
@@ -175,8 +169,7 @@ bool MtlxParser::connect(const Element& port, const Scope& scope, Connection& ou
 bool MtlxParser::connectInterface(const Element& port, const Scope& scope, NetworkNode& node,
                                   const std::string& name) {
     const std::string interface = port.attribute("interfacename").value();
-    if (interface.empty())
-        return false;
+    if (interface.empty()) return false;
     if (scope.functional) {
         node.connections[name] = {ShadingModel::interfaceNode, interface};
         return true;
@@ -198,16 +191,16 @@ bool MtlxParser::connectInterface(const Element& port, const Scope& scope, Netwo
 
 void MtlxParser::readInput(const Element& input, const Scope& scope, NetworkNode& node) {
     const std::string name = input.attribute("name").value();
-    if (connectInterface(input, scope, node, name))
-        return;
+    if (connectInterface(input, scope, node, name)) return;
     Connection c;
     if (connect(input, scope, c))
         node.connections[name] = c;
     else if (input.attribute("value"))
         node.inputs[name] = readValue(input);
     if (input.attribute("channels"))
-        _diagnostics.warn(where(input.parent()), name,
-                          "the attribute 'channels' of MaterialX 1.38 is not supported and ignored");
+        _diagnostics.warn(
+            where(input.parent()), name,
+            "the attribute 'channels' of MaterialX 1.38 is not supported and ignored");
 }
 
 void MtlxParser::readNode(const Element& element, const Scope& scope,
@@ -237,8 +230,7 @@ void MtlxParser::readModel(const Element& graph, const NodeDef& def, ShadingMode
     readNodes(scope, model.nodes);
     for (const Element& child : graph.children("output")) {
         Connection c;
-        if (connect(child, scope, c))
-            model.outputs[child.attribute("name").value()] = c;
+        if (connect(child, scope, c)) model.outputs[child.attribute("name").value()] = c;
     }
 }
 
@@ -255,20 +247,19 @@ void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocum
         else if (kind == "nodegraph")
             _graphs[name] = child;
         else if (kind == "xi:include")
-            _diagnostics.warn(_path, "", "included documents are not read: " +
-                                             std::string(child.attribute("href").value()));
+            _diagnostics.warn(_path, "",
+                              "included documents are not read: " +
+                                  std::string(child.attribute("href").value()));
     }
     for (const Element& child : root.children("implementation")) {
         const auto graph = _graphs.find(child.attribute("nodegraph").value());
-        if (graph != _graphs.end())
-            functional[child.attribute("nodedef").value()] = graph->second;
+        if (graph != _graphs.end()) functional[child.attribute("nodedef").value()] = graph->second;
     }
     // The interfaces come first, because graphs use each other's definitions.
     std::vector<Element> bodies;
     for (const auto& [name, element] : defs) {
         const auto body = functional.find(name);
-        if (body == functional.end())
-            continue;
+        if (body == functional.end()) continue;
         ShadingModel model;
         readDef(element, model.def);
         out.models.push_back(std::move(model));
@@ -278,8 +269,7 @@ void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocum
         const NodeDef def = out.models[i].def;
         readModel(bodies[i], def, out.models[i]);
     }
-    if (!wantMaterials)
-        return;
+    if (!wantMaterials) return;
 
     Network all;
     readNodes({root, "/", false}, all.nodes);
@@ -293,19 +283,16 @@ void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocum
         return out.materials.back();
     };
     for (const NetworkNode& node : all.nodes) {
-        if (node.id != "ND_surfacematerial" && node.id != "ND_volumematerial")
-            continue;
+        if (node.id != "ND_surfacematerial" && node.id != "ND_volumematerial") continue;
         Network& material = addMaterial(node.path.substr(1));
-        for (const auto& [input, terminal] :
-             {std::pair{"surfaceshader", "surface"}, std::pair{"displacementshader", "displacement"},
-              std::pair{"volumeshader", "volume"}}) {
+        for (const auto& [input, terminal] : {std::pair{"surfaceshader", "surface"},
+                                              std::pair{"displacementshader", "displacement"},
+                                              std::pair{"volumeshader", "volume"}}) {
             const auto c = node.connections.find(input);
-            if (c != node.connections.end())
-                material.terminals[terminal] = c->second;
+            if (c != node.connections.end()) material.terminals[terminal] = c->second;
         }
     }
-    if (!out.materials.empty())
-        return;
+    if (!out.materials.empty()) return;
     for (const Element& child : root.children())
         if (!std::strcmp(child.attribute("type").value(), "surfaceshader") &&
             !otherElements.count(child.name())) {

@@ -23,7 +23,7 @@ private:
     /// Where nodes are read: a graph (or the document itself) and how its interface is resolved.
     struct Scope {
         Element element;
-        std::string prefix;     ///< of node paths
+        std::string prefix;      ///< of node paths
         bool functional = false; ///< the graph of a nodedef: interface names stay open
     };
 

@@ -1,0 +1,118 @@
+// Networks, graphs and plans as text, compared with reviewed files. After a wanted change run with
+// PATINA_UPDATE_EXPECTED=1, and review the difference.
+#include "materialNetwork/tests/materialTest.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace patina {
+
+namespace {
+
+void expectText(const std::string& name, const Network& network) {
+    Diagnostics diagnostics;
+    std::string text = explainMaterial(network, diagnostics);
+    if (diagnostics.count())
+        text += "\n" + warnings(diagnostics);
+    const std::string path = std::string(PATINA_EXPECTED_DIR) + "/" + name + ".txt";
+    if (std::getenv("PATINA_UPDATE_EXPECTED")) {
+        std::ofstream(path) << text;
+        return;
+    }
+    std::ifstream file(path);
+    ASSERT_TRUE(file) << path << " is missing";
+    std::ostringstream expected;
+    expected << file.rdbuf();
+    EXPECT_EQ(expected.str(), text);
+}
+
+NetworkNode texture(const std::string& name, const std::string& file) {
+    return makeNode(name, "UsdUVTexture",
+                    {{"file", Value::makeFilename(file)},
+                     {"wrapS", text("repeat")},
+                     {"wrapT", text("repeat")}},
+                    {{"st", {"st", "result"}}});
+}
+
+NetworkNode stReader() {
+    return makeNode("st", "UsdPrimvarReader_float2", {{"varname", text("st")}});
+}
+
+} // namespace
+
+TEST(Text, PreviewSurfaceDefault) { expectText("previewSurfaceDefault", previewNetwork()); }
+
+TEST(Text, PreviewSurfaceGlass) {
+    expectText("previewSurfaceGlass", previewNetwork({{"opacity", number(0.0f)},
+                                                      {"roughness", number(0.1f)},
+                                                      {"ior", number(1.52f)}}));
+}
+
+TEST(Text, PreviewSurfaceGoldWithCoat) {
+    expectText("previewSurfaceGoldWithCoat", previewNetwork({{"diffuseColor", color(1, 0.7f, 0.3f)},
+                                                             {"metallic", number(1.0f)},
+                                                             {"clearcoat", number(0.5f)}}));
+}
+
+TEST(Text, PreviewSurfaceTextured) {
+    expectText("previewSurfaceTextured",
+               previewNetwork({{"opacityThreshold", number(0.5f)},
+                               {"emissiveColor", grey(0.25f)}},
+                              {{"diffuseColor", {"albedo", "rgb"}},
+                               {"opacity", {"albedo", "a"}},
+                               {"normal", {"normals", "rgb"}},
+                               {"metallic", {"orm", "b"}},
+                               {"roughness", {"orm", "g"}}},
+                              {stReader(), texture("albedo", "albedo.png"),
+                               texture("normals", "normals.png"), texture("orm", "orm.png")}));
+}
+
+TEST(Text, PreviewSurfaceLeaf) {
+    expectText("previewSurfaceLeaf",
+               previewNetwork({}, {{"diffuseColor", {"leaf", "rgb"}}, {"opacity", {"leaf", "a"}}},
+                              {stReader(), texture("leaf", "leaf.png")}));
+}
+
+TEST(Text, DisplayColor) { expectText("displayColor", makeDisplayColorNetwork()); }
+
+TEST(Text, LayerOverMix) {
+    expectText(
+        "layerOverMix",
+        bsdfNetwork({makeNode("diffuse", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.5f)}}),
+                     makeNode("metal", "ND_conductor_bsdf"),
+                     makeNode("coat", "ND_dielectric_bsdf", {{"weight", number(0.5f)}}),
+                     makeNode("amount", "ND_geompropvalue_float",
+                              {{"geomprop", text("wear")}, {"default", number(0.25f)}}),
+                     makeNode("mix", "ND_mix_bsdf", {},
+                              {{"fg", {"metal", ""}}, {"bg", {"diffuse", ""}},
+                               {"mix", {"amount", ""}}}),
+                     makeNode("bsdf", "ND_layer_bsdf", {},
+                              {{"top", {"coat", ""}}, {"base", {"mix", ""}}})}));
+}
+
+TEST(Text, GlassWithAbsorption) {
+    expectText("glassWithAbsorption",
+               bsdfNetwork({makeNode("glass", "ND_dielectric_bsdf",
+                                     {{"scatter_mode", text("RT")}, {"roughness", pair(0.0f)}}),
+                            makeNode("inside", "ND_anisotropic_vdf",
+                                     {{"absorption", Value::makeVec3(1, 2, 3)}}),
+                            makeNode("bsdf", "ND_layer_vdf", {},
+                                     {{"top", {"glass", ""}}, {"base", {"inside", ""}}})}));
+}
+
+TEST(Text, EveryProblemIsNamed) {
+    expectText(
+        "everyProblemIsNamed",
+        previewNetwork({{"roughness", text("rough")}, {"sparkle", number(1.0f)}},
+                       {{"diffuseColor", {"nowhere", "rgb"}},
+                        {"metallic", {"vector", ""}},
+                        {"clearcoat", {"strange", "out"}},
+                        {"ior", {"loop", ""}}},
+                       {makeNode("vector", "ND_constant_color3", {{"value", grey(1.0f)}}),
+                        makeNode("strange", "ND_no_such_node"),
+                        makeNode("loop", "ND_add_float", {{"in2", number(1.4f)}},
+                                 {{"in1", {"loop", ""}}})}));
+}
+
+} // namespace patina

@@ -33,8 +33,13 @@ def resolve(context, attribute):
 def _anchored(attribute, context, path):
     """:returns: a path relative to the layer that says it, as an absolute one"""
     for spec in attribute.GetPropertyStack(context.time):
-        if spec.hasInfo("default") if hasattr(spec, "hasInfo") else spec.HasInfo("default"):
-            return Sdf.ComputeAssetPathRelativeToLayer(spec.layer, path) or path
+        if not spec.HasInfo("default") and not spec.HasInfo("timeSamples"):
+            continue
+        anchored = Sdf.ComputeAssetPathRelativeToLayer(spec.layer, path) or path
+        if anchored == path and not os.path.isabs(path) and ":" not in path:
+            # Looked up along the resolver's search path, where patterns are never found.
+            anchored = Sdf.ComputeAssetPathRelativeToLayer(spec.layer, "./" + path) or path
+        return anchored
     return path
 
 

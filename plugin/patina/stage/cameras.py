@@ -77,10 +77,11 @@ def emit(context, found):
 
 def _bounds(context, gprims):
     """:returns: range of the whole stage; authored extents that hold nothing are computed anew"""
-    cache = UsdGeom.BBoxCache(context.time, sorted(context.purposes), useExtentsHint=True)
-    box = cache.ComputeWorldBound(context.stage.GetPseudoRoot()).ComputeAlignedRange()
-    if _is_usable(box):
-        return box
+    if not context.cyclic:
+        cache = UsdGeom.BBoxCache(context.time, sorted(context.purposes), useExtentsHint=True)
+        box = cache.ComputeWorldBound(context.stage.GetPseudoRoot()).ComputeAlignedRange()
+        if _is_usable(box):
+            return box
     box = Gf.Range3d()
     for found in gprims:
         extent = UsdGeom.Boundable.ComputeExtentFromPlugins(UsdGeom.Boundable(found.prim), context.time)

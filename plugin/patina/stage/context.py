@@ -17,6 +17,7 @@ class Context:
         self.counts = {}
         self.notes = []
         self.reported = set()  # texts of composition errors, which pxr also prints
+        self.cyclic = False  # there are instancers that hold themselves: UsdGeom.BBoxCache never ends there
         self._xforms = {}
 
     def warn(self, prim, input_, message):

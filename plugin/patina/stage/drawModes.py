@@ -22,6 +22,8 @@ def of(prim, inherited):
 def emit(context, found, mode):
     """Draws a model's extents as lines; the axes of its origin for the mode `origin`."""
     prim = found.prim
+    if context.cyclic:
+        return
     box = UsdGeom.BBoxCache(context.time, sorted(context.purposes), useExtentsHint=True)
     extent = box.ComputeUntransformedBound(prim).ComputeAlignedRange()
     if mode == "cards":

@@ -136,6 +136,7 @@ class Walk:
             return name
         if instancer.GetPath().HasPrefix(target) or str(target) in state.group.chain:
             self.context.warn(instancer.GetPath(), "prototypes", f"{target} holds itself; it is not drawn")
+            self.context.cyclic = True
             return name
         key = (str(target), state.group.name, state.purpose, _paths(state.primvars))
         if key in self._pointed:

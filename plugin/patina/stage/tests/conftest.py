@@ -1,0 +1,73 @@
+"""Reads small stages written as text and gives the scene that came of them."""
+import re
+
+import pytest
+
+
+class Reading:
+    """A scene after one read."""
+
+    def __init__(self, stage, **options):
+        import _patina
+
+        from patina.stage import StageOptions, read_stage
+
+        self.scene = _patina.Scene()
+        with self.scene.edit() as edit:
+            self.info = read_stage(stage, edit, StageOptions(**options))
+        self.text = self.scene.dump(64)
+        self.warnings = [f"{w['prim']} {w['input']}: {w['message']}" for w in self.scene.warnings()]
+
+    def prim(self, path):
+        """:returns: dict of the dump's lines of a prim; `kind` says what it is"""
+        found, current = {}, None
+        for line in self.text.splitlines():
+            if not line.startswith(" "):
+                kind, _, name = line.partition(" ")
+                current = found.setdefault(name, {"kind": kind})
+            else:
+                key, _, value = line.strip().partition(" = ")
+                current[key] = value
+        assert path in found, f"{path} is not among {list(found)}"
+        return found[path]
+
+    def has(self, path):
+        return f" {path}\n" in self.text
+
+
+def _statements(text):
+    return re.sub(r"(?<=\S)  (?=\S)| (?=\})", "\n", text)
+
+
+def floats(text):
+    """:returns: the numbers of a dump's line"""
+    return [float(x) for x in text.replace(",", " ").split()]
+
+
+@pytest.fixture
+def read(tmp_path):
+    """A function: read(text of a usda layer, **options) -> Reading without the headlight. In the text
+    two spaces, or one and a brace, end a statement as a line's end does."""
+    Usd = pytest.importorskip("pxr.Usd")
+    pytest.importorskip("_patina")
+
+    def run(text, **options):
+        """:param text: of the layer, or the path of a file"""
+        options.setdefault("headlight", False)
+        if not isinstance(text, str):
+            return Reading(Usd.Stage.Open(str(text)), **options)
+        file = tmp_path / "stage.usda"
+        file.write_text("#usda 1.0\n" + _statements(text))
+        return Reading(Usd.Stage.Open(str(file)), **options)
+
+    return run
+
+
+@pytest.fixture
+def numbers():
+    return floats
+
+
+@pytest.fixture
+def statements():
+    return _statements

@@ -1,0 +1,146 @@
+"""Point instancers and native instances."""
+
+MATERIALS = """
+    def Material "red" { token outputs:surface.connect = </red/s.outputs:out>
+        def Shader "s" { uniform token info:id = "UsdPreviewSurface"  token outputs:out } }
+    def Material "blue" { token outputs:surface.connect = </blue/s.outputs:out>
+        def Shader "s" { uniform token info:id = "UsdPreviewSurface"  token outputs:out } }
+"""
+TREE = """
+    class Xform "tree" {
+        def Sphere "crown" { double3 xformOp:translate = (0, 1, 0)  uniform token[] xformOpOrder = ["xformOp:translate"] }
+        def Xform "leaf" (instanceable = true; inherits = </leaf>) { } }
+    class Xform "leaf" { def Cube "blade" { } }
+"""
+
+
+def place(x):
+    return f"double3 xformOp:translate = ({x}, 0, 0)  uniform token[] xformOpOrder = [\"xformOp:translate\"] "
+
+
+def test_native_instances_share_one_prototype(read, numbers):
+    reading = read(TREE + "".join(
+        f'def Xform "t{i}" (instanceable = true; inherits = </tree>) {{ {place(i)} }}\n' for i in range(3)))
+    instancer = reading.prim("/t0")
+    assert instancer["kind"] == "Instancer" and instancer["instances"] == "3"
+    assert numbers(instancer["transform 2"])[12] == 2.0
+    crown = reading.prim("/t0/crown")
+    assert crown["group"] == '"/t0"' and numbers(crown["transform"])[13] == 1.0
+    # nested: the leaf is an instance inside of the tree's group, once
+    leaf = reading.prim("/t0/leaf")
+    assert leaf["kind"] == "Instancer" and leaf["group"] == '"/t0"' and leaf["instances"] == "1"
+    assert reading.prim("/t0/leaf/blade")["group"] == '"/t0/leaf"'
+    assert reading.text.count("Implicit ") == 2
+
+
+def test_instances_inherit_from_where_they_stand(read):
+    reading = read(MATERIALS + TREE + """
+    def Xform "a" (instanceable = true; inherits = </tree>; prepend apiSchemas = ["MaterialBindingAPI"]) {
+        rel material:binding = </red> }
+    def Xform "b" (instanceable = true; inherits = </tree>; prepend apiSchemas = ["MaterialBindingAPI"]) {
+        rel material:binding = </blue>  color3f[] primvars:displayColor = [(1, 0, 0)] }
+    def Xform "c" (instanceable = true; inherits = </tree>; prepend apiSchemas = ["MaterialBindingAPI"]) {
+        rel material:binding = </red> }
+    def Xform "hidden" (instanceable = true; inherits = </tree>) { token visibility = "invisible" }
+    def Xform "guides" { uniform token purpose = "guide"
+        def Xform "d" (instanceable = true; inherits = </tree>) { } }""")
+    assert reading.prim("/a")["instances"] == "2"
+    assert reading.prim("/a/crown")["material"] == '"/red"'
+    assert reading.prim("/b/crown")["material"] == '"/blue"'
+    assert reading.prim("/b/crown")["primvar displayColor constant x3"] == "1 0 0"
+    assert reading.prim("/b/leaf/blade")["material"] == '"/blue"'
+    assert not reading.has("/hidden") and not reading.has("/guides/d/crown")
+
+
+def test_bindings_inside_a_prototype_are_stronger_unless_told_otherwise(read):
+    text = MATERIALS + """
+    class Xform "p" { def Sphere "s" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </p/own>  }
+        def Material "own" { token outputs:surface.connect = </p/own/s.outputs:out>
+            def Shader "s" { uniform token info:id = "UsdPreviewSurface"  token outputs:out } } }
+    def Xform "i" (instanceable = true; inherits = </p>; prepend apiSchemas = ["MaterialBindingAPI"]) {
+        rel material:binding = </red> %s }"""
+    weak = read(text % "")
+    assert weak.prim("/i/s")["material"] == '"/i/own"'
+    assert weak.prim("/i/own")["node /i/own/s"] == "UsdPreviewSurface"
+    assert read(text % '(bindMaterialAs = "strongerThanDescendants")').prim("/i/s")["material"] == '"/red"'
+
+
+POINTED = """
+    def PointInstancer "pi" {
+        %s
+        rel prototypes = [</pi/protos/ball>, </over>]
+        point3f[] positions = [(0,0,0), (1,0,0), (2,0,0), (3,0,0)]
+        int[] protoIndices = [0, 1, 0, 1]
+        int64[] ids = [10, 11, 12, 13]
+        float[] primvars:heat = [0.1, 0.2, 0.3, 0.4] (interpolation = "varying")
+        def Scope "protos" { token visibility = "invisible"
+            def Xform "ball" { double3 xformOp:translate = (0, 5, 0)  uniform token[] xformOpOrder = ["xformOp:translate"]
+                def Sphere "s" { } } } }
+    over "over" { def Cube "c" { } }
+    class "class" { def Cube "c" { } }
+"""
+
+
+def test_point_instancer(read, numbers):
+    reading = read(POINTED % "")
+    pi = reading.prim("/pi")
+    assert pi["prototypes"] == "/pi[0] /pi[1]" and pi["prototypeIndices"] == "0 1 0 1"
+    assert [numbers(pi[f"transform {i}"])[12] for i in (1, 2, 3)] == [1, 2, 3] and "transform 0" not in pi
+    assert pi["ids"] == "10 11 12 13"
+    assert pi["primvar heat vertex"] == "0.1 0.2 0.3 0.4"
+    ball = reading.prim("/pi/protos/ball/s")
+    assert ball["group"] == '"/pi[0]"' and numbers(ball["transform"])[13] == 5.0  # the prototype's own transform
+    assert reading.prim("/pi/over/c")["group"] == '"/pi[1]"'
+
+
+def test_hidden_instances(read):
+    pi = read(POINTED % "int64[] invisibleIds = [11]").prim("/pi")
+    assert pi["ids"] == "10 12 13" and pi["prototypeIndices"] == "0 0 1" and pi["instances"] == "3"
+    assert pi["primvar heat vertex"] == "0.1 0.3 0.4"
+    inactive = read(POINTED.replace('"pi" {', '"pi" (inactiveIds = [10]) {', 1) % "").prim("/pi")
+    assert inactive["ids"] == "11 12 13"
+
+
+def test_orientations_and_velocities(read, numbers):
+    reading = read("""def Camera "cam" { double shutter:close = 1 }
+    def PointInstancer "pi" { rel prototypes = </pi/s>
+        point3f[] positions.timeSamples = { 0: [(0,0,0)] }
+        vector3f[] velocities.timeSamples = { 0: [(24,0,0)] }
+        int[] protoIndices = [0]
+        quath[] orientations = [(0.7071, 0, 0, 0.7071)]
+        float3[] scales = [(2, 2, 2)]
+        def Sphere "s" { } }""", frame=0.0)
+    pi = reading.prim("/pi")
+    start, end = numbers(pi["transform 0@0"]), numbers(pi["transform 0@1"])
+    assert abs(start[1] - 2.0) < 1e-2 and abs(start[0]) < 1e-2  # x turns to y, twice as long
+    assert start[12] == 0.0 and end[12] == 1.0
+
+
+def test_nested_and_broken_instancers(read):
+    reading = read("""
+    def PointInstancer "outer" { rel prototypes = [</outer/inner>, </missing>, </outer>]
+        int[] protoIndices = [0, 0, 7]
+        point3f[] positions = [(0,0,0), (nan,0,0), (0,0,0)]
+        def PointInstancer "inner" { rel prototypes = </outer/inner/s>
+            int[] protoIndices = [0, 0]
+            point3f[] positions = [(0,0,0), (1,0,0)]
+            def Sphere "s" { } } }
+    def PointInstancer "short" { rel prototypes = </short/s>  int[] protoIndices = [0, 0]
+        point3f[] positions = [(0,0,0)]
+        def Sphere "s" { } }""")
+    inner = reading.prim("/outer/inner")
+    assert inner["group"] == '"/outer[0]"' and inner["instances"] == "2"
+    assert reading.prim("/outer/inner/s")["group"] == '"/outer/inner[0]"'
+    assert reading.prim("/outer")["instances"] == "1"
+    said = "\n".join(reading.warnings)
+    for part in ("there is no prim /missing", "/outer holds itself", "1 indices that no prototype has",
+                 "1 instances that are not finite", "/short positions:"):
+        assert part in said, said
+    assert not reading.has("/short")
+
+
+def test_instancers_that_hold_each_other_end(read):
+    reading = read("""
+    def PointInstancer "a" { rel prototypes = </b>  int[] protoIndices = [0]  point3f[] positions = [(0,0,0)] }
+    def PointInstancer "b" { rel prototypes = </a>  int[] protoIndices = [0]  point3f[] positions = [(0,0,0)] }""")
+    assert any("holds itself" in w for w in reading.warnings)

@@ -1,0 +1,118 @@
+"""UsdLux lights, linking, and the headlight."""
+import pytest
+
+
+def test_every_light(read):
+    reading = read("""
+    def DistantLight "distant" { float inputs:angle = 1.5  float inputs:intensity = 3 }
+    def DomeLight "dome" { token inputs:texture:format = "angular"  asset inputs:texture:file = @sky.exr@ }
+    def SphereLight "sphere" { float inputs:radius = 2  bool treatAsPoint = 1  float inputs:exposure = 2 }
+    def DiskLight "disk" { float inputs:radius = 3  bool inputs:normalize = 1 }
+    def RectLight "rect" { float inputs:width = 4  float inputs:height = 5  asset inputs:texture:file = @a.png@ }
+    def CylinderLight "cylinder" { float inputs:length = 6  bool treatAsLine = 1 }
+    def PortalLight "portal" { }""")
+    for name in ("distant", "dome", "sphere", "disk", "rect", "cylinder"):
+        assert reading.prim("/" + name)["type"] == name
+    assert reading.prim("/distant")["angle"] == "1.5" and reading.prim("/distant")["intensity"] == "3"
+    assert reading.prim("/dome")["textureFormat"] == '"angular"'
+    assert reading.prim("/dome")["textureFile"].endswith('sky.exr"')
+    assert reading.prim("/sphere")["treatAsPoint"] == "true" and reading.prim("/sphere")["exposure"] == "2"
+    assert reading.prim("/disk")["normalize"] == "true"
+    assert reading.prim("/rect")["width"] == "4" and reading.prim("/rect")["height"] == "5"
+    assert reading.prim("/cylinder")["length"] == "6" and reading.prim("/cylinder")["treatAsLine"] == "true"
+    assert any(w.startswith("/portal : prims of type PortalLight") for w in reading.warnings)
+
+
+def test_fallbacks_of_the_schemas(read):
+    reading = read("""
+    def DistantLight "distant" { }
+    def SphereLight "sphere" { }
+    def DiskLight "disk" { }""")
+    assert reading.prim("/distant")["intensity"] == "50000"
+    assert "radius" not in reading.prim("/sphere") and "intensity" not in reading.prim("/sphere")
+
+
+def test_colour_shaping_and_shadow(read):
+    light = read("""def SphereLight "l" (prepend apiSchemas = ["ShapingAPI", "ShadowAPI"]) {
+        color3f inputs:color = (1, 0.5, 0.25)
+        bool inputs:enableColorTemperature = 1
+        float inputs:colorTemperature = 3000
+        float inputs:diffuse = 0.5
+        float inputs:specular = 0.25
+        float inputs:shaping:cone:angle = 30
+        float inputs:shaping:cone:softness = 0.5
+        float inputs:shaping:focus = 4
+        color3f inputs:shaping:focusTint = (1, 0, 0)
+        asset inputs:shaping:ies:file = @lamp.ies@
+        float inputs:shaping:ies:angleScale = 0.5
+        bool inputs:shaping:ies:normalize = 1
+        bool inputs:shadow:enable = 0
+        color3f inputs:shadow:color = (0, 0, 1) }""").prim("/l")
+    assert light["color"] == "1 0.5 0.25"
+    assert light["enableColorTemperature"] == "true" and light["colorTemperature"] == "3000"
+    assert light["diffuse"] == "0.5" and light["specular"] == "0.25"
+    assert light["shapingConeAngle"] == "30" and light["shapingConeSoftness"] == "0.5"
+    assert light["shapingFocus"] == "4" and light["shapingFocusTint"] == "1 0 0"
+    assert light["iesFile"].endswith('lamp.ies"') and light["iesNormalize"] == "true"
+    assert light["iesAngleScale"] == "0.5"
+    assert light["shadowEnable"] == "false" and light["shadowColor"] == "0 0 1"
+    assert light["shapingConeAuthored"] == "true"
+
+
+def test_names_from_before_inputs(read):
+    light = read('def SphereLight "l" { float intensity = 7  float radius = 2  float shaping:cone:angle = 20 }').prim("/l")
+    assert light["intensity"] == "7" and light["radius"] == "2" and light["shapingConeAngle"] == "20"
+
+
+def test_mesh_light(read):
+    reading = read("""def Mesh "m" (prepend apiSchemas = ["MeshLightAPI"]) {
+        float inputs:intensity = 9
+        int[] faceVertexCounts = [3]  int[] faceVertexIndices = [0, 1, 2]
+        point3f[] points = [(0,0,0), (1,0,0), (0,1,0)] }
+    def SphereLight "invisible" { token visibility = "invisible" }""")
+    assert reading.prim("/m")["kind"] == "Mesh"
+    light = reading.prim("/m.light")
+    assert light["type"] == "mesh" and light["geometry"] == '"/m"' and light["intensity"] == "9"
+    assert not reading.has("/invisible")
+
+
+def test_linking_by_collections(read):
+    reading = read("""
+    def SphereLight "some" (prepend apiSchemas = ["CollectionAPI:lightLink"]) {
+        bool collection:lightLink:includeRoot = 0
+        rel collection:lightLink:includes = </in> }
+    def SphereLight "all" { }
+    def SphereLight "shadow" (prepend apiSchemas = ["CollectionAPI:shadowLink"]) {
+        rel collection:shadowLink:excludes = </out> }
+    def Sphere "in" { }
+    def Sphere "out" { }
+    def Xform "t" (instanceable = true; inherits = </tree>) { }
+    def PointInstancer "pi" { rel prototypes = </tree>  int[] protoIndices = [0]  point3f[] positions = [(0,0,0)] }
+    class Xform "tree" { def Sphere "s" { } }""")
+    assert reading.prim("/some")["lightLink"] == '"/some.collection:lightLink"'
+    assert "lightLink" not in reading.prim("/all") and "shadowLink" not in reading.prim("/all")
+    assert reading.prim("/shadow")["shadowLink"] == '"/shadow.collection:shadowLink"'
+    assert reading.prim("/in")["categories"] == "/some.collection:lightLink /shadow.collection:shadowLink"
+    assert "categories" not in reading.prim("/out")
+    assert reading.prim("/t")["categories 0"] == "/shadow.collection:shadowLink"
+    assert reading.prim("/pi")["categories 0"] == "/shadow.collection:shadowLink"
+
+
+@pytest.mark.parametrize("up,pole,turned", [("Y", "scene", False), ("Z", "scene", True), ("Y", "Z", True), ("Z", "Y", False)])
+def test_pole_of_a_dome(read, numbers, up, pole, turned):
+    from pxr import UsdLux
+    if not hasattr(UsdLux, "DomeLight_1"):
+        pytest.skip("this pxr has no DomeLight_1")
+    dome = read(f'(upAxis = "{up}")\ndef DomeLight_1 "d" {{ token poleAxis = "{pole}" }}\ndef DomeLight "old" {{ }}').prim("/d")
+    if turned:  # +Y of the texture's own frame goes to +Z
+        assert [round(x, 6) for x in numbers(dome["transform"])[4:7]] == [0, 0, 1]
+    else:
+        assert "transform" not in dome
+
+
+def test_headlight_only_without_lights(read):
+    dark = read('def Sphere "s" { }', headlight=True)
+    assert dark.info.headlight and dark.prim("/patinaHeadlight/distant")["normalize"] == "true"
+    assert any("headlight" in note for note in dark.info.notes)
+    assert not read('def Sphere "s" { }  def DistantLight "l" { }', headlight=True).info.headlight
+    assert not read('def Sphere "s" { }').info.headlight

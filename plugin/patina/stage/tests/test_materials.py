@@ -1,0 +1,141 @@
+"""Material networks, textures, and what can be wrong with them."""
+import os
+import zipfile
+
+import pytest
+
+
+def material(body, name="m"):
+    return f'def Material "{name}" {{ {body} }}\ndef Sphere "ball{name}" (prepend apiSchemas = ["MaterialBindingAPI"]) {{ rel material:binding = </{name}> }}\n'
+
+
+SHADER = """
+    token outputs:surface.connect = </m/s.outputs:out>
+    color3f inputs:tint = (0.1, 0.2, 0.3)
+    def Shader "s" {
+        uniform token info:id = "UsdPreviewSurface"
+        %s
+        token outputs:out }
+"""
+
+
+def test_values_of_each_type(read):
+    m = read(material(SHADER % """
+        float inputs:roughness = 0.25
+        int inputs:useSpecularWorkflow = 1
+        color3f inputs:diffuseColor = (1, 0.5, 0) (colorSpace = "lin_rec709")
+        normal3f inputs:normal = (0, 0, 1)
+        token inputs:mode = "word"
+        bool inputs:flag = 1
+        matrix4d inputs:m = ((1,0,0,0),(0,1,0,0),(0,0,1,0),(2,0,0,1))
+        double inputs:d = 0.5
+        float inputs:unset
+    """)).prim("/m")
+    assert m["terminal surface"] == "/m/s.out" and m["node /m/s"] == "UsdPreviewSurface"
+    assert m["float roughness"] == "0.25" and m["integer useSpecularWorkflow"] == "1"
+    assert m["color3 diffuseColor"] == "1 0.5 0" and m["colorSpace diffuseColor"] == "lin_rec709"
+    assert m["vector3 normal"] == "0 0 1" and m["string mode"] == '"word"' and m["boolean flag"] == "1"
+    assert m["matrix44 m"].endswith("2 0 0 1") and m["float d"] == "0.5"
+    assert not any("unset" in key for key in m)
+
+
+def test_connections_and_interfaces(read):
+    m = read(material(SHADER % """
+        color3f inputs:diffuseColor.connect = </m/graph.outputs:result>
+        color3f inputs:emissiveColor.connect = </m.inputs:tint>
+    """ + """
+    def NodeGraph "graph" {
+        float inputs:gain = 0.75
+        color3f outputs:result.connect = </m/graph/tex.outputs:rgb>
+        def Shader "tex" { uniform token info:id = "UsdUVTexture"
+            float inputs:fallback.connect = </m/graph.inputs:gain>
+            color3f outputs:rgb } }""")).prim("/m")
+    assert m["connect diffuseColor"] == "/m/graph/tex.rgb"
+    assert m["color3 emissiveColor"] == "0.1 0.2 0.3"
+    assert m["node /m/graph/tex"] == "UsdUVTexture" and m["float fallback"] == "0.75"
+
+
+def test_mtlx_context_is_preferred(read):
+    m = read(material("""
+        token outputs:surface.connect = </m/plain.outputs:out>
+        token outputs:mtlx:surface.connect = </m/x.outputs:out>
+        token outputs:displacement.connect = </m/plain.outputs:out>
+        def Shader "plain" { uniform token info:id = "UsdPreviewSurface"  token outputs:out }
+        def Shader "x" { uniform token info:id = "ND_standard_surface_surfaceshader"  token outputs:out }""")).prim("/m")
+    assert m["terminal surface"] == "/m/x.out" and m["terminal displacement"] == "/m/plain.out"
+
+
+BROKEN = {
+    "in a cycle": ("color3f inputs:diffuseColor.connect = </m/a.outputs:o>", """
+        def NodeGraph "a" { color3f outputs:o.connect = </m/b.outputs:o> }
+        def NodeGraph "b" { color3f outputs:o.connect = </m/a.outputs:o> }"""),
+    "does not exist": ("color3f inputs:diffuseColor.connect = </m/nowhere.outputs:o>", ""),
+    "info:id: is not authored": ("color3f inputs:diffuseColor.connect = </m/x.outputs:o>", """
+        def Shader "x" { color3f outputs:o }"""),
+    "values of type float[] cannot be used": ("float[] inputs:many = [1, 2]", ""),
+}
+
+
+@pytest.mark.parametrize("said", BROKEN)
+def test_broken_networks_are_warned_of(read, said):
+    inputs, rest = BROKEN[said]
+    reading = read(material(SHADER % inputs + rest))
+    assert any(said in w for w in reading.warnings), reading.warnings
+    assert reading.prim("/m")["node /m/s"] == "UsdPreviewSurface"
+
+
+def test_nodes_in_a_cycle_end(read):
+    reading = read(material(SHADER % "color3f inputs:diffuseColor.connect = </m/a.outputs:o>" + """
+    def Shader "a" { uniform token info:id = "UsdUVTexture"  color3f inputs:x.connect = </m/b.outputs:o>  color3f outputs:o }
+    def Shader "b" { uniform token info:id = "UsdUVTexture"  color3f inputs:x.connect = </m/a.outputs:o>  color3f outputs:o }"""))
+    assert reading.text.count("connect x = ") == 2  # the network keeps the cycle; its expansion cuts it
+
+
+def test_materials_of_other_renderers_are_named(read):
+    reading = read(material("""token outputs:ri:surface.connect = </m/s.outputs:out>
+        def Shader "s" { uniform token info:id = "PxrSurface"  token outputs:out }"""))
+    assert any("outputs:ri:surface" in w for w in reading.warnings)
+
+
+def test_textures_are_resolved(read, tmp_path):
+    (tmp_path / "a.png").write_bytes(b"png")
+    (tmp_path / "t.1001.png").write_bytes(b"png")
+    m = read(material(SHADER % """
+        asset inputs:file = @./a.png@ (colorSpace = "srgb_texture")
+        asset inputs:tiles = @./t.<UDIM>.png@
+        asset inputs:missing = @./none.png@
+    """)).prim("/m")
+    assert m["filename file"] == f'"{tmp_path}/a.png"' and m["colorSpace file"] == "srgb_texture"
+    assert m["filename tiles"] == f'"{tmp_path}/t.<UDIM>.png"'
+    assert m["filename missing"] == f'"{tmp_path}/none.png"'
+
+
+def test_textures_inside_a_package(read, statements, tmp_path):
+    inner = tmp_path / "inner.usda"
+    inner.write_text("#usda 1.0\n" + statements(material(SHADER % "asset inputs:file = @tex/a.png@\nasset inputs:tiles = @tex/t.<UDIM>.png@\n")))
+    package = tmp_path / "p.usdz"
+    with zipfile.ZipFile(package, "w", zipfile.ZIP_STORED) as z:
+        for name, data in (("inner.usda", inner.read_bytes()), ("tex/a.png", b"first"), ("tex/t.1002.png", b"tile")):
+            info = zipfile.ZipInfo(name)
+            offset = z.fp.tell() + 30 + len(name)
+            pad = (64 - (offset + 4) % 64) % 64
+            info.extra = b"\x86\x19" + pad.to_bytes(2, "little") + b"\0" * pad
+            z.writestr(info, data)
+    m = read(package).prim("/m")
+    with open(m["filename file"].strip('"'), "rb") as file:
+        assert file.read() == b"first"
+    tiles = m["filename tiles"].strip('"')
+    assert "<UDIM>" in tiles and os.path.exists(tiles.replace("<UDIM>", "1002"))
+
+
+def test_references_to_materialx_documents(read, tmp_path):
+    (tmp_path / "doc.mtlx").write_text("""<?xml version="1.0"?><materialx version="1.39">
+        <standard_surface name="shader" type="surfaceshader"><input name="base" type="float" value="0.3"/></standard_surface>
+        <surfacematerial name="Look" type="material"><input name="surfaceshader" type="surfaceshader" nodename="shader"/></surfacematerial>
+        </materialx>""")
+    reading = read("""
+    def Scope "mtl" (references = @./doc.mtlx@</MaterialX/Materials>) { }
+    def Sphere "s" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </mtl/Look> }""")
+    assert reading.prim("/s")["material"] == '"/mtl/Look"'
+    assert reading.prim("/mtl/Look")["float base"] == "0.3"
+    assert not reading.warnings

@@ -1,0 +1,145 @@
+"""Meshes, primvars, subsets, purposes and visibility."""
+
+QUAD = """
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+"""
+
+
+def test_every_field_of_a_subdivided_mesh(read):
+    mesh = read("""def Mesh "m" {
+        uniform token subdivisionScheme = "loop"
+        uniform token interpolateBoundary = "edgeOnly"
+        uniform token faceVaryingLinearInterpolation = "all"
+        uniform token triangleSubdivisionRule = "smooth"
+        uniform token orientation = "leftHanded"
+        uniform bool doubleSided = 1
+        int[] holeIndices = [0]
+        int[] creaseIndices = [0, 1]
+        int[] creaseLengths = [2]
+        float[] creaseSharpnesses = [3.5]
+        int[] cornerIndices = [2]
+        float[] cornerSharpnesses = [10]
+        """ + QUAD + "}", complexity="high").prim("/m")
+    assert mesh["kind"] == "Mesh"
+    assert mesh["scheme"] == "loop"
+    assert mesh["interpolateBoundary"] == '"edgeOnly"'
+    assert mesh["faceVaryingLinearInterpolation"] == '"all"'
+    assert mesh["triangleSubdivisionRule"] == '"smooth"'
+    assert mesh["leftHanded"] == "true" and "doubleSided" not in mesh
+    assert mesh["points"] == "0 0 0, 1 0 0, 1 1 0, 0 1 0"
+    assert mesh["faceVertexCounts"] == "4" and mesh["faceVertexIndices"] == "0 1 2 3"
+    assert mesh["holeIndices"] == "0"
+    assert mesh["creaseIndices"] == "0 1" and mesh["creaseLengths"] == "2" and mesh["creaseSharpnesses"] == "3.5"
+    assert mesh["cornerIndices"] == "2" and mesh["cornerSharpnesses"] == "10"
+    assert mesh["refineLevel"] == "2"
+
+
+def test_primvars_of_each_kind(read):
+    mesh = read("""def Xform "x" {
+        color3f[] primvars:displayColor = [(1, 0, 0)]
+        float primvars:shade = 0.5
+        float primvars:own = 1
+        def Mesh "m" {
+            float primvars:own = 2
+            texCoord2f[] primvars:st = [(0, 0), (1, 1)] (interpolation = "faceVarying")
+            int[] primvars:st:indices = [0, 1, 1, 0]
+            half3[] primvars:h = [(0.5, 0.25, 1)] (interpolation = "uniform")
+            double[] primvars:d = [1, 2, 3, 4] (interpolation = "vertex")
+            float[] primvars:wide = [1, 2, 3, 4] (interpolation = "uniform"; elementSize = 4)
+            string primvars:text = "left out"
+            matrix4d[] primvars:m = [((1,0,0,0),(0,1,0,0),(0,0,1,0),(5,0,0,1))]
+            int[] primvars:skel:jointIndices = [1]
+            """ + QUAD + "} }").prim("/x/m")
+    assert mesh["primvar displayColor constant x3"] == "1 0 0"
+    assert mesh["primvar shade constant"] == "0.5"
+    assert mesh["primvar own constant"] == "2"
+    assert mesh["primvar st faceVarying x2"] == "0 0, 1 1"
+    assert mesh["primvar st indices"] == "0 1 1 0"
+    assert mesh["primvar h uniform x3"] == "0.5 0.25 1"
+    assert mesh["primvar d vertex"] == "1 2 3 4"
+    assert mesh["primvar wide uniform x4"] == "1 2 3 4"
+    assert mesh["primvar m constant x16"].endswith("5 0 0 1")
+    assert not any("text" in key or "skel" in key for key in mesh)
+
+
+def test_primvar_normals_stand_above_normals(read):
+    text = 'def Mesh "m" { uniform token subdivisionScheme = "none"\n normal3f[] normals = [(0, 0, 1)] (interpolation = "uniform")\n%s' + QUAD + "}"
+    assert read(text % "").prim("/m")["primvar normals uniform x3"] == "0 0 1"
+    mesh = read(text % 'normal3f[] primvars:normals = [(0, 1, 0)] (interpolation = "constant")').prim("/m")
+    assert mesh["primvar normals constant x3"] == "0 1 0"
+    assert "primvar normals uniform x3" not in mesh
+
+
+def test_subsets_and_inherited_bindings(read):
+    reading = read("""
+    def Material "red" { token outputs:surface.connect = </red/s.outputs:out>
+        def Shader "s" { uniform token info:id = "UsdPreviewSurface"  token outputs:out } }
+    def Material "blue" { token outputs:surface.connect = </blue/s.outputs:out>
+        def Shader "s" { uniform token info:id = "UsdPreviewSurface"  token outputs:out } }
+    def Xform "x" (prepend apiSchemas = ["MaterialBindingAPI"]) {
+        rel material:binding = </red>
+        def Mesh "m" {""" + QUAD + """
+            def GeomSubset "part" (prepend apiSchemas = ["MaterialBindingAPI"]) {
+                uniform token elementType = "face"
+                uniform token familyName = "materialBind"
+                int[] indices = [0]
+                rel material:binding = </blue>
+            }
+            def GeomSubset "other" { uniform token familyName = "selection"  int[] indices = [0] }
+        } }""")
+    mesh = reading.prim("/x/m")
+    assert mesh["material"] == '"/red"'
+    assert mesh['subset /x/m/part material "/blue"'] == "0"
+    assert not any("other" in key for key in mesh)
+    assert reading.prim("/blue")["terminal surface"] == "/blue/s.out"
+    assert reading.info.counts["materials"] == 2
+
+
+def test_full_purpose_bindings_and_collections(read):
+    reading = read("""
+    def Material "a" { token outputs:surface.connect = </a/s.outputs:out>
+        def Shader "s" { uniform token info:id = "UsdPreviewSurface"  token outputs:out } }
+    def Material "b" { token outputs:surface.connect = </b/s.outputs:out>
+        def Shader "s" { uniform token info:id = "UsdPreviewSurface"  token outputs:out } }
+    def Xform "x" (prepend apiSchemas = ["MaterialBindingAPI", "CollectionAPI:some"]) {
+        rel collection:some:includes = </x/c>
+        rel material:binding:collection:some = [</x.collection:some>, </b>]
+        def Sphere "f" (prepend apiSchemas = ["MaterialBindingAPI"]) {
+            rel material:binding = </b>
+            rel material:binding:full = </a> }
+        def Sphere "c" { } }""")
+    assert reading.prim("/x/f")["material"] == '"/a"'
+    assert reading.prim("/x/c")["material"] == '"/b"'
+
+
+def test_visibility_at_the_frame_and_purposes(read):
+    text = """(startTimeCode = 1)
+    def Sphere "s" { token visibility.timeSamples = { 1: "inherited", 2: "invisible" } }
+    def Xform "h" { token visibility = "invisible"
+        def Sphere "below" { }
+        def Camera "cam" { } }
+    def Xform "g" { uniform token purpose = "guide"
+        def Sphere "guide" { }
+        def Sphere "drawn" { uniform token purpose = "render" } }
+    def Sphere "p" { uniform token purpose = "proxy" }"""
+    first = read(text, frame=1.0)
+    assert first.has("/s") and not first.has("/h/below")
+    assert not first.has("/g/guide") and first.has("/g/drawn") and not first.has("/p")
+    assert first.info.camera == "/h/cam"
+    assert not read(text, frame=2.0).has("/s")
+    assert read(text, frame=1.0, purposes=("proxy",)).has("/p")
+    assert not read(text, frame=1.0, purposes=("proxy",)).has("/g/drawn")
+
+
+def test_wrong_types_and_unknown_tokens_are_warned_of(read):
+    reading = read("""
+    def Mesh "ints" { int[] faceVertexCounts = [3]  int[] faceVertexIndices = [0, 1, 2]  int[] points = [0, 1, 2] }
+    def Mesh "token" { uniform token subdivisionScheme = "nonsense" """ + QUAD + """ }
+    def NurbsPatch "nurbs" { }
+    def Sphere "fine" { }""")
+    assert any(w.startswith("/ints points:") for w in reading.warnings)
+    assert any(w.startswith("/token subdivisionScheme: 'nonsense' is unknown") for w in reading.warnings)
+    assert any(w.startswith("/nurbs : prims of type NurbsPatch") for w in reading.warnings)
+    assert reading.has("/fine") and "scheme" in reading.prim("/token")

@@ -1,0 +1,91 @@
+"""Implicit prims, curves, points and transforms."""
+
+
+def test_every_implicit_prim(read):
+    reading = read("""
+    def Sphere "sphere" { double radius = 3 }
+    def Cube "cube" { double size = 4 }
+    def Cone "cone" { uniform token axis = "X"  double height = 5  double radius = 0.5 }
+    def Cylinder "cylinder" { uniform token axis = "Y"  double height = 6 }
+    def Capsule "capsule" { }
+    def Plane "plane" { double width = 7  double length = 8 }
+    def Cylinder_1 "tapered" { double radiusBottom = 1  double radiusTop = 0.25 }
+    def Capsule_1 "taperedCapsule" { double radiusBottom = 0.75  double radiusTop = 0.5 }""")
+    assert reading.prim("/sphere")["radius"] == "3"
+    assert reading.prim("/cube")["size"] == "4"
+    cone = reading.prim("/cone")
+    assert cone["shape"] == "cone" and cone["height"] == "5" and cone["radius"] == "0.5" and cone.get("axis") == "0"
+    assert reading.prim("/cylinder")["axis"] == "1" and reading.prim("/cylinder")["height"] == "6"
+    capsule = reading.prim("/capsule")
+    assert capsule["radius"] == "0.5" and capsule["height"] == "1"
+    assert reading.prim("/plane")["width"] == "7" and reading.prim("/plane")["length"] == "8"
+    assert reading.prim("/tapered")["radiusTop"] == "0.25"
+    assert reading.prim("/taperedCapsule")["radius"] == "0.75"
+    assert reading.info.counts["capsule"] == 2
+
+
+def test_curves(read):
+    reading = read("""
+    def BasisCurves "ribbon" {
+        uniform token type = "cubic"
+        uniform token basis = "bspline"
+        uniform token wrap = "pinned"
+        int[] curveVertexCounts = [4]
+        point3f[] points = [(0,0,0), (1,0,0), (2,0,0), (3,0,0)]
+        float[] widths = [0.1, 0.2] (interpolation = "varying")
+        normal3f[] normals = [(0,0,1)] (interpolation = "constant") }
+    def BasisCurves "line" { uniform token type = "linear"  uniform token basis = "bspline"
+        int[] curveVertexCounts = [2]  point3f[] points = [(0,0,0), (1,0,0)] }""")
+    ribbon = reading.prim("/ribbon")
+    assert (ribbon["basis"], ribbon["wrap"], ribbon["curveVertexCounts"]) == ("bspline", "pinned", "4")
+    assert ribbon["primvar widths varying"] == "0.1 0.2"
+    assert ribbon["primvar normals constant x3"] == "0 0 1"
+    assert reading.prim("/line")["basis"] == "linear"
+
+
+def test_points(read):
+    points = read("""def Points "p" { point3f[] points = [(1,2,3), (4,5,6)]  float[] widths = [0.5, 1] }""").prim("/p")
+    assert points["points"] == "1 2 3, 4 5 6" and points["primvar widths vertex"] == "0.5 1"
+
+
+def test_transforms_and_reset(read, numbers):
+    reading = read("""def Xform "a" { double3 xformOp:translate = (1, 2, 3)
+        float3 xformOp:scale = (2, 2, 2)
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
+        def Sphere "in" { double3 xformOp:translate = (1, 0, 0)  uniform token[] xformOpOrder = ["xformOp:translate"] }
+        def Sphere "out" { double3 xformOp:translate = (1, 0, 0)
+            uniform token[] xformOpOrder = ["!resetXformStack!", "xformOp:translate"] } }""")
+    assert numbers(reading.prim("/a/in")["transform"]) == [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 3, 2, 3, 1]
+    assert numbers(reading.prim("/a/out")["transform"])[12:] == [1, 0, 0, 1]
+
+
+MOVING = """(timeCodesPerSecond = 24)
+    def Camera "cam" { double shutter:open = -0.25  double shutter:close = 0.25 }
+    def Xform "x" { double3 xformOp:translate.timeSamples = { 0: (0, 0, 0), 2: (2, 0, 0) }
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        def Sphere "moved" { } }
+    def Points "samples" { point3f[] points.timeSamples = { 0: [(0,0,0)], 1: [(1,0,0)], 2: [(0,0,0)] } }
+    def Points "velocity" { point3f[] points.timeSamples = { 1: [(0,0,0)] }
+        vector3f[] velocities.timeSamples = { 1: [(24,0,0)] } }
+    def Sphere "still" { }"""
+
+
+def test_motion_samples_inside_the_shutter(read, numbers):
+    reading = read(MOVING, frame=1.0)
+    assert reading.info.shutter == (-0.25, 0.25)
+    moved = reading.prim("/x/moved")
+    assert numbers(moved["transform@-0.25"])[12] == 0.75 and numbers(moved["transform@0.25"])[12] == 1.25
+    samples = reading.prim("/samples")
+    assert numbers(samples["points@-0.25"])[0] == 0.75
+    assert numbers(samples["points@0"])[0] == 1.0  # the authored sample inside
+    assert numbers(samples["points@0.25"])[0] == 0.75
+    velocity = reading.prim("/velocity")
+    assert numbers(velocity["points@-0.25"])[0] == -0.25 and numbers(velocity["points@0.25"])[0] == 0.25
+    assert "transform" not in reading.prim("/still")
+
+
+def test_no_motion_without_a_shutter(read, numbers):
+    reading = read(MOVING, frame=1.0, shutter=(0.0, 0.0))
+    assert numbers(reading.prim("/x/moved")["transform"])[12] == 1.0
+    assert "points@0.25" not in reading.prim("/samples")
+    assert "transform" not in read(MOVING).prim("/x/moved")  # default time

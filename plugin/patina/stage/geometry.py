@@ -8,9 +8,10 @@ from .primvars import add_builtin, read_primvars
 from .transforms import transform_of
 
 _AXES = {"X": 0, "Y": 1, "Z": 2}
-_SIZES = {  # kind -> names of the attributes that are sizes
-    "sphere": ("radius",), "cube": ("size",), "cone": ("height", "radius"), "cylinder": ("height", "radius"),
-    "capsule": ("height", "radius"), "plane": ("width", "length"),
+_SIZES = {  # kind -> attributes that are sizes, with the schemas' fallbacks
+    "sphere": {"radius": 1.0}, "cube": {"size": 2.0}, "cone": {"height": 2.0, "radius": 1.0},
+    "cylinder": {"height": 2.0, "radius": 1.0}, "capsule": {"height": 1.0, "radius": 0.5},
+    "plane": {"width": 2.0, "length": 2.0},
 }
 
 
@@ -24,9 +25,9 @@ def emit(context, found, kind, bound, categories):
         "transform": skin.transform(context, group.anchor) if skin else transform_of(context, prim, group.anchor),
         "material": material,
         "categories": categories,
-        "double_sided": bool(get(prim, "doubleSided", context.time, False)),
-        "left_handed": get(prim, "orientation", context.time) == "leftHanded",
-        "primvars": read_primvars(context, prim, found.state.primvars),
+        "double_sided": bool(found.authored("doubleSided", context.time)),
+        "left_handed": found.authored("orientation", context.time) == "leftHanded",
+        "primvars": read_primvars(context, prim, found.state.primvars) if found.has_primvars() else [],
     }
     if subsets:
         common["subsets"] = [_subset(context, subset, path, group) for subset, path in subsets]
@@ -97,14 +98,14 @@ def _curves(context, found, common, skin):
 
 def _implicit(context, found, kind, common):
     prim, time = found.prim, context.time
-    sizes = {}
-    for name in _SIZES[kind]:
-        value = get(prim, name, time)
+    sizes = dict(_SIZES[kind])
+    for name in sizes:
+        value = found.authored(name, time)
         if value is not None:
             sizes[name] = float(value)
     if prim.GetTypeName() in ("Cylinder_1", "Capsule_1"):
-        sizes["radius"] = float(get(prim, "radiusBottom", time, 1.0 if kind == "cylinder" else 0.5))
-        sizes["radius_top"] = float(get(prim, "radiusTop", time, 1.0 if kind == "cylinder" else 0.5))
-    context.edit.set_implicit(found.path, shape=kind, axis=_AXES.get(get(prim, "axis", time, "Z"), 2),
-                              **sizes, **common)
-
+        radius = sizes["radius"]
+        sizes["radius"] = float(get(prim, "radiusBottom", time, radius))
+        sizes["radius_top"] = float(get(prim, "radiusTop", time, radius))
+    axis = _AXES.get(found.authored("axis", time) or "Z", 2)
+    context.edit.set_implicit(found.path, shape=kind, axis=axis, **sizes, **common)

@@ -39,6 +39,14 @@ class Found:
     prim: object
     state: State
     path: str  # in the scene
+    names: tuple = ()  # of authored properties: asking for each one's value takes far longer
+
+    def authored(self, name, time):
+        """:returns: an attribute's value where one is authored, else None"""
+        return self.prim.GetAttribute(name).Get(time) if name in self.names else None
+
+    def has_primvars(self):
+        return bool(self.state.primvars) or any(name.startswith("primvars:") for name in self.names)
 
 
 @dataclass

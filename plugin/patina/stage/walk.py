@@ -53,15 +53,17 @@ class Walk:
                 self._camera(prim, state)
             return state
         own = state  # what the prim itself inherits
+        names = ()
         if imageable:
-            if get(prim, "visibility", self.context.time) == "invisible":
+            names = prim.GetAuthoredPropertyNames()
+            if "visibility" in names and get(prim, "visibility", self.context.time) == "invisible":
                 return self._visit(prim, state.with_(hidden=True))
-            purpose = prim.GetAttribute("purpose")
-            if purpose and purpose.HasAuthoredValue():
-                own = state = state.with_(purpose=purpose.Get() or "default")
-            inherited = UsdGeom.PrimvarsAPI(prim).FindIncrementallyInheritablePrimvars(state.primvars)
-            if inherited:
-                state = state.with_(primvars=tuple(inherited))
+            if "purpose" in names:
+                own = state = state.with_(purpose=get(prim, "purpose", self.context.time) or state.purpose)
+            if any(name.startswith("primvars:") for name in names):
+                inherited = UsdGeom.PrimvarsAPI(prim).FindIncrementallyInheritablePrimvars(state.primvars)
+                if inherited:
+                    state = state.with_(primvars=tuple(inherited))
         if prim.IsModel():
             mode, applied = drawModes.of(prim, state.draw_mode)
             if mode != state.draw_mode:
@@ -84,7 +86,7 @@ class Walk:
             self.context.warn(prim.GetPath(), "", f"prims of type {prim.GetTypeName()} are not drawn")
         elif kind in GPRIM_KINDS:
             if self._drawn(own):
-                self.walked.gprims.append(Found(prim, own, state.group.path(prim)))
+                self.walked.gprims.append(Found(prim, own, state.group.path(prim), names))
             if prim.IsInstance():
                 return None
         if prim.IsInstance():

@@ -29,8 +29,11 @@ Plan planMaterial(const Network& network, Diagnostics& diagnostics) {
 
 std::shared_ptr<const MaterialProgram> compileMaterial(const Network& network,
                                                        TextureSource& textures,
-                                                       Diagnostics& diagnostics) {
-    return MaterialProgram::compile(planMaterial(network, diagnostics), textures, diagnostics);
+                                                       Diagnostics& diagnostics,
+                const MethodChoices& methods) {
+    Plan plan = planMaterial(network, diagnostics);
+    plan.compensate = chosenMethod(methods, "energyCompensation") == "none" ? 0 : 1;
+    return MaterialProgram::compile(plan, textures, diagnostics);
 }
 
 std::string explainMaterial(const Network& network, Diagnostics& diagnostics) {

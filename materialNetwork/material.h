@@ -1,6 +1,7 @@
 #pragma once
 
 #include "materialNetwork/cpu/materialProgram.h"
+#include "materialNetwork/methods.h"
 
 #include <map>
 #include <memory>
@@ -16,7 +17,8 @@ using MaterialOverrides = std::map<std::string, Value>;
 /// Never fails: every problem is reported by prim and input, and a documented fallback used (an
 /// input's default, or makeDisplayColorNetwork() for a surface that cannot be understood at all).
 std::shared_ptr<const MaterialProgram>
-compileMaterial(const Network& network, TextureSource& textures, Diagnostics& diagnostics);
+compileMaterial(const Network& network, TextureSource& textures, Diagnostics& diagnostics,
+                const MethodChoices& methods = {});
 
 /// What compileMaterial() makes of a network, as text: the network, the simplified graph, the plan,
 /// and what was cut on the way.

@@ -169,12 +169,13 @@ EmbreeScene::program(const std::string& path, const std::string& user, const Sce
     }
     const std::string key = prim ? path : std::string();
     CachedProgram& cached = _programs[key];
-    if (!cached.program || cached.prim != prim) {
+    if (!cached.program || cached.prim != prim || cached.methods != settings.methods) {
         cached.prim = prim;
+        cached.methods = settings.methods;
         cached.program = compileMaterial(prim && !prim->network.empty()
                                              ? prim->network
                                              : makeDisplayColorNetwork(),
-                                         textures, _diagnostics);
+                                         textures, _diagnostics, settings.methods);
     }
     return cached.program;
 }

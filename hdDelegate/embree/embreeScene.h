@@ -82,6 +82,7 @@ private:
     };
     struct CachedProgram {
         std::shared_ptr<const MaterialPrim> prim;
+        MethodChoices methods;
         std::shared_ptr<const MaterialProgram> program;
     };
 

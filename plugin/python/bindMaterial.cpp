@@ -78,7 +78,7 @@ Floats triples(size_t n) {
 py::tuple eval(const MaterialProbe& probe, const Floats& wo, const Floats& wi) {
     const size_t n = rows(wo, 3, "wo");
     sameRows(n, rows(wi, 3, "wi"));
-    Floats f = triples(n), pdf(static_cast<py::ssize_t>(n));
+    Floats f = triples(n), pdf = singles(n);
     const float *outgoing = wo.data(), *incoming = wi.data();
     float *values = f.mutable_data(), *densities = pdf.mutable_data();
     {
@@ -99,8 +99,8 @@ py::tuple eval(const MaterialProbe& probe, const Floats& wo, const Floats& wi) {
 py::dict sample(const MaterialProbe& probe, const Floats& wo, const Floats& u) {
     const size_t n = rows(wo, 3, "wo");
     sameRows(n, rows(u, 4, "u"));
-    Floats wi = triples(n), weight = triples(n), pdf(static_cast<py::ssize_t>(n));
-    py::array_t<int> event(static_cast<py::ssize_t>(n));
+    Floats wi = triples(n), weight = triples(n), pdf = singles(n);
+    py::array_t<int> event(std::vector<size_t>{n});
     const float *outgoing = wo.data(), *random = u.data();
     float *directions = wi.mutable_data(), *weights = weight.mutable_data(),
           *densities = pdf.mutable_data();
@@ -215,6 +215,17 @@ void bindMaterial(py::module_& m) {
         "What is modelled of a material, as text. Warnings are appended to the list.");
     m.def("override_material", &overridden, py::arg("network"), py::arg("inputs"),
           "The network with inputs replaced, given as text; ValueError names what cannot be.");
+    m.def("check_methods", &checkMethods, py::arg("methods"),
+          "Empty, or a sentence that names the choice point or method that does not exist.");
+    m.def("choice_points", [] {
+        std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>> list;
+        for (const ChoicePoint& point : choicePoints()) {
+            list.push_back({point.name, {}});
+            for (const Method& method : point.methods)
+                list.back().second.push_back({method.name, method.description});
+        }
+        return list;
+    });
     m.def("display_color_network", &makeDisplayColorNetwork, "The material of prims without one.");
     m.def("node_inputs", &nodeInputs, py::arg("id"),
           "Names and MaterialX types of a node's inputs; empty for an unknown node.");

@@ -53,4 +53,4 @@ def test_diffuse_sphere_shows_its_albedo(tmp_path, roughness):
 def test_background_is_the_dome(tmp_path):
     image = tmp_path / "furnace.exr"
     record(scene("furnace"), image, "--imageWidth", SIZE, "--imageHeight", SIZE, "--samples", 4)
-    assert np.allclose(color(image)[0], 1.0, atol=1e-6)
+    assert np.allclose(color(image)[0, :8], 1.0, atol=1e-6)

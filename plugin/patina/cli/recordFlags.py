@@ -1,7 +1,7 @@
 """The flags of `patina record`, and the render settings that they mean."""
 import math
 
-from patina.cli import frames, overrides
+from patina.cli import frames, methods, overrides
 from patina.cli.errors import UsageError
 
 COMPLEXITIES = {"low": 1.0, "medium": 1.1, "high": 1.2, "veryhigh": 1.3}
@@ -64,10 +64,9 @@ def _add_render_flags(group):
                        help="largest luminance of one indirect sample: less noise, too dark (default: 0, off)")
     group.add_argument("--filterRadius", type=_not_negative, default=1.0, metavar="R",
                        help="radius of the pixel filter in pixels; 0.5 is a box (default: 1)")
-    group.add_argument("--edgeLength", type=_positive, default=2.0, metavar="PIXELS",
-                       help="subdivision surfaces are refined until edges are this short (default: 2)")
-    group.add_argument("--method", action="append", default=[], metavar="POINT=NAME",
-                       help="force a method at a choice point (repeatable)")
+    group.add_argument("--edgeLength", type=_positive, default=4.0, metavar="PIXELS",
+                       help="subdivision surfaces are refined until edges are this short (default: 4)")
+    methods.add_argument(group)
     group.add_argument("--cullStyle", default="nothing", metavar="STYLE",
                        choices=["nothing", "back", "front", "backUnlessDoubleSided", "frontUnlessDoubleSided"],
                        help="faces that camera rays pass: nothing, back, front, backUnlessDoubleSided, "
@@ -133,7 +132,7 @@ def settings_of(arguments):
         "enableShadows": not arguments.disableShadows,
         "domeLightCameraVisibility": arguments.enableDomeLightVisibility,
         "aovs": aovs_of(arguments),
-        "methods": _methods(arguments.method),
+        "methods": methods.parse(arguments.method),
         "checkpointSeconds": arguments.checkpointSeconds,
     }
     for name in ("tolerance", "seconds", "threads", "seed", "maxDepth", "rouletteDepth", "indirectClamp",
@@ -172,16 +171,6 @@ def purposes_of(arguments):
         if name not in ("default", "render", "proxy", "guide", "none"):
             raise UsageError(f"patina record: --purposes: there is no purpose '{name}'")
     return ["default"] + [name for name in dict.fromkeys(names) if name not in ("default", "none")]
-
-
-def _methods(texts):
-    methods = {}
-    for text in texts:
-        point, equals, name = text.partition("=")
-        if not point or not equals or not name:
-            raise UsageError(f"patina record: --method {text}: write it as POINT=NAME")
-        methods[point] = name
-    return methods
 
 
 def _complexity(text):

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// One way to do what a choice point leaves open.
+struct Method {
+    std::string name;
+    std::string description; ///< what it costs and where it errs
+};
+
+/// A place where something can be computed in several ways. The first method is the default.
+struct ChoicePoint {
+    std::string name;
+    std::vector<Method> methods;
+};
+
+/// Choice point -> method, as the user forces it.
+using MethodChoices = std::map<std::string, std::string>;
+
+const std::vector<ChoicePoint>& choicePoints();
+
+/// @returns the method in force at a choice point
+std::string chosenMethod(const MethodChoices& choices, const std::string& point);
+
+/// @returns empty when every point and method exists, else a sentence that names what does not
+std::string checkMethods(const MethodChoices& choices);
+
+} // namespace patina

@@ -94,11 +94,24 @@ def _bounds(context, gprims):
 
 
 def _is_usable(box):
-    return not box.IsEmpty() and all(math.isfinite(x) for end in (box.GetMin(), box.GetMax()) for x in end)
+    return (not box.IsEmpty() and all(math.isfinite(x) for end in (box.GetMin(), box.GetMax()) for x in end)
+            and box.GetSize().GetLength() > 0.0)
+
+
+def _orientation(size, z_up):
+    """:returns: rotation of the framing camera: from the front, a little from the right and above, so
+    that boxes look like boxes and what lies flat is seen; flat pictures that stand are seen straight"""
+    depth = size[1] if z_up else size[2]
+    turn = Gf.Matrix4d(1.0)
+    if depth > 0.02 * size.GetLength():
+        turn.SetRotate(Gf.Rotation(Gf.Vec3d(1, 0, 0), -20.0) * Gf.Rotation(Gf.Vec3d(0, 1, 0), 25.0))
+    if z_up:
+        turn *= Gf.Matrix4d().SetRotate(Gf.Rotation(Gf.Vec3d(1, 0, 0), 90.0))
+    return turn
 
 
 def emit_framing(context, gprims):
-    """A camera from the front that shows everything, as usdrecord does.
+    """A camera that shows everything.
 
     :param gprims: all that were found
     :returns: (path, matrix)"""
@@ -106,20 +119,15 @@ def emit_framing(context, gprims):
     if not _is_usable(box):
         context.warn("/", "", "the stage has no extents to frame; the camera looks at the origin")
         box = Gf.Range3d(Gf.Vec3d(-1), Gf.Vec3d(1))
-    z_up = UsdGeom.GetStageUpAxis(context.stage) == UsdGeom.Tokens.z
-    size, centre = box.GetSize(), box.GetMidpoint()
-    width, height, depth = (size[0], size[2], size[1]) if z_up else size
-    aperture, focal = (20.955, 15.2908), 50.0
-    margin = 1.05
-    distance = max(width * margin * focal / aperture[0], height * margin * focal / aperture[1], 1e-3) + depth * 0.5
-    matrix = Gf.Matrix4d(1.0)
-    if z_up:
-        matrix.SetRotate(Gf.Rotation(Gf.Vec3d(1, 0, 0), 90.0))
-    back = Gf.Vec3d(0, -1, 0) if z_up else Gf.Vec3d(0, 0, 1)
-    matrix.SetTranslateOnly(centre + back * distance)
-    reach = max(size.GetLength(), distance)
+    matrix = _orientation(box.GetSize(), UsdGeom.GetStageUpAxis(context.stage) == UsdGeom.Tokens.z)
+    aperture, focal, margin = (20.955, 15.2908), 50.0, 1.05
+    centre, inverse = box.GetMidpoint(), matrix.GetInverse()
+    corners = [inverse.TransformDir(Gf.Vec3d(box.GetCorner(i)) - centre) for i in range(8)]
+    distance = max(c[2] + 2.0 * focal * margin * max(abs(c[0]) / aperture[0], abs(c[1]) / aperture[1]) for c in corners)
+    matrix.SetTranslateOnly(centre + matrix.TransformDir(Gf.Vec3d(0, 0, distance)))
+    reach = max(box.GetSize().GetLength(), distance)
     context.edit.set_camera(FRAMING, transform=np.array(matrix, dtype=np.float32), horizontal_aperture=aperture[0],
                             vertical_aperture=aperture[1], focal_length=focal, focus_distance=distance,
                             clip_near=reach * 1e-4, clip_far=reach * 100.0)
-    context.notes.append("the stage has no camera; it is framed from the front")
+    context.notes.append("the stage has no camera; it is framed")
     return FRAMING, matrix

@@ -44,7 +44,8 @@ class Skin:
     def offsets(self, context):
         """:returns: times relative to the frame at which the pose is evaluated"""
         interval = context.shutter_interval()
-        samples = set(self.target.GetTimeSamplesInInterval(interval))
+        bind = self.target.GetGeomBindTransformAttr()
+        samples = set(bind.GetTimeSamplesInInterval(interval)) if bind else set()
         animation = self.query.GetAnimQuery()
         if animation:
             samples.update(animation.GetJointTransformTimeSamplesInInterval(interval))

@@ -28,7 +28,7 @@ class Reading:
             else:
                 key, _, value = line.strip().partition(" = ")
                 current[key] = value
-        assert path in found, f"{path} is not among {list(found)}"
+        assert path in found, f"{path} is not among {list(found)}; warnings: {self.warnings}"
         return found[path]
 
     def has(self, path):

@@ -1,0 +1,83 @@
+"""Cameras: fields, choice, framing."""
+import pytest
+
+
+def test_every_field(read, numbers):
+    reading = read("""def Camera "c" {
+        float horizontalAperture = 36
+        float verticalAperture = 24
+        float horizontalApertureOffset = 1
+        float verticalApertureOffset = 2
+        float focalLength = 35
+        float fStop = 2.8
+        float focusDistance = 4
+        float2 clippingRange = (0.5, 50)
+        float4[] clippingPlanes = [(0, 0, 1, 2)]
+        double shutter:open = -0.25
+        double shutter:close = 0.25
+        float exposure = 2
+        token projection = "orthographic"
+        double3 xformOp:translate = (1, 2, 3)
+        uniform token[] xformOpOrder = ["xformOp:translate"] }""", frame=1.0)
+    camera = reading.prim("/c")
+    expected = {"horizontalAperture": 36, "verticalAperture": 24, "horizontalApertureOffset": 1,
+                "verticalApertureOffset": 2, "focalLength": 35, "fStop": 2.8, "focusDistance": 4, "clipNear": 0.5,
+                "clipFar": 50, "shutterOpen": -0.25, "shutterClose": 0.25, "exposureScale": 4}
+    assert {name: float(camera[name]) for name in expected} == pytest.approx(expected)
+    assert camera["orthographic"] == "true" and camera["clippingPlanes"] == "0 0 1 2"
+    assert numbers(camera["transform"])[12:] == [1, 2, 3, 1]
+
+
+CAMERAS = """
+    def Xform "a" { def Camera "first" { } }
+    def Camera "main_cam" { }
+    def Camera "second" { }
+    def Scope "Render" { def RenderSettings "s" { rel camera = </second> } }"""
+
+
+def test_choice(read):
+    from patina.stage import StageError
+    assert read(CAMERAS).info.camera == "/main_cam"
+    assert read('(renderSettingsPrimPath = "/Render/s")' + CAMERAS).info.camera == "/second"
+    assert read(CAMERAS.replace("main_cam", "x")).info.camera == "/a/first"
+    assert read(CAMERAS, camera="/second").info.camera == "/second"
+    assert read(CAMERAS, camera="first").info.camera == "/a/first"
+    with pytest.raises(StageError, match="no camera /nowhere .*/a/first, /main_cam, /second"):
+        read(CAMERAS, camera="/nowhere")
+
+
+@pytest.mark.parametrize("up", "YZ")
+def test_framing_shows_everything(read, numbers, up):
+    """The corners of the bounding box fall inside of the picture."""
+    import numpy as np
+    reading = read(f'(upAxis = "{up}")\ndef Cube "c" {{ double3 xformOp:translate = (10, 20, 30)  uniform token[] xformOpOrder = ["xformOp:translate"] }}')
+    assert reading.info.framed
+    camera = reading.prim(reading.info.camera)
+    inverse = np.linalg.inv(np.array(numbers(camera["transform"])).reshape(4, 4))
+    focal = float(camera.get("focalLength", 50))
+    size = 0.0
+    for x in (9, 11):
+        for y in (19, 21):
+            for z in (29, 31):
+                p = np.array([x, y, z, 1.0]) @ inverse
+                assert p[2] < -float(camera["clipNear"]) and -p[2] < float(camera["clipFar"])
+                u, v = focal * p[:2] / -p[2]
+                assert abs(u) < 20.955 / 2 and abs(v) < 15.2908 / 2
+                size = max(size, abs(u) / (20.955 / 2), abs(v) / (15.2908 / 2))
+    assert size > 0.9  # and fill it
+
+
+def test_authored_extents_that_hold_nothing(read, numbers):
+    text = """def Mesh "m" { int[] faceVertexCounts = [3]  int[] faceVertexIndices = [0, 1, 2]
+        point3f[] points = [(0,0,0), (4,0,0), (0,4,0)]  float3[] extent = [%s] }"""
+    good = read(text % "(0,0,0), (4,4,0)")
+    inverse = read(text % "(4,4,0), (0,0,0)")
+    zero = read(text % "(0,0,0), (0,0,0)")
+    assert good.prim(good.info.camera)["transform"] == zero.prim(zero.info.camera)["transform"]
+    assert good.prim(good.info.camera)["transform"] == inverse.prim(inverse.info.camera)["transform"]
+
+
+def test_empty_stage(read):
+    reading = read("", headlight=True)
+    assert reading.info.framed and reading.has(reading.info.camera)
+    assert any("no extents" in w for w in reading.warnings)

@@ -1,0 +1,81 @@
+"""UsdSkel."""
+import pytest
+
+SKELETON = """
+    def SkelRoot "r" {
+        def Skeleton "skel" (prepend apiSchemas = ["SkelBindingAPI"]) {
+            uniform token[] joints = ["a", "a/b"]
+            uniform matrix4d[] bindTransforms = [((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,0,1)), ((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,1,0,1))]
+            uniform matrix4d[] restTransforms = [((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,0,1)), ((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,1,0,1))]
+            rel skel:animationSource = </r/skel/anim>
+            double3 xformOp:translate = (100, 0, 0)  uniform token[] xformOpOrder = ["xformOp:translate"]
+            def SkelAnimation "anim" {
+                uniform token[] joints = ["a/b"]
+                float3[] translations.timeSamples = { 0: [(0, 1, 0)], 10: [(10, 1, 0)] }
+                quatf[] rotations = [(1, 0, 0, 0)]
+                half3[] scales = [(1, 1, 1)]
+                uniform token[] blendShapes = ["up"]
+                float[] blendShapeWeights.timeSamples = { 0: [0], 10: [1] } } }
+        def Mesh "m" (prepend apiSchemas = ["SkelBindingAPI"]) {
+            rel skel:skeleton = </r/skel>
+            int[] faceVertexCounts = [3]
+            int[] faceVertexIndices = [0, 1, 2]
+            point3f[] points = [(0,0,0), (1,0,0), (0,1,0)]
+            %s } }"""
+WEIGHTS = """
+            int[] primvars:skel:jointIndices = [0, 0, 1] (interpolation = "vertex"; elementSize = 1)
+            float[] primvars:skel:jointWeights = [1, 1, 1] (interpolation = "vertex"; elementSize = 1)"""
+SHAPE = """
+            uniform token[] skel:blendShapes = ["up"]
+            rel skel:blendShapeTargets = </r/m/up>
+            def BlendShape "up" { vector3f[] offsets = [(0, 0, 5)]  int[] pointIndices = [0] }"""
+
+
+def test_linear_blend(read, numbers):
+    mesh = read(SKELETON % WEIGHTS, frame=5.0).prim("/r/m")
+    assert numbers(mesh["points"]) == pytest.approx([0, 0, 0, 1, 0, 0, 5, 1, 0])
+    assert numbers(mesh["transform"])[12] == 100.0  # points are in the space of the skeleton
+    assert not any("skel" in key for key in mesh)
+
+
+def test_blend_shapes_come_first(read, numbers):
+    mesh = read(SKELETON % (WEIGHTS + SHAPE), frame=10.0).prim("/r/m")
+    assert numbers(mesh["points"]) == pytest.approx([0, 0, 5, 1, 0, 0, 10, 1, 0])
+
+
+def test_blend_shapes_without_joints(read, numbers):
+    mesh = read(SKELETON % SHAPE, frame=10.0).prim("/r/m")
+    assert numbers(mesh["points"]) == pytest.approx([0, 0, 5, 1, 0, 0, 0, 1, 0])
+    assert "transform" not in mesh
+
+
+def test_rigid_meshes_move_as_a_whole(read, numbers):
+    mesh = read(SKELETON % """
+            int[] primvars:skel:jointIndices = [1] (interpolation = "constant"; elementSize = 1)
+            float[] primvars:skel:jointWeights = [1] (interpolation = "constant"; elementSize = 1)""", frame=5.0).prim("/r/m")
+    assert numbers(mesh["points"]) == [0, 0, 0, 1, 0, 0, 0, 1, 0]
+    assert numbers(mesh["transform"])[12:15] == pytest.approx([105, 0, 0])
+
+
+def test_deformation_blur(read, numbers):
+    mesh = read('def Camera "c" { double shutter:close = 1 }' + SKELETON % WEIGHTS, frame=5.0).prim("/r/m")
+    assert numbers(mesh["points@0"])[6] == pytest.approx(5.0) and numbers(mesh["points@1"])[6] == pytest.approx(6.0)
+
+
+def test_dual_quaternions_differ(read, numbers):
+    half = """
+            int[] primvars:skel:jointIndices = [0, 1, 0, 1, 0, 1] (interpolation = "vertex"; elementSize = 2)
+            float[] primvars:skel:jointWeights = [0.5, 0.5, 0.5, 0.5, 0.5, 0.5] (interpolation = "vertex"; elementSize = 2)"""
+    turned = SKELETON.replace("quatf[] rotations = [(1, 0, 0, 0)]", "quatf[] rotations = [(0, 0, 1, 0)]")
+    linear = numbers(read(turned % half, frame=0.0).prim("/r/m")["points"])
+    dual = numbers(read(turned % (half + '\nuniform token primvars:skel:skinningMethod = "dualQuaternion"'), frame=0.0).prim("/r/m")["points"])
+    assert linear[3] == pytest.approx(0.0, abs=1e-5)  # half a turn collapses
+    assert abs(dual[3]) + abs(dual[5]) == pytest.approx(1.0, abs=1e-4)  # and here it does not
+
+
+def test_broken_skinning_is_drawn_at_rest(read, numbers):
+    reading = read(SKELETON % """
+            int[] primvars:skel:jointIndices = [0, 7, 9] (interpolation = "vertex"; elementSize = 1)
+            float[] primvars:skel:jointWeights = [1, 1, 1] (interpolation = "vertex"; elementSize = 1)""", frame=5.0)
+    assert len(numbers(reading.prim("/r/m")["points"])) == 9
+    assert reading.warnings

@@ -1,0 +1,81 @@
+"""Whole files: broken ones, composition errors, models drawn as boxes, and every asset that is there."""
+import os
+
+import pytest
+
+
+def open_stage(path):
+    from patina.stage import open_stage as run
+    return run(str(path))
+
+
+def test_files_that_cannot_be_opened(tmp_path):
+    from patina.stage import StageError
+    from pxr import Usd
+    whole = tmp_path / "whole.usdc"
+    stage = Usd.Stage.CreateNew(str(whole))
+    stage.DefinePrim("/a", "Sphere")
+    stage.Save()
+    data = whole.read_bytes()
+    (tmp_path / "cut.usdc").write_bytes(data[:len(data) // 2])
+    (tmp_path / "text.usda").write_text("#usda 1.0\ndef Sphere {{{")
+    (tmp_path / "noise.usd").write_bytes(os.urandom(256))
+    (tmp_path / "empty.usdc").write_bytes(b"")
+    (tmp_path / "cut.usdz").write_bytes(b"PK\3\4 and no more")
+    for name in ("cut.usdc", "text.usda", "noise.usd", "empty.usdc", "cut.usdz", "missing.usda", "."):
+        with pytest.raises(StageError) as error:
+            open_stage(tmp_path / name)
+        assert "\n" not in str(error.value) and str(tmp_path) in str(error.value)
+
+
+def test_composition_errors_name_the_prim(read):
+    reading = read("""(subLayers = [@./nolayer.usda@])
+    def Xform "a" (references = @./nofile.usda@) { }
+    def Xform "b" (payload = </nowhere>) { }
+    def Sphere "fine" { }""")
+    said = "\n".join(reading.warnings)
+    assert "nolayer.usda" in said and "/a : " in said and "nofile.usda" in said and "/b : " in said
+    assert reading.has("/fine")
+    assert len(reading.warnings) == 3  # once each
+
+
+def test_models_drawn_as_boxes(read):
+    reading = read("""def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"]) {
+        uniform token model:drawMode = "bounds"  float3 model:drawModeColor = (1, 0, 0)
+        def Sphere "s" { } }
+    def Xform "plain" (kind = "component") { def Sphere "s" { } }""")
+    box = reading.prim("/model")
+    assert box["kind"] == "Curves" and box["primvar displayColor constant x3"] == "1 0 0"
+    assert not reading.has("/model/s") and reading.has("/plain/s")
+
+
+def test_metadata(read):
+    info = read('(metersPerUnit = 1; upAxis = "Z"; startTimeCode = 3; endTimeCode = 9; timeCodesPerSecond = 30)').info
+    assert (info.meters_per_unit, info.up_axis, info.start_time_code, info.end_time_code,
+            info.time_codes_per_second) == (1.0, "Z", 3.0, 9.0, 30.0)
+
+
+def test_reading_twice_gives_the_same(read):
+    text = 'def Sphere "s" { color3f[] primvars:displayColor = [(1, 0, 0)] }'
+    assert read(text).text == read(text).text
+
+
+def _assets():
+    root = os.environ.get("PATINA_ASSETS")
+    if not root:
+        return [pytest.param(None, marks=pytest.mark.skip(reason="PATINA_ASSETS is not set"))]
+    return sorted(os.path.join(folder, name) for folder, _, names in os.walk(root) for name in names
+                  if name.endswith((".usd", ".usda", ".usdc", ".usdz")))
+
+
+@pytest.mark.parametrize("path", _assets(), ids=lambda p: os.path.basename(p or "none"))
+def test_every_asset_is_read(read, path):
+    from patina.stage import StageError
+    from pathlib import Path
+    try:
+        open_stage(path)
+    except StageError as error:
+        pytest.skip(str(error))
+    reading = read(Path(path))
+    assert reading.info.camera
+    assert not [w for w in reading.warnings if "cannot be read" in w]

@@ -8,8 +8,11 @@ import tempfile
 
 from pxr import Ar, Sdf
 
+from . import compat
+
 _UDIM = "<UDIM>"
 _folder = None  # where files of packages are put; removed at exit
+_extracted = {}  # path in a package -> copy
 
 
 def resolve(context, attribute):
@@ -62,8 +65,10 @@ def extract(path):
     :param path: package-relative, "a.usdz[b.png]"
     :returns: path of the copy, None when it cannot be read"""
     global _folder
-    asset = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(path))
-    if not asset:
+    if path in _extracted:
+        return _extracted[path]
+    data = compat.read_asset(path)
+    if data is None:
         return None
     if _folder is None:
         _folder = tempfile.mkdtemp(prefix="patina-")
@@ -72,11 +77,8 @@ def extract(path):
     # One folder per folder of a package: tiles stay together, equal names of others apart.
     key = hashlib.sha1((package + "\0" + os.path.dirname(inner)).encode()).hexdigest()[:16]
     file = os.path.join(_folder, key, os.path.basename(inner) or "file")
-    if not os.path.exists(file):
-        os.makedirs(os.path.dirname(file), exist_ok=True)
-        with asset:
-            data = asset.GetBuffer()
-        with open(file + ".part", "wb") as out:
-            out.write(data)
-        os.replace(file + ".part", file)
+    os.makedirs(os.path.dirname(file), exist_ok=True)
+    with open(file, "wb") as out:
+        out.write(data)
+    _extracted[path] = file
     return file

@@ -1,10 +1,8 @@
 """Differences between versions of OpenUSD, 23.11 and later. Nothing else looks at versions."""
-from pxr import Usd, UsdGeom, UsdShade, UsdUtils
+import io
+import zipfile
 
-# Schemas that not every version has.
-CAPSULE_1 = getattr(UsdGeom, "Capsule_1", None)
-CYLINDER_1 = getattr(UsdGeom, "Cylinder_1", None)
-PLANE = getattr(UsdGeom, "Plane", None)
+from pxr import Ar, Usd, UsdShade, UsdUtils
 
 
 def exposure_scale(camera, time):
@@ -18,15 +16,40 @@ def exposure_scale(camera, time):
 def composition_errors(stage):
     """:returns: list of (prim path, text)"""
     if hasattr(stage, "GetCompositionErrors"):
-        errors = stage.GetCompositionErrors()
-    else:
-        errors = [e for prim in Usd.PrimRange.AllPrims(stage.GetPseudoRoot())
-                  for e in prim.GetPrimIndex().localErrors]
-    found = []
-    for error in errors:
-        site = getattr(error, "rootSite", None)
-        found.append((str(getattr(site, "path", "") or "/"), str(error)))
+        return [(str(error.rootSite.path), str(error)) for error in stage.GetCompositionErrors()]
+    root = stage.GetPseudoRoot()
+    found = [("/", str(error)) for error in root.GetPrimIndex().rootNode.layerStack.localErrors]
+    for prim in Usd.PrimRange.AllPrims(root):
+        found.extend((str(prim.GetPath()), str(error)) for error in prim.GetPrimIndex().localErrors)
     return found
+
+
+def read_asset(path):
+    """:param path: of a file, or of one in a package: "a.usdz[b.png]", "a.usdz[b.usdz[c.png]]"
+    :returns: its bytes, None when it cannot be read"""
+    resolver = Ar.GetResolver()
+    if hasattr(resolver, "OpenAsset"):
+        asset = resolver.OpenAsset(Ar.ResolvedPath(path))
+        if not asset:
+            return None
+        with asset:
+            return bytes(asset.GetBuffer())
+    package, inner = Ar.SplitPackageRelativePathOuter(path)
+    try:
+        with open(package, "rb") as file:
+            data = file.read() if not inner else _from_zip(file, inner)
+        while inner and Ar.IsPackageRelativePath(inner):
+            inner = Ar.SplitPackageRelativePathOuter(inner)[1]
+            data = _from_zip(io.BytesIO(data), inner)
+        return data
+    except (OSError, KeyError, zipfile.BadZipFile):
+        return None
+
+
+def _from_zip(file, inner):
+    """:returns: bytes of the outermost file that a path inside of a package names"""
+    with zipfile.ZipFile(file) as package:
+        return package.read(Ar.SplitPackageRelativePathOuter(inner)[0] if Ar.IsPackageRelativePath(inner) else inner)
 
 
 def bound_materials(prims):

@@ -2,6 +2,7 @@
 import numpy as np
 from pxr import Kind, Usd, UsdGeom
 
+from . import cards
 from .context import get
 from .transforms import transform_of
 
@@ -19,29 +20,32 @@ def of(prim, inherited):
     return mode, bool(component or get(prim, "model:applyDrawMode", 0.0, False))
 
 
-def emit(context, found, mode):
-    """Draws a model's extents as lines; the axes of its origin for the mode `origin`."""
+def emit(context, found, mode, module):
+    """Draws a model's extents as lines or as cards, or the axes of its origin.
+
+    :param module: `_patina`"""
     prim = found.prim
     if context.cyclic:
         return
     box = UsdGeom.BBoxCache(context.time, sorted(context.purposes), useExtentsHint=True)
     extent = box.ComputeUntransformedBound(prim).ComputeAlignedRange()
-    if mode == "cards":
-        context.warn(prim.GetPath(), "model:drawMode", "cards are not drawn; the extents are shown instead")
     if extent.IsEmpty():
         return
     low, high = np.array(extent.GetMin()), np.array(extent.GetMax())
     size = float(np.linalg.norm(high - low)) or 1.0
+    color = get(prim, "model:drawModeColor", context.time, (0.18, 0.18, 0.18))
+    common = {"group": found.state.group.name, "transform": transform_of(context, prim, found.state.group.anchor)}
+    context.count("drawModes")
+    if mode == "cards":
+        cards.emit(context, found, low, high, common, color, module)
+        return
     if mode == "origin":
         points = [p for axis in np.eye(3) * size * 0.5 for p in ((0.0, 0.0, 0.0), axis)]
     else:
         corners = [[(low, high)[i >> a & 1][a] for a in range(3)] for i in range(8)]
         points = [corners[i] for edge in _EDGES for i in edge]
-    color = get(prim, "model:drawModeColor", context.time, (0.18, 0.18, 0.18))
     context.edit.set_curves(
-        found.path, group=found.state.group.name, basis="linear",
-        transform=transform_of(context, prim, found.state.group.anchor),
-        points=np.array(points, dtype=np.float32), curve_vertex_counts=np.full(len(points) // 2, 2, np.int32),
+        found.path, basis="linear", points=np.array(points, dtype=np.float32),
+        curve_vertex_counts=np.full(len(points) // 2, 2, np.int32),
         primvars=[("widths", "constant", np.array([size * 0.005], np.float32)),
-                  ("displayColor", "constant", np.array([color], np.float32))])
-    context.count("drawModes")
+                  ("displayColor", "constant", np.array([color], np.float32))], **common)

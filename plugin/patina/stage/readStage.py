@@ -46,7 +46,7 @@ def _read(context):
     context.shutter = cameras.shutter_of(context, chosen)
     linking = Linking(context)
     has_lights = _emit_lights(context, walked, linking)
-    _emit_geometry(context, walked, bindings, linking)
+    _emit_geometry(context, walked, bindings, linking, _patina)
     for found in walked.cameras:
         with Guard(context, found.prim):
             cameras.emit(context, found)
@@ -75,7 +75,7 @@ def _emit_lights(context, walked, linking):
     return bool(founds)
 
 
-def _emit_geometry(context, walked, bindings, linking):
+def _emit_geometry(context, walked, bindings, linking, module):
     kinds = Kinds()
     for found, bound in zip(walked.gprims, bindings.resolve(walked.gprims)):
         with Guard(context, found.prim):
@@ -87,7 +87,7 @@ def _emit_geometry(context, walked, bindings, linking):
         instancers.emit_instances(context, outer, prototype, founds, linking)
     for found, mode in walked.boxes:
         with Guard(context, found.prim):
-            drawModes.emit(context, found, mode)
+            drawModes.emit(context, found, mode, module)
 
 
 def _info(context, walked):

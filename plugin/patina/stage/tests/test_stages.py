@@ -49,6 +49,22 @@ def test_models_drawn_as_boxes(read):
     assert not reading.has("/model/s") and reading.has("/plain/s")
 
 
+def test_models_drawn_as_cards(read, numbers, tmp_path):
+    (tmp_path / "x.png").write_bytes(b"png")
+    text = """def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"]) {
+        uniform token model:drawMode = "cards"  uniform token model:cardGeometry = "%s"  %s
+        def Cube "c" { double size = 2 } }"""
+    box = read(text % ("box", "asset model:cardTextureXPos = @./x.png@"))
+    assert numbers(box.prim("/model/cardXPos")["points"]) == [1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1]
+    assert box.prim("/model/cardXNeg")["material"] == '"/model/cardXNeg/material"'
+    assert box.prim("/model/cardXPos/material")["filename file"] == f'"{tmp_path}/x.png"'
+    assert not box.has("/model/cardYPos") and not box.has("/model/c")
+    cross = read(text % ("cross", "asset model:cardTextureXPos = @./none.png@"))
+    assert numbers(cross.prim("/model/cardZPos")["points"])[2::3] == [0, 0, 0, 0]
+    assert not cross.has("/model/cardZNeg")
+    assert any("model:cardTextureXPos: there is no file" in w for w in cross.warnings)
+
+
 def test_metadata(read):
     info = read('(metersPerUnit = 1; upAxis = "Z"; startTimeCode = 3; endTimeCode = 9; timeCodesPerSecond = 30)').info
     assert (info.meters_per_unit, info.up_axis, info.start_time_code, info.end_time_code,

@@ -1,0 +1,81 @@
+"""Models that stand as cards: textured sides of their extents, or a cross of three planes."""
+import os
+
+import numpy as np
+
+from . import assets
+from .context import get
+
+# face -> axis across, direction of its outside, axes to the right and up as seen from outside (with
+# sign), so that pictures taken along the axes fit
+_FACES = {
+    "XPos": (0, 1, (1, 1), (2, 1)), "XNeg": (0, -1, (1, -1), (2, 1)),
+    "YPos": (1, 1, (0, -1), (2, 1)), "YNeg": (1, -1, (0, 1), (2, 1)),
+    "ZPos": (2, 1, (0, 1), (1, 1)), "ZNeg": (2, -1, (0, -1), (1, 1)),
+}
+_ST = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], np.float32)
+
+
+def faces_of(context, prim):
+    """:returns: dict from face to texture (empty for none), of the faces that are drawn"""
+    textures = {}
+    for face in _FACES:
+        attribute = prim.GetAttribute("model:cardTexture" + face)
+        file = assets.resolve(context, attribute) if attribute and attribute.HasAuthoredValue() else ""
+        if file and not os.path.exists(file):
+            context.warn(prim.GetPath(), "model:cardTexture" + face, f"there is no file {file}; the card is plain")
+            file = ""
+        textures[face] = file
+    if any(textures.values()):
+        # Sides without a picture of their own show that of the other side, or are left out.
+        opposite = {face: face[0] + ("Neg" if face.endswith("Pos") else "Pos") for face in textures}
+        textures = {face: file or textures[opposite[face]] for face, file in textures.items()
+                    if file or textures[opposite[face]]}
+    if get(prim, "model:cardGeometry", context.time, "cross") != "box":
+        textures = {face: file for face, file in textures.items() if face.endswith("Pos")}
+    return textures
+
+
+def quad(face, low, high, cross):
+    """:returns: four corners of a card, counterclockwise from outside"""
+    axis, side, right, up = _FACES[face]
+    points = np.empty((4, 3), np.float32)
+    points[:, axis] = (low[axis] + high[axis]) / 2 if cross else (high if side > 0 else low)[axis]
+    for (other, sign), column in ((right, 0), (up, 1)):
+        ends = (low[other], high[other]) if sign > 0 else (high[other], low[other])
+        points[:, other] = np.where(_ST[:, column] > 0, ends[1], ends[0])
+    return points
+
+
+def emit(context, found, low, high, common, color, module):
+    """:param common: fields of the meshes: group, transform"""
+    prim = found.prim
+    geometry = get(prim, "model:cardGeometry", context.time, "cross")
+    if geometry not in ("cross", "box"):
+        context.warn(prim.GetPath(), "model:cardGeometry", f"'{geometry}' is not drawn; a cross is shown instead")
+    for face, file in faces_of(context, prim).items():
+        path = f"{found.path}/card{face}"
+        context.edit.set_mesh(
+            path, points=quad(face, low, high, geometry != "box"), face_vertex_counts=np.array([4], np.int32),
+            face_vertex_indices=np.arange(4, dtype=np.int32), double_sided=True,
+            material=_material(context, path + "/material", file, module) if file else "",
+            primvars=[("st", "vertex", _ST, None), ("displayColor", "constant", np.array([color], np.float32))],
+            **common)
+
+
+def _material(context, path, file, module):
+    """:returns: path of a material that shows a picture and cuts out where it is transparent"""
+    network = module.Network(path)
+    network.add_node(path + "/surface", "UsdPreviewSurface")
+    network.add_node(path + "/texture", "UsdUVTexture")
+    network.add_node(path + "/st", "UsdPrimvarReader_float2")
+    network.set_input(path + "/st", "varname", "string", "st")
+    network.set_input(path + "/texture", "file", "asset", file)
+    network.connect(path + "/texture", "st", path + "/st", "result")
+    network.connect(path + "/surface", "diffuseColor", path + "/texture", "rgb")
+    network.connect(path + "/surface", "opacity", path + "/texture", "a")
+    network.set_input(path + "/surface", "opacityThreshold", "float", 0.1)
+    network.set_input(path + "/surface", "roughness", "float", 1.0)
+    network.set_terminal("surface", path + "/surface", "surface")
+    context.edit.set_material(path, network)
+    return path

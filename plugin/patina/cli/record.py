@@ -60,6 +60,8 @@ class _Job:
         self.statistics.begin_frame(frame, image)
         with self.statistics.phase("translate"):
             info = self._translate(frame)
+        for note in self.statistics.note(info.notes):
+            Progress("", self.arguments.quiet).say(note)
         self._check_warnings()
         settings = dict(self.settings, **self._size(info))
         film, token = self._film(image, settings, info, frame)

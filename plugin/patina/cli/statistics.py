@@ -34,7 +34,7 @@ class Statistics:
         self._seconds = dict.fromkeys(PHASES, 0.0)
         self._frames = []
         self._frame = None
-        self._own, self._scene = [], []
+        self._own, self._scene, self._notes = [], [], []
 
     @contextlib.contextmanager
     def phase(self, name):
@@ -76,6 +76,12 @@ class Statistics:
     def warn(self, prim, name, message):
         self._own.append({"prim": prim, "input": name, "message": message, "count": 1})
 
+    def note(self, texts):
+        """Keeps what was decided for the user. :returns: those that are new"""
+        fresh = [text for text in texts if text not in self._notes]
+        self._notes += fresh
+        return fresh
+
     def collect(self, scene):
         """Takes the warnings of a scene: all that were reported so far."""
         self._scene = scene.warnings()
@@ -110,6 +116,7 @@ class Statistics:
         if result.get("rays") and spent > 0.0:
             result["raysPerSecond"] = result["rays"] / spent
         result["peakMemoryBytes"] = peak_memory()
+        result["notes"] = self._notes
         result["warnings"] = self.warnings()
         result["frames"] = self._frames
         text = json.dumps(result, indent=2)

@@ -31,7 +31,7 @@ def emit_instancer(context, found, names, linking):
     ids = get(prim, "ids", context.time)
     ids = np.asarray(ids) if ids is not None and len(ids) == len(indices) else np.arange(len(indices))
     transforms = [np.ascontiguousarray(s[keep], dtype=np.float32) for s in samples]
-    categories = linking.categories(prim)
+    categories = linking.categories(found)
     context.edit.set_instancer(
         found.path, group=group.name, prototypes=names, prototype_indices=indices[keep],
         transforms=transforms[0] if len(transforms) == 1 else (offsets, transforms),
@@ -107,7 +107,7 @@ def emit_instances(context, outer, prototype, founds, linking):
             for sample, t in zip(samples, times):
                 sample[i] = np.array(matrix_at(context, founds[i].prim, founds[i].state.group.anchor, t))
         transforms = (times, samples)
-    categories = [linking.categories(found.prim) for found in founds]
+    categories = [linking.categories(found) for found in founds]
     context.edit.set_instancer(
         founds[0].path, group=outer, prototypes=[prototype],
         prototype_indices=np.zeros(len(founds), dtype=np.int32), transforms=transforms,

@@ -28,11 +28,11 @@ class Linking:
             return ""
         return name
 
-    def categories(self, prim):
-        """:returns: names of the categories that hold a prim"""
-        if not self._queries:
+    def categories(self, found):
+        """:returns: names of the categories that hold a found prim; none inside of prototypes"""
+        if not self._queries or found.state.group.name:
             return []
-        path = prim.GetPath()
+        path = found.prim.GetPath()
         return [name for name, query in self._queries.items() if query.IsPathIncluded(path)]
 
 

@@ -79,7 +79,7 @@ def _emit_geometry(context, walked, bindings, linking, module):
     kinds = Kinds()
     for found, bound in zip(walked.gprims, bindings.resolve(walked.gprims)):
         with Guard(context, found.prim):
-            geometry.emit(context, found, kinds.of(found.prim)[0], bound, linking.categories(found.prim))
+            geometry.emit(context, found, kinds.of(found.prim)[0], bound, linking.categories(found))
     for found, names in walked.instancers:
         with Guard(context, found.prim):
             instancers.emit_instancer(context, found, names, linking)

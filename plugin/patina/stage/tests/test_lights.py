@@ -95,6 +95,7 @@ def test_linking_by_collections(read):
     assert reading.prim("/in")["categories"] == "/some.collection:lightLink /shadow.collection:shadowLink"
     assert "categories" not in reading.prim("/out")
     assert reading.prim("/t")["categories 0"] == "/shadow.collection:shadowLink"
+    assert "categories" not in reading.prim("/t/s")  # those of the instance count
     assert reading.prim("/pi")["categories 0"] == "/shadow.collection:shadowLink"
 
 

@@ -23,6 +23,9 @@ def resolve(context, attribute):
     path = getattr(value, "path", value)
     if not path:
         return ""
+    if not isinstance(path, str):
+        context.warn(attribute.GetPrim().GetPath(), attribute.GetName(), "names no file")
+        return ""
     resolved = getattr(value, "resolvedPath", "")
     if _UDIM in path:
         return _resolve_tiles(attribute, context, path)

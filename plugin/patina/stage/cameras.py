@@ -5,16 +5,16 @@ import numpy as np
 from pxr import Gf, UsdGeom, UsdRender, UsdUtils
 
 from . import compat
-from .context import get
+from .context import array, get, number
 from .errors import StageError
 from .transforms import transform_of
 
 FRAMING = "/patinaFramingCamera"
-_FIELDS = {
-    "horizontalAperture": "horizontal_aperture", "verticalAperture": "vertical_aperture",
-    "horizontalApertureOffset": "horizontal_aperture_offset",
-    "verticalApertureOffset": "vertical_aperture_offset", "focalLength": "focal_length", "fStop": "f_stop",
-    "focusDistance": "focus_distance",
+_FIELDS = {  # name on the stage -> (name in the scene, fallback)
+    "horizontalAperture": ("horizontal_aperture", 20.955), "verticalAperture": ("vertical_aperture", 15.2908),
+    "horizontalApertureOffset": ("horizontal_aperture_offset", 0.0),
+    "verticalApertureOffset": ("vertical_aperture_offset", 0.0), "focalLength": ("focal_length", 50.0),
+    "fStop": ("f_stop", 0.0), "focusDistance": ("focus_distance", 0.0),
 }
 
 
@@ -51,8 +51,8 @@ def shutter_of(context, found):
         return tuple(map(float, context.options.shutter))
     if not found:
         return (0.0, 0.0)
-    opens, closes = (float(get(found.prim, "shutter:" + n, context.time, 0.0)) for n in ("open", "close"))
-    if not (math.isfinite(opens) and math.isfinite(closes)) or closes < opens:
+    opens, closes = (number(context, found.prim, "shutter:" + n, 0.0) for n in ("open", "close"))
+    if closes < opens:
         context.warn(found.path, "shutter:close", "is before shutter:open; nothing is blurred")
         return (0.0, 0.0)
     return (opens, closes)
@@ -60,16 +60,18 @@ def shutter_of(context, found):
 
 def emit(context, found):
     prim, time = found.prim, context.time
-    fields = {key: float(value) for name, key in _FIELDS.items()
-              if (value := get(prim, name, time)) is not None}
-    near, far = get(prim, "clippingRange", time, (1.0, 1e6))
-    planes = get(prim, "clippingPlanes", time, [])
+    fields = {key: number(context, prim, name, fallback) for name, (key, fallback) in _FIELDS.items()}
+    try:
+        near, far = map(float, get(prim, "clippingRange", time, (1.0, 1e6)))
+    except (TypeError, ValueError):
+        context.warn(prim.GetPath(), "clippingRange", "is not two numbers; 1 to 1000000 is used")
+        near, far = 1.0, 1e6
+    planes = array(context, prim, "clippingPlanes", get(prim, "clippingPlanes", time), 4)
     opens, closes = context.shutter
     context.edit.set_camera(
         found.path, transform=transform_of(context, prim, None),
         orthographic=get(prim, "projection", time) == "orthographic",
-        clip_near=float(near), clip_far=float(far),
-        clipping_planes=np.asarray(planes, dtype=np.float32).reshape(-1, 4) if len(planes) else None,
+        clip_near=near, clip_far=far, clipping_planes=planes,
         shutter_open=opens, shutter_close=closes,
         exposure_scale=compat.exposure_scale(UsdGeom.Camera(prim), time), **fields)
     context.count("cameras")

@@ -10,7 +10,7 @@ def exposure_scale(camera, time):
     if hasattr(camera, "ComputeLinearExposureScale"):
         return float(camera.ComputeLinearExposureScale(time))
     exposure = camera.GetExposureAttr().Get(time) if hasattr(camera, "GetExposureAttr") else None
-    return 2.0 ** float(exposure or 0.0)
+    return 2.0 ** exposure if isinstance(exposure, float) else 1.0
 
 
 def composition_errors(stage):

@@ -2,6 +2,8 @@
 import numpy as np
 from pxr import Gf, Usd, UsdGeom
 
+from .errors import one_line
+
 MOST_MOTION_SAMPLES = 16
 
 
@@ -70,6 +72,35 @@ def get(prim, name, time, fallback=None):
     return fallback if value is None else value
 
 
+def number(context, prim, name, fallback, value=None):
+    """:param value: where it was read already
+    :returns: a finite float; the fallback, after a warning where something else is authored"""
+    if value is None:
+        value = get(prim, name, context.time)
+    if value is None:
+        return fallback
+    if not isinstance(value, (int, float)) or not np.isfinite(value):
+        context.warn(prim.GetPath(), name, f"is no finite number; {'the default' if fallback is None else fallback} is used")
+        return fallback
+    return float(value)
+
+
+def vector(context, prim, name, fallback, value=None):
+    """The same for three numbers; :returns: a tuple"""
+    if value is None:
+        value = get(prim, name, context.time)
+    if value is None:
+        return fallback
+    try:
+        numbers = np.array(value, dtype=np.float32)
+    except (TypeError, ValueError):
+        numbers = np.zeros(0)
+    if numbers.shape != (3,) or not np.isfinite(numbers).all():
+        context.warn(prim.GetPath(), name, f"is not three finite numbers; {fallback} is used")
+        return fallback
+    return tuple(map(float, numbers))
+
+
 def array(context, prim, name, value, components, dtype=np.float32):
     """:param value: of an attribute; its authored type may be any, whatever the schema says
     :returns: an array of elements x components (of elements alone for 1), without a copy where the
@@ -83,6 +114,8 @@ def array(context, prim, name, value, components, dtype=np.float32):
                                               found.ndim == 1 == components)
     except (TypeError, ValueError):
         found, fits = None, False
+    if fits and dtype == np.int32 and found.dtype.kind == "f":
+        fits = bool(np.isfinite(found).all())
     if not fits:
         if found is None or found.size:
             kind = "integers" if dtype == np.int32 else "numbers"
@@ -103,6 +136,6 @@ class Guard:
     def __exit__(self, kind, error, trace):
         if kind is None or not issubclass(kind, Exception):
             return False
-        text = " ".join(str(error).split())[:300] or kind.__name__
+        text = one_line(error)[:300]
         self.context.warn(self.prim.GetPath(), "", f"cannot be read and is not drawn: {text}")
         return True

@@ -3,7 +3,7 @@ import numpy as np
 from pxr import Kind, Usd, UsdGeom
 
 from . import cards
-from .context import get
+from .context import get, vector
 from .transforms import transform_of
 
 _EDGES = [(0, 1), (2, 3), (4, 5), (6, 7), (0, 2), (1, 3), (4, 6), (5, 7), (0, 4), (1, 5), (2, 6), (3, 7)]
@@ -33,7 +33,7 @@ def emit(context, found, mode, module):
         return
     low, high = np.array(extent.GetMin()), np.array(extent.GetMax())
     size = float(np.linalg.norm(high - low)) or 1.0
-    color = get(prim, "model:drawModeColor", context.time, (0.18, 0.18, 0.18))
+    color = vector(context, prim, "model:drawModeColor", (0.18, 0.18, 0.18))
     common = {"group": found.state.group.name, "transform": transform_of(context, prim, found.state.group.anchor)}
     context.count("drawModes")
     if mode == "cards":

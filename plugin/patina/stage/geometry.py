@@ -3,7 +3,7 @@ import numpy as np
 from pxr import UsdGeom
 
 from . import meshes, skinning
-from .context import array, get
+from .context import array, get, number
 from .primvars import add_builtin, read_primvars
 from .transforms import transform_of
 
@@ -102,10 +102,11 @@ def _implicit(context, found, kind, common):
     for name in sizes:
         value = found.authored(name, time)
         if value is not None:
-            sizes[name] = float(value)
+            sizes[name] = number(context, prim, name, sizes[name], value)
     if prim.GetTypeName() in ("Cylinder_1", "Capsule_1"):
         radius = sizes["radius"]
-        sizes["radius"] = float(get(prim, "radiusBottom", time, radius))
-        sizes["radius_top"] = float(get(prim, "radiusTop", time, radius))
-    axis = _AXES.get(found.authored("axis", time) or "Z", 2)
+        sizes["radius"] = number(context, prim, "radiusBottom", radius)
+        sizes["radius_top"] = number(context, prim, "radiusTop", radius)
+    axis = found.authored("axis", time)
+    axis = _AXES.get(axis if isinstance(axis, str) else "Z", 2)
     context.edit.set_implicit(found.path, shape=kind, axis=axis, **sizes, **common)

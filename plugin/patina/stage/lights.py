@@ -2,6 +2,7 @@
 from pxr import Gf, UsdGeom, UsdLux
 
 from . import assets
+from .context import number, vector
 from .kinds import LIGHTS
 from .transforms import transform_of
 
@@ -73,18 +74,25 @@ def _plain(context, prim, name):
     return attribute.Get(context.time) if attribute else None
 
 
+def _set_number(context, prim, name, key, value, fields):
+    """Values that are no numbers leave the scene's own fallback, which is the schema's."""
+    checked = number(context, prim, "inputs:" + name, None, value)
+    if checked is not None:
+        fields[key] = checked
+
+
 def _read(context, prim, fields):
     for name in _FLOATS:
         value = _input(context, prim, name)
         if value is not None:
-            fields[_snake(name)] = float(value)
+            _set_number(context, prim, name, _snake(name), value, fields)
     for name in _BOOLS:
         value = _input(context, prim, name)
         if value is not None:
             fields[_snake(name)] = bool(value)
     color = _input(context, prim, "color")
     if color is not None:
-        fields["color"] = tuple(color)
+        fields["color"] = vector(context, prim, "inputs:color", (1.0, 1.0, 1.0), color)
 
 
 def _read_texture(context, prim, fields):
@@ -104,10 +112,10 @@ def _read_shaping(context, prim, fields):
     for name, key in _SHAPING.items():
         value = _input(context, prim, name)
         if value is not None:
-            fields[key] = float(value)
+            _set_number(context, prim, name, key, value, fields)
     tint = _input(context, prim, "shaping:focusTint")
     if tint is not None:
-        fields["shaping_focus_tint"] = tuple(tint)
+        fields["shaping_focus_tint"] = vector(context, prim, "inputs:shaping:focusTint", (0.0, 0.0, 0.0), tint)
     fields["ies_normalize"] = bool(_input(context, prim, "shaping:ies:normalize") or False)
     attribute = prim.GetAttribute("inputs:shaping:ies:file")
     if attribute and attribute.HasAuthoredValue():
@@ -121,11 +129,11 @@ def _read_shadow(context, prim, fields):
         fields["shadow_enable"] = bool(enable)
     color = _input(context, prim, "shadow:color")
     if color is not None:
-        fields["shadow_color"] = tuple(color)
+        fields["shadow_color"] = vector(context, prim, "inputs:shadow:color", (0.0, 0.0, 0.0), color)
     for name, key in _SHADOW.items():
         value = _input(context, prim, name)
         if value is not None:
-            fields[key] = float(value)
+            _set_number(context, prim, name, key, value, fields)
 
 
 def _dome_pole(context, prim):

@@ -1,6 +1,8 @@
 """Transforms of prims, moving or not."""
 import numpy as np
-from pxr import UsdGeom
+from pxr import Gf, Tf, UsdGeom
+
+from .errors import one_line
 
 
 def sample_times(context, prim, anchor):
@@ -22,9 +24,16 @@ def sample_times(context, prim, anchor):
 
 def matrix_at(context, prim, anchor, offset):
     cache = context.xform_cache(offset)
-    if anchor is None:
-        return cache.GetLocalToWorldTransform(prim)
-    return cache.ComputeRelativeTransform(prim, anchor)[0]
+    try:
+        if anchor is None:
+            return cache.GetLocalToWorldTransform(prim)
+        return cache.ComputeRelativeTransform(prim, anchor)[0]
+    except Tf.ErrorException as error:
+        context.warn(prim.GetPath(), "xformOpOrder", f"{one_line(error)[:200]} The transform of its parent is used.")
+    parent = prim.GetParent()
+    if not parent or parent.IsPseudoRoot() or parent == anchor:
+        return Gf.Matrix4d(1.0)
+    return matrix_at(context, parent, anchor, offset)
 
 
 def transform_of(context, prim, anchor, after=None):

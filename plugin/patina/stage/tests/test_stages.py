@@ -39,6 +39,21 @@ def test_composition_errors_name_the_prim(read):
     assert len(reading.warnings) == 3  # once each
 
 
+def test_values_of_wrong_types_are_named(read):
+    reading = read("""
+    def Sphere "s" { token radius = "wide" }
+    def Sphere "t" { string xformOp:translate = "far"  uniform token[] xformOpOrder = ["xformOp:translate"] }
+    def Camera "c" { token focalLength = "long"  float clippingRange = 3  token shutter:open = "now" }
+    def SphereLight "l" { float[] inputs:color = [1]  token inputs:intensity = "bright" }
+    def RectLight "r" { float inputs:texture:file = 3 }""", frame=1.0)
+    said = "\n".join(reading.warnings)
+    for part in ("/s radius:", "/t xformOpOrder:", "/c focalLength:", "/c clippingRange:", "/c shutter:open:",
+                 "/l inputs:color:", "/l inputs:intensity:", "/r inputs:texture:file:"):
+        assert part in said, said
+    for path in ("/s", "/t", "/c", "/l", "/r"):
+        assert reading.has(path)
+
+
 def test_models_drawn_as_boxes(read):
     reading = read("""def Xform "model" (kind = "component"; prepend apiSchemas = ["GeomModelAPI"]) {
         uniform token model:drawMode = "bounds"  float3 model:drawModeColor = (1, 0, 0)

@@ -3,6 +3,15 @@
 // The shader dialect as C++: every lobe in float (patina::sh) and in double (patina::sh64), from
 // the text that the rasterizer reads as GLSL. The double instance is the oracle of the tests and
 // the source of the baked tables; it reads the same float tables.
+//
+// Every lobe X offers, with the structs and event bits of lib/lobe.glsl:
+//   xSetup(inputs of the MaterialX node without weight, normal, tangent) -> XLobe; any input is
+//   safe xEval(lobe, wo, wi) -> LobeEval: value times |cos wi|, and pdf xSample(lobe, wo, u in [0,
+//   1)^3) -> LobeSample xAlbedo(lobe, wo) -> directional albedo; xAlbedoReflect where a lobe also
+//   transmits: the layer
+//     below is scaled by 1 minus this
+//   xAt(lobe, wo) -> lobe (microfacet lobes only): with the energy factors for this wo looked up,
+//     for a caller that evaluates or samples several times from there
 
 #include <cmath>
 #include <glm/vec2.hpp>
@@ -13,7 +22,7 @@ namespace patina {
 
 /// Baked directional albedo tables, sh::ALBEDO_TABLE_SIZE floats; shaders/lib/albedoTable.glsl says
 /// how they are laid out. Written by shaders/bake at build time. The rasterizer uploads them.
-extern const float *const patinaAlbedoTable;
+extern const float* const patinaAlbedoTable;
 
 namespace sh {
 #include "shaders/compat/cpp.h"

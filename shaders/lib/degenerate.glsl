@@ -26,9 +26,6 @@ const float F0_MAX = 0.9391f;
 // internal reflection, table noise).
 const float ALBEDO_MIN = 1e-3f;
 
-// Most that energy compensation multiplies a transmission lobe with.
-const float TRANSMIT_GAIN_MAX = 2.5f;
-
 // Smallest z of a sampled facet normal before it is scaled by alpha; guards rounding only.
 const float NORMAL_Z_MIN = 1e-7f;
 

@@ -11,14 +11,15 @@ PATINA_FN float energyReflect(float ess, float favg, int compensate) {
 }
 
 // The transmitted lobe takes the rest, so that a lossless interface loses nothing. er and et:
-// single scattering albedos; kr: energyReflect. Where little is transmitted (close to total
-// reflection) the factor is bounded, and energyRest gives the remainder back to reflection.
+// single scattering albedos; kr: energyReflect. For light from the thinner side, where et never
+// vanishes.
 PATINA_FN float energyTransmit(float er, float et, float kr) {
-    return clamp((1.0f - er * kr) / max(et, ALBEDO_MIN), 0.0f, TRANSMIT_GAIN_MAX);
+    return max(1.0f - er * kr, 0.0f) / max(et, ALBEDO_MIN);
 }
 
-PATINA_FN float energyRest(float er, float et, float kt) {
-    return max(1.0f - et * kt, 0.0f) / max(er, ALBEDO_MIN);
+// From the denser side, close to total reflection, et does vanish: one factor for both lobes.
+PATINA_FN float energyBoth(float er, float et) {
+    return 1.0f / max(er + et, ALBEDO_MIN);
 }
 
 // Factor on a transmission lobe that lies under a reflection lobe: the layer above already scaled

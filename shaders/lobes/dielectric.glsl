@@ -13,8 +13,7 @@ struct DielectricLobe {
     vec2 alpha; // 0 = mirror
     float ior;
     float invIor;
-    float favgOutside;
-    float favgInside;
+    float favg;  // hemispherical average from the thinner side
     float retro; // -1 sends reflection back to where it came from, else 1
     int mode;
     int compensate;
@@ -41,8 +40,7 @@ PATINA_FN DielectricLobe dielectricSetup(vec3 tint, float ior, vec2 roughness, b
     l.alpha = ggxAlpha(roughness);
     l.ior = select(1.0f, n, l.matched);
     l.invIor = 1.0f / l.ior;
-    l.favgOutside = select(1.0f, fresnelDielectricAverage(l.ior), l.full);
-    l.favgInside = select(1.0f, fresnelDielectricAverage(l.invIor), l.full);
+    l.favg = select(1.0f, fresnelDielectricAverage(max(l.ior, l.invIor)), l.full);
     l.retro = select(-1.0f, 1.0f, retroreflective);
     l.mode = select(SCATTER_R, scatterMode, l.full);
     l.compensate = compensate;
@@ -84,11 +82,12 @@ PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, vec3 wo) {
     vec2 a = interfaceAlbedo(mu, ggxAlphaSeen(wo, l.alpha), eta);
     float er = ess * select(1.0f, a.x, l.full);
     float et = ess * select(0.0f, a.y, l.full);
-    e.kr = energyReflect(ess, select(l.favgOutside, l.favgInside, z >= 0.0f), l.compensate);
+    e.kr = energyReflect(ess, l.favg, l.compensate);
     e.kt = 1.0f;
     if (l.compensate != 0 && !l.full) {
-        e.kt = energyTransmit(er, et, e.kr);
-        if (e.kt == TRANSMIT_GAIN_MAX) e.kr = energyRest(er, et, e.kt);
+        float both = energyBoth(er, et);
+        e.kr = select(e.kr, both, eta >= 1.0f);
+        e.kt = select(energyTransmit(er, et, e.kr), both, eta >= 1.0f);
     }
     e.r = er * e.kr;
     e.kt *= energyFused(e.r, l.fused);
@@ -102,10 +101,9 @@ PATINA_FN DielectricLobe dielectricAt(DielectricLobe l, vec3 wo) {
     l.known = true;
     bool plain = (l.compensate == 0 || l.alpha.x == 0.0f) && !l.fused;
     if (plain || l.matched) return l;
-    // From the denser side R may take over what T cannot: only then does R need T's albedo.
-    if (l.mode == SCATTER_R && (l.full || dielectricEta(l, wo.z) > 1.0f)) {
+    if (l.mode == SCATTER_R && (l.full || dielectricEta(l, wo.z) >= 1.0f)) {
         float ess = momentAlbedo0(momentPlace(abs(wo.z), ggxAlphaLoss(wo, l.alpha)));
-        l.kr = energyReflect(ess, select(l.favgOutside, l.favgInside, wo.z >= 0.0f), l.compensate);
+        l.kr = energyReflect(ess, l.favg, l.compensate);
         return l;
     }
     DielectricEnergy e = dielectricEnergy(l, wo);

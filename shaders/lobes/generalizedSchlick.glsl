@@ -95,11 +95,10 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
     vec3 er = mean * ess;
     vec3 et = (vec3(1.0f) - mean) * min(ess * a.y / max(1.0f - a.x, ALBEDO_MIN), 1.0f);
     if (compensates) {
-        vec3 kt = max(vec3(1.0f) - er * e.kr, vec3(0.0f)) / max(et, vec3(ALBEDO_MIN));
-        e.kt = min(kt, vec3(TRANSMIT_GAIN_MAX));
-        vec3 rest = max(vec3(1.0f) - et * e.kt, vec3(0.0f)) / max(er, vec3(ALBEDO_MIN));
-        e.kr = vec3(select(rest.x, e.kr.x, kt.x > e.kt.x), select(rest.y, e.kr.y, kt.y > e.kt.y),
-                    select(rest.z, e.kr.z, kt.z > e.kt.z));
+        vec3 both = vec3(1.0f) / max(er + et, vec3(ALBEDO_MIN));
+        vec3 rest = max(vec3(1.0f) - er * e.kr, vec3(0.0f)) / max(et, vec3(ALBEDO_MIN));
+        e.kr = select(e.kr, both, z >= 0.0f);
+        e.kt = select(rest, both, z >= 0.0f);
     } else
         e.kt = vec3(1.0f);
     e.r = er * e.kr;

@@ -17,8 +17,8 @@ struct TessellationOptions {
 /// Tessellates a mesh.
 ///
 /// With scheme `none` the polygons are drawn as they are: concave ones are cut by ear clipping,
-/// quads along their shorter diagonal. Authored normals are used; without them faces are flat, as
-/// UsdGeomMesh says of polygonal meshes.
+/// quads along their shorter diagonal. Authored normals are used, and stand still when points
+/// move; without them faces are flat, as UsdGeomMesh says of polygonal meshes.
 ///
 /// With a subdivision scheme the level is the smallest that satisfies targetEdge, at least
 /// Mesh::refineLevel, at most maxRefineLevel and what the triangle budget allows. From level 1 on

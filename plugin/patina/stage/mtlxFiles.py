@@ -8,6 +8,8 @@ import os
 
 from pxr import Sdf, Usd
 
+from .context import Guard
+
 _KEY = "patinaDocument"
 _networks = {}  # (file, material) -> Network
 
@@ -25,7 +27,7 @@ def supply(context, stage, errors, module):
     :returns: the errors that are left"""
     left, wanted = [], set()
     for path, text in errors:
-        if ".mtlx" in text:
+        if ".mtlx" in text and path != "/":  # a sublayer has no prim to reference it from
             wanted.add(path)
         else:
             left.append((path, text))
@@ -37,7 +39,8 @@ def supply(context, stage, errors, module):
         for path in sorted(wanted):
             prim = stage.GetPrimAtPath(path)
             if prim:
-                _supply_prim(context, prim, module)
+                with Guard(context, prim):
+                    _supply_prim(context, prim, module)
     return left
 
 

@@ -8,12 +8,13 @@ from .transforms import as_transform, matrix_at, sample_times
 
 def skinning_of(context, root):
     """:param root: a SkelRoot
-    :returns: dict from prim path to Skin of what is skinned below it"""
+    :returns: dict from prim path to Skin of what is skinned below it, instances included; None when
+    nothing is"""
     cache, skel_root = UsdSkel.Cache(), UsdSkel.Root(root)
-    predicate = Usd.PrimDefaultPredicate
+    predicate = Usd.TraverseInstanceProxies()
     skins = {}
     if not cache.Populate(skel_root, predicate):
-        return skins
+        return None
     for binding in cache.ComputeSkelBindings(skel_root, predicate):
         skeleton = binding.GetSkeleton()
         query = cache.GetSkelQuery(skeleton)
@@ -23,7 +24,7 @@ def skinning_of(context, root):
                 context.warn(prim.GetPath(), "skel", "has no usable skeleton or joint influences; it is drawn unskinned")
                 continue
             skins[prim.GetPath()] = Skin(skeleton.GetPrim(), query, target)
-    return skins
+    return skins or None
 
 
 def skin_of(found):

@@ -12,6 +12,7 @@ from .skinning import skinning_of
 from .state import Found, Group, State, Walked
 
 _ANY = Usd.PrimIsActive & Usd.PrimIsLoaded  # prototypes of point instancers may be overs and classes
+_PROXIES = Usd.TraverseInstanceProxies()  # what is skinned differs from instance to instance
 
 
 class Walk:
@@ -41,7 +42,7 @@ class Walk:
             with Guard(self.context, prim):
                 state = self._visit(prim, state)
             if state is not None:
-                children = prim.GetFilteredChildren(predicate)
+                children = prim.GetFilteredChildren(predicate if state.skinning is None else _PROXIES)
                 if children:
                     stack.extend((child, state) for child in reversed(children))
 
@@ -89,7 +90,7 @@ class Walk:
                 self.walked.gprims.append(Found(prim, own, state.group.path(prim), names))
             if prim.IsInstance():
                 return None
-        if prim.IsInstance():
+        if prim.IsInstance() and state.skinning is None:
             self._pending.append(Found(prim, state, state.group.path(prim)))
             return None
         return state

@@ -139,3 +139,17 @@ def test_references_to_materialx_documents(read, tmp_path):
     assert reading.prim("/s")["material"] == '"/mtl/Look"'
     assert reading.prim("/mtl/Look")["float base"] == "0.3"
     assert not reading.warnings
+
+
+def test_materialx_documents_that_cannot_be_used(read, tmp_path):
+    (tmp_path / "noise.mtlx").write_text("this is no document")
+    (tmp_path / "empty.mtlx").write_text('<?xml version="1.0"?><materialx version="1.39"/>')
+    reading = read("""(subLayers = [@./sub.mtlx@])
+    def Scope "a" (references = @./none.mtlx@) { }
+    def Scope "b" (references = @./noise.mtlx@) { }
+    def Scope "c" (references = @./empty.mtlx@</MaterialX/Materials/Gold>) { }
+    def Sphere "s" { }""")
+    said = "\n".join(reading.warnings)
+    for part in ("sub.mtlx", "/a references: there is no file", "noise.mtlx", "/c references:"):
+        assert part in said, said
+    assert reading.has("/s")

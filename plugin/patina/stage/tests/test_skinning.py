@@ -73,6 +73,20 @@ def test_dual_quaternions_differ(read, numbers):
     assert abs(dual[3]) + abs(dual[5]) == pytest.approx(1.0, abs=1e-4)  # and here it does not
 
 
+def test_instanced_characters_are_skinned_each(read, numbers):
+    character = (SKELETON % WEIGHTS).replace('def SkelRoot "r"', 'class SkelRoot "r"')
+    reading = read(character + """
+    def SkelRoot "one" (instanceable = true; inherits = </r>) { }
+    def SkelRoot "two" (instanceable = true; inherits = </r>) {
+        double3 xformOp:translate = (0, 0, 7)  uniform token[] xformOpOrder = ["xformOp:translate"] }
+    def SkelRoot "bare" (instanceable = true; inherits = </plain>) { }
+    class SkelRoot "plain" { def Sphere "s" { } }""", frame=5.0)
+    for path in ("/one/m", "/two/m"):
+        assert numbers(reading.prim(path)["points"])[6] == pytest.approx(5.0)
+    assert numbers(reading.prim("/two/m")["transform"])[12:15] == [100, 0, 7]
+    assert reading.prim("/bare")["kind"] == "Instancer"  # nothing is skinned there
+
+
 def test_broken_skinning_is_drawn_at_rest(read, numbers):
     reading = read(SKELETON % """
             int[] primvars:skel:jointIndices = [0, 7, 9] (interpolation = "vertex"; elementSize = 1)

@@ -13,22 +13,22 @@ namespace {
 
 /// Whether a rect is sampled by solid angle. Far ones look the same from everywhere, and area
 /// sampling is cheaper.
-bool bySolidAngle(const AreaShape &shape, const vec3 &point) {
+bool bySolidAngle(const AreaShape& shape, const vec3& point) {
     const vec3 v = point - shape.origin;
     return shape.rightAngled && shape.area > 0.01f * glm::dot(v, v);
 }
 
-bool rectFrom(const AreaShape &shape, const vec3 &point, SphericalRect &rect) {
+bool rectFrom(const AreaShape& shape, const vec3& point, SphericalRect& rect) {
     const vec3 corner = shape.origin - 0.5f * (shape.axes[0] + shape.axes[1]);
     return rect.setup(corner, shape.axes[0], shape.axes[1], point);
 }
 
-bool facesPlane(const AreaShape &shape, const vec3 &point) {
+bool facesPlane(const AreaShape& shape, const vec3& point) {
     return glm::dot(point - shape.origin, shape.normal) > 0.0f;
 }
 
 /// Concentric map of the square to the disk (Shirley and Chiu 1997).
-vec2 concentricDisk(const vec2 &u) {
+vec2 concentricDisk(const vec2& u) {
     const vec2 o = 2.0f * u - 1.0f;
     if (o.x == 0.0f && o.y == 0.0f) return vec2(0.0f);
     float r, theta;
@@ -44,7 +44,7 @@ vec2 concentricDisk(const vec2 &u) {
 
 } // namespace
 
-AreaShape makeAreaShape(const Light &light, const mat4 &toWorld) {
+AreaShape makeAreaShape(const Light& light, const mat4& toWorld) {
     AreaShape s;
     vec3 size(std::abs(light.radius));
     switch (light.type) {
@@ -93,7 +93,7 @@ AreaShape makeAreaShape(const Light &light, const mat4 &toWorld) {
     return s;
 }
 
-bool sampleShape(const AreaShape &shape, const vec3 &point, const vec2 &u, ShapeSample &out) {
+bool sampleShape(const AreaShape& shape, const vec3& point, const vec2& u, ShapeSample& out) {
     if (shape.kind == AreaShape::Kind::Sphere) return sampleSphere(shape, point, u, out);
     if (shape.kind == AreaShape::Kind::Cylinder) return sampleCylinder(shape, point, u, out);
     if (!facesPlane(shape, point)) return false;
@@ -115,8 +115,8 @@ bool sampleShape(const AreaShape &shape, const vec3 &point, const vec2 &u, Shape
     return out.pdf > 0.0f;
 }
 
-float shapePdf(const AreaShape &shape, const vec3 &point, const vec3 &position,
-               const vec3 &normal) {
+float shapePdf(const AreaShape& shape, const vec3& point, const vec3& position,
+               const vec3& normal) {
     if (shape.kind == AreaShape::Kind::Sphere) return spherePdf(shape, point, position);
     if (shape.kind == AreaShape::Kind::Cylinder) return cylinderPdf(shape, point, position, normal);
     if (!facesPlane(shape, point)) return 0.0f;
@@ -127,8 +127,8 @@ float shapePdf(const AreaShape &shape, const vec3 &point, const vec3 &position,
     return areaToSolidAngle(1.0f / shape.area, point, position, shape.normal);
 }
 
-bool intersectShape(const AreaShape &shape, const vec3 &origin, const vec3 &direction, float near,
-                    float far, float &distance, vec3 &normal) {
+bool intersectShape(const AreaShape& shape, const vec3& origin, const vec3& direction, float near,
+                    float far, float& distance, vec3& normal) {
     const vec3 q = shape.local(origin), d = shape.inverse * direction;
     const auto inRange = [&](float t) { return t > near && t < far; };
     if (shape.kind == AreaShape::Kind::Rect || shape.kind == AreaShape::Kind::Disk) {
@@ -167,7 +167,7 @@ bool intersectShape(const AreaShape &shape, const vec3 &origin, const vec3 &dire
     return true;
 }
 
-void growBounds(const AreaShape &shape, vec3 &low, vec3 &high) {
+void growBounds(const AreaShape& shape, vec3& low, vec3& high) {
     vec3 extent;
     const vec3 a = glm::abs(shape.axes[0]), b = glm::abs(shape.axes[1]),
                c = glm::abs(shape.axes[2]);

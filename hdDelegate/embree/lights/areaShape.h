@@ -26,26 +26,26 @@ struct AreaShape {
     mat3 axes{1.0f}, inverse{1.0f};
     float determinant = 1.0f, area = 0.0f;
 
-    vec3 local(const vec3 &position) const { return inverse * (position - origin); }
+    vec3 local(const vec3& position) const { return inverse * (position - origin); }
 };
 
 /// @param light of type rect, disk, sphere or cylinder
-AreaShape makeAreaShape(const Light &light, const mat4 &toWorld);
+AreaShape makeAreaShape(const Light& light, const mat4& toWorld);
 
 /// Chooses a point on the shape: spheres by the cone (under affine transforms too) that they fill,
 /// rects by solid angle where they are large (Urena et al. 2013), cylinders by angle along and by
 /// projected width across, the rest by area.
 /// @returns false when no part that emits faces the point
-bool sampleShape(const AreaShape &shape, const vec3 &point, const vec2 &u, ShapeSample &out);
+bool sampleShape(const AreaShape& shape, const vec3& point, const vec2& u, ShapeSample& out);
 
 /// Solid angle density with which sampleShape() chooses a position on the shape.
-float shapePdf(const AreaShape &shape, const vec3 &point, const vec3 &position, const vec3 &normal);
+float shapePdf(const AreaShape& shape, const vec3& point, const vec3& position, const vec3& normal);
 
 /// The first point of the shape's emitting side that a ray meets.
-bool intersectShape(const AreaShape &shape, const vec3 &origin, const vec3 &direction, float near,
-                    float far, float &distance, vec3 &normal);
+bool intersectShape(const AreaShape& shape, const vec3& origin, const vec3& direction, float near,
+                    float far, float& distance, vec3& normal);
 
 /// Grows a box by the shape.
-void growBounds(const AreaShape &shape, vec3 &low, vec3 &high);
+void growBounds(const AreaShape& shape, vec3& low, vec3& high);
 
 } // namespace patina

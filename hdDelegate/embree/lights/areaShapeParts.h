@@ -11,21 +11,21 @@ namespace patina {
 constexpr float lightPi = 3.14159265358979f;
 
 /// Turns a density over area into one over solid angle; 0 where the surface faces away.
-inline float areaToSolidAngle(float pdfArea, const vec3 &point, const vec3 &position,
-                              const vec3 &normal) {
+inline float areaToSolidAngle(float pdfArea, const vec3& point, const vec3& position,
+                              const vec3& normal) {
     const vec3 v = point - position;
     const float d2 = glm::dot(v, v), projected = glm::dot(v, normal);
     return projected > 0.0f && d2 > 0.0f ? pdfArea * d2 * std::sqrt(d2) / projected : 0.0f;
 }
 
-bool sampleSphere(const AreaShape &shape, const vec3 &point, const vec2 &u, ShapeSample &out);
-float spherePdf(const AreaShape &shape, const vec3 &point, const vec3 &position);
-bool sampleCylinder(const AreaShape &shape, const vec3 &point, const vec2 &u, ShapeSample &out);
-float cylinderPdf(const AreaShape &shape, const vec3 &point, const vec3 &position,
-                  const vec3 &normal);
+bool sampleSphere(const AreaShape& shape, const vec3& point, const vec2& u, ShapeSample& out);
+float spherePdf(const AreaShape& shape, const vec3& point, const vec3& position);
+bool sampleCylinder(const AreaShape& shape, const vec3& point, const vec2& u, ShapeSample& out);
+float cylinderPdf(const AreaShape& shape, const vec3& point, const vec3& position,
+                  const vec3& normal);
 
 /// Two unit vectors that complete a right-handed frame (Duff et al. 2017).
-inline void makeFrame(const vec3 &n, vec3 &x, vec3 &y) {
+inline void makeFrame(const vec3& n, vec3& x, vec3& y) {
     const float sign = std::copysign(1.0f, n.z);
     const float a = -1.0f / (sign + n.z), b = n.x * n.y * a;
     x = vec3(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);

@@ -17,18 +17,19 @@ float coneHeight(float d2) {
 
 /// Where on the line of the cylinder that is nearest to the point the samples centre.
 struct CylinderView {
-    float phi, sineHalf; ///< the angles about the axis that are seen: phi +- asin(sineHalf)
+    float phi, rho;      ///< the point in the cross-section, polar; rho > 1
+    float half;          ///< half the angle under which the cross-section is seen
     float middle, scale; ///< x = (t - middle) * scale, and t has density ~ 1 / (1 + x^2)
     float a, angle;      ///< x at t = -1/2, and the angle over which atan x goes
 };
 
-bool viewCylinder(const AreaShape &shape, const vec3 &point, CylinderView &view) {
+bool viewCylinder(const AreaShape& shape, const vec3& point, CylinderView& view) {
     const vec3 q = shape.local(point);
     const float rho2 = q.y * q.y + q.z * q.z;
     if (!(rho2 > 1.0f)) return false;
     view.phi = std::atan2(q.z, q.y);
-    view.sineHalf = std::sqrt(1.0f - 1.0f / rho2);
-    if (!(view.sineHalf > 0.0f)) return false;
+    view.rho = std::sqrt(rho2);
+    view.half = std::asin(std::min(1.0f, 1.0f / view.rho));
     const vec3 along = shape.axes[0];
     const vec3 start =
         shape.origin + std::cos(view.phi) * shape.axes[1] + std::sin(view.phi) * shape.axes[2];
@@ -43,17 +44,23 @@ bool viewCylinder(const AreaShape &shape, const vec3 &point, CylinderView &view)
     return view.angle > 0.0f;
 }
 
-float cylinderAreaPdf(const AreaShape &shape, const CylinderView &view, float t, float phi) {
+float cylinderAreaPdf(const AreaShape& shape, const CylinderView& view, float t, float phi) {
     const float x = (t - view.middle) * view.scale;
     const float along = view.scale / ((1.0f + x * x) * view.angle);
-    const float around = std::max(0.0f, std::cos(phi - view.phi)) / (2.0f * view.sineHalf);
+    // Across, the angle psi at the point is uniform: d(phi) = (rho cos psi / cos i - 1) d(psi),
+    // where i = delta + psi is the angle at the surface.
+    const float delta = phi - view.phi;
+    const float psi = std::atan2(std::sin(delta), view.rho - std::cos(delta));
+    const float cosI = std::cos(delta + psi), distance = view.rho * std::cos(psi) - cosI;
+    if (!(cosI > 0.0f && distance > 0.0f)) return 0.0f;
+    const float around = cosI / (2.0f * view.half * distance);
     const vec3 tangent = -std::sin(phi) * shape.axes[1] + std::cos(phi) * shape.axes[2];
     return along * around / glm::length(glm::cross(shape.axes[0], tangent));
 }
 
 } // namespace
 
-bool sampleSphere(const AreaShape &shape, const vec3 &point, const vec2 &u, ShapeSample &out) {
+bool sampleSphere(const AreaShape& shape, const vec3& point, const vec2& u, ShapeSample& out) {
     const vec3 q = shape.local(point);
     const float d2 = glm::dot(q, q);
     if (!(d2 > 1.0f)) return false;
@@ -74,7 +81,7 @@ bool sampleSphere(const AreaShape &shape, const vec3 &point, const vec2 &u, Shap
     return out.pdf > 0.0f;
 }
 
-float spherePdf(const AreaShape &shape, const vec3 &point, const vec3 &position) {
+float spherePdf(const AreaShape& shape, const vec3& point, const vec3& position) {
     const vec3 q = shape.local(point);
     const float d2 = glm::dot(q, q);
     if (!(d2 > 1.0f)) return 0.0f;
@@ -86,11 +93,12 @@ float spherePdf(const AreaShape &shape, const vec3 &point, const vec3 &position)
     return localLength > 0.0f ? local * ratio * ratio * ratio / shape.determinant : 0.0f;
 }
 
-bool sampleCylinder(const AreaShape &shape, const vec3 &point, const vec2 &u, ShapeSample &out) {
+bool sampleCylinder(const AreaShape& shape, const vec3& point, const vec2& u, ShapeSample& out) {
     CylinderView view;
     if (!viewCylinder(shape, point, view)) return false;
-    const float phi =
-        view.phi + std::asin(std::clamp((2.0f * u.y - 1.0f) * view.sineHalf, -1.0f, 1.0f));
+    const float psi = (2.0f * u.y - 1.0f) * view.half;
+    const float sine = std::clamp(view.rho * std::sin(psi), -1.0f, 1.0f);
+    const float phi = view.phi + std::asin(sine) - psi;
     const float turn = std::tan(u.x * view.angle);
     const float x = (view.a + turn) / (1.0f - view.a * turn);
     const float t = std::clamp(view.middle + x / view.scale, -0.5f, 0.5f);
@@ -102,8 +110,8 @@ bool sampleCylinder(const AreaShape &shape, const vec3 &point, const vec2 &u, Sh
     return out.pdf > 0.0f && std::isfinite(out.pdf);
 }
 
-float cylinderPdf(const AreaShape &shape, const vec3 &point, const vec3 &position,
-                  const vec3 &normal) {
+float cylinderPdf(const AreaShape& shape, const vec3& point, const vec3& position,
+                  const vec3& normal) {
     CylinderView view;
     if (!viewCylinder(shape, point, view)) return 0.0f;
     const vec3 q = shape.local(position);

@@ -12,7 +12,7 @@ class Distribution2d {
 public:
     Distribution2d() = default;
     /// @param weights row by row, not negative; they need not sum to anything
-    Distribution2d(int width, int height, const std::vector<float> &weights);
+    Distribution2d(int width, int height, const std::vector<float>& weights);
 
     bool empty() const { return _total <= 0.0; } ///< all weights are 0
     int width() const { return _width; }
@@ -20,8 +20,8 @@ public:
     double total() const { return _total; }
 
     /// @returns the probability of the cell; `cell` its column and row, `within` where in it
-    float sample(const glm::vec2 &u, glm::ivec2 &cell, glm::vec2 &within) const;
-    float probability(const glm::ivec2 &cell) const;
+    float sample(const glm::vec2& u, glm::ivec2& cell, glm::vec2& within) const;
+    float probability(const glm::ivec2& cell) const;
 
 private:
     int _width = 0, _height = 0;

@@ -10,11 +10,11 @@ namespace {
 constexpr float pi = 3.14159265358979f;
 constexpr int largestGridWidth = 2048;
 
-float luminance(const vec3 &c) {
+float luminance(const vec3& c) {
     return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
-float longitudeFraction(const vec3 &d) {
+float longitudeFraction(const vec3& d) {
     const float u = 0.5f - std::atan2(d.x, d.z) / (2.0f * pi);
     return u - std::floor(u);
 }
@@ -27,7 +27,7 @@ vec3 direction(float u, float cosine) {
 
 } // namespace
 
-EnvironmentFormat environmentFormat(const std::string &name) {
+EnvironmentFormat environmentFormat(const std::string& name) {
     if (name == "latlong") return EnvironmentFormat::Latlong;
     if (name == "mirroredBall") return EnvironmentFormat::MirroredBall;
     if (name == "angular") return EnvironmentFormat::Angular;
@@ -65,8 +65,8 @@ vec3 EnvironmentMap::bilinear(float x, float y, bool wrap) const {
         x0 = std::clamp(x0, 0, w - 1);
         x1 = std::clamp(x1, 0, w - 1);
     }
-    const vec3 *top = &_image->pixels[size_t(y0) * size_t(w)];
-    const vec3 *bottom = &_image->pixels[size_t(y1) * size_t(w)];
+    const vec3* top = &_image->pixels[size_t(y0) * size_t(w)];
+    const vec3* bottom = &_image->pixels[size_t(y1) * size_t(w)];
     return (1.0f - ty) * ((1.0f - tx) * top[x0] + tx * top[x1]) +
            ty * ((1.0f - tx) * bottom[x0] + tx * bottom[x1]);
 }
@@ -77,7 +77,7 @@ vec3 EnvironmentMap::bilinearIn(float x, float y, int x0, int y0, int x1, int y1
                     std::clamp(y, float(y0) + 0.5f, float(y1) - 0.5f), false);
 }
 
-vec3 EnvironmentMap::cross(const vec3 &d) const {
+vec3 EnvironmentMap::cross(const vec3& d) const {
     const vec3 a = glm::abs(d);
     int column = 1, row = 1;
     float s, t; // -1..1, right and down in the face
@@ -104,7 +104,7 @@ vec3 EnvironmentMap::cross(const vec3 &d) const {
                       int(float(row + 1) * h));
 }
 
-vec3 EnvironmentMap::radiance(const vec3 &d) const {
+vec3 EnvironmentMap::radiance(const vec3& d) const {
     const float w = float(_image->width), h = float(_image->height);
     switch (_format) {
     case EnvironmentFormat::CubeMapVerticalCross:
@@ -131,7 +131,7 @@ std::vector<vec3> EnvironmentMap::latlongGrid(int width, int height) const {
     const int factor = latlong ? _image->width / width : 1;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            vec3 &cell = grid[size_t(y) * size_t(width) + size_t(x)];
+            vec3& cell = grid[size_t(y) * size_t(width) + size_t(x)];
             if (!latlong) {
                 const float cosine = std::cos(pi * (float(y) + 0.5f) / float(height));
                 cell = radiance(direction((float(x) + 0.5f) / float(width), cosine));
@@ -171,7 +171,7 @@ void EnvironmentMap::build() {
 
     // A cell's share of bilinear interpolation is (1, 6, 1) / 8 of itself and its neighbours, along
     // both axes.
-    const auto at = [&](int x, int y) -> const vec3 & {
+    const auto at = [&](int x, int y) -> const vec3& {
         return grid[size_t(std::clamp(y, 0, height - 1)) * size_t(width) +
                     size_t((x + width) % width)];
     };
@@ -197,7 +197,7 @@ float EnvironmentMap::bandHeight(int row) const {
     return _cosines[row] - _cosines[row + 1];
 }
 
-vec3 EnvironmentMap::sample(const vec2 &u, float &pdf) const {
+vec3 EnvironmentMap::sample(const vec2& u, float& pdf) const {
     glm::ivec2 cell;
     vec2 within;
     const float probability = _distribution.sample(u, cell, within);
@@ -207,7 +207,7 @@ vec3 EnvironmentMap::sample(const vec2 &u, float &pdf) const {
     return direction((float(cell.x) + within.x) / width, cosine);
 }
 
-float EnvironmentMap::pdf(const vec3 &d) const {
+float EnvironmentMap::pdf(const vec3& d) const {
     const int width = _distribution.width(), height = _distribution.height();
     glm::ivec2 cell;
     cell.x = std::min(int(longitudeFraction(d) * float(width)), width - 1);

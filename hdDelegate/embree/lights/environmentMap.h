@@ -12,7 +12,7 @@ namespace patina {
 /// How an image lies around a dome (UsdLux texture:format).
 enum class EnvironmentFormat { Automatic, Latlong, MirroredBall, Angular, CubeMapVerticalCross };
 /// Unknown names are automatic: a vertical cross when the image is 3 wide and 4 high, else latlong.
-EnvironmentFormat environmentFormat(const std::string &name);
+EnvironmentFormat environmentFormat(const std::string& name);
 
 /// An image that surrounds the scene, with a density to sample it by.
 ///
@@ -30,19 +30,19 @@ public:
     EnvironmentMap(std::shared_ptr<const ImageRGB> image, EnvironmentFormat format);
 
     bool black() const { return _distribution.empty(); }
-    vec3 radiance(const vec3 &direction) const;
+    vec3 radiance(const vec3& direction) const;
     vec3 mean() const { return _mean; } ///< of the radiance over the sphere
 
     /// @param pdf receives the density over solid angle
-    vec3 sample(const vec2 &u, float &pdf) const;
-    float pdf(const vec3 &direction) const;
+    vec3 sample(const vec2& u, float& pdf) const;
+    float pdf(const vec3& direction) const;
 
 private:
     void build();
     std::vector<vec3> latlongGrid(int width, int height) const;
     vec3 bilinear(float x, float y, bool wrap) const;
     vec3 bilinearIn(float x, float y, int x0, int y0, int x1, int y1) const;
-    vec3 cross(const vec3 &direction) const;
+    vec3 cross(const vec3& direction) const;
     float bandHeight(int row) const; ///< difference of cos(theta) across a row
 
     std::shared_ptr<const ImageRGB> _image;

@@ -8,14 +8,14 @@
 
 namespace patina {
 
-const LightEmitter::Pose &LightEmitter::poseAt(float time, Pose &scratch) const {
+const LightEmitter::Pose& LightEmitter::poseAt(float time, Pose& scratch) const {
     if (!_moves) return _pose;
     scratch = makePose(_group * transformAt(_light.transform, time));
     return scratch;
 }
 
 /// Rect texture: the image's left top corner is at (+x, +y), as the schema puts it.
-vec3 LightEmitter::texture(const AreaShape &shape, const vec3 &position) const {
+vec3 LightEmitter::texture(const AreaShape& shape, const vec3& position) const {
     if (!_texture) return vec3(1.0f);
     const vec3 q = shape.local(position);
     const int w = _texture->width, h = _texture->height;
@@ -31,20 +31,20 @@ vec3 LightEmitter::texture(const AreaShape &shape, const vec3 &position) const {
            ty * ((1.0f - tx) * at(x0, y1) + tx * at(x1, y1));
 }
 
-vec3 LightEmitter::shaped(const Pose &pose, const vec3 &direction) const {
+vec3 LightEmitter::shaped(const Pose& pose, const vec3& direction) const {
     return pose.shaping.active() ? _radiance * pose.shaping.factor(direction) : _radiance;
 }
 
-vec3 LightEmitter::radiance(const vec3 &position, const vec3 &direction, float time) const {
+vec3 LightEmitter::radiance(const vec3& position, const vec3& direction, float time) const {
     Pose scratch;
-    const Pose &pose = poseAt(time, scratch);
+    const Pose& pose = poseAt(time, scratch);
     return shaped(pose, direction) * texture(pose.shape, position);
 }
 
-bool LightEmitter::sample(const vec3 &point, const vec3 &normal, bool twoSided, const vec2 &u,
-                          float time, EmitterSample &out) const {
+bool LightEmitter::sample(const vec3& point, const vec3& normal, bool twoSided, const vec2& u,
+                          float time, EmitterSample& out) const {
     Pose scratch;
-    const Pose &pose = poseAt(time, scratch);
+    const Pose& pose = poseAt(time, scratch);
     switch (_kind) {
     case Kind::Area: {
         ShapeSample s;
@@ -81,8 +81,8 @@ bool LightEmitter::sample(const vec3 &point, const vec3 &normal, bool twoSided, 
 }
 
 /// Equiangular along the line (Kulla and Fajardo 2012).
-bool LightEmitter::sampleLine(const Pose &pose, const vec3 &point, float u,
-                              EmitterSample &out) const {
+bool LightEmitter::sampleLine(const Pose& pose, const vec3& point, float u,
+                              EmitterSample& out) const {
     const float length = glm::length(pose.along);
     if (!(length > 0.0f)) return false;
     const vec3 axis = pose.along / length;
@@ -107,7 +107,7 @@ bool LightEmitter::sampleLine(const Pose &pose, const vec3 &point, float u,
     return std::isfinite(out.radiance.x + out.radiance.y + out.radiance.z);
 }
 
-bool LightEmitter::sampleDistant(const Pose &pose, const vec2 &u, EmitterSample &out) const {
+bool LightEmitter::sampleDistant(const Pose& pose, const vec2& u, EmitterSample& out) const {
     out.distance = INFINITY;
     out.normal = vec3(0.0f);
     out.radiance = _radiance;
@@ -126,8 +126,8 @@ bool LightEmitter::sampleDistant(const Pose &pose, const vec2 &u, EmitterSample 
     return true;
 }
 
-bool LightEmitter::sampleDome(const Pose &pose, const vec3 &normal, bool twoSided, const vec2 &u,
-                              EmitterSample &out) const {
+bool LightEmitter::sampleDome(const Pose& pose, const vec3& normal, bool twoSided, const vec2& u,
+                              EmitterSample& out) const {
     out.distance = INFINITY;
     out.normal = vec3(0.0f);
     if (_environment) {
@@ -158,7 +158,7 @@ bool LightEmitter::sampleDome(const Pose &pose, const vec3 &normal, bool twoSide
     return out.pdf > 0.0f;
 }
 
-float LightEmitter::pdf(const vec3 &point, const vec3 &position, const vec3 &normal,
+float LightEmitter::pdf(const vec3& point, const vec3& position, const vec3& normal,
                         float time) const {
     if (_kind != Kind::Area) return 0.0f;
     Pose scratch;
@@ -166,18 +166,18 @@ float LightEmitter::pdf(const vec3 &point, const vec3 &position, const vec3 &nor
     return std::isfinite(pdf) ? pdf : 0.0f;
 }
 
-bool LightEmitter::intersect(const vec3 &origin, const vec3 &direction, float near, float far,
-                             float time, float &distance, vec3 &normal) const {
+bool LightEmitter::intersect(const vec3& origin, const vec3& direction, float near, float far,
+                             float time, float& distance, vec3& normal) const {
     if (_kind != Kind::Area) return false;
     Pose scratch;
     return intersectShape(poseAt(time, scratch).shape, origin, direction, near, far, distance,
                           normal);
 }
 
-vec3 LightEmitter::environment(const vec3 &direction, float time) const {
+vec3 LightEmitter::environment(const vec3& direction, float time) const {
     if (_delta || !atInfinity()) return vec3(0.0f);
     Pose scratch;
-    const Pose &pose = poseAt(time, scratch);
+    const Pose& pose = poseAt(time, scratch);
     if (_kind == Kind::Distant) {
         // |direction - axis|^2 = 2 (1 - cos), which keeps small angles precise.
         const vec3 d = direction - pose.toLight;
@@ -188,11 +188,11 @@ vec3 LightEmitter::environment(const vec3 &direction, float time) const {
                : _radiance;
 }
 
-float LightEmitter::environmentPdf(const vec3 &normal, bool twoSided, const vec3 &direction,
+float LightEmitter::environmentPdf(const vec3& normal, bool twoSided, const vec3& direction,
                                    float time) const {
     if (_delta || !atInfinity()) return 0.0f;
     Pose scratch;
-    const Pose &pose = poseAt(time, scratch);
+    const Pose& pose = poseAt(time, scratch);
     if (_kind == Kind::Distant) {
         const vec3 d = direction - pose.toLight;
         return 0.5f * glm::dot(d, d) <= _oneMinusCos ? 1.0f / (2.0f * lightPi * _oneMinusCos)
@@ -204,7 +204,7 @@ float LightEmitter::environmentPdf(const vec3 &normal, bool twoSided, const vec3
     return twoSided ? std::abs(cosine) / (2.0f * lightPi) : std::max(0.0f, cosine) / lightPi;
 }
 
-bool LightEmitter::reaches(const vec3 &normal, bool twoSided) const {
+bool LightEmitter::reaches(const vec3& normal, bool twoSided) const {
     if (_kind != Kind::Distant || _moves || twoSided || normal == vec3(0.0f)) return true;
     return glm::dot(_pose.toLight, normal) >
            -std::sin(std::min(_halfAngle, 0.5f * lightPi)) - 1e-4f;

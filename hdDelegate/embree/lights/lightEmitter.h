@@ -28,31 +28,31 @@ public:
     LightEmitter() = default;
     /// A light that gives no light, for whatever reason, becomes Kind::None. Reasons that look
     /// like mistakes are warned about.
-    LightEmitter(const Light &light, const mat4 &groupToWorld, float shutterOpen,
-                 float shutterClose, LightImages &images, Diagnostics &diagnostics);
+    LightEmitter(const Light& light, const mat4& groupToWorld, float shutterOpen,
+                 float shutterClose, LightImages& images, Diagnostics& diagnostics);
 
     Kind kind() const { return _kind; }
     bool atInfinity() const { return _kind == Kind::Distant || _kind == Kind::Dome; }
     bool delta() const { return _delta; }
 
     /// @param normal,twoSided as of LightSet::sample(); constant domes sample by the cosine
-    bool sample(const vec3 &point, const vec3 &normal, bool twoSided, const vec2 &u, float time,
-                EmitterSample &out) const;
+    bool sample(const vec3& point, const vec3& normal, bool twoSided, const vec2& u, float time,
+                EmitterSample& out) const;
     /// Density with which sample() finds a position of an area light.
-    float pdf(const vec3 &point, const vec3 &position, const vec3 &normal, float time) const;
-    bool intersect(const vec3 &origin, const vec3 &direction, float near, float far, float time,
-                   float &distance, vec3 &normal) const;
+    float pdf(const vec3& point, const vec3& position, const vec3& normal, float time) const;
+    bool intersect(const vec3& origin, const vec3& direction, float near, float far, float time,
+                   float& distance, vec3& normal) const;
     /// Radiance of a position on an area light, towards `direction`.
-    vec3 radiance(const vec3 &position, const vec3 &direction, float time) const;
+    vec3 radiance(const vec3& position, const vec3& direction, float time) const;
 
     /// Lights at infinity.
-    vec3 environment(const vec3 &direction, float time) const;
-    float environmentPdf(const vec3 &normal, bool twoSided, const vec3 &direction,
+    vec3 environment(const vec3& direction, float time) const;
+    float environmentPdf(const vec3& normal, bool twoSided, const vec3& direction,
                          float time) const;
     /// Estimate of the irradiance on a plane that faces the light; lights at infinity only.
     float irradiance() const { return _irradiance; }
     /// False when all of a light at infinity is behind a surface that does not transmit.
-    bool reaches(const vec3 &normal, bool twoSided) const;
+    bool reaches(const vec3& normal, bool twoSided) const;
 
     /// What the light tree has to know; lights that are not at infinity only.
     LightTreeLeaf leaf(int id) const;
@@ -68,17 +68,17 @@ private:
         mat3 domeToWorld{1.0f};
     };
 
-    Pose makePose(const mat4 &toWorld) const;
-    const Pose &poseAt(float time, Pose &scratch) const;
-    bool setUpDome(LightImages &images);
-    bool choosesKind(const mat4 &toWorld, Diagnostics &diagnostics);
-    void loadProfile(Diagnostics &diagnostics);
-    bool sampleLine(const Pose &pose, const vec3 &point, float u, EmitterSample &out) const;
-    bool sampleDistant(const Pose &pose, const vec2 &u, EmitterSample &out) const;
-    bool sampleDome(const Pose &pose, const vec3 &normal, bool twoSided, const vec2 &u,
-                    EmitterSample &out) const;
-    vec3 texture(const AreaShape &shape, const vec3 &position) const;
-    vec3 shaped(const Pose &pose, const vec3 &direction) const;
+    Pose makePose(const mat4& toWorld) const;
+    const Pose& poseAt(float time, Pose& scratch) const;
+    bool setUpDome(LightImages& images);
+    bool choosesKind(const mat4& toWorld, Diagnostics& diagnostics);
+    void loadProfile(Diagnostics& diagnostics);
+    bool sampleLine(const Pose& pose, const vec3& point, float u, EmitterSample& out) const;
+    bool sampleDistant(const Pose& pose, const vec2& u, EmitterSample& out) const;
+    bool sampleDome(const Pose& pose, const vec3& normal, bool twoSided, const vec2& u,
+                    EmitterSample& out) const;
+    vec3 texture(const AreaShape& shape, const vec3& position) const;
+    vec3 shaped(const Pose& pose, const vec3& direction) const;
 
     Kind _kind = Kind::None;
     bool _delta = false, _moves = false;

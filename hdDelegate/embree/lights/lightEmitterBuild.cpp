@@ -13,22 +13,22 @@ namespace patina {
 
 namespace {
 
-float luminance(const vec3 &c) {
+float luminance(const vec3& c) {
     return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
-bool isFinite(const vec3 &v) {
+bool isFinite(const vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-bool isFinite(const mat4 &m) {
+bool isFinite(const mat4& m) {
     for (int i = 0; i < 4; ++i)
         if (!isFinite(vec3(m[i]))) return false;
     return true;
 }
 
 /// The rotation (or reflection) nearest to a transform in the order z, y, x; its scale is dropped.
-bool rotationOf(const mat4 &m, mat3 &out) {
+bool rotationOf(const mat4& m, mat3& out) {
     vec3 z = vec3(m[2]), y = vec3(m[1]), x = vec3(m[0]);
     const float lz = glm::length(z);
     if (!(lz > 0.0f)) return false;
@@ -45,11 +45,11 @@ bool rotationOf(const mat4 &m, mat3 &out) {
 
 } // namespace
 
-LightEmitter::LightEmitter(const Light &light, const mat4 &groupToWorld, float shutterOpen,
-                           float shutterClose, LightImages &images, Diagnostics &diagnostics)
+LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, float shutterOpen,
+                           float shutterClose, LightImages& images, Diagnostics& diagnostics)
     : _light(light), _group(groupToWorld) {
     if (!light.visible || light.type == LightType::Mesh) return;
-    const auto warn = [&](const char *input, const char *message) {
+    const auto warn = [&](const char* input, const char* message) {
         diagnostics.warn(light.path, input, message);
     };
     _times = {shutterOpen};
@@ -85,7 +85,7 @@ LightEmitter::LightEmitter(const Light &light, const mat4 &groupToWorld, float s
         _texture = images.image(light.textureFile, light.textureColorSpace, light.path,
                                 "inputs:texture:file");
         glm::dvec3 sum(0.0);
-        for (const vec3 &pixel : _texture->pixels)
+        for (const vec3& pixel : _texture->pixels)
             sum += glm::dvec3(pixel);
         const vec3 mean(sum / double(_texture->pixels.size()));
         _meanTexture = luminance(mean * _radiance) / std::max(luminance(_radiance), 1e-30f);
@@ -103,8 +103,8 @@ LightEmitter::LightEmitter(const Light &light, const mat4 &groupToWorld, float s
 
 /// Decides what the light is treated as, and how bright that is.
 /// @returns false when there is nothing to render
-bool LightEmitter::choosesKind(const mat4 &toWorld, Diagnostics &diagnostics) {
-    const auto off = [&](const char *input, const char *message) {
+bool LightEmitter::choosesKind(const mat4& toWorld, Diagnostics& diagnostics) {
+    const auto off = [&](const char* input, const char* message) {
         diagnostics.warn(_light.path, input, message);
         return false;
     };
@@ -157,7 +157,7 @@ bool LightEmitter::choosesKind(const mat4 &toWorld, Diagnostics &diagnostics) {
     return true;
 }
 
-void LightEmitter::loadProfile(Diagnostics &diagnostics) {
+void LightEmitter::loadProfile(Diagnostics& diagnostics) {
     if (_light.iesFile.empty() || atInfinity()) return;
     auto profile = std::make_shared<IesProfile>();
     std::string error;
@@ -168,7 +168,7 @@ void LightEmitter::loadProfile(Diagnostics &diagnostics) {
                          "'" + _light.iesFile + "' " + error + "; the light is not shaped by it");
 }
 
-bool LightEmitter::setUpDome(LightImages &images) {
+bool LightEmitter::setUpDome(LightImages& images) {
     if (_light.textureFile.empty()) {
         _irradiance = lightPi * luminance(_radiance);
         return true;
@@ -180,7 +180,7 @@ bool LightEmitter::setUpDome(LightImages &images) {
     return !_environment->black();
 }
 
-LightEmitter::Pose LightEmitter::makePose(const mat4 &toWorld) const {
+LightEmitter::Pose LightEmitter::makePose(const mat4& toWorld) const {
     Pose pose;
     pose.position = vec3(toWorld[3]);
     switch (_kind) {

@@ -1,20 +1,22 @@
 #include "hdDelegate/embree/lights/lightImages.h"
 
+#include <cmath>
+
 namespace patina {
 
-LightImages::LightImages(Diagnostics &diagnostics)
-    : _loader([&diagnostics](const std::string &file, const std::string &colorSpace,
-                             const std::string &prim, const std::string &input) {
+LightImages::LightImages(Diagnostics& diagnostics)
+    : _loader([&diagnostics](const std::string& file, const std::string& colorSpace,
+                             const std::string& prim, const std::string& input) {
           return loadImageLinear(file, colorSpace, diagnostics, prim, input);
       }) {}
 
-std::shared_ptr<const ImageRGB> LightImages::image(const std::string &file,
-                                                   const std::string &colorSpace,
-                                                   const std::string &prim,
-                                                   const std::string &input) {
+std::shared_ptr<const ImageRGB> LightImages::image(const std::string& file,
+                                                   const std::string& colorSpace,
+                                                   const std::string& prim,
+                                                   const std::string& input) {
     const std::string key = colorSpace + '\n' + file;
     std::lock_guard<std::mutex> lock(_mutex);
-    std::shared_ptr<const ImageRGB> &entry = _images[key];
+    std::shared_ptr<const ImageRGB>& entry = _images[key];
     if (entry) return entry;
     auto image = std::make_shared<ImageRGB>(_loader(file, colorSpace, prim, input));
     const bool usable = image->width > 0 && image->height > 0 &&
@@ -24,6 +26,10 @@ std::shared_ptr<const ImageRGB> LightImages::image(const std::string &file,
         image->pixels.assign(1, vec3(1.0f, 0.0f, 1.0f));
         image->valid = false;
     }
+    // A single broken pixel must not spoil the sums that sampling is built from.
+    for (vec3& pixel : image->pixels)
+        for (int c = 0; c < 3; ++c)
+            if (!(pixel[c] > 0.0f) || !std::isfinite(pixel[c])) pixel[c] = 0.0f;
     if (!image->valid) {
         // Not kept: the file may be there the next time.
         std::shared_ptr<const ImageRGB> result = std::move(image);
@@ -34,11 +40,11 @@ std::shared_ptr<const ImageRGB> LightImages::image(const std::string &file,
     return entry;
 }
 
-std::shared_ptr<const EnvironmentMap> LightImages::environment(const std::string &file,
-                                                               const std::string &colorSpace,
+std::shared_ptr<const EnvironmentMap> LightImages::environment(const std::string& file,
+                                                               const std::string& colorSpace,
                                                                EnvironmentFormat format,
-                                                               const std::string &prim,
-                                                               const std::string &input) {
+                                                               const std::string& prim,
+                                                               const std::string& input) {
     const std::string key = std::to_string(int(format)) + '\n' + colorSpace + '\n' + file;
     {
         std::lock_guard<std::mutex> lock(_mutex);

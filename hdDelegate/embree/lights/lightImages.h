@@ -16,19 +16,19 @@ namespace patina {
 class LightImages {
 public:
     /// Reads one image. The default reads through loadImageLinear().
-    using Loader = std::function<ImageRGB(const std::string &file, const std::string &colorSpace,
-                                          const std::string &prim, const std::string &input)>;
+    using Loader = std::function<ImageRGB(const std::string& file, const std::string& colorSpace,
+                                          const std::string& prim, const std::string& input)>;
 
     explicit LightImages(Loader loader) : _loader(std::move(loader)) {}
-    explicit LightImages(Diagnostics &diagnostics);
+    explicit LightImages(Diagnostics& diagnostics);
 
     /// @returns never null; one magenta pixel where the file cannot be read
-    std::shared_ptr<const ImageRGB> image(const std::string &file, const std::string &colorSpace,
-                                          const std::string &prim, const std::string &input);
+    std::shared_ptr<const ImageRGB> image(const std::string& file, const std::string& colorSpace,
+                                          const std::string& prim, const std::string& input);
     /// An environment; `format` as of UsdLux's texture:format.
     std::shared_ptr<const EnvironmentMap>
-    environment(const std::string &file, const std::string &colorSpace, EnvironmentFormat format,
-                const std::string &prim, const std::string &input);
+    environment(const std::string& file, const std::string& colorSpace, EnvironmentFormat format,
+                const std::string& prim, const std::string& input);
 
 private:
     Loader _loader;

@@ -7,16 +7,16 @@
 
 namespace patina {
 
-LightSet::LightSet(LightSetInput input, LightImages &images, Diagnostics &diagnostics)
+LightSet::LightSet(LightSetInput input, LightImages& images, Diagnostics& diagnostics)
     : _input(std::move(input)), _lightCount(int(_input.lights.size())) {
     std::vector<LightTreeLeaf> leaves;
     _emitters.resize(_input.lights.size());
     for (int i = 0; i < _lightCount; ++i) {
-        const LightInstance &instance = _input.lights[i];
+        const LightInstance& instance = _input.lights[i];
         if (!instance.light) continue;
         _emitters[i] = LightEmitter(*instance.light, instance.groupToWorld, _input.shutterOpen,
                                     _input.shutterClose, images, diagnostics);
-        const LightEmitter &emitter = _emitters[i];
+        const LightEmitter& emitter = _emitters[i];
         if (emitter.kind() == LightEmitter::Kind::None) continue;
         if (emitter.atInfinity()) {
             _infinite.push_back(i);
@@ -31,8 +31,8 @@ LightSet::LightSet(LightSetInput input, LightImages &images, Diagnostics &diagno
     _tree = LightTree(leaves);
 }
 
-void LightSet::addTriangle(int triangle, std::vector<LightTreeLeaf> &leaves) {
-    const LightTriangle &t = _input.triangles[triangle];
+void LightSet::addTriangle(int triangle, std::vector<LightTreeLeaf>& leaves) {
+    const LightTriangle& t = _input.triangles[triangle];
     const vec3 n = glm::cross(t.vertices[1] - t.vertices[0], t.vertices[2] - t.vertices[0]);
     const float length = glm::length(n);
     if (!(length > 0.0f) || !std::isfinite(length) || !(t.luminance > 0.0f) ||
@@ -50,7 +50,7 @@ void LightSet::addTriangle(int triangle, std::vector<LightTreeLeaf> &leaves) {
 
 /// The weights among lights at infinity and the tree, for one point. Half of the choice follows the
 /// estimates of irradiance; the other half is even, as the estimates know nothing of occlusion.
-LightSet::Choice LightSet::makeChoice(const vec3 &point, const vec3 &normal, bool twoSided) const {
+LightSet::Choice LightSet::makeChoice(const vec3& point, const vec3& normal, bool twoSided) const {
     Choice c;
     c.tree = _tree.importance(point, normal, twoSided);
     c.total = c.tree;
@@ -63,13 +63,13 @@ LightSet::Choice LightSet::makeChoice(const vec3 &point, const vec3 &normal, boo
     return c;
 }
 
-float LightSet::share(const Choice &choice, float weight) const {
+float LightSet::share(const Choice& choice, float weight) const {
     if (!std::isfinite(choice.total)) return 1.0f / float(choice.count);
     return 0.5f / float(choice.count) + 0.5f * weight / choice.total;
 }
 
-bool LightSet::sample(const vec3 &point, const vec3 &normal, bool twoSided, const vec3 &u,
-                      float time, LightSample &out) const {
+bool LightSet::sample(const vec3& point, const vec3& normal, bool twoSided, const vec3& u,
+                      float time, LightSample& out) const {
     const Choice choice = makeChoice(point, normal, twoSided);
     if (choice.count == 0) return false;
     float chosen = std::min(u.z, 0x1.fffffep-1f), selection = 0.0f;
@@ -105,9 +105,9 @@ bool LightSet::sample(const vec3 &point, const vec3 &normal, bool twoSided, cons
     return out.pdf > 0.0f && std::isfinite(out.pdf);
 }
 
-bool LightSet::sampleTriangleLight(int triangle, const vec3 &point, const vec2 &u, float selection,
-                                   LightSample &out) const {
-    const LightTriangle &t = _input.triangles[triangle];
+bool LightSet::sampleTriangleLight(int triangle, const vec3& point, const vec2& u, float selection,
+                                   LightSample& out) const {
+    const LightTriangle& t = _input.triangles[triangle];
     TriangleSample s;
     if (!sampleTriangle(t.vertices, t.twoSided, point, u, s)) return false;
     const vec3 v = s.position - point;
@@ -123,8 +123,8 @@ bool LightSet::sampleTriangleLight(int triangle, const vec3 &point, const vec2 &
     return out.pdf > 0.0f && std::isfinite(out.pdf);
 }
 
-int LightSet::intersect(const vec3 &origin, const vec3 &direction, float near, float far,
-                        float time, LightHit *hits, int maxHits) const {
+int LightSet::intersect(const vec3& origin, const vec3& direction, float near, float far,
+                        float time, LightHit* hits, int maxHits) const {
     int count = 0;
     if (!_hasIntersectable || maxHits < 1) return 0;
     _tree.visitRay(origin, direction, near, far, [&](int light) {
@@ -139,8 +139,8 @@ int LightSet::intersect(const vec3 &origin, const vec3 &direction, float near, f
             hits[count++] = hit;
             return;
         }
-        LightHit *farthest =
-            std::max_element(hits, hits + count, [](const LightHit &a, const LightHit &b) {
+        LightHit* farthest =
+            std::max_element(hits, hits + count, [](const LightHit& a, const LightHit& b) {
                 return a.distance < b.distance;
             });
         if (hit.distance < farthest->distance) *farthest = hit;
@@ -148,7 +148,7 @@ int LightSet::intersect(const vec3 &origin, const vec3 &direction, float near, f
     return count;
 }
 
-float LightSet::selectionProbability(int light, const vec3 &point, const vec3 &normal,
+float LightSet::selectionProbability(int light, const vec3& point, const vec3& normal,
                                      bool twoSided) const {
     if (light < 0) return 0.0f;
     const Choice choice = makeChoice(point, normal, twoSided);
@@ -162,36 +162,36 @@ float LightSet::selectionProbability(int light, const vec3 &point, const vec3 &n
     return share(choice, choice.tree) * _tree.probability(light, point, normal, twoSided);
 }
 
-float LightSet::pdf(int light, const vec3 &point, const vec3 &normal, bool twoSided, float time,
-                    const LightHit &hit) const {
+float LightSet::pdf(int light, const vec3& point, const vec3& normal, bool twoSided, float time,
+                    const LightHit& hit) const {
     if (light < 0 || light >= _lightCount) return 0.0f;
     const float shape = _emitters[light].pdf(point, hit.position, hit.normal, time);
     return shape > 0.0f ? shape * selectionProbability(light, point, normal, twoSided) : 0.0f;
 }
 
-float LightSet::pdfInfinite(int light, const vec3 &point, const vec3 &normal, bool twoSided,
-                            const vec3 &direction, float time) const {
+float LightSet::pdfInfinite(int light, const vec3& point, const vec3& normal, bool twoSided,
+                            const vec3& direction, float time) const {
     if (light < 0 || light >= _lightCount) return 0.0f;
     const float p = _emitters[light].environmentPdf(normal, twoSided, direction, time);
     return p > 0.0f ? p * selectionProbability(light, point, normal, twoSided) : 0.0f;
 }
 
-float LightSet::pdfTriangle(int triangle, const vec3 &point, const vec3 &normal, bool twoSided,
-                            const vec3 &position) const {
+float LightSet::pdfTriangle(int triangle, const vec3& point, const vec3& normal, bool twoSided,
+                            const vec3& position) const {
     if (triangle < 0 || size_t(triangle) >= _input.triangles.size()) return 0.0f;
-    const LightTriangle &t = _input.triangles[triangle];
+    const LightTriangle& t = _input.triangles[triangle];
     const float p = trianglePdf(t.vertices, t.twoSided, point, position);
     return p > 0.0f && std::isfinite(p)
                ? p * selectionProbability(_lightCount + triangle, point, normal, twoSided)
                : 0.0f;
 }
 
-vec3 LightSet::environment(int light, const vec3 &direction, float time) const {
+vec3 LightSet::environment(int light, const vec3& direction, float time) const {
     return light >= 0 && light < _lightCount ? _emitters[light].environment(direction, time)
                                              : vec3(0.0f);
 }
 
-vec3 LightSet::environment(const vec3 &direction, float time) const {
+vec3 LightSet::environment(const vec3& direction, float time) const {
     vec3 sum(0.0f);
     for (int light : _visibleInfinite)
         sum += _emitters[light].environment(direction, time);

@@ -66,45 +66,45 @@ struct LightHit {
 /// importance sampling.
 class LightSet {
 public:
-    LightSet(LightSetInput input, LightImages &images, Diagnostics &diagnostics);
+    LightSet(LightSetInput input, LightImages& images, Diagnostics& diagnostics);
 
     bool empty() const { return _tree.empty() && _infinite.empty(); }
     /// Whether any area light can be met by a ray.
     bool hasIntersectable() const { return _hasIntersectable; }
     int lightCount() const { return _lightCount; }
     /// Domes, and distant lights of more than a point.
-    const std::vector<int> &infiniteLights() const { return _visibleInfinite; }
+    const std::vector<int>& infiniteLights() const { return _visibleInfinite; }
 
     /// @param normal side of the surface that light is wanted from, unit; zero where there is none
     /// @param twoSided light from the other side matters as well
     /// @param u uniform in [0,1): x, y place the sample, z chooses the light
     /// @returns false when no light was found; that counts as a sample of zero
-    bool sample(const vec3 &point, const vec3 &normal, bool twoSided, const vec3 &u, float time,
-                LightSample &out) const;
+    bool sample(const vec3& point, const vec3& normal, bool twoSided, const vec3& u, float time,
+                LightSample& out) const;
 
     /// Area lights between `near` and `far` that shine towards the ray's origin, in no order.
     /// @returns how many; of more than maxHits the nearest ones
-    int intersect(const vec3 &origin, const vec3 &direction, float near, float far, float time,
-                  LightHit *hits, int maxHits) const;
+    int intersect(const vec3& origin, const vec3& direction, float near, float far, float time,
+                  LightHit* hits, int maxHits) const;
 
     /// Density of an area light that a ray hit.
     /// @param point where the ray's path comes from: sample()'s point
-    float pdf(int light, const vec3 &point, const vec3 &normal, bool twoSided, float time,
-              const LightHit &hit) const;
+    float pdf(int light, const vec3& point, const vec3& normal, bool twoSided, float time,
+              const LightHit& hit) const;
     /// Density of a direction to a light at infinity.
-    float pdfInfinite(int light, const vec3 &point, const vec3 &normal, bool twoSided,
-                      const vec3 &direction, float time) const;
+    float pdfInfinite(int light, const vec3& point, const vec3& normal, bool twoSided,
+                      const vec3& direction, float time) const;
     /// Density of a position on a triangle. @param triangle index into LightSetInput::triangles
-    float pdfTriangle(int triangle, const vec3 &point, const vec3 &normal, bool twoSided,
-                      const vec3 &position) const;
+    float pdfTriangle(int triangle, const vec3& point, const vec3& normal, bool twoSided,
+                      const vec3& position) const;
 
     /// Radiance that arrives from a light at infinity.
-    vec3 environment(int light, const vec3 &direction, float time) const;
+    vec3 environment(int light, const vec3& direction, float time) const;
     /// Sum over all lights at infinity.
-    vec3 environment(const vec3 &direction, float time) const;
+    vec3 environment(const vec3& direction, float time) const;
 
     /// Probability with which sample() chooses a light.
-    float selectionProbability(int light, const vec3 &point, const vec3 &normal,
+    float selectionProbability(int light, const vec3& point, const vec3& normal,
                                bool twoSided) const;
 
 private:
@@ -114,11 +114,11 @@ private:
         int count = 0;                   ///< candidates; the tree is one
     };
 
-    void addTriangle(int triangle, std::vector<LightTreeLeaf> &leaves);
-    Choice makeChoice(const vec3 &point, const vec3 &normal, bool twoSided) const;
-    float share(const Choice &choice, float weight) const;
-    bool sampleTriangleLight(int triangle, const vec3 &point, const vec2 &u, float selection,
-                             LightSample &out) const;
+    void addTriangle(int triangle, std::vector<LightTreeLeaf>& leaves);
+    Choice makeChoice(const vec3& point, const vec3& normal, bool twoSided) const;
+    float share(const Choice& choice, float weight) const;
+    bool sampleTriangleLight(int triangle, const vec3& point, const vec2& u, float selection,
+                             LightSample& out) const;
 
     LightSetInput _input;
     int _lightCount = 0;

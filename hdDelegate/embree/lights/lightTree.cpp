@@ -19,7 +19,7 @@ float sineOf(float cosine) {
 
 } // namespace
 
-float LightTree::importance(const Node &node, const vec3 &point, const vec3 &normal,
+float LightTree::importance(const Node& node, const vec3& point, const vec3& normal,
                             bool twoSided) {
     const vec3 center = 0.5f * (node.low + node.high), extent = node.high - node.low;
     const float radius2 = 0.25f * glm::dot(extent, extent);
@@ -49,14 +49,14 @@ float LightTree::importance(const Node &node, const vec3 &point, const vec3 &nor
     return node.intensity * std::max(cosLeaving, 1e-3f) * cosArriving / d2;
 }
 
-int LightTree::choose(const vec3 &point, const vec3 &normal, bool twoSided, float u,
-                      float &probability) const {
+int LightTree::choose(const vec3& point, const vec3& normal, bool twoSided, float u,
+                      float& probability) const {
     probability = 0.0f;
     if (empty()) return -1;
     float p = 1.0f;
     int32_t index = 0;
     while (_nodes[index].left >= 0) {
-        const Node &node = _nodes[index];
+        const Node& node = _nodes[index];
         const float a = importance(_nodes[node.left], point, normal, twoSided);
         const float b = importance(_nodes[node.right], point, normal, twoSided);
         if (!(a + b > 0.0f)) return -1;
@@ -77,11 +77,11 @@ int LightTree::choose(const vec3 &point, const vec3 &normal, bool twoSided, floa
     return int(_nodes[index].right);
 }
 
-float LightTree::probability(int id, const vec3 &point, const vec3 &normal, bool twoSided) const {
+float LightTree::probability(int id, const vec3& point, const vec3& normal, bool twoSided) const {
     if (id < 0 || size_t(id) >= _leafOf.size() || _leafOf[id] < 0) return 0.0f;
     float p = 1.0f;
     for (int32_t index = _leafOf[id]; _nodes[index].parent >= 0; index = _nodes[index].parent) {
-        const Node &parent = _nodes[_nodes[index].parent];
+        const Node& parent = _nodes[_nodes[index].parent];
         const float a = importance(_nodes[parent.left], point, normal, twoSided);
         const float b = importance(_nodes[parent.right], point, normal, twoSided);
         if (!(a + b > 0.0f)) return 0.0f;

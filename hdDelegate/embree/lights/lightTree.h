@@ -26,7 +26,7 @@ struct DirectionCone {
     vec3 axis{0.0f, 0.0f, 1.0f};
     float spread = 0.0f, reach = 0.0f;
 };
-DirectionCone unite(const DirectionCone &a, const DirectionCone &b);
+DirectionCone unite(const DirectionCone& a, const DirectionCone& b);
 
 /// Chooses among many lights in proportion to an estimate of what each gives to a point (Conty
 /// Estevez and Kulla 2018, Importance Sampling of Many Lights with Adaptive Tree Splitting; one
@@ -35,29 +35,29 @@ DirectionCone unite(const DirectionCone &a, const DirectionCone &b);
 class LightTree {
 public:
     LightTree() = default;
-    explicit LightTree(const std::vector<LightTreeLeaf> &leaves);
+    explicit LightTree(const std::vector<LightTreeLeaf>& leaves);
 
     bool empty() const { return _nodes.empty(); }
     size_t nodeCount() const { return _nodes.size(); }
 
     /// Estimate of the irradiance from all lights at a point; 0 only when there is none.
-    float importance(const vec3 &point, const vec3 &normal, bool twoSided) const {
+    float importance(const vec3& point, const vec3& normal, bool twoSided) const {
         return empty() ? 0.0f : importance(_nodes[0], point, normal, twoSided);
     }
 
     /// @param u uniform in [0, 1)
     /// @returns id of a light, or -1 when nothing reaches the point on this way down
-    int choose(const vec3 &point, const vec3 &normal, bool twoSided, float u,
-               float &probability) const;
+    int choose(const vec3& point, const vec3& normal, bool twoSided, float u,
+               float& probability) const;
 
     /// Probability with which choose() gives this light; 0 for an id that is not in the tree.
-    float probability(int id, const vec3 &point, const vec3 &normal, bool twoSided) const;
+    float probability(int id, const vec3& point, const vec3& normal, bool twoSided) const;
 
     /// Calls visit(id) for the hittable lights whose bounds the ray meets. `far` may shrink while
     /// it goes on.
     template <class Visit>
-    void visitRay(const vec3 &origin, const vec3 &direction, float near, const float &far,
-                  const Visit &visit) const;
+    void visitRay(const vec3& origin, const vec3& direction, float near, const float& far,
+                  const Visit& visit) const;
 
 private:
     struct Node {
@@ -69,15 +69,15 @@ private:
         bool twoSided = false, hittable = false;
     };
 
-    static float importance(const Node &node, const vec3 &point, const vec3 &normal, bool twoSided);
+    static float importance(const Node& node, const vec3& point, const vec3& normal, bool twoSided);
 
     std::vector<Node> _nodes;
     std::vector<int32_t> _leafOf; ///< node of each id, or -1
 };
 
 template <class Visit>
-void LightTree::visitRay(const vec3 &origin, const vec3 &direction, float near, const float &far,
-                         const Visit &visit) const {
+void LightTree::visitRay(const vec3& origin, const vec3& direction, float near, const float& far,
+                         const Visit& visit) const {
     if (empty()) return;
     const vec3 inverse = 1.0f / direction;
     std::vector<int32_t> deep; // only for degenerate trees
@@ -92,7 +92,7 @@ void LightTree::visitRay(const vec3 &origin, const vec3 &direction, float near, 
         } else {
             index = stack[--size];
         }
-        const Node &node = _nodes[index];
+        const Node& node = _nodes[index];
         if (!node.hittable) continue;
         float t0 = near, t1 = far;
         for (int k = 0; k < 3; ++k) {

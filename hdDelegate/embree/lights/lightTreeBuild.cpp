@@ -18,7 +18,7 @@ struct Cluster {
     int count = 0;
     bool twoSided = false, hittable = false;
 
-    void add(const Cluster &c) {
+    void add(const Cluster& c) {
         if (c.count == 0) return;
         cone = count == 0 ? c.cone : unite(cone, c.cone);
         low = glm::min(low, c.low);
@@ -30,7 +30,7 @@ struct Cluster {
     }
 };
 
-Cluster clusterOf(const LightTreeLeaf &leaf) {
+Cluster clusterOf(const LightTreeLeaf& leaf) {
     Cluster c;
     c.low = leaf.low;
     c.high = leaf.high;
@@ -44,7 +44,7 @@ Cluster clusterOf(const LightTreeLeaf &leaf) {
 
 /// Solid angle of the directions that a cone reaches, weighted by the cosine (equation 1 of the
 /// paper).
-float orientationMeasure(const DirectionCone &cone) {
+float orientationMeasure(const DirectionCone& cone) {
     const float o = cone.spread, w = std::min(o + cone.reach, pi);
     return 2.0f * pi * (1.0f - std::cos(o)) + 0.5f * pi *
                                                   (2.0f * w * std::sin(o) - std::cos(o - 2.0f * w) -
@@ -53,7 +53,7 @@ float orientationMeasure(const DirectionCone &cone) {
 
 /// Surface area orientation heuristic, without the factor that all candidates of an axis share.
 /// @param pad keeps rows of point lights from having no area at all
-float cost(const Cluster &c, float pad) {
+float cost(const Cluster& c, float pad) {
     const vec3 e = c.high - c.low + pad;
     const float area = e.x * e.y + e.y * e.z + e.z * e.x;
     return c.intensity * area * orientationMeasure(c.cone);
@@ -68,8 +68,8 @@ int binOf(float center, float low, float length) {
     return std::clamp(int((center - low) / length * binCount), 0, binCount - 1);
 }
 
-Split bestSplit(const std::vector<LightTreeLeaf> &leaves, const std::vector<int> &order, int begin,
-                int end, const vec3 &low, const vec3 &high) {
+Split bestSplit(const std::vector<LightTreeLeaf>& leaves, const std::vector<int>& order, int begin,
+                int end, const vec3& low, const vec3& high) {
     Split best;
     const vec3 length = high - low;
     const float longest = std::max({length.x, length.y, length.z});
@@ -77,7 +77,7 @@ Split bestSplit(const std::vector<LightTreeLeaf> &leaves, const std::vector<int>
         if (!(length[axis] > 0.0f)) continue;
         std::array<Cluster, binCount> bins, after;
         for (int i = begin; i < end; ++i) {
-            const LightTreeLeaf &leaf = leaves[order[i]];
+            const LightTreeLeaf& leaf = leaves[order[i]];
             const float center = 0.5f * (leaf.low[axis] + leaf.high[axis]);
             bins[binOf(center, low[axis], length[axis])].add(clusterOf(leaf));
         }
@@ -101,9 +101,9 @@ Split bestSplit(const std::vector<LightTreeLeaf> &leaves, const std::vector<int>
 
 } // namespace
 
-DirectionCone unite(const DirectionCone &a, const DirectionCone &b) {
-    const DirectionCone &wide = a.spread >= b.spread ? a : b;
-    const DirectionCone &slim = a.spread >= b.spread ? b : a;
+DirectionCone unite(const DirectionCone& a, const DirectionCone& b) {
+    const DirectionCone& wide = a.spread >= b.spread ? a : b;
+    const DirectionCone& slim = a.spread >= b.spread ? b : a;
     DirectionCone result = wide;
     result.reach = std::max(a.reach, b.reach);
     const float between = std::acos(std::clamp(glm::dot(wide.axis, slim.axis), -1.0f, 1.0f));
@@ -127,10 +127,10 @@ DirectionCone unite(const DirectionCone &a, const DirectionCone &b) {
     return result;
 }
 
-LightTree::LightTree(const std::vector<LightTreeLeaf> &leaves) {
+LightTree::LightTree(const std::vector<LightTreeLeaf>& leaves) {
     if (leaves.empty()) return;
     int largestId = 0;
-    for (const LightTreeLeaf &leaf : leaves)
+    for (const LightTreeLeaf& leaf : leaves)
         largestId = std::max(largestId, leaf.id);
     _leafOf.assign(size_t(largestId) + 1, -1);
     _nodes.reserve(2 * leaves.size() - 1);
@@ -150,7 +150,7 @@ LightTree::LightTree(const std::vector<LightTreeLeaf> &leaves) {
         Cluster all;
         vec3 low(INFINITY), high(-INFINITY); // of the centres
         for (int i = task.begin; i < task.end; ++i) {
-            const LightTreeLeaf &leaf = leaves[order[i]];
+            const LightTreeLeaf& leaf = leaves[order[i]];
             all.add(clusterOf(leaf));
             const vec3 center = 0.5f * (leaf.low + leaf.high);
             low = glm::min(low, center);

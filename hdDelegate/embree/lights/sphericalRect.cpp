@@ -7,8 +7,8 @@ namespace patina {
 
 using glm::dvec3;
 
-bool SphericalRect::setup(const vec3 &corner, const vec3 &edgeX, const vec3 &edgeY,
-                          const vec3 &point) {
+bool SphericalRect::setup(const vec3& corner, const vec3& edgeX, const vec3& edgeY,
+                          const vec3& point) {
     constexpr double pi = 3.14159265358979323846;
     _point = dvec3(point);
     const double lengthX = glm::length(dvec3(edgeX)), lengthY = glm::length(dvec3(edgeY));
@@ -41,7 +41,7 @@ bool SphericalRect::setup(const vec3 &corner, const vec3 &edgeX, const vec3 &edg
     return _solidAngle > 1e-7;
 }
 
-vec3 SphericalRect::sample(const vec2 &u) const {
+vec3 SphericalRect::sample(const vec2& u) const {
     const double angle = double(u.x) * _solidAngle + _k;
     const double f = (std::cos(angle) * _b0 - _b1) / std::sin(angle);
     const double c = std::clamp(std::copysign(1.0, f) / std::sqrt(f * f + _b0 * _b0), -1.0, 1.0);

@@ -11,8 +11,8 @@ class SphericalRect {
 public:
     /// @param corner,edgeX,edgeY the rectangle; the edges stand at right angles
     /// @returns false when the rectangle is too small or too flat from here to be sampled so
-    bool setup(const vec3 &corner, const vec3 &edgeX, const vec3 &edgeY, const vec3 &point);
-    vec3 sample(const vec2 &u) const; ///< a position on the rectangle
+    bool setup(const vec3& corner, const vec3& edgeX, const vec3& edgeY, const vec3& point);
+    vec3 sample(const vec2& u) const; ///< a position on the rectangle
     float pdf() const { return float(1.0 / _solidAngle); }
     double solidAngle() const { return _solidAngle; }
 

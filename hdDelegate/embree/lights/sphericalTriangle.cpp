@@ -20,15 +20,15 @@ struct SphericalTriangle {
     double alpha, cosC, solidAngle; ///< angle at a, cosine of the edge opposite to c
 };
 
-dvec3 orthogonal(const dvec3 &v, const dvec3 &to) {
+dvec3 orthogonal(const dvec3& v, const dvec3& to) {
     return v - glm::dot(v, to) * to;
 }
 
-double angleBetween(const dvec3 &n, const dvec3 &m) {
+double angleBetween(const dvec3& n, const dvec3& m) {
     return std::atan2(glm::length(glm::cross(n, m)), glm::dot(n, m));
 }
 
-bool project(const vec3 v[3], const vec3 &point, SphericalTriangle &t) {
+bool project(const vec3 v[3], const vec3& point, SphericalTriangle& t) {
     const dvec3 p(point);
     const dvec3 a = dvec3(v[0]) - p, b = dvec3(v[1]) - p, c = dvec3(v[2]) - p;
     // Girard's excess by Van Oosterom and Strackee 1983.
@@ -52,7 +52,7 @@ struct Plane {
 };
 
 /// @returns false when nothing is emitted towards the point; the normal is turned to it
-bool facing(const vec3 v[3], bool twoSided, const vec3 &point, Plane &plane) {
+bool facing(const vec3 v[3], bool twoSided, const vec3& point, Plane& plane) {
     const vec3 n = glm::cross(v[1] - v[0], v[2] - v[0]);
     const float length = glm::length(n);
     if (!(length > 0.0f) || !std::isfinite(length)) return false;
@@ -64,13 +64,13 @@ bool facing(const vec3 v[3], bool twoSided, const vec3 &point, Plane &plane) {
     return true;
 }
 
-float areaPdf(const Plane &plane, const vec3 &point, const vec3 &position) {
+float areaPdf(const Plane& plane, const vec3& point, const vec3& position) {
     const vec3 d = point - position;
     const float d2 = glm::dot(d, d), projected = glm::dot(d, plane.normal);
     return projected > 0.0f ? d2 * std::sqrt(d2) / (projected * plane.area) : 0.0f;
 }
 
-vec2 barycentrics(const vec3 v[3], const dvec3 &position) {
+vec2 barycentrics(const vec3 v[3], const dvec3& position) {
     const dvec3 e1 = dvec3(v[1]) - dvec3(v[0]), e2 = dvec3(v[2]) - dvec3(v[0]);
     const dvec3 n = glm::cross(e1, e2), d = position - dvec3(v[0]);
     const double nn = glm::dot(n, n);
@@ -82,8 +82,8 @@ vec2 barycentrics(const vec3 v[3], const dvec3 &position) {
 
 } // namespace
 
-bool sampleTriangle(const vec3 v[3], bool twoSided, const vec3 &point, const vec2 &u,
-                    TriangleSample &out) {
+bool sampleTriangle(const vec3 v[3], bool twoSided, const vec3& point, const vec2& u,
+                    TriangleSample& out) {
     Plane plane;
     if (!facing(v, twoSided, point, plane)) return false;
     out.normal = plane.normal;
@@ -132,7 +132,7 @@ bool sampleTriangle(const vec3 v[3], bool twoSided, const vec3 &point, const vec
     return out.pdf > 0.0f && std::isfinite(out.pdf);
 }
 
-float trianglePdf(const vec3 v[3], bool twoSided, const vec3 &point, const vec3 &position) {
+float trianglePdf(const vec3 v[3], bool twoSided, const vec3& point, const vec3& position) {
     Plane plane;
     if (!facing(v, twoSided, point, plane)) return 0.0f;
     SphericalTriangle t;

@@ -14,10 +14,10 @@ struct TriangleSample {
 /// Chooses a point on a triangle, uniformly in solid angle where that is well conditioned (Arvo
 /// 1995, Stratified Sampling of Spherical Triangles), else uniformly in area.
 /// @returns false when the side that emits faces away, or the triangle has no area
-bool sampleTriangle(const vec3 v[3], bool twoSided, const vec3 &point, const vec2 &u,
-                    TriangleSample &out);
+bool sampleTriangle(const vec3 v[3], bool twoSided, const vec3& point, const vec2& u,
+                    TriangleSample& out);
 
 /// Solid angle density with which sampleTriangle() finds a position on the triangle.
-float trianglePdf(const vec3 v[3], bool twoSided, const vec3 &point, const vec3 &position);
+float trianglePdf(const vec3 v[3], bool twoSided, const vec3& point, const vec3& position);
 
 } // namespace patina

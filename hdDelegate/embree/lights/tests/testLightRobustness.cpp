@@ -127,3 +127,24 @@ TEST(Robustness, brokenTrianglesAndMissingProfile) {
     EXPECT_EQ(scene.diagnostics.all()[0].input, "inputs:shaping:ies:file");
     exercise(set);
 }
+
+TEST(Robustness, brokenPixels) {
+    LightScene scene(
+        [](const std::string&, const std::string&, const std::string&, const std::string&) {
+            ImageRGB image;
+            image.width = 4;
+            image.height = 2;
+            image.valid = true;
+            image.pixels.assign(8, vec3(1.0f));
+            image.pixels[1] = vec3(notANumber);
+            image.pixels[5] = vec3(std::numeric_limits<float>::infinity(), -1.0f, 2.0f);
+            return image;
+        });
+    for (const LightType type : {LightType::Dome, LightType::Rect}) {
+        auto light = makeLight(type);
+        light->textureFile = "broken.exr";
+        const LightSet& set = scene.build(light);
+        EXPECT_FALSE(set.empty());
+        exercise(set);
+    }
+}

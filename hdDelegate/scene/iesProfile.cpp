@@ -16,12 +16,12 @@ constexpr size_t largestTable = 4u << 20;
 /// Numbers of the data block, separated by blanks, line ends or commas.
 class Numbers {
 public:
-    explicit Numbers(const char *text) : _at(text) {}
+    explicit Numbers(const char* text) : _at(text) {}
 
-    bool next(double &value) {
+    bool next(double& value) {
         while (*_at && (std::isspace(static_cast<unsigned char>(*_at)) || *_at == ','))
             ++_at;
-        char *end = nullptr;
+        char* end = nullptr;
         value = std::strtod(_at, &end);
         if (end == _at || !std::isfinite(value)) return false;
         _at = end;
@@ -36,11 +36,11 @@ public:
     }
 
 private:
-    const char *_at;
+    const char* _at;
 };
 
 /// Reads `count` angles that do not descend.
-bool readAngles(Numbers &numbers, size_t count, std::vector<float> &angles) {
+bool readAngles(Numbers& numbers, size_t count, std::vector<float>& angles) {
     angles.clear();
     for (size_t i = 0; i < count; ++i) {
         double value;
@@ -51,7 +51,7 @@ bool readAngles(Numbers &numbers, size_t count, std::vector<float> &angles) {
 }
 
 /// Where x lies among ascending values. @returns false outside them
-bool bracket(const std::vector<float> &values, float x, size_t &index, float &fraction) {
+bool bracket(const std::vector<float>& values, float x, size_t& index, float& fraction) {
     constexpr float slack = 1e-3f; // degrees: the ends of a table are inside
     index = 0;
     fraction = 0.0f;
@@ -65,7 +65,7 @@ bool bracket(const std::vector<float> &values, float x, size_t &index, float &fr
 
 } // namespace
 
-bool IesProfile::load(const std::string &file, std::string &error) {
+bool IesProfile::load(const std::string& file, std::string& error) {
     *this = IesProfile();
     std::ifstream in(file, std::ios::binary);
     if (!in) {
@@ -77,7 +77,7 @@ bool IesProfile::load(const std::string &file, std::string &error) {
     return parse(text.str(), error);
 }
 
-bool IesProfile::parse(const std::string &text, std::string &error) {
+bool IesProfile::parse(const std::string& text, std::string& error) {
     *this = IesProfile();
     const size_t tilt = text.find("TILT=");
     if (tilt == std::string::npos) {
@@ -100,7 +100,7 @@ bool IesProfile::parse(const std::string &text, std::string &error) {
     // lamps, lumens, multiplier, vertical, horizontal, type, units, width, length, height,
     // ballast factor, future use (a second factor in old files), watts
     double head[13];
-    for (double &value : head)
+    for (double& value : head)
         if (!numbers.next(value)) return false;
     if (head[5] != 1.0) {
         error = "has photometric type A or B, only type C is supported";
@@ -119,7 +119,7 @@ bool IesProfile::parse(const std::string &text, std::string &error) {
         return false;
     }
     std::vector<float> candela(verticals * horizontals);
-    for (float &value : candela) {
+    for (float& value : candela) {
         double number;
         if (!numbers.next(number)) {
             *this = IesProfile();
@@ -139,7 +139,7 @@ bool IesProfile::parse(const std::string &text, std::string &error) {
 }
 
 /// Makes the table go once around: LM-63 leaves out what symmetry implies.
-bool IesProfile::expandHorizontal(std::string &error) {
+bool IesProfile::expandHorizontal(std::string& error) {
     const size_t rows = _vertical.size();
     const float first = _horizontal.front(), last = _horizontal.back();
     std::vector<float> angles = _horizontal, table = _candela;
@@ -172,7 +172,7 @@ bool IesProfile::expandHorizontal(std::string &error) {
             order.push_back({std::fmod(angles[i], 360.0f), i});
         std::sort(order.begin(), order.end());
         std::vector<float> turned, values;
-        for (const auto &entry : order) {
+        for (const auto& entry : order) {
             turned.push_back(entry.first);
             const std::vector<float> copy = row(entry.second);
             values.insert(values.end(), copy.begin(), copy.end());
@@ -238,8 +238,8 @@ float IesProfile::candela(float theta, float phi) const {
     if (!bracket(_vertical, theta * degrees, v, fv) || !bracket(_horizontal, around, h, fh))
         return 0.0f;
     const size_t rows = _vertical.size();
-    const float *a = &_candela[h * rows + v];
-    const float *b = a + rows;
+    const float* a = &_candela[h * rows + v];
+    const float* b = a + rows;
     return (1.0f - fh) * ((1.0f - fv) * a[0] + fv * a[1]) + fh * ((1.0f - fv) * b[0] + fv * b[1]);
 }
 

@@ -11,8 +11,8 @@ public:
     /// Reads a file's text.
     /// @param error receives the reason in one line when the text cannot be used
     /// @returns false then, and the profile is empty
-    bool parse(const std::string &text, std::string &error);
-    bool load(const std::string &file, std::string &error);
+    bool parse(const std::string& text, std::string& error);
+    bool load(const std::string& file, std::string& error);
 
     bool empty() const { return _candela.empty(); }
 
@@ -31,7 +31,7 @@ public:
     static float scaledTheta(float theta, float angleScale);
 
 private:
-    bool expandHorizontal(std::string &error);
+    bool expandHorizontal(std::string& error);
     void measure();
 
     std::vector<float> _vertical;   ///< degrees, ascending

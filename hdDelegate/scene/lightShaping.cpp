@@ -9,7 +9,7 @@ namespace {
 
 constexpr float pi = 3.14159265358979f;
 
-vec3 normalized(const vec3 &v, const vec3 &fallback) {
+vec3 normalized(const vec3& v, const vec3& fallback) {
     const float l = glm::length(v);
     return l > 0.0f && std::isfinite(l) ? v / l : fallback;
 }
@@ -22,7 +22,7 @@ float smoothStep(float low, float high, float x) {
 
 } // namespace
 
-LightShaping::LightShaping(const Light &light, const mat4 &toWorld,
+LightShaping::LightShaping(const Light& light, const mat4& toWorld,
                            std::shared_ptr<const IesProfile> profile)
     : _profile(std::move(profile)) {
     _axis = normalized(-vec3(toWorld[2]), _axis);
@@ -37,8 +37,6 @@ LightShaping::LightShaping(const Light &light, const mat4 &toWorld,
     if (light.shapingFocus > 0.0f) {
         _focus = light.shapingFocus;
         _focusTint = light.shapingFocusTint;
-        // Mean over a hemisphere of cos^n is 1 / (n + 1), but a focused light's centre counts most.
-        _level = 1.0f;
     }
     if (light.shapingConeAuthored && light.shapingConeAngle < 180.0f) {
         _cone = true;
@@ -55,7 +53,7 @@ LightShaping::LightShaping(const Light &light, const mat4 &toWorld,
     _active = _cone || _focus > 0.0f || _profile != nullptr;
 }
 
-vec3 LightShaping::factor(const vec3 &direction) const {
+vec3 LightShaping::factor(const vec3& direction) const {
     if (!_active) return vec3(1.0f);
     const float cosine = std::clamp(glm::dot(direction, _axis), -1.0f, 1.0f);
     vec3 result(1.0f);

@@ -16,13 +16,13 @@ class LightShaping {
 public:
     LightShaping() = default;
     /// @param profile may be null
-    LightShaping(const Light &light, const mat4 &toWorld,
+    LightShaping(const Light& light, const mat4& toWorld,
                  std::shared_ptr<const IesProfile> profile);
 
     bool active() const { return _active; }
     /// @param direction unit, world space, away from the light
-    vec3 factor(const vec3 &direction) const;
-    const vec3 &axis() const { return _axis; } ///< unit
+    vec3 factor(const vec3& direction) const;
+    const vec3& axis() const { return _axis; } ///< unit
     /// No light leaves at more than this angle off the axis, radians.
     float cutoff() const { return _cutoff; }
     /// Rough mean of the factor inside the cutoff, for choosing among lights.

@@ -25,24 +25,24 @@ constexpr float knots[knotCount][3] = {
 };
 
 vec3 knot(int index) {
-    const float *k = knots[std::clamp(index, 0, knotCount - 1)];
+    const float* k = knots[std::clamp(index, 0, knotCount - 1)];
     return vec3(k[0], k[1], k[2]);
 }
 
 using dvec3 = glm::dvec3;
 
-dvec3 column(const mat4 &m, int i, double scale) {
+dvec3 column(const mat4& m, int i, double scale) {
     return dvec3(m[i].x, m[i].y, m[i].z) * scale;
 }
 
-bool equalAxes(const dvec3 &a, const dvec3 &b, const dvec3 &c) {
+bool equalAxes(const dvec3& a, const dvec3& b, const dvec3& c) {
     const double aa = glm::dot(a, a), tolerance = 1e-6 * aa;
     return std::abs(glm::dot(b, b) - aa) <= tolerance &&
            std::abs(glm::dot(c, c) - aa) <= tolerance && std::abs(glm::dot(a, b)) <= tolerance &&
            std::abs(glm::dot(a, c)) <= tolerance && std::abs(glm::dot(b, c)) <= tolerance;
 }
 
-double ellipsoidArea(const dvec3 &a, const dvec3 &b, const dvec3 &c) {
+double ellipsoidArea(const dvec3& a, const dvec3& b, const dvec3& c) {
     if (equalAxes(a, b, c)) return 4.0 * pi * glm::dot(a, a);
     // dA = |cofactor(M) n| domega over the unit sphere; midpoints in z and angle.
     const dvec3 bc = glm::cross(b, c), ca = glm::cross(c, a), ab = glm::cross(a, b);
@@ -58,7 +58,7 @@ double ellipsoidArea(const dvec3 &a, const dvec3 &b, const dvec3 &c) {
     return 4.0 * pi * sum / (rows * columns);
 }
 
-double cylinderArea(const dvec3 &along, const dvec3 &b, const dvec3 &c) {
+double cylinderArea(const dvec3& along, const dvec3& b, const dvec3& c) {
     // Periodic, so that equal steps converge at once.
     constexpr int steps = 512;
     const dvec3 ab = glm::cross(along, b), ac = glm::cross(along, c);
@@ -92,16 +92,16 @@ vec3 blackbodyColor(float kelvin) {
     return glm::max(rgb / y, vec3(0.0f));
 }
 
-mat4 transformAt(const MotionTransform &transform, float time) {
+mat4 transformAt(const MotionTransform& transform, float time) {
     if (transform.empty()) return mat4(1.0f);
     if (!transform.moves()) return transform.first();
     const SampleSpan span = sampleSpan(transform.times, time);
-    const mat4 &a = transform.values[span.index];
+    const mat4& a = transform.values[span.index];
     if (span.fraction <= 0.0f) return a;
     return a * (1.0f - span.fraction) + transform.values[span.index + 1] * span.fraction;
 }
 
-double lightSizeFactor(const Light &light, const mat4 &toWorld) {
+double lightSizeFactor(const Light& light, const mat4& toWorld) {
     const double r = std::abs(light.radius);
     switch (light.type) {
     case LightType::Distant:
@@ -123,13 +123,13 @@ double lightSizeFactor(const Light &light, const mat4 &toWorld) {
     return 1.0;
 }
 
-vec3 lightBaseRadiance(const Light &light) {
+vec3 lightBaseRadiance(const Light& light) {
     vec3 radiance = light.color * (light.intensity * std::exp2(light.exposure));
     if (light.enableColorTemperature) radiance *= blackbodyColor(light.colorTemperature);
     return radiance;
 }
 
-vec3 lightRadiance(const Light &light, const mat4 &toWorld) {
+vec3 lightRadiance(const Light& light, const mat4& toWorld) {
     const vec3 base = lightBaseRadiance(light);
     return light.normalize ? vec3(glm::dvec3(base) / lightSizeFactor(light, toWorld)) : base;
 }

@@ -10,21 +10,21 @@ namespace patina {
 vec3 blackbodyColor(float kelvin);
 
 /// Transform of something that moves, at a time; interpolated element by element.
-mat4 transformAt(const MotionTransform &transform, float time);
+mat4 transformAt(const MotionTransform& transform, float time);
 
 /// World-space area that `normalize` divides by: rect and disk one side, sphere and cylinder
 /// (without its caps) all of the outside, under any affine transform. Distant lights: the projected
 /// solid angle pi sin^2(angle / 2), continued as pi (2 - sin^2) beyond 180 degrees, and 1 for angle
 /// 0. Domes and mesh lights: 1 (the area of a mesh is its owner's to know).
-double lightSizeFactor(const Light &light, const mat4 &toWorld);
+double lightSizeFactor(const Light& light, const mat4& toWorld);
 
 /// Radiance that a light emits before textures and shaping: intensity 2^exposure color blackbody,
 /// divided by the size factor when `normalize` asks for it (UsdLux LightAPI). A distant light of
 /// angle 0 gives irradiance on a plane that faces it instead.
 /// May be infinite (a light without size that normalizes) or NaN when its inputs are.
-vec3 lightRadiance(const Light &light, const mat4 &toWorld);
+vec3 lightRadiance(const Light& light, const mat4& toWorld);
 
 /// lightRadiance() without the division.
-vec3 lightBaseRadiance(const Light &light);
+vec3 lightBaseRadiance(const Light& light);
 
 } // namespace patina

@@ -151,7 +151,8 @@ int TextureSystem::open(const TextureRequest& request) {
         std::string reason = entry.tiles.empty() ? "no tile of it exists" : "no tile can be read";
         if (!entry.udim) reason = entry.tiles[0]->problem;
         _diagnostics.warn(request.prim, request.input,
-                          "texture '" + request.file + "': " + reason + "; magenta is shown");
+                          "texture '" + request.file + "': " + reason +
+                              "; its authored fallback, else magenta, is shown");
     }
     return handle;
 }

@@ -68,8 +68,13 @@ def emit(context, found):
         near, far = 1.0, 1e6
     planes = array(context, prim, "clippingPlanes", get(prim, "clippingPlanes", time), 4)
     opens, closes = context.shutter
+    transform = transform_of(context, prim, None)
+    matrices = transform[1] if isinstance(transform, tuple) else [transform]
+    if any(abs(np.linalg.det(m[:3, :3].astype(np.float64))) < 1e-30 for m in matrices):
+        context.warn(prim.GetPath(), "xformOpOrder", "makes the camera flat; no transform is used")
+        transform = np.eye(4, dtype=np.float32)
     context.edit.set_camera(
-        found.path, transform=transform_of(context, prim, None),
+        found.path, transform=transform,
         orthographic=get(prim, "projection", time) == "orthographic",
         clip_near=near, clip_far=far, clipping_planes=planes,
         shutter_open=opens, shutter_close=closes,
@@ -78,7 +83,19 @@ def emit(context, found):
 
 
 def _bounds(context, gprims):
-    """:returns: range of the whole stage; authored extents that hold nothing are computed anew"""
+    """:returns: range of the whole stage, skinned points included; authored extents that hold nothing
+    are computed anew"""
+    box = _authored_bounds(context, gprims)
+    for prim, points in context.skinned:
+        world = np.array(context.xform_cache().GetLocalToWorldTransform(prim))
+        placed = points @ world[:3, :3] + world[3, :3]
+        own = Gf.Range3d(Gf.Vec3d(*map(float, placed.min(axis=0))), Gf.Vec3d(*map(float, placed.max(axis=0))))
+        if _is_usable(own):
+            box.UnionWith(own)
+    return box
+
+
+def _authored_bounds(context, gprims):
     if not context.cyclic:
         cache = UsdGeom.BBoxCache(context.time, sorted(context.purposes), useExtentsHint=True)
         box = cache.ComputeWorldBound(context.stage.GetPseudoRoot()).ComputeAlignedRange()

@@ -19,6 +19,7 @@ class Context:
         self.counts = {}
         self.notes = []
         self.reported = set()  # texts of composition errors, which pxr also prints
+        self.skinned = []  # (prim whose space it is, points) of what UsdGeom.BBoxCache does not know
         self.cyclic = False  # there are instancers that hold themselves: UsdGeom.BBoxCache never ends there
         self._xforms = {}
 

@@ -107,6 +107,10 @@ def emit_instances(context, outer, prototype, founds, linking):
             for sample, t in zip(samples, times):
                 sample[i] = np.array(matrix_at(context, founds[i].prim, founds[i].state.group.anchor, t))
         transforms = (times, samples)
+    if not np.isfinite(matrices).all():
+        context.warn(founds[0].prim.GetPath(), "xformOpOrder", "or that of another instance of its prototype gives a "
+                     "transform that is not finite; none is used")
+        matrices[~np.isfinite(matrices).all(axis=(1, 2))] = np.eye(4)
     categories = [linking.categories(found) for found in founds]
     context.edit.set_instancer(
         founds[0].path, group=outer, prototypes=[prototype],

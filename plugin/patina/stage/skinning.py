@@ -62,7 +62,7 @@ class Skin:
         matrices = [matrix_at(context, place, anchor, t) for t in times]
         if self.rigid:
             matrices = [self._rigid(context.time_at(t)) * m for t, m in zip(times, matrices)]
-        return as_transform(times, matrices)
+        return as_transform(context, self.target.GetPrim(), times, matrices)
 
     def _rigid(self, time):
         pose = self.query.ComputeSkinningTransforms(time)
@@ -85,6 +85,8 @@ class Skin:
                 bind = np.array(self.target.GetGeomBindTransform(time), dtype=np.float32)
                 skinned = np.asarray(points) @ bind[:3, :3] + bind[3, :3]
             points = skinned
+        if offset == 0.0:
+            context.skinned.append((self.skeleton if self.has_joints else prim, np.asarray(points)))
         return points
 
     def _blend(self, time, points):

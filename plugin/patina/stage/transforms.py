@@ -45,11 +45,15 @@ def transform_of(context, prim, anchor, after=None):
     matrices = [matrix_at(context, prim, anchor, t) for t in times]
     if after:
         matrices = [after(t) * m for t, m in zip(times, matrices)]
-    return as_transform(times, matrices)
+    return as_transform(context, prim, times, matrices)
 
 
-def as_transform(times, matrices):
+def as_transform(context, prim, times, matrices):
+    """:returns: what `_patina` takes as transform; the identity for what is not finite"""
     arrays = [np.array(m, dtype=np.float32) for m in matrices]
+    if not all(np.isfinite(a).all() for a in arrays):
+        context.warn(prim.GetPath(), "xformOpOrder", "gives a transform that is not finite; none is used")
+        return np.eye(4, dtype=np.float32)
     if all(np.array_equal(arrays[0], a) for a in arrays[1:]):
         return arrays[0]
     return (list(times), arrays)

@@ -81,3 +81,13 @@ def test_empty_stage(read):
     reading = read("", headlight=True)
     assert reading.info.framed and reading.has(reading.info.camera)
     assert any("no extents" in w for w in reading.warnings)
+
+
+def test_cameras_and_prims_without_a_usable_transform(read):
+    matrix = "uniform token[] xformOpOrder = [\"xformOp:transform\"]  matrix4d xformOp:transform ="
+    reading = read(f"""
+    def Camera "flat" {{ {matrix} ((0,0,0,0),(0,0,0,0),(0,0,0,0),(0,0,0,0)) }}
+    def Sphere "nan" {{ {matrix} ((nan,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,0,1)) }}""")
+    assert "transform" not in reading.prim("/flat") and "transform" not in reading.prim("/nan")
+    assert any(w.startswith("/flat xformOpOrder:") for w in reading.warnings)
+    assert any(w.startswith("/nan xformOpOrder:") for w in reading.warnings)

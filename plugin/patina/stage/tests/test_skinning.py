@@ -87,6 +87,12 @@ def test_instanced_characters_are_skinned_each(read, numbers):
     assert reading.prim("/bare")["kind"] == "Instancer"  # nothing is skinned there
 
 
+def test_framing_follows_the_pose(read, numbers):
+    near, far = (read(SKELETON % WEIGHTS, frame=frame) for frame in (0.0, 10.0))
+    place = [numbers(r.prim(r.info.camera)["transform"])[12] for r in (near, far)]
+    assert place[1] > place[0] + 3  # the middle of what reaches ten to the right
+
+
 def test_broken_skinning_is_drawn_at_rest(read, numbers):
     reading = read(SKELETON % """
             int[] primvars:skel:jointIndices = [0, 7, 9] (interpolation = "vertex"; elementSize = 1)

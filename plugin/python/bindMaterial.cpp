@@ -75,6 +75,10 @@ Floats triples(size_t n) {
     return Floats(std::vector<size_t>{n, 3});
 }
 
+Floats singles(size_t n) {
+    return Floats(std::vector<size_t>{n});
+}
+
 py::tuple eval(const MaterialProbe& probe, const Floats& wo, const Floats& wi) {
     const size_t n = rows(wo, 3, "wo");
     sameRows(n, rows(wi, 3, "wi"));

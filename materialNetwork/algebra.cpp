@@ -182,10 +182,13 @@ bool rewriteClosure(const Graph& graph, const GraphNode& node, Operand& out, std
     case ClosureKind::OrenNayar:
     case ClosureKind::Burley:
     case ClosureKind::Translucent:
+    case ClosureKind::Subsurface:
+    case ClosureKind::Unsupported:
     case ClosureKind::Dielectric:
     case ClosureKind::Conductor:
     case ClosureKind::Schlick:
-        return isConstantValue(in[0], 0.0f) && cut("weight 0");
+        return !in.empty() && node.def->inputs[0].name == "weight" &&
+               isConstantValue(in[0], 0.0f) && cut("weight 0");
     case ClosureKind::UniformEdf:
         return isConstantValue(in[0], 0.0f) && cut("black");
     case ClosureKind::AbsorptionVdf:

@@ -1,5 +1,6 @@
 #include "materialNetwork/expand.h"
 
+#include "materialNetwork/geomprop.h"
 #include "materialNetwork/value.h"
 
 #include <deque>
@@ -112,9 +113,16 @@ private:
                 node.connections[input] = {dot(outer, def, c->second, depth), ""};
             return;
         }
-        const Value value = authored(outer, def);
-        // A default taken from the geometry is that of the inner node as well.
-        if (def.geomprop.empty() || outer.inputs.count(def.name)) node.inputs[input] = value;
+        const NetworkNode source = geompropNode(def.geomprop);
+        if (source.id.empty() || outer.inputs.count(def.name)) {
+            node.inputs[input] = authored(outer, def);
+            return;
+        }
+        if (!_source.count(source.path)) {
+            _owned.push_back(source);
+            _source[source.path] = &_owned.back();
+        }
+        node.connections[input] = {source.path, ""};
     }
 
     Value authored(const NetworkNode& outer, const InputDef& def) {

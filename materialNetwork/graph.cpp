@@ -1,5 +1,6 @@
 #include "materialNetwork/graph.h"
 
+#include "materialNetwork/geomprop.h"
 #include "materialNetwork/nodeTable.h"
 #include "materialNetwork/value.h"
 
@@ -127,9 +128,10 @@ private:
                 problem = std::string("type mismatch: ") + outputTypeName(operand) +
                           " connected, " + valueTypeName(input.type) + " expected";
             }
+            // The dot of a model's input carries the model's default as its value.
             const bool valued = node.inputs.count(input.name) > 0;
             warn(node.path, input.name,
-                 problem + (valued ? "; its own value is used" : "; the default is used"));
+                 problem + (valued ? "; its own value or default is used" : "; the default is used"));
         }
         operand = Operand();
         const auto v = node.inputs.find(input.name);
@@ -169,46 +171,24 @@ private:
         return true;
     }
 
-    /// A node for a default that comes from the geometry.
+    /// A default that comes from the geometry is the output of a node.
     Operand geomprop(const InputDef& input) {
-        struct Row {
-            const char *name, *id, *input;
-            Value value;
-        };
-        static const Row rows[] = {
-            {"Nworld", "ND_normal_vector3", "space", Value::makeString("world")},
-            {"Tworld", "ND_tangent_vector3", "space", Value::makeString("world")},
-            {"Bworld", "ND_bitangent_vector3", "space", Value::makeString("world")},
-            {"Pworld", "ND_position_vector3", "space", Value::makeString("world")},
-            {"Vworld", "ND_viewdirection_vector3", "space", Value::makeString("world")},
-            {"Nobject", "ND_normal_vector3", "space", Value::makeString("object")},
-            {"Tobject", "ND_tangent_vector3", "space", Value::makeString("object")},
-            {"Bobject", "ND_bitangent_vector3", "space", Value::makeString("object")},
-            {"Pobject", "ND_position_vector3", "space", Value::makeString("object")},
-            {"UV0", "ND_texcoord_vector2", "index", Value::makeInt(0)},
-        };
-        for (const Row& row : rows)
-            if (input.geomprop == row.name) {
-                const auto known = _geomprops.find(row.name);
-                if (known != _geomprops.end()) return {known->second, 0, {}};
-                NetworkNode node;
-                node.path = std::string("<") + row.name + ">";
-                node.id = row.id;
-                node.inputs[row.input] = row.value;
-                const int index = addNode(node, *NodeTable::get().find(node.id));
-                _geomprops[row.name] = index;
-                return {index, 0, {}};
-            }
         Operand operand;
         operand.value = input.value;
-        return operand;
+        const NetworkNode node = geompropNode(input.geomprop);
+        if (node.id.empty()) return operand;
+        const auto known = _built.find(node.path);
+        const int index = known != _built.end()
+                              ? known->second
+                              : addNode(node, *NodeTable::get().find(node.id));
+        _built[node.path] = index;
+        return {index, 0, {}};
     }
 
     const Network& _network;
     Diagnostics& _diagnostics;
     std::map<std::string, const NetworkNode*> _source;
     std::map<std::string, int> _built;
-    std::map<std::string, int> _geomprops;
     int _depth = 0;
     Graph _graph;
 };

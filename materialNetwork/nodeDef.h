@@ -14,6 +14,7 @@ enum class ClosureKind {
     OrenNayar,
     Burley,
     Translucent,
+    Subsurface, ///< shown as diffuse
     Dielectric,
     Conductor,
     Schlick,

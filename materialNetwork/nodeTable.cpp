@@ -93,6 +93,9 @@ NodeTable::NodeTable() {
     alias("ND_conductor_brdf", "ND_conductor_bsdf");
     alias("ND_generalized_schlick_brdf", "ND_generalized_schlick_bsdf");
     alias("ND_diffuse_btdf", "ND_translucent_bsdf");
+    alias("ND_subsurface_brdf", "ND_subsurface_bsdf");
+    alias("ND_sheen_brdf", "ND_sheen_bsdf");
+    alias("ND_thin_film_brdf", "ND_thin_film_bsdf");
     alias("ND_multiply_bsdf_color3", "ND_multiply_bsdfC");
     alias("ND_multiply_bsdf_float", "ND_multiply_bsdfF");
     alias("ND_normalmap", "ND_normalmap_float");

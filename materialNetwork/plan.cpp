@@ -168,6 +168,12 @@ private:
             if (!isConstantValue(input(node, "scattering"), 0.0f))
                 leaveOut(node, "scattering inside a volume is not modelled");
             break;
+        case ClosureKind::Subsurface:
+            leaveOut(node, "subsurface scattering is shown as diffuse");
+            break;
+        case ClosureKind::Unsupported:
+            leaveOut(node, node.def->category + " is not modelled");
+            return -1;
         case ClosureKind::OrenNayar:
         case ClosureKind::Burley:
         case ClosureKind::Translucent:

@@ -18,6 +18,7 @@ const char* const noNames[] = {nullptr};
 const char* const* lobeParameters(ClosureKind kind) {
     switch (kind) {
     case ClosureKind::OrenNayar:
+    case ClosureKind::Subsurface:
         return orenNayarNames;
     case ClosureKind::Burley:
         return burleyNames;

@@ -239,6 +239,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.prebuilt.kind = lobeKind(closure.kind);
     t.prebuilt.diffuse = closure.kind == ClosureKind::OrenNayar ||
                          closure.kind == ClosureKind::Burley ||
+                         closure.kind == ClosureKind::Subsurface ||
                          closure.kind == ClosureKind::Translucent;
     const bool interface =
         closure.kind == ClosureKind::Dielectric || closure.kind == ClosureKind::Schlick;
@@ -261,7 +262,10 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.constant = true;
     const char* const* names = lobeParameters(closure.kind);
     for (int i = 0; names[i]; ++i) {
-        Operand operand = closureInput(_plan, closure, names[i]);
+        Operand operand;
+        operand.value = Value::makeFloat(0.0f);
+        if (node.def->findInput(names[i]) >= 0)
+            operand = closureInput(_plan, closure, names[i]);
         // Light goes straight through a thin wall; the layer above has taken what is reflected.
         if (_plan.thinWalled && t.mode == sh::SCATTER_T &&
             closure.kind == ClosureKind::Dielectric && std::string(names[i]) == "ior") {

@@ -44,6 +44,16 @@ const NodeRow rows[] = {
             "float weight=1, color3 color0=1, color3 color82=1, color3 color90=1, "
             "float exponent=5, " PATINA_MICROFACET ", string scatter_mode=R",
             "BSDF", ClosureKind::Schlick),
+    closure("ND_subsurface_bsdf", "subsurface_bsdf",
+            "float weight=1, color3 color=0.18, color3 radius=1, float anisotropy=0, "
+            "vector3 normal=@Nworld",
+            "BSDF", ClosureKind::Subsurface),
+    closure("ND_sheen_bsdf", "sheen_bsdf",
+            "float weight=1, color3 color=1, float roughness=0.3, vector3 normal=@Nworld, "
+            "string mode=conty_kulla",
+            "BSDF", ClosureKind::Unsupported),
+    closure("ND_thin_film_bsdf", "thin_film_bsdf", "float thickness=550, float ior=1.5", "BSDF",
+            ClosureKind::Unsupported),
     closure("ND_uniform_edf", "uniform_edf", "color3 color=1", "EDF", ClosureKind::UniformEdf),
     closure("ND_absorption_vdf", "absorption_vdf", "vector3 absorption=0", "VDF",
             ClosureKind::AbsorptionVdf),

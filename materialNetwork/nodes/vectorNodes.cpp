@@ -70,6 +70,14 @@ void luminance(Call c) {
     c.out() = vec4(y, y, y, c.in(0).w);
 }
 
+void rgbToHsv(Call c) {
+    c.out() = vec4(sh::patternRgbToHsv(vec3(c.in(0))), c.in(0).w);
+}
+
+void hsvToRgb(Call c) {
+    c.out() = vec4(sh::patternHsvToRgb(vec3(c.in(0))), c.in(0).w);
+}
+
 void normalMap(Call c) {
     c.out() = vec4(sh::patternNormalMap(vec3(c.in(0)), vec2(c.in(1)), vec3(c.in(2)), vec3(c.in(3)),
                                         vec3(c.in(4))),
@@ -101,6 +109,8 @@ const NodeRow rows[] = {
      transform2d},
     {"ND_luminance_$", "luminance", "$ in=0, color3 lumacoeffs=0.2126390 0.7151687 0.0721923", "$",
      luminance, Algebra::None, "color3 color4"},
+    {"ND_rgbtohsv_$", "rgbtohsv", "$ in=0", "$", rgbToHsv, Algebra::None, "color3 color4"},
+    {"ND_hsvtorgb_$", "hsvtorgb", "$ in=0", "$", hsvToRgb, Algebra::None, "color3 color4"},
     {"ND_normalmap_$", "normalmap", normalMapFrame, "vector3", normalMap, Algebra::NormalMap,
      "float vector2"},
 };

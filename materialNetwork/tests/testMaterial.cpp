@@ -164,6 +164,16 @@ TEST(Material, Transform2dScalesRotatesTranslates) {
     expectColor(emitted(emitting({node, x})), 0.5f, 2.25f, 0.0f);
 }
 
+TEST(Material, HsvThereAndBack) {
+    for (const glm::vec3& rgb : {glm::vec3(1, 0, 0), glm::vec3(0.2f, 0.7f, 0.4f),
+                                 glm::vec3(0.1f, 0.05f, 0.9f), glm::vec3(0.5f)}) {
+        const NetworkNode hsv =
+            makeNode("hsv", "ND_rgbtohsv_color3", {{"in", color(rgb.x, rgb.y, rgb.z)}});
+        const NetworkNode x = makeNode("x", "ND_hsvtorgb_color3", {}, {{"in", {"hsv", ""}}});
+        expectColor(emitted(emitting({hsv, x})), rgb.x, rgb.y, rgb.z);
+    }
+}
+
 TEST(Material, NormalMapsTiltTheFrame) {
     Compiled c(previewNetwork({{"roughness", number(0.0f)},
                                {"metallic", number(1.0f)},

@@ -74,6 +74,18 @@ TEST(Text, PreviewSurfaceLeaf) {
                               {stReader(), texture("leaf", "leaf.png")}));
 }
 
+TEST(Text, StandardSurfaceCarPaint) {
+    expectText("standardSurfaceCarPaint",
+               makeNetwork({makeNode("surface", "standard_surface",
+                                     {{"base_color", color(0.1f, 0.04f, 0.04f)},
+                                      {"specular_color", color(0.0f, 0.02f, 0.3f)},
+                                      {"specular_roughness", number(0.4f)},
+                                      {"specular_anisotropy", number(0.5f)},
+                                      {"coat", number(1.0f)},
+                                      {"coat_affect_color", number(0.5f)},
+                                      {"coat_roughness", number(0.0f)}})}));
+}
+
 TEST(Text, DisplayColor) { expectText("displayColor", makeDisplayColorNetwork()); }
 
 TEST(Text, LayerOverMix) {

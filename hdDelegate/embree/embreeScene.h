@@ -82,7 +82,7 @@ private:
     };
     struct CachedProgram {
         std::shared_ptr<const MaterialPrim> prim;
-        MethodChoices methods;
+        std::map<std::string, std::string> methods;
         std::shared_ptr<const MaterialProgram> program;
     };
 

@@ -21,7 +21,7 @@ def test_resolve_gives_arrays_with_the_top_row_first(film):
     assert film.resolve("primvars:st").shape == (3, 4, 2)
     ids = film.resolve("primId")
     assert ids.dtype == np.int32 and (ids == -1).all()
-    assert film.resolve("depth")[0, 0] == 1
+    assert film.resolve("depth")[0, 0] == np.float32(1e10)
 
 
 def test_samples_that_are_no_numbers_are_counted(film):

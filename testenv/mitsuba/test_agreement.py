@@ -107,7 +107,7 @@ def test_agrees_with_mitsuba(name):
             theirs = render_mitsuba(path, samples, [s + 500 for s in seeds], folder)
             p, count = smallest_p(ours, theirs)
             limit = 1.0 - (1.0 - SIGNIFICANCE) ** (1.0 / count)
-            bias = (ours.mean() - theirs.mean()) / theirs.mean()
+            bias = float((ours.mean() - theirs.mean()) / theirs.mean())
             print(json.dumps({"scene": name, "smallest p": p, "limit": limit, "relative mean error": bias}))
             rejected.append(p < limit)
             if rejected.count(True) == 2 or rejected.count(False) == 2:

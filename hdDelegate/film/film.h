@@ -18,8 +18,9 @@ enum class AovKind {
 
 /// One channel group of the film.
 struct AovSpec {
-    std::string name;   ///< color, alpha, depth, cameraDepth, normal, Neye, position, albedo,
-                        ///< primvars:NAME, primId, instanceId, elementId, sampleCount, variance
+    std::string name;   ///< color, alpha, depth, cameraDepth, deviceDepth, normal, Neye, position,
+                        ///< albedo, primvars:NAME, primId, instanceId, elementId, sampleCount,
+                        ///< variance
     int components = 3; ///< floats per pixel
     AovKind kind = AovKind::Mean;
     float clearValue = 0.0f; ///< of pixels that no sample reached
@@ -28,9 +29,10 @@ struct AovSpec {
 
 /// The standard spec of an AOV by name.
 ///
-/// depth is OpenGL's window depth in [0,1] (1 where nothing is), cameraDepth the distance along the
-/// camera's axis in scene units (1e10 where nothing is), normal and position are in world space,
-/// Neye in camera space, ids are -1 where nothing is. primvars:NAME has two components for texture
+/// depth is the distance along the camera's axis and cameraDepth that from the camera's centre, in
+/// scene units (1e10 where nothing is); deviceDepth is OpenGL's window depth in [0,1] (1 where
+/// nothing is). normal and position are in world space, Neye in camera space. Ids are -1 where
+/// nothing is. primvars:NAME has two components for texture
 /// coordinates (st*, uv*, UV*), one for displayOpacity and widths, otherwise three.
 /// @throws std::invalid_argument naming an unknown AOV.
 AovSpec standardAov(const std::string& name);

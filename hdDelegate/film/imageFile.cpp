@@ -40,7 +40,8 @@ std::vector<std::string> channelNames(const AovSpec& spec) {
     static const char* const space[] = {"X", "Y", "Z", "W"};
     if (spec.name == "color") return {"R", "G", "B"};
     if (spec.name == "alpha") return {"A"};
-    if (spec.name == "depth" || spec.name == "cameraDepth") return {spec.name + ".Z"};
+    if (spec.name == "depth" || spec.name == "cameraDepth" || spec.name == "deviceDepth")
+        return {spec.name + ".Z"};
     bool primvar = spec.name.compare(0, 9, "primvars:") == 0;
     if (spec.components == 1 && !primvar) return {spec.name};
     std::vector<std::string> names;

@@ -32,8 +32,9 @@ AovSpec standardAov(const std::string& name) {
         {"sampleCount", 1, AovKind::Mean, 0.0f, false},
         {"variance", 1, AovKind::Mean, 0.0f, false},
         {"albedo", 3, AovKind::Mean, 0.0f, false},
-        {"depth", 1, AovKind::First, 1.0f, false},
+        {"depth", 1, AovKind::First, 1e10f, false},
         {"cameraDepth", 1, AovKind::First, 1e10f, false},
+        {"deviceDepth", 1, AovKind::First, 1.0f, false},
         {"normal", 3, AovKind::First, 0.0f, false},
         {"Neye", 3, AovKind::First, 0.0f, false},
         {"position", 3, AovKind::First, 0.0f, false},
@@ -46,10 +47,10 @@ AovSpec standardAov(const std::string& name) {
     const std::string prefix = "primvars:";
     if (startsWith(name, prefix.c_str()) && name.size() > prefix.size())
         return {name, primvarComponents(name.substr(prefix.size())), AovKind::First, 0.0f, false};
-    throw std::invalid_argument(
-        "unknown AOV '" + name +
-        "'; known are color, alpha, depth, cameraDepth, normal, Neye, position, albedo, primId, "
-        "instanceId, elementId, sampleCount, variance and primvars:NAME");
+    throw std::invalid_argument("unknown AOV '" + name +
+                                "'; known are color, alpha, depth, cameraDepth, deviceDepth, "
+                                "normal, Neye, position, albedo, primId, "
+                                "instanceId, elementId, sampleCount, variance and primvars:NAME");
 }
 
 } // namespace patina

@@ -40,9 +40,9 @@ def test_exr_holds_aovs_and_metadata(film, tmp_path):
     assert image.metadata["patina:stage"] == "x.usda"
     assert image.metadata["patina:samples"] == 3
     assert image.metadata["patina:seconds"] == 1.5
-    pixels = image.pixels
+    pixels, blue = image.pixels, image.channels.index("B")
     del image
-    assert pixels[2, 1].max() == 3  # the array keeps its memory
+    assert pixels[2, 1, blue] == 3  # the array keeps its memory
 
 
 def test_arrays_are_written_through_the_display(tmp_path):

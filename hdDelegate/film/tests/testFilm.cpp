@@ -85,7 +85,7 @@ TEST(Film, FirstKeepsTheSampleNearestTheCentre) {
     film.addAov(0, 1, 0, &late.x, 0.1f);
     std::vector<float> p = film.resolve("position");
     EXPECT_EQ(p, (std::vector<float>{0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0}));
-    EXPECT_EQ(film.resolve("depth"), std::vector<float>(4, 1.0f)) << "clear value";
+    EXPECT_EQ(film.resolve("depth"), std::vector<float>(4, 1e10f)) << "clear value";
 }
 
 TEST(Film, MeanAovsAverageWhatWasAdded) {

@@ -104,7 +104,7 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
         }
         l.weight = glm::vec3(0.0f);
         l.albedo = glm::vec3(0.0f);
-        if (registers[t.weight].x > 0.0f) kept[i] = unit(lobeFixWo(l, out._frames[l.frame].wo));
+        if (registers[t.weight].x > 0.0f) kept[i] = unit(lobeFixWo(l, out._frames[l.frame].wo, t.energy));
     }
     setWeights(code, registers, kept, out);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "materialNetwork/cpu/bsdf.h"
+#include "materialNetwork/cpu/energyCurve.h"
 
 #include <algorithm>
 
@@ -62,11 +63,35 @@ inline glm::vec3 lobeAlbedo(const BsdfLobe& l, const glm::vec3& wo) {
     return glm::vec3(0.0f);
 }
 
+inline void setFactors(sh::DielectricLobe& l, const EnergyCurve::Energy& e) {
+    l.kr = e.kr.x;
+    l.kt = e.kt.x;
+}
+
+inline void setFactors(sh::SchlickLobe& l, const EnergyCurve::Energy& e) {
+    l.kr = e.kr;
+    l.kt = e.kt;
+}
+
+template <class Interface>
+float lobeSetEnergy(BsdfLobe& l, Interface& interface, const glm::vec3& tint, const glm::vec3& wo,
+                    const EnergyCurve& curve) {
+    const EnergyCurve::Energy e =
+        wo.z >= 0.0f && !curve.empty() ? curve.at(wo.z) : lobeEnergy(l, wo);
+    interface.known = true;
+    setFactors(interface, e);
+    glm::vec3 kept(0.0f);
+    if ((interface.mode & sh::SCATTER_R) != 0) kept += e.r;
+    if ((interface.mode & sh::SCATTER_T) != 0) kept += e.t;
+    l.albedo = tint * kept;
+    return interface.mode == sh::SCATTER_T ? 1.0f : std::max(kept.x, std::max(kept.y, kept.z));
+}
+
 /// Looks up what depends on wo alone, once for all evaluations. Sets l.albedo, exact for interfaces
 /// and else an estimate that is good enough to choose lobes by.
 /// @returns the share that an interface keeps from the base of a layer: its largest channel,
 /// without tint. 1 for all other lobes.
-inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo) {
+inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& curve) {
     switch (l.kind) {
     case LobeKind::OrenNayar:
         l.albedo = l.orenNayar.color;
@@ -82,28 +107,10 @@ inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo) {
         l.albedo = sh::fresnelConductor(glm::clamp(wo.z, 0.0f, 1.0f), l.conductor.ior,
                                         l.conductor.extinction);
         return 1.0f;
-    case LobeKind::Dielectric: {
-        sh::DielectricLobe& d = l.dielectric;
-        const sh::DielectricEnergy e = sh::dielectricEnergy(d, wo);
-        d.known = true;
-        d.kr = e.kr;
-        d.kt = e.kt;
-        const float kept = ((d.mode & sh::SCATTER_R) != 0 ? e.r : 0.0f) +
-                           ((d.mode & sh::SCATTER_T) != 0 ? e.t : 0.0f);
-        l.albedo = d.tint * kept;
-        return d.mode == sh::SCATTER_T ? 1.0f : kept;
-    }
-    case LobeKind::Schlick: {
-        sh::SchlickLobe& d = l.schlick;
-        const sh::SchlickEnergy e = sh::schlickEnergy(d, wo);
-        d.known = true;
-        d.kr = e.kr;
-        d.kt = e.kt;
-        l.albedo = ((d.mode & sh::SCATTER_R) != 0 ? e.r : glm::vec3(0.0f)) +
-                   ((d.mode & sh::SCATTER_T) != 0 ? e.t : glm::vec3(0.0f));
-        const glm::vec3& a = l.albedo;
-        return d.mode == sh::SCATTER_T ? 1.0f : std::max(a.x, std::max(a.y, a.z));
-    }
+    case LobeKind::Dielectric:
+        return lobeSetEnergy(l, l.dielectric, l.dielectric.tint, wo, curve);
+    case LobeKind::Schlick:
+        return lobeSetEnergy(l, l.schlick, glm::vec3(1.0f), wo, curve);
     }
     return 1.0f;
 }

@@ -278,7 +278,10 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     }
     t.straight = isStraight(closure);
     _code->hasStraight |= t.straight;
-    if (t.constant) setupLobe(t, _code->constants.data(), t.prebuilt);
+    if (t.constant) {
+        setupLobe(t, _code->constants.data(), t.prebuilt);
+        t.energy.measure(t.prebuilt);
+    }
     const Operand& weight = closureInput(_plan, closure, "weight");
     mark(weight, needed);
     op.factor = t.weight = registerOf(weight);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "materialNetwork/cpu/bsdf.h"
+#include "materialNetwork/cpu/energyCurve.h"
 #include "materialNetwork/cpu/pattern.h"
 #include "materialNetwork/plan.h"
 
@@ -30,6 +31,7 @@ struct LobeTemplate {
     bool straight = false; ///< passes light straight on without tint: part of the presence
     int mode = 0;          ///< SCATTER_*
     int compensate = 1;
+    EnergyCurve energy;   ///< of constant interfaces
     Register weight = 0;
     Register parameters[maxParameters] = {};
 };

@@ -1,0 +1,74 @@
+// The interpolated energy of constant interfaces against the tables that it is measured from.
+#include "materialNetwork/cpu/energyCurve.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+float largest(const glm::vec3& v) {
+    return std::max(std::fabs(v.x), std::max(std::fabs(v.y), std::fabs(v.z)));
+}
+
+/// Largest difference of the albedos over all angles.
+float worst(const BsdfLobe& lobe) {
+    EnergyCurve curve;
+    curve.measure(lobe);
+    EXPECT_FALSE(curve.empty());
+    float error = 0.0f;
+    for (int i = 0; i <= 2000; ++i) {
+        const float x = float(i) / 2000.0f, z = x * x * x;
+        const glm::vec3 wo(std::sqrt(1.0f - z * z), 0.0f, z);
+        const EnergyCurve::Energy a = curve.at(z), b = lobeEnergy(lobe, wo);
+        error = std::max(error, largest(a.r - b.r));
+        error = std::max(error, largest(a.t - b.t));
+        // The factors multiply the lobe, so their relative error is that of the albedo.
+        error = std::max(error, largest(a.kr - b.kr) / largest(b.kr) * largest(b.r));
+    }
+    return error;
+}
+
+} // namespace
+
+TEST(EnergyCurve, FollowsTheTables) {
+    for (const float alpha : {0.01f, 0.02f, 0.05f, 0.25f, 0.6f, 1.0f}) {
+        BsdfLobe lobe;
+        for (const float f0 : {0.04f, 0.5f, 1.0f}) {
+            lobe.kind = LobeKind::Schlick;
+            lobe.schlick =
+                sh::schlickSetup(glm::vec3(f0, 0.5f * f0, 0.1f), glm::vec3(1.0f), glm::vec3(1.0f),
+                                 5.0f, glm::vec2(alpha), false, sh::SCATTER_R, false, 1);
+            EXPECT_LT(worst(lobe), 1.5e-3f) << "Schlick " << f0 << " alpha " << alpha;
+        }
+        for (const float ior : {1.05f, 1.5f, 2.5f})
+            for (const int mode : {sh::SCATTER_R, sh::SCATTER_RT}) {
+                lobe.kind = LobeKind::Dielectric;
+                lobe.dielectric = sh::dielectricSetup(glm::vec3(1.0f), ior, glm::vec2(alpha), false,
+                                                      mode, false, 1);
+                EXPECT_LT(worst(lobe), 1.5e-3f) << "ior " << ior << " alpha " << alpha;
+            }
+    }
+}
+
+TEST(EnergyCurve, LeavesOtherLobesAlone) {
+    EnergyCurve curve;
+    BsdfLobe lobe;
+    lobe.kind = LobeKind::Dielectric;
+    const auto setup = [&](float ior, glm::vec2 alpha) {
+        lobe.dielectric = sh::dielectricSetup(glm::vec3(1.0f), ior, alpha, false, sh::SCATTER_RT,
+                                              false, 1);
+        curve.measure(lobe);
+        return curve.empty();
+    };
+    EXPECT_TRUE(setup(1.5f, glm::vec2(0.0f)));
+    EXPECT_TRUE(setup(1.5f, glm::vec2(0.002f)));
+    EXPECT_TRUE(setup(1.5f, glm::vec2(0.1f, 0.3f)));
+    EXPECT_TRUE(setup(0.7f, glm::vec2(0.3f)));
+    EXPECT_FALSE(setup(1.5f, glm::vec2(0.3f)));
+}
+
+} // namespace patina

@@ -1,38 +1,45 @@
-"""--method: which way is taken where something can be computed in several ways."""
+"""--method POINT=NAME: forces a method at a choice point of the planner."""
 import argparse
+import textwrap
 
 from patina.cli import compiled
 from patina.cli.errors import UsageError
 
 
-class _Append(argparse.Action):
-    """Collects POINT=NAME; `list` prints every choice point and ends."""
+class _Method(argparse.Action):
+    """Collects choices; `list` shows what there is and ends, as --help does."""
 
     def __call__(self, parser, namespace, value, option_string=None):
         if value == "list":
-            for point, choices in compiled.load().choice_points():
-                print(point)
-                for i, (name, description) in enumerate(choices):
-                    print(f"  {name}{' (default)' if i == 0 else ''}: {description}")
-            parser.exit(0)
-        setattr(namespace, self.dest, getattr(namespace, self.dest) + [value])
+            print(_listing())
+            parser.exit()
+        setattr(namespace, self.dest, [*getattr(namespace, self.dest), value])
 
 
-def add_argument(group):
-    group.add_argument("--method", action=_Append, default=[], metavar="POINT=NAME",
-                       help="force a method at a choice point (repeatable); `--method list` shows them all")
+def add_flag(group):
+    group.add_argument("--method", action=_Method, default=[], metavar="POINT=NAME",
+                       help="force a method at a choice point (repeatable); --method list shows all of them")
 
 
 def parse(texts):
-    """:returns: dict of choice point to method
-    :raises UsageError: for what does not exist"""
-    chosen = {}
+    """:returns: dict of choice point -> method"""
+    methods = {}
     for text in texts:
         point, equals, name = text.partition("=")
         if not point or not equals or not name:
             raise UsageError(f"--method {text}: write it as POINT=NAME")
-        chosen[point] = name
-    problem = compiled.load().check_methods(chosen) if chosen else ""
+        methods[point] = name
+    problem = compiled.load().check_methods(methods) if methods else ""
     if problem:
         raise UsageError(f"--method: {problem}")
-    return chosen
+    return methods
+
+
+def _listing():
+    lines = []
+    for point, names in compiled.load().choice_points():
+        lines.append(point)
+        for i, (name, description) in enumerate(names):
+            text = textwrap.wrap(("(the default) " if i == 0 else "") + description, 90)
+            lines += [f"  {name:<12}{text[0] if text else ''}"] + [" " * 14 + more for more in text[1:]]
+    return "\n".join(lines)

@@ -66,7 +66,7 @@ def _add_render_flags(group):
                        help="radius of the pixel filter in pixels; 0.5 is a box (default: 1)")
     group.add_argument("--edgeLength", type=_positive, default=4.0, metavar="PIXELS",
                        help="subdivision surfaces are refined until edges are this short (default: 4)")
-    methods.add_argument(group)
+    methods.add_flag(group)
     group.add_argument("--cullStyle", default="nothing", metavar="STYLE",
                        choices=["nothing", "back", "front", "backUnlessDoubleSided", "frontUnlessDoubleSided"],
                        help="faces that camera rays pass: nothing, back, front, backUnlessDoubleSided, "

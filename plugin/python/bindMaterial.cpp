@@ -39,9 +39,9 @@ struct MaterialProbe {
     TextureSystem textures{diagnostics};
     std::shared_ptr<const MaterialProgram> program;
 
-    explicit MaterialProbe(const Network& network) {
+    MaterialProbe(const Network& network, const MethodChoices& methods) {
         py::gil_scoped_release release;
-        program = compileMaterial(network, textures, diagnostics);
+        program = compileMaterial(network, textures, diagnostics, methods);
     }
 };
 
@@ -192,11 +192,23 @@ Network overridden(const Network& network, const std::map<std::string, std::stri
     return result;
 }
 
+py::list points() {
+    py::list list;
+    for (const ChoicePoint& point : choicePoints()) {
+        py::list methods;
+        for (const Method& method : point.methods)
+            methods.append(py::make_tuple(method.name, method.description));
+        list.append(py::make_tuple(point.name, methods));
+    }
+    return list;
+}
+
 } // namespace
 
 void bindMaterial(py::module_& m) {
     py::class_<MaterialProbe>(m, "MaterialProbe", "A compiled material at one shading point.")
-        .def(py::init<const Network&>(), py::arg("network"))
+        .def(py::init<const Network&, const MethodChoices&>(), py::arg("network"),
+             py::arg("methods") = MethodChoices())
         .def("eval", &eval, py::arg("wo"), py::arg("wi"),
              "f without the cosine, and the density of sample(); delta lobes have no part in it.")
         .def("sample", &sample, py::arg("wo"), py::arg("u"),
@@ -221,15 +233,8 @@ void bindMaterial(py::module_& m) {
           "The network with inputs replaced, given as text; ValueError names what cannot be.");
     m.def("check_methods", &checkMethods, py::arg("methods"),
           "Empty, or a sentence that names the choice point or method that does not exist.");
-    m.def("choice_points", [] {
-        std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>> list;
-        for (const ChoicePoint& point : choicePoints()) {
-            list.push_back({point.name, {}});
-            for (const Method& method : point.methods)
-                list.back().second.push_back({method.name, method.description});
-        }
-        return list;
-    });
+    m.def("choice_points", &points,
+          "List of (choice point, list of (method, description)); the first is the default.");
     m.def("display_color_network", &makeDisplayColorNetwork, "The material of prims without one.");
     m.def("node_inputs", &nodeInputs, py::arg("id"),
           "Names and MaterialX types of a node's inputs; empty for an unknown node.");

@@ -122,3 +122,20 @@ def test_explain(document, stage, capsys):
     assert main.main(["explain", stage, "--json"]) == 0
     names = [m["name"] for m in json.loads(capsys.readouterr().out)["materials"]]
     assert names == ["/a", "/b"]
+
+
+def test_methods(capsys, tmp_path):
+    path = tmp_path / "metal.mtlx"
+    path.write_text(DIFFUSE.replace("oren_nayar_diffuse_bsdf", "generalized_schlick_bsdf").replace(
+        'name="color" type="color3" value="0.5, 0.25, 0.125"', 'name="roughness" type="vector2" value="1, 1"'))
+    (compensated,) = lines(capsys, "albedo", str(path))
+    (single,) = lines(capsys, "albedo", str(path), "--method", "energyCompensation=none")
+    assert single["albedo"][0] < 0.7 < 0.95 < compensated["albedo"][0]
+
+
+def test_methods_are_listed_and_checked(document, capsys):
+    with pytest.raises(SystemExit) as end:
+        main.main(["bsdf", "--method", "list"])
+    assert not end.value.code and "energyCompensation" in capsys.readouterr().out
+    for text in ("nowhere=none", "energyCompensation=nonsense", "energyCompensation"):
+        assert main.main(["bsdf", "albedo", document, "--method", text]) == 2

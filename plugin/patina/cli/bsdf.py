@@ -15,7 +15,7 @@ import sys
 
 import numpy as np
 
-from patina.cli import compiled, materials, statistics
+from patina.cli import compiled, materials, methods, statistics
 from patina.cli.errors import CommandError, UsageError
 
 BATCH = 65536  # lines that are worked on at once
@@ -32,6 +32,7 @@ def add_arguments(parser):
     parser.add_argument("--backend", default="embree", choices=["embree"], help="whose code runs (default: embree)")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
+    methods.add_flag(parser)
     parser.add_argument("--json", metavar="FILE",
                         help="one JSON object per line: --json to standard output, --json=FILE to a file")
 
@@ -43,8 +44,9 @@ def run(arguments):
         raise UsageError("patina bsdf: --count is 1 or more, --seed 0 or more")
     wo = _direction(arguments.wo, "--wo")
     wi = _direction(arguments.wi, "--wi") if arguments.action == "eval" else None
+    chosen = methods.parse(arguments.method)
     found, warnings = materials.load(arguments.material, arguments.set)
-    probe = compiled.load().MaterialProbe(found[0][1])
+    probe = compiled.load().MaterialProbe(found[0][1], chosen)
     for line in statistics.lines(warnings + probe.warnings):
         print("warning: " + line, file=sys.stderr)
     out = sys.stdout

@@ -25,9 +25,9 @@ def run(arguments):
     if "PATINA_ASSETS" not in environment and os.path.isdir(assets):
         environment["PATINA_ASSETS"] = assets
     environment.setdefault("PATINA_BUILD_DIR", os.path.join(root, "build"))
+    # pytest runs in the root, where testpaths are meant; paths keep the meaning that they had.
+    passed_on = [os.path.abspath(a) if not a.startswith("-") and os.path.exists(a.partition("::")[0]) else a
+                 for a in arguments.passed_on]
     command = [sys.executable, "-m", "pytest", "-q", "-ra", "-c", os.path.join(root, "testenv", "pytest.ini"),
-               "--rootdir", root]
-    # Without paths of the caller's own, everything.
-    if not any(os.path.exists(a.partition("::")[0]) for a in arguments.passed_on if not a.startswith("-")):
-        command += [os.path.join(root, "testenv"), os.path.join(root, "plugin", "patina")]
-    return min(1, subprocess.call(command + arguments.passed_on, env=environment))
+               "--rootdir", root, *passed_on]
+    return min(1, subprocess.call(command, env=environment, cwd=root))

@@ -40,7 +40,8 @@ std::string nodeText(const Graph& graph, const GraphNode& node) {
 
 class PlanText {
 public:
-    explicit PlanText(const Plan& plan) : _plan(plan), _lobe(plan.closures.size(), -1) {}
+    explicit PlanText(const Plan& plan)
+        : _plan(plan), _lobe(plan.closures.size(), -1), _passed(plan.closures.size()) {}
 
     std::string run() {
         std::string text = "material " + _plan.graph.path + "\n";
@@ -100,6 +101,8 @@ private:
 
     static void accumulate(std::string& sum, const std::string& term) {
         sum = sum.empty() ? term : "(" + sum + " + " + term + ")";
+        // Shared closures can multiply without end.
+        if (sum.size() > 1000) sum = "...";
     }
 
     void distribute(const PlanClosure& c, const std::string& weight,
@@ -131,6 +134,13 @@ private:
     /// What a layer's top lets through.
     std::string passed(int i) const {
         if (i < 0) return "1";
+        std::string& text = _passed[size_t(i)];
+        if (text.empty()) text = passedText(i);
+        if (text.size() > 300) text = "...";
+        return text;
+    }
+
+    std::string passedText(int i) const {
         const PlanClosure& c = _plan.closures[size_t(i)];
         const GraphNode& node = _plan.graph.nodes[size_t(c.node)];
         if (c.isLobe()) {
@@ -156,6 +166,7 @@ private:
 
     const Plan& _plan;
     std::vector<int> _lobe;
+    mutable std::vector<std::string> _passed; ///< per closure; empty until asked for
 };
 
 } // namespace

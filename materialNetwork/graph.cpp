@@ -9,7 +9,7 @@ namespace patina {
 namespace {
 
 // The builder follows connections by recursion; a chain this long is no material.
-constexpr int maxChain = 5000;
+constexpr int maxChain = 1000;
 
 class GraphBuilder {
 public:

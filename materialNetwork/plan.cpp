@@ -159,6 +159,7 @@ private:
         case ClosureKind::Dielectric:
         case ClosureKind::Schlick:
             closure.fused = fused && scatterMode(_plan, closure) == sh::SCATTER_T;
+            closure.reflects = (scatterMode(_plan, closure) & sh::SCATTER_R) != 0;
             checkMicrofacet(node);
             break;
         case ClosureKind::Conductor:
@@ -185,6 +186,7 @@ private:
                               node.def->category + " cannot stand here; it is left out");
             return -1;
         }
+        closure.reflects |= reflects(closure.a) || reflects(closure.b);
         _plan.closures.push_back(closure);
         return int(_plan.closures.size()) - 1;
     }
@@ -198,13 +200,8 @@ private:
             _plan.vdf = vdf;
     }
 
-    /// Whether a closure contains the reflecting half of an interface.
     bool reflects(int index) const {
-        if (index < 0) return false;
-        const PlanClosure& c = _plan.closures[size_t(index)];
-        if (c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Schlick)
-            return (scatterMode(_plan, c) & sh::SCATTER_R) != 0;
-        return reflects(c.a) || reflects(c.b);
+        return index >= 0 && _plan.closures[size_t(index)].reflects;
     }
 
     void checkMicrofacet(const GraphNode& node) {

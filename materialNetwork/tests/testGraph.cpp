@@ -130,6 +130,31 @@ TEST(Graph, ManyLobesAreCutWithAWarning) {
     EXPECT_EQ(bsdf.lobeCount(), Bsdf::maxLobes);
 }
 
+// Each sum uses the one before twice: 2^60 paths from the root to the lobe.
+TEST(Graph, SharedClosuresCostNoMoreThanTheirNumber) {
+    std::vector<NetworkNode> nodes = {
+        makeNode("s0", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.5f)}}),
+        makeNode("coat", "ND_dielectric_bsdf")};
+    const int n = 60;
+    for (int i = 1; i <= n; ++i) {
+        const std::string before = "s" + std::to_string(i - 1);
+        nodes.push_back(makeNode("h" + std::to_string(i), "ND_multiply_bsdfF",
+                                 {{"in2", number(0.5f)}}, {{"in1", {before, ""}}}));
+        const std::string half = "h" + std::to_string(i);
+        nodes.push_back(makeNode("s" + std::to_string(i), "ND_add_bsdf", {},
+                                 {{"in1", {half, ""}}, {"in2", {half, ""}}}));
+    }
+    const std::string last = "s" + std::to_string(n);
+    nodes.push_back(makeNode("bsdf", "ND_layer_bsdf", {}, {{"top", {last, ""}}, {"base", {last, ""}}}));
+    const Network network = bsdfNetwork(nodes);
+    Compiled c(network);
+    Bsdf bsdf;
+    c.program->evaluate(ShadingPoint(), bsdf);
+    EXPECT_NEAR(bsdf.albedo().x, 0.5f, 1e-4f);
+    Diagnostics diagnostics;
+    EXPECT_LT(explainMaterial(network, diagnostics).size(), 200000u);
+}
+
 TEST(Values, AreBroughtToTheTypeOfTheInput) {
     InputDef def;
     Value out;

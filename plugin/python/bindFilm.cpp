@@ -66,8 +66,10 @@ Metadata metadataFrom(const py::dict& dict) {
         std::string name = py::str(item.first);
         if (py::isinstance<py::int_>(item.second) && !py::isinstance<py::bool_>(item.second)) {
             long long value = item.second.cast<long long>();
-            if (value == int(value)) metadata[name] = int(value);
-            else metadata[name] = double(value);
+            if (value == int(value))
+                metadata[name] = int(value);
+            else
+                metadata[name] = double(value);
         } else if (py::isinstance<py::float_>(item.second)) {
             metadata[name] = item.second.cast<double>();
         } else {
@@ -222,8 +224,9 @@ void bindFilm(py::module_& m) {
           py::arg("aovs") = std::vector<std::string>{},
           "RuntimeError says early why an image could not be written.");
     m.def("displays", [] { return ColorSpaces::shared().displays(); });
-    m.def("views", [](const std::string& display) { return ColorSpaces::shared().views(display); },
-          py::arg("display"));
+    m.def(
+        "views", [](const std::string& display) { return ColorSpaces::shared().views(display); },
+        py::arg("display"));
     m.def("color_spaces", [] { return ColorSpaces::shared().names(); });
 }
 

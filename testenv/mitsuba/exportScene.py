@@ -66,7 +66,7 @@ def _image(mi, source):
     if node.GetIdAttr().Get() not in ("ND_image_color3", "UsdUVTexture"):
         raise Unsupported(node.GetPath())
     return {"type": "bitmap", "filename": node.GetInput("file").Get().resolvedPath,
-            "filter_type": "nearest"}
+            "filter_type": "nearest", "raw": True}  # without a colour space the numbers are meant
 
 
 def _mesh(mi, name, points, counts, indices, uv=None):
@@ -99,7 +99,8 @@ def _mesh(mi, name, points, counts, indices, uv=None):
 def _write_mesh(mi, folder, name, *args):
     path = os.path.join(folder, name + ".ply")
     _mesh(mi, name, *args).write_ply(path)
-    return {"type": "ply", "filename": path, "face_normals": True}
+    # USD counts v from the lower edge of an image, Mitsuba from the upper one.
+    return {"type": "ply", "filename": path, "face_normals": True, "flip_tex_coords": True}
 
 
 _CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
@@ -145,15 +146,10 @@ def _light(mi, prim, matrix):
         direction = matrix.TransformDir(Gf.Vec3d(0, 0, -1)).GetNormalized()
         return {"type": "directional", "direction": list(direction), "irradiance": _color(_radiance(prim))}
     if kind == "DomeLight":
-        file = UsdLux.DomeLight(prim).GetTextureFileAttr().Get()
-        if not file:
-            return {"type": "constant", "radiance": _color(_radiance(prim))}
-        scale = _radiance(prim)
-        if max(scale) != min(scale):
-            raise Unsupported(f"{prim.GetPath()}: coloured dome texture")
-        # Mitsuba's lat-long image starts a quarter turn away from UsdLux's.
-        return {"type": "envmap", "filename": file.resolvedPath, "scale": scale[0],
-                "to_world": to_world @ t().rotate([0, 1, 0], 90)}
+        if UsdLux.DomeLight(prim).GetTextureFileAttr().Get():
+            # Its rows of texels lie on the poles, ours half a texel away: two different domes.
+            raise Unsupported(f"{prim.GetPath()}: dome texture")
+        return {"type": "constant", "radiance": _color(_radiance(prim))}
     raise Unsupported(f"{prim.GetPath()}: {kind}")
 
 

@@ -34,8 +34,12 @@ CASES = {
     "lightRect": ([], 128, {}),
     "lightCylinder": ([], 128, {}),
     "lightDistant": ([], 128, {"/World/light.inputs:angle": 0.0, "/World/light.inputs:intensity": 3.0}),
-    "lightDome": ([], 128, {}),
-    "roughConductor": (["/World/sky"], 256, {}),
+    "lightDome": ([], 128, {"/World/light.inputs:texture:file": None}),
+    # Mitsuba shadows by G1(wi) G1(wo), ours is height-correlated: they differ where alpha is large.
+    # Tangents of meshes without texture coordinates are each renderer's own: isotropic only.
+    "roughConductor": (["/World/sky"], 256, {"/World/materials/m2/metal.inputs:roughness": (0.2, 0.2),
+                                             "/World/materials/m3/metal.inputs:roughness": (0.05, 0.05),
+                                             "/World/materials/m4/metal.inputs:roughness": (0.15, 0.15)}),
     "roughDielectricSlab": ([], 512, {}),
     "texturedDiffuse": ([], 128, {}),
     "depthOfField": (["/World/sky"], 256, {}),
@@ -48,7 +52,10 @@ def make_stage(name, folder):
     without, samples, values = CASES[name]
     stage = Usd.Stage.Open(os.path.join(SCENES, name + ".usda"))
     for path, value in values.items():
-        stage.GetPropertyAtPath(path).Set(value)
+        if value is None:
+            stage.GetPropertyAtPath(path).Block()
+        else:
+            stage.GetPropertyAtPath(path).Set(value)
     for path in without:
         stage.GetPrimAtPath(path).SetActive(False)
     exportScene.replace_by_meshes(stage)

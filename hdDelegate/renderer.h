@@ -12,14 +12,15 @@ namespace patina {
 
 /// What a renderer can tell about its work. Times in seconds.
 struct RenderProgress {
-    double fraction = 0.0;      ///< 0..1 of the expected work
-    int samplesDone = 0;        ///< full passes over the image, in samples per pixel
+    double fraction = 0.0; ///< 0..1 of the expected work
+    int samplesDone = 0;   ///< full passes over the image, in samples per pixel
     double secondsRendering = 0.0;
-    double secondsLeft = 0.0;   ///< estimate
-    bool converged = false;     ///< all samples taken, tolerance or time limit reached
+    double secondsLeft = 0.0; ///< estimate
+    bool converged = false;   ///< all samples taken, tolerance or time limit reached
     bool failed = false;
-    std::string error;          ///< one line, when failed
-    std::map<std::string, double> statistics; ///< "rays", "samples", "secondsBuild", "trianglesStored", ...
+    std::string error; ///< one line, when failed
+    std::map<std::string, double>
+        statistics; ///< "rays", "samples", "secondsBuild", "trianglesStored", ...
 };
 
 /// Renders a scene into a film, progressively and in the background. All functions return at once

@@ -60,12 +60,9 @@ bool rewriteCondition(const GraphNode& node, Operand& out) {
     if (same(node.inputs[2], node.inputs[3])) return take(node, node.inputs[2], out);
     if (!constantNumber(node.inputs[0], a) || !constantNumber(node.inputs[1], b)) return false;
     switch (node.def->algebra) {
-    case Algebra::IfGreater:
-        return choose(node, a > b, out);
-    case Algebra::IfGreaterEq:
-        return choose(node, a >= b, out);
-    default:
-        return choose(node, a == b, out);
+    case Algebra::IfGreater: return choose(node, a > b, out);
+    case Algebra::IfGreaterEq: return choose(node, a >= b, out);
+    default: return choose(node, a == b, out);
     }
 }
 
@@ -127,16 +124,14 @@ bool rewritePattern(const Graph&, const GraphNode& node, Operand& out) {
     const ValueType type =
         node.def->outputs.empty() ? ValueType::Unknown : node.def->outputs[0].type;
     switch (node.def->algebra) {
-    case Algebra::None:
-        return false;
+    case Algebra::None: return false;
     case Algebra::Alias:
         out = in[0];
         return !out.isConstant() || valueTypeComponents(type) == 0 ? true : take(node, in[0], out);
     case Algebra::Add:
         if (isConstantValue(in[0], 0.0f)) return take(node, in[1], out);
         return isConstantValue(in[1], 0.0f) && take(node, in[0], out);
-    case Algebra::Subtract:
-        return isConstantValue(in[1], 0.0f) && take(node, in[0], out);
+    case Algebra::Subtract: return isConstantValue(in[1], 0.0f) && take(node, in[0], out);
     case Algebra::Multiply:
         if (isConstantValue(in[0], 0.0f) || isConstantValue(in[1], 0.0f)) {
             out = constantOf(type, 0.0f);
@@ -144,22 +139,16 @@ bool rewritePattern(const Graph&, const GraphNode& node, Operand& out) {
         }
         if (isConstantValue(in[0], 1.0f)) return take(node, in[1], out);
         return isConstantValue(in[1], 1.0f) && take(node, in[0], out);
-    case Algebra::Divide:
-        return isConstantValue(in[1], 1.0f) && take(node, in[0], out);
+    case Algebra::Divide: return isConstantValue(in[1], 1.0f) && take(node, in[0], out);
     case Algebra::Mix:
         if (isConstantValue(in[2], 0.0f) || same(in[0], in[1])) return take(node, in[1], out);
         return isConstantValue(in[2], 1.0f) && take(node, in[0], out);
     case Algebra::IfGreater:
     case Algebra::IfGreaterEq:
-    case Algebra::IfEqual:
-        return rewriteCondition(node, out);
-    case Algebra::Switch:
-        return rewriteSwitch(node, out);
-    case Algebra::NormalMap:
-        return rewriteNormalMap(node, out);
-    case Algebra::IsUniform:
-        out = constantOf(type, in[0].isConstant() ? 1.0f : 0.0f);
-        return true;
+    case Algebra::IfEqual: return rewriteCondition(node, out);
+    case Algebra::Switch: return rewriteSwitch(node, out);
+    case Algebra::NormalMap: return rewriteNormalMap(node, out);
+    case Algebra::IsUniform: out = constantOf(type, in[0].isConstant() ? 1.0f : 0.0f); return true;
     }
     return false;
 }
@@ -189,10 +178,8 @@ bool rewriteClosure(const Graph& graph, const GraphNode& node, Operand& out, std
     case ClosureKind::Schlick:
         return !in.empty() && node.def->inputs[0].name == "weight" &&
                isConstantValue(in[0], 0.0f) && cut("weight 0");
-    case ClosureKind::UniformEdf:
-        return isConstantValue(in[0], 0.0f) && cut("black");
-    case ClosureKind::AbsorptionVdf:
-        return isConstantValue(in[0], 0.0f) && cut("nothing absorbed");
+    case ClosureKind::UniformEdf: return isConstantValue(in[0], 0.0f) && cut("black");
+    case ClosureKind::AbsorptionVdf: return isConstantValue(in[0], 0.0f) && cut("nothing absorbed");
     case ClosureKind::AnisotropicVdf:
         return isConstantValue(in[0], 0.0f) && isConstantValue(in[1], 0.0f) &&
                cut("nothing absorbed or scattered");
@@ -215,8 +202,7 @@ bool rewriteClosure(const Graph& graph, const GraphNode& node, Operand& out, std
         if (isNone(in[0])) return keep(in[0], "");
         if (isConstantValue(in[1], 0.0f)) return cut("factor 0");
         return isConstantValue(in[1], 1.0f) && keep(in[0], "");
-    default:
-        return false;
+    default: return false;
     }
 }
 

@@ -122,12 +122,8 @@ private:
             give(c.b, "(1 - " + m + ")");
             break;
         }
-        case ClosureKind::Multiply:
-            give(c.a, operandText(_plan.graph, node.inputs[1]));
-            break;
-        default:
-            give(c.a, "1");
-            give(c.b, "1");
+        case ClosureKind::Multiply: give(c.a, operandText(_plan.graph, node.inputs[1])); break;
+        default: give(c.a, "1"); give(c.b, "1");
         }
     }
 
@@ -151,16 +147,14 @@ private:
             return "(1 - " + (interface ? product(weight, e) : weight) + ")";
         }
         switch (c.kind) {
-        case ClosureKind::Layer:
-            return product(passed(c.a), passed(c.b));
+        case ClosureKind::Layer: return product(passed(c.a), passed(c.b));
         case ClosureKind::Mix:
             return "mix(" + passed(c.a) + ", " + passed(c.b) + ", " +
                    operandText(_plan.graph, node.inputs[2]) + ")";
         case ClosureKind::Multiply:
             return "(1 - " + operandText(_plan.graph, node.inputs[1]) + " * (1 - " + passed(c.a) +
                    "))";
-        default:
-            return "(" + passed(c.a) + " + " + passed(c.b) + " - 1)";
+        default: return "(" + passed(c.a) + " + " + passed(c.b) + " - 1)";
         }
     }
 
@@ -185,7 +179,10 @@ std::string dumpNetwork(const Network& network) {
         for (const auto& [name, value] : node->inputs)
             text += "    " + std::string(valueTypeName(value.type)) + " " + name + " = " +
                     valueText(value) +
-                    (value.colorSpace.empty() || value.numbers.empty() ? "" : " [" + value.colorSpace + "]") + "\n";
+                    (value.colorSpace.empty() || value.numbers.empty()
+                         ? ""
+                         : " [" + value.colorSpace + "]") +
+                    "\n";
         for (const auto& [name, c] : node->connections)
             text += "    " + name + " = " + connectionText(c) + "\n";
     }

@@ -131,7 +131,8 @@ private:
             // The dot of a model's input carries the model's default as its value.
             const bool valued = node.inputs.count(input.name) > 0;
             warn(node.path, input.name,
-                 problem + (valued ? "; its own value or default is used" : "; the default is used"));
+                 problem +
+                     (valued ? "; its own value or default is used" : "; the default is used"));
         }
         operand = Operand();
         const auto v = node.inputs.find(input.name);
@@ -178,9 +179,8 @@ private:
         const NetworkNode node = geompropNode(input.geomprop);
         if (node.id.empty()) return operand;
         const auto known = _built.find(node.path);
-        const int index = known != _built.end()
-                              ? known->second
-                              : addNode(node, *NodeTable::get().find(node.id));
+        const int index =
+            known != _built.end() ? known->second : addNode(node, *NodeTable::get().find(node.id));
         _built[node.path] = index;
         return {index, 0, {}};
     }

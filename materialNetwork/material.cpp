@@ -30,7 +30,7 @@ Plan planMaterial(const Network& network, Diagnostics& diagnostics) {
 std::shared_ptr<const MaterialProgram> compileMaterial(const Network& network,
                                                        TextureSource& textures,
                                                        Diagnostics& diagnostics,
-                const MethodChoices& methods) {
+                                                       const MethodChoices& methods) {
     Plan plan = planMaterial(network, diagnostics);
     plan.compensate = chosenMethod(methods, "energyCompensation") == "none" ? 0 : 1;
     return MaterialProgram::compile(plan, textures, diagnostics);

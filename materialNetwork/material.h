@@ -16,9 +16,10 @@ using MaterialOverrides = std::map<std::string, Value>;
 /// Takes a material from its network as authored to a program: expand, simplify, plan, compile.
 /// Never fails: every problem is reported by prim and input, and a documented fallback used (an
 /// input's default, or makeDisplayColorNetwork() for a surface that cannot be understood at all).
-std::shared_ptr<const MaterialProgram>
-compileMaterial(const Network& network, TextureSource& textures, Diagnostics& diagnostics,
-                const MethodChoices& methods = {});
+std::shared_ptr<const MaterialProgram> compileMaterial(const Network& network,
+                                                       TextureSource& textures,
+                                                       Diagnostics& diagnostics,
+                                                       const MethodChoices& methods = {});
 
 /// What compileMaterial() makes of a network, as text: the network, the simplified graph, the plan,
 /// and what was cut on the way.

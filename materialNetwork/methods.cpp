@@ -14,11 +14,9 @@ const std::vector<ChoicePoint>& choicePoints() {
 
 std::string chosenMethod(const MethodChoices& choices, const std::string& point) {
     const auto found = choices.find(point);
-    if (found != choices.end())
-        return found->second;
+    if (found != choices.end()) return found->second;
     for (const ChoicePoint& choice : choicePoints())
-        if (choice.name == point)
-            return choice.methods.front().name;
+        if (choice.name == point) return choice.methods.front().name;
     return "";
 }
 
@@ -28,8 +26,7 @@ std::string checkMethods(const MethodChoices& choices) {
         std::string known;
         for (const ChoicePoint& candidate : choicePoints()) {
             known += (known.empty() ? "" : ", ") + candidate.name;
-            if (candidate.name == item.first)
-                point = &candidate;
+            if (candidate.name == item.first) point = &candidate;
         }
         if (!point)
             return "there is no choice point '" + item.first + "' (there are: " + known + ")";

@@ -50,11 +50,8 @@ private:
             _plan.edf = build(input(node, "edf"), false);
             return;
         }
-        case ClosureKind::SurfaceUnlit:
-            planUnlit(operand.node);
-            return;
-        default:
-            break;
+        case ClosureKind::SurfaceUnlit: planUnlit(operand.node); return;
+        default: break;
         }
         // A bare closure on the terminal is understood as a surface made of it.
         const ValueType type = node.def->outputs[size_t(operand.output)].type;
@@ -162,9 +159,7 @@ private:
             closure.reflects = (scatterMode(_plan, closure) & sh::SCATTER_R) != 0;
             checkMicrofacet(node);
             break;
-        case ClosureKind::Conductor:
-            checkMicrofacet(node);
-            break;
+        case ClosureKind::Conductor: checkMicrofacet(node); break;
         case ClosureKind::AnisotropicVdf:
             if (!isConstantValue(input(node, "scattering"), 0.0f))
                 leaveOut(node, "scattering inside a volume is not modelled");
@@ -179,8 +174,7 @@ private:
         case ClosureKind::Burley:
         case ClosureKind::Translucent:
         case ClosureKind::UniformEdf:
-        case ClosureKind::AbsorptionVdf:
-            break;
+        case ClosureKind::AbsorptionVdf: break;
         default:
             _diagnostics.warn(node.path, "",
                               node.def->category + " cannot stand here; it is left out");
@@ -200,9 +194,7 @@ private:
             _plan.vdf = vdf;
     }
 
-    bool reflects(int index) const {
-        return index >= 0 && _plan.closures[size_t(index)].reflects;
-    }
+    bool reflects(int index) const { return index >= 0 && _plan.closures[size_t(index)].reflects; }
 
     void checkMicrofacet(const GraphNode& node) {
         if (!isConstantValue(input(node, "thinfilm_thickness"), 0.0f))

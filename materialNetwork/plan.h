@@ -10,10 +10,10 @@ namespace patina {
 /// A closure of the plan: a lobe, an EDF or VDF leaf, or a combination of two earlier ones.
 struct PlanClosure {
     ClosureKind kind = ClosureKind::None;
-    int node = -1;      ///< of Plan::graph; its operands are the parameters
-    int a = -1, b = -1; ///< Layer: top, base. Mix: fg, bg. Add: both. Multiply: a
+    int node = -1;         ///< of Plan::graph; its operands are the parameters
+    int a = -1, b = -1;    ///< Layer: top, base. Mix: fg, bg. Add: both. Multiply: a
     bool reflects = false; ///< contains the reflecting half of an interface
-    bool fused = false; ///< a transmission lobe under a reflection lobe, see Plan
+    bool fused = false;    ///< a transmission lobe under a reflection lobe, see Plan
 
     bool isLobe() const { return kind >= ClosureKind::OrenNayar && kind <= ClosureKind::Schlick; }
 };

@@ -5,7 +5,7 @@
 #include "shaders/shaders.h"
 
 #define PATINA_FN inline
-#define PATINA_OUT(T) T &
+#define PATINA_OUT(T) T&
 
 namespace patina {
 namespace sh {

@@ -6,11 +6,10 @@ namespace {
 
 constexpr char primvarPrefix[] = "primvars:";
 
-
 } // namespace
 
-void writeAovs(const std::vector<AovSpec>& aovs, const AovTarget& target,
-               const CameraRays& camera, const SurfacePoint& point, const Bsdf& bsdf) {
+void writeAovs(const std::vector<AovSpec>& aovs, const AovTarget& target, const CameraRays& camera,
+               const SurfacePoint& point, const Bsdf& bsdf) {
     const ShadingPoint& s = point.shading;
     const Hit& hit = *point.hit;
     const vec3 inCamera = vec3(camera.worldToCamera() * vec4(s.position, 1.0f));
@@ -40,7 +39,8 @@ void writeAovs(const std::vector<AovSpec>& aovs, const AovTarget& target,
         else if (name == "elementId")
             out[0] = glm::intBitsToFloat(hit.surface->element(hit.primitive));
         else if (name.rfind(primvarPrefix, 0) == 0) {
-            const int attribute = hit.surface->findAttribute(name.substr(sizeof(primvarPrefix) - 1));
+            const int attribute =
+                hit.surface->findAttribute(name.substr(sizeof(primvarPrefix) - 1));
             if (attribute >= 0)
                 readAttribute(*hit.surface, attribute, hit.primitive, hit.u, hit.v, out);
         }

@@ -14,7 +14,7 @@ struct AovTarget {
 };
 
 /// Writes every AOV but colour and alpha for the first surface that a camera ray meets.
-void writeAovs(const std::vector<AovSpec>& aovs, const AovTarget& target,
-               const CameraRays& camera, const SurfacePoint& point, const Bsdf& bsdf);
+void writeAovs(const std::vector<AovSpec>& aovs, const AovTarget& target, const CameraRays& camera,
+               const SurfacePoint& point, const Bsdf& bsdf);
 
 } // namespace patina

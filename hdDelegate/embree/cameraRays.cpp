@@ -7,12 +7,9 @@ namespace patina {
 
 mat4 interpolate(const MotionTransform& transform, float time) {
     const auto& times = transform.times;
-    if (transform.values.empty())
-        return mat4(1.0f);
-    if (transform.values.size() == 1 || time <= times.front())
-        return transform.values.front();
-    if (time >= times.back())
-        return transform.values.back();
+    if (transform.values.empty()) return mat4(1.0f);
+    if (transform.values.size() == 1 || time <= times.front()) return transform.values.front();
+    if (time >= times.back()) return transform.values.back();
     const size_t i = std::upper_bound(times.begin(), times.end(), time) - times.begin();
     const float f = (time - times[i - 1]) / (times[i] - times[i - 1]);
     return transform.values[i - 1] * (1.0f - f) + transform.values[i] * f;
@@ -23,8 +20,7 @@ namespace {
 /// Points of the unit disc, equal areas to equal areas (Shirley and Chiu 1997).
 vec2 concentricDisc(vec2 u) {
     const vec2 p = 2.0f * u - 1.0f;
-    if (p.x == 0.0f && p.y == 0.0f)
-        return vec2(0.0f);
+    if (p.x == 0.0f && p.y == 0.0f) return vec2(0.0f);
     constexpr float quarterPi = 0.78539816339744831f;
     float r, phi;
     if (std::abs(p.x) > std::abs(p.y)) {
@@ -60,9 +56,9 @@ CameraRays::CameraRays(const Camera& camera, const RenderSettings& settings) : _
     _imageSize = vec2(settings.width, settings.height);
 
     constexpr float apertureUnit = 0.1f; // tenths of a scene unit
-    vec2 aperture = vec2(std::max(1e-6f, camera.horizontalAperture),
-                         std::max(1e-6f, camera.verticalAperture)) *
-                    apertureUnit;
+    vec2 aperture =
+        vec2(std::max(1e-6f, camera.horizontalAperture), std::max(1e-6f, camera.verticalAperture)) *
+        apertureUnit;
     const vec2 offset =
         vec2(camera.horizontalApertureOffset, camera.verticalApertureOffset) * apertureUnit;
     const float imageAspect =
@@ -78,8 +74,7 @@ CameraRays::CameraRays(const Camera& camera, const RenderSettings& settings) : _
 
     _dof = settings.enableDepthOfField && camera.fStop > 0.0f && camera.focusDistance > 0.0f &&
            !camera.orthographic;
-    if (_dof)
-        _lensRadius = 0.5f * focalLength / camera.fStop;
+    if (_dof) _lensRadius = 0.5f * focalLength / camera.fStop;
     _worldToCamera = glm::inverse(transformAt(0.5f));
 }
 
@@ -132,8 +127,7 @@ CameraRay CameraRays::ray(vec2 pixel, vec2 lens, float time) const {
 
 float CameraRays::windowDepth(const vec3& p) const {
     const float n = _camera.clipNear, f = _camera.clipFar, z = -p.z;
-    if (_camera.orthographic)
-        return std::clamp((z - n) / (f - n), 0.0f, 1.0f);
+    if (_camera.orthographic) return std::clamp((z - n) / (f - n), 0.0f, 1.0f);
     return z <= 0.0f ? 0.0f : std::clamp(f * (z - n) / (z * (f - n)), 0.0f, 1.0f);
 }
 

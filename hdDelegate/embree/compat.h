@@ -13,7 +13,9 @@ namespace patina {
 #if PATINA_EMBREE_MAJOR >= 4
 
 using EmbreeContext = RTCRayQueryContext;
-inline void initContext(EmbreeContext* context) { rtcInitRayQueryContext(context); }
+inline void initContext(EmbreeContext* context) {
+    rtcInitRayQueryContext(context);
+}
 
 inline void embreeIntersect(RTCScene scene, EmbreeContext* context, RTCRayHit* rayHit) {
     RTCIntersectArguments args;
@@ -34,7 +36,9 @@ inline void embreeOccluded(RTCScene scene, EmbreeContext* context, RTCRay* ray) 
 #else
 
 using EmbreeContext = RTCIntersectContext;
-inline void initContext(EmbreeContext* context) { rtcInitIntersectContext(context); }
+inline void initContext(EmbreeContext* context) {
+    rtcInitIntersectContext(context);
+}
 
 inline void embreeIntersect(RTCScene scene, EmbreeContext* context, RTCRayHit* rayHit) {
     rtcIntersect1(scene, context, rayHit);

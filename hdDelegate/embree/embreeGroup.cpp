@@ -9,8 +9,7 @@ namespace patina {
 
 mat4 InstancerNode::transformAt(int instance, float time) const {
     const mat4* first = &transforms[size_t(instance) * steps];
-    if (steps == 1)
-        return *first;
+    if (steps == 1) return *first;
     const float x = std::clamp(time, 0.0f, 1.0f) * float(steps - 1);
     const int i = std::min(int(x), steps - 2);
     const float f = x - float(i);
@@ -18,8 +17,7 @@ mat4 InstancerNode::transformAt(int instance, float time) const {
 }
 
 EmbreeGroup::~EmbreeGroup() {
-    if (scene)
-        rtcReleaseScene(scene);
+    if (scene) rtcReleaseScene(scene);
 }
 
 namespace {
@@ -78,12 +76,10 @@ void instanceBounds(const RTCBoundsFunctionArguments* args) {
 }
 
 void instanceIntersect(const RTCIntersectFunctionNArguments* args) {
-    if (!args->valid[0])
-        return;
+    if (!args->valid[0]) return;
     const auto* record = static_cast<const GroupRecord*>(args->geometryUserPtr);
     auto& context = *reinterpret_cast<TraceContext*>(args->context);
-    if (context.depth >= TraceContext::maxDepth)
-        return;
+    if (context.depth >= TraceContext::maxDepth) return;
     auto* rayHit = reinterpret_cast<RTCRayHit*>(args->rayhit);
     const int instance = record->instances[args->primID];
     const EmbreeGroup* target = record->node->targets[instance];
@@ -95,8 +91,7 @@ void instanceIntersect(const RTCIntersectFunctionNArguments* args) {
     local.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     Descent descent(context, record, instance, target);
     embreeIntersect(target->scene, &context.base, &local);
-    if (local.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return;
+    if (local.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
     if (local.hit.instID[0] != throughUserGeometry) {
         context.hitDepth = context.depth;
         std::copy_n(context.stack, context.depth, context.hitChain);
@@ -109,21 +104,17 @@ void instanceIntersect(const RTCIntersectFunctionNArguments* args) {
 }
 
 void instanceOccluded(const RTCOccludedFunctionNArguments* args) {
-    if (!args->valid[0])
-        return;
+    if (!args->valid[0]) return;
     const auto* record = static_cast<const GroupRecord*>(args->geometryUserPtr);
     auto& context = *reinterpret_cast<TraceContext*>(args->context);
-    if (context.depth >= TraceContext::maxDepth)
-        return;
+    if (context.depth >= TraceContext::maxDepth) return;
     auto* ray = reinterpret_cast<RTCRay*>(args->ray);
     const int instance = record->instances[args->primID];
     const EmbreeGroup* target = record->node->targets[instance];
-    RTCRay local =
-        transformRay(*ray, glm::inverse(record->node->transformAt(instance, ray->time)));
+    RTCRay local = transformRay(*ray, glm::inverse(record->node->transformAt(instance, ray->time)));
     Descent descent(context, record, instance, target);
     embreeOccluded(target->scene, &context.base, &local);
-    if (local.tfar < 0.0f)
-        ray->tfar = -INFINITY;
+    if (local.tfar < 0.0f) ray->tfar = -INFINITY;
 }
 
 void shareBuffer(RTCGeometry geometry, RTCBufferType type, unsigned slot, RTCFormat format,
@@ -154,8 +145,7 @@ RTCGeometryType curveType(const CurveSet& curves) {
     case CurveBasis::CatmullRom:
         return ribbon ? RTC_GEOMETRY_TYPE_NORMAL_ORIENTED_CATMULL_ROM_CURVE
                       : RTC_GEOMETRY_TYPE_ROUND_CATMULL_ROM_CURVE;
-    default:
-        return RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE;
+    default: return RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE;
     }
 }
 
@@ -195,8 +185,7 @@ RTCGeometry makePoints(RTCDevice device, const PointSet& points) {
 } // namespace
 
 void EmbreeGroup::build(RTCDevice device) {
-    if (scene)
-        rtcReleaseScene(scene);
+    if (scene) rtcReleaseScene(scene);
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     records.clear();
@@ -221,8 +210,7 @@ void EmbreeGroup::build(RTCDevice device) {
         else if (surface->shape == Surface::Shape::Points && !surface->points.points.empty() &&
                  !surface->points.points[0].empty())
             geometry = makePoints(device, surface->points);
-        if (!geometry)
-            continue;
+        if (!geometry) continue;
         GroupRecord record;
         record.surface = surface.get();
         attach(geometry, maskOf(surface->prim->visibility), std::move(record));
@@ -233,8 +221,7 @@ void EmbreeGroup::build(RTCDevice device) {
         std::vector<int> nested;
         for (int i = 0; i < int(node->targets.size()); ++i) {
             EmbreeGroup* target = node->targets[i];
-            if (!target || target->records.empty())
-                continue;
+            if (!target || target->records.empty()) continue;
             hasInstances = true;
             if (target->hasInstances) {
                 nested.push_back(i);
@@ -244,16 +231,14 @@ void EmbreeGroup::build(RTCDevice device) {
             rtcSetGeometryInstancedScene(geometry, target->scene);
             rtcSetGeometryTimeStepCount(geometry, unsigned(node->steps));
             for (int step = 0; step < node->steps; ++step)
-                rtcSetGeometryTransform(geometry, unsigned(step),
-                                        RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
+                rtcSetGeometryTransform(geometry, unsigned(step), RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
                                         &node->transforms[size_t(i) * node->steps + step]);
             GroupRecord record;
             record.node = node.get();
             record.instance = i;
             attach(geometry, mask, std::move(record));
         }
-        if (nested.empty())
-            continue;
+        if (nested.empty()) continue;
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
         rtcSetGeometryUserPrimitiveCount(geometry, unsigned(nested.size()));
         rtcSetGeometryTimeStepCount(geometry, unsigned(node->steps));

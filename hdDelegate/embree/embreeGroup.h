@@ -14,7 +14,8 @@ struct EmbreeGroup;
 /// The instances of one instancer, ready for rays.
 struct InstancerNode {
     std::shared_ptr<const Instancer> prim;
-    /// Uniform steps over the shutter, instance after instance: transforms[instance * steps + step].
+    /// Uniform steps over the shutter, instance after instance: transforms[instance * steps +
+    /// step].
     std::vector<mat4> transforms;
     int steps = 1;
     std::vector<EmbreeGroup*> targets; ///< per instance; null is not drawn
@@ -30,7 +31,8 @@ struct InstancerNode {
 struct GroupRecord {
     Surface* surface = nullptr;          ///< a prim
     const InstancerNode* node = nullptr; ///< instances
-    int instance = -1; ///< of a single native instance; -1: user geometry, one primitive an instance
+    int instance =
+        -1; ///< of a single native instance; -1: user geometry, one primitive an instance
     std::vector<int> instances; ///< primitive -> instance, for user geometry
 };
 
@@ -65,8 +67,8 @@ struct TraceContext {
     Entry stack[maxDepth];
     int hitDepth = 0;
     Entry hitChain[maxDepth];
-    const EmbreeGroup* group = nullptr;    ///< being traversed
-    const EmbreeGroup* hitGroup = nullptr; ///< innermost group of hitChain
+    const EmbreeGroup* group = nullptr;           ///< being traversed
+    const EmbreeGroup* hitGroup = nullptr;        ///< innermost group of hitChain
     unsigned hitNative = RTC_INVALID_GEOMETRY_ID; ///< Embree instance inside hitGroup
 };
 

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for_each.h>
 #include <tbb/task_arena.h>
 
+#include <cmath>
 
 namespace patina {
 
@@ -15,14 +16,15 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 } // namespace
 
 std::unique_ptr<Renderer> makeRenderer(const std::string& backend) {
-    if (backend == "embree")
-        return std::make_unique<EmbreeRenderer>();
+    if (backend == "embree") return std::make_unique<EmbreeRenderer>();
     return nullptr;
 }
 
 EmbreeRenderer::EmbreeRenderer() = default;
 
-EmbreeRenderer::~EmbreeRenderer() { stop(); }
+EmbreeRenderer::~EmbreeRenderer() {
+    stop();
+}
 
 void EmbreeRenderer::start(std::shared_ptr<Scene> scene, const std::string& camera,
                            const RenderSettings& settings, std::shared_ptr<Film> film) {
@@ -51,8 +53,7 @@ void EmbreeRenderer::stop() {
         _pause = false;
     }
     _changed.notify_all();
-    if (_thread.joinable())
-        _thread.join();
+    if (_thread.joinable()) _thread.join();
 }
 
 void EmbreeRenderer::pause() {
@@ -92,6 +93,12 @@ void EmbreeRenderer::run(std::shared_ptr<const SceneState> state, std::string ca
         const auto camera = state->cameras.find(cameraPath);
         if (camera == state->cameras.end())
             throw std::runtime_error("there is no camera " + cameraPath);
+        for (const mat4& transform : camera->second->transform.values) {
+            const float volume = glm::determinant(mat3(transform));
+            if (!std::isfinite(volume) || volume == 0.0f)
+                throw std::runtime_error("the camera " + cameraPath +
+                                         " has a transform without an inverse");
+        }
         render(*state, *camera->second);
     } catch (const std::exception& error) {
         fail(error.what());
@@ -129,10 +136,10 @@ void EmbreeRenderer::publish(const TileSchedule& schedule) {
     _progress.fraction = schedule.fraction();
     _progress.samplesDone = schedule.samplesDone();
     _progress.secondsRendering = secondsSince(_sampling);
-    _progress.secondsLeft = _progress.fraction > 0.0 ? _progress.secondsRendering *
-                                                           (1.0 - _progress.fraction) /
-                                                           _progress.fraction
-                                                     : 0.0;
+    _progress.secondsLeft =
+        _progress.fraction > 0.0
+            ? _progress.secondsRendering * (1.0 - _progress.fraction) / _progress.fraction
+            : 0.0;
     _progress.statistics["rays"] = double(_rays + _shadowRays);
     _progress.statistics["shadowRays"] = double(_shadowRays);
     _progress.statistics["paths"] = double(_paths);
@@ -140,8 +147,7 @@ void EmbreeRenderer::publish(const TileSchedule& schedule) {
 }
 
 void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& schedule, int tile) {
-    if (_interrupt)
-        return;
+    if (_interrupt) return;
     const int target = schedule.target(tile);
     const Tile& t = schedule.tiles()[tile];
     TraceCounters counters;
@@ -170,11 +176,10 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     arena.execute([&] {
         _embree->update(state, camera, _settings, *_textures, _stop);
         if (!_stop)
-            lights = std::make_unique<SceneLights>(state, *_embree, camera, _settings, *_lightImages,
-                                                   _scene->diagnostics());
+            lights = std::make_unique<SceneLights>(state, *_embree, camera, _settings,
+                                                   *_lightImages, _scene->diagnostics());
     });
-    if (_stop)
-        return;
+    if (_stop) return;
     {
         std::lock_guard<std::mutex> lock(_mutex);
         _progress.statistics["secondsBuild"] = secondsSince(buildStart);
@@ -198,13 +203,11 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     bool haveImage = schedule.samplesDone() > 0; // the time limit never leaves holes
     while (!_stop) {
         const std::vector<int> tiles = schedule.pending();
-        if (tiles.empty())
-            break;
+        if (tiles.empty()) break;
         arena.execute([&] {
             tbb::parallel_for_each(tiles.begin(), tiles.end(), [&](int tile) {
                 renderTile(integrator, schedule, tile);
-                if (haveImage && outOfTime())
-                    _interrupt = true;
+                if (haveImage && outOfTime()) _interrupt = true;
                 if (!_settings.checkpointFile.empty() &&
                     secondsSince(_lastCheckpoint) > _settings.checkpointSeconds)
                     _interrupt = true;
@@ -212,14 +215,11 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         });
         publish(schedule);
         maybeCheckpoint();
-        if (!waitWhilePaused())
-            return;
+        if (!waitWhilePaused()) return;
         haveImage = haveImage || schedule.samplesDone() > 0;
-        if (haveImage && outOfTime())
-            break;
+        if (haveImage && outOfTime()) break;
     }
-    if (_stop)
-        return;
+    if (_stop) return;
     publish(schedule);
     std::lock_guard<std::mutex> lock(_mutex);
     _progress.converged = true;

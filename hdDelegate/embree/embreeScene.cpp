@@ -34,8 +34,7 @@ std::vector<mat4> resample(const MotionTransform& transform, float open, float c
 
 /// Position of step `step` of `count` among `size` uniform samples: index and fraction.
 std::pair<size_t, float> locate(int step, int count, size_t size) {
-    if (size < 2 || count < 2)
-        return {0, 0.0f};
+    if (size < 2 || count < 2) return {0, 0.0f};
     const float x = float(step) * float(size - 1) / float(count - 1);
     const size_t i = std::min(size_t(x), size - 2);
     return {i, x - float(i)};
@@ -49,8 +48,7 @@ mat4 transformAtStep(const std::vector<mat4>& transforms, int step, int count) {
 template <class T>
 std::vector<T> valuesAtStep(const std::vector<std::vector<T>>& steps, int step, int count) {
     const auto [i, f] = locate(step, count, steps.size());
-    if (f == 0.0f)
-        return steps[i];
+    if (f == 0.0f) return steps[i];
     std::vector<T> result(steps[i].size());
     for (size_t k = 0; k < result.size(); ++k)
         result[k] = steps[i][k] * (1.0f - f) + steps[i + 1][k] * f;
@@ -64,8 +62,7 @@ float maxScale(const mat4& m) {
 /// Moves positions and normals into the group's space, at every time step.
 void bake(Surface& surface, const std::vector<mat4>& transforms) {
     const auto bakePositions = [&](auto& steps, const auto& apply) {
-        if (steps.empty())
-            return;
+        if (steps.empty()) return;
         const int count = int(std::max(steps.size(), transforms.size()));
         std::remove_reference_t<decltype(steps)> result(count);
         for (int s = 0; s < count; ++s) {
@@ -172,9 +169,8 @@ EmbreeScene::program(const std::string& path, const std::string& user, const Sce
     if (!cached.program || cached.prim != prim || cached.methods != settings.methods) {
         cached.prim = prim;
         cached.methods = settings.methods;
-        cached.program = compileMaterial(prim && !prim->network.empty()
-                                             ? prim->network
-                                             : makeDisplayColorNetwork(),
+        cached.program = compileMaterial(prim && !prim->network.empty() ? prim->network
+                                                                        : makeDisplayColorNetwork(),
                                          textures, _diagnostics, settings.methods);
     }
     return cached.program;
@@ -209,8 +205,7 @@ std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Ins
             const float determinant = glm::determinant(mat3(m));
             usable &= std::isfinite(determinant) && determinant != 0.0f;
         }
-        const int prototype =
-            i < prim->prototypeIndices.size() ? prim->prototypeIndices[i] : -1;
+        const int prototype = i < prim->prototypeIndices.size() ? prim->prototypeIndices[i] : -1;
         if (prototype < 0 || size_t(prototype) >= prim->prototypes.size()) {
             _diagnostics.warn(prim->path, "protoIndices",
                               "index out of range; the instance is not drawn");
@@ -230,8 +225,7 @@ std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Ins
 }
 
 EmbreeGroup* EmbreeScene::buildGroup(const std::string& name, int depth) {
-    if (_groups.count(name))
-        return _groups[name].get();
+    if (_groups.count(name)) return _groups[name].get();
     if (depth > TraceContext::maxDepth || _building[name]) {
         _diagnostics.warn(name, "prototypes",
                           "instances are nested in themselves or deeper than 8; left out");
@@ -258,8 +252,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
                          const std::atomic<bool>& stop) {
     const float open = float(camera.shutterOpen);
     const float close = settings.enableMotionBlur ? float(camera.shutterClose) : open;
-    if (open != _shutterOpen || close != _shutterClose)
-        _surfaces.clear();
+    if (open != _shutterOpen || close != _shutterClose) _surfaces.clear();
     _shutterOpen = open;
     _shutterClose = close;
     _categoryIds.clear();
@@ -316,8 +309,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
                 if (std::isfinite(wanted) && wanted > 0.0f)
                     edge = edge > 0.0f ? std::min(edge, wanted) : wanted;
             }
-            if (edge > 0.0f)
-                edge = std::exp2(std::floor(std::log2(edge)));
+            if (edge > 0.0f) edge = std::exp2(std::floor(std::log2(edge)));
         }
         work.push_back({prim, &_surfaces[item.first], edge});
     }
@@ -328,15 +320,13 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
                                                                    : _programs.erase(it);
 
     tbb::parallel_for(size_t(0), work.size(), [&](size_t i) {
-        if (stop)
-            return;
+        if (stop) return;
         CachedSurface& cached = *work[i].cached;
         if (cached.prim == work[i].prim && cached.edgeLength == work[i].edge && cached.surface)
             return;
         cached = {work[i].prim, work[i].edge, shape(work[i].prim, work[i].edge)};
     });
-    if (stop)
-        return;
+    if (stop) return;
 
     _allOpaque = true;
     int primId = 0;
@@ -371,8 +361,7 @@ void EmbreeScene::gatherTransforms(const std::string& group, const mat4& tail, i
         out.push_back(tail);
         return;
     }
-    if (depth > TraceContext::maxDepth)
-        return;
+    if (depth > TraceContext::maxDepth) return;
     for (const auto& item : _instancersOf)
         for (const auto& instancer : item.second)
             for (size_t i = 0; i < instancer->transforms.size(); ++i) {
@@ -380,9 +369,8 @@ void EmbreeScene::gatherTransforms(const std::string& group, const mat4& tail, i
                     i < instancer->prototypeIndices.size() ? instancer->prototypeIndices[i] : -1;
                 if (prototype >= 0 && size_t(prototype) < instancer->prototypes.size() &&
                     instancer->prototypes[prototype] == group)
-                    gatherTransforms(item.first,
-                                     interpolate(instancer->transforms[i], 0.0f) * tail, depth + 1,
-                                     out);
+                    gatherTransforms(item.first, interpolate(instancer->transforms[i], 0.0f) * tail,
+                                     depth + 1, out);
             }
 }
 
@@ -399,20 +387,17 @@ void EmbreeScene::collectEmissive() {
         const Surface& surface = *item.second.surface;
         const bool emits = std::any_of(surface.materials.begin(), surface.materials.end(),
                                        [](const auto& m) { return m.program->hasEmission(); });
-        if (!emits || surface.shape != Surface::Shape::Triangles)
-            continue;
+        if (!emits || surface.shape != Surface::Shape::Triangles) continue;
         const std::string& group = surface.prim->group;
-        if (!places.count(group))
-            places[group] = groupTransforms(group);
+        if (!places.count(group)) places[group] = groupTransforms(group);
         for (const mat4& place : places[group])
             for (unsigned t = 0; t < surface.mesh.triangles.size(); ++t) {
-                if (!surface.material(t).program->hasEmission())
-                    continue;
+                if (!surface.material(t).program->hasEmission()) continue;
                 EmissiveTriangle triangle{&surface, t, {}, place, !group.empty()};
                 for (int k = 0; k < 3; ++k)
-                    triangle.vertices[k] = vec3(
-                        place *
-                        vec4(surface.mesh.positions[0][surface.mesh.triangles[t][k]], 1.0f));
+                    triangle.vertices[k] =
+                        vec3(place *
+                             vec4(surface.mesh.positions[0][surface.mesh.triangles[t][k]], 1.0f));
                 _emissive.push_back(triangle);
             }
     }
@@ -424,8 +409,7 @@ const Surface* EmbreeScene::surfaceOf(const std::string& path) const {
 }
 
 bool EmbreeScene::finishHit(const RTCRayHit& rayHit, const TraceContext& context, Hit& hit) const {
-    if (rayHit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return false;
+    if (rayHit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     hit.time = rayHit.ray.time;
     hit.primitive = rayHit.hit.primID;
     hit.u = rayHit.hit.u;
@@ -467,8 +451,8 @@ bool EmbreeScene::intersect(const vec3& origin, const vec3& direction, float nea
     initContext(&context.base);
     context.group = _world;
     RTCRayHit rayHit;
-    rayHit.ray = {origin.x, origin.y, origin.z, near, direction.x, direction.y, direction.z,
-                  time,     far,      mask,     0,    0};
+    rayHit.ray = {origin.x,    origin.y, origin.z, near, direction.x, direction.y,
+                  direction.z, time,     far,      mask, 0,           0};
     rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embreeIntersect(_world->scene, &context.base, &rayHit);
@@ -480,8 +464,8 @@ bool EmbreeScene::occluded(const vec3& origin, const vec3& direction, float near
     TraceContext context;
     initContext(&context.base);
     context.group = _world;
-    RTCRay ray = {origin.x, origin.y, origin.z, near, direction.x, direction.y, direction.z,
-                  time,     far,      mask,     0,    0};
+    RTCRay ray = {origin.x,    origin.y, origin.z, near, direction.x, direction.y,
+                  direction.z, time,     far,      mask, 0,           0};
     embreeOccluded(_world->scene, &context.base, &ray);
     return ray.tfar < 0.0f;
 }

@@ -91,7 +91,7 @@ private:
     std::map<std::string, CachedSurface> _surfaces;
     std::map<std::string, CachedProgram> _programs;
     std::map<std::string, std::unique_ptr<EmbreeGroup>> _groups; ///< by name; "" is the world
-    std::map<std::string, std::vector<std::shared_ptr<Surface>>> _surfacesOf;     ///< by group
+    std::map<std::string, std::vector<std::shared_ptr<Surface>>> _surfacesOf; ///< by group
     std::map<std::string, std::vector<std::shared_ptr<const Instancer>>> _instancersOf;
     std::map<std::string, bool> _building;
     EmbreeGroup* _world = nullptr;

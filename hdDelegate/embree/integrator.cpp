@@ -14,23 +14,22 @@ namespace {
 
 constexpr int maxPassThroughs = 256; ///< surfaces that opacity lets one ray through
 
-float luminance(const vec3& c) { return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
+float luminance(const vec3& c) {
+    return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
+}
 
 float powerHeuristic(float a, float b) {
-    if (!std::isfinite(a))
-        return 1.0f;
+    if (!std::isfinite(a)) return 1.0f;
     const float aa = a * a, bb = b * b;
     return aa > 0.0f ? aa / (aa + bb) : 0.0f;
 }
 
 vec3 transmittanceOf(const MediumStack& media, float distance) {
-    if (media.empty())
-        return vec3(1.0f);
+    if (media.empty()) return vec3(1.0f);
     const vec3 a = media.absorption();
     vec3 result(1.0f); // a clear medium stays clear over an infinite distance
     for (int c = 0; c < 3; ++c)
-        if (a[c] > 0.0f)
-            result[c] = std::exp(-a[c] * distance);
+        if (a[c] > 0.0f) result[c] = std::exp(-a[c] * distance);
     return result;
 }
 
@@ -70,7 +69,8 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     film.addColor(x, y, path.radiance * _camera.camera().exposureScale, path.alpha);
 }
 
-bool Integrator::linked(int category, const Surface* surface, const std::vector<int>* instance) const {
+bool Integrator::linked(int category, const Surface* surface,
+                        const std::vector<int>* instance) const {
     return category == SceneLights::everything || !surface ||
            contains(surface->categories, category) || (instance && contains(*instance, category));
 }
@@ -89,10 +89,9 @@ bool Integrator::addLightsAlong(Path& path, float distance) const {
             if (_lights.info(hits[i].light).cameraVisible &&
                 (!nearest || hits[i].distance < nearest->distance))
                 nearest = &hits[i];
-        if (!nearest)
-            return false;
-        path.radiance += path.throughput * transmittanceOf(path.media, nearest->distance) *
-                         nearest->radiance;
+        if (!nearest) return false;
+        path.radiance +=
+            path.throughput * transmittanceOf(path.media, nearest->distance) * nearest->radiance;
         path.alpha = 1.0f;
         return true;
     }
@@ -110,8 +109,7 @@ bool Integrator::addLightsAlong(Path& path, float distance) const {
 void Integrator::addLight(Path& path, int light, const vec3& radiance, float lightPdf,
                           float distance) const {
     const LightInfo& info = _lights.info(light);
-    if (!linked(info.lightCategory, path.vertexSurface, path.vertexInstanceCategories))
-        return;
+    if (!linked(info.lightCategory, path.vertexSurface, path.vertexInstanceCategories)) return;
     const float weight = path.specular ? 1.0f : powerHeuristic(path.pdf, lightPdf);
     const vec3 share = path.diffuseShare * info.diffuse + path.specularShare * info.specular;
     addRadiance(path, transmittanceOf(path.media, distance) * share * radiance * weight);
@@ -121,8 +119,7 @@ void Integrator::addRadiance(Path& path, const vec3& radiance) const {
     vec3 contribution = path.throughput * radiance;
     if (_settings.indirectClamp > 0.0f && path.depth > 1) {
         const float l = luminance(contribution);
-        if (l > _settings.indirectClamp)
-            contribution *= _settings.indirectClamp / l;
+        if (l > _settings.indirectClamp) contribution *= _settings.indirectClamp / l;
     }
     path.radiance += contribution;
 }
@@ -130,21 +127,19 @@ void Integrator::addRadiance(Path& path, const vec3& radiance) const {
 void Integrator::addEscaped(Path& path) const {
     for (int light : _lights.set().infiniteLights()) {
         const LightInfo& info = _lights.info(light);
-        if (path.fromCamera() && (!info.cameraVisible || !info.dome))
-            continue;
+        if (path.fromCamera() && (!info.cameraVisible || !info.dome)) continue;
         const vec3 radiance = _lights.set().environment(light, path.direction, path.time);
         if (path.fromCamera()) {
             path.radiance += path.throughput * radiance;
             path.alpha = 1.0f;
             continue;
         }
-        if (radiance == vec3(0.0f))
-            continue;
+        if (radiance == vec3(0.0f)) continue;
         const float lightPdf =
-            path.specular ? 0.0f
-                          : _lights.set().pdfInfinite(light, path.vertex, path.vertexNormal,
-                                                      path.vertexTwoSided, path.direction,
-                                                      path.time);
+            path.specular
+                ? 0.0f
+                : _lights.set().pdfInfinite(light, path.vertex, path.vertexNormal,
+                                            path.vertexTwoSided, path.direction, path.time);
         addLight(path, light, radiance, lightPdf, path.media.empty() ? 0.0f : INFINITY);
     }
 }
@@ -152,8 +147,7 @@ void Integrator::addEscaped(Path& path) const {
 /// Light that the surface itself gives off towards the ray.
 void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& hit) const {
     const vec3 radiance = _lights.emission(point);
-    if (radiance == vec3(0.0f))
-        return;
+    if (radiance == vec3(0.0f)) return;
     const int light = path.fromCamera()
                           ? -1
                           : _lights.triangleLight(hit.surface, hit.primitive, hit.groupToWorld);
@@ -172,24 +166,20 @@ void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& h
 /// The part of a light that reaches a point past everything in between.
 vec3 Integrator::visibility(const Path& path, const vec3& origin, const vec3& direction,
                             float distance, const LightInfo& light, TraceCounters& counters) const {
-    if (!light.castsShadows || !_settings.enableShadows)
-        return vec3(1.0f);
+    if (!light.castsShadows || !_settings.enableShadows) return vec3(1.0f);
     float far = distance * (1.0f - 1e-4f);
-    if (light.shadowDistance > 0.0f)
-        far = std::min(far, light.shadowDistance);
+    if (light.shadowDistance > 0.0f) far = std::min(far, light.shadowDistance);
     ++counters.shadowRays;
     const bool simple = _scene.allOpaque() && light.shadowCategory == SceneLights::everything &&
                         light.shadowFalloff <= 0.0f;
     if (simple) {
-        if (!_scene.occluded(origin, direction, 0.0f, far, path.time, RayShadow))
-            return vec3(1.0f);
+        if (!_scene.occluded(origin, direction, 0.0f, far, path.time, RayShadow)) return vec3(1.0f);
         return light.shadowColor;
     }
     float through = 1.0f, near = 0.0f;
     for (int i = 0; i < maxPassThroughs && through > 0.0f; ++i) {
         Hit hit;
-        if (!_scene.intersect(origin, direction, near, far, path.time, RayShadow, hit))
-            break;
+        if (!_scene.intersect(origin, direction, near, far, path.time, RayShadow, hit)) break;
         SurfacePoint point;
         computeSurfacePoint(hit, origin, direction, 0.0f, point);
         if (linked(light.shadowCategory, hit.surface, hit.instanceCategories)) {
@@ -217,17 +207,14 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
         !(light.pdf > 0.0f))
         return vec3(0.0f);
     const LightInfo& info = _lights.info(light.light);
-    if (!linked(info.lightCategory, hit.surface, hit.instanceCategories))
-        return vec3(0.0f);
+    if (!linked(info.lightCategory, hit.surface, hit.instanceCategories)) return vec3(0.0f);
     const BsdfEval f = bsdf.eval(light.direction);
     vec3 value = f.diffuse * info.diffuse + f.specular * info.specular;
-    if (value == vec3(0.0f))
-        return vec3(0.0f);
+    if (value == vec3(0.0f)) return vec3(0.0f);
     vec3 radiance = light.radiance;
     if (info.triangles) {
         radiance = _lights.triangleRadiance(light, s.position, path.time);
-        if (radiance == vec3(0.0f))
-            return vec3(0.0f);
+        if (radiance == vec3(0.0f)) return vec3(0.0f);
     }
     const float weight = light.delta ? 1.0f : powerHeuristic(light.pdf, f.pdf);
     const float away = glm::dot(light.direction, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
@@ -249,8 +236,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
             _scene.intersect(path.origin, path.direction, path.near, path.far, path.time,
                              path.fromCamera() ? RayCamera : RayIndirect, hit);
         const float distance = found ? hit.distance : path.far;
-        if (hasFiniteLights && _settings.enableSceneLights && addLightsAlong(path, distance))
-            break;
+        if (hasFiniteLights && _settings.enableSceneLights && addLightsAlong(path, distance)) break;
         if (!found) {
             addEscaped(path);
             break;
@@ -264,18 +250,16 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         const ShadingPoint& s = point.shading;
 
         const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
-        const bool culled = path.fromCamera() && (back ? cullsBack(*hit.surface->prim)
-                                                       : cullsFront(*hit.surface->prim));
+        const bool culled = path.fromCamera() &&
+                            (back ? cullsBack(*hit.surface->prim) : cullsFront(*hit.surface->prim));
         float opacity = culled ? 0.0f : point.slot->opaque ? 1.0f : program.opacity(s);
         if (opacity < 1.0f && !(path.sampler.random() < opacity)) {
-            if (++passed > maxPassThroughs)
-                break;
+            if (++passed > maxPassThroughs) break;
             path.origin = s.position + path.direction * std::max(point.offset, 1e-7f);
             path.near = 0.0f;
             continue;
         }
-        if (path.fromCamera())
-            path.alpha = 1.0f;
+        if (path.fromCamera()) path.alpha = 1.0f;
 
         Bsdf bsdf;
         program.evaluate(s, bsdf);
@@ -284,8 +268,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
             aovsWritten = true;
         }
         addEmission(path, point, hit);
-        if (path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface))
-            break;
+        if (path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface)) break;
 
         const vec4 uLight = path.sampler.next4();
         if (bsdf.hasNonDelta() && !_lights.set().empty())
@@ -293,11 +276,9 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
 
         const vec4 uBsdf = path.sampler.next4();
         const BsdfSample next = bsdf.sample(vec3(uBsdf), uBsdf.w);
-        if (next.event == 0)
-            break;
+        if (next.event == 0) break;
         path.throughput *= next.weight;
-        if (!(luminance(path.throughput) > 0.0f))
-            break;
+        if (!(luminance(path.throughput) > 0.0f)) break;
         const bool transmits = (next.event & sh::LOBE_TRANSMIT) != 0;
         if (transmits && program.hasInterior()) {
             if (back)
@@ -324,10 +305,9 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
 
         ++path.depth;
         if (path.depth > _settings.rouletteDepth) {
-            const float survive =
-                std::min(0.95f, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
-            if (path.sampler.random() >= survive)
-                break;
+            const float survive = std::min(
+                0.95f, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
+            if (path.sampler.random() >= survive) break;
             path.throughput /= survive;
         }
         const float away = glm::dot(next.wi, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;

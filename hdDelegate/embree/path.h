@@ -11,8 +11,7 @@ namespace patina {
 class MediumStack {
 public:
     void enter(const MaterialProgram* program, const vec3& absorption) {
-        if (_size < int(_entries.size()))
-            _entries[_size++] = {program, absorption};
+        if (_size < int(_entries.size())) _entries[_size++] = {program, absorption};
     }
     /// Leaves the innermost medium of this material; leaving one that was never entered (the
     /// camera stands inside, or the mesh is open) changes nothing.

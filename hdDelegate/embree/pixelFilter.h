@@ -37,8 +37,7 @@ public:
 
     /// @param u in [0,1)^2. @returns an offset in pixels.
     glm::vec2 sample(glm::vec2 u) const {
-        if (_box)
-            return (u * 2.0f - 1.0f) * _radius;
+        if (_box) return (u * 2.0f - 1.0f) * _radius;
         return glm::vec2(inverse(u.x), inverse(u.y)) * _radius;
     }
 

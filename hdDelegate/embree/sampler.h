@@ -7,9 +7,10 @@
 namespace patina {
 
 /// Owen-scrambled Sobol points: pairs of the first two dimensions, which together are a (0,2)
-/// sequence, decorrelated between pairs and pixels by a nested uniform shuffle of the index (Burley 2020, Practical Hash-based Owen Scrambling;
-/// the hash of Laine and Karras 2011 with Vegdahl's constants). A sample depends only on pixel,
-/// seed, sample index and set, so pixels do not depend on threads or on the order of tiles.
+/// sequence, decorrelated between pairs and pixels by a nested uniform shuffle of the index (Burley
+/// 2020, Practical Hash-based Owen Scrambling; the hash of Laine and Karras 2011 with Vegdahl's
+/// constants). A sample depends only on pixel, seed, sample index and set, so pixels do not depend
+/// on threads or on the order of tiles.
 class Sampler {
 public:
     Sampler(uint32_t x, uint32_t y, uint32_t seed, uint32_t index)

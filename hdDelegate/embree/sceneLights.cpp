@@ -9,7 +9,9 @@ namespace patina {
 
 namespace {
 
-float luminance(const vec3& c) { return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
+float luminance(const vec3& c) {
+    return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
+}
 
 Hit hitOn(const Surface* surface, unsigned primitive, const mat4& place, vec2 uv) {
     Hit hit;
@@ -36,20 +38,16 @@ double areaOf(const Surface& surface, const mat4& place) {
 
 } // namespace
 
-LightInfo SceneLights::describe(const std::shared_ptr<const Light>& light,
-                                const EmbreeScene& scene, const RenderSettings& settings) {
+LightInfo SceneLights::describe(const std::shared_ptr<const Light>& light, const EmbreeScene& scene,
+                                const RenderSettings& settings) {
     LightInfo info;
     info.lightCategory = info.shadowCategory = everything;
-    if (!light)
-        return info;
+    if (!light) return info;
     info.prim = light;
     info.dome = light->type == LightType::Dome;
-    info.cameraVisible = light->cameraVisible &&
-                         (!info.dome || settings.domeLightCameraVisibility);
-    if (!light->lightLink.empty())
-        info.lightCategory = scene.category(light->lightLink);
-    if (!light->shadowLink.empty())
-        info.shadowCategory = scene.category(light->shadowLink);
+    info.cameraVisible = light->cameraVisible && (!info.dome || settings.domeLightCameraVisibility);
+    if (!light->lightLink.empty()) info.lightCategory = scene.category(light->lightLink);
+    if (!light->shadowLink.empty()) info.shadowCategory = scene.category(light->shadowLink);
     info.diffuse = light->diffuse;
     info.specular = light->specular;
     info.castsShadows = light->shadowEnable;
@@ -66,20 +64,17 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
                          Diagnostics& diagnostics) {
     LightSetInput input;
     input.shutterOpen = float(camera.shutterOpen);
-    input.shutterClose =
-        settings.enableMotionBlur ? float(camera.shutterClose) : input.shutterOpen;
+    input.shutterClose = settings.enableMotionBlur ? float(camera.shutterClose) : input.shutterOpen;
     std::map<std::string, std::vector<mat4>> places;
     std::vector<std::shared_ptr<const Light>> meshLights;
     for (const auto& item : state.lights) {
         const auto& light = item.second;
-        if (!light->visible || !settings.enableSceneLights)
-            continue;
+        if (!light->visible || !settings.enableSceneLights) continue;
         if (light->type == LightType::Mesh) {
             meshLights.push_back(light);
             continue;
         }
-        if (!places.count(light->group))
-            places[light->group] = scene.groupTransforms(light->group);
+        if (!places.count(light->group)) places[light->group] = scene.groupTransforms(light->group);
         for (const mat4& place : places[light->group]) {
             input.lights.push_back({light, place});
             _infos.push_back(describe(light, scene, settings));
@@ -100,8 +95,7 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
         if (light->normalize) {
             const auto where = scene.groupTransforms(surface->prim->group);
             const double area = where.empty() ? 0.0 : areaOf(*surface, where[0]);
-            if (area > 0.0)
-                meshLight.radiance /= float(area);
+            if (area > 0.0) meshLight.radiance /= float(area);
         }
         _infos.push_back(describe(light, scene, settings));
         _infos.back().triangles = true;
@@ -132,8 +126,7 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
         Emitting emitting{place, std::vector<int>(surface.mesh.triangles.size(), -1)};
         for (unsigned t = 0; t < surface.mesh.triangles.size(); ++t) {
             const bool glows = surface.material(t).program->hasEmission();
-            if (!isMeshLight && !glows)
-                continue;
+            if (!isMeshLight && !glows) continue;
             LightTriangle triangle;
             for (int k = 0; k < 3; ++k)
                 triangle.vertices[k] = vec3(
@@ -144,8 +137,7 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
             const vec3 ng = glm::cross(triangle.vertices[1] - triangle.vertices[0],
                                        triangle.vertices[2] - triangle.vertices[0]);
             const float length = glm::length(ng);
-            if (!(length > 0.0f))
-                continue;
+            if (!(length > 0.0f)) continue;
             triangle.twoSided = glows || mirrored;
             const vec3 n = ng / length * (mirrored ? -1.0f : 1.0f);
             float brightest = 0.0f;
@@ -157,8 +149,7 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
                 computeSurfacePoint(hit, p + n, -n, 0.0f, point);
                 brightest = std::max(brightest, luminance(emission(point)));
             }
-            if (!(brightest > 0.0f) && surface.material(t).program->constant())
-                continue;
+            if (!(brightest > 0.0f) && surface.material(t).program->constant()) continue;
             triangle.luminance = std::max(brightest, 1e-6f);
             emitting.triangles[t] = int(input.triangles.size());
             input.triangles.push_back(triangle);
@@ -172,8 +163,7 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
 int SceneLights::triangleLight(const Surface* surface, unsigned primitive,
                                const mat4& groupToWorld) const {
     const auto found = _emitting.find(surface);
-    if (found == _emitting.end())
-        return -1;
+    if (found == _emitting.end()) return -1;
     const Emitting* nearest = &found->second[0];
     float best = INFINITY;
     if (found->second.size() > 1)
@@ -196,25 +186,20 @@ vec3 SceneLights::emission(const SurfacePoint& point) const {
     const MaterialProgram& program = *point.slot->program;
     const ShadingPoint& s = point.shading;
     vec3 glow(0.0f);
-    if (program.hasEmission())
-        glow = program.emission(s, s.viewDirection);
-    if (_meshLights.empty())
-        return glow;
+    if (program.hasEmission()) glow = program.emission(s, s.viewDirection);
+    if (_meshLights.empty()) return glow;
     const auto found = _meshLights.find(point.hit->surface);
-    if (found == _meshLights.end())
-        return glow;
+    if (found == _meshLights.end()) return glow;
     const MeshLight& mesh = found->second;
     const bool front = glm::dot(s.geometricNormal, s.viewDirection) > 0.0f;
     const vec3 light = front ? mesh.radiance : vec3(0.0f);
-    if (mesh.light->materialSyncMode == "noMaterialResponse")
-        return light;
+    if (mesh.light->materialSyncMode == "noMaterialResponse") return light;
     if (mesh.light->materialSyncMode == "materialGlowTintsLight" && program.hasEmission())
         return light * glow;
     return light + glow;
 }
 
-vec3 SceneLights::triangleRadiance(const LightSample& sample, const vec3& from,
-                                   float time) const {
+vec3 SceneLights::triangleRadiance(const LightSample& sample, const vec3& from, float time) const {
     const Source& source = _sources[sample.triangle];
     Hit hit = hitOn(source.surface, source.primitive, source.place, sample.barycentrics);
     hit.distance = sample.distance;

@@ -23,8 +23,7 @@ template <class T> struct StepPair {
 };
 
 template <class T> StepPair<T> stepsAt(const std::vector<std::vector<T>>& steps, float time) {
-    if (steps.size() == 1)
-        return {&steps[0], &steps[0], 0.0f};
+    if (steps.size() == 1) return {&steps[0], &steps[0], 0.0f};
     const float x = std::clamp(time, 0.0f, 1.0f) * float(steps.size() - 1);
     const size_t i = std::min(size_t(x), steps.size() - 2);
     return {&steps[i], &steps[i + 1], x - float(i)};
@@ -47,8 +46,7 @@ Local triangleLocal(const Hit& hit) {
     local.position = p[0] * w + p[1] * hit.u + p[2] * hit.v;
     vec3 ng = glm::cross(p[1] - p[0], p[2] - p[0]);
     const float area2 = glm::length(ng);
-    if (surface.flipNormals)
-        ng = -ng;
+    if (surface.flipNormals) ng = -ng;
     local.geometricNormal = safeNormalize(ng, vec3(0, 0, 1));
     local.normal = local.geometricNormal;
     if (!mesh.normals.empty()) {
@@ -93,8 +91,7 @@ Local curveLocal(const Hit& hit, const vec3& position) {
 int Surface::findAttribute(const std::string& name) const {
     const auto& list = attributes();
     for (size_t i = 0; i < list.size(); ++i)
-        if (list[i].name == name)
-            return int(i);
+        if (list[i].name == name) return int(i);
     return -1;
 }
 
@@ -107,8 +104,7 @@ const MaterialSlot& Surface::material(unsigned primitive) const {
 }
 
 int Surface::element(unsigned primitive) const {
-    if (shape == Shape::Triangles)
-        return mesh.triangleFace[primitive];
+    if (shape == Shape::Triangles) return mesh.triangleFace[primitive];
     return shape == Shape::Curves ? curves.segmentCurve[primitive] : points.pointIndex[primitive];
 }
 
@@ -116,12 +112,9 @@ bool readAttribute(const Surface& surface, int attribute, unsigned primitive, fl
                    float out[4]) {
     const MeshAttribute& a = surface.attributes()[attribute];
     switch (surface.shape) {
-    case Surface::Shape::Curves:
-        return evalAttribute(surface.curves, a, primitive, u, out);
-    case Surface::Shape::Points:
-        return evalAttribute(surface.points, a, primitive, out);
-    default:
-        return evalAttribute(surface.mesh, a, primitive, u, v, out);
+    case Surface::Shape::Curves: return evalAttribute(surface.curves, a, primitive, u, out);
+    case Surface::Shape::Points: return evalAttribute(surface.points, a, primitive, out);
+    default: return evalAttribute(surface.mesh, a, primitive, u, v, out);
     }
 }
 
@@ -131,8 +124,8 @@ bool SurfacePoint::read(int slotIndex, float out[4]) const {
            readAttribute(*hit->surface, attribute, hit->primitive, hit->u, hit->v, out);
 }
 
-void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& direction,
-                         float coneWidth, SurfacePoint& out) {
+void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& direction, float coneWidth,
+                         SurfacePoint& out) {
     const Surface& surface = *hit.surface;
     const vec3 worldHit = origin + direction * hit.distance;
     Local local;
@@ -144,8 +137,8 @@ void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& directi
     }
     if (surface.shape == Surface::Shape::Triangles) {
         local = triangleLocal(hit);
-        position = hit.instanced ? vec3(hit.groupToWorld * vec4(local.position, 1.0f))
-                                 : local.position;
+        position =
+            hit.instanced ? vec3(hit.groupToWorld * vec4(local.position, 1.0f)) : local.position;
     } else {
         const vec3 groupPosition =
             hit.instanced ? vec3(glm::inverse(hit.groupToWorld) * vec4(worldHit, 1.0f)) : worldHit;
@@ -171,8 +164,7 @@ void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& directi
         s.geometricNormal = -s.geometricNormal;
         s.normal = -s.normal;
     }
-    if (glm::dot(s.normal, s.geometricNormal) < 0.0f)
-        s.normal = -s.normal;
+    if (glm::dot(s.normal, s.geometricNormal) < 0.0f) s.normal = -s.normal;
 
     vec3 t = tangentMatrix * local.dPdu, b = tangentMatrix * local.dPdv;
     t -= s.normal * glm::dot(s.normal, t);
@@ -184,16 +176,13 @@ void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& directi
     } else {
         orthonormalBasis(s.normal, s.tangent, s.bitangent);
     }
-    s.objectToWorldNormal =
-        normalMatrix * glm::transpose(mat3(surface.groupToObject));
+    s.objectToWorldNormal = normalMatrix * glm::transpose(mat3(surface.groupToObject));
     const float scale = hit.instanced ? std::cbrt(std::abs(glm::determinant(tangentMatrix))) : 1.0f;
     const float cosine = std::max(0.1f, std::abs(glm::dot(s.geometricNormal, s.viewDirection)));
-    s.uvFootprint =
-        local.uvPerLength * coneWidth / (std::max(scale, 1e-20f) * std::sqrt(cosine));
+    s.uvFootprint = local.uvPerLength * coneWidth / (std::max(scale, 1e-20f) * std::sqrt(cosine));
 
     const vec3 magnitude = glm::abs(s.position);
-    const float largest =
-        std::max({magnitude.x, magnitude.y, magnitude.z, hit.distance * 0.25f});
+    const float largest = std::max({magnitude.x, magnitude.y, magnitude.z, hit.distance * 0.25f});
     const bool analytic = surface.shape != Surface::Shape::Triangles;
     out.offset = largest * (analytic ? 1e-4f : 4e-6f);
 }

@@ -13,7 +13,7 @@ namespace patina {
 struct MaterialSlot {
     std::shared_ptr<const MaterialProgram> program;
     std::vector<int> attributes; ///< per program->primvars(): index of the prim's attribute, or -1
-    bool opaque = true; ///< opacity is 1 everywhere on this prim
+    bool opaque = true;          ///< opacity is 1 everywhere on this prim
 };
 
 /// A prim made ready for rays. Positions and normals are those of its group's space (world space
@@ -47,7 +47,7 @@ struct Hit {
     const Surface* surface = nullptr;
     unsigned primitive = 0;
     float u = 0.0f, v = 0.0f, distance = 0.0f, time = 0.0f;
-    vec3 groupNormal{0.0f};   ///< Embree's geometric normal, group space, not normalised
+    vec3 groupNormal{0.0f}; ///< Embree's geometric normal, group space, not normalised
     bool instanced = false;
     mat4 groupToWorld{1.0f};
     int instanceId = -1;
@@ -71,7 +71,7 @@ struct SurfacePoint : PrimvarReader {
 /// Fills a surface point.
 /// @param origin,direction of the ray in world space
 /// @param coneWidth of the ray at the hit, scene units
-void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& direction,
-                         float coneWidth, SurfacePoint& out);
+void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& direction, float coneWidth,
+                         SurfacePoint& out);
 
 } // namespace patina

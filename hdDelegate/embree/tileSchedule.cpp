@@ -34,8 +34,7 @@ int TileSchedule::count(int tile) const {
 
 int TileSchedule::target(int tile) const {
     const int done = count(tile);
-    if (done >= _samples)
-        return 0;
+    if (done >= _samples) return 0;
     if (_tolerance > 0.0 && done >= _minSamples && relativeError(_tiles[tile]) <= _tolerance)
         return 0;
     return nextStep(done, _samples);
@@ -46,13 +45,11 @@ std::vector<int> TileSchedule::pending() const {
     int lowest = INT_MAX;
     for (size_t i = 0; i < _tiles.size(); ++i) {
         targets[i] = target(int(i));
-        if (targets[i] > 0)
-            lowest = std::min(lowest, targets[i]);
+        if (targets[i] > 0) lowest = std::min(lowest, targets[i]);
     }
     std::vector<int> result;
     for (size_t i = 0; i < _tiles.size(); ++i)
-        if (targets[i] > 0 && targets[i] <= lowest)
-            result.push_back(int(i));
+        if (targets[i] > 0 && targets[i] <= lowest) result.push_back(int(i));
     return result;
 }
 

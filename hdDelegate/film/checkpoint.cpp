@@ -26,7 +26,8 @@ class Checksum {
 public:
     void add(const void* data, size_t bytes) {
         const char* p = static_cast<const char*>(data);
-        for (; bytes >= 8; bytes -= 8, p += 8) mix(load(p, 8));
+        for (; bytes >= 8; bytes -= 8, p += 8)
+            mix(load(p, 8));
         if (bytes) mix(load(p, bytes) ^ (uint64_t(bytes) << 56));
     }
     uint64_t value() const { return _state ^ (_state >> 31); }

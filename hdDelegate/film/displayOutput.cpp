@@ -45,7 +45,8 @@ void toDisplay(std::vector<float>& pixels, int width, int height, int channels, 
                 float* p = row + x * channels;
                 // Light without coverage (a glow) has no straight colour; it is kept as it is.
                 if (p[3] > 0.0f && p[3] < 1.0f)
-                    for (int c = 0; c < 3; ++c) p[c] /= p[3];
+                    for (int c = 0; c < 3; ++c)
+                        p[c] /= p[3];
             }
         if (!transform || transform->isIdentity()) return;
         if (channels >= 3) {

@@ -46,7 +46,8 @@ Film::Plane Film::clearedPlane(const AovSpec& spec, size_t pixels) {
         return plane;
     }
     plane.nearest.assign(stride * pixels, spec.clearValue);
-    for (size_t i = stride - 1; i < plane.nearest.size(); i += stride) plane.nearest[i] = farAway;
+    for (size_t i = stride - 1; i < plane.nearest.size(); i += stride)
+        plane.nearest[i] = farAway;
     return plane;
 }
 
@@ -71,7 +72,8 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
     _aovs = aovs;
     _pixels.assign(pixels, Pixel());
     _planes.clear();
-    for (const AovSpec& spec : _aovs) _planes.push_back(clearedPlane(spec, pixels));
+    for (const AovSpec& spec : _aovs)
+        _planes.push_back(clearedPlane(spec, pixels));
     _dropped = 0;
 }
 
@@ -119,7 +121,8 @@ void Film::addAov(int aov, int x, int y, const float* values, float distance) {
         std::copy(values, values + n, &plane.nearest[at]);
         plane.nearest[at + n] = distance;
     } else {
-        for (size_t i = 0; i < n; ++i) plane.sums[at + i] += values[i];
+        for (size_t i = 0; i < n; ++i)
+            plane.sums[at + i] += values[i];
         plane.sums[at + n] += 1.0;
     }
 }
@@ -154,7 +157,8 @@ std::vector<float> Film::resolve(const std::string& name) const {
     std::vector<float> out(_pixels.size() * n);
     auto eachPixel = [&](auto value) {
         tbb::parallel_for(0, _height, [&](int y) {
-            for (int x = 0; x < _width; ++x) value(x, y, &out[index(x, y) * n]);
+            for (int x = 0; x < _width; ++x)
+                value(x, y, &out[index(x, y) * n]);
         });
     };
     if (name == "color") {

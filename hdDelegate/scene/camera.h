@@ -18,9 +18,9 @@ struct Camera {
     float fStop = 0.0f;         ///< 0 means everything is sharp
     float focusDistance = 0.0f; ///< scene units
     float clipNear = 1.0f, clipFar = 1e6f;
-    std::vector<vec4> clippingPlanes; ///< camera space; points with dot < 0 are clipped
+    std::vector<vec4> clippingPlanes;             ///< camera space; points with dot < 0 are clipped
     double shutterOpen = 0.0, shutterClose = 0.0; ///< time codes relative to the frame
-    float exposureScale = 1.0f; ///< linear factor of the image
+    float exposureScale = 1.0f;                   ///< linear factor of the image
 };
 
 } // namespace patina

@@ -42,7 +42,8 @@ public:
             ptrdiff_t step = stride * ptrdiff_t(sizeof(float));
             ocio::PackedImageDesc image(pixels + at * size_t(stride), n, 1, 3, ocio::BIT_DEPTH_F32,
                                         sizeof(float), step, step * n);
-            for (auto& s : _steps) s->apply(image);
+            for (auto& s : _steps)
+                s->apply(image);
         }
     }
     bool isIdentity() const override { return _steps.empty(); }
@@ -57,7 +58,8 @@ ColorTransformPtr transformOf(const std::vector<ocio::ConstProcessorRcPtr>& proc
 
 std::string listed(const std::vector<std::string>& names) {
     std::string text;
-    for (auto& n : names) text += (text.empty() ? "" : ", ") + n;
+    for (auto& n : names)
+        text += (text.empty() ? "" : ", ") + n;
     return text;
 }
 
@@ -82,7 +84,8 @@ void ColorSpaces::Impl::findRenderingSpace() {
     }
     ocio::ConstColorSpaceRcPtr known = builtin->getColorSpace(renderingSpace);
     std::vector<std::string> candidates = {renderingSpace};
-    for (size_t i = 0; i < known->getNumAliases(); ++i) candidates.push_back(known->getAlias(i));
+    for (size_t i = 0; i < known->getNumAliases(); ++i)
+        candidates.push_back(known->getAlias(i));
     for (auto& name : candidates) {
         if (name == "linear" || !user->getColorSpace(name.c_str())) continue;
         userRendering = name;
@@ -209,7 +212,8 @@ ColorTransformPtr ColorSpaces::display(const std::string& display, const std::st
 std::vector<std::string> ColorSpaces::displays() const {
     const ocio::ConstConfigRcPtr& config = _impl->active();
     std::vector<std::string> names;
-    for (int i = 0; i < config->getNumDisplays(); ++i) names.push_back(config->getDisplay(i));
+    for (int i = 0; i < config->getNumDisplays(); ++i)
+        names.push_back(config->getDisplay(i));
     return names;
 }
 

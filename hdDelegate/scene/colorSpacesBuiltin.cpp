@@ -156,7 +156,8 @@ std::array<double, 9> matrixToRec709(const Primaries& primaries) {
         glm::inverse(toXyz(rec709)) * bradford(primaries.white, rec709.white) * toXyz(primaries);
     std::array<double, 9> rows;
     for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 3; ++column) rows[size_t(row * 3 + column)] = m[column][row];
+        for (int column = 0; column < 3; ++column)
+            rows[size_t(row * 3 + column)] = m[column][row];
     return rows;
 }
 
@@ -167,7 +168,8 @@ ocio::ConstConfigRcPtr builtinColorConfig() {
     for (const Space& space : spaces) {
         ocio::ColorSpaceRcPtr cs = ocio::ColorSpace::Create();
         cs->setName(space.name);
-        for (const char* alias : space.aliases) cs->addAlias(alias);
+        for (const char* alias : space.aliases)
+            cs->addAlias(alias);
         cs->setBitDepth(ocio::BIT_DEPTH_F32);
         if (space.curve != Curve::Linear || space.primaries != &rec709)
             cs->setTransform(toReference(space), ocio::COLORSPACE_DIR_TO_REFERENCE);

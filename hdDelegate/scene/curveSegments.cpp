@@ -12,17 +12,13 @@ CurveLayout curveLayout(int pointCount, CurveBasis basis, CurveWrap wrap) {
     const int n = pointCount;
     int used = n;
     switch (basis) {
-    case CurveBasis::Linear:
-        layout.segments = periodic ? (n >= 3 ? n : 0) : n - 1;
-        break;
+    case CurveBasis::Linear: layout.segments = periodic ? (n >= 3 ? n : 0) : n - 1; break;
     case CurveBasis::Bezier:
         layout.step = 3;
         layout.segments = periodic ? n / 3 : (n - 1) / 3;
         used = periodic ? 3 * layout.segments : 3 * layout.segments + 1;
         break;
-    default:
-        layout.segments = periodic ? (n >= 3 ? n : 0) : phantoms ? n - 1 : n - 3;
-        break;
+    default: layout.segments = periodic ? (n >= 3 ? n : 0) : phantoms ? n - 1 : n - 3; break;
     }
     layout.segments = std::max(layout.segments, 0);
     if (n < 2 || layout.segments == 0) {
@@ -48,8 +44,7 @@ int varyingCount(const CurveLayout& layout, CurveWrap wrap) {
 vec4 basisWeights(CurveBasis basis, float u) {
     const float v = 1.0f - u;
     switch (basis) {
-    case CurveBasis::Bezier:
-        return vec4(v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u);
+    case CurveBasis::Bezier: return vec4(v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u);
     case CurveBasis::Bspline:
         return vec4(v * v * v, 3 * u * u * u - 6 * u * u + 4, 3 * v * v * v - 6 * v * v + 4,
                     u * u * u) /
@@ -57,8 +52,7 @@ vec4 basisWeights(CurveBasis basis, float u) {
     case CurveBasis::CatmullRom:
         return 0.5f * vec4(u * (-1 + u * (2 - u)), 2 + u * u * (-5 + 3 * u),
                            u * (1 + u * (4 - 3 * u)), u * u * (-1 + u));
-    case CurveBasis::Linear:
-        break;
+    case CurveBasis::Linear: break;
     }
     return vec4(v, u, 0, 0);
 }

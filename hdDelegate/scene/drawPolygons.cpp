@@ -10,15 +10,11 @@ using Rate = MeshAttribute::Rate;
 
 Rate rateOf(Interpolation interpolation) {
     switch (interpolation) {
-    case Interpolation::Uniform:
-        return Rate::PerFace;
+    case Interpolation::Uniform: return Rate::PerFace;
     case Interpolation::Varying:
-    case Interpolation::Vertex:
-        return Rate::PerVertex;
-    case Interpolation::FaceVarying:
-        return Rate::PerCorner;
-    default:
-        return Rate::Constant;
+    case Interpolation::Vertex: return Rate::PerVertex;
+    case Interpolation::FaceVarying: return Rate::PerCorner;
+    default: return Rate::Constant;
     }
 }
 

@@ -30,8 +30,10 @@ struct Geometry {
     Visibility visibility;
     std::string material; ///< path of a MaterialPrim; empty shows displayColor
     std::vector<GeomSubset> subsets;
-    std::vector<Primvar> primvars; ///< displayColor, displayOpacity, st, normals (on curves, points and meshes)...
-    std::vector<std::string> categories; ///< names of light and shadow link collections that hold it
+    std::vector<Primvar>
+        primvars; ///< displayColor, displayOpacity, st, normals (on curves, points and meshes)...
+    std::vector<std::string>
+        categories; ///< names of light and shadow link collections that hold it
     bool doubleSided = true;
     bool leftHanded = false;
 
@@ -46,9 +48,9 @@ struct Mesh : Geometry {
     std::vector<int> faceVertexIndices;
     std::vector<int> holeIndices;
     SubdivisionScheme scheme = SubdivisionScheme::None;
-    std::string interpolateBoundary = "edgeAndCorner";       ///< none, edgeOnly, edgeAndCorner
+    std::string interpolateBoundary = "edgeAndCorner"; ///< none, edgeOnly, edgeAndCorner
     std::string faceVaryingLinearInterpolation = "cornersPlus1";
-    std::string triangleSubdivisionRule = "catmullClark";    ///< catmullClark, smooth
+    std::string triangleSubdivisionRule = "catmullClark"; ///< catmullClark, smooth
     std::vector<int> creaseIndices, creaseLengths;
     std::vector<float> creaseSharpnesses;
     std::vector<int> cornerIndices;
@@ -100,12 +102,13 @@ struct Implicit : Geometry {
 struct Instancer {
     std::string path;
     std::string group; ///< group that the instances appear in; empty means the world
-    std::vector<std::string> prototypes;        ///< group names
-    std::vector<int> prototypeIndices;          ///< per instance, into prototypes
-    std::vector<MotionTransform> transforms;    ///< per instance, local to group
-    std::vector<int> ids;                       ///< per instance, for the instanceId AOV; empty = index
-    std::vector<std::vector<std::string>> categories; ///< per instance (light linking); empty = none
-    std::vector<Primvar> primvars;              ///< per instance (Vertex) or constant
+    std::vector<std::string> prototypes;     ///< group names
+    std::vector<int> prototypeIndices;       ///< per instance, into prototypes
+    std::vector<MotionTransform> transforms; ///< per instance, local to group
+    std::vector<int> ids; ///< per instance, for the instanceId AOV; empty = index
+    std::vector<std::vector<std::string>>
+        categories;                ///< per instance (light linking); empty = none
+    std::vector<Primvar> primvars; ///< per instance (Vertex) or constant
     Visibility visibility;
 };
 

@@ -62,14 +62,16 @@ public:
     explicit Encoder(const std::array<float, 256>& decode) : _decode(decode) {
         int code = 0;
         for (int i = 0; i < cells; ++i) {
-            while (code < 255 && middle(code) <= float(i) / cells) ++code;
+            while (code < 255 && middle(code) <= float(i) / cells)
+                ++code;
             _guess[size_t(i)] = uint8_t(code);
         }
     }
     uint8_t operator()(float linear) const {
         int cell = int(std::min(std::max(linear, 0.0f), 1.0f) * cells);
         int code = _guess[size_t(std::min(cell, cells - 1))];
-        while (code < 255 && middle(code) <= linear) ++code;
+        while (code < 255 && middle(code) <= linear)
+            ++code;
         return uint8_t(code);
     }
 
@@ -124,7 +126,8 @@ ImageTexture::ImageTexture(int width, int height, TexelLayout layout, TexelType 
     }
     _data.reset(
         new uint8_t[memoryBytes()]); // left as it is: pages are touched when they are filled
-    for (size_t i = 0; i < 256; ++i) _plain[i] = float(i) / 255.0f;
+    for (size_t i = 0; i < 256; ++i)
+        _plain[i] = float(i) / 255.0f;
     _decode = _plain;
     switch (_type) {
     case TexelType::U8: _functions = functionsOf<uint8_t>(_channels); break;
@@ -164,7 +167,8 @@ template <class T, int N> void ImageTexture::buildLevel(int number) {
     const float *color = _decode.data(), *last = lastTable();
     const Encoder encodeColor(_decode), encodeLast(last == color ? _decode : _plain);
     std::vector<Span> columns;
-    for (int x = 0; x < to.width; ++x) columns.emplace_back(x, from.width, to.width);
+    for (int x = 0; x < to.width; ++x)
+        columns.emplace_back(x, from.width, to.width);
     tbb::parallel_for(tbb::blocked_range<int>(0, to.height), [&](const auto& range) {
         std::vector<float> row(size_t(from.width) * N);
         for (int y = range.begin(); y < range.end(); ++y) {
@@ -192,7 +196,8 @@ template <class T, int N> void ImageTexture::buildLevel(int number) {
 }
 
 void ImageTexture::buildPyramid() {
-    for (int level = 1; level < int(_levels.size()); ++level) (this->*_functions.buildLevel)(level);
+    for (int level = 1; level < int(_levels.size()); ++level)
+        (this->*_functions.buildLevel)(level);
 }
 
 glm::vec4 ImageTexture::expand(const float* c) const {

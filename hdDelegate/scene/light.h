@@ -13,8 +13,8 @@ struct Light {
     std::string group; ///< prototype it belongs to; empty means the world
     LightType type = LightType::Sphere;
     MotionTransform transform{mat4(1.0f)};
-    bool visible = true;        ///< off: it emits nothing
-    bool cameraVisible = true;  ///< dome or area light seen directly by the camera
+    bool visible = true;       ///< off: it emits nothing
+    bool cameraVisible = true; ///< dome or area light seen directly by the camera
 
     // LightAPI
     vec3 color{1.0f};
@@ -27,17 +27,18 @@ struct Light {
     float colorTemperature = 6500.0f; ///< kelvin
 
     // shapes
-    float angle = 0.53f; ///< distant, degrees across
-    float radius = 0.5f; ///< sphere, disk, cylinder
+    float angle = 0.53f;               ///< distant, degrees across
+    float radius = 0.5f;               ///< sphere, disk, cylinder
     float width = 1.0f, height = 1.0f; ///< rect
     float length = 1.0f;               ///< cylinder, along local x
     bool treatAsPoint = false;         ///< sphere
     bool treatAsLine = false;          ///< cylinder
 
     // textures
-    std::string textureFile;                ///< dome, rect; resolved path
-    std::string textureFormat = "automatic"; ///< dome: latlong, mirroredBall, angular, cubeMapVerticalCross
-    std::string textureColorSpace;           ///< empty or "auto": by file type
+    std::string textureFile; ///< dome, rect; resolved path
+    std::string textureFormat =
+        "automatic";               ///< dome: latlong, mirroredBall, angular, cubeMapVerticalCross
+    std::string textureColorSpace; ///< empty or "auto": by file type
     float guideRadius = 0.0f;
 
     // ShapingAPI
@@ -45,7 +46,8 @@ struct Light {
     vec3 shapingFocusTint{0.0f};
     float shapingConeAngle = 180.0f;
     float shapingConeSoftness = 0.0f;
-    bool shapingConeAuthored = false; ///< the ShapingAPI is applied: an unauthored one shapes nothing
+    bool shapingConeAuthored =
+        false; ///< the ShapingAPI is applied: an unauthored one shapes nothing
     std::string iesFile;
     float iesAngleScale = 0.0f;
     bool iesNormalize = false;

@@ -104,8 +104,7 @@ mat4 transformAt(const MotionTransform& transform, float time) {
 double lightSizeFactor(const Light& light, const mat4& toWorld) {
     const double r = std::abs(light.radius);
     switch (light.type) {
-    case LightType::Distant:
-        return distantFactor(light.angle);
+    case LightType::Distant: return distantFactor(light.angle);
     case LightType::Rect:
         return glm::length(
             glm::cross(column(toWorld, 0, light.width), column(toWorld, 1, light.height)));
@@ -117,8 +116,7 @@ double lightSizeFactor(const Light& light, const mat4& toWorld) {
         return cylinderArea(column(toWorld, 0, light.length), column(toWorld, 1, r),
                             column(toWorld, 2, r));
     case LightType::Dome:
-    case LightType::Mesh:
-        break;
+    case LightType::Mesh: break;
     }
     return 1.0;
 }

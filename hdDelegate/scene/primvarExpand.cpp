@@ -9,16 +9,11 @@ namespace {
 
 const char* nameOf(Interpolation interpolation) {
     switch (interpolation) {
-    case Interpolation::Constant:
-        return "constant";
-    case Interpolation::Uniform:
-        return "uniform";
-    case Interpolation::Varying:
-        return "varying";
-    case Interpolation::Vertex:
-        return "vertex";
-    case Interpolation::FaceVarying:
-        return "faceVarying";
+    case Interpolation::Constant: return "constant";
+    case Interpolation::Uniform: return "uniform";
+    case Interpolation::Varying: return "varying";
+    case Interpolation::Vertex: return "vertex";
+    case Interpolation::FaceVarying: return "faceVarying";
     }
     return "";
 }
@@ -43,16 +38,11 @@ const MeshAttribute* PointSet::attribute(const std::string& name) const {
 
 size_t ElementCounts::of(Interpolation interpolation) const {
     switch (interpolation) {
-    case Interpolation::Constant:
-        return 1;
-    case Interpolation::Uniform:
-        return uniform;
-    case Interpolation::Varying:
-        return varying;
-    case Interpolation::Vertex:
-        return vertex;
-    case Interpolation::FaceVarying:
-        return faceVarying;
+    case Interpolation::Constant: return 1;
+    case Interpolation::Uniform: return uniform;
+    case Interpolation::Varying: return varying;
+    case Interpolation::Vertex: return vertex;
+    case Interpolation::FaceVarying: return faceVarying;
     }
     return 1;
 }

@@ -34,9 +34,9 @@ public:
     std::string text;
 };
 
-template <class T>
-T choose(const std::string& value, std::initializer_list<std::pair<const char*, T>> choices,
-         T fallback, const Mesh& mesh, const char* input, Diagnostics& diagnostics) {
+template <class T> T choose(const std::string& value,
+                            std::initializer_list<std::pair<const char*, T>> choices, T fallback,
+                            const Mesh& mesh, const char* input, Diagnostics& diagnostics) {
     for (const auto& choice : choices)
         if (value == choice.first) return choice.second;
     if (!value.empty()) diagnostics.warn(mesh.path, input, "unknown value; the default is used");

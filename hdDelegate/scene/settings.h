@@ -10,21 +10,23 @@ namespace patina {
 /// How to render. Names and defaults are those that every host shows.
 struct RenderSettings {
     int width = 960, height = 540; ///< pixels
-    int dataWindow[4] = {0, 0, -1, -1}; ///< crop: xmin, ymin, xmax, ymax inclusive; xmax < xmin means all
+    int dataWindow[4] = {0, 0, -1,
+                         -1}; ///< crop: xmin, ymin, xmax, ymax inclusive; xmax < xmin means all
     double pixelAspectRatio = 1.0;
     std::string aspectRatioConformPolicy = "adjustApertureHeight"; ///< UsdRenderSettings' names
 
-    int samples = 64;         ///< per pixel, the most that are taken
-    int minSamples = 16;      ///< adaptive sampling never stops below
-    double tolerance = 0.0;   ///< mean relative luminance error of the image to stop at; 0: take all samples
-    double seconds = 0.0;     ///< time limit; 0: none
-    int threads = 0;          ///< 0: all
+    int samples = 64;    ///< per pixel, the most that are taken
+    int minSamples = 16; ///< adaptive sampling never stops below
+    double tolerance =
+        0.0; ///< mean relative luminance error of the image to stop at; 0: take all samples
+    double seconds = 0.0; ///< time limit; 0: none
+    int threads = 0;      ///< 0: all
     uint32_t seed = 0;
 
-    int maxDepth = 16;           ///< path vertices after the camera
-    int rouletteDepth = 4;       ///< Russian roulette starts after so many bounces
-    float indirectClamp = 0.0f;  ///< largest luminance of one indirect sample; 0: off (unbiased)
-    float filterRadius = 1.0f;   ///< pixels; Gaussian pixel filter, 0.5 means a box
+    int maxDepth = 16;          ///< path vertices after the camera
+    int rouletteDepth = 4;      ///< Russian roulette starts after so many bounces
+    float indirectClamp = 0.0f; ///< largest luminance of one indirect sample; 0: off (unbiased)
+    float filterRadius = 1.0f;  ///< pixels; Gaussian pixel filter, 0.5 means a box
 
     bool enableSceneLights = true;
     bool enableSceneMaterials = true;
@@ -32,12 +34,13 @@ struct RenderSettings {
     bool enableMotionBlur = true;
     bool enableDepthOfField = true;
     bool domeLightCameraVisibility = true;
-    std::string cullStyle = "nothing"; ///< for camera rays, Hydra's names: nothing, back, front, backUnlessDoubleSided, frontUnlessDoubleSided
-    float edgeLength = 4.0f; ///< pixels; subdivision refines until edges are this short
+    std::string cullStyle = "nothing"; ///< for camera rays, Hydra's names: nothing, back, front,
+                                       ///< backUnlessDoubleSided, frontUnlessDoubleSided
+    float edgeLength = 4.0f;           ///< pixels; subdivision refines until edges are this short
 
     std::vector<std::string> aovs; ///< besides color and alpha: names of standardAov()
 
-    std::string checkpointFile;    ///< the renderer saves the film here now and then; empty: never
+    std::string checkpointFile; ///< the renderer saves the film here now and then; empty: never
     double checkpointSeconds = 60.0;
 
     std::map<std::string, std::string> methods; ///< choice point -> method, forced by the user

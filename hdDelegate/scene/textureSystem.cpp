@@ -237,7 +237,8 @@ size_t TextureSystem::memoryBytes() const {
             if (image && image->loaded.load(std::memory_order_acquire) && image->texture)
                 sizes[image->texture.get()] = image->texture->memoryBytes();
     size_t sum = 0;
-    for (auto& s : sizes) sum += s.second;
+    for (auto& s : sizes)
+        sum += s.second;
     return sum;
 }
 

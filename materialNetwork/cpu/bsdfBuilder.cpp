@@ -104,7 +104,8 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
         }
         l.weight = glm::vec3(0.0f);
         l.albedo = glm::vec3(0.0f);
-        if (registers[t.weight].x > 0.0f) kept[i] = unit(lobeFixWo(l, out._frames[l.frame].wo, t.energy));
+        if (registers[t.weight].x > 0.0f)
+            kept[i] = unit(lobeFixWo(l, out._frames[l.frame].wo, t.energy));
     }
     setWeights(code, registers, kept, out);
 }
@@ -119,9 +120,7 @@ void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers
         const ClosureOp& op = code.bsdf[size_t(i)];
         if (!op.needsPassed) continue;
         switch (op.kind) {
-        case ClosureKind::Layer:
-            passed[i] = passedBy(op.a) * passedBy(op.b);
-            break;
+        case ClosureKind::Layer: passed[i] = passedBy(op.a) * passedBy(op.b); break;
         case ClosureKind::Mix: {
             const float m = unit(registers[op.factor].x);
             passed[i] = passedBy(op.a) * m + passedBy(op.b) * (1.0f - m);
@@ -160,9 +159,7 @@ void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers
             if (op.a >= 0) weight[op.a] += w;
             if (op.b >= 0) weight[op.b] += w;
             break;
-        case ClosureKind::Multiply:
-            weight[op.a] += w * factor(registers[op.factor]);
-            break;
+        case ClosureKind::Multiply: weight[op.a] += w * factor(registers[op.factor]); break;
         default:
             if (op.lobe >= 0) out._lobes[op.lobe].weight = w * unit(registers[op.factor].x);
         }
@@ -208,14 +205,9 @@ glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* regi
             value[i] = of(op.a) * m + of(op.b) * (1.0f - m);
             break;
         }
-        case ClosureKind::Add:
-            value[i] = of(op.a) + of(op.b);
-            break;
-        case ClosureKind::Multiply:
-            value[i] = of(op.a) * factor(registers[op.factor]);
-            break;
-        default:
-            value[i] = factor(registers[op.factor]);
+        case ClosureKind::Add: value[i] = of(op.a) + of(op.b); break;
+        case ClosureKind::Multiply: value[i] = of(op.a) * factor(registers[op.factor]); break;
+        default: value[i] = factor(registers[op.factor]);
         }
     }
     return value[n - 1];

@@ -26,12 +26,10 @@ EnergyCurve::Energy lobeEnergy(const BsdfLobe& lobe, const glm::vec3& wo) {
 void EnergyCurve::measure(const BsdfLobe& lobe) {
     _nodes.clear();
     const bool dielectric = lobe.kind == LobeKind::Dielectric;
-    if (!dielectric && lobe.kind != LobeKind::Schlick)
-        return;
+    if (!dielectric && lobe.kind != LobeKind::Schlick) return;
     const glm::vec2 alpha = dielectric ? lobe.dielectric.alpha : lobe.schlick.alpha;
     const float ior = dielectric ? lobe.dielectric.ior : lobe.schlick.ior;
-    if (alpha.x != alpha.y || alpha.x < narrowest || ior < 1.0f)
-        return;
+    if (alpha.x != alpha.y || alpha.x < narrowest || ior < 1.0f) return;
     for (int i = 0; i < nodeCount; ++i) {
         const float t = float(i) / float(nodeCount - 1);
         const float z = t * t * t * t;

@@ -12,7 +12,8 @@ namespace patina {
 class EnergyCurve {
 public:
     /// Measures the lobe. Stays empty for lobes that it does not suit: mirrors and lobes
-    /// nearly as narrow, anisotropic ones, interfaces that are denser on the outside (total reflection has a kink).
+    /// nearly as narrow, anisotropic ones, interfaces that are denser on the outside (total
+    /// reflection has a kink).
     void measure(const BsdfLobe& lobe);
     bool empty() const { return _nodes.empty(); }
 

@@ -11,54 +11,36 @@ namespace patina {
 
 inline sh::LobeEval lobeEval(const BsdfLobe& l, const glm::vec3& wo, const glm::vec3& wi) {
     switch (l.kind) {
-    case LobeKind::OrenNayar:
-        return sh::orenNayarEval(l.orenNayar, wo, wi);
-    case LobeKind::Burley:
-        return sh::burleyEval(l.burley, wo, wi);
-    case LobeKind::Translucent:
-        return sh::translucentEval(l.translucent, wo, wi);
-    case LobeKind::Dielectric:
-        return sh::dielectricEval(l.dielectric, wo, wi);
-    case LobeKind::Conductor:
-        return sh::conductorEval(l.conductor, wo, wi);
-    case LobeKind::Schlick:
-        return sh::schlickEval(l.schlick, wo, wi);
+    case LobeKind::OrenNayar: return sh::orenNayarEval(l.orenNayar, wo, wi);
+    case LobeKind::Burley: return sh::burleyEval(l.burley, wo, wi);
+    case LobeKind::Translucent: return sh::translucentEval(l.translucent, wo, wi);
+    case LobeKind::Dielectric: return sh::dielectricEval(l.dielectric, wo, wi);
+    case LobeKind::Conductor: return sh::conductorEval(l.conductor, wo, wi);
+    case LobeKind::Schlick: return sh::schlickEval(l.schlick, wo, wi);
     }
     return sh::lobeEvalNone();
 }
 
 inline sh::LobeSample lobeSample(const BsdfLobe& l, const glm::vec3& wo, const glm::vec3& u) {
     switch (l.kind) {
-    case LobeKind::OrenNayar:
-        return sh::orenNayarSample(l.orenNayar, wo, u);
-    case LobeKind::Burley:
-        return sh::burleySample(l.burley, wo, u);
-    case LobeKind::Translucent:
-        return sh::translucentSample(l.translucent, wo, u);
-    case LobeKind::Dielectric:
-        return sh::dielectricSample(l.dielectric, wo, u);
-    case LobeKind::Conductor:
-        return sh::conductorSample(l.conductor, wo, u);
-    case LobeKind::Schlick:
-        return sh::schlickSample(l.schlick, wo, u);
+    case LobeKind::OrenNayar: return sh::orenNayarSample(l.orenNayar, wo, u);
+    case LobeKind::Burley: return sh::burleySample(l.burley, wo, u);
+    case LobeKind::Translucent: return sh::translucentSample(l.translucent, wo, u);
+    case LobeKind::Dielectric: return sh::dielectricSample(l.dielectric, wo, u);
+    case LobeKind::Conductor: return sh::conductorSample(l.conductor, wo, u);
+    case LobeKind::Schlick: return sh::schlickSample(l.schlick, wo, u);
     }
     return sh::lobeSampleNone();
 }
 
 inline glm::vec3 lobeAlbedo(const BsdfLobe& l, const glm::vec3& wo) {
     switch (l.kind) {
-    case LobeKind::OrenNayar:
-        return sh::orenNayarAlbedo(l.orenNayar, wo);
-    case LobeKind::Burley:
-        return sh::burleyAlbedo(l.burley, wo);
-    case LobeKind::Translucent:
-        return sh::translucentAlbedo(l.translucent, wo);
-    case LobeKind::Dielectric:
-        return sh::dielectricAlbedo(l.dielectric, wo);
-    case LobeKind::Conductor:
-        return sh::conductorAlbedo(l.conductor, wo);
-    case LobeKind::Schlick:
-        return sh::schlickAlbedo(l.schlick, wo);
+    case LobeKind::OrenNayar: return sh::orenNayarAlbedo(l.orenNayar, wo);
+    case LobeKind::Burley: return sh::burleyAlbedo(l.burley, wo);
+    case LobeKind::Translucent: return sh::translucentAlbedo(l.translucent, wo);
+    case LobeKind::Dielectric: return sh::dielectricAlbedo(l.dielectric, wo);
+    case LobeKind::Conductor: return sh::conductorAlbedo(l.conductor, wo);
+    case LobeKind::Schlick: return sh::schlickAlbedo(l.schlick, wo);
     }
     return glm::vec3(0.0f);
 }
@@ -73,9 +55,9 @@ inline void setFactors(sh::SchlickLobe& l, const EnergyCurve::Energy& e) {
     l.kt = e.kt;
 }
 
-template <class Interface>
-float lobeSetEnergy(BsdfLobe& l, Interface& interface, const glm::vec3& tint, const glm::vec3& wo,
-                    const EnergyCurve& curve) {
+template <class Interface> float lobeSetEnergy(BsdfLobe& l, Interface& interface,
+                                               const glm::vec3& tint, const glm::vec3& wo,
+                                               const EnergyCurve& curve) {
     const EnergyCurve::Energy e =
         wo.z >= 0.0f && !curve.empty() ? curve.at(wo.z) : lobeEnergy(l, wo);
     interface.known = true;
@@ -93,38 +75,26 @@ float lobeSetEnergy(BsdfLobe& l, Interface& interface, const glm::vec3& tint, co
 /// without tint. 1 for all other lobes.
 inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& curve) {
     switch (l.kind) {
-    case LobeKind::OrenNayar:
-        l.albedo = l.orenNayar.color;
-        return 1.0f;
-    case LobeKind::Burley:
-        l.albedo = l.burley.color;
-        return 1.0f;
-    case LobeKind::Translucent:
-        l.albedo = l.translucent.color;
-        return 1.0f;
+    case LobeKind::OrenNayar: l.albedo = l.orenNayar.color; return 1.0f;
+    case LobeKind::Burley: l.albedo = l.burley.color; return 1.0f;
+    case LobeKind::Translucent: l.albedo = l.translucent.color; return 1.0f;
     case LobeKind::Conductor:
         l.conductor = sh::conductorAt(l.conductor, wo);
         l.albedo = sh::fresnelConductor(glm::clamp(wo.z, 0.0f, 1.0f), l.conductor.ior,
                                         l.conductor.extinction);
         return 1.0f;
-    case LobeKind::Dielectric:
-        return lobeSetEnergy(l, l.dielectric, l.dielectric.tint, wo, curve);
-    case LobeKind::Schlick:
-        return lobeSetEnergy(l, l.schlick, glm::vec3(1.0f), wo, curve);
+    case LobeKind::Dielectric: return lobeSetEnergy(l, l.dielectric, l.dielectric.tint, wo, curve);
+    case LobeKind::Schlick: return lobeSetEnergy(l, l.schlick, glm::vec3(1.0f), wo, curve);
     }
     return 1.0f;
 }
 
 inline bool lobeTransmits(const BsdfLobe& l) {
     switch (l.kind) {
-    case LobeKind::Translucent:
-        return true;
-    case LobeKind::Dielectric:
-        return (l.dielectric.mode & sh::SCATTER_T) != 0;
-    case LobeKind::Schlick:
-        return (l.schlick.mode & sh::SCATTER_T) != 0;
-    default:
-        return false;
+    case LobeKind::Translucent: return true;
+    case LobeKind::Dielectric: return (l.dielectric.mode & sh::SCATTER_T) != 0;
+    case LobeKind::Schlick: return (l.schlick.mode & sh::SCATTER_T) != 0;
+    default: return false;
     }
 }
 
@@ -134,26 +104,20 @@ inline bool lobeNonDelta(const BsdfLobe& l) {
     case LobeKind::Dielectric:
         return l.dielectric.alpha.x > 0.0f &&
                !(l.dielectric.mode == sh::SCATTER_T && l.dielectric.deltaT);
-    case LobeKind::Conductor:
-        return l.conductor.alpha.x > 0.0f;
+    case LobeKind::Conductor: return l.conductor.alpha.x > 0.0f;
     case LobeKind::Schlick:
         return l.schlick.alpha.x > 0.0f && !(l.schlick.mode == sh::SCATTER_T && l.schlick.deltaT);
-    default:
-        return true;
+    default: return true;
     }
 }
 
 /// GGX alpha, mean of both axes; 1 for diffuse lobes.
 inline float lobeRoughness(const BsdfLobe& l) {
     switch (l.kind) {
-    case LobeKind::Dielectric:
-        return 0.5f * (l.dielectric.alpha.x + l.dielectric.alpha.y);
-    case LobeKind::Conductor:
-        return 0.5f * (l.conductor.alpha.x + l.conductor.alpha.y);
-    case LobeKind::Schlick:
-        return 0.5f * (l.schlick.alpha.x + l.schlick.alpha.y);
-    default:
-        return 1.0f;
+    case LobeKind::Dielectric: return 0.5f * (l.dielectric.alpha.x + l.dielectric.alpha.y);
+    case LobeKind::Conductor: return 0.5f * (l.conductor.alpha.x + l.conductor.alpha.y);
+    case LobeKind::Schlick: return 0.5f * (l.schlick.alpha.x + l.schlick.alpha.y);
+    default: return 1.0f;
     }
 }
 

@@ -18,37 +18,24 @@ const char* const noNames[] = {nullptr};
 const char* const* lobeParameters(ClosureKind kind) {
     switch (kind) {
     case ClosureKind::OrenNayar:
-    case ClosureKind::Subsurface:
-        return orenNayarNames;
-    case ClosureKind::Burley:
-        return burleyNames;
-    case ClosureKind::Translucent:
-        return translucentNames;
-    case ClosureKind::Dielectric:
-        return dielectricNames;
-    case ClosureKind::Conductor:
-        return conductorNames;
-    case ClosureKind::Schlick:
-        return schlickNames;
-    default:
-        return noNames;
+    case ClosureKind::Subsurface: return orenNayarNames;
+    case ClosureKind::Burley: return burleyNames;
+    case ClosureKind::Translucent: return translucentNames;
+    case ClosureKind::Dielectric: return dielectricNames;
+    case ClosureKind::Conductor: return conductorNames;
+    case ClosureKind::Schlick: return schlickNames;
+    default: return noNames;
     }
 }
 
 LobeKind lobeKind(ClosureKind kind) {
     switch (kind) {
-    case ClosureKind::Burley:
-        return LobeKind::Burley;
-    case ClosureKind::Translucent:
-        return LobeKind::Translucent;
-    case ClosureKind::Dielectric:
-        return LobeKind::Dielectric;
-    case ClosureKind::Conductor:
-        return LobeKind::Conductor;
-    case ClosureKind::Schlick:
-        return LobeKind::Schlick;
-    default:
-        return LobeKind::OrenNayar;
+    case ClosureKind::Burley: return LobeKind::Burley;
+    case ClosureKind::Translucent: return LobeKind::Translucent;
+    case ClosureKind::Dielectric: return LobeKind::Dielectric;
+    case ClosureKind::Conductor: return LobeKind::Conductor;
+    case ClosureKind::Schlick: return LobeKind::Schlick;
+    default: return LobeKind::OrenNayar;
     }
 }
 
@@ -60,12 +47,8 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
     case LobeKind::OrenNayar:
         out.orenNayar = sh::orenNayarSetup(color(0), number(1), t.flagA);
         return;
-    case LobeKind::Burley:
-        out.burley = sh::burleySetup(color(0), number(1));
-        return;
-    case LobeKind::Translucent:
-        out.translucent = sh::translucentSetup(color(0));
-        return;
+    case LobeKind::Burley: out.burley = sh::burleySetup(color(0), number(1)); return;
+    case LobeKind::Translucent: out.translucent = sh::translucentSetup(color(0)); return;
     case LobeKind::Dielectric:
         out.dielectric = sh::dielectricSetup(color(0), number(1), pair(2), t.flagA, t.mode, t.fused,
                                              t.compensate);

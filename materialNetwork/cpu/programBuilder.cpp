@@ -237,10 +237,9 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     }
     LobeTemplate t;
     t.prebuilt.kind = lobeKind(closure.kind);
-    t.prebuilt.diffuse = closure.kind == ClosureKind::OrenNayar ||
-                         closure.kind == ClosureKind::Burley ||
-                         closure.kind == ClosureKind::Subsurface ||
-                         closure.kind == ClosureKind::Translucent;
+    t.prebuilt.diffuse =
+        closure.kind == ClosureKind::OrenNayar || closure.kind == ClosureKind::Burley ||
+        closure.kind == ClosureKind::Subsurface || closure.kind == ClosureKind::Translucent;
     const bool interface =
         closure.kind == ClosureKind::Dielectric || closure.kind == ClosureKind::Schlick;
     t.fused = closure.fused;
@@ -264,8 +263,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     for (int i = 0; names[i]; ++i) {
         Operand operand;
         operand.value = Value::makeFloat(0.0f);
-        if (node.def->findInput(names[i]) >= 0)
-            operand = closureInput(_plan, closure, names[i]);
+        if (node.def->findInput(names[i]) >= 0) operand = closureInput(_plan, closure, names[i]);
         // Light goes straight through a thin wall; the layer above has taken what is reflected.
         if (_plan.thinWalled && t.mode == sh::SCATTER_T &&
             closure.kind == ClosureKind::Dielectric && std::string(names[i]) == "ior") {

@@ -31,7 +31,7 @@ struct LobeTemplate {
     bool straight = false; ///< passes light straight on without tint: part of the presence
     int mode = 0;          ///< SCATTER_*
     int compensate = 1;
-    EnergyCurve energy;   ///< of constant interfaces
+    EnergyCurve energy; ///< of constant interfaces
     Register weight = 0;
     Register parameters[maxParameters] = {};
 };

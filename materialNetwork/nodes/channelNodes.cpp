@@ -10,16 +10,36 @@ namespace {
 using glm::vec4;
 using Call = const PatternCall&;
 
-void same(Call c) { c.out() = c.in(0); }
-void opaque(Call c) { c.out() = vec4(c.in(0).x, c.in(0).y, c.in(0).z, 1.0f); }
-void twoToThree(Call c) { c.out() = vec4(c.in(0).x, c.in(0).y, 0.0f, 0.0f); }
-void toInteger(Call c) { c.out() = glm::floor(c.in(0)); }
-void toBoolean(Call c) { c.out() = vec4(c.in(0).x != 0.0f ? 1.0f : 0.0f); }
-void combine2(Call c) { c.out() = vec4(c.x(0), c.x(1), 0.0f, 0.0f); }
-void combine3(Call c) { c.out() = vec4(c.x(0), c.x(1), c.x(2), 0.0f); }
-void combine4(Call c) { c.out() = vec4(c.x(0), c.x(1), c.x(2), c.x(3)); }
-void combine31(Call c) { c.out() = vec4(c.in(0).x, c.in(0).y, c.in(0).z, c.x(1)); }
-void combine22(Call c) { c.out() = vec4(c.in(0).x, c.in(0).y, c.in(1).x, c.in(1).y); }
+void same(Call c) {
+    c.out() = c.in(0);
+}
+void opaque(Call c) {
+    c.out() = vec4(c.in(0).x, c.in(0).y, c.in(0).z, 1.0f);
+}
+void twoToThree(Call c) {
+    c.out() = vec4(c.in(0).x, c.in(0).y, 0.0f, 0.0f);
+}
+void toInteger(Call c) {
+    c.out() = glm::floor(c.in(0));
+}
+void toBoolean(Call c) {
+    c.out() = vec4(c.in(0).x != 0.0f ? 1.0f : 0.0f);
+}
+void combine2(Call c) {
+    c.out() = vec4(c.x(0), c.x(1), 0.0f, 0.0f);
+}
+void combine3(Call c) {
+    c.out() = vec4(c.x(0), c.x(1), c.x(2), 0.0f);
+}
+void combine4(Call c) {
+    c.out() = vec4(c.x(0), c.x(1), c.x(2), c.x(3));
+}
+void combine31(Call c) {
+    c.out() = vec4(c.in(0).x, c.in(0).y, c.in(0).z, c.x(1));
+}
+void combine22(Call c) {
+    c.out() = vec4(c.in(0).x, c.in(0).y, c.in(1).x, c.in(1).y);
+}
 
 void extract(Call c) {
     const int i = glm::clamp(int(c.x(1)), 0, c.data.size - 1);
@@ -73,6 +93,8 @@ const NodeRow rows[] = {
 
 } // namespace
 
-NodeRows channelNodes() { return {std::begin(rows), std::end(rows)}; }
+NodeRows channelNodes() {
+    return {std::begin(rows), std::end(rows)};
+}
 
 } // namespace patina

@@ -7,8 +7,7 @@ namespace {
 
 constexpr NodeRow closure(const char* id, const char* category, const char* inputs,
                           const char* outputs, ClosureKind kind, const char* types = nullptr) {
-    return {id,    category, inputs,  outputs, nullptr,
-            Algebra::None, types,   nullptr, false,   kind};
+    return {id, category, inputs, outputs, nullptr, Algebra::None, types, nullptr, false, kind};
 }
 
 #define PATINA_MICROFACET                                                                          \
@@ -97,6 +96,8 @@ const NodeRow rows[] = {
 
 } // namespace
 
-NodeRows closureNodes() { return {std::begin(rows), std::end(rows)}; }
+NodeRows closureNodes() {
+    return {std::begin(rows), std::end(rows)};
+}
 
 } // namespace patina

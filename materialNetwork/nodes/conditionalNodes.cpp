@@ -10,13 +10,27 @@ namespace {
 using glm::vec4;
 using Call = const PatternCall&;
 
-void ifGreater(Call c) { c.out() = c.x(0) > c.x(1) ? c.in(2) : c.in(3); }
-void ifGreaterEq(Call c) { c.out() = c.x(0) >= c.x(1) ? c.in(2) : c.in(3); }
-void ifEqual(Call c) { c.out() = c.x(0) == c.x(1) ? c.in(2) : c.in(3); }
-void logicAnd(Call c) { c.out() = vec4(c.x(0) != 0.0f && c.x(1) != 0.0f ? 1.0f : 0.0f); }
-void logicOr(Call c) { c.out() = vec4(c.x(0) != 0.0f || c.x(1) != 0.0f ? 1.0f : 0.0f); }
-void logicXor(Call c) { c.out() = vec4((c.x(0) != 0.0f) != (c.x(1) != 0.0f) ? 1.0f : 0.0f); }
-void logicNot(Call c) { c.out() = vec4(c.x(0) == 0.0f ? 1.0f : 0.0f); }
+void ifGreater(Call c) {
+    c.out() = c.x(0) > c.x(1) ? c.in(2) : c.in(3);
+}
+void ifGreaterEq(Call c) {
+    c.out() = c.x(0) >= c.x(1) ? c.in(2) : c.in(3);
+}
+void ifEqual(Call c) {
+    c.out() = c.x(0) == c.x(1) ? c.in(2) : c.in(3);
+}
+void logicAnd(Call c) {
+    c.out() = vec4(c.x(0) != 0.0f && c.x(1) != 0.0f ? 1.0f : 0.0f);
+}
+void logicOr(Call c) {
+    c.out() = vec4(c.x(0) != 0.0f || c.x(1) != 0.0f ? 1.0f : 0.0f);
+}
+void logicXor(Call c) {
+    c.out() = vec4((c.x(0) != 0.0f) != (c.x(1) != 0.0f) ? 1.0f : 0.0f);
+}
+void logicNot(Call c) {
+    c.out() = vec4(c.x(0) == 0.0f ? 1.0f : 0.0f);
+}
 
 void switched(Call c) {
     const float which = std::floor(c.x(10));
@@ -54,6 +68,8 @@ const NodeRow rows[] = {
 
 } // namespace
 
-NodeRows conditionalNodes() { return {std::begin(rows), std::end(rows)}; }
+NodeRows conditionalNodes() {
+    return {std::begin(rows), std::end(rows)};
+}
 
 } // namespace patina

@@ -26,25 +26,31 @@ vec3 unit(const vec3& v, const vec3& fallback) {
 /// Normals go to object space by the transpose of the object's matrix, which is the inverse of the
 /// one that brought them out.
 vec3 normalTo(Call c, const vec3& n) {
-    if (c.data.mode == SpaceWorld)
-        return n;
+    if (c.data.mode == SpaceWorld) return n;
     return unit(glm::inverse(c.point().objectToWorldNormal) * n, vec3(0, 0, 1));
 }
 
 /// Tangents go by the inverse of the object's matrix, which is the transpose of the normals'.
 vec3 tangentTo(Call c, const vec3& t) {
-    if (c.data.mode == SpaceWorld)
-        return t;
+    if (c.data.mode == SpaceWorld) return t;
     return unit(glm::transpose(c.point().objectToWorldNormal) * t, vec3(1, 0, 0));
 }
 
 void position(Call c) {
     c.out() = vec4(c.data.mode == SpaceWorld ? c.point().position : c.point().objectPosition, 0.0f);
 }
-void normal(Call c) { c.out() = vec4(normalTo(c, c.point().normal), 0.0f); }
-void tangent(Call c) { c.out() = vec4(tangentTo(c, c.point().tangent), 0.0f); }
-void bitangent(Call c) { c.out() = vec4(tangentTo(c, c.point().bitangent), 0.0f); }
-void viewDirection(Call c) { c.out() = vec4(tangentTo(c, c.point().viewDirection), 0.0f); }
+void normal(Call c) {
+    c.out() = vec4(normalTo(c, c.point().normal), 0.0f);
+}
+void tangent(Call c) {
+    c.out() = vec4(tangentTo(c, c.point().tangent), 0.0f);
+}
+void bitangent(Call c) {
+    c.out() = vec4(tangentTo(c, c.point().bitangent), 0.0f);
+}
+void viewDirection(Call c) {
+    c.out() = vec4(tangentTo(c, c.point().viewDirection), 0.0f);
+}
 
 bool readPrimvar(Call c, float* out) {
     return c.data.slot >= 0 && c.context.point->primvars &&
@@ -89,7 +95,8 @@ void prepareGeomColor(PatternSetup& setup, PatternData& data) {
 
 void prepareNamed(PatternSetup& setup, PatternData& data, const char* input) {
     const std::string name = setup.text(input);
-    const Value* fallback = setup.constant(input == std::string("varname") ? "fallback" : "default");
+    const Value* fallback =
+        setup.constant(input == std::string("varname") ? "fallback" : "default");
     if (name.empty())
         setup.warn(input, "no primvar is named; the fallback is used");
     else
@@ -98,10 +105,14 @@ void prepareNamed(PatternSetup& setup, PatternData& data, const char* input) {
 void prepareGeomprop(PatternSetup& setup, PatternData& data) {
     prepareNamed(setup, data, "geomprop");
 }
-void prepareVarname(PatternSetup& setup, PatternData& data) { prepareNamed(setup, data, "varname"); }
+void prepareVarname(PatternSetup& setup, PatternData& data) {
+    prepareNamed(setup, data, "varname");
+}
 
 /// Primvars of strings and matrices have no consumer among the nodes; their fallback is passed on.
-void fallbackOnly(Call c) { c.out() = c.in(1); }
+void fallbackOnly(Call c) {
+    c.out() = c.in(1);
+}
 void prepareFallback(PatternSetup& setup, PatternData&) {
     setup.warn("varname", "primvars of this type are not read; the fallback is used");
 }
@@ -146,6 +157,8 @@ const NodeRow rows[] = {
 
 } // namespace
 
-NodeRows geometryNodes() { return {std::begin(rows), std::end(rows)}; }
+NodeRows geometryNodes() {
+    return {std::begin(rows), std::end(rows)};
+}
 
 } // namespace patina

@@ -15,7 +15,9 @@ void roughnessAnisotropy(Call c) {
     c.out() = vec4(sh::patternRoughnessAnisotropy(c.x(0), c.x(1)), 0.0f, 0.0f);
 }
 
-void roughnessDual(Call c) { c.out() = vec4(sh::patternRoughnessDual(vec2(c.in(0))), 0.0f, 0.0f); }
+void roughnessDual(Call c) {
+    c.out() = vec4(sh::patternRoughnessDual(vec2(c.in(0))), 0.0f, 0.0f);
+}
 
 void glossinessAnisotropy(Call c) {
     c.out() = vec4(sh::patternRoughnessAnisotropy(1.0f - c.x(0), c.x(1)), 0.0f, 0.0f);
@@ -32,7 +34,9 @@ void artisticIor(Call c) {
 }
 
 /// Reached at run time only by an input that varies.
-void isUniform(Call c) { c.out() = vec4(0.0f); }
+void isUniform(Call c) {
+    c.out() = vec4(0.0f);
+}
 
 const NodeRow rows[] = {
     {"ND_roughness_anisotropy", "roughness_anisotropy", "float roughness=0, float anisotropy=0",
@@ -49,6 +53,8 @@ const NodeRow rows[] = {
 
 } // namespace
 
-NodeRows helperNodes() { return {std::begin(rows), std::end(rows)}; }
+NodeRows helperNodes() {
+    return {std::begin(rows), std::end(rows)};
+}
 
 } // namespace patina

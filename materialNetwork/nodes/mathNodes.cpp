@@ -21,43 +21,95 @@ template <float (*F)(float, float)> void map2(Call c) {
     c.out() = vec4(F(a.x, b.x), F(a.y, b.y), F(a.z, b.z), F(a.w, b.w));
 }
 
-float divided(float a, float b) { return b == 0.0f ? 0.0f : a / b; }
+float divided(float a, float b) {
+    return b == 0.0f ? 0.0f : a / b;
+}
 float powered(float a, float b) {
     const float p = std::pow(a, b);
     return std::isfinite(p) ? p : 0.0f;
 }
-float modulo(float a, float b) { return b == 0.0f ? 0.0f : a - b * std::floor(a / b); }
-float root(float a) { return std::sqrt(a > 0.0f ? a : 0.0f); }
-float logarithm(float a) { return std::log(a > 1e-37f ? a : 1e-37f); }
-float exponential(float a) { return std::exp(a < 80.0f ? a : 80.0f); }
-float sign(float a) { return float(a > 0.0f) - float(a < 0.0f); }
-float absolute(float a) { return std::fabs(a); }
-float floored(float a) { return std::floor(a); }
-float ceiled(float a) { return std::ceil(a); }
-float rounded(float a) { return std::round(a); }
-float fraction(float a) { return a - std::floor(a); }
-float sine(float a) { return std::sin(a); }
-float cosine(float a) { return std::cos(a); }
-float tangent(float a) { return std::tan(a); }
-float arcsine(float a) { return std::asin(glm::clamp(a, -1.0f, 1.0f)); }
-float arccosine(float a) { return std::acos(glm::clamp(a, -1.0f, 1.0f)); }
-float arctangent(float y, float x) { return std::atan2(y, x); }
-float larger(float a, float b) { return a > b ? a : b; }
-float smaller(float a, float b) { return a < b ? a : b; }
+float modulo(float a, float b) {
+    return b == 0.0f ? 0.0f : a - b * std::floor(a / b);
+}
+float root(float a) {
+    return std::sqrt(a > 0.0f ? a : 0.0f);
+}
+float logarithm(float a) {
+    return std::log(a > 1e-37f ? a : 1e-37f);
+}
+float exponential(float a) {
+    return std::exp(a < 80.0f ? a : 80.0f);
+}
+float sign(float a) {
+    return float(a > 0.0f) - float(a < 0.0f);
+}
+float absolute(float a) {
+    return std::fabs(a);
+}
+float floored(float a) {
+    return std::floor(a);
+}
+float ceiled(float a) {
+    return std::ceil(a);
+}
+float rounded(float a) {
+    return std::round(a);
+}
+float fraction(float a) {
+    return a - std::floor(a);
+}
+float sine(float a) {
+    return std::sin(a);
+}
+float cosine(float a) {
+    return std::cos(a);
+}
+float tangent(float a) {
+    return std::tan(a);
+}
+float arcsine(float a) {
+    return std::asin(glm::clamp(a, -1.0f, 1.0f));
+}
+float arccosine(float a) {
+    return std::acos(glm::clamp(a, -1.0f, 1.0f));
+}
+float arctangent(float y, float x) {
+    return std::atan2(y, x);
+}
+float larger(float a, float b) {
+    return a > b ? a : b;
+}
+float smaller(float a, float b) {
+    return a < b ? a : b;
+}
 
-void constant(Call c) { c.out() = c.in(0); }
-void add(Call c) { c.out() = c.in(0) + c.in(1); }
-void subtract(Call c) { c.out() = c.in(0) - c.in(1); }
-void multiply(Call c) { c.out() = c.in(0) * c.in(1); }
-void invert(Call c) { c.out() = c.in(1) - c.in(0); }
-void clamped(Call c) { c.out() = glm::min(glm::max(c.in(0), c.in(1)), c.in(2)); }
-void mixed(Call c) { c.out() = c.in(1) + (c.in(0) - c.in(1)) * c.in(2); }
+void constant(Call c) {
+    c.out() = c.in(0);
+}
+void add(Call c) {
+    c.out() = c.in(0) + c.in(1);
+}
+void subtract(Call c) {
+    c.out() = c.in(0) - c.in(1);
+}
+void multiply(Call c) {
+    c.out() = c.in(0) * c.in(1);
+}
+void invert(Call c) {
+    c.out() = c.in(1) - c.in(0);
+}
+void clamped(Call c) {
+    c.out() = glm::min(glm::max(c.in(0), c.in(1)), c.in(2));
+}
+void mixed(Call c) {
+    c.out() = c.in(1) + (c.in(0) - c.in(1)) * c.in(2);
+}
 
 void smoothstep(Call c) {
     for (int i = 0; i < 4; ++i) {
         const float low = c.in(1)[i], high = c.in(2)[i], x = c.in(0)[i];
-        const float t = high > low ? glm::clamp((x - low) / (high - low), 0.0f, 1.0f)
-                                   : float(x >= high);
+        const float t =
+            high > low ? glm::clamp((x - low) / (high - low), 0.0f, 1.0f) : float(x >= high);
         c.out()[i] = t * t * (3.0f - 2.0f * t);
     }
 }
@@ -116,7 +168,8 @@ const NodeRow rows[] = {
     {"ND_ceil_$", "ceil", "$ in=0", "$", map1<ceiled>, Algebra::None, types},
     {"ND_round_$", "round", "$ in=0", "$", map1<rounded>, Algebra::None, types},
     {"ND_fract_$", "fract", "$ in=0", "$", map1<fraction>, Algebra::None, types},
-    {"ND_sqrt_$", "sqrt", "$ in=0", "$", map1<root>, Algebra::None, "float vector2 vector3 vector4"},
+    {"ND_sqrt_$", "sqrt", "$ in=0", "$", map1<root>, Algebra::None,
+     "float vector2 vector3 vector4"},
     {"ND_ln_$", "ln", "$ in=1", "$", map1<logarithm>, Algebra::None,
      "float vector2 vector3 vector4"},
     {"ND_exp_$", "exp", "$ in=0", "$", map1<exponential>, Algebra::None,
@@ -145,6 +198,8 @@ const NodeRow rows[] = {
 
 } // namespace
 
-NodeRows mathNodes() { return {std::begin(rows), std::end(rows)}; }
+NodeRows mathNodes() {
+    return {std::begin(rows), std::end(rows)};
+}
 
 } // namespace patina

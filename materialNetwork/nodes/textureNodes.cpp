@@ -14,12 +14,9 @@ using Call = const PatternCall&;
 
 TextureWrap addressMode(PatternSetup& setup, const char* input) {
     const std::string mode = setup.text(input);
-    if (mode == "constant")
-        return TextureWrap::Black;
-    if (mode == "clamp")
-        return TextureWrap::Clamp;
-    if (mode == "mirror")
-        return TextureWrap::Mirror;
+    if (mode == "constant") return TextureWrap::Black;
+    if (mode == "clamp") return TextureWrap::Clamp;
+    if (mode == "mirror") return TextureWrap::Mirror;
     if (mode != "periodic" && !mode.empty())
         setup.warn(input, "unknown address mode '" + mode + "'; periodic is used");
     return TextureWrap::Repeat;
@@ -45,8 +42,7 @@ void prepareImage(PatternSetup& setup, PatternData& data) {
     request.input = "file";
     const int handle = setup.openTexture(request);
     // Without an authored default the source's own sign of a missing texture shows.
-    if (setup.textureValid(handle) || !setup.authored("default"))
-        data.handle = handle;
+    if (setup.textureValid(handle) || !setup.authored("default")) data.handle = handle;
 }
 
 void write(Call c, vec2 uv, float footprint) {
@@ -75,10 +71,18 @@ float tiledFootprint(Call c) {
     return c.point().uvFootprint * std::max(scale.x, scale.y);
 }
 
-void imageTuple(Call c) { write(c, vec2(c.in(2)), c.point().uvFootprint); }
-void imageScalar(Call c) { writeScalar(c, vec2(c.in(2)), c.point().uvFootprint); }
-void tiledTuple(Call c) { write(c, tiledUv(c), tiledFootprint(c)); }
-void tiledScalar(Call c) { writeScalar(c, tiledUv(c), tiledFootprint(c)); }
+void imageTuple(Call c) {
+    write(c, vec2(c.in(2)), c.point().uvFootprint);
+}
+void imageScalar(Call c) {
+    writeScalar(c, vec2(c.in(2)), c.point().uvFootprint);
+}
+void tiledTuple(Call c) {
+    write(c, tiledUv(c), tiledFootprint(c));
+}
+void tiledScalar(Call c) {
+    writeScalar(c, tiledUv(c), tiledFootprint(c));
+}
 
 #define PATINA_IMAGE "filename file=, $ default=0, vector2 texcoord=@UV0, "
 #define PATINA_ADDRESS                                                                             \
@@ -89,8 +93,9 @@ void tiledScalar(Call c) { writeScalar(c, tiledUv(c), tiledFootprint(c)); }
                  "string uaddressmode=periodic, string vaddressmode=periodic"
 
 const NodeRow rows[] = {
-    {"ND_image_float", "image", "filename file=, float default=0, vector2 texcoord=@UV0, "
-     PATINA_ADDRESS, "float", imageScalar, Algebra::None, nullptr, prepareImage, true},
+    {"ND_image_float", "image",
+     "filename file=, float default=0, vector2 texcoord=@UV0, " PATINA_ADDRESS, "float",
+     imageScalar, Algebra::None, nullptr, prepareImage, true},
     {"ND_image_$", "image", PATINA_IMAGE PATINA_ADDRESS, "$", imageTuple, Algebra::None, tupleTypes,
      prepareImage, true},
     {"ND_tiledimage_$", "tiledimage", PATINA_TILED, "$", tiledScalar, Algebra::None, "float",
@@ -101,6 +106,8 @@ const NodeRow rows[] = {
 
 } // namespace
 
-NodeRows textureNodes() { return {std::begin(rows), std::end(rows)}; }
+NodeRows textureNodes() {
+    return {std::begin(rows), std::end(rows)};
+}
 
 } // namespace patina

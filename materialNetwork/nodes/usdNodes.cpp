@@ -13,12 +13,9 @@ using Call = const PatternCall&;
 /// spells repeat "periodic".
 TextureWrap wrapMode(PatternSetup& setup, const char* input) {
     const std::string mode = setup.text(input);
-    if (mode == "repeat" || mode == "periodic")
-        return TextureWrap::Repeat;
-    if (mode == "clamp")
-        return TextureWrap::Clamp;
-    if (mode == "mirror")
-        return TextureWrap::Mirror;
+    if (mode == "repeat" || mode == "periodic") return TextureWrap::Repeat;
+    if (mode == "clamp") return TextureWrap::Clamp;
+    if (mode == "mirror") return TextureWrap::Mirror;
     if (mode != "black" && mode != "useMetadata" && !mode.empty())
         setup.warn(input, "unknown wrap mode '" + mode + "'; black is used");
     return TextureWrap::Black;
@@ -36,14 +33,12 @@ void prepareUvTexture(PatternSetup& setup, PatternData& data) {
     // The colour space of the asset itself is the more specific statement.
     if ((request.colorSpace.empty() || request.colorSpace == "auto") && !file->colorSpace.empty())
         request.colorSpace = file->colorSpace;
-    if (request.colorSpace.empty())
-        request.colorSpace = "auto";
+    if (request.colorSpace.empty()) request.colorSpace = "auto";
     request.wrapS = wrapMode(setup, "wrapS");
     request.wrapT = wrapMode(setup, "wrapT");
     request.input = "inputs:file";
     const int handle = setup.openTexture(request);
-    if (setup.textureValid(handle) || !setup.authored("fallback"))
-        data.handle = handle;
+    if (setup.textureValid(handle) || !setup.authored("fallback")) data.handle = handle;
 }
 
 /// Outputs r, g, b, a, rgb, rgba.
@@ -76,6 +71,8 @@ const NodeRow rows[] = {
 
 } // namespace
 
-NodeRows usdNodes() { return {std::begin(rows), std::end(rows)}; }
+NodeRows usdNodes() {
+    return {std::begin(rows), std::end(rows)};
+}
 
 } // namespace patina

@@ -21,8 +21,12 @@ float dotOf(Call c, int a, int b) {
     return sum;
 }
 
-void dotProduct(Call c) { c.out() = vec4(dotOf(c, 0, 1)); }
-void magnitude(Call c) { c.out() = vec4(std::sqrt(dotOf(c, 0, 0))); }
+void dotProduct(Call c) {
+    c.out() = vec4(dotOf(c, 0, 1));
+}
+void magnitude(Call c) {
+    c.out() = vec4(std::sqrt(dotOf(c, 0, 0)));
+}
 
 void distance(Call c) {
     float sum = 0.0f;
@@ -117,6 +121,8 @@ const NodeRow rows[] = {
 
 } // namespace
 
-NodeRows vectorNodes() { return {std::begin(rows), std::end(rows)}; }
+NodeRows vectorNodes() {
+    return {std::begin(rows), std::end(rows)};
+}
 
 } // namespace patina

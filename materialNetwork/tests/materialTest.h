@@ -38,8 +38,7 @@ public:
         : _program(program), _values(std::move(values)) {}
     bool read(int slot, float out[4]) const override {
         const auto found = _values.find(_program.primvars()[size_t(slot)].name);
-        if (found == _values.end())
-            return false;
+        if (found == _values.end()) return false;
         for (int i = 0; i < 4; ++i)
             out[i] = found->second[i];
         return true;
@@ -75,22 +74,33 @@ inline Network makeNetwork(std::vector<NetworkNode> nodes, const std::string& su
 
 inline Network previewNetwork(Inputs inputs = {}, Connections connections = {},
                               std::vector<NetworkNode> others = {}) {
-    others.push_back(makeNode("surface", "UsdPreviewSurface", std::move(inputs),
-                              std::move(connections)));
+    others.push_back(
+        makeNode("surface", "UsdPreviewSurface", std::move(inputs), std::move(connections)));
     return makeNetwork(std::move(others));
 }
 
 /// A surface made of one BSDF node called "bsdf", and of further nodes.
 inline Network bsdfNetwork(std::vector<NetworkNode> nodes, Inputs surface = {}) {
-    nodes.push_back(makeNode("surface", "ND_surface", std::move(surface), {{"bsdf", {"bsdf", ""}}}));
+    nodes.push_back(
+        makeNode("surface", "ND_surface", std::move(surface), {{"bsdf", {"bsdf", ""}}}));
     return makeNetwork(std::move(nodes));
 }
 
-inline Value number(float x) { return Value::makeFloat(x); }
-inline Value pair(float x) { return Value::makeVec2(x, x); }
-inline Value color(float r, float g, float b) { return Value::makeColor3(r, g, b); }
-inline Value grey(float x) { return Value::makeColor3(x, x, x); }
-inline Value text(const std::string& s) { return Value::makeString(s); }
+inline Value number(float x) {
+    return Value::makeFloat(x);
+}
+inline Value pair(float x) {
+    return Value::makeVec2(x, x);
+}
+inline Value color(float r, float g, float b) {
+    return Value::makeColor3(r, g, b);
+}
+inline Value grey(float x) {
+    return Value::makeColor3(x, x, x);
+}
+inline Value text(const std::string& s) {
+    return Value::makeString(s);
+}
 
 struct Compiled {
     FakeTextures textures;

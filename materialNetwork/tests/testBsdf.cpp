@@ -25,8 +25,7 @@ glm::vec3 sampledAlbedo(const Bsdf& bsdf, int n, uint32_t seed, double* deviatio
         squares += w * w;
     }
     const glm::dvec3 mean = sum / double(n);
-    if (deviation)
-        *deviation = std::sqrt(std::max(0.0, squares.y / n - mean.y * mean.y) / n);
+    if (deviation) *deviation = std::sqrt(std::max(0.0, squares.y / n - mean.y * mean.y) / n);
     return glm::vec3(mean);
 }
 
@@ -76,7 +75,8 @@ TEST(Bsdf, PreviewSurfaceNeverGainsEnergy) {
 }
 
 TEST(Bsdf, WhiteLambertIsExact) {
-    Compiled c(bsdfNetwork({makeNode("bsdf", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.8f)}})}));
+    Compiled c(
+        bsdfNetwork({makeNode("bsdf", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.8f)}})}));
     Bsdf bsdf;
     c.program->evaluate(seenFrom(direction(50.0f)), bsdf);
     EXPECT_NEAR(bsdf.albedo().x, 0.8f, 1e-6f);
@@ -94,8 +94,7 @@ TEST(Bsdf, SampleAgreesWithEval) {
             Bsdf bsdf;
             c.program->evaluate(seenFrom(wo), bsdf);
             const BsdfSample s = bsdf.sample(random.next3(), random.next());
-            if (s.event == 0 || (s.event & sh::LOBE_DELTA) != 0)
-                continue;
+            if (s.event == 0 || (s.event & sh::LOBE_DELTA) != 0) continue;
             const BsdfEval e = bsdf.eval(s.wi);
             const glm::vec3 f = e.diffuse + e.specular;
             // Half vectors are rebuilt from float directions, which narrow lobes feel.
@@ -131,8 +130,7 @@ TEST(Bsdf, SamplingFollowsTheDensity) {
             std::vector<double> counts(rows * columns, 0.0);
             for (int i = 0; i < n; ++i) {
                 const BsdfSample s = bsdf.sample(random.next3(), random.next());
-                if (s.event == 0 || (s.event & sh::LOBE_DELTA) != 0 || s.wi.z <= 0.0f)
-                    continue;
+                if (s.event == 0 || (s.event & sh::LOBE_DELTA) != 0 || s.wi.z <= 0.0f) continue;
                 double phi = std::atan2(s.wi.y, s.wi.x);
                 phi += phi < 0.0 ? 6.283185307179586 : 0.0;
                 const int r = std::min(rows - 1, int(s.wi.z * rows));
@@ -173,10 +171,10 @@ TEST(Bsdf, FusedReflectionOverTransmissionIsTheInterface) {
         inputs["scatter_mode"] = text(mode);
         return inputs;
     };
-    Compiled layered(bsdfNetwork({makeNode("r", "ND_dielectric_bsdf", with("R")),
-                                  makeNode("t", "ND_dielectric_bsdf", with("T")),
-                                  makeNode("bsdf", "ND_layer_bsdf", {},
-                                           {{"top", {"r", ""}}, {"base", {"t", ""}}})}));
+    Compiled layered(bsdfNetwork(
+        {makeNode("r", "ND_dielectric_bsdf", with("R")),
+         makeNode("t", "ND_dielectric_bsdf", with("T")),
+         makeNode("bsdf", "ND_layer_bsdf", {}, {{"top", {"r", ""}}, {"base", {"t", ""}}})}));
     Compiled whole(bsdfNetwork({makeNode("bsdf", "ND_dielectric_bsdf", with("RT"))}));
     for (const float theta : {0.0f, 20.0f, 38.0f, 45.0f, 80.0f, 120.0f, 140.0f, 179.0f}) {
         Bsdf a, b;
@@ -219,15 +217,15 @@ TEST(Bsdf, LayerOfNothingIsTheBase) {
 
 TEST(Bsdf, MixAndMultiplyAreLinear) {
     const auto eval = [&](float mix, float factor) {
-        Compiled c(bsdfNetwork(
-            {makeNode("a", "ND_oren_nayar_diffuse_bsdf", {{"color", color(1, 0, 0)}}),
-             makeNode("b", "ND_conductor_bsdf", {{"roughness", pair(0.4f)}}),
-             makeNode("amount", "ND_geompropvalue_float",
-                      {{"geomprop", text("none")}, {"default", number(mix)}}),
-             makeNode("mix", "ND_mix_bsdf", {},
-                      {{"fg", {"a", ""}}, {"bg", {"b", ""}}, {"mix", {"amount", ""}}}),
-             makeNode("bsdf", "ND_multiply_bsdfC", {{"in2", grey(factor)}},
-                      {{"in1", {"mix", ""}}})}));
+        Compiled c(
+            bsdfNetwork({makeNode("a", "ND_oren_nayar_diffuse_bsdf", {{"color", color(1, 0, 0)}}),
+                         makeNode("b", "ND_conductor_bsdf", {{"roughness", pair(0.4f)}}),
+                         makeNode("amount", "ND_geompropvalue_float",
+                                  {{"geomprop", text("none")}, {"default", number(mix)}}),
+                         makeNode("mix", "ND_mix_bsdf", {},
+                                  {{"fg", {"a", ""}}, {"bg", {"b", ""}}, {"mix", {"amount", ""}}}),
+                         makeNode("bsdf", "ND_multiply_bsdfC", {{"in2", grey(factor)}},
+                                  {{"in1", {"mix", ""}}})}));
         Bsdf bsdf;
         c.program->evaluate(seenFrom(direction(30.0f)), bsdf);
         const BsdfEval e = bsdf.eval(direction(25.0f, 150.0f));
@@ -277,8 +275,8 @@ TEST(Bsdf, ExtremesStayFinite) {
     Random random(17);
     for (int i = 0; i < 300; ++i) {
         Inputs inputs;
-        for (const char* name : {"metallic", "roughness", "clearcoat", "clearcoatRoughness",
-                                 "opacity", "ior"})
+        for (const char* name :
+             {"metallic", "roughness", "clearcoat", "clearcoatRoughness", "opacity", "ior"})
             inputs[name] = number(values[int(random.next() * 6.0f)]);
         const float c = values[int(random.next() * 6.0f)];
         inputs["diffuseColor"] = grey(c);

@@ -59,8 +59,8 @@ TEST(EnergyCurve, LeavesOtherLobesAlone) {
     BsdfLobe lobe;
     lobe.kind = LobeKind::Dielectric;
     const auto setup = [&](float ior, glm::vec2 alpha) {
-        lobe.dielectric = sh::dielectricSetup(glm::vec3(1.0f), ior, alpha, false, sh::SCATTER_RT,
-                                              false, 1);
+        lobe.dielectric =
+            sh::dielectricSetup(glm::vec3(1.0f), ior, alpha, false, sh::SCATTER_RT, false, 1);
         curve.measure(lobe);
         return curve.empty();
     };

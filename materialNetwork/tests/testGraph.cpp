@@ -14,8 +14,7 @@ namespace {
 /// The number that arrives at the input of a surface's opacity.
 float opacityOf(const Network& network, std::string* problems = nullptr) {
     Compiled c(network);
-    if (problems)
-        *problems = warnings(c.diagnostics);
+    if (problems) *problems = warnings(c.diagnostics);
     return c.program->opacity(ShadingPoint());
 }
 
@@ -29,12 +28,11 @@ Network opacityNetwork(std::vector<NetworkNode> nodes) {
 
 TEST(Graph, CycleIsReportedAndTheOwnValueUsed) {
     std::string problems;
-    const float x = opacityOf(opacityNetwork({makeNode("x", "ND_add_float", {{"in2", number(0.125f)}},
-                                                       {{"in1", {"y", ""}}}),
-                                              makeNode("y", "ND_multiply_float",
-                                                       {{"in2", number(1.0f)}},
-                                                       {{"in1", {"x", ""}}})}),
-                              &problems);
+    const float x = opacityOf(
+        opacityNetwork(
+            {makeNode("x", "ND_add_float", {{"in2", number(0.125f)}}, {{"in1", {"y", ""}}}),
+             makeNode("y", "ND_multiply_float", {{"in2", number(1.0f)}}, {{"in1", {"x", ""}}})}),
+        &problems);
     EXPECT_FLOAT_EQ(x, 0.125f);
     EXPECT_NE(problems.find("/m/y [in1] connections form a cycle"), std::string::npos) << problems;
 }
@@ -102,8 +100,7 @@ TEST(Graph, LongChainsAndManyNodesAreHandled) {
     nodes.push_back(makeNode("n0", "ND_geompropvalue_float",
                              {{"geomprop", text("p")}, {"default", number(0.5f)}}));
     for (int i = 1; i < n; ++i)
-        nodes.push_back(makeNode("n" + std::to_string(i), "ND_add_float",
-                                 {{"in2", number(1e-6f)}},
+        nodes.push_back(makeNode("n" + std::to_string(i), "ND_add_float", {{"in2", number(1e-6f)}},
                                  {{"in1", {"n" + std::to_string(i - 1), ""}}}));
     nodes.push_back(makeNode("x", "ND_dot_float", {}, {{"in", {"n" + std::to_string(n - 1), ""}}}));
     const float x = opacityOf(opacityNetwork(nodes));
@@ -116,8 +113,9 @@ TEST(Graph, ManyLobesAreCutWithAWarning) {
     const int n = 40;
     for (int i = 0; i < n; ++i) {
         const std::string k = std::to_string(i);
-        nodes.push_back(makeNode("lobe" + k, "ND_oren_nayar_diffuse_bsdf",
-                                 {{"color", grey(0.01f)}, {"roughness", number(0.01f * float(i))}}));
+        nodes.push_back(
+            makeNode("lobe" + k, "ND_oren_nayar_diffuse_bsdf",
+                     {{"color", grey(0.01f)}, {"roughness", number(0.01f * float(i))}}));
         nodes.push_back(makeNode(i + 1 == n ? "bsdf" : "sum" + k, "ND_add_bsdf", {},
                                  {{"in1", {i ? "sum" + std::to_string(i - 1) : "lobe0", ""}},
                                   {"in2", {"lobe" + k, ""}}}));
@@ -145,7 +143,8 @@ TEST(Graph, SharedClosuresCostNoMoreThanTheirNumber) {
                                  {{"in1", {half, ""}}, {"in2", {half, ""}}}));
     }
     const std::string last = "s" + std::to_string(n);
-    nodes.push_back(makeNode("bsdf", "ND_layer_bsdf", {}, {{"top", {last, ""}}, {"base", {last, ""}}}));
+    nodes.push_back(
+        makeNode("bsdf", "ND_layer_bsdf", {}, {{"top", {last, ""}}, {"base", {last, ""}}}));
     const Network network = bsdfNetwork(nodes);
     Compiled c(network);
     Bsdf bsdf;

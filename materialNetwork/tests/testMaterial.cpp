@@ -108,11 +108,11 @@ TEST(Material, ConstantOpacityIsGlass) {
 }
 
 TEST(Material, AbsorptionInsideGlass) {
-    Compiled c(bsdfNetwork({makeNode("glass", "ND_dielectric_bsdf", {{"scatter_mode", text("RT")}}),
-                            makeNode("inside", "ND_absorption_vdf",
-                                     {{"absorption", Value::makeVec3(1, 2, 3)}}),
-                            makeNode("bsdf", "ND_layer_vdf", {},
-                                     {{"top", {"glass", ""}}, {"base", {"inside", ""}}})}));
+    Compiled c(bsdfNetwork(
+        {makeNode("glass", "ND_dielectric_bsdf", {{"scatter_mode", text("RT")}}),
+         makeNode("inside", "ND_absorption_vdf", {{"absorption", Value::makeVec3(1, 2, 3)}}),
+         makeNode("bsdf", "ND_layer_vdf", {},
+                  {{"top", {"glass", ""}}, {"base", {"inside", ""}}})}));
     ASSERT_TRUE(c.program->hasInterior());
     expectColor(c.program->interiorAbsorption(ShadingPoint()), 1, 2, 3);
 }
@@ -121,7 +121,8 @@ TEST(Material, TexturesAreReadWithScaleBiasAndChannels) {
     const auto texture = [](const char* file) {
         return makeNode("x", "UsdUVTexture",
                         {{"file", Value::makeFilename(file)},
-                         {"scale", [] {
+                         {"scale",
+                          [] {
                               Value v;
                               v.type = ValueType::Vec4;
                               v.numbers = {2, 2, 2, 1};
@@ -142,9 +143,10 @@ TEST(Material, TexturesAreReadWithScaleBiasAndChannels) {
 }
 
 TEST(Material, WrapModesReachTheTextureSource) {
-    NetworkNode node = makeNode("x", "UsdUVTexture", {{"file", Value::makeFilename("a.png")},
-                                                      {"wrapS", text("mirror")},
-                                                      {"sourceColorSpace", text("raw")}});
+    NetworkNode node = makeNode("x", "UsdUVTexture",
+                                {{"file", Value::makeFilename("a.png")},
+                                 {"wrapS", text("mirror")},
+                                 {"sourceColorSpace", text("raw")}});
     Compiled c(emitting({node}, "rgb"));
     ASSERT_EQ(c.textures.requests.size(), 1u);
     EXPECT_EQ(c.textures.requests[0].wrapS, TextureWrap::Mirror);
@@ -198,16 +200,16 @@ TEST(Material, ObjectSpaceUndoesTheTransform) {
 }
 
 TEST(Material, UnlitEmits) {
-    Compiled c(makeNetwork({makeNode("surface", "ND_surface_unlit",
-                                     {{"emission", number(2.0f)},
-                                      {"emission_color", color(0.1f, 0.2f, 0.3f)}})}));
+    Compiled c(makeNetwork(
+        {makeNode("surface", "ND_surface_unlit",
+                  {{"emission", number(2.0f)}, {"emission_color", color(0.1f, 0.2f, 0.3f)}})}));
     ASSERT_TRUE(c.program->hasEmission());
     expectColor(c.program->emission(ShadingPoint(), glm::vec3(0, 0, 1)), 0.2f, 0.4f, 0.6f);
 }
 
 TEST(Overrides, ReplaceValuesAndConnections) {
-    const Network network = previewNetwork(
-        {}, {{"diffuseColor", {"c", ""}}}, {makeNode("c", "ND_constant_color3")});
+    const Network network =
+        previewNetwork({}, {{"diffuseColor", {"c", ""}}}, {makeNode("c", "ND_constant_color3")});
     Value value;
     ASSERT_TRUE(parseOverride(network, "/m/surface.inputs:diffuseColor", "(1, 0.5, 0)", value));
     Diagnostics diagnostics;

@@ -32,8 +32,9 @@ glm::vec3 albedoAt(const Network& network, float theta) {
 TEST(Models, AreReadWithoutComplaint) {
     const ModelLibrary& library = ModelLibrary::get();
     EXPECT_EQ(library.diagnostics().count(), 0) << warnings(library.diagnostics());
-    for (const char* id : {"UsdPreviewSurface", "standard_surface", "open_pbr_surface", "gltf_pbr",
-                           "ND_standard_surface_surfaceshader", "ND_UsdPreviewSurface_surfaceshader"})
+    for (const char* id :
+         {"UsdPreviewSurface", "standard_surface", "open_pbr_surface", "gltf_pbr",
+          "ND_standard_surface_surfaceshader", "ND_UsdPreviewSurface_surfaceshader"})
         EXPECT_NE(library.find(id), nullptr) << id;
 }
 
@@ -67,7 +68,8 @@ TEST(Models, WhiteFurnace) {
         {"standard_surface", {{"transmission", number(1.0f)}}, 0.98f},
         {"open_pbr_surface", {{"base_color", grey(1.0f)}}, 0.97f},
         {"open_pbr_surface",
-         {{"base_color", grey(1.0f)}, {"base_diffuse_roughness", number(1.0f)}}, 0.97f},
+         {{"base_color", grey(1.0f)}, {"base_diffuse_roughness", number(1.0f)}},
+         0.97f},
         {"open_pbr_surface", {{"base_color", grey(1.0f)}, {"base_metalness", number(1.0f)}}, 0.97f},
         {"open_pbr_surface", {{"transmission_weight", number(1.0f)}}, 0.98f},
         {"gltf_pbr", {{"metallic", number(0.0f)}}, 0.97f},

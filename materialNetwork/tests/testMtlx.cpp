@@ -146,13 +146,11 @@ TEST(Mtlx, AModelThatContainsItselfEnds) {
 
 TEST(Mtlx, ExampleDocumentsCompile) {
     const char* assets = std::getenv("PATINA_ASSETS");
-    if (!assets)
-        GTEST_SKIP() << "PATINA_ASSETS is not set: no example documents to read";
+    if (!assets) GTEST_SKIP() << "PATINA_ASSETS is not set: no example documents to read";
     namespace fs = std::filesystem;
     int documents = 0;
     for (const auto& entry : fs::recursive_directory_iterator(assets)) {
-        if (entry.path().extension() != ".mtlx")
-            continue;
+        if (entry.path().extension() != ".mtlx") continue;
         ++documents;
         Diagnostics diagnostics;
         for (const Network& network : readMtlx(entry.path().string(), diagnostics)) {

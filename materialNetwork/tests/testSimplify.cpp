@@ -14,18 +14,25 @@ struct Choice {
 };
 
 const std::vector<Choice> floatNodes = {
-    {"ND_add_float", {"in1", "in2"}},      {"ND_subtract_float", {"in1", "in2"}},
-    {"ND_multiply_float", {"in1", "in2"}}, {"ND_divide_float", {"in1", "in2"}},
-    {"ND_min_float", {"in1", "in2"}},      {"ND_max_float", {"in1", "in2"}},
-    {"ND_power_float", {"in1", "in2"}},    {"ND_mix_float", {"fg", "bg", "mix"}},
+    {"ND_add_float", {"in1", "in2"}},
+    {"ND_subtract_float", {"in1", "in2"}},
+    {"ND_multiply_float", {"in1", "in2"}},
+    {"ND_divide_float", {"in1", "in2"}},
+    {"ND_min_float", {"in1", "in2"}},
+    {"ND_max_float", {"in1", "in2"}},
+    {"ND_power_float", {"in1", "in2"}},
+    {"ND_mix_float", {"fg", "bg", "mix"}},
     {"ND_clamp_float", {"in", "low", "high"}},
     {"ND_ifgreater_float", {"value1", "value2", "in1", "in2"}},
     {"ND_ifgreatereq_float", {"value1", "value2", "in1", "in2"}},
     {"ND_ifequal_float", {"value1", "value2", "in1", "in2"}},
     {"ND_switch_float", {"in1", "in2", "in3", "which"}},
-    {"ND_invert_float", {"in", "amount"}}, {"ND_absval_float", {"in"}},
-    {"ND_sqrt_float", {"in"}},             {"ND_smoothstep_float", {"in", "low", "high"}},
-    {"ND_modulo_float", {"in1", "in2"}},   {"ND_dot_float", {"in"}},
+    {"ND_invert_float", {"in", "amount"}},
+    {"ND_absval_float", {"in"}},
+    {"ND_sqrt_float", {"in"}},
+    {"ND_smoothstep_float", {"in", "low", "high"}},
+    {"ND_modulo_float", {"in1", "in2"}},
+    {"ND_dot_float", {"in"}},
 };
 
 /// Numbers at which rewriting rules apply are frequent.
@@ -99,11 +106,11 @@ TEST(Simplify, FoldedEqualsEvaluated) {
 TEST(Simplify, EqualNodesAreMerged) {
     Diagnostics diagnostics;
     std::vector<std::string> cuts;
-    const Network network = bsdfNetwork(
-        {makeNode("a", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.5f)}}),
-         makeNode("b", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.5f)}}),
-         makeNode("bsdf", "ND_mix_bsdf", {{"mix", number(0.5f)}},
-                  {{"fg", {"a", ""}}, {"bg", {"b", ""}}})});
+    const Network network =
+        bsdfNetwork({makeNode("a", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.5f)}}),
+                     makeNode("b", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.5f)}}),
+                     makeNode("bsdf", "ND_mix_bsdf", {{"mix", number(0.5f)}},
+                              {{"fg", {"a", ""}}, {"bg", {"b", ""}}})});
     const Graph graph = simplify(buildGraph(network, diagnostics), cuts);
     // The mix of equals is the lobe itself: normal, lobe, surface remain.
     EXPECT_EQ(graph.nodes.size(), 3u) << dumpGraph(graph);

@@ -13,8 +13,7 @@ namespace {
 void expectText(const std::string& name, const Network& network) {
     Diagnostics diagnostics;
     std::string text = explainMaterial(network, diagnostics);
-    if (diagnostics.count())
-        text += "\n" + warnings(diagnostics);
+    if (diagnostics.count()) text += "\n" + warnings(diagnostics);
     const std::string path = std::string(PATINA_EXPECTED_DIR) + "/" + name + ".txt";
     if (std::getenv("PATINA_UPDATE_EXPECTED")) {
         std::ofstream(path) << text;
@@ -28,11 +27,10 @@ void expectText(const std::string& name, const Network& network) {
 }
 
 NetworkNode texture(const std::string& name, const std::string& file) {
-    return makeNode(name, "UsdUVTexture",
-                    {{"file", Value::makeFilename(file)},
-                     {"wrapS", text("repeat")},
-                     {"wrapT", text("repeat")}},
-                    {{"st", {"st", "result"}}});
+    return makeNode(
+        name, "UsdUVTexture",
+        {{"file", Value::makeFilename(file)}, {"wrapS", text("repeat")}, {"wrapT", text("repeat")}},
+        {{"st", {"st", "result"}}});
 }
 
 NetworkNode stReader() {
@@ -41,7 +39,9 @@ NetworkNode stReader() {
 
 } // namespace
 
-TEST(Text, PreviewSurfaceDefault) { expectText("previewSurfaceDefault", previewNetwork()); }
+TEST(Text, PreviewSurfaceDefault) {
+    expectText("previewSurfaceDefault", previewNetwork());
+}
 
 TEST(Text, PreviewSurfaceGlass) {
     expectText("previewSurfaceGlass", previewNetwork({{"opacity", number(0.0f)},
@@ -57,8 +57,7 @@ TEST(Text, PreviewSurfaceGoldWithCoat) {
 
 TEST(Text, PreviewSurfaceTextured) {
     expectText("previewSurfaceTextured",
-               previewNetwork({{"opacityThreshold", number(0.5f)},
-                               {"emissiveColor", grey(0.25f)}},
+               previewNetwork({{"opacityThreshold", number(0.5f)}, {"emissiveColor", grey(0.25f)}},
                               {{"diffuseColor", {"albedo", "rgb"}},
                                {"opacity", {"albedo", "a"}},
                                {"normal", {"normals", "rgb"}},
@@ -86,21 +85,23 @@ TEST(Text, StandardSurfaceCarPaint) {
                                       {"coat_roughness", number(0.0f)}})}));
 }
 
-TEST(Text, DisplayColor) { expectText("displayColor", makeDisplayColorNetwork()); }
+TEST(Text, DisplayColor) {
+    expectText("displayColor", makeDisplayColorNetwork());
+}
 
 TEST(Text, LayerOverMix) {
     expectText(
         "layerOverMix",
-        bsdfNetwork({makeNode("diffuse", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.5f)}}),
-                     makeNode("metal", "ND_conductor_bsdf"),
-                     makeNode("coat", "ND_dielectric_bsdf", {{"weight", number(0.5f)}}),
-                     makeNode("amount", "ND_geompropvalue_float",
-                              {{"geomprop", text("wear")}, {"default", number(0.25f)}}),
-                     makeNode("mix", "ND_mix_bsdf", {},
-                              {{"fg", {"metal", ""}}, {"bg", {"diffuse", ""}},
-                               {"mix", {"amount", ""}}}),
-                     makeNode("bsdf", "ND_layer_bsdf", {},
-                              {{"top", {"coat", ""}}, {"base", {"mix", ""}}})}));
+        bsdfNetwork(
+            {makeNode("diffuse", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.5f)}}),
+             makeNode("metal", "ND_conductor_bsdf"),
+             makeNode("coat", "ND_dielectric_bsdf", {{"weight", number(0.5f)}}),
+             makeNode("amount", "ND_geompropvalue_float",
+                      {{"geomprop", text("wear")}, {"default", number(0.25f)}}),
+             makeNode("mix", "ND_mix_bsdf", {},
+                      {{"fg", {"metal", ""}}, {"bg", {"diffuse", ""}}, {"mix", {"amount", ""}}}),
+             makeNode("bsdf", "ND_layer_bsdf", {},
+                      {{"top", {"coat", ""}}, {"base", {"mix", ""}}})}));
 }
 
 TEST(Text, GlassWithAbsorption) {
@@ -114,17 +115,16 @@ TEST(Text, GlassWithAbsorption) {
 }
 
 TEST(Text, EveryProblemIsNamed) {
-    expectText(
-        "everyProblemIsNamed",
-        previewNetwork({{"roughness", text("rough")}, {"sparkle", number(1.0f)}},
-                       {{"diffuseColor", {"nowhere", "rgb"}},
-                        {"metallic", {"vector", ""}},
-                        {"clearcoat", {"strange", "out"}},
-                        {"ior", {"loop", ""}}},
-                       {makeNode("vector", "ND_constant_color3", {{"value", grey(1.0f)}}),
-                        makeNode("strange", "ND_no_such_node"),
-                        makeNode("loop", "ND_add_float", {{"in2", number(1.4f)}},
-                                 {{"in1", {"loop", ""}}})}));
+    expectText("everyProblemIsNamed",
+               previewNetwork({{"roughness", text("rough")}, {"sparkle", number(1.0f)}},
+                              {{"diffuseColor", {"nowhere", "rgb"}},
+                               {"metallic", {"vector", ""}},
+                               {"clearcoat", {"strange", "out"}},
+                               {"ior", {"loop", ""}}},
+                              {makeNode("vector", "ND_constant_color3", {{"value", grey(1.0f)}}),
+                               makeNode("strange", "ND_no_such_node"),
+                               makeNode("loop", "ND_add_float", {{"in2", number(1.4f)}},
+                                        {{"in1", {"loop", ""}}})}));
 }
 
 } // namespace patina

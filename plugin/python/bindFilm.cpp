@@ -44,13 +44,15 @@ py::array resolve(const Film& film, const std::string& name) {
 
 std::vector<std::string> aovNames(const Film& film) {
     std::vector<std::string> names;
-    for (const AovSpec& spec : film.aovs()) names.push_back(spec.name);
+    for (const AovSpec& spec : film.aovs())
+        names.push_back(spec.name);
     return names;
 }
 
 void reset(Film& film, int width, int height, const std::vector<std::string>& aovs, bool keep) {
     std::vector<AovSpec> specs;
-    for (const std::string& name : aovs) specs.push_back(standardAov(name));
+    for (const std::string& name : aovs)
+        specs.push_back(standardAov(name));
     film.reset(width, height, specs, keep);
 }
 

@@ -6,7 +6,7 @@
 // scalar, and so that they win over the templates which argument dependent lookup finds in glm.
 
 #define PATINA_FN inline
-#define PATINA_OUT(T) T &
+#define PATINA_OUT(T) T&
 
 using vec2 = glm::vec<2, float, glm::defaultp>;
 using vec3 = glm::vec<3, float, glm::defaultp>;

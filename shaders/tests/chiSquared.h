@@ -21,10 +21,10 @@ public:
     static constexpr int kRows = 31;
     static constexpr int kColumns = 40;
 
-    DensityGrid(const BoundLobe &lobe, vec3 wo);
+    DensityGrid(const BoundLobe& lobe, vec3 wo);
 
     /// Draws `count` directions from `sampler` and compares.
-    ChiSquared test(const BoundLobe &sampler, vec3 wo, int count, std::uint64_t seed) const;
+    ChiSquared test(const BoundLobe& sampler, vec3 wo, int count, std::uint64_t seed) const;
 
 private:
     double _cells[kRows * kColumns];

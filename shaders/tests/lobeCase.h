@@ -29,16 +29,16 @@ struct LobeCase {
     bool reciprocal = false; ///< f(o, i) n(o)^2 = f(i, o) n(i)^2
 };
 
-inline sh64::LobeEval widen(const sh64::LobeEval &e) {
+inline sh64::LobeEval widen(const sh64::LobeEval& e) {
     return e;
 }
-inline sh64::LobeEval widen(const sh::LobeEval &e) {
+inline sh64::LobeEval widen(const sh::LobeEval& e) {
     return {vec3(e.value), double(e.pdf)};
 }
-inline sh64::LobeSample widen(const sh64::LobeSample &s) {
+inline sh64::LobeSample widen(const sh64::LobeSample& s) {
     return s;
 }
-inline sh64::LobeSample widen(const sh::LobeSample &s) {
+inline sh64::LobeSample widen(const sh::LobeSample& s) {
     return {vec3(s.wi), vec3(s.weight), double(s.pdf), s.event, double(s.eta)};
 }
 
@@ -81,13 +81,13 @@ std::vector<LobeCase> lobeCases(int compensate);
 vec3 direction(double z, double phi);
 
 /// Directions a case is tried from: normal to grazing, and below the surface where that is valid.
-std::vector<vec3> outgoing(const LobeCase &c);
+std::vector<vec3> outgoing(const LobeCase& c);
 
 /// Point i of a low-discrepancy sequence in the unit cube (Roberts 2018, generalized golden ratio).
 vec3 quasiRandom(int i);
 
 /// Mean sample weight over `count` quasi-random points: the albedo as the sampler sees it.
-vec3 sampledAlbedo(const BoundLobe &lobe, vec3 wo, int count);
+vec3 sampledAlbedo(const BoundLobe& lobe, vec3 wo, int count);
 
 bool finiteAndPositive(vec3 v);
 

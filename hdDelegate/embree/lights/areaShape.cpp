@@ -60,9 +60,7 @@ AreaShape makeAreaShape(const Light& light, const mat4& toWorld) {
         s.kind = AreaShape::Kind::Cylinder;
         size.x = light.length;
         break;
-    default:
-        s.kind = AreaShape::Kind::Sphere;
-        break;
+    default: s.kind = AreaShape::Kind::Sphere; break;
     }
     s.origin = vec3(toWorld[3]);
     glm::dmat3 axes;
@@ -172,18 +170,10 @@ void growBounds(const AreaShape& shape, vec3& low, vec3& high) {
     const vec3 a = glm::abs(shape.axes[0]), b = glm::abs(shape.axes[1]),
                c = glm::abs(shape.axes[2]);
     switch (shape.kind) {
-    case AreaShape::Kind::Rect:
-        extent = 0.5f * (a + b);
-        break;
-    case AreaShape::Kind::Disk:
-        extent = glm::sqrt(a * a + b * b);
-        break;
-    case AreaShape::Kind::Sphere:
-        extent = glm::sqrt(a * a + b * b + c * c);
-        break;
-    case AreaShape::Kind::Cylinder:
-        extent = 0.5f * a + glm::sqrt(b * b + c * c);
-        break;
+    case AreaShape::Kind::Rect: extent = 0.5f * (a + b); break;
+    case AreaShape::Kind::Disk: extent = glm::sqrt(a * a + b * b); break;
+    case AreaShape::Kind::Sphere: extent = glm::sqrt(a * a + b * b + c * c); break;
+    case AreaShape::Kind::Cylinder: extent = 0.5f * a + glm::sqrt(b * b + c * c); break;
     }
     low = glm::min(low, shape.origin - extent);
     high = glm::max(high, shape.origin + extent);

@@ -107,8 +107,7 @@ vec3 EnvironmentMap::cross(const vec3& d) const {
 vec3 EnvironmentMap::radiance(const vec3& d) const {
     const float w = float(_image->width), h = float(_image->height);
     switch (_format) {
-    case EnvironmentFormat::CubeMapVerticalCross:
-        return cross(d);
+    case EnvironmentFormat::CubeMapVerticalCross: return cross(d);
     case EnvironmentFormat::MirroredBall:
     case EnvironmentFormat::Angular: {
         const float angle = std::acos(std::clamp(d.z, -1.0f, 1.0f));

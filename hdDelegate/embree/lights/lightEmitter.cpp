@@ -69,14 +69,10 @@ bool LightEmitter::sample(const vec3& point, const vec3& normal, bool twoSided, 
         out.radiance = shaped(pose, -out.direction) / d2;
         return std::isfinite(out.radiance.x + out.radiance.y + out.radiance.z);
     }
-    case Kind::Line:
-        return sampleLine(pose, point, u.x, out);
-    case Kind::Distant:
-        return sampleDistant(pose, u, out);
-    case Kind::Dome:
-        return sampleDome(pose, normal, twoSided, u, out);
-    default:
-        return false;
+    case Kind::Line: return sampleLine(pose, point, u.x, out);
+    case Kind::Distant: return sampleDistant(pose, u, out);
+    case Kind::Dome: return sampleDome(pose, normal, twoSided, u, out);
+    default: return false;
     }
 }
 

@@ -126,9 +126,7 @@ bool LightEmitter::choosesKind(const mat4& toWorld, Diagnostics& diagnostics) {
         _irradiance = luminance(_radiance) * float(_delta ? 1.0 : lightSizeFactor(like, toWorld));
         return true;
     }
-    case LightType::Dome:
-        _kind = Kind::Dome;
-        return true;
+    case LightType::Dome: _kind = Kind::Dome; return true;
     case LightType::Sphere:
     case LightType::Cylinder: {
         const bool sphere = _light.type == LightType::Sphere;
@@ -148,8 +146,7 @@ bool LightEmitter::choosesKind(const mat4& toWorld, Diagnostics& diagnostics) {
         }
         break;
     }
-    default:
-        break;
+    default: break;
     }
     _kind = Kind::Area;
     if (!(size > 0.0) || !std::isfinite(size))
@@ -184,23 +181,16 @@ LightEmitter::Pose LightEmitter::makePose(const mat4& toWorld) const {
     Pose pose;
     pose.position = vec3(toWorld[3]);
     switch (_kind) {
-    case Kind::Area:
-        pose.shape = makeAreaShape(_light, toWorld);
-        break;
-    case Kind::Line:
-        pose.along = vec3(toWorld[0]) * _light.length;
-        break;
+    case Kind::Area: pose.shape = makeAreaShape(_light, toWorld); break;
+    case Kind::Line: pose.along = vec3(toWorld[0]) * _light.length; break;
     case Kind::Distant: {
         const vec3 z = vec3(toWorld[2]);
         const float length = glm::length(z);
         pose.toLight = length > 0.0f ? z / length : vec3(0.0f, 0.0f, 1.0f);
         return pose;
     }
-    case Kind::Dome:
-        rotationOf(toWorld, pose.domeToWorld);
-        return pose;
-    default:
-        break;
+    case Kind::Dome: rotationOf(toWorld, pose.domeToWorld); return pose;
+    default: break;
     }
     pose.shaping = LightShaping(_light, toWorld, _profile);
     return pose;

@@ -55,9 +55,8 @@ public:
 
     /// Calls visit(id) for the hittable lights whose bounds the ray meets. `far` may shrink while
     /// it goes on.
-    template <class Visit>
-    void visitRay(const vec3& origin, const vec3& direction, float near, const float& far,
-                  const Visit& visit) const;
+    template <class Visit> void visitRay(const vec3& origin, const vec3& direction, float near,
+                                         const float& far, const Visit& visit) const;
 
 private:
     struct Node {
@@ -75,9 +74,9 @@ private:
     std::vector<int32_t> _leafOf; ///< node of each id, or -1
 };
 
-template <class Visit>
-void LightTree::visitRay(const vec3& origin, const vec3& direction, float near, const float& far,
-                         const Visit& visit) const {
+template <class Visit> void LightTree::visitRay(const vec3& origin, const vec3& direction,
+                                                float near, const float& far,
+                                                const Visit& visit) const {
     if (empty()) return;
     const vec3 inverse = 1.0f / direction;
     std::vector<int32_t> deep; // only for degenerate trees

@@ -41,15 +41,15 @@ struct Built {
     EmbreeScene embree{scene.diagnostics()};
     std::atomic<bool> stop{false};
 
-    void update() {
-        embree.update(*scene.snapshot(), camera, settings, textures, stop);
-    }
+    void update() { embree.update(*scene.snapshot(), camera, settings, textures, stop); }
     bool hit(const vec3& origin, const vec3& direction, Hit& out, float time = 0.0f) {
         return embree.intersect(origin, direction, 0, INFINITY, time, RayCamera, out);
     }
 };
 
-mat4 translate(float x, float y, float z) { return glm::translate(mat4(1.0f), vec3(x, y, z)); }
+mat4 translate(float x, float y, float z) {
+    return glm::translate(mat4(1.0f), vec3(x, y, z));
+}
 
 } // namespace
 
@@ -208,6 +208,5 @@ TEST(EmbreeScene, VisibilityMasksRays) {
     built.update();
     Hit hit;
     EXPECT_FALSE(built.hit({0, 0, 1}, {0, 0, -1}, hit));
-    EXPECT_TRUE(
-        built.embree.intersect({0, 0, 1}, {0, 0, -1}, 0, 10, 0, RayIndirect, hit));
+    EXPECT_TRUE(built.embree.intersect({0, 0, 1}, {0, 0, -1}, 0, 10, 0, RayIndirect, hit));
 }

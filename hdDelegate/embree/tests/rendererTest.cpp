@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 using namespace patina;
@@ -44,6 +45,20 @@ TEST(EmbreeRenderer, UnknownCameraFailsAndConverges) {
     EXPECT_NE(renderer->progress().error.find("/absent"), std::string::npos);
 }
 
+TEST(EmbreeRenderer, SingularCameraFails) {
+    auto scene = furnaceScene();
+    for (float broken : {0.0f, NAN}) {
+        auto camera = std::make_shared<Camera>();
+        camera->path = "/camera";
+        camera->transform.values[0][0][0] = broken;
+        scene->edit().set(std::shared_ptr<const Camera>(camera));
+        auto renderer = makeRenderer("embree");
+        renderer->start(scene, "/camera", smallImage(1), std::make_shared<Film>());
+        renderer->wait();
+        EXPECT_TRUE(renderer->progress().failed);
+    }
+}
+
 TEST(EmbreeRenderer, EmptyImageFails) {
     auto renderer = makeRenderer("embree");
     RenderSettings settings = smallImage(1);
@@ -53,7 +68,9 @@ TEST(EmbreeRenderer, EmptyImageFails) {
     EXPECT_TRUE(renderer->progress().failed);
 }
 
-TEST(EmbreeRenderer, UnknownBackendIsNull) { EXPECT_EQ(makeRenderer("none"), nullptr); }
+TEST(EmbreeRenderer, UnknownBackendIsNull) {
+    EXPECT_EQ(makeRenderer("none"), nullptr);
+}
 
 TEST(EmbreeRenderer, PauseStopsTheSamplesAndResumeGoesOn) {
     auto renderer = makeRenderer("embree");

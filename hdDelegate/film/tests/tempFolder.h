@@ -26,7 +26,8 @@ public:
     std::string file(const std::string& name) const { return (_path / name).string(); }
     size_t fileCount() const {
         size_t n = 0;
-        for (auto& entry : std::filesystem::directory_iterator(_path)) (void)entry, ++n;
+        for (auto& entry : std::filesystem::directory_iterator(_path))
+            (void)entry, ++n;
         return n;
     }
     const std::filesystem::path& path() const { return _path; }

@@ -19,7 +19,8 @@ float encoded(float v) {
 Film& ramp(Film& film, int width = 256) {
     film.reset(width, 2, {});
     for (int x = 0; x < width; ++x)
-        for (int y = 0; y < 2; ++y) film.addColor(x, y, glm::vec3(float(x) / float(width - 1)), 1);
+        for (int y = 0; y < 2; ++y)
+            film.addColor(x, y, glm::vec3(float(x) / float(width - 1)), 1);
     return film;
 }
 
@@ -97,7 +98,8 @@ TEST(DisplayOutput, FloatFormatsAreLinear) {
     Film film;
     film.reset(16, 8, {});
     for (int y = 0; y < 8; ++y)
-        for (int x = 0; x < 16; ++x) film.addColor(x, y, {3, 0.5f, 12}, 1);
+        for (int x = 0; x < 16; ++x)
+            film.addColor(x, y, {3, 0.5f, 12}, 1);
     ImageData hdr = written(film, temp.file("a.hdr"));
     EXPECT_NEAR(hdr.pixels[0], 3, 0.05f);
     EXPECT_NEAR(hdr.pixels[2], 12, 0.05f);
@@ -126,7 +128,8 @@ TEST(DisplayOutput, DitherKeepsTheMeanAndIsTheSameEachTime) {
     film.reset(128, 128, {});
     const float level = 100.3f / 255.0f; // between two steps
     for (int y = 0; y < 128; ++y)
-        for (int x = 0; x < 128; ++x) film.addColor(x, y, glm::vec3(level), 1);
+        for (int x = 0; x < 128; ++x)
+            film.addColor(x, y, glm::vec3(level), 1);
     ImageOptions options;
     options.raw = options.dither = true;
     options.aovs = {"color"};

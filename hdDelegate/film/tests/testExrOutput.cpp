@@ -173,7 +173,8 @@ TEST(ExrOutput, ManyRowsKeepTheirOrder) {
     Film film;
     film.reset(5, 333, {});
     for (int y = 0; y < 333; ++y)
-        for (int x = 0; x < 5; ++x) film.addColor(x, y, glm::vec3(float(y), float(x), 0), 1);
+        for (int x = 0; x < 5; ++x)
+            film.addColor(x, y, glm::vec3(float(y), float(x), 0), 1);
     for (const char* compression : {"none", "zip", "zips", "piz", "rle"}) {
         ImageOptions options;
         options.compression = compression;

@@ -48,7 +48,8 @@ TEST(Film, MeanColourAlphaAndVarianceAreThoseOfTheSamples) {
 TEST(Film, VarianceOfEqualSamplesIsZeroAndNeverNegative) {
     Film film;
     film.reset(1, 1, {});
-    for (int i = 0; i < 1000; ++i) film.addColor(0, 0, glm::vec3(0.1f, 0.7f, 12345.6f), 1);
+    for (int i = 0; i < 1000; ++i)
+        film.addColor(0, 0, glm::vec3(0.1f, 0.7f, 12345.6f), 1);
     EXPECT_GE(film.varianceOfMean(0, 0), 0.0f);
     EXPECT_LT(film.varianceOfMean(0, 0), 1e-9f);
 }
@@ -70,7 +71,8 @@ TEST(Film, DroppedSamplesAreCountedWithoutRaces) {
     Film film;
     film.reset(64, 64, {});
     tbb::parallel_for(0, 64 * 64, [&](int i) {
-        for (int s = 0; s < 50; ++s) film.addColor(i % 64, i / 64, glm::vec3(nan), 1);
+        for (int s = 0; s < 50; ++s)
+            film.addColor(i % 64, i / 64, glm::vec3(nan), 1);
     });
     EXPECT_EQ(film.droppedSamples(), 64u * 64u * 50u);
 }

@@ -96,12 +96,9 @@ inline double volume(const TriangleMesh& mesh) {
 /// Normal of a triangle's corner as a back end reads it.
 inline vec3 cornerNormal(const TriangleMesh& mesh, size_t t, int corner, size_t step = 0) {
     switch (mesh.normalRate) {
-    case MeshAttribute::Rate::PerFace:
-        return mesh.normals[step][mesh.triangleFace[t]];
-    case MeshAttribute::Rate::PerCorner:
-        return mesh.normals[step][3 * t + corner];
-    default:
-        return mesh.normals[step][mesh.triangles[t][corner]];
+    case MeshAttribute::Rate::PerFace: return mesh.normals[step][mesh.triangleFace[t]];
+    case MeshAttribute::Rate::PerCorner: return mesh.normals[step][3 * t + corner];
+    default: return mesh.normals[step][mesh.triangles[t][corner]];
     }
 }
 

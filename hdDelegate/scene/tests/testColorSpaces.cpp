@@ -19,7 +19,8 @@ glm::vec3 converted(const ColorTransformPtr& transform, glm::vec3 c) {
 }
 
 void expectNear(glm::vec3 a, glm::vec3 b, float tolerance) {
-    for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "channel " << i;
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(a[i], b[i], tolerance) << "channel " << i;
 }
 
 /// IEC 61966-2-1.

@@ -97,7 +97,8 @@ TEST(ImageTexture, EveryLevelKeepsTheMean) {
         for (int height : {1, 5, 19, 32}) {
             std::vector<float> values(size_t(width * height));
             double mean = 0;
-            for (float& v : values) mean += v = u(random);
+            for (float& v : values)
+                mean += v = u(random);
             mean /= double(values.size());
             ImageTexture t = greyTexture(width, height, values);
             EXPECT_NEAR(t.texel(int(t.levels().size()) - 1, 0, 0).r, mean, 1e-5)
@@ -127,7 +128,8 @@ TEST(ImageTexture, EightBitColourIsDecodedAndAlphaIsNot) {
     const uint8_t texels[] = {0, 100, 255, 128, 0, 200, 255, 64};
     std::copy(std::begin(texels), std::end(texels), static_cast<uint8_t*>(t.levelData(0)));
     std::array<float, 256> square;
-    for (size_t i = 0; i < 256; ++i) square[i] = float(i * i) / (255.0f * 255.0f);
+    for (size_t i = 0; i < 256; ++i)
+        square[i] = float(i * i) / (255.0f * 255.0f);
     t.setDecodeTable(square);
     t.buildPyramid();
     glm::vec4 c = t.texel(0, 0, 0);

@@ -185,7 +185,8 @@ TEST_F(Textures, DamagedFilesAreMagentaWithAWarning) {
     for (const char* name : {"cut.png", "cut.exr", "cut.tif"}) {
         OIIO::ImageSpec spec(64, 64, 3, OIIO::TypeFloat);
         std::vector<float> noise(64 * 64 * 3);
-        for (size_t i = 0; i < noise.size(); ++i) noise[i] = float((i * 7919) % 1000) / 1000.0f;
+        for (size_t i = 0; i < noise.size(); ++i)
+            noise[i] = float((i * 7919) % 1000) / 1000.0f;
         auto out = OIIO::ImageOutput::create(temp.file(name));
         ASSERT_TRUE(out->open(temp.file(name), spec));
         out->write_image(OIIO::TypeFloat, noise.data());

@@ -12,12 +12,13 @@ template <class T> void merge(PrimMap<T>& into, const PrimMap<T>& changes) {
         into[item.first] = item.second;
 }
 
-template <class F> void forEachMap(SceneState& state, const F& f) {
-    f(state.geometry);
-    f(state.instancers);
-    f(state.lights);
-    f(state.cameras);
-    f(state.materials);
+template <class F> void forMaps(SceneState& state, PrimKind kind, const F& f) {
+    const auto wanted = [kind](PrimKind own) { return kind == PrimKind::Any || kind == own; };
+    if (wanted(PrimKind::Geometry)) f(state.geometry);
+    if (wanted(PrimKind::Instancer)) f(state.instancers);
+    if (wanted(PrimKind::Light)) f(state.lights);
+    if (wanted(PrimKind::Camera)) f(state.cameras);
+    if (wanted(PrimKind::Material)) f(state.materials);
 }
 
 /// Whether both hold the same prim objects.
@@ -79,11 +80,11 @@ void SceneEdit::setMetersPerUnit(double metersPerUnit) {
                                    "is not a positive number; the value before is kept");
 }
 
-void SceneEdit::remove(const std::string& path) {
+void SceneEdit::remove(const std::string& path, PrimKind kind) {
     // What was set before in this edit goes too; what is set after stays, since commit removes
     // first.
-    forEachMap(_changes, [&](auto& map) { map.erase(path); });
-    _removed.push_back(path);
+    forMaps(_changes, kind, [&](auto& map) { map.erase(path); });
+    _removed.emplace_back(path, kind);
 }
 
 void SceneEdit::clear() {
@@ -95,14 +96,14 @@ void SceneEdit::clear() {
 void SceneEdit::commit() {
     if (!_scene) return;
     bool changed = _clear || !_removed.empty() || _metersPerUnit > 0.0;
-    forEachMap(_changes, [&](auto& map) { changed |= !map.empty(); });
+    forMaps(_changes, PrimKind::Any, [&](auto& map) { changed |= !map.empty(); });
     if (!changed) return;
 
     std::lock_guard<std::mutex> lock(_scene->_mutex);
     const SceneState& before = *_scene->_state;
     auto after = std::make_shared<SceneState>(_clear ? SceneState() : before);
-    for (const std::string& path : _removed)
-        forEachMap(*after, [&](auto& map) { map.erase(path); });
+    for (const auto& removed : _removed)
+        forMaps(*after, removed.second, [&](auto& map) { map.erase(removed.first); });
     merge(after->geometry, _changes.geometry);
     merge(after->instancers, _changes.instancers);
     merge(after->lights, _changes.lights);

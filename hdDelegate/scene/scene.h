@@ -10,6 +10,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 namespace patina {
 
@@ -28,6 +30,8 @@ struct SceneState {
 };
 
 class SceneEdit;
+
+enum class PrimKind { Any, Geometry, Instancer, Light, Camera, Material };
 
 /// The renderer's own scene. Hosts edit it from any thread; renderers read snapshots.
 class Scene {
@@ -65,7 +69,8 @@ public:
     void set(std::shared_ptr<const Camera> prim);
     void set(std::shared_ptr<const MaterialPrim> prim);
     void setMetersPerUnit(double metersPerUnit);
-    void remove(const std::string& path); ///< whatever kind of prim has this path
+    /// A path may hold prims of several kinds (a mesh that is a light, say).
+    void remove(const std::string& path, PrimKind kind = PrimKind::Any);
     void clear();                         ///< removes everything
     void commit();
 
@@ -74,7 +79,7 @@ private:
     bool _clear = false;
     double _metersPerUnit = -1.0;
     SceneState _changes;
-    std::vector<std::string> _removed;
+    std::vector<std::pair<std::string, PrimKind>> _removed;
 };
 
 } // namespace patina

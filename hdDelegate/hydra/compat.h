@@ -1,0 +1,26 @@
+#pragma once
+
+// The one place that knows what differs between OpenUSD releases. The oldest one is 23.11.
+
+#include <pxr/pxr.h>
+
+#include <pxr/imaging/hd/version.h>
+
+#if PXR_VERSION < 2311
+#error "hdPatina needs OpenUSD 23.11 or later"
+#endif
+
+/// Reading prims of scene indices through schemas: stable enough from here on.
+#define PATINA_HAS_PARALLEL_SPRIM_SYNC (HD_API_VERSION >= 71)
+/// HdRendererPlugin::IsSupported(HdRendererCreateArgs const&, std::string*) is pure.
+#define PATINA_HAS_CREATE_ARGS (HD_API_VERSION >= 83)
+/// Only the container form of IsSupported is left.
+#define PATINA_HAS_CREATE_ARGS_SCHEMA (HD_API_VERSION >= 103)
+/// GetShadingSystems replaces GetShaderSourceTypes.
+#define PATINA_HAS_SHADING_SYSTEMS (HD_API_VERSION >= 95)
+/// Ndr was merged into Sdr.
+#define PATINA_HAS_SDR_ONLY (PXR_VERSION >= 2508)
+
+namespace patina {
+PXR_NAMESPACE_USING_DIRECTIVE
+}

@@ -1,0 +1,67 @@
+#include "hdDelegate/hydra/renderParam.h"
+
+#include "hdDelegate/hydra/instances.h"
+
+#include <pxr/base/tf/diagnostic.h>
+
+namespace patina {
+
+HdPatinaRenderParam::HdPatinaRenderParam()
+    : _scene(std::make_shared<Scene>()), _edit(*_scene),
+      _instances(std::make_unique<HdPatinaInstances>()) {}
+
+HdPatinaRenderParam::~HdPatinaRenderParam() = default;
+
+void HdPatinaRenderParam::removeGeometry(const std::string& path) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _edit.remove(path, PrimKind::Geometry);
+}
+
+void HdPatinaRenderParam::removeInstancer(const std::string& path) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _edit.remove(path, PrimKind::Instancer);
+}
+
+void HdPatinaRenderParam::removeLight(const std::string& path) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _edit.remove(path, PrimKind::Light);
+}
+
+void HdPatinaRenderParam::removeCamera(const std::string& path) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _edit.remove(path, PrimKind::Camera);
+}
+
+void HdPatinaRenderParam::removeMaterial(const std::string& path) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _edit.remove(path, PrimKind::Material);
+}
+
+void HdPatinaRenderParam::setMetersPerUnit(double metersPerUnit) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _edit.setMetersPerUnit(metersPerUnit);
+}
+
+void HdPatinaRenderParam::warn(const SdfPath& prim, const std::string& input,
+                               const std::string& message) {
+    _scene->diagnostics().warn(prim.GetString(), input, message);
+}
+
+void HdPatinaRenderParam::reportWarnings() {
+    const std::vector<Diagnostic> all = _scene->diagnostics().all();
+    for (; _reported < all.size(); ++_reported) {
+        const Diagnostic& d = all[_reported];
+        TF_WARN("%s%s%s: %s", d.prim.c_str(), d.input.empty() ? "" : ".", d.input.c_str(),
+                d.message.c_str());
+    }
+}
+
+bool HdPatinaRenderParam::commit() {
+    _instances->flush(*this);
+    std::lock_guard<std::mutex> lock(_mutex);
+    const uint64_t before = _scene->snapshot()->version;
+    _edit.commit();
+    return _scene->snapshot()->version != before;
+}
+
+} // namespace patina

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "hdDelegate/hydra/compat.h"
+#include "hdDelegate/scene/scene.h"
+
+#include <pxr/imaging/hd/renderDelegate.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace patina {
+
+class HdPatinaInstances;
+
+/// What the prims of one delegate share: the renderer's scene and the changes that wait to be
+/// committed. Renderers work on snapshots, so no prim ever has to stop them: sync only collects
+/// changes, and CommitResources applies all of them as one edit.
+class HdPatinaRenderParam final : public HdRenderParam {
+public:
+    HdPatinaRenderParam();
+    ~HdPatinaRenderParam() override;
+
+    const std::shared_ptr<Scene>& scene() const { return _scene; }
+
+    /// Collects a change. Any thread.
+    template <class Prim> void set(std::shared_ptr<const Prim> prim) {
+        std::lock_guard<std::mutex> lock(_mutex);
+        _edit.set(std::move(prim));
+    }
+    void removeGeometry(const std::string& path);
+    void removeInstancer(const std::string& path);
+    void removeLight(const std::string& path);
+    void removeCamera(const std::string& path);
+    void removeMaterial(const std::string& path);
+    void setMetersPerUnit(double metersPerUnit);
+
+    /// A warning that names prim and input. Any thread.
+    void warn(const SdfPath& prim, const std::string& input, const std::string& message);
+
+    /// Instances of rprims, gathered while prims sync.
+    HdPatinaInstances& instances() { return *_instances; }
+
+    /// Hands warnings that came up since the last call to the host, through TF_WARN. Host's thread.
+    void reportWarnings();
+
+    /// Applies what was collected as one edit. @returns whether anything changed
+    bool commit();
+
+private:
+    std::shared_ptr<Scene> _scene;
+    std::mutex _mutex;
+    SceneEdit _edit;
+    std::unique_ptr<HdPatinaInstances> _instances;
+    size_t _reported = 0; ///< diagnostics that the host was told
+};
+
+} // namespace patina

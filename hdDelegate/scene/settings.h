@@ -38,6 +38,15 @@ struct RenderSettings {
                                        ///< backUnlessDoubleSided, frontUnlessDoubleSided
     float edgeLength = 4.0f;           ///< pixels; subdivision refines until edges are this short
 
+    bool interactive = false; ///< quick starts before speed: acceleration structures that are
+                              ///< cheap to change
+    std::vector<std::string> renderTags; ///< only geometry with one of these is drawn; empty: all
+    std::vector<std::string> rootPaths;  ///< only geometry at or below one of these; empty: all
+    std::vector<std::string> excludePaths; ///< no geometry at or below one of these
+
+    std::string integrator = "path";  ///< path, ambientOcclusion
+    int ambientOcclusionSamples = 16; ///< rays per camera hit, with ambientOcclusion
+
     std::vector<std::string> aovs; ///< besides color and alpha: names of standardAov()
 
     std::string checkpointFile; ///< the renderer saves the film here now and then; empty: never

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "hdDelegate/hydra/delegateState.h"
+
+#include <pxr/imaging/hd/command.h>
+
+namespace patina {
+
+/// What hosts can ask of the delegate by name.
+HdCommandDescriptors commandDescriptors();
+
+/// @returns false, with a warning, for unknown commands, wrong arguments and failures
+bool invokeCommand(HdPatinaDelegateState& state, const TfToken& command, const HdCommandArgs& args);
+
+} // namespace patina

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "hdDelegate/hydra/renderParam.h"
+#include "hdDelegate/hydra/session.h"
+#include "hdDelegate/scene/settings.h"
+
+#include <pxr/imaging/hd/renderSettings.h>
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace patina {
+
+/// A UsdRenderSettings prim as Hydra brings it.
+struct HdPatinaSettingsPrim {
+    bool active = false;
+    VtDictionary settings; ///< namespaced
+    HdRenderSettings::RenderProducts products;
+};
+
+/// What a delegate and its render passes share. Passes hold it, so that they may outlive the
+/// delegate, in whatever order a host tears things down.
+class HdPatinaDelegateState {
+public:
+    HdPatinaRenderParam param;
+
+    /// What the delegate's setting map says, and on top of it the active settings prim.
+    RenderSettings settings() const;
+    void setSettings(const RenderSettings& settings);
+    unsigned int settingsVersion() const { return _settingsVersion; }
+
+    void setSettingsPrim(const SdfPath& path, HdPatinaSettingsPrim prim);
+    void removeSettingsPrim(const SdfPath& path);
+    /// Products of the active settings prim.
+    HdRenderSettings::RenderProducts products() const;
+
+    std::shared_ptr<HdPatinaSession> makeSession();
+    std::vector<std::shared_ptr<HdPatinaSession>> sessions() const;
+    /// A number that no other pass of this delegate has.
+    int nextPass() { return ++_passes; }
+
+    void pause(bool paused);
+    bool paused() const { return _paused; }
+    void stop();
+    void restart();
+    bool stopped() const { return _stopped; }
+
+private:
+    mutable std::mutex _mutex;
+    RenderSettings _settings;
+    std::map<SdfPath, HdPatinaSettingsPrim> _prims;
+    std::atomic<unsigned int> _settingsVersion{1};
+    mutable std::vector<std::weak_ptr<HdPatinaSession>> _sessions;
+    std::atomic<bool> _paused{false}, _stopped{false};
+    std::atomic<int> _passes{0};
+};
+
+} // namespace patina

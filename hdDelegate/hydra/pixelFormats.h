@@ -1,0 +1,22 @@
+#pragma once
+
+#include "hdDelegate/hydra/compat.h"
+
+#include <pxr/imaging/hd/types.h>
+
+#include <cstddef>
+
+namespace patina {
+
+/// Whether writePixel() can fill buffers of a format: every plain format of 8, 16 and 32 bits with
+/// one to four components.
+bool isWritableFormat(HdFormat format);
+
+/// Stores one pixel.
+/// @param values four floats; components that the format lacks are dropped
+/// @param isInteger the first value holds the bits of an int32 (ids); such pixels keep their
+///        number in integer formats and in float ones
+/// UNorm8 and SNorm8 are clamped to their range and rounded; numbers that are not finite become 0.
+void writePixel(const float values[4], bool isInteger, HdFormat format, void* target);
+
+} // namespace patina

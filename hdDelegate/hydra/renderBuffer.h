@@ -1,0 +1,61 @@
+#pragma once
+
+#include "hdDelegate/hydra/compat.h"
+
+#include <pxr/imaging/hd/renderBuffer.h>
+
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+namespace patina {
+
+/// Pixels that a host reads. Row 0 is the bottom row. Only the render pass writes, on the host's
+/// thread, so that no renderer ever holds a buffer that goes away.
+class HdPatinaRenderBuffer final : public HdRenderBuffer {
+public:
+    explicit HdPatinaRenderBuffer(const SdfPath& id);
+    ~HdPatinaRenderBuffer() override;
+
+    /// Zero sizes are allowed. @returns false, with a warning, for depths other than 1 and for
+    /// formats that cannot be written; the buffer is empty then.
+    bool Allocate(const GfVec3i& dimensions, HdFormat format, bool multiSampled) override;
+
+    unsigned int GetWidth() const override { return _width; }
+    unsigned int GetHeight() const override { return _height; }
+    unsigned int GetDepth() const override { return 1; }
+    HdFormat GetFormat() const override { return _format; }
+    bool IsMultiSampled() const override { return false; }
+
+    void* Map() override;
+    void Unmap() override;
+    bool IsMapped() const override { return _mappers > 0; }
+    void Resolve() override {} // the pass writes finished pixels
+    bool IsConverged() const override { return _converged; }
+    void setConverged(bool converged) { _converged = converged; }
+
+    /// Fills every pixel. @param pixel gives four floats for a column and a row, row 0 at the
+    /// bottom
+    /// @returns false, and does nothing, while a host has the pixels mapped
+    bool write(bool isInteger, const std::function<void(int, int, float*)>& pixel);
+    /// Fills every pixel with an AOV's clear value.
+    void clear(const VtValue& value);
+
+    /// Another number after each Allocate, different from that of every other buffer: what was
+    /// written before is gone.
+    unsigned int allocation() const { return _allocation; }
+
+private:
+    void _Deallocate() override;
+
+    unsigned int _width = 0, _height = 0;
+    HdFormat _format = HdFormatInvalid;
+    std::vector<uint8_t> _bytes;
+    mutable std::mutex _mutex;
+    std::atomic<int> _mappers{0};
+    std::atomic<bool> _converged{false};
+    std::atomic<unsigned int> _allocation{0};
+};
+
+} // namespace patina

@@ -1,0 +1,176 @@
+#include "hdDelegate/hydra/renderPass.h"
+
+#include "hdDelegate/hydra/aovs.h"
+#include "hdDelegate/hydra/clearValue.h"
+
+#include <pxr/base/tf/diagnostic.h>
+#include <pxr/imaging/hd/renderIndex.h>
+#include <pxr/imaging/hd/renderPassState.h>
+#include <pxr/imaging/hd/tokens.h>
+
+#include <cstring>
+
+namespace patina {
+
+bool HdPatinaRenderPass::Target::operator==(const Target& other) const {
+    return aovName == other.aovName && buffer == other.buffer && allocation == other.allocation &&
+           clearValue == other.clearValue;
+}
+
+HdPatinaRenderPass::HdPatinaRenderPass(HdRenderIndex* index, const HdRprimCollection& collection,
+                                       std::shared_ptr<HdPatinaDelegateState> state)
+    : HdRenderPass(index, collection), _state(std::move(state)), _session(_state->makeSession()),
+      _products(*_state), _cameraPath("/patinaView" + std::to_string(_state->nextPass())) {}
+
+HdPatinaRenderPass::~HdPatinaRenderPass() {
+    _session->stop();
+    if (_hasOwnCamera) {
+        _state->param.removeCamera(_cameraPath);
+        _state->param.commit();
+    }
+}
+
+bool HdPatinaRenderPass::IsConverged() const {
+    return _converged || _state->stopped();
+}
+
+std::vector<HdPatinaRenderPass::Target>
+HdPatinaRenderPass::targetsOf(const HdRenderPassAovBindingVector& bindings) const {
+    std::vector<Target> targets;
+    for (const HdRenderPassAovBinding& binding : bindings) {
+        HdRenderBuffer* buffer = binding.renderBuffer;
+        if (!buffer && !binding.renderBufferId.IsEmpty())
+            buffer = static_cast<HdRenderBuffer*>(
+                GetRenderIndex()->GetBprim(HdPrimTypeTokens->renderBuffer, binding.renderBufferId));
+        auto* own = dynamic_cast<HdPatinaRenderBuffer*>(buffer);
+        if (!own) continue;
+        targets.push_back({binding.aovName, filmAovOf(binding.aovName), own, own->allocation(),
+                           binding.clearValue});
+    }
+    return targets;
+}
+
+RenderSettings HdPatinaRenderPass::settingsFor(const HdPatinaView& view,
+                                               const TfTokenVector& renderTags) const {
+    RenderSettings settings = _state->settings();
+    settings.width = view.width;
+    settings.height = view.height;
+    std::copy(view.dataWindow, view.dataWindow + 4, settings.dataWindow);
+    settings.pixelAspectRatio = view.pixelAspectRatio;
+    settings.aspectRatioConformPolicy = view.policy;
+    for (const TfToken& tag : renderTags)
+        settings.renderTags.push_back(tag.GetString());
+    for (const SdfPath& path : GetRprimCollection().GetRootPaths())
+        if (!path.IsAbsoluteRootPath()) settings.rootPaths.push_back(path.GetString());
+    for (const SdfPath& path : GetRprimCollection().GetExcludePaths())
+        settings.excludePaths.push_back(path.GetString());
+    for (const Target& target : _targets)
+        if (!target.filmAov.empty()) settings.aovs.push_back(target.filmAov);
+    return settings;
+}
+
+void HdPatinaRenderPass::_Execute(const HdRenderPassStateSharedPtr& passState,
+                                  const TfTokenVector& renderTags) {
+    if (_products.wanted()) {
+        _converged = _products.update();
+        for (const Target& target : targetsOf(passState->GetAovBindings()))
+            target.buffer->setConverged(_converged);
+        _state->param.reportWarnings();
+        return;
+    }
+
+    const std::vector<Target> current = targetsOf(passState->GetAovBindings());
+    const int width = current.empty() ? 0 : int(current.front().buffer->GetWidth());
+    const int height = current.empty() ? 0 : int(current.front().buffer->GetHeight());
+    HdPatinaRenderParam& param = _state->param;
+    param.commit(); // hosts may execute without CommitResources
+    const HdPatinaView view =
+        viewOf(*passState, param.scene()->snapshot()->cameras, width, height, _cameraPath);
+    const bool moved = !(view == _view);
+    if (view.ownCamera && (moved || !_hasOwnCamera)) {
+        param.set(std::shared_ptr<const Camera>(std::make_shared<Camera>(view.camera)));
+        param.commit();
+        _hasOwnCamera = true;
+    }
+
+    const uint64_t sceneVersion = param.scene()->snapshot()->version;
+    const unsigned int settingsVersion = _state->settingsVersion();
+    const bool changed = moved || sceneVersion != _sceneVersion ||
+                         settingsVersion != _settingsVersion || renderTags != _renderTags ||
+                         !(GetRprimCollection() == _shownCollection) || !(current == _targets);
+    if (changed && !_state->paused() && !_state->stopped()) {
+        for (const Target& target : current) {
+            bool known = false;
+            for (const Target& before : _targets)
+                known |= before.buffer == target.buffer && before.allocation == target.allocation;
+            // What was shown stays until there is something new: no flicker.
+            if (!known) target.buffer->clear(target.clearValue);
+            target.buffer->setConverged(false);
+        }
+        _targets = current;
+        _view = view;
+        _renderTags = renderTags;
+        _shownCollection = GetRprimCollection();
+        _sceneVersion = sceneVersion;
+        _settingsVersion = settingsVersion;
+        _pending.reset();
+        _converged = false;
+        const RenderSettings settings = settingsFor(view, renderTags);
+        if (settings.width < 1 || settings.height < 1) {
+            _session->stop();
+            finish(HdPatinaFrame());
+        } else {
+            std::vector<std::string> aovs = settings.aovs;
+            aovs.push_back("alpha"); // of the colour's fourth component
+            _session->start(view.cameraPath, settings, aovs);
+        }
+    }
+    if (auto frame = _session->take()) _pending = frame;
+    if (!(current == _targets)) { // stopped or paused, and the buffers may be gone
+        _pending.reset();
+        _targets.clear();
+    }
+    if (_pending) show(*_pending);
+    param.reportWarnings();
+}
+
+void HdPatinaRenderPass::show(const HdPatinaFrame& frame) {
+    if (!frame.error.empty()) TF_RUNTIME_ERROR("Patina cannot render: %s", frame.error.c_str());
+    const auto alpha = frame.aovs.find("alpha");
+    bool written = true;
+    for (const Target& target : _targets) {
+        if (target.buffer->allocation() != target.allocation) continue;
+        const auto found = frame.aovs.find(target.filmAov);
+        if (found == frame.aovs.end() || found->second.empty()) continue;
+        const AovSpec spec = standardAov(target.filmAov);
+        const bool isColor = spec.name == "color";
+        const ClearValue clear = clearValueOf(target.clearValue);
+        const std::vector<float>& pixels = found->second;
+        written &= target.buffer->write(spec.isInteger, [&](int x, int y, float* out) {
+            if (x >= frame.width || y >= frame.height) return;
+            const size_t i = size_t(frame.height - 1 - y) * size_t(frame.width) + size_t(x);
+            std::memcpy(out, &pixels[i * size_t(spec.components)],
+                        sizeof(float) * size_t(spec.components));
+            if (isColor) {
+                out[3] = alpha->second[i];
+                for (int k = 0; k < 4 && !clear.empty; ++k)
+                    out[k] += (1.0f - alpha->second[i]) * clear.values[k];
+            } else if (!clear.empty && clear.isInteger == spec.isInteger &&
+                       std::memcmp(out, &spec.clearValue, sizeof(float)) == 0 &&
+                       spec.components == 1) {
+                out[0] = clear.values[0];
+            }
+        });
+    }
+    if (!written) return; // mapped: the next Execute tries again
+    if (frame.last) finish(frame);
+    _pending.reset();
+}
+
+void HdPatinaRenderPass::finish(const HdPatinaFrame&) {
+    _converged = true;
+    for (const Target& target : _targets)
+        if (target.buffer->allocation() == target.allocation) target.buffer->setConverged(true);
+}
+
+} // namespace patina

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "hdDelegate/hydra/delegateState.h"
+#include "hdDelegate/hydra/renderBuffer.h"
+#include "hdDelegate/hydra/renderProducts.h"
+#include "hdDelegate/hydra/view.h"
+
+#include <pxr/imaging/hd/renderPass.h>
+
+namespace patina {
+
+/// Keeps one renderer busy with what a host wants to see, and copies finished frames into the
+/// host's buffers.
+///
+/// Executing never blocks: it starts over when scene, settings, camera, framing or bindings have
+/// changed, and takes what the renderer has finished. The pass is converged once the last frame is
+/// in the buffers, also when a render failed, so that hosts neither stop early nor wait forever.
+/// With render products to write (a UsdRenderSettings prim is active and the host is not
+/// interactive) it writes those instead; the buffers keep their clear values then.
+class HdPatinaRenderPass final : public HdRenderPass {
+public:
+    HdPatinaRenderPass(HdRenderIndex* index, const HdRprimCollection& collection,
+                       std::shared_ptr<HdPatinaDelegateState> state);
+    ~HdPatinaRenderPass() override;
+
+    bool IsConverged() const override;
+
+private:
+    /// A bound buffer, and what is shown in it.
+    struct Target {
+        TfToken aovName;
+        std::string filmAov; ///< empty: not known
+        HdPatinaRenderBuffer* buffer = nullptr;
+        unsigned int allocation = 0;
+        VtValue clearValue;
+
+        bool operator==(const Target& other) const;
+    };
+
+    void _Execute(const HdRenderPassStateSharedPtr& passState,
+                  const TfTokenVector& renderTags) override;
+    std::vector<Target> targetsOf(const HdRenderPassAovBindingVector& bindings) const;
+    RenderSettings settingsFor(const HdPatinaView& view, const TfTokenVector& renderTags) const;
+    void show(const HdPatinaFrame& frame);
+    void finish(const HdPatinaFrame& frame);
+
+    std::shared_ptr<HdPatinaDelegateState> _state;
+    std::shared_ptr<HdPatinaSession> _session;
+    HdPatinaRenderProducts _products;
+    std::string _cameraPath; ///< of a camera of its own
+
+    // what the running render was started with
+    std::vector<Target> _targets;
+    HdPatinaView _view;
+    TfTokenVector _renderTags;
+    HdRprimCollection _shownCollection;
+    uint64_t _sceneVersion = 0;
+    unsigned int _settingsVersion = 0;
+
+    bool _hasOwnCamera = false;
+    std::shared_ptr<const HdPatinaFrame> _pending; ///< could not be written yet: buffers are mapped
+    bool _converged = false;
+};
+
+} // namespace patina

@@ -1,0 +1,155 @@
+#include "hdDelegate/hydra/renderProducts.h"
+
+#include "hdDelegate/film/imageFile.h"
+#include "hdDelegate/hydra/aovs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+std::string filmAovOfVar(const HdRenderSettings::RenderProduct::RenderVar& var) {
+    const std::string& name = var.sourceName;
+    if (var.sourceType == "primvar") return filmAovOf(TfToken("primvars:" + name));
+    if (name == "Ci" || name == "beauty" || name == "C.*") return "color";
+    if (name == "a") return "alpha";
+    if (name == "z") return "depth";
+    if (name == "N") return "normal";
+    if (name == "P") return "position";
+    return filmAovOf(TfToken(name));
+}
+
+bool flagOf(const VtDictionary& settings, const char* name, bool initial) {
+    const auto found = settings.find(name);
+    if (found == settings.end()) return initial;
+    const VtValue value = VtValue::Cast<bool>(found->second);
+    return value.GetWithDefault<bool>(initial);
+}
+
+} // namespace
+
+HdPatinaRenderProducts::HdPatinaRenderProducts(HdPatinaDelegateState& state) : _state(state) {}
+
+HdPatinaRenderProducts::~HdPatinaRenderProducts() = default;
+
+bool HdPatinaRenderProducts::wanted() const {
+    return !_state.settings().interactive && !_state.products().empty();
+}
+
+bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& product,
+                                     Output& output) {
+    HdPatinaRenderParam& param = _state.param;
+    output.path = product.productPath;
+    output.file = product.name.GetString();
+    output.camera = product.cameraPath.GetString();
+    output.settings = _state.settings();
+    RenderSettings& s = output.settings;
+    if (product.type != "raster") {
+        param.warn(product.productPath, "productType",
+                   "'" + product.type.GetString() + "' cannot be written; only raster can");
+        return false;
+    }
+    if (output.file.empty()) {
+        param.warn(product.productPath, "productName", "is empty; the product is not written");
+        return false;
+    }
+    s.width = product.resolution[0];
+    s.height = product.resolution[1];
+    s.pixelAspectRatio = product.pixelAspectRatio > 0.0f ? product.pixelAspectRatio : 1.0;
+    if (!product.aspectRatioConformPolicy.IsEmpty())
+        s.aspectRatioConformPolicy = product.aspectRatioConformPolicy.GetString();
+    // A rectangle of [0,1], y up; pixels whose centres lie inside belong to it.
+    const GfRange2f& window = product.dataWindowNDC;
+    if (!window.IsEmpty() && window != GfRange2f(GfVec2f(0.0f), GfVec2f(1.0f))) {
+        s.dataWindow[0] = std::max(0, int(std::lround(window.GetMin()[0] * s.width)));
+        s.dataWindow[2] = std::min(s.width, int(std::lround(window.GetMax()[0] * s.width))) - 1;
+        s.dataWindow[1] = std::max(0, int(std::lround((1.0f - window.GetMax()[1]) * s.height)));
+        s.dataWindow[3] =
+            std::min(s.height, int(std::lround((1.0f - window.GetMin()[1]) * s.height))) - 1;
+    }
+    s.enableMotionBlur = s.enableMotionBlur && !product.disableMotionBlur;
+    s.enableDepthOfField = s.enableDepthOfField && !product.disableDepthOfField;
+    for (const auto& var : product.renderVars) {
+        const std::string aov = filmAovOfVar(var);
+        if (aov.empty())
+            param.warn(var.varPath, "sourceName",
+                       "'" + var.sourceName + "' is no AOV; it is left out");
+        else if (std::find(output.order.begin(), output.order.end(), aov) == output.order.end())
+            output.order.push_back(aov);
+    }
+    if (output.order.empty()) output.order = {"color", "alpha"};
+    s.aovs = output.order;
+    try {
+        checkImagePath(output.file, output.order);
+    } catch (const std::exception& error) {
+        param.warn(product.productPath, "productName", error.what());
+        return false;
+    }
+    return true;
+}
+
+bool HdPatinaRenderProducts::update() {
+    _state.param.commit();
+    const uint64_t sceneVersion = _state.param.scene()->snapshot()->version;
+    const unsigned int settingsVersion = _state.settingsVersion();
+    if (!_started || sceneVersion != _sceneVersion || settingsVersion != _settingsVersion) {
+        _started = true;
+        _sceneVersion = sceneVersion;
+        _settingsVersion = settingsVersion;
+        _outputs.clear();
+        _next = 0;
+        for (const auto& product : _state.products()) {
+            Output output;
+            if (prepare(product, output)) _outputs.push_back(std::move(output));
+        }
+        if (!_session) _session = _state.makeSession();
+        startNext();
+    }
+    if (_next >= _outputs.size()) return true;
+    const auto frame = _session->take();
+    if (!frame || !frame->last) return false;
+    const Output& output = _outputs[_next];
+    if (frame->error.empty())
+        write(output);
+    else
+        _state.param.warn(output.path, "", frame->error + "; the product is not written");
+    ++_next;
+    startNext();
+    return _next >= _outputs.size();
+}
+
+void HdPatinaRenderProducts::startNext() {
+    if (_next < _outputs.size())
+        _session->start(_outputs[_next].camera, _outputs[_next].settings, {});
+}
+
+void HdPatinaRenderProducts::write(const Output& output) {
+    _session->stop(); // the film is at rest, and no listener runs any more
+    ImageOptions options;
+    options.aovs = output.order;
+    options.displayWidth = output.settings.width;
+    options.displayHeight = output.settings.height;
+    std::copy(output.settings.dataWindow, output.settings.dataWindow + 4, options.dataWindow);
+    options.pixelAspectRatio = output.settings.pixelAspectRatio;
+    for (const auto& product : _state.products())
+        if (product.productPath == output.path) {
+            options.half = flagOf(product.namespacedSettings, "patina:half", options.half);
+            for (const auto& var : product.renderVars)
+                if (filmAovOfVar(var) == "color" &&
+                    (var.dataType == "color3h" || var.dataType == "half3" ||
+                     var.dataType == "color4h" || var.dataType == "half4"))
+                    options.half = true;
+        }
+    try {
+        writeImage(*_session->film(), output.file, options,
+                   {{"Software", std::string("Patina")},
+                    {"patina:camera", output.camera},
+                    {"patina:samples", output.settings.samples}});
+    } catch (const std::exception& error) {
+        _state.param.warn(output.path, "productName", error.what());
+    }
+}
+
+} // namespace patina

@@ -1,0 +1,51 @@
+#include "hdDelegate/hydra/renderStats.h"
+
+#include <pxr/base/tf/stringUtils.h>
+
+#include <sys/resource.h>
+
+namespace patina {
+
+namespace {
+
+double peakMemory() {
+    rusage usage{};
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? double(usage.ru_maxrss) * 1024.0 : 0.0;
+}
+
+std::string annotation(const HdPatinaDelegateState& state, const RenderProgress& p) {
+    if (p.failed) return "Failed: " + p.error;
+    if (state.stopped()) return "Stopped";
+    if (state.paused()) return "Paused";
+    if (p.converged)
+        return TfStringPrintf("Done: %d samples in %.1f s", p.samplesDone, p.secondsRendering);
+    if (p.samplesDone == 0) return "Preparing";
+    return TfStringPrintf("%d samples, %.1f s left", p.samplesDone, p.secondsLeft);
+}
+
+} // namespace
+
+VtDictionary renderStats(const HdPatinaDelegateState& state) {
+    RenderProgress slowest;
+    bool found = false;
+    for (const auto& session : state.sessions()) {
+        const RenderProgress p = session->progress();
+        const bool started = session->isRunning() || p.converged || p.failed || p.samplesDone > 0;
+        if (started && (!found || p.fraction < slowest.fraction)) slowest = p;
+        found |= started;
+    }
+    VtDictionary stats;
+    stats["percentDone"] = VtValue(100.0 * slowest.fraction);
+    stats["fractionDone"] = VtValue(slowest.fraction);
+    stats["numCompletedSamples"] = VtValue(slowest.samplesDone);
+    stats["totalClockTime"] = VtValue(slowest.secondsRendering);
+    stats["timeRemaining"] = VtValue(slowest.secondsLeft);
+    stats["renderProgressAnnotation"] = VtValue(annotation(state, slowest));
+    stats["peakMemory"] = VtValue(peakMemory());
+    stats["warnings"] = VtValue(state.param.scene()->diagnostics().count());
+    for (const auto& item : slowest.statistics)
+        stats["patina:" + item.first] = VtValue(item.second);
+    return stats;
+}
+
+} // namespace patina

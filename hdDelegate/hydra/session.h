@@ -1,0 +1,67 @@
+#pragma once
+
+#include "hdDelegate/renderer.h"
+
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// Finished pixels of a film at one moment. Row 0 is the top row.
+struct HdPatinaFrame {
+    int width = 0, height = 0;
+    std::map<std::string, std::vector<float>> aovs; ///< by the film's names
+    bool last = false; ///< nothing better will come: converged or failed
+    std::string error; ///< of a render that failed
+};
+
+/// One renderer with its film, on behalf of one render pass. The renderer hands over a frame
+/// whenever its film is at rest; hosts take it from there on a thread of their own.
+class HdPatinaSession {
+public:
+    explicit HdPatinaSession(std::shared_ptr<Scene> scene);
+    ~HdPatinaSession();
+
+    /// Starts over. Frames of earlier renders are forgotten.
+    /// @param aovs names of the film that frames shall hold
+    void start(const std::string& camera, const RenderSettings& settings,
+               const std::vector<std::string>& aovs);
+    /// The newest frame that was not taken yet, or null.
+    std::shared_ptr<const HdPatinaFrame> take();
+
+    void stop(); ///< blocks until no thread renders
+    void restart();
+    void pause();
+    void resume();
+    bool isPaused() const { return _paused; }
+    bool isStopped() const { return _stopped; }
+    bool isRunning() const { return _renderer->isRunning(); }
+    RenderProgress progress() const { return _renderer->progress(); }
+
+    /// Blocks until the last frame of the render that was started; for renders without a host that
+    /// polls. @returns the frame
+    std::shared_ptr<const HdPatinaFrame> finish();
+    const std::shared_ptr<Film>& film() const { return _film; }
+
+private:
+    void present(const Film& film, const RenderProgress& progress, uint64_t serial);
+
+    std::shared_ptr<Scene> _scene;
+    std::shared_ptr<Film> _film;
+    std::unique_ptr<Renderer> _renderer;
+    std::string _camera;
+    RenderSettings _settings;
+    std::vector<std::string> _aovs;
+
+    mutable std::mutex _mutex;
+    std::condition_variable _arrived;
+    uint64_t _serial = 0; ///< frames of older renders are dropped
+    std::shared_ptr<const HdPatinaFrame> _frame;
+    bool _paused = false, _stopped = false;
+};
+
+} // namespace patina

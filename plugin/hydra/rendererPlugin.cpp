@@ -1,0 +1,55 @@
+#include "plugin/hydra/rendererPlugin.h"
+
+#include "hdDelegate/hydra/renderDelegate.h"
+#include "plugin/hydra/support.h"
+
+#include <pxr/base/tf/diagnostic.h>
+#include <pxr/imaging/hd/rendererPluginRegistry.h>
+
+#include <exception>
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+TF_REGISTRY_FUNCTION(TfType) {
+    HdRendererPluginRegistry::Define<HdPatinaRendererPlugin>();
+}
+
+HdRenderDelegate* HdPatinaRendererPlugin::CreateRenderDelegate() {
+    return CreateRenderDelegate(HdRenderSettingsMap());
+}
+
+HdRenderDelegate*
+HdPatinaRendererPlugin::CreateRenderDelegate(const HdRenderSettingsMap& settings) {
+    try {
+        return new patina::HdPatinaRenderDelegate(settings);
+    } catch (const std::exception& error) {
+        TF_RUNTIME_ERROR("Patina cannot start: %s", error.what());
+        return nullptr;
+    }
+}
+
+void HdPatinaRendererPlugin::DeleteRenderDelegate(HdRenderDelegate* delegate) {
+    delete delegate;
+}
+
+#if PATINA_HAS_CREATE_ARGS_SCHEMA
+bool HdPatinaRendererPlugin::IsSupported(const HdRendererCreateArgsSchema&,
+                                         std::string* reasonWhyNot) const {
+    return patina::isSupported(reasonWhyNot);
+}
+#elif PATINA_HAS_CREATE_ARGS
+bool HdPatinaRendererPlugin::IsSupported(const HdRendererCreateArgs&,
+                                         std::string* reasonWhyNot) const {
+    return patina::isSupported(reasonWhyNot);
+}
+
+bool HdPatinaRendererPlugin::IsSupported(bool) const {
+    return patina::isSupported(nullptr);
+}
+#else
+bool HdPatinaRendererPlugin::IsSupported(bool) const {
+    return patina::isSupported(nullptr);
+}
+#endif
+
+PXR_NAMESPACE_CLOSE_SCOPE

@@ -1,0 +1,147 @@
+#include "testenv/hydra/host/host.h"
+
+#include "testenv/hydra/host/buffers.h"
+
+#include <pxr/imaging/hd/rendererPluginRegistry.h>
+#include <pxr/imaging/hd/rprimCollection.h>
+#include <pxr/imaging/hd/tokens.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+namespace patina {
+
+namespace {
+
+TfTokenVector tagsOf(const std::vector<std::string>& purposes) {
+    TfTokenVector tags;
+    for (const std::string& purpose : purposes)
+        tags.push_back(purpose == "default" ? HdRenderTagTokens->geometry : TfToken(purpose));
+    return tags;
+}
+
+} // namespace
+
+Host::Host(const UsdStageRefPtr& stage, const HostOptions& options)
+    : _options(options), _stage(stage) {
+    _delegate = HdRendererPluginRegistry::GetInstance().CreateRenderDelegate(
+        TfToken(options.renderer), options.settings);
+    if (!_delegate)
+        throw std::runtime_error("the renderer " + options.renderer +
+                                 " is not found or does not start (see PXR_PLUGINPATH_NAME)");
+    _index.reset(HdRenderIndex::New(_delegate.Get(), {}, options.instanceName));
+    if (!_index) throw std::runtime_error("there is no render index for " + options.renderer);
+    _buffers = std::make_unique<HostBuffers>(_index.get());
+    _input = options.sceneIndex ? makeSceneIndexInput(_index.get(), stage)
+                                : makeDelegateInput(_index.get(), stage);
+    HdRprimCollection collection(HdTokens->geometry, HdReprSelector(HdReprTokens->smoothHull));
+    collection.SetRootPath(SdfPath::AbsoluteRootPath());
+    _task = std::make_shared<HostRenderTask>(_delegate->CreateRenderPass(_index.get(), collection),
+                                             tagsOf(options.purposes));
+    _buffers->resize(options.width, options.height);
+    setAovs(options.aovs);
+    setCamera(options.camera);
+}
+
+Host::~Host() {
+    // As HdEngine's users have to: nothing of the delegate may outlive it.
+    _task.reset();
+    _input.reset();
+    _buffers.reset();
+    _index.reset();
+}
+
+void Host::dropBuffers() {
+    _buffers.reset();
+}
+
+void Host::bind() {
+    HostRenderTask::View view;
+    view.camera = _options.camera;
+    view.framing = CameraUtilFraming(GfRect2i(GfVec2i(0), _options.width, _options.height));
+    for (const HostAov& aov : _options.aovs) {
+        if (!_buffers->find(aov.name)) continue;
+        HdRenderPassAovBinding binding;
+        binding.aovName = TfToken(aov.name);
+        binding.renderBufferId = _buffers->pathOf(aov.name);
+        const HdAovDescriptor own = _delegate->GetDefaultAovDescriptor(binding.aovName);
+        binding.clearValue = own.clearValue;
+        view.aovs.push_back(binding);
+    }
+    _task->setView(view);
+}
+
+void Host::execute() {
+    _input->update(_options.time, _options.refineLevel);
+    HdTaskSharedPtrVector tasks = {_task};
+    _engine.Execute(_index.get(), &tasks);
+}
+
+bool Host::render(double limit) {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::duration<double>(limit);
+    for (execute(); !isConverged(); execute()) {
+        if (Clock::now() > end) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+}
+
+void Host::setCamera(const SdfPath& camera) {
+    _options.camera = camera;
+    _input->setCamera(camera);
+    bind();
+}
+
+void Host::setSize(int width, int height) {
+    _options.width = width;
+    _options.height = height;
+    _buffers->resize(width, height);
+    bind();
+}
+
+void Host::setAovs(const std::vector<HostAov>& aovs) {
+    _options.aovs = aovs;
+    _buffers->clear();
+    for (const HostAov& aov : aovs) {
+        HdFormat format = aov.format;
+        const HdFormat own = _delegate->GetDefaultAovDescriptor(TfToken(aov.name)).format;
+        if (format == HdFormatInvalid) format = aov.name == "color" ? HdFormatFloat32Vec4 : own;
+        if (own != HdFormatInvalid) _buffers->add(aov.name, format);
+    }
+    bind();
+}
+
+void Host::setPurposes(const std::vector<std::string>& purposes) {
+    _options.purposes = purposes;
+    _task->setRenderTags(tagsOf(purposes));
+}
+
+void Host::setSetting(const std::string& name, const VtValue& value) {
+    _delegate->SetRenderSetting(TfToken(name), value);
+}
+
+HdRenderBuffer* Host::buffer(const std::string& aov) const {
+    return _buffers->find(aov);
+}
+
+HostImage Host::read(const std::string& aov) const {
+    HdRenderBuffer* found = _buffers->find(aov);
+    if (!found) throw std::runtime_error("there is no output " + aov);
+    return readBuffer(*found);
+}
+
+std::vector<HostLayer> Host::readAll() const {
+    std::vector<HostLayer> layers;
+    for (const HostAov& aov : _options.aovs)
+        if (_buffers->find(aov.name)) layers.push_back({aov.name, read(aov.name)});
+    return layers;
+}
+
+bool Host::dumpScene(const std::string& path) {
+    return _delegate->InvokeCommand(TfToken("patina:dumpScene"),
+                                    {{TfToken("file"), VtValue(path)}});
+}
+
+} // namespace patina

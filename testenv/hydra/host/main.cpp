@@ -1,0 +1,85 @@
+// hydraHost: renders a stage through Hydra from the command line.
+
+#include "testenv/hydra/host/commandLine.h"
+#include "testenv/hydra/host/editScript.h"
+#include "testenv/hydra/host/report.h"
+
+#include <pxr/usd/usdGeom/camera.h>
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+using namespace patina;
+
+namespace {
+
+/// Measures what happens between its calls.
+class Clock {
+public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(now - _last).count();
+        _last = now;
+        return seconds;
+    }
+
+private:
+    std::chrono::steady_clock::time_point _last = std::chrono::steady_clock::now();
+};
+
+/// Moves the camera a little, in the session layer.
+void moveCamera(const UsdStageRefPtr& stage, const SdfPath& path, int step) {
+    stage->SetEditTarget(stage->GetSessionLayer());
+    const UsdGeomXformable camera(stage->GetPrimAtPath(path));
+    if (!camera) throw std::runtime_error("there is no camera " + path.GetString());
+    bool resets = false;
+    GfMatrix4d matrix;
+    camera.GetLocalTransformation(&matrix, &resets, UsdTimeCode::Default());
+    matrix.SetTranslateOnly(matrix.ExtractTranslation() + GfVec3d(0.001 * (step + 1), 0.0, 0.0));
+    UsdGeomXformable(camera).MakeMatrixXform().Set(matrix);
+}
+
+void run(const CommandLine& line) {
+    Clock clock;
+    HostTimes times;
+    const UsdStageRefPtr stage = UsdStage::Open(line.stage);
+    if (!stage) throw std::runtime_error(line.stage + " cannot be opened");
+    if (!stage->GetPrimAtPath(line.host.camera).IsA<UsdGeomCamera>())
+        throw std::runtime_error("there is no camera '" + line.host.camera.GetString() + "'");
+    times.emplace_back("open", clock.lap());
+    Host host(stage, line.host);
+    if (!line.edits.empty()) runEditScript(host, stage, line.edits);
+    if (!host.render(line.limit)) throw std::runtime_error("the image does not converge");
+    times.emplace_back("render", clock.lap());
+    for (int i = 0; i < line.repeats; ++i) {
+        moveCamera(stage, host.options().camera, i);
+        if (!host.render(line.limit)) throw std::runtime_error("the image does not converge");
+        times.emplace_back("moved" + std::to_string(i), clock.lap());
+    }
+    if (!line.image.empty()) writeExr(line.image, host.readAll());
+    if (!line.dump.empty() && !host.dumpScene(line.dump))
+        throw std::runtime_error("the scene cannot be written to " + line.dump);
+    if (line.json.empty()) return;
+    JsObject report = statisticsOf(host, times);
+    report["picks"] = JsValue(line.pickAll ? allPicksOf(host) : picksOf(host, line.picks));
+    writeJson(report, line.json);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const CommandLine line = parseCommandLine(argc, argv);
+        if (line.help) {
+            std::fputs(usage, stdout);
+            return 0;
+        }
+        run(line);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "hydraHost: %s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,65 @@
+#include "testenv/hydra/host/sceneInput.h"
+
+#include <pxr/imaging/hdsi/legacyDisplayStyleOverrideSceneIndex.h>
+#include <pxr/imaging/hdsi/sceneGlobalsSceneIndex.h>
+#include <pxr/imaging/hdx/pickTask.h>
+#include <pxr/usdImaging/usdImaging/sceneIndices.h>
+#include <pxr/usdImaging/usdImaging/stageSceneIndex.h>
+
+namespace patina {
+
+namespace {
+
+class SceneIndexInput final : public SceneInput {
+public:
+    SceneIndexInput(HdRenderIndex* index, const UsdStageRefPtr& stage) : _index(index) {
+        UsdImagingCreateSceneIndicesInfo info;
+        const UsdImagingSceneIndices indices = UsdImagingCreateSceneIndices(info);
+        _stage = indices.stageSceneIndex;
+        _style = HdsiLegacyDisplayStyleOverrideSceneIndex::New(indices.finalSceneIndex);
+        _globals = HdsiSceneGlobalsSceneIndex::New(_style);
+        _index->InsertSceneIndex(_globals, SdfPath::AbsoluteRootPath());
+        _stage->SetStage(stage);
+    }
+
+    ~SceneIndexInput() override { _index->RemoveSceneIndex(_globals); }
+
+    void update(UsdTimeCode time, int refineLevel) override {
+        _style->SetRefineLevel({true, refineLevel});
+        _stage->ApplyPendingUpdates();
+        _stage->SetTime(time);
+    }
+
+    void setCamera(const SdfPath&) override {}
+
+    HostHit decode(int primId, int instanceId) override {
+        HostHit hit;
+        HdxPickHit pick;
+        pick.objectId = _index->GetRprimPathFromPrimId(primId);
+        if (pick.objectId.IsEmpty()) return hit;
+        _index->GetSceneDelegateAndInstancerIds(pick.objectId, &pick.delegateId, &pick.instancerId);
+        pick.instanceIndex = instanceId;
+        const HdxPrimOriginInfo origin = HdxPrimOriginInfo::FromPickHit(_index, pick);
+        hit.path = origin.GetFullPath();
+        const HdInstancerContext context = origin.ComputeInstancerContext();
+        if (!context.empty()) {
+            hit.instancer = context.front().first;
+            hit.index = context.front().second;
+        }
+        return hit;
+    }
+
+private:
+    HdRenderIndex* _index;
+    UsdImagingStageSceneIndexRefPtr _stage;
+    HdsiLegacyDisplayStyleOverrideSceneIndexRefPtr _style;
+    HdsiSceneGlobalsSceneIndexRefPtr _globals;
+};
+
+} // namespace
+
+std::unique_ptr<SceneInput> makeSceneIndexInput(HdRenderIndex* index, const UsdStageRefPtr& stage) {
+    return std::make_unique<SceneIndexInput>(index, stage);
+}
+
+} // namespace patina

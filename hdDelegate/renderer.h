@@ -4,6 +4,7 @@
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -22,6 +23,9 @@ struct RenderProgress {
     std::map<std::string, double>
         statistics; ///< "rays", "samples", "secondsBuild", "trianglesStored", ...
 };
+
+/// Told about a film at rest: no thread works on it while the call lasts.
+using FilmListener = std::function<void(const Film&, const RenderProgress&)>;
 
 /// Renders a scene into a film, progressively and in the background. All functions return at once
 /// unless they say otherwise, and may be called from any thread.
@@ -42,6 +46,12 @@ public:
     virtual bool isRunning() const = 0;
     virtual void wait() = 0; ///< blocks until converged, failed or stopped
     virtual RenderProgress progress() const = 0;
+
+    /// Hears of new samples on the render thread: after the first pass, then at ends of passes but
+    /// not more often than every 30 ms, and always at the end, with `converged` or `failed` set in
+    /// what it is given, before progress() says so. A stopped render ends without a call. The
+    /// listener must not call the renderer. Set it while nothing runs; empty: nobody listens.
+    virtual void setListener(FilmListener listener) = 0;
 };
 
 /// Makes the back end "embree"; null for an unknown name.

@@ -40,6 +40,7 @@ void EmbreeRenderer::start(std::shared_ptr<Scene> scene, const std::string& came
         _idle = false;
     }
     _rays = _shadowRays = _paths = 0;
+    _told = false;
     _running = true;
     _started = _sampling = _lastCheckpoint = Clock::now();
     _thread = std::thread(&EmbreeRenderer::run, this, _scene->snapshot(), camera);
@@ -80,10 +81,36 @@ RenderProgress EmbreeRenderer::progress() const {
     return _progress;
 }
 
-void EmbreeRenderer::fail(const std::string& reason) {
+void EmbreeRenderer::tell(bool last) {
+    if (!_listener) return;
+    constexpr double pause = 0.03; // seconds: hosts do not draw more often
+    if (_told && !last && secondsSince(_lastTold) < pause) return;
+    _told = true;
+    RenderProgress seen = progress();
+    if (last) {
+        seen.converged = true;
+        seen.fraction = 1.0;
+        seen.secondsLeft = 0.0;
+    }
+    _listener(*_film, seen);
+    _lastTold = Clock::now();
+}
+
+void EmbreeRenderer::finish(const std::string& failure) {
+    if (!failure.empty()) {
+        RenderProgress seen = progress();
+        seen.failed = true;
+        seen.error = failure;
+        if (_listener) _listener(*_film, seen);
+        std::lock_guard<std::mutex> lock(_mutex);
+        _progress = seen;
+        return;
+    }
+    tell(true);
     std::lock_guard<std::mutex> lock(_mutex);
-    _progress.failed = true;
-    _progress.error = reason;
+    _progress.converged = true;
+    _progress.fraction = 1.0;
+    _progress.secondsLeft = 0.0;
 }
 
 void EmbreeRenderer::run(std::shared_ptr<const SceneState> state, std::string cameraPath) {
@@ -101,7 +128,7 @@ void EmbreeRenderer::run(std::shared_ptr<const SceneState> state, std::string ca
         }
         render(*state, *camera->second);
     } catch (const std::exception& error) {
-        fail(error.what());
+        finish(error.what());
     }
     {
         std::lock_guard<std::mutex> lock(_mutex);
@@ -215,16 +242,14 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         });
         publish(schedule);
         maybeCheckpoint();
-        if (!waitWhilePaused()) return;
         haveImage = haveImage || schedule.samplesDone() > 0;
+        if (!_stop && haveImage && !schedule.pending().empty()) tell(false);
+        if (!waitWhilePaused()) return;
         if (haveImage && outOfTime()) break;
     }
     if (_stop) return;
     publish(schedule);
-    std::lock_guard<std::mutex> lock(_mutex);
-    _progress.converged = true;
-    _progress.fraction = 1.0;
-    _progress.secondsLeft = 0.0;
+    finish("");
 }
 
 } // namespace patina

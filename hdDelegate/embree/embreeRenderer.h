@@ -27,6 +27,7 @@ public:
     bool isRunning() const override { return _running; }
     void wait() override;
     RenderProgress progress() const override;
+    void setListener(FilmListener listener) override { _listener = std::move(listener); }
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -37,11 +38,15 @@ private:
     bool waitWhilePaused();
     void maybeCheckpoint();
     void publish(const TileSchedule& schedule);
-    void fail(const std::string& reason);
+    void finish(const std::string& failure);
+    void tell(bool last);
 
     std::shared_ptr<Scene> _scene;
     std::shared_ptr<Film> _film;
     RenderSettings _settings;
+    FilmListener _listener;
+    Clock::time_point _lastTold;
+    bool _told = false; ///< the listener heard of this render
 
     // Kept between renders, so that an edit rebuilds only what it touched.
     std::shared_ptr<Scene> _builtFor;

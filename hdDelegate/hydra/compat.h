@@ -10,8 +10,10 @@
 #error "hdPatina needs OpenUSD 23.11 or later"
 #endif
 
-/// Reading prims of scene indices through schemas: stable enough from here on.
+/// HdRenderDelegate::IsParallelSyncEnabled.
 #define PATINA_HAS_PARALLEL_SPRIM_SYNC (HD_API_VERSION >= 71)
+/// HdRenderSettings::RenderProduct::disableDepthOfField.
+#define PATINA_HAS_PRODUCT_DEPTH_OF_FIELD (PXR_VERSION >= 2403)
 /// HdRendererPlugin::IsSupported(HdRendererCreateArgs const&, std::string*) is pure.
 #define PATINA_HAS_CREATE_ARGS (HD_API_VERSION >= 83)
 /// Only the container form of IsSupported is left.

@@ -70,7 +70,9 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
             std::min(s.height, int(std::lround((1.0f - window.GetMin()[1]) * s.height))) - 1;
     }
     s.enableMotionBlur = s.enableMotionBlur && !product.disableMotionBlur;
+#if PATINA_HAS_PRODUCT_DEPTH_OF_FIELD
     s.enableDepthOfField = s.enableDepthOfField && !product.disableDepthOfField;
+#endif
     for (const auto& var : product.renderVars) {
         const std::string aov = filmAovOfVar(var);
         if (aov.empty())

@@ -6,6 +6,7 @@
 #include <pxr/base/plug/plugin.h>
 #include <pxr/base/plug/registry.h>
 #include <pxr/base/tf/getenv.h>
+#include <pxr/base/tf/stringUtils.h>
 #include <pxr/imaging/hd/renderDelegate.h>
 #include <pxr/imaging/hd/rendererPlugin.h>
 #include <pxr/imaging/hd/rendererPluginRegistry.h>
@@ -29,10 +30,9 @@ int fail(const std::string& reason) {
 } // namespace
 
 int main() {
-    print("built for OpenUSD", std::to_string(PXR_MAJOR_VERSION) + "." +
-                                   std::to_string(PXR_MINOR_VERSION) + "." +
-                                   std::to_string(PXR_PATCH_VERSION) + ", HD_API_VERSION " +
-                                   std::to_string(HD_API_VERSION));
+    const int version = PXR_VERSION;
+    print("built for OpenUSD", TfStringPrintf("%d.%02d, HD_API_VERSION %d", version / 100,
+                                              version % 100, HD_API_VERSION));
     print("PXR_PLUGINPATH_NAME", TfGetenv("PXR_PLUGINPATH_NAME", "(not set)"));
     const PlugPluginPtr plugin = PlugRegistry::GetInstance().GetPluginWithName("hdPatina");
     if (!plugin)

@@ -1,0 +1,69 @@
+#include "hdDelegate/hydra/renderBuffer.h"
+
+#include <gtest/gtest.h>
+#include <pxr/base/gf/vec3i.h>
+#include <pxr/base/gf/vec4f.h>
+#include <pxr/base/tf/errorMark.h>
+
+using namespace patina;
+
+TEST(RenderBuffer, RefusesWhatItCannotHold) {
+    HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
+    EXPECT_FALSE(buffer.Allocate(GfVec3i(4, 4, 2), HdFormatFloat32, false));
+    EXPECT_FALSE(buffer.Allocate(GfVec3i(-1, 4, 1), HdFormatFloat32, false));
+    EXPECT_FALSE(buffer.Allocate(GfVec3i(4, 4, 1), HdFormatInvalid, false));
+    EXPECT_EQ(buffer.GetWidth(), 0u);
+    EXPECT_TRUE(buffer.Allocate(GfVec3i(0, 0, 1), HdFormatFloat32, false));
+    EXPECT_EQ(buffer.Map(), nullptr);
+    buffer.Unmap();
+}
+
+TEST(RenderBuffer, CountsItsMappers) {
+    HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
+    ASSERT_TRUE(buffer.Allocate(GfVec3i(3, 2, 1), HdFormatFloat32, false));
+    buffer.Map();
+    buffer.Map();
+    buffer.Unmap();
+    EXPECT_TRUE(buffer.IsMapped());
+    const auto one = [](int, int, float* out) { out[0] = 1.0f; };
+    EXPECT_FALSE(buffer.write(false, one)) << "a host is reading";
+    buffer.Unmap();
+    EXPECT_FALSE(buffer.IsMapped());
+    EXPECT_TRUE(buffer.write(false, one));
+    EXPECT_EQ(static_cast<float*>(buffer.Map())[5], 1.0f);
+    buffer.Unmap();
+    buffer.Unmap(); // one too many
+    EXPECT_FALSE(buffer.IsMapped());
+}
+
+TEST(RenderBuffer, RowsGoUpwards) {
+    HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
+    ASSERT_TRUE(buffer.Allocate(GfVec3i(2, 3, 1), HdFormatFloat32Vec2, false));
+    buffer.write(false, [](int x, int y, float* out) {
+        out[0] = float(x);
+        out[1] = float(y);
+    });
+    const float* pixels = static_cast<float*>(buffer.Map());
+    EXPECT_EQ(pixels[0], 0.0f);
+    EXPECT_EQ(pixels[2], 1.0f);
+    EXPECT_EQ(pixels[11], 2.0f);
+    buffer.Unmap();
+}
+
+TEST(RenderBuffer, EveryAllocationHasANumberOfItsOwn) {
+    HdPatinaRenderBuffer a(SdfPath("/a")), b(SdfPath("/b"));
+    a.Allocate(GfVec3i(2, 2, 1), HdFormatFloat32, false);
+    const unsigned first = a.allocation();
+    a.Allocate(GfVec3i(2, 2, 1), HdFormatFloat32, false);
+    b.Allocate(GfVec3i(2, 2, 1), HdFormatFloat32, false);
+    EXPECT_NE(a.allocation(), first);
+    EXPECT_NE(a.allocation(), b.allocation());
+}
+
+TEST(RenderBuffer, ClearsToTheHostsColour) {
+    HdPatinaRenderBuffer buffer(SdfPath("/buffer"));
+    buffer.Allocate(GfVec3i(1, 1, 1), HdFormatFloat32Vec4, false);
+    buffer.clear(VtValue(GfVec4f(0.1f, 0.2f, 0.3f, 1.0f)));
+    EXPECT_EQ(static_cast<float*>(buffer.Map())[2], 0.3f);
+    buffer.Unmap();
+}

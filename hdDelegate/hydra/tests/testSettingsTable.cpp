@@ -1,0 +1,73 @@
+#include "hdDelegate/hydra/settingsTable.h"
+
+#include <gtest/gtest.h>
+#include <pxr/imaging/hd/tokens.h>
+
+#include <set>
+
+using namespace patina;
+
+namespace {
+
+RenderSettings with(const char* name, const VtValue& value, std::string* problem = nullptr) {
+    RenderSettings settings;
+    const std::string text = applySetting(settingKey(TfToken(name)), value, settings);
+    if (problem) *problem = text;
+    return settings;
+}
+
+} // namespace
+
+TEST(SettingsTable, DescriptorsHaveTheDefaultsOfTheSettings) {
+    const RenderSettings defaults;
+    std::set<TfToken> keys;
+    for (const auto& descriptor : settingDescriptors()) {
+        EXPECT_TRUE(keys.insert(descriptor.key).second) << descriptor.key.GetText();
+        EXPECT_FALSE(descriptor.name.empty());
+        RenderSettings settings;
+        EXPECT_EQ(applySetting(descriptor.key, descriptor.defaultValue, settings), "");
+        const VtValue initial = descriptor.key == TfToken("samples") ? VtValue(defaults.samples)
+                                : descriptor.key == TfToken("filterRadius")
+                                    ? VtValue(defaults.filterRadius)
+                                    : descriptor.defaultValue;
+        EXPECT_EQ(descriptor.defaultValue, initial);
+    }
+    EXPECT_GE(keys.size(), 20u);
+}
+
+TEST(SettingsTable, HydrasNamesMeanOurs) {
+    EXPECT_EQ(settingKey(HdRenderSettingsTokens->convergedSamplesPerPixel), TfToken("samples"));
+    EXPECT_EQ(settingKey(HdRenderSettingsTokens->enableInteractive), TfToken("interactive"));
+    EXPECT_EQ(settingKey(HdRenderSettingsTokens->threadLimit), TfToken("threads"));
+    EXPECT_EQ(settingKey(TfToken("patina:maxDepth")), TfToken("maxDepth"));
+    EXPECT_EQ(settingKey(TfToken("patina:method:energyCompensation")),
+              TfToken("method:energyCompensation"));
+    EXPECT_TRUE(settingKey(TfToken("houdini:frame")).IsEmpty());
+}
+
+TEST(SettingsTable, NumbersOfEveryTypeAreTaken) {
+    EXPECT_EQ(with("samples", VtValue(7)).samples, 7);
+    EXPECT_EQ(with("samples", VtValue(int64_t(7))).samples, 7);
+    EXPECT_EQ(with("samples", VtValue(7.9)).samples, 7);
+    EXPECT_EQ(with("samples", VtValue(std::string("7"))).samples, 7);
+    EXPECT_EQ(with("enableShadows", VtValue(0)).enableShadows, false);
+    EXPECT_EQ(with("enableShadows", VtValue(std::string("off"))).enableShadows, false);
+    EXPECT_EQ(with("cullStyle", VtValue(TfToken("back"))).cullStyle, "back");
+    EXPECT_EQ(with("method:energyCompensation", VtValue(std::string("none")))
+                  .methods["energyCompensation"],
+              "none");
+}
+
+TEST(SettingsTable, NonsenseIsRefusedWithAReason) {
+    std::string problem;
+    EXPECT_EQ(with("samples", VtValue(0), &problem).samples, RenderSettings().samples);
+    EXPECT_NE(problem, "");
+    with("samples", VtValue(std::string("many")), &problem);
+    EXPECT_NE(problem, "");
+    with("tolerance", VtValue(-1.0), &problem);
+    EXPECT_NE(problem, "");
+    with("tolerance", VtValue(std::string("nan")), &problem);
+    EXPECT_NE(problem, "");
+    with("cullStyle", VtValue(std::string("sideways")), &problem);
+    EXPECT_NE(problem, "");
+}

@@ -1,0 +1,115 @@
+#include "hdDelegate/hydra/view.h"
+
+#include <gtest/gtest.h>
+#include <pxr/base/gf/camera.h>
+#include <pxr/base/gf/frustum.h>
+#include <pxr/imaging/hd/camera.h>
+
+using namespace patina;
+
+namespace {
+
+/// A pass state without a camera prim, as old hosts have it.
+class MatrixState : public HdRenderPassState {
+public:
+    explicit MatrixState(const GfFrustum& frustum) : _frustum(frustum) {}
+    GfMatrix4d GetWorldToViewMatrix() const override { return _frustum.ComputeViewMatrix(); }
+    GfMatrix4d GetProjectionMatrix() const override { return _frustum.ComputeProjectionMatrix(); }
+
+private:
+    GfFrustum _frustum;
+};
+
+struct NamedCamera : HdCamera {
+    explicit NamedCamera(const SdfPath& id) : HdCamera(id) {}
+};
+
+PrimMap<Camera> oneCamera() {
+    auto camera = std::make_shared<Camera>();
+    camera->path = "/camera";
+    camera->horizontalAperture = 20.0f;
+    camera->verticalAperture = 10.0f;
+    return {{"/camera", camera}};
+}
+
+} // namespace
+
+TEST(View, RecoversTheCameraFromMatrices) {
+    GfCamera authored;
+    authored.SetHorizontalAperture(30.0f);
+    authored.SetVerticalAperture(20.0f);
+    authored.SetHorizontalApertureOffset(3.0f);
+    authored.SetVerticalApertureOffset(-2.0f);
+    authored.SetFocalLength(35.0f);
+    authored.SetClippingRange(GfRange1f(0.5f, 800.0f));
+    const MatrixState state(authored.GetFrustum());
+    const HdPatinaView view = viewOf(state, {}, 60, 40, "/own");
+    ASSERT_TRUE(view.ownCamera);
+    const Camera& c = view.camera;
+    EXPECT_NEAR(c.horizontalAperture / c.focalLength, 30.0 / 35.0, 1e-5);
+    EXPECT_NEAR(c.verticalAperture / c.focalLength, 20.0 / 35.0, 1e-5);
+    EXPECT_NEAR(c.horizontalApertureOffset / c.focalLength, 3.0 / 35.0, 1e-5);
+    EXPECT_NEAR(c.verticalApertureOffset / c.focalLength, -2.0 / 35.0, 1e-5);
+    EXPECT_NEAR(c.clipNear, 0.5, 1e-3);
+    EXPECT_NEAR(c.clipFar, 800.0, 1.0);
+}
+
+TEST(View, RecoversOrthographicCamerasToo) {
+    GfCamera authored;
+    authored.SetProjection(GfCamera::Orthographic);
+    authored.SetHorizontalAperture(50.0f);
+    authored.SetVerticalAperture(25.0f);
+    authored.SetHorizontalApertureOffset(5.0f);
+    authored.SetClippingRange(GfRange1f(1.0f, 100.0f));
+    const MatrixState state(authored.GetFrustum());
+    const Camera c = viewOf(state, {}, 60, 40, "/own").camera;
+    EXPECT_TRUE(c.orthographic);
+    EXPECT_NEAR(c.horizontalAperture, 50.0, 1e-4);
+    EXPECT_NEAR(c.verticalAperture, 25.0, 1e-4);
+    EXPECT_NEAR(c.horizontalApertureOffset, 5.0, 1e-4);
+    EXPECT_NEAR(c.clipNear, 1.0, 1e-3);
+    EXPECT_NEAR(c.clipFar, 100.0, 1e-3);
+}
+
+TEST(View, LooksThroughTheScenesCameraWhereItCan) {
+    const NamedCamera camera(SdfPath("/camera"));
+    HdRenderPassState state;
+    state.SetCamera(&camera);
+    state.SetFraming(CameraUtilFraming(GfRect2i(GfVec2i(0), 64, 48)));
+    const HdPatinaView view = viewOf(state, oneCamera(), 64, 48, "/own");
+    EXPECT_FALSE(view.ownCamera);
+    EXPECT_EQ(view.cameraPath, "/camera");
+    EXPECT_LT(view.dataWindow[2], view.dataWindow[0]) << "the whole image";
+}
+
+TEST(View, CropsToTheDataWindow) {
+    const NamedCamera camera(SdfPath("/camera"));
+    HdRenderPassState state;
+    state.SetCamera(&camera);
+    CameraUtilFraming framing(GfRect2i(GfVec2i(0), 64, 48));
+    framing.dataWindow = GfRect2i(GfVec2i(8, 4), 16, 10);
+    state.SetFraming(framing);
+    const HdPatinaView view = viewOf(state, oneCamera(), 64, 48, "/own");
+    EXPECT_FALSE(view.ownCamera);
+    EXPECT_EQ(view.dataWindow[0], 8);
+    EXPECT_EQ(view.dataWindow[1], 4);
+    EXPECT_EQ(view.dataWindow[2], 23);
+    EXPECT_EQ(view.dataWindow[3], 13);
+}
+
+TEST(View, PlacesADisplayWindowInALargerBuffer) {
+    const NamedCamera camera(SdfPath("/camera"));
+    HdRenderPassState state;
+    state.SetCamera(&camera);
+    // The display window has the camera's aspect and fills the upper left quarter of the buffer.
+    const CameraUtilFraming framing(GfRange2f(GfVec2f(0, 0), GfVec2f(40, 20)),
+                                    GfRect2i(GfVec2i(0), 80, 40));
+    state.SetFraming(framing);
+    const HdPatinaView view = viewOf(state, oneCamera(), 80, 40, "/own");
+    ASSERT_TRUE(view.ownCamera);
+    EXPECT_EQ(view.policy, "distortAperture");
+    EXPECT_FLOAT_EQ(view.camera.horizontalAperture, 40.0f);
+    EXPECT_FLOAT_EQ(view.camera.verticalAperture, 20.0f);
+    EXPECT_FLOAT_EQ(view.camera.horizontalApertureOffset, 10.0f);
+    EXPECT_FLOAT_EQ(view.camera.verticalApertureOffset, -5.0f);
+}

@@ -14,6 +14,7 @@ COMMANDS = {
     "explain": "explain",
     "bsdf": "bsdf",
     "compare": "compare",
+    "hydra": "hydra",
     "test": "testRun",
 }
 
@@ -22,6 +23,7 @@ SUMMARIES = {
     "explain": "show what is modelled of a material, and what was left out",
     "bsdf": "numbers of a material: values, samples, albedo",
     "compare": "measure how two images differ",
+    "hydra": "where the Hydra plugin is, and whether hosts can use it",
     "test": "run every test of a checkout",
 }
 

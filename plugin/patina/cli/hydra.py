@@ -1,0 +1,47 @@
+"""Shows where the Hydra plugin is and whether a host can use it.
+
+  patina hydra
+  eval "$(patina hydra --environment)"; usdview stage.usda --renderer Patina
+
+The plugin is built for the OpenUSD that CMake found (PXR_USD_LOCATION, pxr_DIR or /usr/local/USD). The check
+loads it as a host does, and says why one would refuse it. `cmake --install` puts it below PREFIX/plugin/usd,
+which is what PXR_PLUGINPATH_NAME has to name then.
+"""
+import os
+import shlex
+import subprocess
+
+from patina.cli.errors import CommandError
+
+
+def add_arguments(parser):
+    parser.add_argument("--environment", action="store_true",
+                        help="print the shell line that lets hosts find the plugin, and nothing else")
+
+
+def run(arguments):
+    folder, program = _places()
+    if arguments.environment:
+        print(f"export PXR_PLUGINPATH_NAME={shlex.quote(folder)}${{PXR_PLUGINPATH_NAME:+:$PXR_PLUGINPATH_NAME}}")
+        return 0
+    print(f"PXR_PLUGINPATH_NAME has to name {folder}", flush=True)
+    environment = dict(os.environ)
+    known = [path for path in (environment.get("PXR_PLUGINPATH_NAME"),) if path]
+    environment["PXR_PLUGINPATH_NAME"] = os.pathsep.join([folder] + known)
+    for name in ("PYTHONPATH", "PYTHONSAFEPATH"):  # they are for patina's own Python
+        environment.pop(name, None)
+    if subprocess.run([program], env=environment, check=False).returncode:
+        raise CommandError("a host would refuse the plugin; the reason is above")
+    return 0
+
+
+def _places():
+    """:returns: (folder for PXR_PLUGINPATH_NAME, path of patinaHydraInfo)
+    :raises CommandError: when there is no plugin"""
+    build = os.environ.get("PATINA_BUILD_DIR", "")
+    folder = os.path.join(build, "usdPlugin")
+    program = os.path.join(build, "plugin", "hydra", "patinaHydraInfo")
+    if not build or not os.path.exists(program):
+        raise CommandError("the Hydra plugin is not built: CMake found no OpenUSD with Hydra (set PXR_USD_LOCATION "
+                           "to where it is installed)")
+    return folder, program

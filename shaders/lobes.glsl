@@ -15,3 +15,4 @@
 #include "shaders/lobes/conductor.glsl"
 #include "shaders/lobes/dielectric.glsl"
 #include "shaders/lobes/generalizedSchlick.glsl"
+#include "shaders/lobes/phaseHenyeyGreenstein.glsl"

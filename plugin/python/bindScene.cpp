@@ -155,7 +155,9 @@ void bindScene(py::module_& m) {
         .def("set_camera", &setCamera, "A UsdGeomCamera; keywords are the fields of Camera.")
         .def("set_material", &setMaterial, py::arg("path"), py::arg("network"))
         .def("set_meters_per_unit", &PythonEdit::setMetersPerUnit, py::arg("meters_per_unit"))
-        .def("remove", &PythonEdit::remove, py::arg("path"))
+        .def(
+            "remove", [](PythonEdit& edit, const std::string& path) { edit.remove(path); },
+            py::arg("path"))
         .def("clear", &PythonEdit::clear, "Removes everything that was there before.")
         .def("commit", &PythonEdit::commit, py::call_guard<py::gil_scoped_release>())
         .def(

@@ -34,3 +34,7 @@ const float TINY = 1e-20f;
 
 // Input range of tints and colours: negative and NaN become 0, Inf becomes this.
 const float COLOR_MAX = 65504.0f;
+
+// Largest |anisotropy| of a phase function: its peak is 2e6 / (4 pi) there, and 1 - g still has
+// four digits.
+const float PHASE_ANISOTROPY_MAX = 0.999f;

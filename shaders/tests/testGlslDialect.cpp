@@ -55,7 +55,10 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
     DielectricLobe d = dielectricSetup(vec3(1.0), 1.5, vec2(0.2), false, SCATTER_RT, false, 1);
     SchlickLobe s = schlickSetup(vec3(0.04), vec3(1.0), vec3(1.0), 5.0, vec2(0.2), false,
                                  SCATTER_RT, false, 1);
-    vec3 sum = orenNayarEval(o, wo, wi).value + burleyEval(b, wo, wi).value +
+    PhaseHenyeyGreensteinLobe p = phaseHenyeyGreensteinSetup(0.5);
+    vec3 sum = phaseHenyeyGreensteinEval(p, wo, wi).value +
+               phaseHenyeyGreensteinSample(p, wo, u).wi + phaseHenyeyGreensteinAlbedo(p, wo) +
+               orenNayarEval(o, wo, wi).value + burleyEval(b, wo, wi).value +
                translucentEval(t, wo, wi).value + conductorEval(c, wo, wi).value +
                dielectricEval(d, wo, wi).value + schlickEval(s, wo, wi).value;
     sum += orenNayarSample(o, wo, u).weight + burleySample(b, wo, u).weight +

@@ -120,6 +120,7 @@ void Host::setPurposes(const std::vector<std::string>& purposes) {
 
 void Host::setSetting(const std::string& name, const VtValue& value) {
     _delegate->SetRenderSetting(TfToken(name), value);
+    _options.settings[TfToken(name)] = _delegate->GetRenderSetting(TfToken(name)); // if accepted
 }
 
 HdRenderBuffer* Host::buffer(const std::string& aov) const {

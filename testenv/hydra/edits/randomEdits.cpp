@@ -1,0 +1,16 @@
+#include "testenv/hydra/edits/edits.h"
+
+namespace patina {
+
+RandomEdits::RandomEdits(const UsdStageRefPtr& stage, Host& host, uint32_t seed)
+    : _stage(stage), _host(host), _random(seed),
+      _groups({&geometryEdits(), &shadingEdits(), &structureEdits(), &hostEdits()}) {}
+
+std::string RandomEdits::apply() {
+    const std::vector<Edit>& group = *_random.pick(_groups);
+    const Edit& edit = _random.pick(group);
+    edit.apply(_stage, _host, _random);
+    return edit.name;
+}
+
+} // namespace patina

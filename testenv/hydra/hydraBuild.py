@@ -1,0 +1,94 @@
+"""The OpenUSD that the plugin was built for: where it is, and how to run programs of it."""
+import json
+import os
+import shutil
+import subprocess
+
+TIMEOUT = 900  # seconds for one program: a hang fails rather than blocks
+
+
+def _read():
+    path = os.path.join(os.environ.get("PATINA_BUILD_DIR", ""), "hydra.json")
+    if not os.environ.get("PATINA_BUILD_DIR") or not os.path.isfile(path):
+        return None
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def missing():
+    """:returns: one line that says why there is no Hydra to test with, else None"""
+    build = _read()
+    if build is None:
+        return "OpenUSD with Hydra not found: the plugin is not built"
+    if not os.path.exists(build["host"]) or not os.path.exists(os.path.join(build["plugin"], "hdPatina.so")):
+        return "the Hydra plugin and its test host are not built"
+    return None
+
+
+def folder(name):
+    """:param name: root, plugin, host or python, as the build wrote them down"""
+    return _read()[name]
+
+
+def environment(scene_index=False, **more):
+    """For programs that load the plugin. Nothing of this Python's own pxr may reach them."""
+    build = _read()
+    values = {name: value for name, value in os.environ.items()
+              if name not in ("PYTHONPATH", "PYTHONSAFEPATH", "VIRTUAL_ENV", "PYTHONHOME")}
+    values["PXR_PLUGINPATH_NAME"] = build["plugin"]
+    values["PYTHONPATH"] = os.path.join(build["root"], "lib", "python")
+    libraries = [os.path.join(build["root"], "lib")] + list(filter(None, [os.environ.get("LD_LIBRARY_PATH")]))
+    values["LD_LIBRARY_PATH"] = os.pathsep.join(libraries)
+    values["USDIMAGINGGL_ENGINE_ENABLE_SCENE_INDEX"] = "1" if scene_index else "0"
+    values.update(more)
+    return values
+
+
+def run_host(stage, *arguments, scene_index=False, check=True):
+    """Runs hydraHost. :returns: the finished process"""
+    command = [folder("host"), str(stage), *map(str, arguments)] + (["--sceneIndex"] if scene_index else [])
+    return _run(command, environment(scene_index), check)
+
+
+def run_usdrecord(stage, image, *arguments, scene_index=False, check=True, gl=False, **more):
+    """Runs usdrecord with our renderer. :param gl: with a GL context, on a screen that no one sees
+    :returns: the finished process"""
+    build = _read()
+    script = os.path.join(build["root"], "bin", "usdrecord")
+    command = [build["python"], script, "--renderer", "Patina", *map(str, arguments), str(stage), str(image)]
+    if gl:
+        command = xvfb() + command
+    else:
+        command.insert(2, "--disableGpu")
+    return _run(command, environment(scene_index, **more), check)
+
+
+def xvfb():
+    """:returns: the words that go before a command to give it a screen, None without Xvfb"""
+    return ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24"] if shutil.which("xvfb-run") else None
+
+
+def has_usdrecord():
+    build = _read()
+    return os.path.exists(os.path.join(build["root"], "bin", "usdrecord")) and os.path.exists(build["python"])
+
+
+def has_qt():
+    """:returns: whether the Python of this OpenUSD can open windows, as usdview needs"""
+    build = _read()
+    return subprocess.run([build["python"], "-c", "import PySide6.QtWidgets"], env=environment(),
+                          capture_output=True, check=False).returncode == 0
+
+
+def _run(command, values, check):
+    process = subprocess.run(command, env=values, capture_output=True, text=True, errors="replace", timeout=TIMEOUT,
+                             check=False)
+    if check and process.returncode != 0:
+        reason = f"killed by signal {-process.returncode}\n" if process.returncode < 0 else ""
+        raise AssertionError(f"{' '.join(command)}\n{reason}{process.stdout[-2000:]}\n{process.stderr[-4000:]}")
+    return process
+
+
+def warnings_of(process):
+    """:returns: lines of a finished process that OpenUSD or the renderer warned with"""
+    return [line for line in process.stderr.splitlines() if line.startswith(("Warning:", "Error", "Coding Error"))]

@@ -1,0 +1,65 @@
+"""usdrecord with our renderer: every test scene and every stage of the assets becomes an image, with and
+without a GL context, from UsdImagingDelegate and from scene indices."""
+import os
+
+import numpy as np
+import pytest
+
+import hydraBuild
+import stages
+from rendering import color
+
+pytestmark = pytest.mark.skipif(not hydraBuild.missing() and not hydraBuild.has_usdrecord(),
+                                reason="this OpenUSD has no usdrecord")
+WIDTH = 48
+# Stages that show nothing from the camera that usdrecord takes, and why.
+EMPTY = {}
+
+
+def shown(image):
+    """:returns: whether an image has finite pixels that are not all the same"""
+    pixels = color(image)
+    return bool(np.isfinite(pixels).all()) and float(np.ptp(pixels)) > 0.0
+
+
+def record(stage, image, **keywords):
+    process = hydraBuild.run_usdrecord(stage, image, "--imageWidth", WIDTH, "--purposes", "render", **keywords)
+    warnings = hydraBuild.warnings_of(process)
+    assert not [line for line in warnings if line.startswith("Coding Error")], warnings
+    return warnings
+
+
+@pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])
+@pytest.mark.parametrize("stage", stages.scenes(), ids=stages.name_of)
+def test_scene_without_gpu(tmp_path, stage, scene_index):
+    image = tmp_path / "image.exr"
+    warnings = record(stage, image, scene_index=scene_index)
+    assert not warnings
+    assert shown(image)
+
+
+@pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])
+def test_scene_with_gl_context(tmp_path, scene_index):
+    if not hydraBuild.xvfb() or not hydraBuild.has_qt():
+        pytest.skip("Xvfb or PySide not found: usdrecord needs both for a GL context")
+    plain, image = tmp_path / "plain.exr", tmp_path / "image.exr"
+    stage = os.path.join(stages.SCENES, "shaderball.usda")
+    record(stage, plain, scene_index=scene_index)
+    record(stage, image, scene_index=scene_index, gl=True)
+    assert shown(image)
+    # The colour goes through the host's half-float textures and its colour correction (off for EXR).
+    assert np.abs(color(image) - color(plain)).mean() < 0.01 * color(plain).mean()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("stage", stages.assets(), ids=stages.name_of)
+def test_asset(tmp_path, stage):
+    image = tmp_path / "image.exr"
+    record(stage, image)
+    assert shown(image) != (stages.name_of(stage) in EMPTY)
+
+
+def test_camera_that_is_not_there(tmp_path):
+    process = hydraBuild.run_usdrecord(os.path.join(stages.SCENES, "furnace.usda"), tmp_path / "image.exr",
+                                       "--camera", "/nowhere", "--imageWidth", WIDTH, check=False)
+    assert process.returncode >= 0  # a message or the framing camera, but no crash

@@ -1,0 +1,37 @@
+"""usdview shows, picks and edits with our renderer, in both ways into Hydra."""
+import json
+import os
+import subprocess
+
+import pytest
+
+import hydraBuild
+import stages
+from rendering import color
+
+PICKED = "/World/tall"  # what the stage shows in the middle of its frame
+DRIVER = os.path.join(os.path.dirname(__file__), "usdview", "drive.py")
+
+
+@pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])
+def test_turn_pick_edit(tmp_path, scene_index):
+    if not hydraBuild.xvfb() or not hydraBuild.has_qt():
+        pytest.skip("Xvfb or PySide not found: usdview needs both")
+    stage = os.path.join(stages.SCENES, "diffuseBox.usda")
+    environment = hydraBuild.environment(
+        scene_index, PATINA_DRIVE_SHADER="/World/materials/white/diffuse", PATINA_DRIVE_INPUT="color",
+        QT_QPA_PLATFORM="xcb", LIBGL_ALWAYS_SOFTWARE="1")
+    command = hydraBuild.xvfb() + [hydraBuild.folder("python"), DRIVER, str(tmp_path), stage, "--renderer", "Patina",
+                                   "--defaultsettings"]
+    process = subprocess.run(command, env=environment, capture_output=True, text=True, errors="replace",
+                             timeout=hydraBuild.TIMEOUT, check=False)
+    assert process.returncode == 0, process.stdout[-2000:] + process.stderr[-4000:]
+    with open(tmp_path / "result.json", encoding="utf-8") as file:
+        result = json.load(file)
+    assert result["renderer"] == "HdPatinaRendererPlugin"
+    assert all(shot["converged"] for shot in result["shots"])
+    assert result["picked"] == result["selected"] == PICKED
+    start, turned, edited = (color(tmp_path / f"{shot['name']}.png") for shot in result["shots"])
+    assert abs(turned - start).mean() > 0.02
+    redder = edited - turned
+    assert redder[..., 0].mean() > redder[..., 1].mean() + 0.02

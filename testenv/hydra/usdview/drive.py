@@ -1,0 +1,106 @@
+"""Drives usdview as a user would, on a screen that no one sees: opens a stage with a renderer, turns the
+camera, picks a prim, changes a material and takes screenshots.
+
+    xvfb-run python drive.py FOLDER STAGE --renderer Patina [--defaultsettings ...]
+
+Everything after FOLDER is usdview's. Writes start.png, turned.png, edited.png and result.json to FOLDER.
+Runs in the Python of OpenUSD. The stage has to have a shader at the path that $PATINA_DRIVE_SHADER names,
+with the colour input that $PATINA_DRIVE_INPUT names.
+"""
+import json
+import os
+import sys
+import time
+
+from pxr import Gf, Sdf, Usdviewq, UsdShade
+from pxr.Usdviewq.qt import QtCore, QtWidgets
+
+PATIENCE = 120.0  # seconds until a picture has to be whole
+SIZE = (480, 360)  # of the view, in points of the screen
+
+
+class Driver:
+    def __init__(self, controller, folder):
+        self.controller, self.folder = controller, folder
+        self.view = controller._stageView
+        self.result = {"shots": []}
+
+    def run(self):
+        self.view.setFixedSize(*SIZE)
+        # Some releases of PySide lose a reference to None with each line of text that is drawn.
+        self.controller._dataModel.viewSettings.showHUD = False
+        self.shoot("start")
+        self.result["renderer"] = self.view.GetCurrentRendererId()
+        self.result["stats"] = {name: str(value) for name, value in self.view._getRenderer().GetRenderStats().items()}
+        self.pick()
+        self.turn()
+        self.shoot("turned")
+        self.edit()
+        self.shoot("edited")
+        with open(os.path.join(self.folder, "result.json"), "w", encoding="utf-8") as file:
+            json.dump(self.result, file, indent=1)
+
+    def events(self):
+        for _ in range(10):
+            QtWidgets.QApplication.processEvents()
+
+    def shoot(self, name):
+        """Waits until the picture is whole and saves it."""
+        end = time.monotonic() + PATIENCE
+        self.view.updateView()
+        self.events()
+        while not self.view._getRenderer().IsConverged() and time.monotonic() < end:
+            self.events()
+            time.sleep(0.01)
+        self.events()
+        self.view.updateView()  # the last pixels come with the repaint after the last sample
+        self.events()
+        self.controller.GrabViewportShot().save(os.path.join(self.folder, name + ".png"), "PNG")
+        self.result["shots"].append({"name": name, "converged": self.view._getRenderer().IsConverged()})
+
+    def pick(self):
+        """Clicks on the middle of the view. What is there goes to the result, and what was selected."""
+        ratio = self.view.devicePixelRatioF()
+        x, y = SIZE[0] / 2 * ratio, SIZE[1] / 2 * ratio
+        found = self.view.pick(self.view.computePickFrustum(x, y)[1])
+        self.result["picked"] = str(found[2]) if found else ""
+        self.view.pickObject(x, y, QtCore.Qt.LeftButton, QtCore.Qt.NoModifier)
+        self.events()
+        self.result["selected"] = str(self.controller._dataModel.selection.getFocusPrim().GetPath())
+        self.controller._dataModel.selection.clear()
+
+    def turn(self):
+        """As a drag with the left mouse button does."""
+        settings = self.controller._dataModel.viewSettings
+        self.view.switchToFreeCamera()
+        settings.freeCamera.Tumble(40.0, 15.0)
+
+    def edit(self):
+        stage = self.controller._dataModel.stage
+        shader = UsdShade.Shader(stage.GetPrimAtPath(os.environ["PATINA_DRIVE_SHADER"]))
+        shader.CreateInput(os.environ["PATINA_DRIVE_INPUT"], Sdf.ValueTypeNames.Color3f).Set(Gf.Vec3f(0.9, 0.05, 0.02))
+
+
+class Launcher(Usdviewq.Launcher):
+    """usdview's own launcher, but driven: it ends when the driver does."""
+
+    def __init__(self, folder):
+        super().__init__()
+        self.folder = folder
+
+    def LaunchProcess(self, arg_parse_result, app, appController):
+        try:
+            app.processEvents()
+            Driver(appController, self.folder).run()
+        finally:
+            app.processEvents()
+            appController._stageView.closeRenderer()
+            app.instance().closeAllWindows()
+            app.processEvents()
+
+
+if __name__ == "__main__":
+    out = sys.argv.pop(1)
+    Launcher(out).Run()
+    sys.stdout.flush()
+    os._exit(0)  # the same loss of references would end the interpreter with an abort

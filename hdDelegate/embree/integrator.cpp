@@ -1,5 +1,6 @@
 #include "hdDelegate/embree/integrator.h"
 
+#include "hdDelegate/embree/ambientOcclusion.h"
 #include "hdDelegate/embree/aovWriter.h"
 #include "hdDelegate/embree/path.h"
 #include "hdDelegate/embree/pixelFilter.h"
@@ -54,6 +55,14 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     const vec2 offset = _filter.sample(vec2(uFilm));
     const vec2 pixel = vec2(x, y) + 0.5f + offset;
     const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime.x);
+    const AovTarget target{film, x, y, glm::length(offset)};
+    if (_settings.integrator == "ambientOcclusion") {
+        const AmbientOcclusion occlusion{_scene, _settings.ambientOcclusionSamples};
+        const float seen = occlusion.sample(ray, sampler, _aovs, target, _camera, counters.rays);
+        ++counters.paths;
+        film.addColor(x, y, vec3(std::max(seen, 0.0f)), seen < 0.0f ? 0.0f : 1.0f);
+        return;
+    }
 
     Path path(sampler);
     path.origin = ray.origin;
@@ -63,7 +72,6 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     path.time = ray.time;
     path.coneWidth = ray.coneWidth;
     path.coneSpread = ray.coneSpread;
-    const AovTarget target{film, x, y, glm::length(offset)};
     trace(path, target, counters);
     ++counters.paths;
     film.addColor(x, y, path.radiance * _camera.camera().exposureScale, path.alpha);

@@ -1,0 +1,62 @@
+#include "hdDelegate/embree/ambientOcclusion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+/// A frame around a unit normal (Duff et al. 2017).
+void frameOf(const vec3& n, vec3& x, vec3& y) {
+    const float sign = std::copysign(1.0f, n.z);
+    const float a = -1.0f / (sign + n.z), b = n.x * n.y * a;
+    x = vec3(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
+    y = vec3(b, sign + n.y * n.y * a, -n.y);
+}
+
+} // namespace
+
+float AmbientOcclusion::sample(const CameraRay& ray, Sampler& sampler,
+                               const std::vector<AovSpec>& aovs, const AovTarget& target,
+                               const CameraRays& camera, uint64_t& rayCount) const {
+    Hit hit;
+    ++rayCount;
+    if (!scene.intersect(ray.origin, ray.direction, ray.near, ray.far, ray.time, RayCamera, hit))
+        return -1.0f;
+    if (!aovs.empty()) {
+        SurfacePoint point;
+        computeSurfacePoint(hit, ray.origin, ray.direction,
+                            ray.coneWidth + ray.coneSpread * hit.distance, point);
+        writeAovs(aovs, target, camera, point, Bsdf());
+    }
+    vec3 normal = hit.groupNormal;
+    if (hit.instanced) normal = glm::transpose(glm::inverse(mat3(hit.groupToWorld))) * normal;
+    const float length = glm::length(normal);
+    if (!(length > 0.0f)) return 1.0f;
+    normal /= glm::dot(normal, ray.direction) > 0.0f ? -length : length;
+
+    const vec3 position = ray.origin + ray.direction * hit.distance;
+    const vec3 size = glm::abs(position);
+    const float offset = 1e-5f * std::max({size.x, size.y, size.z, hit.distance});
+    const vec3 origin = position + normal * offset;
+    vec3 x, y;
+    frameOf(normal, x, y);
+    constexpr float twoPi = 6.2831853071795865f;
+    const vec2 shift = sampler.next2();
+    int seen = 0;
+    for (int i = 0; i < rays; ++i) {
+        // A rank-1 lattice (golden ratio), shifted at random: stratified for any number of rays.
+        const float u = (float(i) + shift.x) / float(rays);
+        float v = float(i) * 0.61803398875f + shift.y;
+        v -= std::floor(v);
+        const float radius = std::sqrt(u), phi = twoPi * v;
+        const vec3 direction = x * (radius * std::cos(phi)) + y * (radius * std::sin(phi)) +
+                               normal * std::sqrt(std::max(0.0f, 1.0f - u));
+        seen += !scene.occluded(origin, direction, 0.0f, INFINITY, ray.time, RayShadow);
+    }
+    rayCount += uint64_t(rays);
+    return float(seen) / float(rays);
+}
+
+} // namespace patina

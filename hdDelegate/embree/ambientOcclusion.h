@@ -1,0 +1,24 @@
+#pragma once
+
+#include "hdDelegate/embree/aovWriter.h"
+#include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/embree/sampler.h"
+
+#include <vector>
+
+namespace patina {
+
+/// What one camera ray finds without lights and materials: 0..1, the share of the cosine-weighted
+/// hemisphere over the surface (on the ray's side) that sees no geometry at any distance.
+/// A grey preview, and a workload of plain rays to compare with other renderers.
+struct AmbientOcclusion {
+    const EmbreeScene& scene;
+    int rays; ///< per hit, cosine distributed, stratified
+
+    /// @param target where AOVs are written; @param rayCount is counted up by the rays traced
+    /// @returns visibility, or a negative number when the ray meets nothing
+    float sample(const CameraRay& ray, Sampler& sampler, const std::vector<AovSpec>& aovs,
+                 const AovTarget& target, const CameraRays& camera, uint64_t& rayCount) const;
+};
+
+} // namespace patina

@@ -57,6 +57,8 @@ public:
         text += section(_plan.bsdf, "lobe");
         text += section(_plan.edf, "emission");
         text += section(_plan.vdf, "interior");
+        text += section(_plan.volumeEdf, "interior emission");
+        if (_plan.volumeOnly) text += "no surface\n";
         for (const std::string& line : _plan.leftOut)
             text += "left out: " + line + "\n";
         return text;

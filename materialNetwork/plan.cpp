@@ -20,6 +20,10 @@ public:
         if (surface != _plan.graph.terminals.end()) planSurface(surface->second, "surface");
         const auto volume = _plan.graph.terminals.find("volume");
         if (volume != _plan.graph.terminals.end()) planVolume(volume->second);
+        if (surface == _plan.graph.terminals.end() && (_plan.vdf >= 0 || _plan.volumeEdf >= 0)) {
+            _plan.volumeOnly = true;
+            _plan.opacity.value = Value::makeFloat(0.0f);
+        }
         const auto displacement = _plan.graph.terminals.find("displacement");
         if (displacement != _plan.graph.terminals.end()) planDisplacement(displacement->second);
     }
@@ -93,8 +97,7 @@ private:
             planVolume(input(node, "volumeshader"));
         } else if (node.def->closure == ClosureKind::Volume) {
             _plan.vdf = build(input(node, "vdf"), false);
-            if (!input(node, "edf").isConstant())
-                leaveOut(node, "emission inside a volume is not modelled");
+            _plan.volumeEdf = build(input(node, "edf"), false);
         } else if (node.def->outputs[size_t(operand.output)].type == ValueType::Vdf) {
             _plan.vdf = build(operand, false);
         } else {
@@ -160,10 +163,6 @@ private:
             checkMicrofacet(node);
             break;
         case ClosureKind::Conductor: checkMicrofacet(node); break;
-        case ClosureKind::AnisotropicVdf:
-            if (!isConstantValue(input(node, "scattering"), 0.0f))
-                leaveOut(node, "scattering inside a volume is not modelled");
-            break;
         case ClosureKind::Subsurface:
             leaveOut(node, "subsurface scattering is shown as diffuse");
             break;
@@ -174,7 +173,8 @@ private:
         case ClosureKind::Burley:
         case ClosureKind::Translucent:
         case ClosureKind::UniformEdf:
-        case ClosureKind::AbsorptionVdf: break;
+        case ClosureKind::AbsorptionVdf:
+        case ClosureKind::AnisotropicVdf: break;
         default:
             _diagnostics.warn(node.path, "",
                               node.def->category + " cannot stand here; it is left out");

@@ -32,10 +32,12 @@ struct PlanClosure {
 struct Plan {
     Graph graph;                       ///< simplified
     std::vector<PlanClosure> closures; ///< parts before wholes
-    int bsdf = -1, edf = -1, vdf = -1; ///< roots in closures, -1 for none
+    int bsdf = -1, edf = -1;           ///< roots in closures, -1 for none
+    int vdf = -1, volumeEdf = -1;      ///< of the medium inside
     Operand opacity;                   ///< presence
     bool thinWalled = false;
-    int compensate = 1; ///< energy compensation of microfacet lobes (shaders/lib/energy.glsl)
+    bool volumeOnly = false; ///< a medium without a surface around it
+    int compensate = 1;      ///< energy compensation of microfacet lobes (shaders/lib/energy.glsl)
     std::vector<std::string> leftOut; ///< what is not modelled, one line each
 };
 

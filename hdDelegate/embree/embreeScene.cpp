@@ -329,6 +329,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
     if (stop) return;
 
     _allOpaque = true;
+    _hasMedia = false;
     int primId = 0;
     for (const Work& item : work) {
         Surface& surface = *item.cached->surface;
@@ -341,8 +342,10 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
             surface.materials.push_back(makeSlot(
                 surface, subset.material.empty() ? surface.prim->material : subset.material, state,
                 settings, textures));
-        for (const MaterialSlot& slot : surface.materials)
+        for (const MaterialSlot& slot : surface.materials) {
             _allOpaque &= slot.opaque;
+            _hasMedia |= slot.program->hasInterior();
+        }
         _surfacesOf[surface.prim->group].push_back(item.cached->surface);
         _trianglesStored += surface.mesh.triangles.size();
     }

@@ -45,6 +45,7 @@ public:
                   unsigned mask) const;
 
     bool allOpaque() const { return _allOpaque; } ///< no material lets shadow rays through
+    bool hasMedia() const { return _hasMedia; }   ///< some material fills its object
     const std::vector<EmissiveTriangle>& emissiveTriangles() const { return _emissive; }
     /// World transforms of a group (for lights inside prototypes).
     std::vector<mat4> groupTransforms(const std::string& group) const;
@@ -98,7 +99,7 @@ private:
     std::vector<EmissiveTriangle> _emissive;
     std::map<std::string, int> _categoryIds;
     float _shutterOpen = 0.0f, _shutterClose = 0.0f;
-    bool _allOpaque = true;
+    bool _allOpaque = true, _hasMedia = false;
     vec3 _boundsMin{0.0f}, _boundsMax{0.0f};
     size_t _trianglesStored = 0, _instanceCount = 0;
 };

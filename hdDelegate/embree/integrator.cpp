@@ -2,6 +2,8 @@
 
 #include "hdDelegate/embree/ambientOcclusion.h"
 #include "hdDelegate/embree/aovWriter.h"
+#include "hdDelegate/embree/media/freeFlight.h"
+#include "hdDelegate/embree/media/mediaAround.h"
 #include "hdDelegate/embree/path.h"
 #include "hdDelegate/embree/pixelFilter.h"
 #include "hdDelegate/embree/sceneLights.h"
@@ -13,29 +15,8 @@ namespace patina {
 
 namespace {
 
-constexpr int maxPassThroughs = 256; ///< surfaces that opacity lets one ray through
-
-float luminance(const vec3& c) {
-    return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
-}
-
-float powerHeuristic(float a, float b) {
-    if (!std::isfinite(a)) return 1.0f;
-    const float aa = a * a, bb = b * b;
-    return aa > 0.0f ? aa / (aa + bb) : 0.0f;
-}
-
 vec3 transmittanceOf(const MediumStack& media, float distance) {
-    if (media.empty()) return vec3(1.0f);
-    const vec3 a = media.absorption();
-    vec3 result(1.0f); // a clear medium stays clear over an infinite distance
-    for (int c = 0; c < 3; ++c)
-        if (a[c] > 0.0f) result[c] = std::exp(-a[c] * distance);
-    return result;
-}
-
-bool contains(const std::vector<int>& sorted, int value) {
-    return std::binary_search(sorted.begin(), sorted.end(), value);
+    return media.empty() ? vec3(1.0f) : transmittance(media.extinction(), distance);
 }
 
 } // namespace
@@ -46,7 +27,10 @@ Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
     : _scene(scene), _lights(lights), _camera(camera), _settings(settings), _aovs(aovs),
       _filter(settings.filterRadius), _cullBack(settings.cullStyle.rfind("back", 0) == 0),
       _cullFront(settings.cullStyle.rfind("front", 0) == 0),
-      _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos) {}
+      _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos) {
+    const vec3 eye = vec3(glm::inverse(camera.worldToCamera())[3]);
+    if (std::isfinite(eye.x + eye.y + eye.z)) _cameraMedia = mediaAround(scene, eye, 0.5f);
+}
 
 void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters& counters) const {
     Sampler sampler(uint32_t(x), uint32_t(y), _settings.seed, index);
@@ -72,20 +56,15 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     path.time = ray.time;
     path.coneWidth = ray.coneWidth;
     path.coneSpread = ray.coneSpread;
+    path.media = _cameraMedia;
     trace(path, target, counters);
     ++counters.paths;
     film.addColor(x, y, path.radiance * _camera.camera().exposureScale, path.alpha);
 }
 
-bool Integrator::linked(int category, const Surface* surface,
-                        const std::vector<int>* instance) const {
-    return category == SceneLights::everything || !surface ||
-           contains(surface->categories, category) || (instance && contains(*instance, category));
-}
-
 /// Light that the ray meets before `distance`: area lights, and at infinity domes and suns.
-/// @returns true when the camera's ray ends on a light.
-bool Integrator::addLightsAlong(Path& path, float distance) const {
+/// @returns where the camera's ray ends on a light, or `distance`.
+float Integrator::addLightsAlong(Path& path, float distance) const {
     LightHit hits[8];
     const int count = _lights.set().intersect(path.origin, path.direction, path.near, distance,
                                               path.time, hits, 8);
@@ -97,35 +76,35 @@ bool Integrator::addLightsAlong(Path& path, float distance) const {
             if (_lights.info(hits[i].light).cameraVisible &&
                 (!nearest || hits[i].distance < nearest->distance))
                 nearest = &hits[i];
-        if (!nearest) return false;
+        if (!nearest) return distance;
         path.radiance +=
             path.throughput * transmittanceOf(path.media, nearest->distance) * nearest->radiance;
         path.alpha = 1.0f;
-        return true;
+        return nearest->distance;
     }
     for (int i = 0; i < count; ++i) {
         const float lightPdf =
             path.specular ? 0.0f
                           : _lights.set().pdf(hits[i].light, path.vertex, path.vertexNormal,
                                               path.vertexTwoSided, path.time, hits[i]);
-        addLight(path, hits[i].light, hits[i].radiance, lightPdf, hits[i].distance);
+        addLight(path, hits[i].light,
+                 transmittanceOf(path.media, hits[i].distance) * hits[i].radiance, lightPdf);
     }
-    return false;
+    return distance;
 }
 
 /// Light found by following the BSDF, weighted against what light samples would have found.
-void Integrator::addLight(Path& path, int light, const vec3& radiance, float lightPdf,
-                          float distance) const {
+void Integrator::addLight(Path& path, int light, const vec3& radiance, float lightPdf) const {
     const LightInfo& info = _lights.info(light);
     if (!linked(info.lightCategory, path.vertexSurface, path.vertexInstanceCategories)) return;
     const float weight = path.specular ? 1.0f : powerHeuristic(path.pdf, lightPdf);
     const vec3 share = path.diffuseShare * info.diffuse + path.specularShare * info.specular;
-    addRadiance(path, transmittanceOf(path.media, distance) * share * radiance * weight);
+    addRadiance(path, share * radiance * weight);
 }
 
 void Integrator::addRadiance(Path& path, const vec3& radiance) const {
     vec3 contribution = path.throughput * radiance;
-    if (_settings.indirectClamp > 0.0f && path.depth > 1) {
+    if (_settings.indirectClamp > 0.0f && path.indirect()) {
         const float l = luminance(contribution);
         if (l > _settings.indirectClamp) contribution *= _settings.indirectClamp / l;
     }
@@ -148,7 +127,7 @@ void Integrator::addEscaped(Path& path) const {
                 ? 0.0f
                 : _lights.set().pdfInfinite(light, path.vertex, path.vertexNormal,
                                             path.vertexTwoSided, path.direction, path.time);
-        addLight(path, light, radiance, lightPdf, path.media.empty() ? 0.0f : INFINITY);
+        addLight(path, light, radiance, lightPdf);
     }
 }
 
@@ -168,41 +147,7 @@ void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& h
                       : _lights.set().pdfTriangle(light - _lights.set().lightCount(), path.vertex,
                                                   path.vertexNormal, path.vertexTwoSided,
                                                   point.shading.position);
-    addLight(path, light, radiance, lightPdf, 0.0f);
-}
-
-/// The part of a light that reaches a point past everything in between.
-vec3 Integrator::visibility(const Path& path, const vec3& origin, const vec3& direction,
-                            float distance, const LightInfo& light, TraceCounters& counters) const {
-    if (!light.castsShadows || !_settings.enableShadows) return vec3(1.0f);
-    float far = distance * (1.0f - 1e-4f);
-    if (light.shadowDistance > 0.0f) far = std::min(far, light.shadowDistance);
-    ++counters.shadowRays;
-    const bool simple = _scene.allOpaque() && light.shadowCategory == SceneLights::everything &&
-                        light.shadowFalloff <= 0.0f;
-    if (simple) {
-        if (!_scene.occluded(origin, direction, 0.0f, far, path.time, RayShadow)) return vec3(1.0f);
-        return light.shadowColor;
-    }
-    float through = 1.0f, near = 0.0f;
-    for (int i = 0; i < maxPassThroughs && through > 0.0f; ++i) {
-        Hit hit;
-        if (!_scene.intersect(origin, direction, near, far, path.time, RayShadow, hit)) break;
-        SurfacePoint point;
-        computeSurfacePoint(hit, origin, direction, 0.0f, point);
-        if (linked(light.shadowCategory, hit.surface, hit.instanceCategories)) {
-            const MaterialProgram& program = *point.slot->program;
-            float opacity = point.slot->opaque ? 1.0f : program.opacity(point.shading);
-            if (light.shadowFalloff > 0.0f && light.shadowDistance > 0.0f) {
-                const float fade = std::clamp(
-                    (light.shadowDistance - hit.distance) / light.shadowFalloff, 0.0f, 1.0f);
-                opacity *= std::pow(fade, std::max(light.shadowFalloffGamma, 1e-3f));
-            }
-            through *= 1.0f - opacity;
-        }
-        near = hit.distance + std::max(point.offset, hit.distance * 1e-6f);
-    }
-    return vec3(through) + (1.0f - through) * light.shadowColor;
+    addLight(path, light, radiance, lightPdf);
 }
 
 vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf,
@@ -228,8 +173,16 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
     const float away = glm::dot(light.direction, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
     const vec3 origin = s.position + s.geometricNormal * (away * point.offset);
     value *= radiance * (weight / light.pdf);
-    value *= transmittanceOf(path.media, light.distance);
-    return value * visibility(path, origin, light.direction, light.distance, info, counters);
+    const MaterialProgram& program = *point.slot->program;
+    const bool crosses = program.hasInterior() &&
+                         (glm::dot(s.viewDirection, s.geometricNormal) < 0.0f) != (away < 0.0f);
+    if (!crosses)
+        return value * visibility(path, path.media, origin, light.direction, light.distance, info,
+                                  counters);
+    MediumStack across = path.media;
+    across.cross(program, s);
+    return value *
+           visibility(path, across, origin, light.direction, light.distance, info, counters);
 }
 
 void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& counters) const {
@@ -244,12 +197,22 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
             _scene.intersect(path.origin, path.direction, path.near, path.far, path.time,
                              path.fromCamera() ? RayCamera : RayIndirect, hit);
         const float distance = found ? hit.distance : path.far;
-        if (hasFiniteLights && _settings.enableSceneLights && addLightsAlong(path, distance)) break;
+        float end = distance;
+        if (hasFiniteLights && _settings.enableSceneLights) end = addLightsAlong(path, distance);
+        if (!path.media.empty()) {
+            const Flight flight = fly(path, end, counters);
+            if (flight == Flight::Ends) break;
+            if (flight == Flight::Scatters) {
+                aovsWritten = true; // what lies behind is no longer seen straight
+                travelled = 0.0f;
+                continue;
+            }
+        }
+        if (end < distance) break;
         if (!found) {
             addEscaped(path);
             break;
         }
-        path.throughput *= transmittanceOf(path.media, hit.distance);
         travelled += hit.distance;
         SurfacePoint point;
         const float width = path.coneWidth + path.coneSpread * travelled;
@@ -263,6 +226,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         float opacity = culled ? 0.0f : point.slot->opaque ? 1.0f : program.opacity(s);
         if (opacity < 1.0f && !(path.sampler.random() < opacity)) {
             if (++passed > maxPassThroughs) break;
+            if (program.passingEnters() && !culled) path.media.cross(program, s);
             path.origin = s.position + path.direction * std::max(point.offset, 1e-7f);
             path.near = 0.0f;
             continue;
@@ -288,12 +252,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         path.throughput *= next.weight;
         if (!(luminance(path.throughput) > 0.0f)) break;
         const bool transmits = (next.event & sh::LOBE_TRANSMIT) != 0;
-        if (transmits && program.hasInterior()) {
-            if (back)
-                path.media.leave(&program);
-            else
-                path.media.enter(&program, program.interiorAbsorption(s));
-        }
+        if (transmits) path.media.cross(program, s);
         path.specular = (next.event & sh::LOBE_DELTA) != 0;
         path.pdf = next.pdf;
         path.vertex = s.position;
@@ -312,12 +271,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         }
 
         ++path.depth;
-        if (path.depth > _settings.rouletteDepth) {
-            const float survive = std::min(
-                0.95f, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
-            if (path.sampler.random() >= survive) break;
-            path.throughput /= survive;
-        }
+        if (!survivesRoulette(path)) break;
         const float away = glm::dot(next.wi, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
         path.origin = s.position + s.geometricNormal * (away * point.offset);
         path.direction = next.wi;

@@ -2,6 +2,7 @@
 
 #include "hdDelegate/embree/aovWriter.h"
 #include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/embree/media/phaseMixture.h"
 #include "hdDelegate/embree/path.h"
 #include "hdDelegate/embree/pixelFilter.h"
 #include "hdDelegate/embree/sceneLights.h"
@@ -12,6 +13,18 @@ namespace patina {
 struct TraceCounters {
     uint64_t rays = 0, shadowRays = 0, paths = 0;
 };
+
+constexpr int maxPassThroughs = 256; ///< surfaces that presence lets one ray through
+
+inline float luminance(const vec3& c) {
+    return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+inline float powerHeuristic(float a, float b) {
+    if (!std::isfinite(a)) return 1.0f;
+    const float aa = a * a, bb = b * b;
+    return aa > 0.0f ? aa / (aa + bb) : 0.0f;
+}
 
 /// A unidirectional path tracer with next event estimation; light and BSDF samples are combined by
 /// multiple importance sampling with the power heuristic (Veach 1997). Everything it refers to is
@@ -26,16 +39,23 @@ public:
 
 private:
     void trace(Path& path, const AovTarget& target, TraceCounters& counters) const;
-    bool addLightsAlong(Path& path, float distance) const;
-    void addLight(Path& path, int light, const vec3& radiance, float lightPdf,
-                  float distance) const;
+    float addLightsAlong(Path& path, float distance) const;
+    void addLight(Path& path, int light, const vec3& radiance, float lightPdf) const;
     void addRadiance(Path& path, const vec3& radiance) const;
     void addEscaped(Path& path) const;
     void addEmission(Path& path, const SurfacePoint& point, const Hit& hit) const;
     vec3 directLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf, const Hit& hit,
                      const vec3& u, TraceCounters& counters) const;
-    vec3 visibility(const Path& path, const vec3& origin, const vec3& direction, float distance,
-                    const LightInfo& light, TraceCounters& counters) const;
+    /// Light that a medium scatters towards the path, from one light sample.
+    vec3 mediumLight(const Path& path, const vec3& position, const PhaseMixture& phase,
+                     const vec3& u, TraceCounters& counters) const;
+    enum class Flight { Arrives, Scatters, Ends };
+    /// Takes the path through the medium that it is in, up to `distance` or to where it scatters.
+    Flight fly(Path& path, float distance, TraceCounters& counters) const;
+    bool survivesRoulette(Path& path) const;
+    vec3 visibility(const Path& path, const MediumStack& media, const vec3& origin,
+                    const vec3& direction, float distance, const LightInfo& light,
+                    TraceCounters& counters) const;
     bool linked(int category, const Surface* surface, const std::vector<int>* instance) const;
     bool cullsBack(const Geometry& prim) const {
         return _cullBack && (_cullDoubleSided || !prim.doubleSided);
@@ -50,6 +70,7 @@ private:
     RenderSettings _settings;
     std::vector<AovSpec> _aovs;
     PixelFilter _filter;
+    MediumStack _cameraMedia; ///< that the camera stands in
     bool _cullBack, _cullFront, _cullDoubleSided;
 };
 

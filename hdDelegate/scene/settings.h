@@ -24,6 +24,7 @@ struct RenderSettings {
     uint32_t seed = 0;
 
     int maxDepth = 16;          ///< path vertices after the camera
+    int maxScatterings = 1024;  ///< inside media, per path; not counted in maxDepth
     int rouletteDepth = 4;      ///< Russian roulette starts after so many bounces
     float indirectClamp = 0.0f; ///< largest luminance of one indirect sample; 0: off (unbiased)
     float filterRadius = 1.0f;  ///< pixels; Gaussian pixel filter, 0.5 means a box

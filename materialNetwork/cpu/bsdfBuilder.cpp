@@ -2,6 +2,7 @@
 
 #include "materialNetwork/cpu/lobeOps.h"
 #include "materialNetwork/cpu/lobeSetup.h"
+#include "materialNetwork/cpu/scratch.h"
 #include "materialNetwork/cpu/shadingFrame.h"
 
 #include <algorithm>
@@ -9,24 +10,6 @@
 namespace patina {
 
 namespace {
-
-/// Space for one value per closure; on the stack unless the material is huge.
-template <class T> class Scratch {
-public:
-    explicit Scratch(size_t n) : _data(_local) {
-        if (n > localCount) {
-            static thread_local std::vector<T> large;
-            if (large.size() < n) large.resize(n);
-            _data = large.data();
-        }
-    }
-    T& operator[](int i) { return _data[i]; }
-
-private:
-    static constexpr size_t localCount = 48;
-    T _local[localCount];
-    T* _data;
-};
 
 float luminance(const glm::vec3& c) {
     return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;

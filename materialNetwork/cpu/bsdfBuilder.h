@@ -25,7 +25,7 @@ private:
     static void choose(const ProgramCode& code, Bsdf& out);
 };
 
-/// Value of a tree of EDFs or VDFs, which are linear: sum of leaf values times factors.
+/// Value of a tree of EDFs, which are linear: sum of leaf values times factors.
 glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* registers);
 
 } // namespace patina

@@ -1,6 +1,7 @@
 #include "materialNetwork/cpu/materialProgram.h"
 
 #include "materialNetwork/cpu/bsdfBuilder.h"
+#include "materialNetwork/cpu/mediumBuilder.h"
 #include "materialNetwork/cpu/programBuilder.h"
 
 #include <cstring>
@@ -69,12 +70,17 @@ glm::vec3 MaterialProgram::emission(const ShadingPoint& point, const glm::vec3&)
     return linearClosure(_code->edf, registers.data());
 }
 
-glm::vec3 MaterialProgram::interiorAbsorption(const ShadingPoint& point) const {
-    if (!_hasInterior) return glm::vec3(0.0f);
-    if (_code->interiorCode.empty()) return linearClosure(_code->vdf, _code->constants.data());
+Medium MaterialProgram::interior(const ShadingPoint& point) const {
+    if (!_hasInterior) return Medium();
+    const auto build = [&](const glm::vec4* registers) {
+        Medium medium = buildMedium(_code->vdf, registers);
+        medium.emission = linearClosure(_code->volumeEdf, registers);
+        return medium;
+    };
+    if (_code->interiorCode.empty()) return build(_code->constants.data());
     RegisterFile registers(*_code);
     registers.run(*_code, _code->interiorCode, point);
-    return linearClosure(_code->vdf, registers.data());
+    return build(registers.data());
 }
 
 void MaterialProgram::evaluate(const ShadingPoint& point, Bsdf& out) const {

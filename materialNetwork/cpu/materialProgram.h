@@ -1,6 +1,7 @@
 #pragma once
 
 #include "materialNetwork/cpu/bsdf.h"
+#include "materialNetwork/cpu/medium.h"
 #include "materialNetwork/cpu/shadingPoint.h"
 #include "materialNetwork/diagnostics.h"
 #include "materialNetwork/network.h"
@@ -40,8 +41,13 @@ public:
     bool isOpaque() const { return _isOpaque; } ///< opacity() is 1 everywhere
     bool isThinWalled() const { return _isThinWalled; }
     bool hasTransmission() const { return _hasTransmission; } ///< a lobe may send light through
-    bool hasInterior() const { return _hasInterior; }         ///< absorbs inside closed objects
-    bool usesUv() const { return _usesUv; }                   ///< reads texture coordinates
+    bool hasInterior() const { return _hasInterior; }         ///< a medium fills closed objects
+    /// There is no surface: rays go on past the boundary, and only the medium is seen.
+    bool isVolumeOnly() const { return _isVolumeOnly; }
+    /// Rays that presence lets pass are inside the object afterwards: its boundary is there, but
+    /// bends nothing.
+    bool passingEnters() const { return _hasInterior && _passingEnters; }
+    bool usesUv() const { return _usesUv; } ///< reads texture coordinates
 
     /// @returns isOpaque() for a prim that lacks some primvars
     /// @param attributes per slot of primvars(): negative when the prim has no such primvar
@@ -55,8 +61,8 @@ public:
     /// Radiance emitted towards wo (world space, unit). Both sides emit.
     glm::vec3 emission(const ShadingPoint& point, const glm::vec3& wo) const;
 
-    /// Absorption coefficient inside the object, per scene unit, not negative.
-    glm::vec3 interiorAbsorption(const ShadingPoint& point) const;
+    /// The medium inside the object, as it is at this point.
+    Medium interior(const ShadingPoint& point) const;
 
     /// Sets up the lobes at a point, seen from point.viewDirection.
     void evaluate(const ShadingPoint& point, Bsdf& out) const;
@@ -75,6 +81,8 @@ private:
     bool _isThinWalled = false;
     bool _hasTransmission = false;
     bool _hasInterior = false;
+    bool _isVolumeOnly = false;
+    bool _passingEnters = false;
     bool _usesUv = false;
     std::unique_ptr<ProgramCode> _code;
 };

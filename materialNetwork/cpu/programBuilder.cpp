@@ -137,6 +137,14 @@ std::vector<ClosureOp> ProgramBuilder::linearOps(int root, std::vector<bool>& ne
             const Operand& operand = closureInput(_plan, c, name);
             mark(operand, needed);
             op.factor = registerOf(operand);
+            if (c.kind == ClosureKind::AnisotropicVdf) {
+                const Operand& scattering = closureInput(_plan, c, "scattering");
+                const Operand& anisotropy = closureInput(_plan, c, "anisotropy");
+                mark(scattering, needed);
+                mark(anisotropy, needed);
+                op.scattering = registerOf(scattering);
+                op.anisotropy = registerOf(anisotropy);
+            }
         } else if (c.kind != ClosureKind::Add) {
             op.factor = constant(Value::makeFloat(0.0f));
         }
@@ -306,7 +314,10 @@ void ProgramBuilder::setFlags() {
     for (const LobeTemplate& t : _code->lobes)
         p._hasTransmission |= t.prebuilt.kind == LobeKind::Translucent ||
                               (!t.straight && (t.mode & sh::SCATTER_T) != 0);
-    p._hasInterior = !_code->vdf.empty() && p._hasTransmission && !_plan.thinWalled;
+    p._isVolumeOnly = _plan.volumeOnly;
+    p._passingEnters = _plan.volumeOnly || _code->hasStraight;
+    p._hasInterior = (!_code->vdf.empty() || !_code->volumeEdf.empty()) && !_plan.thinWalled &&
+                     (p._hasTransmission || p._passingEnters);
 }
 
 std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
@@ -343,6 +354,7 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
     bsdfOps(surface);
     _code->edf = linearOps(_plan.edf, emission);
     _code->vdf = linearOps(_plan.vdf, interior);
+    _code->volumeEdf = linearOps(_plan.volumeEdf, interior);
     mark(_plan.opacity, opacity);
     _code->opacity = registerOf(_plan.opacity);
     emit(surface, _code->surfaceCode);

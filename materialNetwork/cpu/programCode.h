@@ -42,7 +42,9 @@ struct ClosureOp {
     int a = -1, b = -1;
     int lobe = -1;            ///< index of the lobe, for lobes
     bool needsPassed = false; ///< stands somewhere in a layer's top
-    Register factor = 0;      ///< lobe: weight; Mix: mix; Multiply: factor; EDF and VDF: value
+    Register factor = 0;      ///< lobe: weight; Mix: mix; Multiply: factor; EDF: value
+                              ///< VDF: absorption
+    Register scattering = 0, anisotropy = 0; ///< of an AnisotropicVdf
 };
 
 struct FrameTemplate {
@@ -56,7 +58,7 @@ struct ProgramCode {
     std::vector<Register> inputPool;
     std::vector<Instruction> opacityCode, emissionCode, interiorCode, surfaceCode;
 
-    std::vector<ClosureOp> bsdf, edf, vdf; ///< the last op is the root
+    std::vector<ClosureOp> bsdf, edf, vdf, volumeEdf; ///< the last op is the root
     std::vector<LobeTemplate> lobes;
     std::vector<FrameTemplate> frames;
     Register opacity = 0;

@@ -114,7 +114,7 @@ TEST(Material, AbsorptionInsideGlass) {
          makeNode("bsdf", "ND_layer_vdf", {},
                   {{"top", {"glass", ""}}, {"base", {"inside", ""}}})}));
     ASSERT_TRUE(c.program->hasInterior());
-    expectColor(c.program->interiorAbsorption(ShadingPoint()), 1, 2, 3);
+    expectColor(c.program->interior(ShadingPoint()).absorption, 1, 2, 3);
 }
 
 TEST(Material, TexturesAreReadWithScaleBiasAndChannels) {

@@ -89,7 +89,7 @@ TEST(Models, DepthAbsorbs) {
                                                  {"transmission_color", grey(0.5f)},
                                                  {"transmission_depth", number(2.0f)}}));
     ASSERT_TRUE(c.program->hasInterior());
-    EXPECT_NEAR(c.program->interiorAbsorption(ShadingPoint()).x, std::log(2.0f) / 2.0f, 1e-5f);
+    EXPECT_NEAR(c.program->interior(ShadingPoint()).absorption.x, std::log(2.0f) / 2.0f, 1e-5f);
 }
 
 TEST(Models, WhatIsMissingIsSaid) {

@@ -50,6 +50,7 @@ const std::map<std::string, Field>& fields() {
         {"threads", field(&RenderSettings::threads)},
         {"seed", field(&RenderSettings::seed)},
         {"maxDepth", field(&RenderSettings::maxDepth)},
+        {"maxScatterings", field(&RenderSettings::maxScatterings)},
         {"rouletteDepth", field(&RenderSettings::rouletteDepth)},
         {"indirectClamp", field(&RenderSettings::indirectClamp)},
         {"filterRadius", field(&RenderSettings::filterRadius)},

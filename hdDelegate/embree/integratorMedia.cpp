@@ -1,0 +1,89 @@
+#include "hdDelegate/embree/integrator.h"
+
+#include "hdDelegate/embree/media/freeFlight.h"
+
+#include <algorithm>
+#include <cmath>
+
+// What happens to a path inside participating media.
+
+namespace patina {
+
+vec3 Integrator::mediumLight(const Path& path, const vec3& position, const PhaseMixture& phase,
+                             const vec3& u, TraceCounters& counters) const {
+    LightSample light;
+    if (!_lights.set().sample(position, vec3(0.0f), true, u, path.time, light) ||
+        !(light.pdf > 0.0f))
+        return vec3(0.0f);
+    const LightInfo& info = _lights.info(light.light);
+    float phasePdf;
+    vec3 value = phase.eval(-path.direction, light.direction, phasePdf) * info.diffuse;
+    vec3 radiance = light.radiance;
+    if (info.triangles) radiance = _lights.triangleRadiance(light, position, path.time);
+    if (radiance == vec3(0.0f)) return vec3(0.0f);
+    const float weight = light.delta ? 1.0f : powerHeuristic(light.pdf, phasePdf);
+    value *= radiance * (weight / light.pdf);
+    return value *
+           visibility(path, path.media, position, light.direction, light.distance, info, counters);
+}
+
+Integrator::Flight Integrator::fly(Path& path, float distance, TraceCounters& counters) const {
+    const Medium& medium = path.media.medium();
+    const vec3 extinction = path.media.extinction();
+    if (medium.emission != vec3(0.0f))
+        addRadiance(path, emissionAlong(medium.emission, extinction, distance));
+    if (!medium.scatters()) {
+        path.throughput *= transmittance(extinction, distance);
+        return Flight::Arrives;
+    }
+    const FreeFlight flight = sampleFreeFlight(extinction, path.media.scattering(), path.throughput,
+                                               distance, path.sampler.next2());
+    path.throughput *= flight.weight;
+    if (!(luminance(path.throughput) > 0.0f)) return Flight::Ends;
+    if (!flight.scattered) return Flight::Arrives;
+
+    if (path.fromCamera()) path.alpha = 1.0f;
+    if (path.depth >= _settings.maxDepth || path.scatterings >= _settings.maxScatterings)
+        return Flight::Ends;
+    ++path.scatterings;
+    const vec3 position = path.origin + path.direction * flight.distance;
+    const PhaseMixture phase(medium, path.throughput);
+    const vec4 u = path.sampler.next4();
+    if (!_lights.set().empty())
+        addRadiance(path, mediumLight(path, position, phase, vec3(u), counters));
+    const vec2 uDirection = path.sampler.next2();
+    const PhaseMixture::Sample next = phase.sample(-path.direction, uDirection, u.w);
+    path.throughput *= next.weight;
+    if (!(luminance(path.throughput) > 0.0f) || !survivesRoulette(path)) return Flight::Ends;
+
+    path.specular = false;
+    path.pdf = next.pdf;
+    path.vertex = position;
+    path.vertexNormal = vec3(0.0f);
+    path.vertexTwoSided = true;
+    path.vertexSurface = nullptr;
+    path.vertexInstanceCategories = nullptr;
+    path.diffuseShare = vec3(1.0f);
+    path.specularShare = vec3(0.0f);
+    path.coneWidth += path.coneSpread * flight.distance;
+    path.coneSpread = std::min(1.0f, path.coneSpread + 0.5f);
+    path.origin = position;
+    path.direction = next.wi;
+    path.near = 0.0f;
+    path.far = INFINITY;
+    return Flight::Scatters;
+}
+
+/// A path that scatters in a bright medium goes on for long and should: it is only ended for what
+/// it has lost. Surfaces end every path now and then.
+bool Integrator::survivesRoulette(Path& path) const {
+    if (path.depth + path.scatterings <= _settings.rouletteDepth) return true;
+    const float bound = path.scatterings > 0 ? 1.0f : 0.95f;
+    const float survive =
+        std::min(bound, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
+    if (path.sampler.random() >= survive) return false;
+    path.throughput /= survive;
+    return true;
+}
+
+} // namespace patina

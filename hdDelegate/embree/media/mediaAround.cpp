@@ -1,0 +1,81 @@
+#include "hdDelegate/embree/media/mediaAround.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace patina {
+
+namespace {
+
+constexpr int maxCrossings = 256;
+
+/// An object seen from inside: how often, and how far away its surface is.
+struct Candidate {
+    const MaterialProgram* program;
+    Medium medium;
+    int votes = 0;
+    float distance = 0.0f;
+};
+
+/// Notes every object that a ray leaves without having entered it.
+void look(const EmbreeScene& scene, const vec3& point, const vec3& direction, float time,
+          std::vector<Candidate>& candidates) {
+    std::vector<const MaterialProgram*> entered;
+    std::vector<const MaterialProgram*> seen;
+    float near = 0.0f;
+    for (int i = 0; i < maxCrossings; ++i) {
+        Hit hit;
+        if (!scene.intersect(point, direction, near, INFINITY, time, RayIndirect, hit)) return;
+        SurfacePoint surface;
+        computeSurfacePoint(hit, point, direction, 0.0f, surface);
+        near = hit.distance + std::max(surface.offset, hit.distance * 1e-6f);
+        const MaterialProgram* program = surface.slot->program.get();
+        if (!program->hasInterior()) continue;
+        const ShadingPoint& s = surface.shading;
+        if (glm::dot(s.geometricNormal, s.viewDirection) >= 0.0f) {
+            entered.push_back(program);
+            continue;
+        }
+        const auto open = std::find(entered.begin(), entered.end(), program);
+        if (open != entered.end()) {
+            entered.erase(open);
+            continue;
+        }
+        // Inside several objects of one material is inside of it once.
+        if (std::find(seen.begin(), seen.end(), program) != seen.end()) continue;
+        seen.push_back(program);
+        auto known = std::find_if(candidates.begin(), candidates.end(),
+                                  [&](const Candidate& c) { return c.program == program; });
+        if (known == candidates.end())
+            known = candidates.insert(candidates.end(), {program, program->interior(s)});
+        ++known->votes;
+        known->distance += hit.distance;
+    }
+}
+
+} // namespace
+
+MediumStack mediaAround(const EmbreeScene& scene, const vec3& point, float time) {
+    MediumStack result;
+    if (!scene.hasMedia()) return result;
+    // Off the axes, so that rays do not run along edges of what people build.
+    const vec3 directions[] = {{0.31f, 0.87f, 0.38f},
+                               {-0.74f, 0.22f, 0.63f},
+                               {0.58f, -0.69f, 0.44f},
+                               {0.17f, 0.29f, -0.94f},
+                               {-0.49f, -0.36f, -0.79f}};
+    constexpr int count = 5;
+    std::vector<Candidate> candidates;
+    for (const vec3& direction : directions)
+        look(scene, point, glm::normalize(direction), time, candidates);
+    for (Candidate& c : candidates)
+        if (c.votes > 0) c.distance /= float(c.votes);
+    std::stable_sort(
+        candidates.begin(), candidates.end(),
+        [](const Candidate& a, const Candidate& b) { return a.distance > b.distance; });
+    for (const Candidate& c : candidates)
+        if (2 * c.votes > count) result.enter(c.program, c.medium);
+    return result;
+}
+
+} // namespace patina

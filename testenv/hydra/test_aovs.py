@@ -1,0 +1,202 @@
+"""What Hydra's outputs hold: depths against the camera's projection, normals, texture coordinates, and
+ids that Hydra itself decodes to the prims and instances that are there."""
+import json
+import math
+
+import numpy as np
+import pytest
+
+import hydraBuild
+from rendering import pixels
+
+MODES = pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])
+NEAR, FAR = 2.0, 50.0
+SIZE = 32
+STAGE = """#usda 1.0
+(
+    upAxis = "Y"
+)
+def Camera "camera"
+{
+    float2 clippingRange = (2, 50)
+    float focalLength = 50
+    float horizontalAperture = 50
+    float verticalAperture = 50
+}
+def Mesh "wall"
+{
+    int[] faceVertexCounts = [4, 4]
+    int[] faceVertexIndices = [0, 1, 4, 3, 1, 2, 5, 4]
+    point3f[] points = [(-20, -20, -10), (0, -20, -10), (20, -20, -10), (-20, 20, -10), (0, 20, -10), (20, 20, -10)]
+    texCoord2f[] primvars:st = [(0, 0), (0.5, 0), (1, 0), (0, 1), (0.5, 1), (1, 1)] (
+        interpolation = "vertex"
+    )
+    uniform token subdivisionScheme = "none"
+}
+"""
+INSTANCES = """#usda 1.0
+(
+    upAxis = "Y"
+)
+def Camera "camera"
+{
+    float2 clippingRange = (0.1, 100)
+    float focalLength = 50
+    float horizontalAperture = 50
+    float verticalAperture = 50
+    token projection = "orthographic"
+}
+def PointInstancer "outer"
+{
+    int[] protoIndices = [1, 0, 1]
+    point3f[] positions = [(-1.5, 1, -10), (0, 1, -10), (1.5, 1, -10)]
+    rel prototypes = [</outer/single>, </outer/inner>]
+    def Mesh "single"
+    {
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [(-0.3, -0.3, 0), (0.3, -0.3, 0), (0.3, 0.3, 0), (-0.3, 0.3, 0)]
+        uniform token subdivisionScheme = "none"
+    }
+    def PointInstancer "inner"
+    {
+        int[] protoIndices = [0, 0]
+        point3f[] positions = [(0, 0, 0), (0.6, 0, 0)]
+        rel prototypes = </outer/inner/tile>
+        def Mesh "tile"
+        {
+            int[] faceVertexCounts = [4]
+            int[] faceVertexIndices = [0, 1, 2, 3]
+            point3f[] points = [(-0.2, -0.2, 0), (0.2, -0.2, 0), (0.2, 0.2, 0), (-0.2, 0.2, 0)]
+            uniform token subdivisionScheme = "none"
+        }
+    }
+}
+class "Library"
+{
+    def Mesh "card"
+    {
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [(-0.3, -0.3, 0), (0.3, -0.3, 0), (0.3, 0.3, 0), (-0.3, 0.3, 0)]
+        uniform token subdivisionScheme = "none"
+    }
+}
+def Xform "first" (
+    instanceable = true
+    references = </Library>
+)
+{
+    double3 xformOp:translate = (-1.5, -1, -10)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Xform "second" (
+    instanceable = true
+    references = </Library>
+)
+{
+    double3 xformOp:translate = (1.5, -1, -10)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Mesh "plain"
+{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-0.3, -1.3, -10), (0.3, -1.3, -10), (0.3, -0.7, -10), (-0.3, -0.7, -10)]
+    uniform token subdivisionScheme = "none"
+}
+"""
+
+
+def render(tmp_path, text, *arguments, scene_index, size=SIZE):
+    """:returns: dict of channels, each (height, width), and the report of the host"""
+    import _patina
+
+    stage, image, report = tmp_path / "stage.usda", tmp_path / "image.exr", tmp_path / "report.json"
+    stage.write_text(text)
+    hydraBuild.run_host(stage, image, "--camera", "/camera", "--size", f"{size}x{size}", "--set", "samples=4",
+                        "--json", report, *arguments, scene_index=scene_index)
+    found = _patina.read_image(str(image))
+    with open(report, encoding="utf-8") as file:
+        return dict(zip(found.channels, np.moveaxis(pixels(image), -1, 0))), json.load(file)
+
+
+def outputs(*names):
+    return [word for name in names for word in ("--aov", name)]
+
+
+@MODES
+def test_depth_is_that_of_the_window(tmp_path, scene_index):
+    channels, _ = render(tmp_path, STAGE, *outputs("depth", "cameraDepth"), scene_index=scene_index)
+    z = 10.0
+    window = 0.5 + 0.5 * ((FAR + NEAR) - 2.0 * FAR * NEAR / z) / (FAR - NEAR)
+    assert channels["depth"] == pytest.approx(window, abs=1e-5)
+    assert channels["cameraDepth"] == pytest.approx(z, rel=1e-5)
+
+
+@MODES
+def test_depth_where_nothing_is(tmp_path, scene_index):
+    text = STAGE.replace("-20", "-2").replace("20", "2")
+    channels, _ = render(tmp_path, text, *outputs("depth", "primId", "instanceId", "elementId"),
+                         scene_index=scene_index)
+    corner = {name: float(values[0, 0]) for name, values in channels.items()}
+    assert corner == {"depth": 1.0, "primId": -1.0, "instanceId": -1.0, "elementId": -1.0}
+
+
+@MODES
+def test_normals_and_coordinates(tmp_path, scene_index):
+    channels, _ = render(tmp_path, STAGE, *outputs("normal", "Neye", "primvars:st", "elementId"),
+                         scene_index=scene_index)
+    for name in ("normal", "Neye"):
+        found = [channels[f"{name}.{axis}"] for axis in "xyz"]
+        assert np.stack(found, -1).reshape(-1, 3) == pytest.approx(np.tile([0, 0, 1.0], (SIZE * SIZE, 1)), abs=1e-5)
+    # At a depth of 10 the camera sees ten units of forty; within a pixel any place may be shown.
+    middle = (np.arange(SIZE) + 0.5) / SIZE * 10.0 - 5.0
+    s = np.tile((middle + 20.0) / 40.0, (SIZE, 1))
+    pixel = 10.0 / SIZE / 40.0
+    assert np.abs(channels["primvars:st.x"] - s).max() < pixel
+    assert np.abs(channels["primvars:st.y"] - s.T[::-1]).max() < pixel
+    half = SIZE // 2
+    assert (channels["elementId"][:, :half - 1] == 0).all() and (channels["elementId"][:, half + 1:] == 1).all()
+
+
+@MODES
+def test_eye_normals_turn_with_the_camera(tmp_path, scene_index):
+    turned = STAGE.replace('float verticalAperture = 50', 'float verticalAperture = 50\n    float xformOp:rotateY = 30\n'
+                           '    uniform token[] xformOpOrder = ["xformOp:rotateY"]')
+    channels, _ = render(tmp_path, turned, *outputs("normal", "Neye"), scene_index=scene_index)
+    middle = SIZE // 2
+    world = [channels[f"normal.{axis}"][middle, middle] for axis in "xyz"]
+    eye = [channels[f"Neye.{axis}"][middle, middle] for axis in "xyz"]
+    angle = math.radians(-30.0)
+    assert world == pytest.approx([0.0, 0.0, 1.0], abs=1e-5)
+    assert eye == pytest.approx([math.sin(angle), 0.0, math.cos(angle)], abs=1e-5)
+
+
+def _at(x, y):
+    """:returns: the pixel that shows a place of the orthographic view, 5 units wide"""
+    return (int((x + 2.5) / 5.0 * 100), int((2.5 - y) / 5.0 * 100))
+
+
+@MODES
+def test_ids_are_those_of_prims_and_instances(tmp_path, scene_index):
+    wanted = {  # place -> (path, outermost instancer, its instance)
+        (-1.5, 1): ("/outer/inner/tile", "/outer", 0), (-0.9, 1): ("/outer/inner/tile", "/outer", 0),
+        (0, 1): ("/outer/single", "/outer", 1),
+        (1.5, 1): ("/outer/inner/tile", "/outer", 2), (2.1, 1): ("/outer/inner/tile", "/outer", 2),
+        (-1.5, -1): ("/first/card", "", -1), (1.5, -1): ("/second/card", "", -1), (0, -1): ("/plain", "", -1)}
+    picks = [word for place in wanted for word in ("--pick", "{},{}".format(*_at(*place)))]
+    _, report = render(tmp_path, INSTANCES, *outputs("primId", "instanceId", "elementId"), *picks, size=100,
+                       scene_index=scene_index)
+    found = {place: (pick["path"], pick["instancer"], pick["index"])
+             for place, pick in zip(wanted, report["picks"])}
+    assert {place: hit[0] for place, hit in found.items()} == {place: hit[0] for place, hit in wanted.items()}
+    for place, hit in wanted.items():
+        if hit[1]:
+            assert found[place] == hit, place
+    # The two tiles of one inner instancer differ in their ids, and so do the two outer ones.
+    ids = [pick["instanceId"] for pick in report["picks"]]
+    assert len({ids[0], ids[1], ids[3], ids[4]}) == 4
+    nothing = hydraBuild.run_host(tmp_path / "stage.usda", "--camera", "/camera", "--pick", "50,50", "--size",
+                                  "100x100", *outputs("primId", "instanceId"), "--json", "-", scene_index=scene_index)
+    assert json.loads(nothing.stdout)["picks"][0]["path"] == ""

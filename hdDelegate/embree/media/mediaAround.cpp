@@ -58,16 +58,16 @@ void look(const EmbreeScene& scene, const vec3& point, const vec3& direction, fl
 MediumStack mediaAround(const EmbreeScene& scene, const vec3& point, float time) {
     MediumStack result;
     if (!scene.hasMedia()) return result;
-    // Off the axes, so that rays do not run along edges of what people build.
-    const vec3 directions[] = {{0.31f, 0.87f, 0.38f},
-                               {-0.74f, 0.22f, 0.63f},
-                               {0.58f, -0.69f, 0.44f},
-                               {0.17f, 0.29f, -0.94f},
-                               {-0.49f, -0.36f, -0.79f}};
-    constexpr int count = 5;
+    // Off the axes, so that rays do not run along edges of what people build; each with its
+    // opposite, so that a sheet is seen by no more than half of them.
+    const vec3 directions[] = {
+        {0.31f, 0.87f, 0.38f}, {-0.74f, 0.22f, 0.63f}, {0.58f, -0.69f, 0.44f}};
+    constexpr int count = 6;
     std::vector<Candidate> candidates;
-    for (const vec3& direction : directions)
+    for (const vec3& direction : directions) {
         look(scene, point, glm::normalize(direction), time, candidates);
+        look(scene, point, -glm::normalize(direction), time, candidates);
+    }
     for (Candidate& c : candidates)
         if (c.votes > 0) c.distance /= float(c.votes);
     std::stable_sort(

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "hdDelegate/renderer.h"
+
+#include <string>
+#include <vector>
+
+namespace patina::test {
+
+/// A scene for one test: prims are added, then one image is rendered.
+class MediaScene {
+public:
+    MediaScene() : scene(std::make_shared<Scene>()) {}
+
+    std::shared_ptr<Scene> scene;
+    RenderSettings settings;
+
+    /// @param nodes of the material; the first is the one on the terminal
+    void material(const std::string& path, std::vector<NetworkNode> nodes,
+                  const std::string& terminal = "surface");
+    void cube(const std::string& path, const vec3& center, const vec3& size,
+              const std::string& material);
+    void sphere(const std::string& path, const vec3& center, float radius,
+                const std::string& material);
+    void dome(float radiance);
+    void distant(const vec3& irradiance, const vec3& travels);
+    /// Looks along -z from `eye`, orthographic, on a square of that width.
+    void camera(const vec3& eye, float width);
+
+    struct Image {
+        std::vector<float> color;
+        vec3 mean{0.0f}, error{0.0f}; ///< over pixels; error: standard deviation of the mean
+        bool finite = true;
+    };
+    Image render(int pixels, int samples);
+};
+
+NetworkNode node(const std::string& path, const std::string& id,
+                 std::map<std::string, Value> inputs = {},
+                 std::map<std::string, Connection> connections = {});
+
+/// ND_volume over an ND_anisotropic_vdf of these coefficients.
+std::vector<NetworkNode> volumeNodes(const vec3& absorption, const vec3& scattering,
+                                     float anisotropy = 0.0f);
+
+/// ND_surface of an ND_dielectric_bsdf, RT, over an anisotropic VDF.
+std::vector<NetworkNode> glassNodes(float ior, float roughness, const vec3& absorption,
+                                    const vec3& scattering);
+
+} // namespace patina::test

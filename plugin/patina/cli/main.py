@@ -15,6 +15,7 @@ COMMANDS = {
     "bsdf": "bsdf",
     "compare": "compare",
     "hydra": "hydra",
+    "bench": "bench",
     "test": "testRun",
 }
 
@@ -24,6 +25,7 @@ SUMMARIES = {
     "bsdf": "numbers of a material: values, samples, albedo",
     "compare": "measure how two images differ",
     "hydra": "where the Hydra plugin is, and whether hosts can use it",
+    "bench": "measure speed and memory, beside peers",
     "test": "run every test of a checkout",
 }
 

@@ -19,9 +19,9 @@ void HostBuffers::resize(int width, int height) {
                                                            HdRenderBuffer::DirtyDescription);
 }
 
-void HostBuffers::add(const std::string& aov, HdFormat format) {
+void HostBuffers::add(const std::string& aov, HdFormat format, bool multiSampled) {
     const SdfPath path = pathOf(aov);
-    if (!_formats.emplace(path, format).second) return;
+    if (!_formats.emplace(path, std::make_pair(format, multiSampled)).second) return;
     GetRenderIndex().InsertBprim(HdPrimTypeTokens->renderBuffer, this, path);
 }
 
@@ -44,8 +44,8 @@ HdRenderBuffer* HostBuffers::find(const std::string& aov) const {
 
 HdRenderBufferDescriptor HostBuffers::GetRenderBufferDescriptor(const SdfPath& id) {
     const auto found = _formats.find(id);
-    return found == _formats.end() ? HdRenderBufferDescriptor()
-                                   : HdRenderBufferDescriptor(_size, found->second, false);
+    if (found == _formats.end()) return HdRenderBufferDescriptor();
+    return HdRenderBufferDescriptor(_size, found->second.first, found->second.second);
 }
 
 } // namespace patina

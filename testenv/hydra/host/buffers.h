@@ -18,7 +18,7 @@ public:
     ~HostBuffers() override;
 
     void resize(int width, int height);
-    void add(const std::string& aov, HdFormat format);
+    void add(const std::string& aov, HdFormat format, bool multiSampled);
     void clear();
     SdfPath pathOf(const std::string& aov) const;
     /// @returns null when there is none
@@ -28,7 +28,7 @@ public:
 
 private:
     GfVec3i _size = GfVec3i(0, 0, 1);
-    std::map<SdfPath, HdFormat> _formats;
+    std::map<SdfPath, std::pair<HdFormat, bool>> _formats;
 };
 
 } // namespace patina

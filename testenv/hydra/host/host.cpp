@@ -106,9 +106,11 @@ void Host::setAovs(const std::vector<HostAov>& aovs) {
     _buffers->clear();
     for (const HostAov& aov : aovs) {
         HdFormat format = aov.format;
-        const HdFormat own = _delegate->GetDefaultAovDescriptor(TfToken(aov.name)).format;
-        if (format == HdFormatInvalid) format = aov.name == "color" ? HdFormatFloat32Vec4 : own;
-        if (own != HdFormatInvalid) _buffers->add(aov.name, format);
+        const HdAovDescriptor own = _delegate->GetDefaultAovDescriptor(TfToken(aov.name));
+        if (own.format == HdFormatInvalid) continue; // the delegate does not know it
+        if (format == HdFormatInvalid)
+            format = aov.name == "color" ? HdFormatFloat32Vec4 : own.format;
+        _buffers->add(aov.name, format, own.multiSampled);
     }
     bind();
 }

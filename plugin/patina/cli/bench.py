@@ -1,0 +1,47 @@
+"""Runs benchmarks, beside peers where these are installed.
+
+  patina bench             lists them
+  patina bench hydra --json out.json
+
+They are part of a checkout (testenv/bench), as the tests are. Figures drift between runs and machines;
+the ratios of one run count.
+"""
+import importlib.util
+import os
+import sys
+
+from patina.cli.errors import CommandError, UsageError
+
+PASSES_ON = True
+# name -> (file of testenv/bench that has main(arguments), what it measures)
+BENCHMARKS = {
+    "hydra": ("hydraBench.py", "frames in Hydra: first, after a camera move, rays per second, memory; beside "
+                               "hdEmbree and Storm"),
+}
+
+
+def add_arguments(parser):
+    parser.usage = "patina bench [BENCHMARK [its arguments]]"
+
+
+def run(arguments):
+    if not arguments.passed_on:
+        for name, (_, summary) in BENCHMARKS.items():
+            print(f"  {name:<10}{summary}")
+        return 0
+    name, *rest = arguments.passed_on
+    if name not in BENCHMARKS:
+        raise UsageError(f"patina bench: there is no benchmark '{name}' (there are: {', '.join(BENCHMARKS)})")
+    return _load(BENCHMARKS[name][0]).main(rest)
+
+
+def _load(file):
+    root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+    path = os.path.join(root, "testenv", "bench", file)
+    if not os.path.isfile(path):
+        raise CommandError("the benchmarks are in a checkout only: run ./patina bench there")
+    sys.path.insert(0, os.path.dirname(path))
+    spec = importlib.util.spec_from_file_location(file[:-3], path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module

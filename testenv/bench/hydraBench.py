@@ -1,0 +1,119 @@
+"""Frames in Hydra beside hdEmbree and Storm, each renderer in a process of its own, in the same host.
+
+Seconds until the first image of one sample (Hydra's population and the building of acceleration structures
+are in it), until the image after a camera move, peak memory; and rays per second of an ambient occlusion frame:
+one camera ray and 16 cosine-distributed occlusion rays per hit, from the time of many samples less that of
+half as many. hdEmbree casts the same rays. Storm rasterizes through usdrecord's frame recorder, which also
+writes an image: its times are for orientation.
+"""
+import argparse
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "hydra"))
+
+import benchStages  # noqa: E402
+import hydraBuild  # noqa: E402
+
+RENDERERS = {  # plugin, how it calls the settings of the workload
+    "Patina": ("HdPatinaRendererPlugin", {"samples": "samples", "occlusion": ["integrator=ambientOcclusion",
+                                                                            "ambientOcclusionSamples=16"]}),
+    "hdEmbree": ("HdEmbreeRendererPlugin", {"samples": "convergedSamplesPerPixel",
+                                            "occlusion": ["enableAmbientOcclusion=true", "ambientOcclusionSamples=16"]}),
+}
+MOVES = 5
+RAYS_PER_HIT = 17
+
+
+def run_host(stage, renderer, samples, size, moves=0, outputs=()):
+    """:returns: the report of the host"""
+    plugin, names = RENDERERS[renderer]
+    settings = [f"{names['samples']}={samples}", *names["occlusion"]]
+    flags = [word for setting in settings for word in ("--set", setting)]
+    flags += [word for output in outputs for word in ("--aov", output)]
+    process = hydraBuild.run_host(stage, "--renderer", plugin, "--camera", "/camera", "--size", f"{size[0]}x{size[1]}",
+                                  "--repeats", moves, "--json", "-", *flags, *(["--pickAll"] if outputs else []))
+    return json.loads(process.stdout[process.stdout.index("{"):])
+
+
+def hits_of(stage, size):
+    """:returns: share of the pixels that show geometry"""
+    picks = run_host(stage, "Patina", 1, size, outputs=("primId", "instanceId"))["picks"]
+    return sum(pick["pixels"] for pick in picks if pick["primId"] >= 0) / (size[0] * size[1])
+
+
+def measure(stage, renderer, size, samples, hits):
+    first = run_host(stage, renderer, 1, size, moves=MOVES)
+    moved = statistics.median(first["seconds"][f"moved{i}"] for i in range(MOVES))
+    few, many = (run_host(stage, renderer, count, size)["seconds"]["render"] for count in (samples // 2, samples))
+    rays = size[0] * size[1] * (samples - samples // 2) * (1.0 + (RAYS_PER_HIT - 1) * hits)
+    return {"first": first["seconds"]["render"], "moved": moved, "memory": first["peakMemory"],
+            "rays": rays / max(many - few, 1e-9)}
+
+
+def measure_storm(stage, size):
+    """:returns: the same of Storm, without rays; None where it does not run"""
+    if not hydraBuild.xvfb() or not hydraBuild.has_qt():
+        return None
+    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "stormTimes.py")
+    command = hydraBuild.xvfb() + [hydraBuild.folder("python"), script, stage, str(size[0])]
+    process = subprocess.run(command, env=hydraBuild.environment(), capture_output=True, text=True, check=False)
+    if process.returncode != 0:
+        print("Storm does not run here: " + (process.stderr.strip().splitlines() or ["no message"])[-1], file=sys.stderr)
+        return None
+    return json.loads(process.stdout.strip().splitlines()[-1])
+
+
+def _cell(value, unit):
+    return "-" if value is None else f"{value:.3f} s" if unit == "s" else f"{value / 1e6:.1f} {unit}"
+
+
+def show(results):
+    """Prints a table; a ratio below 1 means that Patina needs less, above 1 for rays that it is faster."""
+    rows = [("first", "first image", "s"), ("moved", "after a camera move", "s"), ("memory", "peak memory", "MB"),
+            ("rays", "rays per second", "M/s")]
+    for stage, found in results.items():
+        print(stage)
+        for key, label, unit in rows:
+            cells = "".join(f"{name} {_cell(values.get(key), unit):<14}" for name, values in found.items())
+            ratios = "".join(f"  x{found['Patina'][key] / values[key]:.2f} of {name}" for name, values in found.items()
+                             if name != "Patina" and values.get(key))
+            print(f"  {label:<22}{cells}{ratios}")
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="patina bench hydra", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("stages", nargs="*", help="with a camera at /camera (default: stages made for this)")
+    parser.add_argument("--size", default="640x480")
+    parser.add_argument("--samples", type=int, default=32)
+    parser.add_argument("--json", help="writes the figures to this file")
+    options = parser.parse_args(arguments)
+    reason = hydraBuild.missing()
+    if reason:
+        print(reason)
+        return 0
+    size = tuple(map(int, options.size.split("x")))
+    results = {}
+    with tempfile.TemporaryDirectory() as folder:
+        stages = {os.path.basename(s): s for s in options.stages} or benchStages.write_all(folder)
+        for name, stage in stages.items():
+            hits = hits_of(stage, size)
+            found = {renderer: measure(stage, renderer, size, options.samples, hits) for renderer in RENDERERS}
+            storm = measure_storm(stage, size)
+            if storm:
+                found["Storm"] = storm
+            results[name] = found
+            show({name: found})
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump({"size": size, "samples": options.samples, "stages": results}, file, indent=1)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

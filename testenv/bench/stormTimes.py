@@ -1,0 +1,57 @@
+"""Times Storm in usdrecord's frame recorder: python stormTimes.py STAGE WIDTH, in the Python of OpenUSD and
+with a screen. Prints one line of JSON: seconds until the first image and after a camera move, peak memory."""
+import json
+import os
+import resource
+import statistics
+import sys
+import tempfile
+import time
+
+from pxr import Usd, UsdAppUtils, UsdGeom
+from PySide6 import QtCore, QtOpenGL, QtWidgets
+from PySide6.QtGui import QOffscreenSurface, QOpenGLContext
+
+MOVES = 5
+
+
+def context():
+    """:returns: what has to stay alive while GL is used"""
+    application = QtWidgets.QApplication(sys.argv[:1])
+    surface = QOffscreenSurface()
+    surface.create()
+    made = QOpenGLContext()
+    if not made.create() or not made.makeCurrent(surface):
+        sys.exit("there is no OpenGL context")
+    frame = QtOpenGL.QOpenGLFramebufferObject(QtCore.QSize(1, 1))  # for the task that presents
+    frame.bind()
+    return application, surface, made, frame
+
+
+def main(path, width):
+    alive = context()
+    stage = Usd.Stage.Open(path)
+    camera = UsdGeom.Camera(stage.GetPrimAtPath("/camera"))
+    move = UsdGeom.Xformable(camera).GetOrderedXformOps()[0]
+    place = move.Get()
+    with tempfile.TemporaryDirectory() as folder:
+        image = os.path.join(folder, "image.png")
+        seconds = []
+        recorder = None
+        for step in range(MOVES + 1):
+            start = time.perf_counter()
+            if recorder is None:
+                recorder = UsdAppUtils.FrameRecorder("HdStormRendererPlugin", True)
+                recorder.SetImageWidth(width)
+            if not recorder.Record(stage, camera, Usd.TimeCode.Default(), image):
+                sys.exit("Storm makes no image")
+            seconds.append(time.perf_counter() - start)
+            move.Set(place + type(place)(0.01 * (step + 1), 0, 0))
+        recorder = None
+    print(json.dumps({"first": seconds[0], "moved": statistics.median(seconds[1:]),
+                      "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024}), flush=True)
+    del alive
+    os._exit(0)  # some releases of PySide abort when the interpreter ends
+
+
+main(sys.argv[1], int(sys.argv[2]))

@@ -36,6 +36,8 @@ struct Geometry {
         categories; ///< names of light and shadow link collections that hold it
     bool doubleSided = true;
     bool leftHanded = false;
+    std::string renderTag; ///< Hydra's name of its purpose (proxy, render, guide); empty: geometry
+    int id = -1;           ///< for the primId AOV; -1: the rank of its path
 
     virtual ~Geometry() = default;
     const Primvar* primvar(const std::string& name) const;
@@ -106,6 +108,9 @@ struct Instancer {
     std::vector<int> prototypeIndices;       ///< per instance, into prototypes
     std::vector<MotionTransform> transforms; ///< per instance, local to group
     std::vector<int> ids; ///< per instance, for the instanceId AOV; empty = index
+    /// Per prototype: how many ids there are. The AOV then holds all levels of nesting in one number,
+    /// outer id * count + own id; empty: it holds the innermost id.
+    std::vector<int> idCounts;
     std::vector<std::vector<std::string>>
         categories;                ///< per instance (light linking); empty = none
     std::vector<Primvar> primvars; ///< per instance (Vertex) or constant

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "hdDelegate/hydra/gprim.h"
+
+#include <pxr/imaging/hd/basisCurves.h>
+
+namespace patina {
+
+/// Curves of every type, basis and wrap; ribbons where they have normals, tubes elsewhere.
+class HdPatinaBasisCurves final : public HdPatinaGprim<HdBasisCurves, Curves> {
+public:
+    using HdPatinaGprim::HdPatinaGprim;
+
+protected:
+    void syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam& param, HdDirtyBits dirtyBits,
+                   bool all, const TfToken& repr, Curves& curves) override;
+    void setPoints(Curves& curves, Sampled<std::vector<vec3>> points) override;
+
+private:
+    void expandPoints(Curves& curves) const;
+
+    std::vector<int> _indices;          ///< into the points; empty: they are in order
+    Sampled<std::vector<vec3>> _points; ///< as authored, with _indices
+};
+
+} // namespace patina

@@ -1,0 +1,63 @@
+#include "hdDelegate/hydra/gprim.h"
+
+#include "hdDelegate/hydra/instances.h"
+
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+constexpr unsigned int maxSamples = 32;
+
+MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                            const SdfPath& id) {
+    HdTimeSampleArray<GfMatrix4d, maxSamples> samples;
+    delegate.SampleTransform(id, &samples);
+    std::vector<float> times;
+    std::vector<mat4> values;
+    for (size_t i = 0; i < samples.count; ++i) {
+        const mat4 m = toMat4(samples.values[i]);
+        for (int c = 0; c < 4; ++c)
+            for (int r = 0; r < 4; ++r)
+                if (!std::isfinite(m[c][r])) {
+                    param.warn(id, "transform", "is not finite; none is used");
+                    return MotionTransform(mat4(1.0f));
+                }
+        times.push_back(samples.times[i]);
+        values.push_back(m);
+    }
+    if (values.empty()) return MotionTransform(mat4(1.0f));
+    return sampledOf(std::move(times), std::move(values));
+}
+
+} // namespace
+
+void readGprim(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
+               const SdfPath& instancerId, HdDirtyBits dirtyBits, bool all, Geometry& prim) {
+    if (all || HdChangeTracker::IsTransformDirty(dirtyBits, id))
+        prim.transform = transformOf(delegate, param, id);
+    if (all || (dirtyBits & HdChangeTracker::DirtyCategories)) {
+        prim.categories.clear();
+        for (const TfToken& category : delegate.GetCategories(id))
+            prim.categories.push_back(category.GetString());
+    }
+    if (all || HdChangeTracker::IsDoubleSidedDirty(dirtyBits, id))
+        prim.doubleSided = delegate.GetDoubleSided(id);
+    if (all || (dirtyBits & HdChangeTracker::DirtyRenderTag)) {
+        const TfToken tag = delegate.GetRenderTag(id);
+        prim.renderTag = tag == HdRenderTagTokens->geometry ? std::string() : tag.GetString();
+    }
+    if (all || HdChangeTracker::IsInstancerDirty(dirtyBits, id) ||
+        HdChangeTracker::IsInstanceIndexDirty(dirtyBits, id)) {
+        if (instancerId.IsEmpty()) {
+            param.instances().leave(id);
+            prim.group.clear();
+        } else {
+            prim.group = param.instances().place(id, instancerId,
+                                                 delegate.GetInstanceIndices(instancerId, id));
+        }
+    }
+}
+
+} // namespace patina

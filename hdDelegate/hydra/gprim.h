@@ -1,0 +1,88 @@
+#pragma once
+
+#include "hdDelegate/hydra/instancer.h"
+#include "hdDelegate/hydra/primvars.h"
+#include "hdDelegate/hydra/renderParam.h"
+#include "hdDelegate/hydra/values.h"
+
+#include <pxr/imaging/hd/changeTracker.h>
+#include <pxr/imaging/hd/renderIndex.h>
+#include <pxr/imaging/hd/rprim.h>
+#include <pxr/imaging/hd/sceneDelegate.h>
+#include <pxr/imaging/hd/tokens.h>
+
+#include <memory>
+
+namespace patina {
+
+/// Reads what all gprims share and is dirty: transform, material, categories, sidedness, render
+/// tag, instancing.
+/// @param instancerId of the rprim, up to date
+void readGprim(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
+               const SdfPath& instancerId, HdDirtyBits dirtyBits, bool all, Geometry& prim);
+
+/// A Hydra prim that becomes a prim of the scene. It keeps the last one, so that a sync fetches
+/// only what is dirty.
+/// @tparam Base HdMesh, HdBasisCurves, HdPoints...
+/// @tparam Prim Mesh, Curves, Points...
+template <class Base, class Prim> class HdPatinaGprim : public Base {
+public:
+    explicit HdPatinaGprim(const SdfPath& id) : Base(id) {}
+
+    HdDirtyBits GetInitialDirtyBitsMask() const override {
+        return HdChangeTracker::AllSceneDirtyBits;
+    }
+
+    void Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam, HdDirtyBits* dirtyBits,
+              const TfToken& reprToken) override {
+        auto& param = *static_cast<HdPatinaRenderParam*>(renderParam);
+        const SdfPath& id = this->GetId();
+        this->_UpdateVisibility(delegate, dirtyBits);
+        this->_UpdateInstancer(delegate, dirtyBits);
+        HdInstancer::_SyncInstancerAndParents(delegate->GetRenderIndex(), this->GetInstancerId());
+
+        const bool all = !_prim;
+        auto prim = all ? std::make_shared<Prim>() : std::make_shared<Prim>(*_prim);
+        prim->path = id.GetString();
+        prim->id = this->GetPrimId();
+        if (all || (*dirtyBits & HdChangeTracker::DirtyMaterialId)) {
+            this->SetMaterialId(delegate->GetMaterialId(id));
+            prim->material = this->GetMaterialId().GetString();
+        }
+        readGprim(*delegate, param, id, this->GetInstancerId(), *dirtyBits, all, *prim);
+        if (all || HdChangeTracker::IsAnyPrimvarDirty(*dirtyBits, id) ||
+            (*dirtyBits & HdChangeTracker::DirtyComputationPrimvarDesc)) {
+            PrimvarUpdate update = updatePrimvars(*delegate, param, id, *dirtyBits, all, *prim);
+            if (update.pointsChanged) setPoints(*prim, std::move(update.points));
+        }
+        syncShape(*delegate, param, *dirtyBits, all, reprToken, *prim);
+        _prim = prim;
+        // What is not seen is no part of the scene; it comes back as it was.
+        if (this->IsVisible())
+            param.set(std::shared_ptr<const Geometry>(_prim));
+        else
+            param.removeGeometry(prim->path);
+        *dirtyBits &= ~HdChangeTracker::AllSceneDirtyBits;
+    }
+
+    void Finalize(HdRenderParam* renderParam) override {
+        auto& param = *static_cast<HdPatinaRenderParam*>(renderParam);
+        param.instances().leave(this->GetId());
+        param.removeGeometry(this->GetId().GetString());
+        _prim.reset();
+    }
+
+protected:
+    /// Reads what only this kind of prim has.
+    virtual void syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                           HdDirtyBits dirtyBits, bool all, const TfToken& repr, Prim& prim) = 0;
+    virtual void setPoints(Prim& prim, Sampled<std::vector<vec3>> points) = 0;
+
+    HdDirtyBits _PropagateDirtyBits(HdDirtyBits bits) const override { return bits; }
+    void _InitRepr(const TfToken&, HdDirtyBits*) override {}
+
+private:
+    std::shared_ptr<const Prim> _prim;
+};
+
+} // namespace patina

@@ -1,0 +1,171 @@
+#include "hdDelegate/hydra/instancerTransforms.h"
+
+#include "hdDelegate/hydra/values.h"
+
+#include <pxr/base/gf/quatd.h>
+#include <pxr/base/gf/quatf.h>
+#include <pxr/base/gf/quath.h>
+#include <pxr/base/gf/rotation.h>
+#include <pxr/base/gf/vec3d.h>
+#include <pxr/base/gf/vec3f.h>
+#include <pxr/base/gf/vec4d.h>
+#include <pxr/base/gf/vec4f.h>
+#include <pxr/imaging/hd/tokens.h>
+
+#include <algorithm>
+#include <set>
+
+namespace patina {
+
+namespace {
+
+constexpr unsigned int maxSamples = 16;
+using Samples = HdTimeSampleArray<VtValue, maxSamples>;
+using Matrices = std::vector<GfMatrix4d>;
+
+template <class T, class F> bool convert(const VtValue& value, Matrices& out, const F& toMatrix) {
+    if (!value.IsHolding<VtArray<T>>()) return false;
+    out.clear();
+    for (const T& element : value.UncheckedGet<VtArray<T>>())
+        out.push_back(toMatrix(element));
+    return true;
+}
+
+template <class Quaternion> GfMatrix4d rotation(const Quaternion& q) {
+    const GfQuatd unit = GfQuatd(q.GetReal(), GfVec3d(q.GetImaginary())).GetNormalized();
+    return GfMatrix4d(1.0).SetRotate(unit);
+}
+
+template <class Vector> GfMatrix4d rotationOfVector(const Vector& v) {
+    return rotation(GfQuatd(v[0], GfVec3d(v[1], v[2], v[3])));
+}
+
+Matrices translations(const VtValue& value) {
+    Matrices out;
+    const auto move = [](const auto& v) { return GfMatrix4d(1.0).SetTranslate(GfVec3d(v)); };
+    convert<GfVec3f>(value, out, move) || convert<GfVec3d>(value, out, move);
+    return out;
+}
+
+Matrices rotations(const VtValue& value) {
+    Matrices out;
+    const auto turn = [](const auto& q) { return rotation(q); };
+    const auto turnVector = [](const auto& v) { return rotationOfVector(v); };
+    convert<GfQuath>(value, out, turn) || convert<GfQuatf>(value, out, turn) ||
+        convert<GfQuatd>(value, out, turn) || convert<GfVec4f>(value, out, turnVector) ||
+        convert<GfVec4d>(value, out, turnVector);
+    return out;
+}
+
+Matrices scales(const VtValue& value) {
+    Matrices out;
+    const auto scale = [](const auto& v) { return GfMatrix4d(1.0).SetScale(GfVec3d(v)); };
+    convert<GfVec3f>(value, out, scale) || convert<GfVec3d>(value, out, scale);
+    return out;
+}
+
+Matrices transforms(const VtValue& value) {
+    Matrices out;
+    convert<GfMatrix4d>(value, out, [](const GfMatrix4d& m) { return m; });
+    return out;
+}
+
+/// One of the arrays that make up the transform of an instance.
+struct Part {
+    std::vector<float> times;
+    std::vector<Matrices> values;
+
+    /// The array at a time: the samples around it, interpolated element by element.
+    GfMatrix4d at(size_t instance, float time) const {
+        if (values.empty()) return GfMatrix4d(1.0);
+        const size_t next =
+            size_t(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+        const size_t a = next == 0 ? 0 : next - 1, b = std::min(next, values.size() - 1);
+        const GfMatrix4d& first = element(a, instance);
+        const GfMatrix4d& second = element(b, instance);
+        if (a == b || times[b] <= times[a] || time <= times[a]) return first;
+        const double f = (time - times[a]) / double(times[b] - times[a]);
+        return first * (1.0 - f) + second * f;
+    }
+    size_t count() const {
+        size_t most = 0;
+        for (const Matrices& value : values)
+            most = std::max(most, value.size());
+        return most;
+    }
+
+private:
+    const GfMatrix4d& element(size_t sample, size_t instance) const {
+        static const GfMatrix4d identity(1.0);
+        return instance < values[sample].size() ? values[sample][instance] : identity;
+    }
+};
+
+Part read(HdSceneDelegate& delegate, const SdfPath& id, const TfToken& name,
+          Matrices (*convertAll)(const VtValue&)) {
+    Samples samples;
+    delegate.SamplePrimvar(id, name, &samples);
+    Part part;
+    for (size_t i = 0; i < samples.count; ++i) {
+        Matrices matrices = convertAll(samples.values[i]);
+        if (matrices.empty()) continue;
+        part.times.push_back(samples.times[i]);
+        part.values.push_back(std::move(matrices));
+    }
+    return part;
+}
+
+} // namespace
+
+std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, const SdfPath& id,
+                                                    HdPatinaRenderParam& param) {
+    const Part parts[] = {
+        // Gf multiplies row vectors: what is applied first stands first.
+        read(delegate, id, HdInstancerTokens->instanceTransforms, transforms),
+        read(delegate, id, HdInstancerTokens->instanceScales, scales),
+        read(delegate, id, HdInstancerTokens->instanceRotations, rotations),
+        read(delegate, id, HdInstancerTokens->instanceTranslations, translations),
+    };
+    HdTimeSampleArray<GfMatrix4d, maxSamples> own;
+    delegate.SampleInstancerTransform(id, &own);
+    Part instancer;
+    for (size_t i = 0; i < own.count; ++i) {
+        instancer.times.push_back(own.times[i]);
+        instancer.values.push_back({own.values[i]});
+    }
+
+    size_t count = 0;
+    std::set<float> times;
+    for (const Part& part : parts) {
+        count = std::max(count, part.count());
+        if (part.times.size() > 1) times.insert(part.times.begin(), part.times.end());
+    }
+    if (instancer.times.size() > 1) times.insert(instancer.times.begin(), instancer.times.end());
+    if (times.empty()) times.insert(0.0f);
+
+    std::vector<MotionTransform> result;
+    result.reserve(count);
+    bool broken = false;
+    for (size_t i = 0; i < count; ++i) {
+        std::vector<mat4> values;
+        for (const float time : times) {
+            GfMatrix4d m(1.0);
+            for (const Part& part : parts)
+                m *= part.at(i, time);
+            m *= instancer.at(0, time);
+            values.push_back(toMat4(m));
+            for (int c = 0; c < 4; ++c)
+                for (int r = 0; r < 4; ++r)
+                    if (!std::isfinite(values.back()[c][r])) {
+                        broken = true;
+                        values.back() = mat4(0.0f); // drawn by none
+                    }
+        }
+        result.push_back(sampledOf({times.begin(), times.end()}, std::move(values)));
+    }
+    if (broken)
+        param.warn(id, "transforms", "of some instances are not finite; these are not drawn");
+    return result;
+}
+
+} // namespace patina

@@ -1,0 +1,156 @@
+#include "hdDelegate/hydra/primvars.h"
+
+#include "hdDelegate/hydra/values.h"
+
+#include <pxr/base/tf/stringUtils.h>
+#include <pxr/imaging/hd/changeTracker.h>
+#include <pxr/imaging/hd/extComputationUtils.h>
+#include <pxr/imaging/hd/tokens.h>
+
+#include <algorithm>
+#include <set>
+
+namespace patina {
+
+namespace {
+
+constexpr unsigned int maxSamples = 32; ///< of points and computed values inside the shutter
+
+Interpolation interpolationOf(HdInterpolation interpolation) {
+    switch (interpolation) {
+    case HdInterpolationUniform: return Interpolation::Uniform;
+    case HdInterpolationVarying: return Interpolation::Varying;
+    case HdInterpolationVertex: return Interpolation::Vertex;
+    case HdInterpolationFaceVarying: return Interpolation::FaceVarying;
+    default: return Interpolation::Constant;
+    }
+}
+
+constexpr HdInterpolation interpolations[] = {HdInterpolationConstant, HdInterpolationUniform,
+                                              HdInterpolationVarying, HdInterpolationVertex,
+                                              HdInterpolationFaceVarying};
+
+void replace(Geometry& prim, Primvar primvar) {
+    auto& list = prim.primvars;
+    const auto place =
+        std::lower_bound(list.begin(), list.end(), primvar,
+                         [](const Primvar& a, const Primvar& b) { return a.name < b.name; });
+    if (place != list.end() && place->name == primvar.name)
+        *place = std::move(primvar);
+    else
+        list.insert(place, std::move(primvar));
+}
+
+void erase(Geometry& prim, const std::string& name) {
+    auto& list = prim.primvars;
+    list.erase(
+        std::remove_if(list.begin(), list.end(), [&](const Primvar& p) { return p.name == name; }),
+        list.end());
+}
+
+void setPrimvar(HdPatinaRenderParam& param, const SdfPath& id, const TfToken& name,
+                HdInterpolation interpolation, const VtValue& value, const VtIntArray& indices,
+                Geometry& prim) {
+    Primvar primvar;
+    primvar.name = name.GetString();
+    primvar.interpolation = interpolationOf(interpolation);
+    primvar.values = floatsOf(value, primvar.components);
+    if (primvar.components == 0 || primvar.components > 16) {
+        erase(prim, primvar.name);
+        return;
+    }
+    primvar.indices = toVector(indices);
+    const int count = int(primvar.values.size()) / primvar.components;
+    for (int& index : primvar.indices)
+        if (index < 0 || index >= count) {
+            param.warn(id, "primvars:" + primvar.name + ":indices",
+                       "has an index out of range; the first value is used there");
+            index = 0;
+        }
+    replace(prim, std::move(primvar));
+}
+
+template <unsigned int CAPACITY>
+Sampled<std::vector<vec3>> pointsFrom(const HdTimeSampleArray<VtValue, CAPACITY>& samples,
+                                      HdPatinaRenderParam& param, const SdfPath& id) {
+    std::vector<float> times;
+    std::vector<std::vector<vec3>> values;
+    for (size_t i = 0; i < samples.count; ++i) {
+        std::vector<vec3> points;
+        if (!pointsOf(samples.values[i], points)) {
+            if (!samples.values[i].IsEmpty())
+                param.warn(id, "points",
+                           "are of type " + samples.values[i].GetTypeName() +
+                               "; that sample is left out");
+            continue;
+        }
+        times.push_back(samples.times[i]);
+        values.push_back(std::move(points));
+    }
+    return sampledOf(std::move(times), std::move(values));
+}
+
+bool isLeftOut(const std::string& name) {
+    return TfStringStartsWith(name, "skel:") || name == "points" || name == "velocities" ||
+           name == "accelerations";
+}
+
+} // namespace
+
+PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                             const SdfPath& id, HdDirtyBits dirtyBits, bool all, Geometry& prim) {
+    PrimvarUpdate update;
+    std::set<std::string> listed;
+    HdExtComputationPrimvarDescriptorVector computed;
+    for (const HdInterpolation interpolation : interpolations) {
+        for (const auto& descriptor :
+             delegate.GetExtComputationPrimvarDescriptors(id, interpolation)) {
+            listed.insert(descriptor.name.GetString());
+            if (all || HdChangeTracker::IsPrimvarDirty(dirtyBits, id, descriptor.name) ||
+                (dirtyBits & HdChangeTracker::DirtyComputationPrimvarDesc))
+                computed.push_back(descriptor);
+        }
+    }
+    const std::set<std::string> fromComputations = listed;
+    for (const HdInterpolation interpolation : interpolations)
+        for (const auto& descriptor : delegate.GetPrimvarDescriptors(id, interpolation)) {
+            const TfToken& name = descriptor.name;
+            if (fromComputations.count(name.GetString())) continue;
+            listed.insert(name.GetString());
+            if (!all && !HdChangeTracker::IsPrimvarDirty(dirtyBits, id, name)) continue;
+            if (name == HdTokens->points) {
+                HdTimeSampleArray<VtValue, maxSamples> samples;
+                delegate.SamplePrimvar(id, name, &samples);
+                update.points = pointsFrom(samples, param, id);
+                update.pointsChanged = true;
+            } else if (!isLeftOut(name.GetString())) {
+                VtIntArray indices;
+                const VtValue value = descriptor.indexed
+                                          ? delegate.GetIndexedPrimvar(id, name, &indices)
+                                          : delegate.Get(id, name);
+                setPrimvar(param, id, name, interpolation, value, indices, prim);
+            }
+        }
+    if (!computed.empty()) {
+        HdExtComputationUtils::SampledValueStore<maxSamples> values;
+        HdExtComputationUtils::SampleComputedPrimvarValues<maxSamples>(computed, &delegate,
+                                                                       maxSamples, &values);
+        for (const auto& descriptor : computed) {
+            const auto found = values.find(descriptor.name);
+            if (found == values.end() || found->second.count == 0) continue;
+            if (descriptor.name == HdTokens->points) {
+                update.points = pointsFrom(found->second, param, id);
+                update.pointsChanged = true;
+            } else {
+                setPrimvar(param, id, descriptor.name, descriptor.interpolation,
+                           found->second.values[0], VtIntArray(), prim);
+            }
+        }
+    }
+    prim.primvars.erase(std::remove_if(prim.primvars.begin(), prim.primvars.end(),
+                                       [&](const Primvar& p) { return !listed.count(p.name); }),
+                        prim.primvars.end());
+    return update;
+}
+
+} // namespace patina

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "hdDelegate/hydra/compat.h"
+#include "hdDelegate/hydra/renderParam.h"
+#include "hdDelegate/scene/geometry.h"
+
+#include <pxr/imaging/hd/rprim.h>
+#include <pxr/imaging/hd/sceneDelegate.h>
+
+namespace patina {
+
+/// What a prim's dirty primvars became.
+struct PrimvarUpdate {
+    bool pointsChanged = false;
+    Sampled<std::vector<vec3>> points;
+};
+
+/// Brings the primvars of a scene prim up to date: removes what Hydra no longer lists, fetches what
+/// is dirty, authored or computed (skinning), indexed or not. They are kept sorted by name.
+/// `points` come with their motion samples, those that velocities give included. Primvars that
+/// drive skinning, texts and empty arrays are left out.
+/// @param all fetch everything, dirty or not
+PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                             const SdfPath& id, HdDirtyBits dirtyBits, bool all, Geometry& prim);
+
+} // namespace patina

@@ -1,8 +1,5 @@
 """The stages that the Hydra tests render, with a camera for each: hosts need one that is a prim."""
-import math
 import os
-
-import numpy as np
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(__file__), "..", ".."))
 SCENES = os.path.join(ROOT, "testenv", "scenes")
@@ -32,8 +29,8 @@ def name_of(stage):
 class Shot:
     """A stage as both hosts can render it.
 
-    stage: path; a layer over the stage when that has no camera: then with the camera that the
-        stage reader frames it with
+    stage: path; a layer over the stage when that has no camera or no light: then with the camera
+        that the stage reader frames it with, and with a dome light
     camera, frame, size: what to render
     scene: the `_patina.Scene` that the stage reader makes of it, without lights of its own"""
 
@@ -51,13 +48,14 @@ class Shot:
             self.info = reader.read_stage(opened, edit, options)
         self.camera = self.info.camera
         lens = self.scene.camera(self.camera)
-        if self.info.framed:
-            self.stage = _with_camera(opened, path, lens, folder)
-            self.camera = "/framingCamera"
-            opened = reader.open_stage(self.stage)
+        text = self.scene.dump()
+        if self.info.framed or "\nLight " not in text:
+            self.stage = _wrapped(opened, path, _lens(text, self.camera) if self.info.framed else None,
+                                  "\nLight " not in text, folder)
+            self.camera = "/framingCamera" if self.info.framed else self.camera
             with self.scene.edit() as edit:
                 edit.clear()
-                reader.read_stage(opened, edit, reader.StageOptions(
+                reader.read_stage(reader.open_stage(self.stage), edit, reader.StageOptions(
                     frame=self.frame, headlight=False, purposes=purposes, camera=self.camera))
         height = max(1, round(width * lens["vertical_aperture"] / lens["horizontal_aperture"]))
         self.size = (width, min(height, 4 * width))
@@ -66,33 +64,47 @@ class Shot:
         return ["--camera", self.camera, "--frame", self.frame, "--size", f"{self.size[0]}x{self.size[1]}"]
 
 
-def _with_camera(opened, path, lens, folder):
-    """Writes a layer that shows the stage through a camera. :returns: its path"""
-    matrix = np.array(lens["transform"]).reshape(-1, 4, 4)[0]
-    rows = ", ".join("(" + ", ".join(repr(float(x)) for x in row) + ")" for row in matrix)
-    root = opened.GetRootLayer()
-    lines = [f'{name} = "{root.pseudoRoot.GetInfo(name)}"' if isinstance(root.pseudoRoot.GetInfo(name), str)
-             else f"{name} = {root.pseudoRoot.GetInfo(name)}"
-             for name in ("upAxis", "metersPerUnit", "startTimeCode", "endTimeCode", "timeCodesPerSecond")
-             if root.pseudoRoot.HasInfo(name)]
-    text = "#usda 1.0\n(\n    " + "\n    ".join(lines + [f"subLayers = [@{path}@]"]) + f"""
-)
-def Camera "framingCamera"
+def _lens(text, camera):
+    """:returns: what a scene's text says of a camera, by name"""
+    lines = text.splitlines()
+    first = lines.index(f"Camera {camera}") + 1
+    last = next((i for i in range(first, len(lines)) if not lines[i].startswith(" ")), len(lines))
+    fields = {"horizontalAperture": "20.955", "verticalAperture": "15.2908", "focalLength": "50",
+              "focusDistance": "0", "clipNear": "1", "clipFar": "1e6", "transform": "1 0 0 0, 0 1 0 0, 0 0 1 0, 0 0 0 1"}
+    fields.update(line.strip().split(" = ") for line in lines[first:last])
+    return fields
+
+
+CAMERA = """def Camera "framingCamera"
 {{
-    float2 clippingRange = ({lens['clip_near']!r}, {lens['clip_far']!r})
-    float focalLength = {lens['focal_length']!r}
-    float focusDistance = {lens['focus_distance']!r}
-    float horizontalAperture = {lens['horizontal_aperture']!r}
-    float verticalAperture = {lens['vertical_aperture']!r}
+    float2 clippingRange = ({clipNear}, {clipFar})
+    float focalLength = {focalLength}
+    float focusDistance = {focusDistance}
+    float horizontalAperture = {horizontalAperture}
+    float verticalAperture = {verticalAperture}
     matrix4d xformOp:transform = ( {rows} )
     uniform token[] xformOpOrder = ["xformOp:transform"]
 }}
 """
-    out = os.path.join(str(folder), os.path.basename(path).rsplit(".", 1)[0] + "Framed.usda")
+LIGHT = """def DomeLight "testDome"
+{
+    color3f inputs:color = (1, 0.9, 0.8)
+    float inputs:intensity = 0.8
+}
+"""
+
+
+def _wrapped(opened, path, lens, light, folder):
+    """Writes a layer over a stage with a camera, if a lens is given, and a light. :returns: its path"""
+    root = opened.GetRootLayer().pseudoRoot
+    lines = [f'{name} = "{root.GetInfo(name)}"' if isinstance(root.GetInfo(name), str) else f"{name} = {root.GetInfo(name)}"
+             for name in ("upAxis", "metersPerUnit", "startTimeCode", "endTimeCode", "timeCodesPerSecond")
+             if root.HasInfo(name)]
+    text = "#usda 1.0\n(\n    " + "\n    ".join(lines + [f"subLayers = [@{os.path.abspath(path)}@]"]) + "\n)\n"
+    if lens:
+        rows = ", ".join("(" + ", ".join(row.split()) + ")" for row in lens["transform"].split(","))
+        text += CAMERA.format(rows=rows, **lens)
+    out = os.path.join(str(folder), os.path.basename(path).rsplit(".", 1)[0] + "Wrapped.usda")
     with open(out, "w", encoding="utf-8") as file:
-        file.write(text)
+        file.write(text + (LIGHT if light else ""))
     return out
-
-
-def is_finite(values):
-    return all(map(math.isfinite, np.asarray(values).ravel()))

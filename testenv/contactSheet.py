@@ -1,7 +1,9 @@
 """Renders every stage under a folder and pastes the images into one sheet.
 
     python testenv/contactSheet.py FOLDER SHEET.png [--width 240] [--samples 32] [--record FLAGS...]
+    python testenv/contactSheet.py FOLDER SHEET.png --host usdrecord [--sceneIndex]
 
+With usdrecord as host the images come through Hydra, with as many samples as the delegate takes.
 Prints a table: stage, seconds, warnings. Stages that fail are black tiles with a line that says why.
 Run it with the environment that ./patina makes (PYTHONPATH=plugin:build/python).
 """
@@ -16,6 +18,7 @@ import time
 
 import numpy as np
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "hydra"))
 STAGES = (".usd", ".usda", ".usdc", ".usdz")
 
 
@@ -24,6 +27,22 @@ def find(folder):
         return [folder]
     return sorted(os.path.join(root, name) for root, _, names in os.walk(folder) for name in names
                   if name.lower().endswith(STAGES))
+
+
+def render_hydra(stage, folder, width, scene_index):
+    """:returns: as render()"""
+    import hydraBuild
+
+    image = os.path.join(folder, "image.exr")
+    if os.path.exists(image):
+        os.remove(image)
+    start = time.perf_counter()
+    process = hydraBuild.run_usdrecord(stage, image, "--imageWidth", width, "--purposes", "render",
+                                       scene_index=scene_index, check=False)
+    seconds = time.perf_counter() - start
+    if process.returncode != 0 or not os.path.exists(image):
+        return None, seconds, [], process.stderr.strip().splitlines()[-1:] or ["no message"]
+    return read_color(image), seconds, hydraBuild.warnings_of(process), []
 
 
 def render(stage, folder, width, samples, flags):
@@ -69,12 +88,18 @@ def main():
     parser.add_argument("--width", type=int, default=240)
     parser.add_argument("--samples", type=int, default=32)
     parser.add_argument("--columns", type=int, default=8)
+    parser.add_argument("--host", choices=("patina", "usdrecord"), default="patina")
+    parser.add_argument("--sceneIndex", action="store_true", help="scene indices, with usdrecord")
     parser.add_argument("--record", nargs=argparse.REMAINDER, default=[])
     arguments = parser.parse_args()
     images = []
     with tempfile.TemporaryDirectory() as folder:
         for stage in find(arguments.folder):
-            pixels, seconds, warnings, error = render(stage, folder, arguments.width, arguments.samples, arguments.record)
+            if arguments.host == "usdrecord":
+                found = render_hydra(stage, folder, arguments.width, arguments.sceneIndex)
+            else:
+                found = render(stage, folder, arguments.width, arguments.samples, arguments.record)
+            pixels, seconds, warnings, error = found
             images.append(pixels)
             name = os.path.relpath(stage, arguments.folder)
             print(f"{len(images) - 1:4d} {seconds:7.2f} s  {name}  {'FAILED ' + error[0] if error else ''}", flush=True)

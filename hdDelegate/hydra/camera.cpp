@@ -1,0 +1,91 @@
+#include "hdDelegate/hydra/camera.h"
+
+#include "hdDelegate/hydra/values.h"
+
+#include <pxr/base/gf/camera.h>
+#include <pxr/imaging/hd/sceneDelegate.h>
+#include <pxr/imaging/hd/timeSampleArray.h>
+
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+constexpr unsigned int maxSamples = 32;
+
+/// Hydra gives lengths in scene units, made from tenths of them: finds the authored number again,
+/// so that both hosts trace the very same rays.
+float tenths(float sceneUnits, double unit) {
+    const float factor = float(unit), guess = float(double(sceneUnits) / unit);
+    for (const float x : {guess, std::nextafter(guess, -INFINITY), std::nextafter(guess, INFINITY)})
+        if (x * factor == sceneUnits) return x;
+    return guess;
+}
+
+MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                            const SdfPath& id) {
+    HdTimeSampleArray<GfMatrix4d, maxSamples> samples;
+    delegate.SampleTransform(id, &samples);
+    std::vector<float> times;
+    std::vector<mat4> values;
+    for (size_t i = 0; i < samples.count; ++i) {
+        const mat4 m = toMat4(samples.values[i]);
+        const float volume = glm::determinant(mat3(m));
+        if (!std::isfinite(volume) || volume == 0.0f) {
+            param.warn(id, "transform", "has no inverse; none is used");
+            return MotionTransform(mat4(1.0f));
+        }
+        times.push_back(samples.times[i]);
+        values.push_back(m);
+    }
+    if (values.empty()) return MotionTransform(mat4(1.0f));
+    return sampledOf(std::move(times), std::move(values));
+}
+
+} // namespace
+
+void HdPatinaCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
+                          HdDirtyBits* dirtyBits) {
+    auto& param = *static_cast<HdPatinaRenderParam*>(renderParam);
+    HdCamera::Sync(delegate, renderParam, dirtyBits);
+    auto camera = std::make_shared<Camera>();
+    camera->path = GetId().GetString();
+    camera->transform = transformOf(*delegate, param, GetId());
+    camera->orthographic = GetProjection() == Orthographic;
+    // Apertures of a camera that has none (a host gave matrices) keep the schema's fallback.
+    if (GetHorizontalAperture() > 0.0f && GetVerticalAperture() > 0.0f) {
+        camera->horizontalAperture = tenths(GetHorizontalAperture(), GfCamera::APERTURE_UNIT);
+        camera->verticalAperture = tenths(GetVerticalAperture(), GfCamera::APERTURE_UNIT);
+    }
+    camera->horizontalApertureOffset =
+        tenths(GetHorizontalApertureOffset(), GfCamera::APERTURE_UNIT);
+    camera->verticalApertureOffset = tenths(GetVerticalApertureOffset(), GfCamera::APERTURE_UNIT);
+    if (GetFocalLength() > 0.0f)
+        camera->focalLength = tenths(GetFocalLength(), GfCamera::FOCAL_LENGTH_UNIT);
+    camera->fStop = GetFStop();
+    camera->focusDistance = GetFocusDistance();
+    if (!GetClippingRange().IsEmpty()) {
+        camera->clipNear = GetClippingRange().GetMin();
+        camera->clipFar = GetClippingRange().GetMax();
+    }
+    for (const GfVec4d& plane : GetClipPlanes())
+        camera->clippingPlanes.emplace_back(plane[0], plane[1], plane[2], plane[3]);
+    camera->shutterOpen = GetShutterOpen();
+    camera->shutterClose = GetShutterClose();
+    if (!(camera->shutterClose >= camera->shutterOpen)) {
+        param.warn(GetId(), "shutter:close", "is before shutter:open; nothing is blurred");
+        camera->shutterOpen = camera->shutterClose = 0.0;
+    }
+    // Newer releases compute it from ISO, time and f-stop as well.
+    double scale = std::exp2(GetExposure());
+    numberOf(delegate->GetCameraParamValue(GetId(), TfToken("linearExposureScale")), scale);
+    camera->exposureScale = float(scale);
+    param.set(std::shared_ptr<const Camera>(camera));
+}
+
+void HdPatinaCamera::Finalize(HdRenderParam* renderParam) {
+    static_cast<HdPatinaRenderParam*>(renderParam)->removeCamera(GetId().GetString());
+}
+
+} // namespace patina

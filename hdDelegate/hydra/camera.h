@@ -1,0 +1,22 @@
+#pragma once
+
+#include "hdDelegate/hydra/renderParam.h"
+
+#include <pxr/imaging/hd/camera.h>
+
+#include <memory>
+
+namespace patina {
+
+/// A camera that render passes find under its path in the scene. Lens distortion and split diopters
+/// are not modelled.
+class HdPatinaCamera final : public HdCamera {
+public:
+    explicit HdPatinaCamera(const SdfPath& id) : HdCamera(id) {}
+
+    void Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
+              HdDirtyBits* dirtyBits) override;
+    void Finalize(HdRenderParam* renderParam) override;
+};
+
+} // namespace patina

@@ -1,0 +1,88 @@
+#include "hdDelegate/hydra/light.h"
+
+#include "hdDelegate/hydra/instances.h"
+#include "hdDelegate/hydra/lightParams.h"
+#include "hdDelegate/hydra/values.h"
+
+#include <pxr/imaging/hd/instancer.h>
+#include <pxr/imaging/hd/renderIndex.h>
+#include <pxr/imaging/hd/sceneDelegate.h>
+#include <pxr/imaging/hd/tokens.h>
+
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+constexpr unsigned int maxSamples = 32;
+
+bool isFinite(const mat4& m) {
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r)
+            if (!std::isfinite(m[c][r])) return false;
+    return true;
+}
+
+MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                            const SdfPath& id) {
+    // A dome that does not stand on +Y is turned first.
+    GfMatrix4d turn(1.0);
+    const VtValue offset = delegate.GetLightParamValue(id, TfToken("domeOffset"));
+    if (offset.IsHolding<GfMatrix4d>()) turn = offset.UncheckedGet<GfMatrix4d>();
+    HdTimeSampleArray<GfMatrix4d, maxSamples> samples;
+    delegate.SampleTransform(id, &samples);
+    std::vector<float> times;
+    std::vector<mat4> values;
+    for (size_t i = 0; i < samples.count; ++i) {
+        const mat4 m = toMat4(turn * samples.values[i]);
+        if (!isFinite(m)) {
+            param.warn(id, "transform", "is not finite; none is used");
+            return MotionTransform(mat4(1.0f));
+        }
+        times.push_back(samples.times[i]);
+        values.push_back(m);
+    }
+    if (values.empty()) return MotionTransform(toMat4(turn));
+    return sampledOf(std::move(times), std::move(values));
+}
+
+} // namespace
+
+void HdPatinaLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
+                         HdDirtyBits* dirtyBits) {
+    auto& param = *static_cast<HdPatinaRenderParam*>(renderParam);
+    const SdfPath& id = GetId();
+    _UpdateInstancer(delegate, dirtyBits);
+    if (*dirtyBits == Clean && _light) return;
+
+    const bool all = !_light;
+    auto light = all ? std::make_shared<Light>() : std::make_shared<Light>(*_light);
+    light->path = id.GetString();
+    if (all || (*dirtyBits & DirtyTransform)) light->transform = transformOf(*delegate, param, id);
+    // Hosts mark params dirty for visibility, collections and resources alike.
+    if (all || (*dirtyBits & ~HdDirtyBits(DirtyTransform)))
+        readLightParams(*delegate, param, id, _type, *light);
+    if (GetInstancerId().IsEmpty()) {
+        param.instances().leave(id);
+        light->group.clear();
+    } else {
+        HdInstancer::_SyncInstancerAndParents(delegate->GetRenderIndex(), GetInstancerId());
+        light->group = param.instances().place(id, GetInstancerId(),
+                                               delegate->GetInstanceIndices(GetInstancerId(), id));
+    }
+    _light = light;
+    if (_light->visible)
+        param.set(_light);
+    else
+        param.removeLight(light->path);
+    *dirtyBits = Clean;
+}
+
+void HdPatinaLight::Finalize(HdRenderParam* renderParam) {
+    auto& param = *static_cast<HdPatinaRenderParam*>(renderParam);
+    param.instances().leave(GetId());
+    param.removeLight(GetId().GetString());
+}
+
+} // namespace patina

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "hdDelegate/hydra/renderParam.h"
+#include "hdDelegate/scene/light.h"
+
+#include <pxr/imaging/hd/light.h>
+
+#include <memory>
+
+namespace patina {
+
+/// Every UsdLux light: shape, colour, shaping, shadow, textures, linking. Portals and light filters
+/// are reported and left out. The camera light that hosts add shines so that a white matte surface
+/// that faces it looks white.
+class HdPatinaLight final : public HdLight {
+public:
+    HdPatinaLight(const TfToken& type, const SdfPath& id) : HdLight(id), _type(type) {}
+
+    void Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
+              HdDirtyBits* dirtyBits) override;
+    void Finalize(HdRenderParam* renderParam) override;
+    HdDirtyBits GetInitialDirtyBitsMask() const override { return AllDirty; }
+
+private:
+    TfToken _type;
+    std::shared_ptr<const Light> _light;
+};
+
+} // namespace patina

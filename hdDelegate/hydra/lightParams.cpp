@@ -1,0 +1,152 @@
+#include "hdDelegate/hydra/lightParams.h"
+
+#include "hdDelegate/hydra/values.h"
+
+#include <pxr/imaging/hd/light.h>
+#include <pxr/imaging/hd/tokens.h>
+#include <pxr/usd/sdf/assetPath.h>
+
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+/// One light's parameters by name, checked.
+class Params {
+public:
+    Params(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id)
+        : _delegate(delegate), _param(param), _id(id) {}
+
+    VtValue get(const char* name) const { return _delegate.GetLightParamValue(_id, TfToken(name)); }
+    bool has(const char* name) const { return !get(name).IsEmpty(); }
+
+    void number(const char* name, float& field) const {
+        const VtValue value = get(name);
+        if (value.IsEmpty()) return;
+        double given = 0.0;
+        if (!numberOf(value, given) || !std::isfinite(given))
+            _param.warn(_id, name, "is not a finite number; the fallback is used");
+        else
+            field = float(given);
+    }
+    void flag(const char* name, bool& field) const {
+        double given = 0.0;
+        if (numberOf(get(name), given)) field = given != 0.0;
+    }
+    void color(const char* name, vec3& field) const {
+        const VtValue value = get(name);
+        if (value.IsEmpty()) return;
+        int components = 0;
+        const std::vector<float> c = floatsOf(value, components);
+        if (c.size() < 3 || !std::isfinite(c[0] + c[1] + c[2]))
+            _param.warn(_id, name, "is not a finite colour; the fallback is used");
+        else
+            field = vec3(c[0], c[1], c[2]);
+    }
+    void text(const char* name, std::string& field) const {
+        const std::string given = textOf(get(name));
+        if (!given.empty()) field = given;
+    }
+
+private:
+    HdSceneDelegate& _delegate;
+    HdPatinaRenderParam& _param;
+    const SdfPath& _id;
+};
+
+LightType typeOf(const TfToken& type) {
+    if (type == HdPrimTypeTokens->distantLight) return LightType::Distant;
+    if (type == HdPrimTypeTokens->domeLight) return LightType::Dome;
+    if (type == HdPrimTypeTokens->diskLight) return LightType::Disk;
+    if (type == HdPrimTypeTokens->rectLight) return LightType::Rect;
+    if (type == HdPrimTypeTokens->cylinderLight) return LightType::Cylinder;
+    if (type == HdPrimTypeTokens->sphereLight) return LightType::Sphere;
+    return LightType::Mesh;
+}
+
+void readShape(const Params& p, Light& light) {
+    p.number("angle", light.angle);
+    p.number("radius", light.radius);
+    p.number("width", light.width);
+    p.number("height", light.height);
+    p.number("length", light.length);
+    p.flag("treatAsPoint", light.treatAsPoint);
+    p.flag("treatAsLine", light.treatAsLine);
+}
+
+void readShaping(const Params& p, Light& light) {
+    // An applied ShapingAPI gives its cone angle, its fallback included.
+    if (!p.has("shaping:cone:angle") && !p.has("shaping:focus") && !p.has("shaping:ies:file"))
+        return;
+    light.shapingConeAuthored = true;
+    p.number("shaping:focus", light.shapingFocus);
+    p.color("shaping:focusTint", light.shapingFocusTint);
+    p.number("shaping:cone:angle", light.shapingConeAngle);
+    p.number("shaping:cone:softness", light.shapingConeSoftness);
+    p.text("shaping:ies:file", light.iesFile);
+    p.number("shaping:ies:angleScale", light.iesAngleScale);
+    p.flag("shaping:ies:normalize", light.iesNormalize);
+}
+
+void readShadow(const Params& p, Light& light) {
+    p.flag("shadow:enable", light.shadowEnable);
+    p.color("shadow:color", light.shadowColor);
+    p.number("shadow:distance", light.shadowDistance);
+    p.number("shadow:falloff", light.shadowFalloff);
+    p.number("shadow:falloffGamma", light.shadowFalloffGamma);
+}
+
+} // namespace
+
+void readLightParams(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
+                     const TfToken& type, Light& light) {
+    const Params p(delegate, param, id);
+    Light fresh;
+    fresh.path = light.path;
+    fresh.group = light.group;
+    fresh.transform = light.transform;
+    light = fresh;
+    light.type = typeOf(type);
+    light.visible = delegate.GetVisible(id);
+
+    p.color("color", light.color);
+    p.number("intensity", light.intensity);
+    p.number("exposure", light.exposure);
+    p.number("diffuse", light.diffuse);
+    p.number("specular", light.specular);
+    p.flag("normalize", light.normalize);
+    p.flag("enableColorTemperature", light.enableColorTemperature);
+    p.number("colorTemperature", light.colorTemperature);
+    readShape(p, light);
+    readShaping(p, light);
+    readShadow(p, light);
+    if (light.type == LightType::Dome || light.type == LightType::Rect) {
+        p.text("texture:file", light.textureFile);
+        p.text("texture:format", light.textureFormat);
+    }
+    if (light.type == LightType::Mesh) {
+        light.geometry = light.path;
+        p.text("materialSyncMode", light.materialSyncMode);
+        p.text("light:materialSyncMode", light.materialSyncMode);
+        // Scene and delegate hold the mesh and its light under one path; the dump tells them apart.
+    }
+    light.lightLink = textOf(delegate.GetLightParamValue(id, HdTokens->lightLink));
+    light.shadowLink = textOf(delegate.GetLightParamValue(id, HdTokens->shadowLink));
+
+    const VtValue filters = delegate.GetLightParamValue(id, HdTokens->filters);
+    if (filters.IsHolding<SdfPathVector>() && !filters.UncheckedGet<SdfPathVector>().empty())
+        param.warn(id, "light:filters", "light filters are not applied");
+    const VtValue portals = delegate.GetLightParamValue(id, HdTokens->portals);
+    if (portals.IsHolding<SdfPathVector>() && !portals.UncheckedGet<SdfPathVector>().empty())
+        param.warn(id, "portals", "are not used; the dome lights everything");
+
+    // Hosts' own camera light carries what a rasterizer needs to know of it.
+    if (light.type == LightType::Distant && p.has("params")) {
+        constexpr float pi = 3.14159265358979f;
+        light.diffuse = light.specular = pi;
+        light.cameraVisible = false;
+    }
+}
+
+} // namespace patina

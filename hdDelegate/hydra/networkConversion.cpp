@@ -1,0 +1,120 @@
+#include "hdDelegate/hydra/networkConversion.h"
+
+#include "hdDelegate/hydra/values.h"
+
+#include <pxr/base/tf/stringUtils.h>
+#include <pxr/imaging/hd/material.h>
+#include <pxr/usd/sdf/assetPath.h>
+
+#include <set>
+
+namespace patina {
+
+namespace {
+
+constexpr const char* colorSpacePrefix = "colorSpace:";
+constexpr const char* typeNamePrefix = "typeName:";
+
+ValueType typeOfNumbers(const VtValue& given, int components) {
+    if (given.IsHolding<bool>()) return ValueType::Bool;
+    switch (components) {
+    case 1:
+        return given.IsHolding<int>() || given.IsHolding<unsigned int>() ||
+                       given.IsHolding<int64_t>()
+                   ? ValueType::Int
+                   : ValueType::Float;
+    case 2: return ValueType::Vec2;
+    case 3: return ValueType::Vec3;
+    case 4: return ValueType::Vec4;
+    case 9: return ValueType::Matrix33;
+    case 16: return ValueType::Matrix44;
+    default: return ValueType::Unknown;
+    }
+}
+
+std::string parameterText(const std::map<TfToken, VtValue>& parameters, const std::string& name) {
+    const auto found = parameters.find(TfToken(name));
+    return found == parameters.end() ? std::string() : textOf(found->second);
+}
+
+void addNode(const HdMaterialNode& given, const SdfPath& material, HdPatinaRenderParam& param,
+             Network& network) {
+    NetworkNode node;
+    node.path = given.path.GetString();
+    node.id = given.identifier.GetString();
+    for (const auto& item : given.parameters) {
+        const std::string& name = item.first.GetString();
+        if (TfStringStartsWith(name, colorSpacePrefix) || TfStringStartsWith(name, typeNamePrefix))
+            continue;
+        Value value;
+        if (valueOf(item.second, parameterText(given.parameters, typeNamePrefix + name),
+                    parameterText(given.parameters, colorSpacePrefix + name), value))
+            node.inputs[name] = std::move(value);
+        else
+            param.warn(given.path.IsEmpty() ? material : given.path, name,
+                       "values of type " + item.second.GetTypeName() +
+                           " cannot be used; the default is");
+    }
+    network.nodes.push_back(std::move(node));
+}
+
+} // namespace
+
+bool valueOf(const VtValue& given, const std::string& typeName, const std::string& colorSpace,
+             Value& value) {
+    value = Value();
+    value.colorSpace = colorSpace;
+    if (given.IsHolding<SdfAssetPath>()) {
+        value.type = ValueType::Filename;
+        value.text = textOf(given);
+        return true;
+    }
+    if (given.IsHolding<TfToken>() || given.IsHolding<std::string>()) {
+        value.type = ValueType::String;
+        value.text = textOf(given);
+        return true;
+    }
+    if (given.IsArrayValued()) return false;
+    int components = 0;
+    value.numbers = floatsOf(given, components);
+    value.type = typeOfNumbers(given, components);
+    if (value.type == ValueType::Unknown) return false;
+    const ValueType named = valueTypeFromName(typeName);
+    if (named != ValueType::Unknown && valueTypeComponents(named) == components) value.type = named;
+    return true;
+}
+
+Network networkOf(const VtValue& resource, const SdfPath& material, HdPatinaRenderParam& param) {
+    Network network;
+    network.path = material.GetString();
+    if (!resource.IsHolding<HdMaterialNetworkMap>()) {
+        param.warn(
+            material, "",
+            "has no surface, displacement or volume that can be shown; displayColor is shown");
+        return network;
+    }
+    const HdMaterialNetworkMap& map = resource.UncheckedGet<HdMaterialNetworkMap>();
+    std::set<SdfPath> known;
+    for (const auto& terminal : map.map) {
+        const HdMaterialNetwork& part = terminal.second;
+        if (part.nodes.empty()) continue;
+        // Terminals may share nodes.
+        for (const HdMaterialNode& node : part.nodes)
+            if (known.insert(node.path).second) addNode(node, material, param, network);
+        for (const HdMaterialRelationship& relation : part.relationships)
+            for (NetworkNode& node : network.nodes)
+                if (node.path == relation.outputId.GetString())
+                    // Hydra's input is where a value comes from.
+                    node.connections[relation.outputName.GetString()] = {
+                        relation.inputId.GetString(), relation.inputName.GetString()};
+        // The last node is the terminal's: its output is not told.
+        network.terminals[terminal.first.GetString()] = {part.nodes.back().path.GetString(), ""};
+    }
+    if (network.terminals.empty())
+        param.warn(
+            material, "",
+            "has no surface, displacement or volume that can be shown; displayColor is shown");
+    return network;
+}
+
+} // namespace patina

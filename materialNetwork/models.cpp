@@ -75,4 +75,10 @@ ModelLibrary::resolve(const std::string& category, ValueType outputType,
     return best;
 }
 
+const NodeDef* findNodeDef(const std::string& id) {
+    if (const NodeDef* def = NodeTable::get().find(id)) return def;
+    const ShadingModel* model = ModelLibrary::get().find(id);
+    return model ? &model->def : nullptr;
+}
+
 } // namespace patina

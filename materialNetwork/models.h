@@ -50,4 +50,7 @@ private:
     Diagnostics _diagnostics;
 };
 
+/// The definition behind a shader id, of the table or of a shading model; null when unknown.
+const NodeDef* findNodeDef(const std::string& id);
+
 } // namespace patina

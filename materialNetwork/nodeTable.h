@@ -41,6 +41,8 @@ public:
                            const std::map<std::string, ValueType>& inputTypes) const;
 
     const std::vector<std::unique_ptr<NodeDef>>& all() const { return _defs; }
+    /// Every id that find() knows, aliases too.
+    const std::map<std::string, const NodeDef*>& ids() const { return _byId; }
 
 private:
     NodeTable();

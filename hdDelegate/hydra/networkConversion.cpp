@@ -2,10 +2,13 @@
 
 #include "hdDelegate/hydra/values.h"
 
+#include "materialNetwork/models.h"
+
 #include <pxr/base/tf/stringUtils.h>
 #include <pxr/imaging/hd/material.h>
 #include <pxr/usd/sdf/assetPath.h>
 
+#include <algorithm>
 #include <set>
 
 namespace patina {
@@ -37,11 +40,29 @@ std::string parameterText(const std::map<TfToken, VtValue>& parameters, const st
     return found == parameters.end() ? std::string() : textOf(found->second);
 }
 
+/// Scene indices name nodes within their material.
+std::string nodePath(const SdfPath& path, const SdfPath& material) {
+    return path.IsAbsolutePath() || path.IsEmpty() ? path.GetString()
+                                                   : material.AppendPath(path).GetString();
+}
+
+/// Hydra keeps C++ types only: a colour and a vector are one until the definition is asked.
+void refineType(const NodeDef* def, const std::string& input, Value& value) {
+    const int i = def ? def->findInput(input) : -1;
+    if (i < 0) return;
+    const ValueType wanted = def->inputs[size_t(i)].type;
+    const bool isText = value.type == ValueType::String || value.type == ValueType::Filename;
+    const bool wantsText = wanted == ValueType::String || wanted == ValueType::Filename;
+    if (isText ? wantsText : valueTypeComponents(wanted) == int(value.numbers.size()) && !wantsText)
+        value.type = wanted;
+}
+
 void addNode(const HdMaterialNode& given, const SdfPath& material, HdPatinaRenderParam& param,
              Network& network) {
     NetworkNode node;
-    node.path = given.path.GetString();
+    node.path = nodePath(given.path, material);
     node.id = given.identifier.GetString();
+    const NodeDef* def = findNodeDef(node.id);
     for (const auto& item : given.parameters) {
         const std::string& name = item.first.GetString();
         if (TfStringStartsWith(name, colorSpacePrefix) || TfStringStartsWith(name, typeNamePrefix))
@@ -49,9 +70,9 @@ void addNode(const HdMaterialNode& given, const SdfPath& material, HdPatinaRende
         Value value;
         if (valueOf(item.second, parameterText(given.parameters, typeNamePrefix + name),
                     parameterText(given.parameters, colorSpacePrefix + name), value))
-            node.inputs[name] = std::move(value);
+            refineType(def, name, value), node.inputs[name] = std::move(value);
         else
-            param.warn(given.path.IsEmpty() ? material : given.path, name,
+            param.warn(SdfPath(node.path), name,
                        "values of type " + item.second.GetTypeName() +
                            " cannot be used; the default is");
     }
@@ -103,12 +124,17 @@ Network networkOf(const VtValue& resource, const SdfPath& material, HdPatinaRend
             if (known.insert(node.path).second) addNode(node, material, param, network);
         for (const HdMaterialRelationship& relation : part.relationships)
             for (NetworkNode& node : network.nodes)
-                if (node.path == relation.outputId.GetString())
+                if (node.path == nodePath(relation.outputId, material))
                     // Hydra's input is where a value comes from.
                     node.connections[relation.outputName.GetString()] = {
-                        relation.inputId.GetString(), relation.inputName.GetString()};
-        // The last node is the terminal's: its output is not told.
-        network.terminals[terminal.first.GetString()] = {part.nodes.back().path.GetString(), ""};
+                        nodePath(relation.inputId, material), relation.inputName.GetString()};
+        // The last node is the terminal's. Which of its outputs is not told.
+        const std::string name = terminal.first.GetString();
+        const NodeDef* def = findNodeDef(part.nodes.back().identifier.GetString());
+        std::string output = name;
+        if (def && !def->outputs.empty())
+            output = def->outputs[size_t(std::max(def->findOutput(name), 0))].name;
+        network.terminals[name] = {nodePath(part.nodes.back().path, material), output};
     }
     if (network.terminals.empty())
         param.warn(

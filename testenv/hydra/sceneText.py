@@ -6,7 +6,7 @@ What Hydra does not keep is taken out of both:
 - materials inside of prototypes have such names as well, and Hydra lists a network's nodes in an order of its
   own. A material counts by its contents, its nodes sorted;
 - categories (light and shadow links) have names of the host's making. A category counts by the lights that use it;
-- ids are Hydra's own.
+- ids are Hydra's own, and it sorts primvars.
 UsdImagingDelegate also turns spheres, cubes and the like into meshes of its own: such shapes then count by their
 transform and material, and inside of prototypes, where they have no names, all shapes do.
 """
@@ -76,6 +76,10 @@ class Scene:
                              for line in lines if _field(line)[0] not in LEFT_OUT)
         if self._is_plain(prim):
             lines = [line for line in lines if _field(line)[0] in ("transform", "material", "categories")]
+        if kind in ("Curves", "Points"):  # nothing culls them
+            lines = [line for line in lines if _field(line)[0] != "doubleSided"]
+        lines = sorted(line for line in lines if line.startswith("primvar ")) + [
+            line for line in lines if not line.startswith("primvar ")]
         return "\n".join(filter(None, map(self._geometry_line, lines)))
 
     def _geometry_line(self, line):

@@ -1,8 +1,11 @@
 #include "hdDelegate/hydra/camera.h"
 
+#include "hdDelegate/hydra/sampling.h"
 #include "hdDelegate/hydra/values.h"
 
 #include <pxr/base/gf/camera.h>
+#include <pxr/imaging/hd/changeTracker.h>
+#include <pxr/imaging/hd/renderIndex.h>
 #include <pxr/imaging/hd/sceneDelegate.h>
 #include <pxr/imaging/hd/timeSampleArray.h>
 
@@ -11,8 +14,6 @@
 namespace patina {
 
 namespace {
-
-constexpr unsigned int maxSamples = 32;
 
 /// Hydra gives lengths in scene units, made from tenths of them: finds the authored number again,
 /// so that both hosts trace the very same rays.
@@ -25,8 +26,8 @@ float tenths(float sceneUnits, double unit) {
 
 MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                             const SdfPath& id) {
-    HdTimeSampleArray<GfMatrix4d, maxSamples> samples;
-    delegate.SampleTransform(id, &samples);
+    MatrixSamples samples;
+    sampleTransform(delegate, param, id, samples);
     std::vector<float> times;
     std::vector<mat4> values;
     for (size_t i = 0; i < samples.count; ++i) {
@@ -49,6 +50,11 @@ void HdPatinaCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
                           HdDirtyBits* dirtyBits) {
     auto& param = *static_cast<HdPatinaRenderParam*>(renderParam);
     HdCamera::Sync(delegate, renderParam, dirtyBits);
+    if (param.widenShutter(GetShutterOpen(), GetShutterClose())) {
+        HdChangeTracker& tracker = delegate->GetRenderIndex().GetChangeTracker();
+        tracker.MarkAllRprimsDirty(HdChangeTracker::DirtyTransform | HdChangeTracker::DirtyPoints |
+                                   HdChangeTracker::DirtyPrimvar | HdChangeTracker::DirtyInstancer);
+    }
     auto camera = std::make_shared<Camera>();
     camera->path = GetId().GetString();
     camera->transform = transformOf(*delegate, param, GetId());

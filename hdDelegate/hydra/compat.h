@@ -20,6 +20,13 @@
 #define PATINA_HAS_CREATE_ARGS_SCHEMA (HD_API_VERSION >= 103)
 /// GetShadingSystems replaces GetShaderSourceTypes.
 #define PATINA_HAS_SHADING_SYSTEMS (HD_API_VERSION >= 95)
+/// HdSceneDelegate::SampleTransform and others take the interval.
+#define PATINA_HAS_SAMPLE_INTERVAL (HD_API_VERSION >= 68)
+/// HdExtComputationUtils::SampleComputedPrimvarValues takes it too.
+#define PATINA_HAS_COMPUTED_INTERVAL (HD_API_VERSION >= 73)
+/// Hydra's own scene indices that came later.
+#define PATINA_HAS_LIGHT_LINKING __has_include(<pxr/imaging/hdsi/lightLinkingSceneIndex.h>)
+#define PATINA_HAS_TET_MESHES __has_include(<pxr/imaging/hdsi/tetMeshConversionSceneIndex.h>)
 /// Ndr was merged into Sdr.
 #define PATINA_HAS_SDR_ONLY (PXR_VERSION >= 2508)
 

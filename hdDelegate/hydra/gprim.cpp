@@ -1,6 +1,7 @@
 #include "hdDelegate/hydra/gprim.h"
 
 #include "hdDelegate/hydra/instances.h"
+#include "hdDelegate/hydra/sampling.h"
 
 #include <cmath>
 
@@ -8,12 +9,10 @@ namespace patina {
 
 namespace {
 
-constexpr unsigned int maxSamples = 32;
-
 MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                             const SdfPath& id) {
-    HdTimeSampleArray<GfMatrix4d, maxSamples> samples;
-    delegate.SampleTransform(id, &samples);
+    MatrixSamples samples;
+    sampleTransform(delegate, param, id, samples);
     std::vector<float> times;
     std::vector<mat4> values;
     for (size_t i = 0; i < samples.count; ++i) {

@@ -1,5 +1,6 @@
 #include "hdDelegate/hydra/instancerTransforms.h"
 
+#include "hdDelegate/hydra/sampling.h"
 #include "hdDelegate/hydra/values.h"
 
 #include <pxr/base/gf/quatd.h>
@@ -19,8 +20,6 @@ namespace patina {
 
 namespace {
 
-constexpr unsigned int maxSamples = 16;
-using Samples = HdTimeSampleArray<VtValue, maxSamples>;
 using Matrices = std::vector<GfMatrix4d>;
 
 template <class T, class F> bool convert(const VtValue& value, Matrices& out, const F& toMatrix) {
@@ -101,10 +100,10 @@ private:
     }
 };
 
-Part read(HdSceneDelegate& delegate, const SdfPath& id, const TfToken& name,
-          Matrices (*convertAll)(const VtValue&)) {
-    Samples samples;
-    delegate.SamplePrimvar(id, name, &samples);
+Part read(HdSceneDelegate& delegate, const HdPatinaRenderParam& param, const SdfPath& id,
+          const TfToken& name, Matrices (*convertAll)(const VtValue&)) {
+    ValueSamples samples;
+    samplePrimvar(delegate, param, id, name, samples);
     Part part;
     for (size_t i = 0; i < samples.count; ++i) {
         Matrices matrices = convertAll(samples.values[i]);
@@ -121,13 +120,13 @@ std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, c
                                                     HdPatinaRenderParam& param) {
     const Part parts[] = {
         // Gf multiplies row vectors: what is applied first stands first.
-        read(delegate, id, HdInstancerTokens->instanceTransforms, transforms),
-        read(delegate, id, HdInstancerTokens->instanceScales, scales),
-        read(delegate, id, HdInstancerTokens->instanceRotations, rotations),
-        read(delegate, id, HdInstancerTokens->instanceTranslations, translations),
+        read(delegate, param, id, HdInstancerTokens->instanceTransforms, transforms),
+        read(delegate, param, id, HdInstancerTokens->instanceScales, scales),
+        read(delegate, param, id, HdInstancerTokens->instanceRotations, rotations),
+        read(delegate, param, id, HdInstancerTokens->instanceTranslations, translations),
     };
-    HdTimeSampleArray<GfMatrix4d, maxSamples> own;
-    delegate.SampleInstancerTransform(id, &own);
+    MatrixSamples own;
+    sampleInstancerTransform(delegate, param, id, own);
     Part instancer;
     for (size_t i = 0; i < own.count; ++i) {
         instancer.times.push_back(own.times[i]);

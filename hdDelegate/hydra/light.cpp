@@ -2,6 +2,7 @@
 
 #include "hdDelegate/hydra/instances.h"
 #include "hdDelegate/hydra/lightParams.h"
+#include "hdDelegate/hydra/sampling.h"
 #include "hdDelegate/hydra/values.h"
 
 #include <pxr/imaging/hd/instancer.h>
@@ -14,8 +15,6 @@
 namespace patina {
 
 namespace {
-
-constexpr unsigned int maxSamples = 32;
 
 bool isFinite(const mat4& m) {
     for (int c = 0; c < 4; ++c)
@@ -30,8 +29,8 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
     GfMatrix4d turn(1.0);
     const VtValue offset = delegate.GetLightParamValue(id, TfToken("domeOffset"));
     if (offset.IsHolding<GfMatrix4d>()) turn = offset.UncheckedGet<GfMatrix4d>();
-    HdTimeSampleArray<GfMatrix4d, maxSamples> samples;
-    delegate.SampleTransform(id, &samples);
+    MatrixSamples samples;
+    sampleTransform(delegate, param, id, samples);
     std::vector<float> times;
     std::vector<mat4> values;
     for (size_t i = 0; i < samples.count; ++i) {

@@ -126,10 +126,8 @@ void readLightParams(HdSceneDelegate& delegate, HdPatinaRenderParam& param, cons
         p.text("texture:format", light.textureFormat);
     }
     if (light.type == LightType::Mesh) {
-        light.geometry = light.path;
+        light.geometry = id.GetParentPath().GetString(); // our scene index made it a child
         p.text("materialSyncMode", light.materialSyncMode);
-        p.text("light:materialSyncMode", light.materialSyncMode);
-        // Scene and delegate hold the mesh and its light under one path; the dump tells them apart.
     }
     light.lightLink = textOf(delegate.GetLightParamValue(id, HdTokens->lightLink));
     light.shadowLink = textOf(delegate.GetLightParamValue(id, HdTokens->shadowLink));

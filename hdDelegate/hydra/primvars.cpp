@@ -1,5 +1,6 @@
 #include "hdDelegate/hydra/primvars.h"
 
+#include "hdDelegate/hydra/sampling.h"
 #include "hdDelegate/hydra/values.h"
 
 #include <pxr/base/tf/stringUtils.h>
@@ -13,8 +14,6 @@
 namespace patina {
 
 namespace {
-
-constexpr unsigned int maxSamples = 32; ///< of points and computed values inside the shutter
 
 Interpolation interpolationOf(HdInterpolation interpolation) {
     switch (interpolation) {
@@ -119,8 +118,8 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
             listed.insert(name.GetString());
             if (!all && !HdChangeTracker::IsPrimvarDirty(dirtyBits, id, name)) continue;
             if (name == HdTokens->points) {
-                HdTimeSampleArray<VtValue, maxSamples> samples;
-                delegate.SamplePrimvar(id, name, &samples);
+                ValueSamples samples;
+                samplePrimvar(delegate, param, id, name, samples);
                 update.points = pointsFrom(samples, param, id);
                 update.pointsChanged = true;
             } else if (!isLeftOut(name.GetString())) {
@@ -132,9 +131,15 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
             }
         }
     if (!computed.empty()) {
-        HdExtComputationUtils::SampledValueStore<maxSamples> values;
-        HdExtComputationUtils::SampleComputedPrimvarValues<maxSamples>(computed, &delegate,
-                                                                       maxSamples, &values);
+        HdExtComputationUtils::SampledValueStore<maxTimeSamples> values;
+#if PATINA_HAS_COMPUTED_INTERVAL
+        const GfVec2f shutter = param.shutter();
+        HdExtComputationUtils::SampleComputedPrimvarValues<maxTimeSamples>(
+            computed, &delegate, shutter[0], shutter[1], maxTimeSamples, &values);
+#else
+        HdExtComputationUtils::SampleComputedPrimvarValues<maxTimeSamples>(computed, &delegate,
+                                                                           maxTimeSamples, &values);
+#endif
         for (const auto& descriptor : computed) {
             const auto found = values.find(descriptor.name);
             if (found == values.end() || found->second.count == 0) continue;

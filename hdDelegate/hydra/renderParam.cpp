@@ -4,6 +4,8 @@
 
 #include <pxr/base/tf/diagnostic.h>
 
+#include <algorithm>
+
 namespace patina {
 
 HdPatinaRenderParam::HdPatinaRenderParam()
@@ -40,6 +42,21 @@ void HdPatinaRenderParam::removeMaterial(const std::string& path) {
 void HdPatinaRenderParam::setMetersPerUnit(double metersPerUnit) {
     std::lock_guard<std::mutex> lock(_mutex);
     _edit.setMetersPerUnit(metersPerUnit);
+}
+
+GfVec2f HdPatinaRenderParam::shutter() const {
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _shutter;
+}
+
+bool HdPatinaRenderParam::widenShutter(double open, double close) {
+    if (!(close > open)) return false;
+    std::lock_guard<std::mutex> lock(_mutex);
+    const GfVec2f before = _shutter;
+    const bool first = !(_shutter[1] > _shutter[0]);
+    _shutter[0] = first ? float(open) : std::min(_shutter[0], float(open));
+    _shutter[1] = first ? float(close) : std::max(_shutter[1], float(close));
+    return _shutter != before;
 }
 
 void HdPatinaRenderParam::warn(const SdfPath& prim, const std::string& input,

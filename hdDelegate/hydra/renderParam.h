@@ -3,6 +3,7 @@
 #include "hdDelegate/hydra/compat.h"
 #include "hdDelegate/scene/scene.h"
 
+#include <pxr/base/gf/vec2f.h>
 #include <pxr/imaging/hd/renderDelegate.h>
 
 #include <memory>
@@ -35,6 +36,12 @@ public:
     void removeMaterial(const std::string& path);
     void setMetersPerUnit(double metersPerUnit);
 
+    /// When some camera's shutter is open: (first open, last close), in time codes relative to the
+    /// frame. (0, 0) while none ever moves it.
+    GfVec2f shutter() const;
+    /// @returns whether that made the interval longer, so that prims have to be sampled anew
+    bool widenShutter(double open, double close);
+
     /// A warning that names prim and input. Any thread.
     void warn(const SdfPath& prim, const std::string& input, const std::string& message);
 
@@ -49,9 +56,10 @@ public:
 
 private:
     std::shared_ptr<Scene> _scene;
-    std::mutex _mutex;
+    mutable std::mutex _mutex;
     SceneEdit _edit;
     std::unique_ptr<HdPatinaInstances> _instances;
+    GfVec2f _shutter{0.0f};
     size_t _reported = 0; ///< diagnostics that the host was told
 };
 

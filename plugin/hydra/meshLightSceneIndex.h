@@ -1,0 +1,39 @@
+#pragma once
+
+#include "hdDelegate/hydra/compat.h"
+
+#include <pxr/imaging/hd/filteringSceneIndex.h>
+
+#include <set>
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+TF_DECLARE_REF_PTRS(HdPatinaMeshLightSceneIndex);
+
+/// Gives every mesh that is a light (UsdLuxMeshLightAPI) a child prim of type meshLight, which
+/// render delegates are told about as of any other light.
+class HdPatinaMeshLightSceneIndex final : public HdSingleInputFilteringSceneIndexBase {
+public:
+    static HdPatinaMeshLightSceneIndexRefPtr New(const HdSceneIndexBaseRefPtr& input) {
+        return TfCreateRefPtr(new HdPatinaMeshLightSceneIndex(input));
+    }
+
+    HdSceneIndexPrim GetPrim(const SdfPath& path) const override;
+    SdfPathVector GetChildPrimPaths(const SdfPath& path) const override;
+
+protected:
+    void _PrimsAdded(const HdSceneIndexBase& sender,
+                     const HdSceneIndexObserver::AddedPrimEntries& entries) override;
+    void _PrimsRemoved(const HdSceneIndexBase& sender,
+                       const HdSceneIndexObserver::RemovedPrimEntries& entries) override;
+    void _PrimsDirtied(const HdSceneIndexBase& sender,
+                       const HdSceneIndexObserver::DirtiedPrimEntries& entries) override;
+
+private:
+    explicit HdPatinaMeshLightSceneIndex(const HdSceneIndexBaseRefPtr& input);
+    void populate(const SdfPath& path);
+
+    std::set<SdfPath> _lights; ///< meshes that observers know to have a light
+};
+
+PXR_NAMESPACE_CLOSE_SCOPE

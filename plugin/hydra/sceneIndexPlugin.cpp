@@ -1,0 +1,47 @@
+// What has to happen to a scene before the delegate sees it.
+
+#include "plugin/hydra/meshLightSceneIndex.h"
+
+#include <pxr/imaging/hd/sceneIndexPlugin.h>
+#include <pxr/imaging/hd/sceneIndexPluginRegistry.h>
+#include <pxr/imaging/hdsi/nurbsApproximatingSceneIndex.h>
+#if PATINA_HAS_LIGHT_LINKING
+#include <pxr/imaging/hdsi/lightLinkingSceneIndex.h>
+#endif
+#if PATINA_HAS_TET_MESHES
+#include <pxr/imaging/hdsi/tetMeshConversionSceneIndex.h>
+#endif
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+class HdPatinaSceneIndexPlugin final : public HdSceneIndexPlugin {
+public:
+    HdPatinaSceneIndexPlugin() = default;
+
+protected:
+    HdSceneIndexBaseRefPtr _AppendSceneIndex(const HdSceneIndexBaseRefPtr& input,
+                                             const HdContainerDataSourceHandle&) override {
+        HdSceneIndexBaseRefPtr scene = HdsiNurbsApproximatingSceneIndex::New(input);
+#if PATINA_HAS_TET_MESHES
+        scene = HdsiTetMeshConversionSceneIndex::New(scene);
+#endif
+        scene = HdPatinaMeshLightSceneIndex::New(scene);
+#if PATINA_HAS_LIGHT_LINKING
+        scene = HdsiLightLinkingSceneIndex::New(scene, nullptr);
+#endif
+        return scene;
+    }
+};
+
+TF_REGISTRY_FUNCTION(TfType) {
+    HdSceneIndexPluginRegistry::Define<HdPatinaSceneIndexPlugin>();
+}
+
+TF_REGISTRY_FUNCTION(HdSceneIndexPlugin) {
+    constexpr HdSceneIndexPluginRegistry::InsertionPhase phase = 0;
+    HdSceneIndexPluginRegistry::GetInstance().RegisterSceneIndexForRenderer(
+        "Patina", TfToken("HdPatinaSceneIndexPlugin"), nullptr, phase,
+        HdSceneIndexPluginRegistry::InsertionOrderAtStart);
+}
+
+PXR_NAMESPACE_CLOSE_SCOPE

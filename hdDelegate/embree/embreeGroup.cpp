@@ -16,6 +16,14 @@ mat4 InstancerNode::transformAt(int instance, float time) const {
     return first[i] * (1.0f - f) + first[i + 1] * f;
 }
 
+int InstancerNode::id(int instance, int outer) const {
+    const int own = size_t(instance) < prim->ids.size() ? prim->ids[instance] : instance;
+    if (outer < 0 || prim->idCounts.empty()) return own;
+    const int prototype = prim->prototypeIndices[instance]; // drawn instances have one
+    if (size_t(prototype) >= prim->idCounts.size()) return own;
+    return int(uint32_t(outer) * uint32_t(prim->idCounts[prototype]) + uint32_t(own));
+}
+
 EmbreeGroup::~EmbreeGroup() {
     if (scene) rtcReleaseScene(scene);
 }

@@ -22,9 +22,8 @@ struct InstancerNode {
     std::vector<std::vector<int>> categories;
 
     mat4 transformAt(int instance, float time) const;
-    int id(int instance) const {
-        return size_t(instance) < prim->ids.size() ? prim->ids[instance] : instance;
-    }
+    /// @param outer id of the instance around, negative when there is none
+    int id(int instance, int outer) const;
 };
 
 /// What a geometry id of a group's Embree scene stands for.

@@ -1,6 +1,7 @@
 #include "hdDelegate/embree/embreeScene.h"
 
 #include "hdDelegate/embree/cameraRays.h"
+#include "hdDelegate/embree/drawnPrims.h"
 #include "hdDelegate/scene/tessellate.h"
 #include "materialNetwork/material.h"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace patina {
 
@@ -57,6 +59,16 @@ std::vector<T> valuesAtStep(const std::vector<std::vector<T>>& steps, int step, 
 
 float maxScale(const mat4& m) {
     return std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
+}
+
+bool hasInverse(const mat4& m) {
+    const mat4 inverse = glm::inverse(m);
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(m[column][row]) || !std::isfinite(inverse[column][row]))
+                return false;
+    const float determinant = glm::determinant(mat3(m));
+    return std::isfinite(determinant) && determinant != 0.0f;
 }
 
 /// Moves positions and normals into the group's space, at every time step.
@@ -202,8 +214,7 @@ std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Ins
         for (int s = 0; s < result->steps; ++s) {
             const mat4 m = transformAtStep(sampled[i], s, result->steps);
             result->transforms[i * result->steps + s] = m;
-            const float determinant = glm::determinant(mat3(m));
-            usable &= std::isfinite(determinant) && determinant != 0.0f;
+            usable &= hasInverse(m);
         }
         const int prototype = i < prim->prototypeIndices.size() ? prim->prototypeIndices[i] : -1;
         if (prototype < 0 || size_t(prototype) >= prim->prototypes.size()) {
@@ -213,7 +224,7 @@ std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Ins
         }
         if (!usable) {
             _diagnostics.warn(prim->path, "transform",
-                              "an instance has a singular transform and is not drawn");
+                              "an instance has a transform without an inverse and is not drawn");
             continue;
         }
         const auto target = _groups.find(prim->prototypes[prototype]);
@@ -263,7 +274,8 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
     _instanceCount = _trianglesStored = 0;
 
     for (const auto& item : state.instancers)
-        _instancersOf[item.second->group].push_back(item.second);
+        if (isDrawn(*item.second, settings))
+            _instancersOf[item.second->group].push_back(item.second);
 
     // The refinement that each prim needs, rounded to powers of two so that small moves of the
     // camera change nothing.
@@ -273,11 +285,17 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
         std::shared_ptr<const Geometry> prim;
         CachedSurface* cached;
         float edge;
+        int rank; ///< among all paths, drawn or not
     };
     std::vector<Work> work;
+    std::set<std::string> drawn;
+    size_t primRank = 0;
     std::map<std::string, std::vector<mat4>> transformsOf;
     for (const auto& item : state.geometry) {
         const auto& prim = item.second;
+        const int rank = int(primRank++);
+        if (!isDrawn(*prim, settings)) continue;
+        drawn.insert(item.first);
         float edge = 0.0f;
         if (prim->kind == GeometryKind::Mesh &&
             static_cast<const Mesh&>(*prim).scheme != SubdivisionScheme::None &&
@@ -311,10 +329,10 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
             }
             if (edge > 0.0f) edge = std::exp2(std::floor(std::log2(edge)));
         }
-        work.push_back({prim, &_surfaces[item.first], edge});
+        work.push_back({prim, &_surfaces[item.first], edge, rank});
     }
     for (auto it = _surfaces.begin(); it != _surfaces.end();)
-        it = state.geometry.count(it->first) ? std::next(it) : _surfaces.erase(it);
+        it = drawn.count(it->first) ? std::next(it) : _surfaces.erase(it);
     for (auto it = _programs.begin(); it != _programs.end();)
         it = it->first.empty() || state.materials.count(it->first) ? std::next(it)
                                                                    : _programs.erase(it);
@@ -330,10 +348,9 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
 
     _allOpaque = true;
     _hasMedia = false;
-    int primId = 0;
     for (const Work& item : work) {
         Surface& surface = *item.cached->surface;
-        surface.primId = primId++;
+        surface.primId = surface.prim->id >= 0 ? surface.prim->id : item.rank;
         surface.categories = intern(surface.prim->categories);
         surface.materials.clear();
         surface.materials.push_back(
@@ -429,7 +446,7 @@ bool EmbreeScene::finishHit(const RTCRayHit& rayHit, const TraceContext& context
     const auto enter = [&](const InstancerNode& node, int instance) {
         hit.instanced = true;
         hit.groupToWorld = hit.groupToWorld * node.transformAt(instance, hit.time);
-        hit.instanceId = node.id(instance);
+        hit.instanceId = node.id(instance, hit.instanceId);
         if (size_t(instance) < node.categories.size())
             hit.instanceCategories = &node.categories[instance];
     };

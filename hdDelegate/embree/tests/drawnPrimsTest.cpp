@@ -1,0 +1,194 @@
+#include "hdDelegate/embree/embreeScene.h"
+
+#include "hdDelegate/embree/drawnPrims.h"
+#include "hdDelegate/scene/textureSystem.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+using namespace patina;
+
+namespace {
+
+std::shared_ptr<Mesh> makeQuad(const std::string& path, const std::string& group = "") {
+    auto mesh = std::make_shared<Mesh>();
+    mesh->path = path;
+    mesh->group = group;
+    mesh->points = std::vector<vec3>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh->faceVertexCounts = {4};
+    mesh->faceVertexIndices = {0, 1, 2, 3};
+    return mesh;
+}
+
+std::shared_ptr<Instancer> makeInstancer(const std::string& path, const std::string& group,
+                                         const std::string& prototype,
+                                         const std::vector<mat4>& transforms) {
+    auto instancer = std::make_shared<Instancer>();
+    instancer->path = path;
+    instancer->group = group;
+    instancer->prototypes = {prototype};
+    for (const mat4& m : transforms) {
+        instancer->transforms.push_back(m);
+        instancer->prototypeIndices.push_back(0);
+    }
+    return instancer;
+}
+
+mat4 translate(float x, float y, float z) {
+    return glm::translate(mat4(1.0f), vec3(x, y, z));
+}
+
+struct Built {
+    Scene scene;
+    Camera camera;
+    RenderSettings settings;
+    TextureSystem textures{scene.diagnostics()};
+    EmbreeScene embree{scene.diagnostics()};
+    std::atomic<bool> stop{false};
+    Hit hit;
+
+    template <class T> void set(const std::shared_ptr<T>& prim) {
+        scene.edit().set(std::shared_ptr<const T>(prim));
+    }
+    void setMesh(const std::shared_ptr<Mesh>& prim) {
+        scene.edit().set(std::shared_ptr<const Geometry>(prim));
+    }
+    void update() { embree.update(*scene.snapshot(), camera, settings, textures, stop); }
+    bool seen(float x, unsigned mask = RayCamera) {
+        return embree.intersect({x, 0.1f, 5}, {0, 0, -1}, 0, INFINITY, 0, mask, hit);
+    }
+};
+
+} // namespace
+
+TEST(DrawnPrims, TagsAndPathsChooseGeometry) {
+    Mesh mesh;
+    mesh.path = "/world/set/chair";
+    RenderSettings settings;
+    EXPECT_TRUE(isDrawn(mesh, settings));
+    settings.renderTags = {"proxy"};
+    EXPECT_FALSE(isDrawn(mesh, settings));
+    settings.renderTags = {"geometry"};
+    EXPECT_TRUE(isDrawn(mesh, settings));
+    mesh.renderTag = "proxy";
+    EXPECT_FALSE(isDrawn(mesh, settings));
+    settings.renderTags.push_back("proxy");
+    EXPECT_TRUE(isDrawn(mesh, settings));
+    settings.rootPaths = {"/world/se"};
+    EXPECT_FALSE(isDrawn(mesh, settings)) << "a prefix of a name holds nothing";
+    settings.rootPaths = {"/other", "/world/set/"};
+    EXPECT_TRUE(isDrawn(mesh, settings));
+    settings.excludePaths = {"/world/set/chair/leg"};
+    EXPECT_TRUE(isDrawn(mesh, settings));
+    settings.excludePaths = {"/world/set/chair"};
+    EXPECT_FALSE(isDrawn(mesh, settings));
+    settings.rootPaths = {"/"};
+    settings.excludePaths.clear();
+    EXPECT_TRUE(isDrawn(mesh, settings));
+}
+
+TEST(DrawnPrims, ASceneChangesWithTheSettings) {
+    Built built;
+    auto left = makeQuad("/left"), right = makeQuad("/right");
+    left->transform = translate(-2, 0, 0);
+    left->renderTag = "guide";
+    right->transform = translate(2, 0, 0);
+    built.setMesh(left);
+    built.setMesh(right);
+    built.setMesh(makeQuad("/protos/leaf", "P"));
+    built.set(makeInstancer("/many", "", "P", {translate(6, 0, 0)}));
+    built.update();
+    EXPECT_TRUE(built.seen(-2) && built.seen(2) && built.seen(6));
+    built.settings.renderTags = {"geometry"};
+    built.update();
+    EXPECT_FALSE(built.seen(-2));
+    EXPECT_TRUE(built.seen(2) && built.seen(6));
+    built.settings.rootPaths = {"/protos"};
+    built.update();
+    EXPECT_FALSE(built.seen(2));
+    EXPECT_TRUE(built.seen(6));
+    built.settings.rootPaths.clear();
+    built.settings.excludePaths = {"/many"};
+    built.update();
+    EXPECT_TRUE(built.seen(2));
+    EXPECT_FALSE(built.seen(6));
+    built.settings = RenderSettings();
+    built.update();
+    EXPECT_TRUE(built.seen(-2) && built.seen(2) && built.seen(6));
+}
+
+TEST(DrawnPrims, IdsOfTheHost) {
+    Built built;
+    auto quad = makeQuad("/b");
+    quad->id = 42;
+    built.setMesh(quad);
+    auto other = makeQuad("/c");
+    other->transform = translate(4, 0, 0);
+    built.setMesh(other);
+    built.update();
+    ASSERT_TRUE(built.seen(0));
+    EXPECT_EQ(built.hit.surface->primId, 42);
+    ASSERT_TRUE(built.seen(4));
+    EXPECT_EQ(built.hit.surface->primId, 1) << "without an id the rank of the path";
+}
+
+TEST(DrawnPrims, IdCountsJoinTheLevelsOfNesting) {
+    for (const bool counts : {false, true}) {
+        Built built;
+        built.setMesh(makeQuad("/leaf", "A"));
+        auto inner = makeInstancer("/i1", "B", "A",
+                                   {translate(0, 0, 0), translate(3, 0, 0), translate(6, 0, 0)});
+        auto outer = makeInstancer("/i2", "", "B", {translate(0, 0, 0), translate(20, 0, 0)});
+        outer->ids = {5, 7};
+        if (counts) {
+            inner->idCounts = {3};
+            outer->idCounts = {2};
+        }
+        built.set(inner);
+        built.set(outer);
+        built.update();
+        ASSERT_TRUE(built.seen(26));
+        EXPECT_EQ(built.hit.instanceId, counts ? 7 * 3 + 2 : 2);
+        ASSERT_TRUE(built.seen(3));
+        EXPECT_EQ(built.hit.instanceId, counts ? 5 * 3 + 1 : 1);
+    }
+}
+
+TEST(DrawnPrims, InstancerVisibilityHoldsAtEveryLevel) {
+    for (const bool nested : {false, true}) {
+        Built built;
+        built.setMesh(makeQuad("/leaf", "A"));
+        built.set(makeInstancer("/i1", "B", "A", {mat4(1.0f)}));
+        auto outer = makeInstancer("/i2", "", nested ? "B" : "A", {mat4(1.0f)});
+        outer->visibility.camera = false;
+        built.set(outer);
+        built.update();
+        EXPECT_FALSE(built.seen(0));
+        EXPECT_TRUE(built.seen(0, RayShadow));
+        auto hidden = std::make_shared<Instancer>(*outer);
+        hidden->visibility = {false, false, false};
+        built.set(hidden);
+        built.update();
+        EXPECT_FALSE(built.seen(0, RayShadow));
+        EXPECT_TRUE(built.embree.groupTransforms("A").empty()) << "nor does it glow";
+    }
+}
+
+TEST(DrawnPrims, InstancesWithoutAnInverseAreSkipped) {
+    for (const bool nested : {false, true}) {
+        Built built;
+        built.setMesh(makeQuad("/leaf", "A"));
+        built.set(makeInstancer("/i1", "B", "A", {mat4(1.0f)}));
+        mat4 nan(1.0f), far(1.0f);
+        nan[3][0] = NAN;
+        far[3][1] = INFINITY;
+        built.set(makeInstancer(
+            "/i2", "", nested ? "B" : "A",
+            {mat4(0.0f), nan, far, glm::scale(mat4(1.0f), vec3(1, 1, 0)), translate(4, 0, 0)}));
+        built.update();
+        EXPECT_FALSE(built.seen(0));
+        ASSERT_TRUE(built.seen(4));
+        EXPECT_EQ(built.hit.instanceId, nested ? 0 : 4) << "the innermost";
+        EXPECT_GE(built.scene.diagnostics().count(), 1);
+    }
+}

@@ -20,8 +20,11 @@ struct RenderProgress {
     bool converged = false;   ///< all samples taken, tolerance or time limit reached
     bool failed = false;
     std::string error; ///< one line, when failed
-    std::map<std::string, double>
-        statistics; ///< "rays", "samples", "secondsBuild", "trianglesStored", ...
+    /// "rays", "paths", "secondsBuild" (of this start), "trianglesStored", "instances", "bytes" (of
+    /// meshes and acceleration structures); and counts since the renderer was made, which tell what
+    /// edits cost: "surfacesBuilt", "surfacesTessellated" (the others were only moved),
+    /// "groupsBuilt" (acceleration structures), "programsBuilt", "lightsBuilt".
+    std::map<std::string, double> statistics;
 };
 
 /// Told about a film at rest: no thread works on it while the call lasts.

@@ -190,75 +190,176 @@ RTCGeometry makePoints(RTCDevice device, const PointSet& points) {
     return geometry;
 }
 
+RTCGeometry makeGeometry(RTCDevice device, const Surface& surface) {
+    if (surface.shape == Surface::Shape::Triangles && !surface.mesh.triangles.empty())
+        return makeTriangles(device, surface.mesh);
+    if (surface.shape == Surface::Shape::Curves && !surface.curves.segments.empty())
+        return makeCurves(device, surface.curves);
+    if (surface.shape == Surface::Shape::Points && !surface.points.points.empty() &&
+        !surface.points.points[0].empty())
+        return makePoints(device, surface.points);
+    return nullptr;
+}
+
+bool goesOn(void* stop, double) {
+    return !*static_cast<const std::atomic<bool>*>(stop);
+}
+
 } // namespace
 
-void EmbreeGroup::build(RTCDevice device) {
+void EmbreeGroup::clear() {
     if (scene) rtcReleaseScene(scene);
-    scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    scene = nullptr;
+    _surfaces.clear();
+    _nodes.clear();
     records.clear();
-    hasInstances = false;
+}
 
-    const auto attach = [&](RTCGeometry geometry, unsigned mask, GroupRecord record) {
-        rtcSetGeometryMask(geometry, mask);
-        records.push_back(std::make_unique<GroupRecord>(std::move(record)));
-        if (records.back()->node && records.back()->instance < 0)
-            rtcSetGeometryUserData(geometry, records.back().get());
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(scene, geometry, unsigned(records.size() - 1));
-        rtcReleaseGeometry(geometry);
-    };
+unsigned EmbreeGroup::freeId() {
+    for (size_t i = _firstFree; i < records.size(); ++i)
+        if (!records[i]) {
+            _firstFree = i + 1;
+            return unsigned(i);
+        }
+    records.emplace_back();
+    _firstFree = records.size();
+    return unsigned(records.size() - 1);
+}
 
+void EmbreeGroup::attach(RTCGeometry geometry, unsigned id, unsigned mask, GroupRecord record) {
+    changed = true;
+    rtcSetGeometryMask(geometry, mask);
+    records[id] = std::make_unique<GroupRecord>(std::move(record));
+    if (records[id]->node && records[id]->instance < 0)
+        rtcSetGeometryUserData(geometry, records[id].get());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, id);
+    rtcReleaseGeometry(geometry);
+}
+
+void EmbreeGroup::detach(unsigned id) {
+    changed = true;
+    rtcDetachGeometry(scene, id);
+    records[id].reset();
+    _firstFree = std::min(_firstFree, size_t(id));
+}
+
+void EmbreeGroup::updateSurfaces(RTCDevice device,
+                                 const std::vector<std::shared_ptr<Surface>>& surfaces) {
+    std::map<std::string, SurfaceMember> next;
     for (const auto& surface : surfaces) {
-        RTCGeometry geometry = nullptr;
-        if (surface->shape == Surface::Shape::Triangles && !surface->mesh.triangles.empty())
-            geometry = makeTriangles(device, surface->mesh);
-        else if (surface->shape == Surface::Shape::Curves && !surface->curves.segments.empty())
-            geometry = makeCurves(device, surface->curves);
-        else if (surface->shape == Surface::Shape::Points && !surface->points.points.empty() &&
-                 !surface->points.points[0].empty())
-            geometry = makePoints(device, surface->points);
+        const std::string& path = surface->prim->path;
+        const auto old = _surfaces.find(path);
+        if (old != _surfaces.end() && old->second.surface == surface) {
+            next.insert(_surfaces.extract(old));
+            SurfaceMember& member = next[path];
+            const unsigned mask = maskOf(surface->prim->visibility);
+            if (mask != member.mask) {
+                changed = true;
+                RTCGeometry geometry = rtcGetGeometry(scene, member.id);
+                rtcSetGeometryMask(geometry, member.mask = mask);
+                rtcCommitGeometry(geometry);
+            }
+        }
+    }
+    for (const auto& item : _surfaces)
+        detach(item.second.id);
+    for (const auto& surface : surfaces) {
+        const std::string& path = surface->prim->path;
+        if (next.count(path)) continue;
+        RTCGeometry geometry = makeGeometry(device, *surface);
         if (!geometry) continue;
+        // A changed prim keeps its id, so that the order stays that of a new scene.
+        const auto old = _surfaces.find(path);
+        const bool free = old != _surfaces.end() && !records[old->second.id];
+        SurfaceMember member{surface, maskOf(surface->prim->visibility),
+                             free ? old->second.id : freeId()};
         GroupRecord record;
         record.surface = surface.get();
-        attach(geometry, maskOf(surface->prim->visibility), std::move(record));
+        attach(geometry, member.id, member.mask, std::move(record));
+        next[path] = std::move(member);
     }
+    _surfaces = std::move(next);
+}
 
-    for (const auto& node : nodes) {
-        const unsigned mask = maskOf(node->prim->visibility);
-        std::vector<int> nested;
-        for (int i = 0; i < int(node->targets.size()); ++i) {
-            EmbreeGroup* target = node->targets[i];
-            if (!target || target->records.empty()) continue;
-            hasInstances = true;
-            if (target->hasInstances) {
-                nested.push_back(i);
-                continue;
-            }
-            RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-            rtcSetGeometryInstancedScene(geometry, target->scene);
-            rtcSetGeometryTimeStepCount(geometry, unsigned(node->steps));
-            for (int step = 0; step < node->steps; ++step)
-                rtcSetGeometryTransform(geometry, unsigned(step), RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
-                                        &node->transforms[size_t(i) * node->steps + step]);
-            GroupRecord record;
-            record.node = node.get();
-            record.instance = i;
-            attach(geometry, mask, std::move(record));
+void EmbreeGroup::attachNode(RTCDevice device, NodeMember& member) {
+    const InstancerNode& node = *member.node;
+    const unsigned mask = maskOf(node.prim->visibility);
+    GroupRecord record;
+    record.node = &node;
+    std::vector<int> nested;
+    for (int i = 0; i < int(node.targets.size()); ++i) {
+        EmbreeGroup* target = node.targets[i];
+        if (!target || target->empty()) continue;
+        if (target->hasInstances) {
+            nested.push_back(i);
+            continue;
         }
-        if (nested.empty()) continue;
-        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-        rtcSetGeometryUserPrimitiveCount(geometry, unsigned(nested.size()));
-        rtcSetGeometryTimeStepCount(geometry, unsigned(node->steps));
-        rtcSetGeometryBoundsFunction(geometry, instanceBounds, nullptr);
-        rtcSetGeometryIntersectFunction(geometry, instanceIntersect);
-        rtcSetGeometryOccludedFunction(geometry, instanceOccluded);
-        GroupRecord record;
-        record.node = node.get();
-        record.instances = std::move(nested);
-        attach(geometry, mask, std::move(record));
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, target->scene);
+        rtcSetGeometryTimeStepCount(geometry, unsigned(node.steps));
+        for (int step = 0; step < node.steps; ++step)
+            rtcSetGeometryTransform(geometry, unsigned(step), RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
+                                    &node.transforms[size_t(i) * node.steps + step]);
+        record.instance = i;
+        member.ids.push_back(freeId());
+        attach(geometry, member.ids.back(), mask, record);
     }
-    rtcCommitScene(scene);
+    if (nested.empty()) return;
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, unsigned(nested.size()));
+    rtcSetGeometryTimeStepCount(geometry, unsigned(node.steps));
+    rtcSetGeometryBoundsFunction(geometry, instanceBounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, instanceIntersect);
+    rtcSetGeometryOccludedFunction(geometry, instanceOccluded);
+    record.instance = -1;
+    record.instances = std::move(nested);
+    member.ids.push_back(freeId());
+    attach(geometry, member.ids.back(), mask, std::move(record));
+}
+
+void EmbreeGroup::updateNodes(RTCDevice device,
+                              const std::vector<std::shared_ptr<InstancerNode>>& nodes) {
+    std::map<std::string, NodeMember> next;
+    for (const auto& node : nodes) {
+        const auto old = _nodes.find(node->prim->path);
+        if (old != _nodes.end() && old->second.node == node) next.insert(_nodes.extract(old));
+    }
+    for (const auto& item : _nodes)
+        for (const unsigned id : item.second.ids)
+            detach(id);
+    for (const auto& node : nodes) {
+        if (next.count(node->prim->path)) continue;
+        NodeMember member{node, {}};
+        attachNode(device, member);
+        if (!member.ids.empty()) next[node->prim->path] = std::move(member);
+    }
+    _nodes = std::move(next);
+    hasInstances = !_nodes.empty();
+}
+
+void EmbreeGroup::update(RTCDevice device, const std::vector<std::shared_ptr<Surface>>& surfaces,
+                         const std::vector<std::shared_ptr<InstancerNode>>& nodes, bool interactive,
+                         const std::atomic<bool>& stop) {
+    changed = false;
+    if (scene && (_cancelled || _interactive != interactive)) clear();
+    _interactive = interactive;
+    _firstFree = 0;
+    if (!scene) {
+        changed = true;
+        scene = rtcNewScene(device);
+        rtcSetSceneFlags(scene, interactive
+                                    ? RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC)
+                                    : RTC_SCENE_FLAG_ROBUST);
+        // At low quality Embree keeps a hierarchy per geometry and rebuilds those that changed.
+        rtcSetSceneBuildQuality(scene,
+                                interactive ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
+        rtcSetSceneProgressMonitorFunction(scene, goesOn, const_cast<std::atomic<bool>*>(&stop));
+    }
+    updateSurfaces(device, surfaces);
+    updateNodes(device, nodes);
+    if (changed) rtcCommitScene(scene);
+    _cancelled = changed && stop; // perhaps in the middle of the commit
 }
 
 } // namespace patina

@@ -3,6 +3,8 @@
 #include "hdDelegate/embree/compat.h"
 #include "hdDelegate/embree/surface.h"
 
+#include <atomic>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,6 +21,7 @@ struct InstancerNode {
     std::vector<mat4> transforms;
     int steps = 1;
     std::vector<EmbreeGroup*> targets; ///< per instance; null is not drawn
+    std::vector<uint64_t> versions; ///< per prototype of the prim: EmbreeGroup::version it is for
     std::vector<std::vector<int>> categories;
 
     mat4 transformAt(int instance, float time) const;
@@ -42,16 +45,45 @@ struct GroupRecord {
 /// built with a single level of instancing.
 struct EmbreeGroup {
     std::string name;
-    std::vector<std::shared_ptr<Surface>> surfaces;
-    std::vector<std::shared_ptr<InstancerNode>> nodes;
-    std::vector<std::unique_ptr<GroupRecord>> records;
+    std::vector<std::unique_ptr<GroupRecord>> records; ///< by geometry id; null: not in use
     RTCScene scene = nullptr;
     bool hasInstances = false;
+    bool changed = false; ///< by the last update
+    uint64_t version = 0; ///< no two states of any two groups have the same; never 0
 
     ~EmbreeGroup();
+    bool empty() const { return _surfaces.empty() && _nodes.empty(); }
 
-    /// Builds the Embree scene from surfaces and nodes; the targets must have been built.
-    void build(RTCDevice device);
+    /// Brings the Embree scene to these members. What is in it already stays; without any change
+    /// nothing is committed. The nodes' targets must have been updated.
+    /// @param interactive commits quickly, at the cost of speed of rays
+    /// @param stop cancels the commit; the next update then starts anew
+    void update(RTCDevice device, const std::vector<std::shared_ptr<Surface>>& surfaces,
+                const std::vector<std::shared_ptr<InstancerNode>>& nodes, bool interactive,
+                const std::atomic<bool>& stop);
+
+private:
+    struct SurfaceMember {
+        std::shared_ptr<Surface> surface;
+        unsigned mask = 0, id = 0;
+    };
+    struct NodeMember {
+        std::shared_ptr<InstancerNode> node;
+        std::vector<unsigned> ids;
+    };
+
+    void clear();
+    unsigned freeId();
+    void attach(RTCGeometry geometry, unsigned id, unsigned mask, GroupRecord record);
+    void detach(unsigned id);
+    void updateSurfaces(RTCDevice device, const std::vector<std::shared_ptr<Surface>>& surfaces);
+    void updateNodes(RTCDevice device, const std::vector<std::shared_ptr<InstancerNode>>& nodes);
+    void attachNode(RTCDevice device, NodeMember& member);
+
+    std::map<std::string, SurfaceMember> _surfaces; ///< by path; only what has geometry
+    std::map<std::string, NodeMember> _nodes;       ///< by path; only what has instances
+    size_t _firstFree = 0;                          ///< no id below is free
+    bool _interactive = false, _cancelled = false;
 };
 
 /// Ray context with the stack of instances that user geometry went through.

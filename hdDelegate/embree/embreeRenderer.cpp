@@ -188,27 +188,49 @@ void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& sche
     _paths += counters.paths;
 }
 
-void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
-    const auto buildStart = Clock::now();
+std::map<std::string, double> EmbreeRenderer::buildCounts() const {
+    std::map<std::string, double> counts = _builtBefore;
+    if (!_embree) return counts;
+    const BuildCounts& built = _embree->counts();
+    counts["surfacesBuilt"] += double(built.surfaces);
+    counts["surfacesTessellated"] += double(built.tessellated);
+    counts["groupsBuilt"] += double(built.groups);
+    counts["programsBuilt"] += double(built.programs);
+    return counts;
+}
+
+void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) {
     if (!_textures || _builtFor != _scene) {
+        _builtBefore = buildCounts();
+        _lights.reset();
+        _lightsKey = LightsKey();
         _embree.reset();
         _textures = std::make_unique<TextureSystem>(_scene->diagnostics());
         _lightImages = std::make_unique<LightImages>(_scene->diagnostics());
         _embree = std::make_unique<EmbreeScene>(_scene->diagnostics());
         _builtFor = _scene;
     }
+    _embree->update(state, camera, _settings, *_textures, _stop);
+    if (_stop) return;
+    LightsKey key = makeLightsKey(state, *_embree, camera, _settings);
+    if (_lights && key == _lightsKey) return;
+    _lights = std::make_unique<SceneLights>(state, *_embree, camera, _settings, *_lightImages,
+                                            _scene->diagnostics());
+    _lightsKey = std::move(key);
+    ++_lightsBuilt;
+}
+
+void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
+    const auto buildStart = Clock::now();
     tbb::task_arena arena(_settings.threads > 0 ? _settings.threads
                                                 : int(tbb::task_arena::automatic));
-    std::unique_ptr<SceneLights> lights;
-    arena.execute([&] {
-        _embree->update(state, camera, _settings, *_textures, _stop);
-        if (!_stop)
-            lights = std::make_unique<SceneLights>(state, *_embree, camera, _settings,
-                                                   *_lightImages, _scene->diagnostics());
-    });
+    arena.execute([&] { updateScene(state, camera); });
     if (_stop) return;
     {
         std::lock_guard<std::mutex> lock(_mutex);
+        _progress.statistics = buildCounts();
+        _progress.statistics["lightsBuilt"] = double(_lightsBuilt);
+        _progress.statistics["bytes"] = double(_embree->bytes());
         _progress.statistics["secondsBuild"] = secondsSince(buildStart);
         _progress.statistics["trianglesStored"] = double(_embree->trianglesStored());
         _progress.statistics["instances"] = double(_embree->instanceCount());
@@ -221,7 +243,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
 
     const CameraRays rays(camera, _settings);
-    const Integrator integrator(*_embree, *lights, rays, _settings, aovs);
+    const Integrator integrator(*_embree, *_lights, rays, _settings, aovs);
     TileSchedule schedule(*_film, _settings);
     _sampling = _lastCheckpoint = Clock::now();
     const auto outOfTime = [&] {

@@ -2,6 +2,7 @@
 
 #include "hdDelegate/embree/embreeScene.h"
 #include "hdDelegate/embree/integrator.h"
+#include "hdDelegate/embree/lightsKey.h"
 #include "hdDelegate/embree/tileSchedule.h"
 #include "hdDelegate/renderer.h"
 #include "hdDelegate/scene/textureSystem.h"
@@ -35,6 +36,8 @@ private:
     void run(std::shared_ptr<const SceneState> state, std::string cameraPath);
     void render(const SceneState& state, const Camera& camera);
     void renderTile(const Integrator& integrator, TileSchedule& schedule, int tile);
+    void updateScene(const SceneState& state, const Camera& camera);
+    std::map<std::string, double> buildCounts() const;
     bool waitWhilePaused();
     void maybeCheckpoint();
     void publish(const TileSchedule& schedule);
@@ -53,6 +56,10 @@ private:
     std::unique_ptr<EmbreeScene> _embree;
     std::unique_ptr<TextureSystem> _textures;
     std::unique_ptr<LightImages> _lightImages;
+    LightsKey _lightsKey;
+    std::unique_ptr<SceneLights> _lights;
+    std::map<std::string, double> _builtBefore; ///< counts of scenes rendered earlier
+    size_t _lightsBuilt = 0;
 
     std::thread _thread;
     std::mutex _control; ///< start, stop and wait exclude each other

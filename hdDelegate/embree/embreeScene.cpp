@@ -2,6 +2,7 @@
 
 #include "hdDelegate/embree/cameraRays.h"
 #include "hdDelegate/embree/drawnPrims.h"
+#include "hdDelegate/embree/primCompare.h"
 #include "hdDelegate/scene/tessellate.h"
 #include "materialNetwork/material.h"
 
@@ -16,8 +17,13 @@ namespace patina {
 namespace {
 
 void onEmbreeError(void* user, RTCError code, const char* text) {
-    if (code != RTC_ERROR_NONE)
+    if (code != RTC_ERROR_NONE && code != RTC_ERROR_CANCELLED)
         static_cast<Diagnostics*>(user)->warn("Embree", "", text ? text : "unknown error");
+}
+
+bool onEmbreeMemory(void* user, ssize_t bytes, bool) {
+    *static_cast<std::atomic<int64_t>*>(user) += bytes;
+    return true;
 }
 
 /// A motion transform at uniform steps over the shutter.
@@ -71,6 +77,20 @@ bool hasInverse(const mat4& m) {
     return std::isfinite(determinant) && determinant != 0.0f;
 }
 
+RestShape restOf(const Surface& surface) {
+    return {surface.mesh.positions, surface.mesh.normals,  surface.curves.controlPoints,
+            surface.curves.normals, surface.points.points, surface.points.normals};
+}
+
+void restore(const RestShape& rest, Surface& surface) {
+    surface.mesh.positions = rest.vertices;
+    surface.mesh.normals = rest.vertexNormals;
+    surface.curves.controlPoints = rest.controlPoints;
+    surface.curves.normals = rest.curveNormals;
+    surface.points.points = rest.points;
+    surface.points.normals = rest.pointNormals;
+}
+
 /// Moves positions and normals into the group's space, at every time step.
 void bake(Surface& surface, const std::vector<mat4>& transforms) {
     const auto bakePositions = [&](auto& steps, const auto& apply) {
@@ -111,10 +131,12 @@ void bake(Surface& surface, const std::vector<mat4>& transforms) {
 EmbreeScene::EmbreeScene(Diagnostics& diagnostics) : _diagnostics(diagnostics) {
     _device = rtcNewDevice(nullptr);
     rtcSetDeviceErrorFunction(_device, onEmbreeError, &_diagnostics);
+    rtcSetDeviceMemoryMonitorFunction(_device, onEmbreeMemory, &_embreeBytes);
 }
 
 EmbreeScene::~EmbreeScene() {
     _groups.clear();
+    rtcSetDeviceMemoryMonitorFunction(_device, nullptr, nullptr);
     rtcReleaseDevice(_device);
 }
 
@@ -159,9 +181,33 @@ std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry
         surface->points = buildPoints(static_cast<const Points&>(*prim), options, _diagnostics);
         break;
     }
-    bake(*surface, resample(prim->transform, _shutterOpen, _shutterClose));
     surface->stAttribute = surface->findAttribute("st");
     return surface;
+}
+
+void EmbreeScene::updateSurface(CachedSurface& cached, const std::shared_ptr<const Geometry>& prim,
+                                float edgeLength, bool keepRest) {
+    const bool reshape =
+        !cached.surface || cached.edgeLength != edgeLength || !sameShape(*cached.prim, *prim);
+    if (!reshape && sameTransform(cached.prim->transform, prim->transform)) {
+        cached.prim = cached.surface->prim = prim;
+        return;
+    }
+    std::shared_ptr<Surface> surface;
+    if (reshape || !cached.rest) {
+        surface = shape(prim, edgeLength);
+        cached.rest = keepRest ? std::make_shared<const RestShape>(restOf(*surface)) : nullptr;
+        ++_counts.tessellated;
+    } else {
+        surface = std::make_shared<Surface>(*cached.surface);
+        surface->prim = prim;
+        restore(*cached.rest, *surface);
+    }
+    bake(*surface, resample(prim->transform, _shutterOpen, _shutterClose));
+    ++_counts.surfaces;
+    cached.surface = std::move(surface);
+    cached.edgeLength = edgeLength;
+    cached.prim = prim;
 }
 
 std::shared_ptr<const MaterialProgram>
@@ -181,6 +227,7 @@ EmbreeScene::program(const std::string& path, const std::string& user, const Sce
     if (!cached.program || cached.prim != prim || cached.methods != settings.methods) {
         cached.prim = prim;
         cached.methods = settings.methods;
+        ++_counts.programs;
         cached.program = compileMaterial(prim && !prim->network.empty() ? prim->network
                                                                         : makeDisplayColorNetwork(),
                                          textures, _diagnostics, settings.methods);
@@ -227,16 +274,36 @@ std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Ins
                               "an instance has a transform without an inverse and is not drawn");
             continue;
         }
-        const auto target = _groups.find(prim->prototypes[prototype]);
-        result->targets[i] = target == _groups.end() ? nullptr : target->second.get();
+        result->targets[i] = finishedGroup(prim->prototypes[prototype]);
     }
     for (const auto& names : prim->categories)
         result->categories.push_back(intern(names));
     return result;
 }
 
-EmbreeGroup* EmbreeScene::buildGroup(const std::string& name, int depth) {
-    if (_groups.count(name)) return _groups[name].get();
+EmbreeGroup* EmbreeScene::finishedGroup(const std::string& name) const {
+    return _finished.count(name) ? _groups.at(name).get() : nullptr;
+}
+
+std::shared_ptr<InstancerNode>
+EmbreeScene::currentNode(const std::shared_ptr<const Instancer>& prim) {
+    std::vector<uint64_t> versions;
+    for (const std::string& name : prim->prototypes) {
+        const EmbreeGroup* target = finishedGroup(name);
+        versions.push_back(target ? target->version : 0);
+    }
+    std::shared_ptr<InstancerNode>& cached = _nodes[prim->path];
+    if (!cached || cached->prim != prim || cached->versions != versions) {
+        cached = node(prim);
+        cached->versions = std::move(versions);
+    }
+    return cached;
+}
+
+EmbreeGroup* EmbreeScene::buildGroup(const std::string& name, int depth,
+                                     const RenderSettings& settings,
+                                     const std::atomic<bool>& stop) {
+    if (EmbreeGroup* finished = finishedGroup(name)) return finished;
     if (depth > TraceContext::maxDepth || _building[name]) {
         _diagnostics.warn(name, "prototypes",
                           "instances are nested in themselves or deeper than 8; left out");
@@ -245,17 +312,22 @@ EmbreeGroup* EmbreeScene::buildGroup(const std::string& name, int depth) {
     _building[name] = true;
     for (const auto& instancer : _instancersOf[name])
         for (const std::string& prototype : instancer->prototypes)
-            buildGroup(prototype, depth + 1);
-    auto group = std::make_unique<EmbreeGroup>();
-    group->name = name;
-    group->surfaces = _surfacesOf[name];
+            buildGroup(prototype, depth + 1, settings, stop);
+    if (stop) return nullptr; // versions tell the next update what this one did not reach
+    std::vector<std::shared_ptr<InstancerNode>> nodes;
     for (const auto& instancer : _instancersOf[name]) {
-        group->nodes.push_back(node(instancer));
+        nodes.push_back(currentNode(instancer));
         _instanceCount += instancer->transforms.size();
     }
-    group->build(_device);
+    auto& group = _groups[name];
+    if (!group) group = std::make_unique<EmbreeGroup>();
+    group->name = name;
+    group->update(_device, _surfacesOf[name], nodes, settings.interactive, stop);
+    if (group->changed) group->version = ++_groupVersion;
+    _counts.groups += group->changed;
     _building[name] = false;
-    return (_groups[name] = std::move(group)).get();
+    _finished.insert(name);
+    return group.get();
 }
 
 void EmbreeScene::update(const SceneState& state, const Camera& camera,
@@ -263,19 +335,24 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
                          const std::atomic<bool>& stop) {
     const float open = float(camera.shutterOpen);
     const float close = settings.enableMotionBlur ? float(camera.shutterClose) : open;
-    if (open != _shutterOpen || close != _shutterClose) _surfaces.clear();
+    if (open != _shutterOpen || close != _shutterClose) {
+        _surfaces.clear();
+        _nodes.clear();
+    }
     _shutterOpen = open;
     _shutterClose = close;
-    _categoryIds.clear();
     _instancersOf.clear();
     _surfacesOf.clear();
-    _groups.clear();
+    _finished.clear();
     _building.clear();
     _instanceCount = _trianglesStored = 0;
 
+    _instancers.clear();
     for (const auto& item : state.instancers)
-        if (isDrawn(*item.second, settings))
+        if (isDrawn(*item.second, settings)) {
             _instancersOf[item.second->group].push_back(item.second);
+            _instancers.push_back(item.second);
+        }
 
     // The refinement that each prim needs, rounded to powers of two so that small moves of the
     // camera change nothing.
@@ -342,7 +419,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
         CachedSurface& cached = *work[i].cached;
         if (cached.prim == work[i].prim && cached.edgeLength == work[i].edge && cached.surface)
             return;
-        cached = {work[i].prim, work[i].edge, shape(work[i].prim, work[i].edge)};
+        updateSurface(cached, work[i].prim, work[i].edge, settings.interactive);
     });
     if (stop) return;
 
@@ -366,7 +443,12 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
         _surfacesOf[surface.prim->group].push_back(item.cached->surface);
         _trianglesStored += surface.mesh.triangles.size();
     }
-    _world = buildGroup("", 0);
+    _world = buildGroup("", 0, settings, stop);
+    if (stop) return;
+    for (auto it = _groups.begin(); it != _groups.end();)
+        it = _finished.count(it->first) ? std::next(it) : _groups.erase(it);
+    for (auto it = _nodes.begin(); it != _nodes.end();)
+        it = state.instancers.count(it->first) ? std::next(it) : _nodes.erase(it);
 
     RTCBounds bounds;
     rtcGetSceneBounds(_world->scene, &bounds);
@@ -401,6 +483,21 @@ std::vector<mat4> EmbreeScene::groupTransforms(const std::string& group) const {
 }
 
 void EmbreeScene::collectEmissive() {
+    std::vector<std::shared_ptr<const void>> sources;
+    bool inGroups = false;
+    for (const auto& item : _surfaces) {
+        const Surface& surface = *item.second.surface;
+        const bool emits = std::any_of(surface.materials.begin(), surface.materials.end(),
+                                       [](const auto& m) { return m.program->hasEmission(); });
+        if (!emits || surface.shape != Surface::Shape::Triangles) continue;
+        inGroups |= !surface.prim->group.empty();
+        sources.push_back(item.second.surface);
+        for (const MaterialSlot& slot : surface.materials)
+            sources.push_back(slot.program);
+    }
+    if (inGroups) sources.insert(sources.end(), _instancers.begin(), _instancers.end());
+    if (sources == _emissiveSources) return;
+    _emissiveSources = std::move(sources);
     _emissive.clear();
     std::map<std::string, std::vector<mat4>> places;
     for (const auto& item : _surfaces) {
@@ -423,9 +520,28 @@ void EmbreeScene::collectEmissive() {
     }
 }
 
-const Surface* EmbreeScene::surfaceOf(const std::string& path) const {
+std::shared_ptr<const Surface> EmbreeScene::surfaceOf(const std::string& path) const {
     const auto found = _surfaces.find(path);
-    return found == _surfaces.end() ? nullptr : found->second.surface.get();
+    return found == _surfaces.end() ? nullptr : found->second.surface;
+}
+
+size_t EmbreeScene::bytes() const {
+    size_t total = size_t(std::max<int64_t>(0, _embreeBytes));
+    for (const auto& item : _surfaces) {
+        const Surface& s = *item.second.surface;
+        const auto add = [&](const auto& steps) {
+            for (const auto& step : steps)
+                total += step.capacity() * sizeof(step[0]) * (item.second.rest ? 2 : 1);
+        };
+        add(s.mesh.positions);
+        add(s.mesh.normals);
+        add(s.curves.controlPoints);
+        add(s.points.points);
+        total += s.mesh.triangles.size() * sizeof(uvec3);
+        for (const MeshAttribute& attribute : s.attributes())
+            total += attribute.data.size() * sizeof(float);
+    }
+    return total;
 }
 
 bool EmbreeScene::finishHit(const RTCRayHit& rayHit, const TraceContext& context, Hit& hit) const {

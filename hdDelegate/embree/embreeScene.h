@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <map>
+#include <set>
 
 namespace patina {
 
@@ -20,6 +21,23 @@ struct EmissiveTriangle {
     vec3 vertices[3];
     mat4 groupToWorld;
     bool instanced;
+};
+
+/// How much was built.
+struct BuildCounts {
+    std::atomic<size_t> surfaces{0};    ///< prims made ready for rays
+    std::atomic<size_t> tessellated{0}; ///< of those, that were drawn anew, not only moved
+    size_t groups = 0;                  ///< acceleration structures that were committed
+    size_t programs = 0;
+};
+
+/// Positions and normals in object space, for prims that may be moved often.
+struct RestShape {
+    std::vector<std::vector<vec3>> vertices, vertexNormals;
+    std::vector<std::vector<vec4>> controlPoints;
+    std::vector<std::vector<vec3>> curveNormals;
+    std::vector<std::vector<vec4>> points;
+    std::vector<std::vector<vec3>> pointNormals;
 };
 
 /// Embree's view of a scene: prims in the world are baked into one acceleration structure,
@@ -55,9 +73,23 @@ public:
     size_t trianglesStored() const { return _trianglesStored; }
     size_t instanceCount() const { return _instanceCount; }
     /// The surface of a prim (for mesh lights); null when there is none.
-    const Surface* surfaceOf(const std::string& path) const;
+    std::shared_ptr<const Surface> surfaceOf(const std::string& path) const;
+    /// What emissiveTriangles() are made from; equal as long as they are.
+    const std::vector<std::shared_ptr<const void>>& emissiveSources() const {
+        return _emissiveSources;
+    }
+    const std::vector<std::shared_ptr<const void>>& drawnInstancers() const { return _instancers; }
+    size_t categoryCount() const { return _categoryIds.size(); }
+    const BuildCounts& counts() const { return _counts; } ///< since construction
+    size_t bytes() const;                                 ///< of meshes and Embree's structures
 
 private:
+    struct CachedSurface {
+        std::shared_ptr<const Geometry> prim;
+        float edgeLength = 0.0f;
+        std::shared_ptr<Surface> surface;
+        std::shared_ptr<const RestShape> rest; ///< for interactive renders
+    };
     int intern(const std::string& category);
     std::vector<int> intern(const std::vector<std::string>& categories);
     MaterialSlot makeSlot(const Surface& surface, const std::string& materialPath,
@@ -69,18 +101,18 @@ private:
                                                    TextureSource& textures);
     std::shared_ptr<Surface> shape(const std::shared_ptr<const Geometry>& prim,
                                    float edgeLength) const;
+    void updateSurface(CachedSurface& cached, const std::shared_ptr<const Geometry>& prim,
+                       float edgeLength, bool keepRest);
     std::shared_ptr<InstancerNode> node(const std::shared_ptr<const Instancer>& prim);
-    EmbreeGroup* buildGroup(const std::string& name, int depth);
+    std::shared_ptr<InstancerNode> currentNode(const std::shared_ptr<const Instancer>& prim);
+    EmbreeGroup* finishedGroup(const std::string& name) const; ///< by this update; or null
+    EmbreeGroup* buildGroup(const std::string& name, int depth, const RenderSettings& settings,
+                            const std::atomic<bool>& stop);
     void gatherTransforms(const std::string& group, const mat4& tail, int depth,
                           std::vector<mat4>& out) const;
     void collectEmissive();
     bool finishHit(const RTCRayHit& rayHit, const TraceContext& context, Hit& hit) const;
 
-    struct CachedSurface {
-        std::shared_ptr<const Geometry> prim;
-        float edgeLength = 0.0f;
-        std::shared_ptr<Surface> surface;
-    };
     struct CachedProgram {
         std::shared_ptr<const MaterialPrim> prim;
         std::map<std::string, std::string> methods;
@@ -94,7 +126,14 @@ private:
     std::map<std::string, std::unique_ptr<EmbreeGroup>> _groups; ///< by name; "" is the world
     std::map<std::string, std::vector<std::shared_ptr<Surface>>> _surfacesOf; ///< by group
     std::map<std::string, std::vector<std::shared_ptr<const Instancer>>> _instancersOf;
+    std::vector<std::shared_ptr<const void>> _instancers; ///< that are drawn
+    std::map<std::string, std::shared_ptr<InstancerNode>> _nodes;
     std::map<std::string, bool> _building;
+    std::set<std::string> _finished; ///< groups that this update brought up to date
+    uint64_t _groupVersion = 0;
+    BuildCounts _counts;
+    std::atomic<int64_t> _embreeBytes{0};
+    std::vector<std::shared_ptr<const void>> _emissiveSources;
     EmbreeGroup* _world = nullptr;
     std::vector<EmissiveTriangle> _emissive;
     std::map<std::string, int> _categoryIds;

@@ -85,7 +85,7 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
     _infos.back().triangles = true;
 
     for (const auto& light : meshLights) {
-        const Surface* surface = scene.surfaceOf(light->geometry);
+        const Surface* surface = scene.surfaceOf(light->geometry).get();
         if (!surface || surface->shape != Surface::Shape::Triangles) {
             diagnostics.warn(light->path, "geometry",
                              "the mesh light has no mesh and gives no light");

@@ -192,9 +192,14 @@ TEST(EmbreeScene, UnchangedPrimsKeepTheirSurfaces) {
     edit.set(std::shared_ptr<const Geometry>(makeQuad("/b")));
     edit.commit();
     built.update();
-    const Surface* a = built.embree.surfaceOf("/a");
-    const Surface* b = built.embree.surfaceOf("/b");
+    const auto a = built.embree.surfaceOf("/a");
+    const auto b = built.embree.surfaceOf("/b");
     built.scene.edit().set(std::shared_ptr<const Geometry>(makeQuad("/b")));
+    built.update();
+    EXPECT_EQ(built.embree.surfaceOf("/b"), b) << "another object of equal contents";
+    auto changed = makeQuad("/b");
+    changed->points.values[0][0].x = -2;
+    built.scene.edit().set(std::shared_ptr<const Geometry>(changed));
     built.update();
     EXPECT_EQ(built.embree.surfaceOf("/a"), a);
     EXPECT_NE(built.embree.surfaceOf("/b"), b);

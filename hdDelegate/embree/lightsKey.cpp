@@ -1,0 +1,35 @@
+#include "hdDelegate/embree/lightsKey.h"
+
+namespace patina {
+
+LightsKey makeLightsKey(const SceneState& state, const EmbreeScene& scene, const Camera& camera,
+                        const RenderSettings& settings) {
+    LightsKey key;
+    key.numbers = {double(settings.enableSceneLights),
+                   double(settings.domeLightCameraVisibility),
+                   double(settings.enableMotionBlur),
+                   camera.shutterOpen,
+                   camera.shutterClose,
+                   double(scene.categoryCount())};
+    bool inGroups = false;
+    for (const auto& item : state.lights) {
+        const Light& light = *item.second;
+        key.objects.push_back(item.second);
+        inGroups |= !light.group.empty();
+        if (light.type != LightType::Mesh) continue;
+        const auto surface = scene.surfaceOf(light.geometry);
+        key.objects.push_back(surface);
+        if (!surface) continue;
+        inGroups |= !surface->prim->group.empty();
+        for (const MaterialSlot& slot : surface->materials)
+            key.objects.push_back(slot.program);
+    }
+    const auto append = [&](const auto& list) {
+        key.objects.insert(key.objects.end(), list.begin(), list.end());
+    };
+    append(scene.emissiveSources());
+    if (inGroups) append(scene.drawnInstancers());
+    return key;
+}
+
+} // namespace patina

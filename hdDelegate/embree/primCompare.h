@@ -1,0 +1,13 @@
+#pragma once
+
+#include "hdDelegate/scene/geometry.h"
+
+namespace patina {
+
+/// Whether two prims have the same shape in their own space: points, topology, primvars, subsets'
+/// faces and group. Transforms, materials, visibility, categories, tags and ids may differ.
+bool sameShape(const Geometry& a, const Geometry& b);
+
+bool sameTransform(const MotionTransform& a, const MotionTransform& b);
+
+} // namespace patina

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hdDelegate/embree/embreeGroup.h"
+#include "hdDelegate/embree/surfaceSpace.h"
 #include "hdDelegate/scene/camera.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
@@ -29,15 +30,6 @@ struct BuildCounts {
     std::atomic<size_t> tessellated{0}; ///< of those, that were drawn anew, not only moved
     size_t groups = 0;                  ///< acceleration structures that were committed
     size_t programs = 0;
-};
-
-/// Positions and normals in object space, for prims that may be moved often.
-struct RestShape {
-    std::vector<std::vector<vec3>> vertices, vertexNormals;
-    std::vector<std::vector<vec4>> controlPoints;
-    std::vector<std::vector<vec3>> curveNormals;
-    std::vector<std::vector<vec4>> points;
-    std::vector<std::vector<vec3>> pointNormals;
 };
 
 /// Embree's view of a scene: prims in the world are baked into one acceleration structure,

@@ -1,0 +1,67 @@
+#include "hdDelegate/embree/embreeScene.h"
+
+namespace patina {
+
+bool EmbreeScene::finishHit(const RTCRayHit& rayHit, const TraceContext& context, Hit& hit) const {
+    if (rayHit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+    hit.time = rayHit.ray.time;
+    hit.primitive = rayHit.hit.primID;
+    hit.u = rayHit.hit.u;
+    hit.v = rayHit.hit.v;
+    hit.distance = rayHit.ray.tfar;
+    hit.groupNormal = vec3(rayHit.hit.Ng_x, rayHit.hit.Ng_y, rayHit.hit.Ng_z);
+    hit.instanced = false;
+    hit.groupToWorld = mat4(1.0f);
+    hit.instanceId = -1;
+    hit.instanceCategories = nullptr;
+
+    const EmbreeGroup* group = _world;
+    unsigned native = rayHit.hit.instID[0];
+    const auto enter = [&](const InstancerNode& node, int instance) {
+        hit.instanced = true;
+        hit.groupToWorld = hit.groupToWorld * node.transformAt(instance, hit.time);
+        hit.instanceId = node.id(instance, hit.instanceId);
+        if (size_t(instance) < node.categories.size())
+            hit.instanceCategories = &node.categories[instance];
+    };
+    if (native == throughUserGeometry) {
+        for (int i = 0; i < context.hitDepth; ++i)
+            enter(*context.hitChain[i].record->node, context.hitChain[i].instance);
+        group = context.hitGroup;
+        native = context.hitNative;
+    }
+    if (native != RTC_INVALID_GEOMETRY_ID) {
+        const GroupRecord& record = *group->records[native];
+        enter(*record.node, record.instance);
+        group = record.node->targets[record.instance];
+    }
+    hit.surface = group->records[rayHit.hit.geomID]->surface;
+    return hit.surface != nullptr;
+}
+
+bool EmbreeScene::intersect(const vec3& origin, const vec3& direction, float near, float far,
+                            float time, unsigned mask, Hit& hit) const {
+    TraceContext context;
+    initContext(&context.base);
+    context.group = _world;
+    RTCRayHit rayHit;
+    rayHit.ray = {origin.x,    origin.y, origin.z, near, direction.x, direction.y,
+                  direction.z, time,     far,      mask, 0,           0};
+    rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    embreeIntersect(_world->scene, &context.base, &rayHit);
+    return finishHit(rayHit, context, hit);
+}
+
+bool EmbreeScene::occluded(const vec3& origin, const vec3& direction, float near, float far,
+                           float time, unsigned mask) const {
+    TraceContext context;
+    initContext(&context.base);
+    context.group = _world;
+    RTCRay ray = {origin.x,    origin.y, origin.z, near, direction.x, direction.y,
+                  direction.z, time,     far,      mask, 0,           0};
+    embreeOccluded(_world->scene, &context.base, &ray);
+    return ray.tfar < 0.0f;
+}
+
+} // namespace patina

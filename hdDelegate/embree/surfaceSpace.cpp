@@ -1,0 +1,98 @@
+#include "hdDelegate/embree/surfaceSpace.h"
+
+#include "hdDelegate/embree/cameraRays.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+/// Position of step `step` of `count` among `size` uniform samples: index and fraction.
+std::pair<size_t, float> locate(int step, int count, size_t size) {
+    if (size < 2 || count < 2) return {0, 0.0f};
+    const float x = float(step) * float(size - 1) / float(count - 1);
+    const size_t i = std::min(size_t(x), size - 2);
+    return {i, x - float(i)};
+}
+
+template <class T>
+std::vector<T> valuesAtStep(const std::vector<std::vector<T>>& steps, int step, int count) {
+    const auto [i, f] = locate(step, count, steps.size());
+    if (f == 0.0f) return steps[i];
+    std::vector<T> result(steps[i].size());
+    for (size_t k = 0; k < result.size(); ++k)
+        result[k] = steps[i][k] * (1.0f - f) + steps[i + 1][k] * f;
+    return result;
+}
+
+} // namespace
+
+std::vector<mat4> resample(const MotionTransform& transform, float open, float close) {
+    size_t inside = 0;
+    for (float t : transform.times)
+        inside += t > open && t < close;
+    const bool moves = transform.moves() && close > open;
+    const int steps = moves ? int(std::min<size_t>(8, 2 + inside)) : 1;
+    std::vector<mat4> result(steps);
+    for (int i = 0; i < steps; ++i)
+        result[i] =
+            interpolate(transform, steps == 1 ? 0.0f : open + (close - open) * i / (steps - 1));
+    return result;
+}
+
+mat4 transformAtStep(const std::vector<mat4>& transforms, int step, int count) {
+    const auto [i, f] = locate(step, count, transforms.size());
+    return f == 0.0f ? transforms[i] : transforms[i] * (1.0f - f) + transforms[i + 1] * f;
+}
+
+RestShape restOf(const Surface& surface) {
+    return {surface.mesh.positions, surface.mesh.normals,  surface.curves.controlPoints,
+            surface.curves.normals, surface.points.points, surface.points.normals};
+}
+
+void restore(const RestShape& rest, Surface& surface) {
+    surface.mesh.positions = rest.vertices;
+    surface.mesh.normals = rest.vertexNormals;
+    surface.curves.controlPoints = rest.controlPoints;
+    surface.curves.normals = rest.curveNormals;
+    surface.points.points = rest.points;
+    surface.points.normals = rest.pointNormals;
+}
+
+void bake(Surface& surface, const std::vector<mat4>& transforms) {
+    const auto bakePositions = [&](auto& steps, const auto& apply) {
+        if (steps.empty()) return;
+        const int count = int(std::max(steps.size(), transforms.size()));
+        std::remove_reference_t<decltype(steps)> result(count);
+        for (int s = 0; s < count; ++s) {
+            result[s] = valuesAtStep(steps, s, count);
+            const mat4 m = transformAtStep(transforms, s, count);
+            for (auto& value : result[s])
+                value = apply(m, value);
+            result[s].reserve(result[s].size() + 1); // Embree reads 16 bytes of the last element
+        }
+        steps = std::move(result);
+    };
+    const auto point = [](const mat4& m, const vec3& p) { return vec3(m * vec4(p, 1.0f)); };
+    const auto sphere = [](const mat4& m, const vec4& p) {
+        const float scale = std::cbrt(std::abs(glm::determinant(mat3(m))));
+        return vec4(vec3(m * vec4(vec3(p), 1.0f)), p.w * scale);
+    };
+    const auto normal = [](const mat4& m, const vec3& n) {
+        const vec3 t = glm::transpose(glm::inverse(mat3(m))) * n;
+        const float length = glm::length(t);
+        return length > 0.0f ? t / length : vec3(0, 0, 1);
+    };
+    bakePositions(surface.mesh.positions, point);
+    bakePositions(surface.mesh.normals, normal);
+    bakePositions(surface.curves.controlPoints, sphere);
+    bakePositions(surface.curves.normals, normal);
+    bakePositions(surface.points.points, sphere);
+    bakePositions(surface.points.normals, normal);
+    surface.flipNormals = glm::determinant(mat3(transforms[0])) < 0.0f;
+    surface.groupToObject = glm::inverse(transforms[transforms.size() / 2]);
+}
+
+} // namespace patina

@@ -15,7 +15,7 @@ SAMPLES = 4
 SEED = 3
 
 # scene -> (relMSE that is allowed, why it cannot be the same to the bit)
-NOT_EQUAL = {"instances": (1e-4, "Hydra multiplies a prototype's own transform into its instances: rounding differs")}
+NOT_EQUAL = {"instances.usda": (1e-4, "Hydra multiplies a prototype's own transform into its instances: rounding differs")}
 # UsdImagingDelegate makes coarse meshes without texture coordinates of spheres, cubes and the like. Pictures of
 # such scenes agree in their mean only.
 MEAN_DIFFERS = 0.1

@@ -1,7 +1,10 @@
 #include "hdDelegate/hydra/gprim.h"
 
+#include "hdDelegate/hydra/instancer.h"
 #include "hdDelegate/hydra/instances.h"
 #include "hdDelegate/hydra/sampling.h"
+
+#include <pxr/imaging/hd/renderIndex.h>
 
 #include <cmath>
 
@@ -55,6 +58,10 @@ void readGprim(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfP
         } else {
             prim.group = param.instances().place(id, instancerId,
                                                  delegate.GetInstanceIndices(instancerId, id));
+            HdRenderIndex& index = delegate.GetRenderIndex();
+            for (SdfPath path = instancerId; HdInstancer* instancer = index.GetInstancer(path);
+                 path = instancer->GetParentId())
+                static_cast<HdPatinaInstancer*>(instancer)->place(param);
         }
     }
 }

@@ -11,6 +11,20 @@
 
 namespace patina {
 
+namespace {
+
+std::vector<std::vector<std::string>> categoriesOf(HdSceneDelegate& delegate, const SdfPath& id) {
+    std::vector<std::vector<std::string>> categories;
+    for (const VtArray<TfToken>& names : delegate.GetInstanceCategories(id)) {
+        categories.emplace_back();
+        for (const TfToken& name : names)
+            categories.back().push_back(name.GetString());
+    }
+    return categories;
+}
+
+} // namespace
+
 HdPatinaInstancer::HdPatinaInstancer(HdSceneDelegate* delegate, const SdfPath& id)
     : HdInstancer(delegate, id) {}
 
@@ -29,21 +43,40 @@ void HdPatinaInstancer::Sync(HdSceneDelegate* delegate, HdRenderParam* renderPar
         readPrimvars(*delegate, *data);
     }
     data->visible = delegate->GetVisible(id);
-    data->categories.clear();
-    for (const VtArray<TfToken>& names : delegate->GetInstanceCategories(id)) {
-        data->categories.emplace_back();
-        for (const TfToken& name : names)
-            data->categories.back().push_back(name.GetString());
+    data->categories = categoriesOf(*delegate, id);
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        _data = data;
     }
-    _group.clear();
-    if (GetParentId().IsEmpty())
-        param.instances().leave(id);
-    else
-        _group = param.instances().place(id, GetParentId(),
-                                         delegate->GetInstanceIndices(GetParentId(), id));
-    _data = data;
-    param.instances().setInstancer(id, _group, _data);
+    place(param);
     *dirtyBits = HdChangeTracker::Clean;
+}
+
+void HdPatinaInstancer::place(HdPatinaRenderParam& param) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    std::string group;
+    if (GetParentId().IsEmpty())
+        param.instances().leave(GetId());
+    else
+        group = param.instances().place(GetId(), GetParentId(),
+                                        GetDelegate()->GetInstanceIndices(GetParentId(), GetId()));
+    if (!_data || (_data == _placed && group == _group)) return;
+    _group = group;
+    _placed = _data;
+    param.instances().setInstancer(GetId(), _group, _data);
+}
+
+void HdPatinaInstancer::updateCategories(HdPatinaRenderParam& param) {
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        if (!_data) return;
+        auto categories = categoriesOf(*GetDelegate(), GetId());
+        if (categories == _data->categories) return;
+        auto data = std::make_shared<HdPatinaInstanceData>(*_data);
+        data->categories = std::move(categories);
+        _data = data;
+    }
+    place(param);
 }
 
 void HdPatinaInstancer::Finalize(HdRenderParam* renderParam) {

@@ -17,10 +17,18 @@ public:
               HdDirtyBits* dirtyBits) override;
     void Finalize(HdRenderParam* renderParam) override;
 
+    /// Tells the scene again which group of the parent this instancer belongs to: hosts mark only
+    /// rprims when the indices of the instancers that hold them change. Any thread.
+    void place(HdPatinaRenderParam& param);
+
+    /// Reads the light links of the instances again.
+    void updateCategories(HdPatinaRenderParam& param);
+
 private:
     void readPrimvars(HdSceneDelegate& delegate, HdPatinaInstanceData& data) const;
 
-    std::shared_ptr<const HdPatinaInstanceData> _data;
+    std::mutex _mutex;
+    std::shared_ptr<const HdPatinaInstanceData> _data, _placed;
     std::string _group;
 };
 

@@ -75,6 +75,14 @@ void HdPatinaInstances::removeInstancer(const SdfPath& instancer) {
     entry.changed = true;
 }
 
+SdfPathVector HdPatinaInstances::instancers() {
+    std::lock_guard<std::mutex> lock(_mutex);
+    SdfPathVector paths;
+    for (const auto& item : _entries)
+        if (item.second.known) paths.push_back(item.first);
+    return paths;
+}
+
 void HdPatinaInstances::flush(HdPatinaRenderParam& param) {
     std::lock_guard<std::mutex> lock(_mutex);
     for (auto it = _entries.begin(); it != _entries.end();) {

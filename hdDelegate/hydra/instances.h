@@ -43,6 +43,9 @@ public:
                       std::shared_ptr<const HdPatinaInstanceData> data);
     void removeInstancer(const SdfPath& instancer);
 
+    /// Every instancer that is known.
+    SdfPathVector instancers();
+
     /// Sets every scene instancer that changed since the last call.
     void flush(HdPatinaRenderParam& param);
 

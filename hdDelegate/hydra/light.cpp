@@ -1,5 +1,6 @@
 #include "hdDelegate/hydra/light.h"
 
+#include "hdDelegate/hydra/instancer.h"
 #include "hdDelegate/hydra/instances.h"
 #include "hdDelegate/hydra/lightParams.h"
 #include "hdDelegate/hydra/sampling.h"
@@ -69,6 +70,13 @@ void HdPatinaLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
         HdInstancer::_SyncInstancerAndParents(delegate->GetRenderIndex(), GetInstancerId());
         light->group = param.instances().place(id, GetInstancerId(),
                                                delegate->GetInstanceIndices(GetInstancerId(), id));
+    }
+    // Hydra's light linking does not tell instancers inside of prototypes that their links changed.
+    if (_light &&
+        (_light->lightLink != light->lightLink || _light->shadowLink != light->shadowLink)) {
+        for (const SdfPath& path : param.instances().instancers())
+            if (HdInstancer* instancer = delegate->GetRenderIndex().GetInstancer(path))
+                static_cast<HdPatinaInstancer*>(instancer)->updateCategories(param);
     }
     _light = light;
     if (_light->visible)

@@ -52,14 +52,22 @@ void hideInstance(const UsdStageRefPtr& stage, Host&, Random& random) {
     instancer.CreateInvisibleIdsAttr().Set(hidden);
 }
 
-void changePrototypes(const UsdStageRefPtr& stage, Host&, Random& random) {
+void changePrototypes(const UsdStageRefPtr& stage, Host& host, Random& random) {
     const UsdGeomPointInstancer instancer(stage->GetPrimAtPath(SdfPath("/World/instancer")));
     if (!instancer) return;
     SdfPathVector targets = {SdfPath("/World/instancer/block"),
                              SdfPath("/World/instancer/cluster")};
     if (random.chance(0.5f)) std::swap(targets[0], targets[1]);
     if (random.chance(0.2f)) targets.pop_back();
+    // UsdImagingDelegate forgets where a nested instancer is drawn when prototypes change places
+    // (seen in 24.11): there the instancer goes and comes again.
+    const bool wasActive = instancer.GetPrim().IsActive();
+    const UsdPrim prim = instancer.GetPrim();
     instancer.GetPrototypesRel().SetTargets(targets);
+    if (host.options().sceneIndex || !wasActive) return;
+    prim.SetActive(false);
+    host.execute();
+    stage->GetPrimAtPath(SdfPath("/World/instancer")).SetActive(true);
 }
 
 void toggleInstanceable(const UsdStageRefPtr& stage, Host&, Random& random) {

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -23,6 +25,26 @@ inline std::string sceneText(Host& host) {
     in.close();
     std::remove(path.c_str());
     return text.str();
+}
+
+/// A scene's text without what hosts number in the order in which they came by it: prototypes. Its
+/// prims are sorted.
+inline std::string withoutNumbers(const std::string& text) {
+    static const std::regex names("proto[0-9]+_|_id[0-9]+|__Prototype_[0-9]+");
+    std::multiset<std::string> prims;
+    std::istringstream in(std::regex_replace(text, names, "_"));
+    std::string line, prim, all;
+    while (std::getline(in, line)) {
+        if (!line.empty() && line[0] != ' ') {
+            prims.insert(prim);
+            prim.clear();
+        }
+        prim += line + "\n";
+    }
+    prims.insert(prim);
+    for (const std::string& one : prims)
+        all += one;
+    return all;
 }
 
 /// @returns the first line that differs, of both; empty when they are equal

@@ -125,10 +125,24 @@ std::string MtlxParser::resolveId(const Element& element,
     if (const auto def = element.attribute("nodedef")) return def.value();
     const std::string category = element.name();
     const ValueType type = valueTypeFromName(element.attribute("type").value());
-    for (const ShadingModel& model : *_models)
-        if (model.def.category == category && nodeDefFit(model.def, type, inputTypes) >= 0)
-            return model.def.id;
-    if (const NodeDef* def = NodeTable::get().resolve(category, type, inputTypes)) return def->id;
+    const ShadingModel* best = nullptr;
+    int bestFit = -1;
+    for (const ShadingModel& model : *_models) {
+        if (model.def.category != category) continue;
+        const bool several = model.def.outputs.size() > 1;
+        const int fit = nodeDefFit(model.def, several ? ValueType::Unknown : type, inputTypes);
+        if (fit > bestFit) {
+            best = &model;
+            bestFit = fit;
+        }
+    }
+    const NodeDef* def = NodeTable::get().resolve(category, type, inputTypes);
+    if (best && (!def || bestFit >= nodeDefFit(*def, type, inputTypes))) return best->def.id;
+    if (def) return def->id;
+    // The library's own documents are read while it is made, so only others can ask it.
+    if (_useLibrary)
+        if (const ShadingModel* model = ModelLibrary::get().resolve(category, type, inputTypes))
+            return model->def.id;
     // A category is enough: graph() looks models up by it and reports what nobody knows.
     return category;
 }
@@ -236,6 +250,7 @@ void MtlxParser::readModel(const Element& graph, const NodeDef& def, ShadingMode
 
 void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocument& out) {
     _models = &out.models;
+    _useLibrary = wantMaterials;
     std::map<std::string, Element> defs, functional;
     for (const Element& child : root.children()) {
         const std::string kind = child.name();

@@ -17,6 +17,19 @@ Network modelNetwork(const std::string& id, Inputs inputs = {}) {
     return makeNetwork({makeNode("surface", id, std::move(inputs))});
 }
 
+/// A model of any type at work in a surface: patterns as its light, closures as what it scatters.
+Network asSurface(const ShadingModel& model, Inputs inputs) {
+    const ValueType type = model.def.outputs[0].type;
+    if (type == ValueType::SurfaceShader) return modelNetwork(model.def.id, std::move(inputs));
+    if (type == ValueType::Bsdf) return bsdfNetwork({makeNode("bsdf", model.def.id, inputs)});
+    if (type == ValueType::Edf)
+        return makeNetwork({makeNode("edf", model.def.id, inputs),
+                            makeNode("surface", "ND_surface", {}, {{"edf", {"edf", ""}}})});
+    return makeNetwork({makeNode("x", model.def.id, inputs),
+                        makeNode("edf", "ND_uniform_edf", {}, {{"color", {"x", ""}}}),
+                        makeNode("surface", "ND_surface", {}, {{"edf", {"edf", ""}}})});
+}
+
 glm::vec3 albedoAt(const Network& network, float theta) {
     Compiled c(network);
     EXPECT_EQ(c.diagnostics.count(), 0) << warnings(c.diagnostics);
@@ -50,7 +63,7 @@ TEST(Models, EveryBranchIsWellTyped) {
                     x = 0.37f;
                 inputs[input.name] = value;
             }
-        Compiled c(modelNetwork(model->def.id, inputs));
+        Compiled c(asSurface(*model, inputs));
         EXPECT_EQ(c.diagnostics.count(), 0) << model->def.id << "\n" << warnings(c.diagnostics);
     }
 }

@@ -1,5 +1,6 @@
 #include "materialNetwork/mtlx/parser.h"
 
+#include "materialNetwork/mtlx/include.h"
 #include "materialNetwork/nodeTable.h"
 
 #include <algorithm>
@@ -60,7 +61,9 @@ Value MtlxParser::readValue(const Element& port) const {
         for (Element e = port; e; e = e.parent())
             prefix = e.attribute("fileprefix").value() + prefix;
         fs::path file(prefix + text);
-        if (!text.empty() && file.is_relative()) file = fs::path(_path).parent_path() / file;
+        const std::string source = inherited(port, sourceAttribute);
+        const fs::path document(source.empty() ? _path : source);
+        if (!text.empty() && file.is_relative()) file = document.parent_path() / file;
         v.text = text.empty() ? "" : file.lexically_normal().string();
         // Only colours have a colour space; a file says so itself, or is read by a colour node.
         const std::string nodeType = port.parent().attribute("type").value();
@@ -211,10 +214,6 @@ void MtlxParser::readInput(const Element& input, const Scope& scope, NetworkNode
         node.connections[name] = c;
     else if (input.attribute("value"))
         node.inputs[name] = readValue(input);
-    if (input.attribute("channels"))
-        _diagnostics.warn(
-            where(input.parent()), name,
-            "the attribute 'channels' of MaterialX 1.38 is not supported and ignored");
 }
 
 void MtlxParser::readNode(const Element& element, const Scope& scope,
@@ -261,10 +260,6 @@ void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocum
             functional[child.attribute("nodedef").value()] = child;
         else if (kind == "nodegraph")
             _graphs[name] = child;
-        else if (kind == "xi:include")
-            _diagnostics.warn(_path, "",
-                              "included documents are not read: " +
-                                  std::string(child.attribute("href").value()));
     }
     for (const Element& child : root.children("implementation")) {
         const auto graph = _graphs.find(child.attribute("nodegraph").value());

@@ -5,6 +5,7 @@
 #include "materialNetwork/material.h"
 #include "materialNetwork/mtlx/document.h"
 #include "materialNetwork/nodeTable.h"
+#include "materialNetwork/translate.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -158,6 +159,42 @@ Floats emission(const MaterialProbe& probe, const Floats& wo) {
     });
 }
 
+/// Texture coordinates as every primvar of two floats; other primvars are not there.
+class UvPrimvars : public PrimvarReader {
+public:
+    explicit UvPrimvars(const MaterialProgram& program) : _program(program) {}
+    bool read(int slot, float out[4]) const override {
+        if (_program.primvars()[size_t(slot)].type != ValueType::Vec2) return false;
+        out[0] = uv.x;
+        out[1] = uv.y;
+        return true;
+    }
+    glm::vec2 uv{0.0f};
+
+private:
+    const MaterialProgram& _program;
+};
+
+Floats emissionAt(const MaterialProbe& probe, const Floats& uv, float footprint) {
+    const size_t n = rows(uv, 2, "uv");
+    Floats result = triples(n);
+    const float* places = uv.data();
+    float* values = result.mutable_data();
+    {
+        py::gil_scoped_release release;
+        UvPrimvars primvars(*probe.program);
+        ShadingPoint point;
+        point.primvars = &primvars;
+        point.uvFootprint = footprint;
+        for (size_t i = 0; i < n; ++i) {
+            primvars.uv = {places[2 * i], places[2 * i + 1]};
+            point.position = point.objectPosition = glm::vec3(primvars.uv, 0.0f);
+            store(values, i, probe.program->emission(point, glm::vec3(0, 0, 1)));
+        }
+    }
+    return result;
+}
+
 py::list warningsOf(const MaterialProbe& probe) {
     py::list list;
     py::object target = list;
@@ -173,6 +210,22 @@ py::dict nodeInputs(const std::string& id) {
     if (def)
         for (const InputDef& input : def->inputs)
             dict[py::str(input.name)] = valueTypeName(input.type);
+    return dict;
+}
+
+py::dict nodeDefaults(const std::string& id) {
+    const NodeDef* def = NodeTable::get().find(id);
+    if (!def)
+        if (const ShadingModel* model = ModelLibrary::get().find(id)) def = &model->def;
+    py::dict dict;
+    if (def)
+        for (const InputDef& input : def->inputs)
+            if (input.geomprop.empty() && !isClosureType(input.type)) {
+                if (valueTypeComponents(input.type) == 0)
+                    dict[py::str(input.name)] = input.value.text;
+                else
+                    dict[py::str(input.name)] = input.value.numbers;
+            }
     return dict;
 }
 
@@ -216,6 +269,12 @@ void bindMaterial(py::module_& m) {
              "numbers.")
         .def("albedo", &albedo, py::arg("wo"), "Directional albedo, delta lobes included.")
         .def("emission", &emission, py::arg("wo"))
+        .def("emission_at", &emissionAt, py::arg("uv"), py::arg("footprint") = 0.0f,
+             "What the unit square of the xy plane emits at its points (u, v), seen from above.")
+        .def_property_readonly("uses_uv",
+                               [](const MaterialProbe& p) { return p.program->usesUv(); })
+        .def_property_readonly("constant",
+                               [](const MaterialProbe& p) { return p.program->constant(); })
         .def("opacity", [](const MaterialProbe& p) { return p.program->opacity(ShadingPoint()); })
         .def_property_readonly("warnings", &warningsOf);
 
@@ -238,6 +297,19 @@ void bindMaterial(py::module_& m) {
     m.def("display_color_network", &makeDisplayColorNetwork, "The material of prims without one.");
     m.def("node_inputs", &nodeInputs, py::arg("id"),
           "Names and MaterialX types of a node's inputs; empty for an unknown node.");
+    m.def(
+        "translate_material",
+        [](const Network& network, const std::string& target, py::object warnings) {
+            Diagnostics diagnostics;
+            Network result = translateMaterial(network, target, diagnostics);
+            appendWarnings(diagnostics, warnings);
+            return result;
+        },
+        py::arg("network"), py::arg("target"), py::arg("warnings") = py::none(),
+        "The material as another shading model; a network without terminals where it cannot be.");
+    m.def("translatable_models", &translatableModels);
+    m.def("node_defaults", &nodeDefaults, py::arg("id"),
+          "Default values of a node's inputs; those that come from the geometry are left out.");
     m.def(
         "read_mtlx",
         [](const std::string& path, py::object warnings) {

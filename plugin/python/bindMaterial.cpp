@@ -34,6 +34,22 @@ void appendWarnings(const Diagnostics& diagnostics, py::object& list) {
     }
 }
 
+/// Texture coordinates as every primvar of two floats; other primvars are not there.
+class UvPrimvars : public PrimvarReader {
+public:
+    explicit UvPrimvars(const MaterialProgram& program) : _program(program) {}
+    bool read(int slot, float out[4]) const override {
+        if (_program.primvars()[size_t(slot)].type != ValueType::Vec2) return false;
+        out[0] = uv.x;
+        out[1] = uv.y;
+        return true;
+    }
+    glm::vec2 uv{0.0f};
+
+private:
+    const MaterialProgram& _program;
+};
+
 /// A compiled material with all that it needs to live.
 struct MaterialProbe {
     Diagnostics diagnostics;
@@ -43,14 +59,27 @@ struct MaterialProbe {
     MaterialProbe(const Network& network, const MethodChoices& methods) {
         py::gil_scoped_release release;
         program = compileMaterial(network, textures, diagnostics, methods);
+        primvars = std::make_unique<UvPrimvars>(*program);
     }
-};
 
-ShadingPoint pointSeenFrom(const glm::vec3& wo) {
-    ShadingPoint point;
-    point.viewDirection = wo;
-    return point;
-}
+    /// The place is the point (u, v) of the unit square in the xy plane, once it is chosen.
+    void moveTo(float u, float v) {
+        placed = true;
+        primvars->uv = {u, v};
+    }
+
+    ShadingPoint seenFrom(const glm::vec3& wo) const {
+        ShadingPoint point;
+        point.viewDirection = wo;
+        if (!placed) return point;
+        point.primvars = primvars.get();
+        point.position = point.objectPosition = glm::vec3(primvars->uv, 0.0f);
+        return point;
+    }
+
+    std::unique_ptr<UvPrimvars> primvars;
+    bool placed = false;
+};
 
 size_t rows(const Floats& array, size_t columns, const char* name) {
     if (array.ndim() != 2 || size_t(array.shape(1)) != columns)
@@ -90,7 +119,7 @@ py::tuple eval(const MaterialProbe& probe, const Floats& wo, const Floats& wi) {
         py::gil_scoped_release release;
         for (size_t i = 0; i < n; ++i) {
             Bsdf bsdf;
-            probe.program->evaluate(pointSeenFrom(row(outgoing, i)), bsdf);
+            probe.program->evaluate(probe.seenFrom(row(outgoing, i)), bsdf);
             const glm::vec3 direction = row(incoming, i);
             const BsdfEval e = bsdf.eval(direction);
             const float cosine = std::abs(direction.z);
@@ -114,7 +143,7 @@ py::dict sample(const MaterialProbe& probe, const Floats& wo, const Floats& u) {
         py::gil_scoped_release release;
         for (size_t i = 0; i < n; ++i) {
             Bsdf bsdf;
-            probe.program->evaluate(pointSeenFrom(row(outgoing, i)), bsdf);
+            probe.program->evaluate(probe.seenFrom(row(outgoing, i)), bsdf);
             const float* r = random + 4 * i;
             const BsdfSample s = bsdf.sample({r[0], r[1], r[2]}, r[3]);
             store(directions, i, s.event ? s.wi : glm::vec3(0.0f));
@@ -148,32 +177,16 @@ template <class Function> Floats perDirection(const Floats& wo, Function functio
 Floats albedo(const MaterialProbe& probe, const Floats& wo) {
     return perDirection(wo, [&](const glm::vec3& direction) {
         Bsdf bsdf;
-        probe.program->evaluate(pointSeenFrom(direction), bsdf);
+        probe.program->evaluate(probe.seenFrom(direction), bsdf);
         return bsdf.albedo();
     });
 }
 
 Floats emission(const MaterialProbe& probe, const Floats& wo) {
     return perDirection(wo, [&](const glm::vec3& direction) {
-        return probe.program->emission(pointSeenFrom(direction), direction);
+        return probe.program->emission(probe.seenFrom(direction), direction);
     });
 }
-
-/// Texture coordinates as every primvar of two floats; other primvars are not there.
-class UvPrimvars : public PrimvarReader {
-public:
-    explicit UvPrimvars(const MaterialProgram& program) : _program(program) {}
-    bool read(int slot, float out[4]) const override {
-        if (_program.primvars()[size_t(slot)].type != ValueType::Vec2) return false;
-        out[0] = uv.x;
-        out[1] = uv.y;
-        return true;
-    }
-    glm::vec2 uv{0.0f};
-
-private:
-    const MaterialProgram& _program;
-};
 
 Floats emissionAt(const MaterialProbe& probe, const Floats& uv, float footprint) {
     const size_t n = rows(uv, 2, "uv");
@@ -269,13 +282,18 @@ void bindMaterial(py::module_& m) {
              "numbers.")
         .def("albedo", &albedo, py::arg("wo"), "Directional albedo, delta lobes included.")
         .def("emission", &emission, py::arg("wo"))
+        .def("move_to", &MaterialProbe::moveTo, py::arg("u"), py::arg("v"),
+             "Chooses the point (u, v) of the unit square in the xy plane for all that follows.")
         .def("emission_at", &emissionAt, py::arg("uv"), py::arg("footprint") = 0.0f,
              "What the unit square of the xy plane emits at its points (u, v), seen from above.")
         .def_property_readonly("uses_uv",
                                [](const MaterialProbe& p) { return p.program->usesUv(); })
         .def_property_readonly("constant",
                                [](const MaterialProbe& p) { return p.program->constant(); })
-        .def("opacity", [](const MaterialProbe& p) { return p.program->opacity(ShadingPoint()); })
+        .def("opacity",
+             [](const MaterialProbe& p) {
+                 return p.program->opacity(p.seenFrom(glm::vec3(0, 0, 1)));
+             })
         .def_property_readonly("warnings", &warningsOf);
 
     m.def(

@@ -13,6 +13,7 @@ COMMANDS = {
     "record": "record",
     "explain": "explain",
     "bsdf": "bsdf",
+    "check": "check",
     "bake": "bake",
     "compare": "compare",
     "hydra": "hydra",
@@ -23,6 +24,7 @@ COMMANDS = {
 SUMMARIES = {
     "record": "render a stage to images",
     "explain": "show what is modelled of a material, and what was left out",
+    "check": "energy, sampling, densities and numbers of materials, checked",
     "bake": "write a material as textures of another shading model",
     "bsdf": "numbers of a material: values, samples, albedo",
     "compare": "measure how two images differ",

@@ -292,6 +292,14 @@ void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocum
         out.materials.push_back(std::move(network));
         return out.materials.back();
     };
+    // Nodes of other definitions may be materials too.
+    for (const Element& child : root.children())
+        if (!std::strcmp(child.attribute("type").value(), "material") &&
+            !otherElements.count(child.name()) && std::strcmp(child.name(), "surfacematerial") &&
+            std::strcmp(child.name(), "volumematerial")) {
+            const std::string name = child.attribute("name").value();
+            addMaterial(name).terminals["surface"] = {"/" + name, ""};
+        }
     for (const NetworkNode& node : all.nodes) {
         if (node.id != "ND_surfacematerial" && node.id != "ND_volumematerial") continue;
         Network& material = addMaterial(node.path.substr(1));

@@ -20,7 +20,8 @@ Network modelNetwork(const std::string& id, Inputs inputs = {}) {
 /// A model of any type at work in a surface: patterns as its light, closures as what it scatters.
 Network asSurface(const ShadingModel& model, Inputs inputs) {
     const ValueType type = model.def.outputs[0].type;
-    if (type == ValueType::SurfaceShader) return modelNetwork(model.def.id, std::move(inputs));
+    if (type == ValueType::SurfaceShader || type == ValueType::Material)
+        return modelNetwork(model.def.id, std::move(inputs));
     if (type == ValueType::Bsdf) return bsdfNetwork({makeNode("bsdf", model.def.id, inputs)});
     if (type == ValueType::Edf)
         return makeNetwork({makeNode("edf", model.def.id, inputs),
@@ -95,6 +96,60 @@ TEST(Models, WhiteFurnace) {
             EXPECT_LE(std::max({a.x, a.y, a.z}), 1.003f) << c.id << " at " << theta;
             EXPECT_GE(std::min({a.x, a.y, a.z}), c.least) << c.id << " at " << theta;
         }
+}
+
+TEST(Models, DisneyPrincipled) {
+    // A white dielectric: diffuse light is what specular leaves over, Burley's lobe is not white.
+    const auto albedo = [](Inputs inputs, float theta) {
+        return albedoAt(modelNetwork("disney_principled", std::move(inputs)), theta);
+    };
+    // F0 is 0.08 times specular: without it and with black below, only the rise to grazing is left.
+    const Inputs black = {{"baseColor", grey(0.0f)}, {"roughness", number(0.0f)}};
+    Inputs shiny = black, dull = black;
+    shiny["specular"] = number(1.0f);
+    dull["specular"] = number(0.0f);
+    EXPECT_NEAR(albedo(shiny, 0.0f).x, 0.08f, 1e-3f);
+    EXPECT_NEAR(albedo(dull, 0.0f).x, 0.0f, 1e-3f);
+    const glm::vec3 metal = albedo({{"baseColor", color(0.9f, 0.5f, 0.1f)},
+                                    {"roughness", number(0.0f)},
+                                    {"metallic", number(1.0f)}},
+                                   0.0f);
+    EXPECT_NEAR(metal.x, 0.9f, 2e-3f);
+    EXPECT_NEAR(metal.z, 0.1f, 2e-3f);
+    const glm::vec3 glass = albedo(
+        {{"baseColor", grey(1.0f)}, {"roughness", number(0.0f)}, {"specTrans", number(1.0f)}},
+        30.0f);
+    EXPECT_NEAR(glass.x, 1.0f, 0.02f);
+    for (const float theta : {0.0f, 45.0f, 80.0f})
+        EXPECT_LE(albedo({{"baseColor", grey(1.0f)}, {"clearcoat", number(1.0f)}}, theta).x, 1.15f);
+}
+
+TEST(Models, LamaNodesAreWrappers) {
+    // A layer of nothing over white is white; half of a mirror over black is half.
+    const auto layered = [](float topMix) {
+        return albedoAt(
+            bsdfNetwork({makeNode("top", "ND_lama_conductor",
+                                  {{"reflectivity", grey(1.0f)}, {"edgeColor", grey(1.0f)}}),
+                         makeNode("base", "ND_lama_diffuse", {{"color", grey(1.0f)}}),
+                         makeNode("bsdf", "ND_lama_layer_bsdf", {{"topMix", number(topMix)}},
+                                  {{"materialTop", {"top", ""}}, {"materialBase", {"base", ""}}})}),
+            20.0f);
+    };
+    EXPECT_NEAR(layered(0.0f).x, 1.0f, 1e-4f);
+    EXPECT_NEAR(layered(1.0f).x, 1.0f, 0.02f);
+    const glm::vec3 sum =
+        albedoAt(bsdfNetwork({makeNode("a", "ND_lama_diffuse", {{"color", grey(0.5f)}}),
+                              makeNode("b", "ND_lama_diffuse", {{"color", grey(0.25f)}}),
+                              makeNode("bsdf", "ND_lama_add_bsdf", {{"weight2", number(1.0f)}},
+                                       {{"material1", {"a", ""}}, {"material2", {"b", ""}}})}),
+                 0.0f);
+    EXPECT_NEAR(sum.x, 0.75f, 1e-4f);
+    const Network material =
+        makeNetwork({makeNode("a", "ND_lama_diffuse", {{"color", grey(0.5f)}}),
+                     makeNode("surface", "ND_lama_surface", {{"presence", number(0.25f)}},
+                              {{"materialFront", {"a", ""}}})});
+    Compiled c(material);
+    EXPECT_NEAR(c.program->opacity(ShadingPoint()), 0.25f, 1e-6f);
 }
 
 TEST(Models, DepthAbsorbs) {

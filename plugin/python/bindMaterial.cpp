@@ -325,6 +325,15 @@ void bindMaterial(py::module_& m) {
         },
         py::arg("network"), py::arg("target"), py::arg("warnings") = py::none(),
         "The material as another shading model; a network without terminals where it cannot be.");
+    m.def(
+        "model_warnings",
+        [] {
+            py::list list;
+            py::object target = list;
+            appendWarnings(ModelLibrary::get().diagnostics(), target);
+            return list;
+        },
+        "What was wrong with the models of the library, those of PATINA_MODEL_PATH among them.");
     m.def("translatable_models", &translatableModels);
     m.def("node_defaults", &nodeDefaults, py::arg("id"),
           "Default values of a node's inputs; those that come from the geometry are left out.");

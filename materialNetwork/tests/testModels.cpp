@@ -98,6 +98,50 @@ TEST(Models, WhiteFurnace) {
         }
 }
 
+// The extinction of depth d is -ln(color) / d, of which scatter / d is scattered; where that leaves
+// less than nothing for absorption, all channels are shifted.
+TEST(Models, DepthScatters) {
+    for (const auto& [id, prefix] : {std::pair{"standard_surface", "transmission"},
+                                     std::pair{"open_pbr_surface", "transmission"}}) {
+        const std::string p(prefix);
+        const std::string weight = std::string(id) == "standard_surface" ? p : p + "_weight";
+        Compiled c(modelNetwork(id, {{weight, number(1.0f)},
+                                     {p + "_color", color(std::exp(-1.0f), std::exp(-2.0f), 1.0f)},
+                                     {p + "_depth", number(2.0f)},
+                                     {p + "_scatter", color(0.5f, 0.5f, 0.5f)},
+                                     {p + "_scatter_anisotropy", number(0.25f)}}));
+        ASSERT_TRUE(c.program->hasInterior()) << id;
+        const auto medium = c.program->interior(ShadingPoint());
+        EXPECT_NEAR(medium.scattering().x, 0.25f, 1e-5f) << id;
+        EXPECT_NEAR(medium.absorption.x, 0.5f - 0.25f + 0.25f, 1e-5f) << id;
+        EXPECT_NEAR(medium.absorption.y, 1.0f - 0.25f + 0.25f, 1e-5f) << id;
+        EXPECT_NEAR(medium.absorption.z, 0.0f, 1e-5f) << id;
+    }
+}
+
+TEST(Models, OpenPbrCoatsDarken) {
+    // A grey base of albedo E under a clear coat: E (1 - K) / (1 - E K) of what the coat lets
+    // through.
+    const auto albedo = [](float darkening) {
+        return albedoAt(modelNetwork("open_pbr_surface", {{"base_color", grey(0.5f)},
+                                                          {"specular_weight", number(0.0f)},
+                                                          {"coat_weight", number(1.0f)},
+                                                          {"coat_darkening", number(darkening)}}),
+                        0.0f)
+            .x;
+    };
+    const float f0 = std::pow(0.6f / 2.6f, 2.0f), k = 1.0f - (1.0f - f0) / (1.6f * 1.6f);
+    EXPECT_NEAR(albedo(0.0f), f0 + (1.0f - f0) * 0.5f, 2e-3f);
+    EXPECT_NEAR(albedo(1.0f), f0 + (1.0f - f0) * 0.5f * (1.0f - k) / (1.0f - 0.5f * k), 2e-3f);
+    // Against a coat of its own ior the base reflects nothing.
+    const float same = albedoAt(modelNetwork("open_pbr_surface", {{"base_color", grey(0.0f)},
+                                                                  {"specular_ior", number(1.6f)},
+                                                                  {"coat_weight", number(1.0f)}}),
+                                0.0f)
+                           .x;
+    EXPECT_NEAR(same, f0, 1e-3f);
+}
+
 TEST(Models, DisneyPrincipled) {
     // A white dielectric: diffuse light is what specular leaves over, Burley's lobe is not white.
     const auto albedo = [](Inputs inputs, float theta) {

@@ -148,6 +148,7 @@ bool rewritePattern(const Graph&, const GraphNode& node, Operand& out) {
     case Algebra::IfGreaterEq:
     case Algebra::IfEqual: return rewriteCondition(node, out);
     case Algebra::Switch: return rewriteSwitch(node, out);
+    case Algebra::Rotate: return isConstantValue(in[1], 0.0f) && take(node, in[0], out);
     case Algebra::NormalMap: return rewriteNormalMap(node, out);
     case Algebra::IsUniform: out = constantOf(type, in[0].isConstant() ? 1.0f : 0.0f); return true;
     }

@@ -40,17 +40,23 @@ private:
     }
 
     GraphNode slopeOf(const GraphNode& source, GraphNode node) {
-        const Operand along[2] = {shifted(source.inputs[0], 0), shifted(source.inputs[0], 1)};
         GraphNode slope;
         slope.def = NodeTable::get().find("PatinaSlope");
         slope.path = node.path;
-        slope.inputs = {node.inputs[0], along[0], along[1], node.inputs[1]};
-        slope.authored.assign(4, true);
+        slope.inputs = {node.inputs[0],
+                        shifted(source.inputs[0], 0),
+                        shifted(source.inputs[0], 1),
+                        node.inputs[1],
+                        node.inputs[2],
+                        shifted(source.inputs[2], 0),
+                        shifted(source.inputs[2], 1)};
+        slope.authored.assign(slope.inputs.size(), true);
         return slope;
     }
 
     /// The same value a step further along an axis. Nodes that do not move are shared.
     Operand shifted(const Operand& operand, int axis) {
+        if (operand.isConstant()) return operand;
         std::vector<bool> needed(_in.nodes.size(), false);
         needed[size_t(operand.node)] = true;
         for (size_t i = size_t(operand.node) + 1; i-- > 0;)

@@ -33,13 +33,20 @@ void shiftPosition(Call c) {
     c.out() = c.in(0) + vec4(d, 0.0f);
 }
 
-/// Inputs (height here, along u, along v, scale). The factor 1/16 is that of the Sobel filter which
-/// this node was once defined by.
+/// Inputs (height here, along u, along v, scale, texcoord here, along u, along v): the normal of
+/// the height over the texture coordinates. The factor 1/16 is that of the Sobel filter which this
+/// node was once defined by.
 void slope(Call c) {
-    const float k = c.x(3) / (16.0f * step(c));
-    const vec3 n(-(c.x(1) - c.x(0)) * k, -(c.x(2) - c.x(0)) * k, 1.0f);
+    const float k = 1.0f / step(c), scale = c.x(3) / 16.0f;
+    const auto along = [&](int height, int place) {
+        return vec3((c.in(place).x - c.in(4).x) * k, (c.in(place).y - c.in(4).y) * k,
+                    (c.x(height) - c.x(0)) * k * scale);
+    };
+    vec3 n = glm::cross(along(1, 5), along(2, 6));
+    if (n.z < 0.0f) n = -n; // mirrored coordinates
     const float length = glm::length(n);
-    c.out() = vec4((length < 1e30f ? n / length : vec3(0, 0, 1)) * 0.5f + 0.5f, 0.0f);
+    c.out() =
+        vec4((length > 1e-6f && length < 1e30f ? n / length : vec3(0, 0, 1)) * 0.5f + 0.5f, 0.0f);
 }
 
 /// What is left when the height is the same everywhere.
@@ -64,7 +71,9 @@ const NodeRow rows[] = {
      Algebra::None, "vector2 vector3", nullptr, true},
     {"PatinaShiftPosition", "shift_position", "vector3 in=0, float axis=0, float world=0",
      "vector3", shiftPosition, Algebra::None, nullptr, nullptr, true},
-    {"PatinaSlope", "slope", "float here=0, float along_u=0, float along_v=0, float scale=1",
+    {"PatinaSlope", "slope",
+     "float here=0, float along_u=0, float along_v=0, float scale=1, "
+     "vector2 texcoord=0, vector2 texcoord_u=0, vector2 texcoord_v=0",
      "vector3", slope, Algebra::None, nullptr, nullptr, true},
 };
 

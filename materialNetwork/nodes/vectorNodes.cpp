@@ -102,9 +102,10 @@ const NodeRow rows[] = {
     {"ND_normalize_$", "normalize", "$ in=0", "$", normalized, Algebra::None, vectors},
     {"ND_crossproduct_vector3", "crossproduct", "vector3 in1=0, vector3 in2=0", "vector3",
      crossProduct},
-    {"ND_rotate2d_vector2", "rotate2d", "vector2 in=0, float amount=0", "vector2", rotate2d},
+    {"ND_rotate2d_vector2", "rotate2d", "vector2 in=0, float amount=0", "vector2", rotate2d,
+     Algebra::Rotate},
     {"ND_rotate3d_vector3", "rotate3d", "vector3 in=0, float amount=0, vector3 axis=0 1 0",
-     "vector3", rotate3d},
+     "vector3", rotate3d, Algebra::Rotate},
     {"ND_place2d_vector2", "place2d",
      "vector2 texcoord=@UV0, vector2 pivot=0, vector2 scale=1, float rotate=0, vector2 offset=0, "
      "integer operationorder=0",

@@ -76,6 +76,14 @@ TEST(SurfacePatterns, HeightsGiveNormals) {
                                 {{"st", glm::vec4(0.25f, 0.5f, 0, 0)}});
     const float slope = 4.0f * 2.0f / 16.0f, length = std::sqrt(1 + slope * slope);
     expectVector(n, 0.5f - 0.5f * slope / length, 0.5f, 0.5f + 0.5f / length, 1e-3f);
+    // Over coordinates that run twice as fast the same height is half as steep.
+    auto over = nodes("ND_heighttonormal_vector3", "in");
+    over.push_back(
+        makeNode("fast", "ND_multiply_vector2FA", {{"in2", number(2.0f)}}, {{"in1", {"uv", ""}}}));
+    over[3].connections["texcoord"] = {"/m/fast", ""};
+    const glm::vec3 slower = emitted(emitting(over), p, {{"st", glm::vec4(0.25f, 0.5f, 0, 0)}});
+    const float half = 0.5f * slope, halfLength = std::sqrt(1 + half * half);
+    expectVector(slower, 0.5f - 0.5f * half / halfLength, 0.5f, 0.5f + 0.5f / halfLength, 1e-3f);
     // A height that is the same everywhere is flat.
     expectVector(emitted(emitting({makeNode("x", "ND_heighttonormal_vector3",
                                             {{"in", number(3.0f)}, {"scale", number(2.0f)}})})),

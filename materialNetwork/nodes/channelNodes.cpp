@@ -45,7 +45,7 @@ void combine22(Call c) {
 }
 
 void extract(Call c) {
-    const int i = glm::clamp(int(c.x(1)), 0, c.data.size - 1);
+    const int i = glm::clamp(c.whole(1), 0, c.data.size - 1);
     c.out() = vec4(c.in(0)[i]);
 }
 

@@ -117,7 +117,7 @@ void create4Full(Call c) {
 
 /// A row by its index.
 template <int Rows> void extractRow(Call c) {
-    c.out() = row(c, 0, glm::clamp(int(c.x(1)), 0, Rows - 1));
+    c.out() = row(c, 0, glm::clamp(c.whole(1), 0, Rows - 1));
 }
 
 template <int Rows> void copyRows(Call c, int input) {

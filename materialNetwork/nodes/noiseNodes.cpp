@@ -50,10 +50,10 @@ void noise3Quad(Call c) {
 
 /// Inputs (amplitude, octaves, lacunarity, diminish, texcoord or position).
 float octaves2(Call c, const vec2& offset, int shift) {
-    return sh::noiseFractal2(vec2(c.in(4)) + offset, int(c.x(1)), c.x(2), c.x(3), shift);
+    return sh::noiseFractal2(vec2(c.in(4)) + offset, c.whole(1), c.x(2), c.x(3), shift);
 }
 float octaves3(Call c, const vec3& offset, int shift) {
-    return sh::noiseFractal3(vec3(c.in(4)) + offset, int(c.x(1)), c.x(2), c.x(3), shift);
+    return sh::noiseFractal3(vec3(c.in(4)) + offset, c.whole(1), c.x(2), c.x(3), shift);
 }
 void fractal2Scalar(Call c) {
     c.out() = vec4(octaves2(c, vec2(0.0f), 0) * c.x(0));
@@ -97,16 +97,16 @@ void cell3(Call c) {
 
 /// Inputs (texcoord or position, jitter, style).
 void worley2Scalar(Call c) {
-    c.out() = vec4(sh::worleyScalar2(vec2(c.in(0)), c.x(1), int(c.x(2))));
+    c.out() = vec4(sh::worleyScalar2(vec2(c.in(0)), c.x(1), c.whole(2)));
 }
 void worley2Tuple(Call c) {
-    c.out() = vec4(sh::worleyNoise2(vec2(c.in(0)), c.x(1), int(c.x(2))), 0.0f);
+    c.out() = vec4(sh::worleyNoise2(vec2(c.in(0)), c.x(1), c.whole(2)), 0.0f);
 }
 void worley3Scalar(Call c) {
-    c.out() = vec4(sh::worleyScalar3(vec3(c.in(0)), c.x(1), int(c.x(2))));
+    c.out() = vec4(sh::worleyScalar3(vec3(c.in(0)), c.x(1), c.whole(2)));
 }
 void worley3Tuple(Call c) {
-    c.out() = vec4(sh::worleyNoise3(vec3(c.in(0)), c.x(1), int(c.x(2))), 0.0f);
+    c.out() = vec4(sh::worleyNoise3(vec3(c.in(0)), c.x(1), c.whole(2)), 0.0f);
 }
 
 /// The unified nodes: (at, freq, offset, jitter, outmin, outmax, clampoutput, octaves, lacunarity,
@@ -120,22 +120,22 @@ void unified2(Call c) {
     const vec2 p = vec2(c.in(0)) * vec2(c.in(1)) + vec2(c.in(2));
     const float angle = (c.x(3) - 1.0f) * 90000.0f;
     const vec2 turned = sh::patternRotate2d(p, angle);
-    switch (int(c.x(10))) {
+    switch (c.whole(10)) {
     case 0: return toRange(c, 0.5f * sh::noisePerlin2(turned, 0) + 0.5f);
     case 1: return toRange(c, sh::noiseCell2(turned));
-    case 2: return toRange(c, sh::worleyScalar2(p, c.x(3), int(c.x(11))));
-    case 3: return toRange(c, sh::noiseFractal3(vec3(p, angle), int(c.x(7)), c.x(8), c.x(9), 0));
+    case 2: return toRange(c, sh::worleyScalar2(p, c.x(3), c.whole(11)));
+    case 3: return toRange(c, sh::noiseFractal3(vec3(p, angle), c.whole(7), c.x(8), c.x(9), 0));
     default: return toRange(c, 0.0f);
     }
 }
 void unified3(Call c) {
     const vec3 p = vec3(c.in(0)) * vec3(c.in(1)) + vec3(c.in(2));
     const vec3 turned = sh::patternRotate3d(p, (c.x(3) - 1.0f) * 90000.0f, vec3(0.1f, 1.0f, 0.0f));
-    switch (int(c.x(10))) {
+    switch (c.whole(10)) {
     case 0: return toRange(c, 0.5f * sh::noisePerlin3(turned, 0) + 0.5f);
     case 1: return toRange(c, sh::noiseCell3(turned));
-    case 2: return toRange(c, sh::worleyScalar3(p, c.x(3), int(c.x(11))));
-    case 3: return toRange(c, sh::noiseFractal3(turned, int(c.x(7)), c.x(8), c.x(9), 0));
+    case 2: return toRange(c, sh::worleyScalar3(p, c.x(3), c.whole(11)));
+    case 3: return toRange(c, sh::noiseFractal3(turned, c.whole(7), c.x(8), c.x(9), 0));
     default: return toRange(c, 0.0f);
     }
 }
@@ -272,8 +272,7 @@ const NodeRow rows[] = {
     {"ND_randomfloat_integer", "randomfloat",
      "integer in=0, float min=0, float max=1, integer seed=0", "float", randomFloat<1>},
     {"ND_randomcolor_float", "randomcolor", "float in=0, " PATINA_HSV, "color3", randomColor},
-    {"ND_randomcolor_integer", "randomcolor", "integer in=0, " PATINA_HSV, "color3",
-     randomColor},
+    {"ND_randomcolor_integer", "randomcolor", "integer in=0, " PATINA_HSV, "color3", randomColor},
 };
 
 } // namespace

@@ -33,10 +33,10 @@ vec4 gltfTexel(Call c, int order) {
     return texel(c, c.data.handle, uv, c.point().uvFootprint * widest, 1);
 }
 void gltfImage(Call c) {
-    c.out() = gltfTexel(c, int(c.x(7))) * c.in(8);
+    c.out() = gltfTexel(c, c.whole(7)) * c.in(8);
 }
 void gltfScalarImage(Call c) {
-    c.out() = vec4(gltfTexel(c, int(c.x(7))).x * c.x(8));
+    c.out() = vec4(gltfTexel(c, c.whole(7)).x * c.x(8));
 }
 /// Further inputs (color, geomcolor).
 void gltfColorImage(Call c) {
@@ -46,7 +46,7 @@ void gltfColorImage(Call c) {
 }
 /// Further inputs (normal, tangent, bitangent).
 void gltfNormalMap(Call c) {
-    c.out() = vec4(sh::patternNormalMap(vec3(gltfTexel(c, int(c.x(7)))), vec2(1.0f), vec3(c.in(8)),
+    c.out() = vec4(sh::patternNormalMap(vec3(gltfTexel(c, c.whole(7))), vec2(1.0f), vec3(c.in(8)),
                                         vec3(c.in(9)), vec3(c.in(10))),
                    0.0f);
 }
@@ -73,7 +73,7 @@ void latLongImage(Call c) {
 /// three handles.
 vec4 triplanarTexel(Call c) {
     const vec3 p(c.in(4));
-    const int up = int(c.x(6));
+    const int up = c.whole(6);
     const vec2 x = up == 2 ? vec2(p.y, p.z) : vec2(p.z, p.y);
     const vec2 y = up == 0 ? vec2(p.z, p.x) : vec2(p.x, p.z);
     const vec2 z = up == 0 ? vec2(-p.y, p.x) : vec2(p.x, p.y);

@@ -47,9 +47,9 @@ void checkerboard(Call c) {
 
 /// Inputs (texcoord, type, interpolation, num_intervals, interval1, color1, interval2, ...).
 void ramp(Call c) {
-    const float x = sh::patternRampPosition(vec2(c.in(0)), int(c.x(1)));
-    const int interpolation = int(c.x(2));
-    const int stretches = std::clamp(int(c.x(3)) - 1, 0, 9);
+    const float x = sh::patternRampPosition(vec2(c.in(0)), c.whole(1));
+    const int interpolation = c.whole(2);
+    const int stretches = std::clamp(c.whole(3) - 1, 0, 9);
     vec4 color = c.in(5);
     for (int i = 1; i <= stretches; ++i) {
         const float low = c.x(2 + 2 * i), high = c.x(4 + 2 * i);
@@ -64,7 +64,7 @@ void ramp(Call c) {
 /// num_intervals): one stretch of a ramp, after what the stretches before made of it.
 void rampGradient(Call c) {
     const bool beyond = c.x(7) >= c.x(8) || c.x(0) <= c.x(1);
-    const float t = sh::patternRampBlend(c.x(0), c.x(1), c.x(2), int(c.x(5)));
+    const float t = sh::patternRampBlend(c.x(0), c.x(1), c.x(2), c.whole(5));
     c.out() = beyond ? c.in(6) : c.in(3) + (c.in(4) - c.in(3)) * t;
 }
 

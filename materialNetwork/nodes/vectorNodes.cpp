@@ -61,7 +61,7 @@ template <bool Largest> void component(Call c) {
 
 void place2d(Call c) {
     c.out() = vec4(sh::patternPlace2d(vec2(c.in(0)), vec2(c.in(1)), vec2(c.in(2)), c.x(3),
-                                      vec2(c.in(4)), int(c.x(5))),
+                                      vec2(c.in(4)), c.whole(5)),
                    0.0f, 0.0f);
 }
 

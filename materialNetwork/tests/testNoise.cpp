@@ -153,6 +153,15 @@ TEST(Noise, FarAndBrokenPlacesGiveNumbers) {
         const std::vector<float> n = folded("ND_noise3d_float", {{"position", {x, x, x}}});
         EXPECT_EQ(n.size(), 1u);
     }
+    // Numbers that are none select the first of a list; those beyond it nothing.
+    for (const float x : {1e38f, -1e38f, INFINITY, -INFINITY, NAN}) {
+        const std::vector<float> v =
+            folded("ND_unifiednoise3d_float", {{"position", at3}, {"type", {x}}});
+        EXPECT_EQ(v, x == x ? std::vector<float>{0.0f}
+                            : folded("ND_unifiednoise3d_float", {{"position", at3}}));
+        EXPECT_EQ(folded("ND_extract_vector3", {{"in", {1, 2, 3}}, {"index", {x}}})[0],
+                  x > 0 ? 3.0f : 1.0f);
+    }
     // Octaves without end come to one.
     EXPECT_EQ(folded("ND_fractal3d_float", {{"position", at3}, {"octaves", {2e9f}}}).size(), 1u);
 }

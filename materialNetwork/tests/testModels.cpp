@@ -142,6 +142,14 @@ TEST(Models, OpenPbrCoatsDarken) {
     EXPECT_NEAR(same, f0, 1e-3f);
 }
 
+TEST(Models, VersionsOfStandardSurface) {
+    // The versions differ in the default of base: 0.8 and 1.
+    const Inputs red = {{"base_color", color(1, 0, 0)}, {"specular", number(0.0f)}};
+    EXPECT_NEAR(albedoAt(modelNetwork("ND_standard_surface_surfaceshader_100", red), 0.0f).x, 0.8f,
+                1e-4f);
+    EXPECT_NEAR(albedoAt(modelNetwork("standard_surface", red), 0.0f).x, 1.0f, 1e-4f);
+}
+
 TEST(Models, DisneyPrincipled) {
     // A white dielectric: diffuse light is what specular leaves over, Burley's lobe is not white.
     const auto albedo = [](Inputs inputs, float theta) {

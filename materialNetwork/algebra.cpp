@@ -1,5 +1,7 @@
 #include "materialNetwork/algebra.h"
 
+#include "materialNetwork/value.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -69,8 +71,8 @@ bool rewriteCondition(const GraphNode& node, Operand& out) {
 bool rewriteSwitch(const GraphNode& node, Operand& out) {
     float which = 0.0f;
     if (!constantNumber(node.inputs.back(), which)) return false;
-    which = std::floor(which);
-    if (which < 0.0f || which >= float(node.inputs.size() - 1)) {
+    which = std::fmax(std::floor(which), 0.0f);
+    if (which >= float(node.inputs.size() - 1)) {
         out = constantOf(node.def->outputs[0].type, 0.0f);
         return true;
     }
@@ -91,29 +93,28 @@ bool rewriteNormalMap(const GraphNode& node, Operand& out) {
 
 bool foldPattern(const GraphNode& node, std::vector<Value>& outputs) {
     const NodeDef& def = *node.def;
-    if (def.inputs.size() > 16 || def.outputs.size() > 8) return false;
-    glm::vec4 registers[24];
-    uint16_t inputs[16];
+    constexpr size_t maxInputs = 24, maxOutputs = 8, rows = 4; // a matrix takes a register per row
+    if (def.inputs.size() > maxInputs || def.outputs.size() > maxOutputs) return false;
+    glm::vec4 registers[(maxInputs + maxOutputs) * rows];
+    uint16_t inputs[maxInputs];
     for (size_t i = 0; i < node.inputs.size(); ++i) {
-        const Value& value = node.inputs[i].value;
-        if (value.numbers.size() > 4) return false;
-        const float fill = value.numbers.size() == 1 ? value.numbers[0] : 0.0f;
-        for (int k = 0; k < 4; ++k)
-            registers[i][k] = k < int(value.numbers.size()) ? value.numbers[size_t(k)] : fill;
-        inputs[i] = uint16_t(i);
+        inputs[i] = uint16_t(i * rows);
+        valueRows(node.inputs[i].value, registers + i * rows);
     }
+    const size_t first = maxInputs * rows;
     PatternData data;
     data.size = std::max(
         1, valueTypeComponents(def.inputs.empty() ? ValueType::Float : def.inputs[0].type));
     const PatternContext context;
-    def.function({registers, inputs, uint16_t(16), data, context});
+    def.function({registers, inputs, uint16_t(first), data, context});
     for (size_t k = 0; k < def.outputs.size(); ++k) {
         Value value;
         value.type = def.outputs[k].type;
         const int n = valueTypeComponents(value.type);
-        if (n < 1 || n > 4) return false;
+        if (n < 1) return false;
+        const int columns = n == 9 ? 3 : std::min(n, 4);
         for (int c = 0; c < n; ++c)
-            value.numbers.push_back(registers[16 + k][c]);
+            value.numbers.push_back(registers[first + k + size_t(c / columns)][c % columns]);
         outputs.push_back(std::move(value));
     }
     return true;
@@ -147,6 +148,7 @@ bool rewritePattern(const Graph&, const GraphNode& node, Operand& out) {
     case Algebra::IfGreaterEq:
     case Algebra::IfEqual: return rewriteCondition(node, out);
     case Algebra::Switch: return rewriteSwitch(node, out);
+    case Algebra::Rotate: return isConstantValue(in[1], 0.0f) && take(node, in[0], out);
     case Algebra::NormalMap: return rewriteNormalMap(node, out);
     case Algebra::IsUniform: out = constantOf(type, in[0].isConstant() ? 1.0f : 0.0f); return true;
     }

@@ -1,5 +1,6 @@
 #include "materialNetwork/graph.h"
 
+#include "materialNetwork/differences.h"
 #include "materialNetwork/geomprop.h"
 #include "materialNetwork/nodeTable.h"
 #include "materialNetwork/value.h"
@@ -30,7 +31,7 @@ public:
             else
                 _diagnostics.warn(_network.path, name, problem + "; the terminal is ignored");
         }
-        return std::move(_graph);
+        return insertDifferences(_graph);
     }
 
 private:

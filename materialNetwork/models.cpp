@@ -26,6 +26,9 @@ ModelLibrary::ModelLibrary() {
             for (fs::directory_iterator it(folder, error), end; !error && it != end;
                  it.increment(error))
                 if (it->path().extension() == ".mtlx") files.push_back(it->path());
+            if (error)
+                _diagnostics.warn(folder, "PATINA_MODEL_PATH",
+                                  "the folder cannot be read; it is left out");
             std::sort(files.begin(), files.end());
             for (const fs::path& file : files) {
                 std::ifstream stream(file);

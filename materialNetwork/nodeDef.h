@@ -60,6 +60,7 @@ enum class Algebra {
     IfGreaterEq,
     IfEqual,
     Switch,    ///< (in1.., which)
+    Rotate,    ///< (in, amount...) by nothing
     NormalMap, ///< (in, scale, normal...) with a neutral colour
     IsUniform  ///< 1 when the input is the same everywhere, else 0
 };

@@ -81,7 +81,9 @@ const NodeTable& NodeTable::get() {
 NodeTable::NodeTable() {
     for (const NodeRows& rows :
          {mathNodes(), vectorNodes(), channelNodes(), conditionalNodes(), geometryNodes(),
-          textureNodes(), usdNodes(), helperNodes(), closureNodes()})
+          textureNodes(), usdNodes(), helperNodes(), noiseNodes(), shapeNodes(), colorNodes(),
+          placedImageNodes(), hexTileNodes(), matrixNodes(), spaceNodes(), differenceNodes(),
+          closureNodes()})
         for (const NodeRow* row = rows.begin; row != rows.end; ++row)
             add(*row);
 
@@ -100,7 +102,7 @@ NodeTable::NodeTable() {
     alias("ND_multiply_bsdf_float", "ND_multiply_bsdfF");
     alias("ND_normalmap", "ND_normalmap_float");
     for (const char* type : {"float", "float2", "float3", "float4", "int", "string", "point",
-                             "normal", "vector", "matrix"}) {
+                             "normal", "vector", "matrix", "boolean", "filename"}) {
         const std::string id = std::string("UsdPrimvarReader_") + type;
         if (find(id)) alias(("ND_" + id).c_str(), id.c_str());
     }

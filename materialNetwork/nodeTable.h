@@ -72,6 +72,14 @@ NodeRows geometryNodes();
 NodeRows textureNodes();
 NodeRows usdNodes();
 NodeRows helperNodes();
+NodeRows noiseNodes();
+NodeRows shapeNodes();
+NodeRows colorNodes();
+NodeRows placedImageNodes();
+NodeRows hexTileNodes();
+NodeRows matrixNodes();
+NodeRows spaceNodes();
+NodeRows differenceNodes();
 NodeRows closureNodes();
 
 /// Types that most stdlib families have.

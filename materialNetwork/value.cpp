@@ -109,6 +109,20 @@ bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string&
     return true;
 }
 
+int registerCount(ValueType type) {
+    return type == ValueType::Matrix33 ? 3 : type == ValueType::Matrix44 ? 4 : 1;
+}
+
+void valueRows(const Value& value, glm::vec4* rows) {
+    const std::vector<float>& v = value.numbers;
+    const size_t columns = v.size() == 9 ? 3 : 4;
+    rows[0] = glm::vec4(v.size() == 1 ? v[0] : 0.0f);
+    for (size_t i = 1; i * columns < v.size(); ++i)
+        rows[i] = glm::vec4(0.0f);
+    for (size_t i = 0; v.size() > 1 && i < v.size(); ++i)
+        rows[i / columns][int(i % columns)] = v[i];
+}
+
 bool sameValue(const Value& a, const Value& b) {
     return a.type == b.type && a.numbers == b.numbers && a.text == b.text &&
            a.colorSpace == b.colorSpace;

@@ -2,6 +2,8 @@
 
 #include "materialNetwork/nodeDef.h"
 
+#include <glm/glm.hpp>
+
 #include <string>
 
 namespace patina {
@@ -19,6 +21,12 @@ Coercion coercion(ValueType from, ValueType to);
 /// to 3), names of an enumeration to numbers, colours to linear Rec.709.
 /// @param problem says what is wrong when false is returned
 bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string& problem);
+
+/// Registers that a value of this type takes: one per row of a matrix, else one.
+int registerCount(ValueType type);
+
+/// Writes the numbers of a value as registers, row by row; one number fills its register.
+void valueRows(const Value& value, glm::vec4* rows);
 
 bool sameValue(const Value& a, const Value& b);
 

@@ -178,6 +178,7 @@ void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& directi
     }
     s.objectToWorldNormal = normalMatrix * glm::transpose(mat3(surface.groupToObject));
     const float scale = hit.instanced ? std::cbrt(std::abs(glm::determinant(tangentMatrix))) : 1.0f;
+    s.lengthPerUv = scale / std::max(local.uvPerLength, 1e-20f);
     const float cosine = std::max(0.1f, std::abs(glm::dot(s.geometricNormal, s.viewDirection)));
     s.uvFootprint = local.uvPerLength * coneWidth / (std::max(scale, 1e-20f) * std::sqrt(cosine));
 

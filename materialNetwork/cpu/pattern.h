@@ -38,6 +38,11 @@ struct PatternCall {
 
     const glm::vec4& in(int i) const { return registers[inputs[i]]; }
     float x(int i) const { return registers[inputs[i]].x; }
+    /// An integer input; 0 for what is no number, and limited far beyond what any node knows.
+    int whole(int i) const {
+        const float v = x(i);
+        return v > -1e9f ? int(v < 1e9f ? v : 1e9f) : v <= -1e9f ? -1000000000 : 0;
+    }
     glm::vec4& out(int i = 0) const { return registers[output + i]; }
     const ShadingPoint& point() const { return *context.point; }
 };

@@ -1,6 +1,7 @@
 #include "materialNetwork/cpu/programBuilder.h"
 
 #include "materialNetwork/cpu/lobeSetup.h"
+#include "materialNetwork/value.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,8 +74,7 @@ Register ProgramBuilder::constant(const Value& value) {
     std::vector<float> key = value.numbers;
     if (key.empty()) key.push_back(0.0f);
     if (key.size() == 1) key.resize(4, key[0]);
-    // Matrices take a register per four numbers; no instruction reads more than the first yet.
-    key.resize(4, 0.0f);
+    if (key.size() < 4) key.resize(4, 0.0f);
     const auto known = _constants.find(key);
     if (known != _constants.end()) return known->second;
     if (_constants.size() >= 30000) {
@@ -82,7 +82,10 @@ Register ProgramBuilder::constant(const Value& value) {
         return 0;
     }
     const Register r = Register(_code->constants.size());
-    _code->constants.emplace_back(key[0], key[1], key[2], key[3]);
+    Value rows;
+    rows.numbers = key;
+    _code->constants.resize(size_t(r) + (key.size() + 3) / 4);
+    valueRows(rows, &_code->constants[r]);
     _constants.emplace(std::move(key), r);
     return r;
 }
@@ -341,8 +344,12 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
     constant(Value::makeFloat(1.0f));
     _code->registerCount = int(_code->constants.size());
     for (size_t i = 0; i < n; ++i)
-        if (nodeOf(int(i)).def->function)
-            _register[i] = allocate(int(nodeOf(int(i)).def->outputs.size()));
+        if (nodeOf(int(i)).def->function) {
+            int count = 0;
+            for (const OutputDef& output : nodeOf(int(i)).def->outputs)
+                count += registerCount(output.type);
+            _register[i] = allocate(count);
+        }
     if (_overflow) {
         _diagnostics.warn(_plan.graph.path, "", "the material is too large; black is shown");
         Plan empty;

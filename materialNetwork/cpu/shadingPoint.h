@@ -24,6 +24,7 @@ struct ShadingPoint {
                         0}; ///< along dP/dv, orthogonal to normal (carries the handedness of uv)
     glm::vec3 viewDirection{0, 0, 1}; ///< towards the viewer
     glm::mat3 objectToWorldNormal{1.0f};
+    float lengthPerUv = 1.0f; ///< world length of one unit of the default uv set
     float uvFootprint = 0.0f; ///< width of the ray cone in units of the default uv set
     const PrimvarReader* primvars = nullptr;
 };

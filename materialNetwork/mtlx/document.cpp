@@ -1,7 +1,9 @@
 #include "materialNetwork/mtlx/document.h"
 
 #include "materialNetwork/expand.h"
+#include "materialNetwork/mtlx/include.h"
 #include "materialNetwork/mtlx/parser.h"
+#include "materialNetwork/mtlx/upgrade.h"
 
 #include <fstream>
 #include <sstream>
@@ -18,11 +20,13 @@ bool parseMtlx(const std::string& text, const std::string& path, bool wantMateri
                              "; the document is ignored");
         return false;
     }
-    const pugi::xml_node root = xml.child("materialx");
+    pugi::xml_node root = xml.child("materialx");
     if (!root) {
         diagnostics.warn(path, "", "no <materialx> element; the document is ignored");
         return false;
     }
+    includeDocuments(root, path, diagnostics);
+    upgradeDocument(root, path, diagnostics);
     MtlxParser(path, diagnostics).parse(root, wantMaterials, out);
     return true;
 }

@@ -1,5 +1,6 @@
 #include "materialNetwork/mtlx/parser.h"
 
+#include "materialNetwork/mtlx/include.h"
 #include "materialNetwork/nodeTable.h"
 
 #include <algorithm>
@@ -60,7 +61,9 @@ Value MtlxParser::readValue(const Element& port) const {
         for (Element e = port; e; e = e.parent())
             prefix = e.attribute("fileprefix").value() + prefix;
         fs::path file(prefix + text);
-        if (!text.empty() && file.is_relative()) file = fs::path(_path).parent_path() / file;
+        const std::string source = inherited(port, sourceAttribute);
+        const fs::path document(source.empty() ? _path : source);
+        if (!text.empty() && file.is_relative()) file = document.parent_path() / file;
         v.text = text.empty() ? "" : file.lexically_normal().string();
         // Only colours have a colour space; a file says so itself, or is read by a colour node.
         const std::string nodeType = port.parent().attribute("type").value();
@@ -125,10 +128,24 @@ std::string MtlxParser::resolveId(const Element& element,
     if (const auto def = element.attribute("nodedef")) return def.value();
     const std::string category = element.name();
     const ValueType type = valueTypeFromName(element.attribute("type").value());
-    for (const ShadingModel& model : *_models)
-        if (model.def.category == category && nodeDefFit(model.def, type, inputTypes) >= 0)
-            return model.def.id;
-    if (const NodeDef* def = NodeTable::get().resolve(category, type, inputTypes)) return def->id;
+    const ShadingModel* best = nullptr;
+    int bestFit = -1;
+    for (const ShadingModel& model : *_models) {
+        if (model.def.category != category) continue;
+        const bool several = model.def.outputs.size() > 1;
+        const int fit = nodeDefFit(model.def, several ? ValueType::Unknown : type, inputTypes);
+        if (fit > bestFit) {
+            best = &model;
+            bestFit = fit;
+        }
+    }
+    const NodeDef* def = NodeTable::get().resolve(category, type, inputTypes);
+    if (best && (!def || bestFit >= nodeDefFit(*def, type, inputTypes))) return best->def.id;
+    if (def) return def->id;
+    // The library's own documents are read while it is made, so only others can ask it.
+    if (_useLibrary)
+        if (const ShadingModel* model = ModelLibrary::get().resolve(category, type, inputTypes))
+            return model->def.id;
     // A category is enough: graph() looks models up by it and reports what nobody knows.
     return category;
 }
@@ -197,10 +214,6 @@ void MtlxParser::readInput(const Element& input, const Scope& scope, NetworkNode
         node.connections[name] = c;
     else if (input.attribute("value"))
         node.inputs[name] = readValue(input);
-    if (input.attribute("channels"))
-        _diagnostics.warn(
-            where(input.parent()), name,
-            "the attribute 'channels' of MaterialX 1.38 is not supported and ignored");
 }
 
 void MtlxParser::readNode(const Element& element, const Scope& scope,
@@ -236,6 +249,7 @@ void MtlxParser::readModel(const Element& graph, const NodeDef& def, ShadingMode
 
 void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocument& out) {
     _models = &out.models;
+    _useLibrary = wantMaterials;
     std::map<std::string, Element> defs, functional;
     for (const Element& child : root.children()) {
         const std::string kind = child.name();
@@ -246,10 +260,6 @@ void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocum
             functional[child.attribute("nodedef").value()] = child;
         else if (kind == "nodegraph")
             _graphs[name] = child;
-        else if (kind == "xi:include")
-            _diagnostics.warn(_path, "",
-                              "included documents are not read: " +
-                                  std::string(child.attribute("href").value()));
     }
     for (const Element& child : root.children("implementation")) {
         const auto graph = _graphs.find(child.attribute("nodegraph").value());
@@ -282,6 +292,14 @@ void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocum
         out.materials.push_back(std::move(network));
         return out.materials.back();
     };
+    // Nodes of other definitions may be materials too.
+    for (const Element& child : root.children())
+        if (!std::strcmp(child.attribute("type").value(), "material") &&
+            !otherElements.count(child.name()) && std::strcmp(child.name(), "surfacematerial") &&
+            std::strcmp(child.name(), "volumematerial")) {
+            const std::string name = child.attribute("name").value();
+            addMaterial(name).terminals["surface"] = {"/" + name, ""};
+        }
     for (const NetworkNode& node : all.nodes) {
         if (node.id != "ND_surfacematerial" && node.id != "ND_volumematerial") continue;
         Network& material = addMaterial(node.path.substr(1));

@@ -45,6 +45,7 @@ private:
     Diagnostics& _diagnostics;
     const std::vector<ShadingModel>* _models = nullptr;
     std::map<std::string, Element> _graphs; ///< compound graphs of the document by name
+    bool _useLibrary = false;
     int _depth = 0;
 };
 

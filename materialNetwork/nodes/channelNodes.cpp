@@ -19,6 +19,9 @@ void opaque(Call c) {
 void twoToThree(Call c) {
     c.out() = vec4(c.in(0).x, c.in(0).y, 0.0f, 0.0f);
 }
+void opaqueZero(Call c) {
+    c.out() = vec4(c.in(0).x, c.in(0).y, 0.0f, 1.0f);
+}
 void toInteger(Call c) {
     c.out() = glm::floor(c.in(0));
 }
@@ -42,7 +45,7 @@ void combine22(Call c) {
 }
 
 void extract(Call c) {
-    const int i = glm::clamp(int(c.x(1)), 0, c.data.size - 1);
+    const int i = glm::clamp(c.whole(1), 0, c.data.size - 1);
     c.out() = vec4(c.in(0)[i]);
 }
 
@@ -70,6 +73,20 @@ const NodeRow rows[] = {
     {"ND_convert_vector3_vector4", "convert", "vector3 in=0", "vector4", opaque},
     {"ND_convert_vector3_vector2", "convert", "vector3 in=0", "vector2", same, Algebra::Alias},
     {"ND_convert_vector2_vector3", "convert", "vector2 in=0", "vector3", twoToThree},
+    {"ND_convert_boolean_$", "convert", "boolean in=0", "$", same, Algebra::Alias,
+     "color3 color4 vector2 vector3 vector4"},
+    {"ND_convert_integer_$", "convert", "integer in=0", "$", same, Algebra::Alias,
+     "color3 color4 vector2 vector3 vector4"},
+    {"ND_convert_color3_vector2", "convert", "color3 in=0", "vector2", same, Algebra::Alias},
+    {"ND_convert_color4_vector2", "convert", "color4 in=0", "vector2", same, Algebra::Alias},
+    {"ND_convert_vector4_vector2", "convert", "vector4 in=0", "vector2", same, Algebra::Alias},
+    {"ND_convert_color4_vector3", "convert", "color4 in=0", "vector3", same, Algebra::Alias},
+    {"ND_convert_vector4_color3", "convert", "vector4 in=0", "color3", same, Algebra::Alias},
+    {"ND_convert_color3_vector4", "convert", "color3 in=0", "vector4", opaque},
+    {"ND_convert_vector3_color4", "convert", "vector3 in=0", "color4", opaque},
+    {"ND_convert_vector2_color3", "convert", "vector2 in=0", "color3", twoToThree},
+    {"ND_convert_vector2_$", "convert", "vector2 in=0", "$", opaqueZero, Algebra::None,
+     "color4 vector4"},
     {"ND_combine2_vector2", "combine2", "float in1=0, float in2=0", "vector2", combine2},
     {"ND_combine2_color4CF", "combine2", "color3 in1=0, float in2=0", "color4", combine31},
     {"ND_combine2_vector4VF", "combine2", "vector3 in1=0, float in2=0", "vector4", combine31},

@@ -19,6 +19,15 @@ void ifGreaterEq(Call c) {
 void ifEqual(Call c) {
     c.out() = c.x(0) == c.x(1) ? c.in(2) : c.in(3);
 }
+void isGreater(Call c) {
+    c.out() = vec4(c.x(0) > c.x(1) ? 1.0f : 0.0f);
+}
+void isGreaterEq(Call c) {
+    c.out() = vec4(c.x(0) >= c.x(1) ? 1.0f : 0.0f);
+}
+void isEqual(Call c) {
+    c.out() = vec4(c.x(0) == c.x(1) ? 1.0f : 0.0f);
+}
 void logicAnd(Call c) {
     c.out() = vec4(c.x(0) != 0.0f && c.x(1) != 0.0f ? 1.0f : 0.0f);
 }
@@ -32,9 +41,10 @@ void logicNot(Call c) {
     c.out() = vec4(c.x(0) == 0.0f ? 1.0f : 0.0f);
 }
 
+/// What is below the first is the first; there is nothing above the last.
 void switched(Call c) {
-    const float which = std::floor(c.x(10));
-    c.out() = which >= 0.0f && which < 10.0f ? c.in(int(which)) : vec4(0.0f);
+    const float which = std::fmax(std::floor(c.x(10)), 0.0f);
+    c.out() = which < 10.0f ? c.in(int(which)) : vec4(0.0f);
 }
 
 const char* const types = "float integer color3 color4 vector2 vector3 vector4";
@@ -60,6 +70,16 @@ const NodeRow rows[] = {
      types},
     {"ND_switch_$I", "switch", PATINA_SWITCH_INPUTS "integer which=0", "$", switched,
      Algebra::Switch, types},
+    {"ND_ifgreater_boolean", "ifgreater", "float value1=1, float value2=0", "boolean", isGreater},
+    {"ND_ifgreater_booleanI", "ifgreater", "integer value1=1, integer value2=0", "boolean",
+     isGreater},
+    {"ND_ifgreatereq_boolean", "ifgreatereq", "float value1=1, float value2=0", "boolean",
+     isGreaterEq},
+    {"ND_ifgreatereq_booleanI", "ifgreatereq", "integer value1=1, integer value2=0", "boolean",
+     isGreaterEq},
+    {"ND_ifequal_boolean", "ifequal", "float value1=1, float value2=0", "boolean", isEqual},
+    {"ND_ifequal_booleanI", "ifequal", "integer value1=1, integer value2=0", "boolean", isEqual},
+    {"ND_ifequal_booleanB", "ifequal", "boolean value1=0, boolean value2=0", "boolean", isEqual},
     {"ND_logical_and", "and", "boolean in1=0, boolean in2=0", "boolean", logicAnd},
     {"ND_logical_or", "or", "boolean in1=0, boolean in2=0", "boolean", logicOr},
     {"ND_logical_xor", "xor", "boolean in1=0, boolean in2=0", "boolean", logicXor},

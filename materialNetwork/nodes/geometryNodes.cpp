@@ -81,6 +81,12 @@ void geomColor(Call c) {
     c.out() = v;
 }
 
+void geomScalar(Call c) {
+    vec4 v(0.0f);
+    readPrimvar(c, &v.x);
+    c.out() = vec4(v.x);
+}
+
 /// Set 0 is "st", as every exporter to USD writes it; set n is "stn".
 void prepareTexcoord(PatternSetup& setup, PatternData& data) {
     const int index = int(setup.number("index", 0.0f));
@@ -116,6 +122,9 @@ void fallbackOnly(Call c) {
 void prepareFallback(PatternSetup& setup, PatternData&) {
     setup.warn("varname", "primvars of this type are not read; the fallback is used");
 }
+void prepareUniform(PatternSetup& setup, PatternData&) {
+    setup.warn("geomprop", "primvars of this type are not read; the default is used");
+}
 
 const char* const spaces = "string space=object";
 
@@ -132,6 +141,8 @@ const NodeRow rows[] = {
      Algebra::None, nullptr, prepareSpace, true},
     {"ND_texcoord_$", "texcoord", "integer index=0", "$", texcoord, Algebra::None,
      "vector2 vector3", prepareTexcoord, true},
+    {"ND_geomcolor_float", "geomcolor", "integer index=0", "float", geomScalar, Algebra::None,
+     nullptr, prepareGeomColor, true},
     {"ND_geomcolor_$", "geomcolor", "integer index=0", "$", geomColor, Algebra::None,
      "color3 color4", prepareGeomColor, true},
     {"ND_geompropvalue_$", "geompropvalue", "string geomprop=, $ default=0", "$", scalarPrimvar,
@@ -149,6 +160,12 @@ const NodeRow rows[] = {
      true},
     {"UsdPrimvarReader_float4", "UsdPrimvarReader", "string varname=, vector4 fallback=0",
      "vector4 result", tuplePrimvar, Algebra::None, nullptr, prepareVarname, true},
+    {"UsdPrimvarReader_boolean", "UsdPrimvarReader", "string varname=, boolean fallback=0",
+     "boolean result", scalarPrimvar, Algebra::None, nullptr, prepareVarname, true},
+    {"UsdPrimvarReader_filename", "UsdPrimvarReader", "string varname=, filename fallback=",
+     "filename result", fallbackOnly, Algebra::None, nullptr, prepareFallback, true},
+    {"ND_geompropvalueuniform_$", "geompropvalueuniform", "string geomprop=, $ default=", "$",
+     fallbackOnly, Algebra::None, "string filename", prepareUniform, true},
     {"UsdPrimvarReader_string", "UsdPrimvarReader", "string varname=, string fallback=",
      "string result", fallbackOnly, Algebra::None, nullptr, prepareFallback, true},
     {"UsdPrimvarReader_matrix", "UsdPrimvarReader", "string varname=, matrix44 fallback=0",

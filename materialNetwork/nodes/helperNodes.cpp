@@ -33,6 +33,10 @@ void artisticIor(Call c) {
     c.out(1) = extinction;
 }
 
+void blackbody(Call c) {
+    c.out() = vec4(sh::patternBlackbody(c.x(0)), 0.0f);
+}
+
 /// Reached at run time only by an input that varies.
 void isUniform(Call c) {
     c.out() = vec4(0.0f);
@@ -47,6 +51,7 @@ const NodeRow rows[] = {
     {"ND_artistic_ior", "artistic_ior",
      "color3 reflectivity=0.944 0.776 0.373, color3 edge_color=0.998 0.981 0.751",
      "color3 ior, color3 extinction", artisticIor},
+    {"ND_blackbody", "blackbody", "float temperature=5000", "color3", blackbody},
     {"ND_isuniform_$", "isuniform", "$ in=0", "float", isUniform, Algebra::IsUniform,
      "float color3"},
 };

@@ -58,6 +58,10 @@ float rounded(float a) {
 float fraction(float a) {
     return a - std::floor(a);
 }
+float triangleWave(float a) {
+    const float x = std::fabs(a);
+    return 0.5f - std::fabs(x - std::floor(x) - 0.5f);
+}
 float sine(float a) {
     return std::sin(a);
 }
@@ -129,10 +133,12 @@ const NodeRow rows[] = {
      "float color3 color4 vector2 vector3 vector4 integer boolean"},
     {"ND_constant_string", "constant", "string value=", "string", nullptr, Algebra::Alias},
     {"ND_constant_filename", "constant", "filename value=", "filename", nullptr, Algebra::Alias},
-    {"ND_dot_$", "dot", "$ in=0", "$", constant, Algebra::Alias,
+    {"ND_dot_$", "dot", "$ in=0, string note=", "$", constant, Algebra::Alias,
      "float color3 color4 vector2 vector3 vector4 integer boolean"},
-    {"ND_dot_string", "dot", "string in=", "string", nullptr, Algebra::Alias},
-    {"ND_dot_filename", "dot", "filename in=", "filename", nullptr, Algebra::Alias},
+    {"ND_dot_string", "dot", "string in=, string note=", "string", nullptr, Algebra::Alias},
+    {"ND_dot_$", "dot", "$ in, string note=", "$", nullptr, Algebra::Alias,
+     "surfaceshader displacementshader volumeshader lightshader"},
+    {"ND_dot_filename", "dot", "filename in=, string note=", "filename", nullptr, Algebra::Alias},
     {"ND_add_$", "add", "$ in1=0, $ in2=0", "$", add, Algebra::Add, types},
     {"ND_add_integer", "add", "integer in1=0, integer in2=0", "integer", add, Algebra::Add},
     {"ND_add_$FA", "add", "$ in1=0, float in2=0", "$", add, Algebra::Add, tuples},
@@ -185,6 +191,10 @@ const NodeRow rows[] = {
      "float vector2 vector3 vector4"},
     {"ND_atan2_$", "atan2", "$ iny=0, $ inx=1", "$", map2<arctangent>, Algebra::None,
      "float vector2 vector3 vector4"},
+    {"ND_trianglewave_float", "trianglewave", "float in=0", "float", map1<triangleWave>},
+    {"ND_floor_integer", "floor", "float in=0", "integer", map1<floored>},
+    {"ND_ceil_integer", "ceil", "float in=0", "integer", map1<ceiled>},
+    {"ND_round_integer", "round", "float in=0", "integer", map1<rounded>},
     {"ND_smoothstep_$", "smoothstep", "$ in=0, $ low=0, $ high=1", "$", smoothstep, Algebra::None,
      types},
     {"ND_smoothstep_$FA", "smoothstep", "$ in=0, float low=0, float high=1", "$", smoothstep,

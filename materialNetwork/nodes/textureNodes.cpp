@@ -1,4 +1,5 @@
 // MaterialX image nodes.
+#include "materialNetwork/nodes/imageSetup.h"
 #include "materialNetwork/nodeTable.h"
 
 #include <algorithm>
@@ -20,29 +21,6 @@ TextureWrap addressMode(PatternSetup& setup, const char* input) {
     if (mode != "periodic" && !mode.empty())
         setup.warn(input, "unknown address mode '" + mode + "'; periodic is used");
     return TextureWrap::Repeat;
-}
-
-/// data.handle stays negative when the authored default stands in for the image.
-void prepareImage(PatternSetup& setup, PatternData& data) {
-    TextureRequest request;
-    const Value* file = setup.constant("file");
-    if (!file) {
-        setup.warn("file", "the file name varies over the surface; the default is used");
-        return;
-    }
-    if (file->text.empty()) {
-        setup.warn("file", "no file is given; the default is used");
-        return;
-    }
-    request.file = file->text;
-    request.colorSpace = file->colorSpace.empty() ? "raw" : file->colorSpace;
-    request.wrapS = addressMode(setup, "uaddressmode");
-    request.wrapT = addressMode(setup, "vaddressmode");
-    request.nearest = setup.text("filtertype") == "closest";
-    request.input = "file";
-    const int handle = setup.openTexture(request);
-    // Without an authored default the source's own sign of a missing texture shows.
-    if (setup.textureValid(handle) || !setup.authored("default")) data.handle = handle;
 }
 
 void write(Call c, vec2 uv, float footprint) {
@@ -87,17 +65,21 @@ void tiledScalar(Call c) {
 #define PATINA_IMAGE "filename file=, $ default=0, vector2 texcoord=@UV0, "
 #define PATINA_ADDRESS                                                                             \
     "string uaddressmode=periodic, string vaddressmode=periodic, string filtertype=linear"
+// Sequences and layers of images are not read; the inputs are known so that documents may have
+// them.
+#define PATINA_FRAMES                                                                              \
+    ", string layer=, string framerange=, integer frameoffset=0, string frameendaction=constant"
 #define PATINA_TILED                                                                               \
     PATINA_IMAGE "vector2 uvtiling=1, vector2 uvoffset=0, vector2 realworldimagesize=1, "          \
                  "vector2 realworldtilesize=1, string filtertype=linear, "                         \
-                 "string uaddressmode=periodic, string vaddressmode=periodic"
+                 "string uaddressmode=periodic, string vaddressmode=periodic" PATINA_FRAMES
 
 const NodeRow rows[] = {
     {"ND_image_float", "image",
-     "filename file=, float default=0, vector2 texcoord=@UV0, " PATINA_ADDRESS, "float",
-     imageScalar, Algebra::None, nullptr, prepareImage, true},
-    {"ND_image_$", "image", PATINA_IMAGE PATINA_ADDRESS, "$", imageTuple, Algebra::None, tupleTypes,
-     prepareImage, true},
+     "filename file=, float default=0, vector2 texcoord=@UV0, " PATINA_ADDRESS PATINA_FRAMES,
+     "float", imageScalar, Algebra::None, nullptr, prepareImage, true},
+    {"ND_image_$", "image", PATINA_IMAGE PATINA_ADDRESS PATINA_FRAMES, "$", imageTuple,
+     Algebra::None, tupleTypes, prepareImage, true},
     {"ND_tiledimage_$", "tiledimage", PATINA_TILED, "$", tiledScalar, Algebra::None, "float",
      prepareImage, true},
     {"ND_tiledimage_$", "tiledimage", PATINA_TILED, "$", tiledTuple, Algebra::None, tupleTypes,
@@ -105,6 +87,35 @@ const NodeRow rows[] = {
 };
 
 } // namespace
+
+int openImage(PatternSetup& setup, const char* input) {
+    TextureRequest request;
+    const Value* file = setup.constant(input);
+    if (!file) {
+        setup.warn(input, "the file name varies over the surface; the default is used");
+        return -1;
+    }
+    if (file->text.empty()) {
+        setup.warn(input, "no file is given; the default is used");
+        return -1;
+    }
+    request.file = file->text;
+    request.colorSpace = file->colorSpace.empty() ? "raw" : file->colorSpace;
+    request.wrapS = addressMode(setup, "uaddressmode");
+    request.wrapT = addressMode(setup, "vaddressmode");
+    request.nearest = setup.text("filtertype") == "closest";
+    request.input = input;
+    if (!setup.text("layer").empty() || !setup.text("framerange").empty())
+        setup.warn(input, "layers and frame ranges of images are not read; the file as it is named "
+                          "is used");
+    const int handle = setup.openTexture(request);
+    // Without an authored default the source's own sign of a missing texture shows.
+    return setup.textureValid(handle) || !setup.authored("default") ? handle : -1;
+}
+
+void prepareImage(PatternSetup& setup, PatternData& data) {
+    data.handle = openImage(setup, "file");
+}
 
 NodeRows textureNodes() {
     return {std::begin(rows), std::end(rows)};

@@ -48,19 +48,20 @@ void rotate2d(Call c) {
     c.out() = vec4(sh::patternRotate2d(vec2(c.in(0)), c.x(1)), 0.0f, 0.0f);
 }
 
-/// Rotates about an axis by degrees (Rodrigues).
 void rotate3d(Call c) {
-    const vec3 v(c.in(0));
-    const vec3 raw(c.in(2));
-    const float length = glm::length(raw);
-    const vec3 axis = length > 0.0f ? raw / length : vec3(0, 1, 0);
-    const float angle = glm::radians(c.x(1)), s = std::sin(angle), k = std::cos(angle);
-    c.out() = vec4(v * k + glm::cross(axis, v) * s + axis * (glm::dot(axis, v) * (1.0f - k)), 0.0f);
+    c.out() = vec4(sh::patternRotate3d(vec3(c.in(0)), c.x(1), vec3(c.in(2))), 0.0f);
+}
+
+template <bool Largest> void component(Call c) {
+    float x = c.in(0).x;
+    for (int i = 1; i < c.data.size; ++i)
+        x = Largest ? std::fmax(x, c.in(0)[i]) : std::fmin(x, c.in(0)[i]);
+    c.out() = vec4(x);
 }
 
 void place2d(Call c) {
     c.out() = vec4(sh::patternPlace2d(vec2(c.in(0)), vec2(c.in(1)), vec2(c.in(2)), c.x(3),
-                                      vec2(c.in(4)), int(c.x(5))),
+                                      vec2(c.in(4)), c.whole(5)),
                    0.0f, 0.0f);
 }
 
@@ -101,9 +102,10 @@ const NodeRow rows[] = {
     {"ND_normalize_$", "normalize", "$ in=0", "$", normalized, Algebra::None, vectors},
     {"ND_crossproduct_vector3", "crossproduct", "vector3 in1=0, vector3 in2=0", "vector3",
      crossProduct},
-    {"ND_rotate2d_vector2", "rotate2d", "vector2 in=0, float amount=0", "vector2", rotate2d},
+    {"ND_rotate2d_vector2", "rotate2d", "vector2 in=0, float amount=0", "vector2", rotate2d,
+     Algebra::Rotate},
     {"ND_rotate3d_vector3", "rotate3d", "vector3 in=0, float amount=0, vector3 axis=0 1 0",
-     "vector3", rotate3d},
+     "vector3", rotate3d, Algebra::Rotate},
     {"ND_place2d_vector2", "place2d",
      "vector2 texcoord=@UV0, vector2 pivot=0, vector2 scale=1, float rotate=0, vector2 offset=0, "
      "integer operationorder=0",
@@ -111,7 +113,11 @@ const NodeRow rows[] = {
     {"UsdTransform2d", "UsdTransform2d",
      "vector2 in=0, float rotation=0, vector2 scale=1, vector2 translation=0", "vector2 result",
      transform2d},
-    {"ND_luminance_$", "luminance", "$ in=0, color3 lumacoeffs=0.2126390 0.7151687 0.0721923", "$",
+    {"ND_maxcomponent_$", "maxcomponent", "$ in=0", "float", component<true>, Algebra::None,
+     tupleTypes},
+    {"ND_mincomponent_$", "mincomponent", "$ in=0", "float", component<false>, Algebra::None,
+     tupleTypes},
+    {"ND_luminance_$", "luminance", "$ in=0, color3 lumacoeffs=0.2722287 0.6740818 0.0536895", "$",
      luminance, Algebra::None, "color3 color4"},
     {"ND_rgbtohsv_$", "rgbtohsv", "$ in=0", "$", rgbToHsv, Algebra::None, "color3 color4"},
     {"ND_hsvtorgb_$", "hsvtorgb", "$ in=0", "$", hsvToRgb, Algebra::None, "color3 color4"},

@@ -17,6 +17,20 @@ Network modelNetwork(const std::string& id, Inputs inputs = {}) {
     return makeNetwork({makeNode("surface", id, std::move(inputs))});
 }
 
+/// A model of any type at work in a surface: patterns as its light, closures as what it scatters.
+Network asSurface(const ShadingModel& model, Inputs inputs) {
+    const ValueType type = model.def.outputs[0].type;
+    if (type == ValueType::SurfaceShader || type == ValueType::Material)
+        return modelNetwork(model.def.id, std::move(inputs));
+    if (type == ValueType::Bsdf) return bsdfNetwork({makeNode("bsdf", model.def.id, inputs)});
+    if (type == ValueType::Edf)
+        return makeNetwork({makeNode("edf", model.def.id, inputs),
+                            makeNode("surface", "ND_surface", {}, {{"edf", {"edf", ""}}})});
+    return makeNetwork({makeNode("x", model.def.id, inputs),
+                        makeNode("edf", "ND_uniform_edf", {}, {{"color", {"x", ""}}}),
+                        makeNode("surface", "ND_surface", {}, {{"edf", {"edf", ""}}})});
+}
+
 glm::vec3 albedoAt(const Network& network, float theta) {
     Compiled c(network);
     EXPECT_EQ(c.diagnostics.count(), 0) << warnings(c.diagnostics);
@@ -50,7 +64,7 @@ TEST(Models, EveryBranchIsWellTyped) {
                     x = 0.37f;
                 inputs[input.name] = value;
             }
-        Compiled c(modelNetwork(model->def.id, inputs));
+        Compiled c(asSurface(*model, inputs));
         EXPECT_EQ(c.diagnostics.count(), 0) << model->def.id << "\n" << warnings(c.diagnostics);
     }
 }
@@ -82,6 +96,112 @@ TEST(Models, WhiteFurnace) {
             EXPECT_LE(std::max({a.x, a.y, a.z}), 1.003f) << c.id << " at " << theta;
             EXPECT_GE(std::min({a.x, a.y, a.z}), c.least) << c.id << " at " << theta;
         }
+}
+
+// The extinction of depth d is -ln(color) / d, of which scatter / d is scattered; where that leaves
+// less than nothing for absorption, all channels are shifted.
+TEST(Models, DepthScatters) {
+    for (const auto& [id, prefix] : {std::pair{"standard_surface", "transmission"},
+                                     std::pair{"open_pbr_surface", "transmission"}}) {
+        const std::string p(prefix);
+        const std::string weight = std::string(id) == "standard_surface" ? p : p + "_weight";
+        Compiled c(modelNetwork(id, {{weight, number(1.0f)},
+                                     {p + "_color", color(std::exp(-1.0f), std::exp(-2.0f), 1.0f)},
+                                     {p + "_depth", number(2.0f)},
+                                     {p + "_scatter", color(0.5f, 0.5f, 0.5f)},
+                                     {p + "_scatter_anisotropy", number(0.25f)}}));
+        ASSERT_TRUE(c.program->hasInterior()) << id;
+        const auto medium = c.program->interior(ShadingPoint());
+        EXPECT_NEAR(medium.scattering().x, 0.25f, 1e-5f) << id;
+        EXPECT_NEAR(medium.absorption.x, 0.5f - 0.25f + 0.25f, 1e-5f) << id;
+        EXPECT_NEAR(medium.absorption.y, 1.0f - 0.25f + 0.25f, 1e-5f) << id;
+        EXPECT_NEAR(medium.absorption.z, 0.0f, 1e-5f) << id;
+    }
+}
+
+TEST(Models, OpenPbrCoatsDarken) {
+    // A grey base of albedo E under a clear coat: E (1 - K) / (1 - E K) of what the coat lets
+    // through.
+    const auto albedo = [](float darkening) {
+        return albedoAt(modelNetwork("open_pbr_surface", {{"base_color", grey(0.5f)},
+                                                          {"specular_weight", number(0.0f)},
+                                                          {"coat_weight", number(1.0f)},
+                                                          {"coat_darkening", number(darkening)}}),
+                        0.0f)
+            .x;
+    };
+    const float f0 = std::pow(0.6f / 2.6f, 2.0f), k = 1.0f - (1.0f - f0) / (1.6f * 1.6f);
+    EXPECT_NEAR(albedo(0.0f), f0 + (1.0f - f0) * 0.5f, 2e-3f);
+    EXPECT_NEAR(albedo(1.0f), f0 + (1.0f - f0) * 0.5f * (1.0f - k) / (1.0f - 0.5f * k), 2e-3f);
+    // Against a coat of its own ior the base reflects nothing.
+    const float same = albedoAt(modelNetwork("open_pbr_surface", {{"base_color", grey(0.0f)},
+                                                                  {"specular_ior", number(1.6f)},
+                                                                  {"coat_weight", number(1.0f)}}),
+                                0.0f)
+                           .x;
+    EXPECT_NEAR(same, f0, 1e-3f);
+}
+
+TEST(Models, VersionsOfStandardSurface) {
+    // The versions differ in the default of base: 0.8 and 1.
+    const Inputs red = {{"base_color", color(1, 0, 0)}, {"specular", number(0.0f)}};
+    EXPECT_NEAR(albedoAt(modelNetwork("ND_standard_surface_surfaceshader_100", red), 0.0f).x, 0.8f,
+                1e-4f);
+    EXPECT_NEAR(albedoAt(modelNetwork("standard_surface", red), 0.0f).x, 1.0f, 1e-4f);
+}
+
+TEST(Models, DisneyPrincipled) {
+    // A white dielectric: diffuse light is what specular leaves over, Burley's lobe is not white.
+    const auto albedo = [](Inputs inputs, float theta) {
+        return albedoAt(modelNetwork("disney_principled", std::move(inputs)), theta);
+    };
+    // F0 is 0.08 times specular: without it and with black below, only the rise to grazing is left.
+    const Inputs black = {{"baseColor", grey(0.0f)}, {"roughness", number(0.0f)}};
+    Inputs shiny = black, dull = black;
+    shiny["specular"] = number(1.0f);
+    dull["specular"] = number(0.0f);
+    EXPECT_NEAR(albedo(shiny, 0.0f).x, 0.08f, 1e-3f);
+    EXPECT_NEAR(albedo(dull, 0.0f).x, 0.0f, 1e-3f);
+    const glm::vec3 metal = albedo({{"baseColor", color(0.9f, 0.5f, 0.1f)},
+                                    {"roughness", number(0.0f)},
+                                    {"metallic", number(1.0f)}},
+                                   0.0f);
+    EXPECT_NEAR(metal.x, 0.9f, 2e-3f);
+    EXPECT_NEAR(metal.z, 0.1f, 2e-3f);
+    const glm::vec3 glass = albedo(
+        {{"baseColor", grey(1.0f)}, {"roughness", number(0.0f)}, {"specTrans", number(1.0f)}},
+        30.0f);
+    EXPECT_NEAR(glass.x, 1.0f, 0.02f);
+    for (const float theta : {0.0f, 45.0f, 80.0f})
+        EXPECT_LE(albedo({{"baseColor", grey(1.0f)}, {"clearcoat", number(1.0f)}}, theta).x, 1.15f);
+}
+
+TEST(Models, LamaNodesAreWrappers) {
+    // A layer of nothing over white is white; half of a mirror over black is half.
+    const auto layered = [](float topMix) {
+        return albedoAt(
+            bsdfNetwork({makeNode("top", "ND_lama_conductor",
+                                  {{"reflectivity", grey(1.0f)}, {"edgeColor", grey(1.0f)}}),
+                         makeNode("base", "ND_lama_diffuse", {{"color", grey(1.0f)}}),
+                         makeNode("bsdf", "ND_lama_layer_bsdf", {{"topMix", number(topMix)}},
+                                  {{"materialTop", {"top", ""}}, {"materialBase", {"base", ""}}})}),
+            20.0f);
+    };
+    EXPECT_NEAR(layered(0.0f).x, 1.0f, 1e-4f);
+    EXPECT_NEAR(layered(1.0f).x, 1.0f, 0.02f);
+    const glm::vec3 sum =
+        albedoAt(bsdfNetwork({makeNode("a", "ND_lama_diffuse", {{"color", grey(0.5f)}}),
+                              makeNode("b", "ND_lama_diffuse", {{"color", grey(0.25f)}}),
+                              makeNode("bsdf", "ND_lama_add_bsdf", {{"weight2", number(1.0f)}},
+                                       {{"material1", {"a", ""}}, {"material2", {"b", ""}}})}),
+                 0.0f);
+    EXPECT_NEAR(sum.x, 0.75f, 1e-4f);
+    const Network material =
+        makeNetwork({makeNode("a", "ND_lama_diffuse", {{"color", grey(0.5f)}}),
+                     makeNode("surface", "ND_lama_surface", {{"presence", number(0.25f)}},
+                              {{"materialFront", {"a", ""}}})});
+    Compiled c(material);
+    EXPECT_NEAR(c.program->opacity(ShadingPoint()), 0.25f, 1e-6f);
 }
 
 TEST(Models, DepthAbsorbs) {

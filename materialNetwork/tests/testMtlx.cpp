@@ -102,6 +102,50 @@ TEST(Mtlx, NodeDefinitionsOfTheDocument) {
     EXPECT_NEAR(albedoOf(networks[0]).x, 0.75f, 1e-5f);
 }
 
+// Two definitions of one category: the types of the inputs say which is meant, and a definition of
+// the library that fits better wins over one of the document.
+TEST(Mtlx, TheBestFittingDefinitionIsTaken) {
+    const auto document = [](const std::string& type, const std::string& value) {
+        return R"(<materialx version="1.39">
+  <nodedef name="ND_shade_float" node="shade">
+    <input name="x" type="float" value="0" /><output name="out" type="color3" />
+  </nodedef>
+  <nodegraph name="NG_shade_float" nodedef="ND_shade_float">
+    <constant name="c" type="color3"><input name="value" type="color3" value="0.25, 0, 0" /></constant>
+    <output name="out" type="color3" nodename="c" />
+  </nodegraph>
+  <nodedef name="ND_shade_color3" node="shade">
+    <input name="x" type="color3" value="0, 0, 0" /><output name="out" type="color3" />
+  </nodedef>
+  <nodegraph name="NG_shade_color3" nodedef="ND_shade_color3">
+    <multiply name="c" type="color3"><input name="in1" type="color3" interfacename="x" /></multiply>
+    <output name="out" type="color3" nodename="c" />
+  </nodegraph>
+  <nodedef name="ND_odd_multiply" node="multiply">
+    <input name="in1" type="matrix33" /><output name="out" type="color3" />
+  </nodedef>
+  <nodegraph name="NG_odd_multiply" nodedef="ND_odd_multiply">
+    <constant name="c" type="color3" />
+    <output name="out" type="color3" nodename="c" />
+  </nodegraph>
+  <shade name="p" type="color3"><input name="x" type=")" +
+               type + "\" value=\"" + value + R"(" /></shade>
+  <oren_nayar_diffuse_bsdf name="d" type="BSDF">
+    <input name="color" type="color3" nodename="p" />
+  </oren_nayar_diffuse_bsdf>
+  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="d" /></surface>
+</materialx>)";
+    };
+    Diagnostics diagnostics;
+    auto networks = read(document("float", "0.5"), diagnostics);
+    ASSERT_EQ(networks.size(), 1u);
+    EXPECT_NEAR(albedoOf(networks[0]).x, 0.25f, 1e-5f);
+    networks = read(document("color3", "0.5, 0.75, 0.5"), diagnostics);
+    ASSERT_EQ(networks.size(), 1u);
+    EXPECT_NEAR(albedoOf(networks[0]).y, 0.75f, 1e-5f);
+    EXPECT_EQ(diagnostics.count(), 0) << warnings(diagnostics);
+}
+
 TEST(Mtlx, BrokenDocumentsAreReported) {
     for (const char* body : {"", "<materialx", "<other/>", "<materialx><a></materialx>"}) {
         Diagnostics diagnostics;

@@ -1,6 +1,7 @@
 // Networks, graphs and plans as text, compared with reviewed files. After a wanted change run with
 // PATINA_UPDATE_EXPECTED=1, and review the difference.
 #include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/translate.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -112,6 +113,78 @@ TEST(Text, GlassWithAbsorption) {
                                      {{"absorption", Value::makeVec3(1, 2, 3)}}),
                             makeNode("bsdf", "ND_layer_vdf", {},
                                      {{"top", {"glass", ""}}, {"base", {"inside", ""}}})}));
+}
+
+TEST(Text, GltfPbrBlended) {
+    expectText("gltfPbrBlended", makeNetwork({makeNode("surface", "gltf_pbr",
+                                                       {{"base_color", color(0.5f, 0.25f, 0.125f)},
+                                                        {"metallic", number(0.0f)},
+                                                        {"roughness", number(0.5f)},
+                                                        {"alpha", number(0.5f)},
+                                                        {"alpha_mode", text("BLEND")},
+                                                        {"clearcoat", number(0.25f)},
+                                                        {"anisotropy_strength", number(0.5f)},
+                                                        {"emissive", color(1, 0.5f, 0)},
+                                                        {"emissive_strength", number(2.0f)}})}));
+}
+
+TEST(Text, OpenPbrCoatedMetal) {
+    expectText("openPbrCoatedMetal",
+               makeNetwork({makeNode("surface", "open_pbr_surface",
+                                     {{"base_color", color(0.9f, 0.6f, 0.3f)},
+                                      {"base_metalness", number(1.0f)},
+                                      {"specular_roughness", number(0.4f)},
+                                      {"coat_weight", number(1.0f)},
+                                      {"coat_color", color(0.8f, 0.9f, 1.0f)}})}));
+}
+
+TEST(Text, DisneyPrincipledGlazed) {
+    expectText("disneyPrincipledGlazed",
+               makeNetwork({makeNode("surface", "disney_principled",
+                                     {{"baseColor", color(0.8f, 0.4f, 0.2f)},
+                                      {"roughness", number(0.5f)},
+                                      {"specularTint", number(0.5f)},
+                                      {"clearcoat", number(1.0f)}})}));
+}
+
+TEST(Text, LamaMetalOverDiffuse) {
+    expectText(
+        "lamaMetalOverDiffuse",
+        bsdfNetwork({makeNode("top", "ND_lama_conductor",
+                              {{"fresnelMode", text("Scientific")},
+                               {"roughness", number(0.5f)},
+                               {"anisotropy", number(0.5f)}}),
+                     makeNode("base", "ND_lama_diffuse", {{"roughness", number(0.5f)}}),
+                     makeNode("bsdf", "ND_lama_layer_bsdf", {{"topMix", number(0.25f)}},
+                              {{"materialTop", {"top", ""}}, {"materialBase", {"base", ""}}})}));
+}
+
+// The height is read at three places; nodes that do not move are shared.
+TEST(Text, Bumps) {
+    expectText(
+        "bumps",
+        bsdfNetwork(
+            {makeNode("uv", "ND_texcoord_vector2"),
+             makeNode("noise", "ND_noise2d_float", {{"amplitude", number(0.5f)}},
+                      {{"texcoord", {"uv", ""}}}),
+             makeNode("wear", "ND_geompropvalue_float", {{"geomprop", text("wear")}}),
+             makeNode("height", "ND_multiply_float", {},
+                      {{"in1", {"noise", ""}}, {"in2", {"wear", ""}}}),
+             makeNode("bumps", "ND_bump_vector3", {{"scale", number(2.0f)}},
+                      {{"height", {"height", ""}}}),
+             makeNode("bsdf", "ND_oren_nayar_diffuse_bsdf", {}, {{"normal", {"bumps", ""}}})}));
+}
+
+TEST(Text, TranslatedPaint) {
+    Diagnostics diagnostics;
+    expectText("translatedPaint",
+               translateMaterial(
+                   makeNetwork({makeNode("paint", "ND_checkerboard_color3"),
+                                makeNode("surface", "standard_surface",
+                                         {{"specular", number(0.5f)}, {"coat", number(0.5f)}},
+                                         {{"base_color", {"paint", ""}}})}),
+                   "UsdPreviewSurface", diagnostics));
+    EXPECT_EQ(diagnostics.count(), 0);
 }
 
 TEST(Text, EveryProblemIsNamed) {

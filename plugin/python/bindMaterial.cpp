@@ -5,6 +5,7 @@
 #include "materialNetwork/material.h"
 #include "materialNetwork/mtlx/document.h"
 #include "materialNetwork/nodeTable.h"
+#include "materialNetwork/translate.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -33,6 +34,22 @@ void appendWarnings(const Diagnostics& diagnostics, py::object& list) {
     }
 }
 
+/// Texture coordinates as every primvar of two floats; other primvars are not there.
+class UvPrimvars : public PrimvarReader {
+public:
+    explicit UvPrimvars(const MaterialProgram& program) : _program(program) {}
+    bool read(int slot, float out[4]) const override {
+        if (_program.primvars()[size_t(slot)].type != ValueType::Vec2) return false;
+        out[0] = uv.x;
+        out[1] = uv.y;
+        return true;
+    }
+    glm::vec2 uv{0.0f};
+
+private:
+    const MaterialProgram& _program;
+};
+
 /// A compiled material with all that it needs to live.
 struct MaterialProbe {
     Diagnostics diagnostics;
@@ -42,14 +59,27 @@ struct MaterialProbe {
     MaterialProbe(const Network& network, const MethodChoices& methods) {
         py::gil_scoped_release release;
         program = compileMaterial(network, textures, diagnostics, methods);
+        primvars = std::make_unique<UvPrimvars>(*program);
     }
-};
 
-ShadingPoint pointSeenFrom(const glm::vec3& wo) {
-    ShadingPoint point;
-    point.viewDirection = wo;
-    return point;
-}
+    /// The place is the point (u, v) of the unit square in the xy plane, once it is chosen.
+    void moveTo(float u, float v) {
+        placed = true;
+        primvars->uv = {u, v};
+    }
+
+    ShadingPoint seenFrom(const glm::vec3& wo) const {
+        ShadingPoint point;
+        point.viewDirection = wo;
+        if (!placed) return point;
+        point.primvars = primvars.get();
+        point.position = point.objectPosition = glm::vec3(primvars->uv, 0.0f);
+        return point;
+    }
+
+    std::unique_ptr<UvPrimvars> primvars;
+    bool placed = false;
+};
 
 size_t rows(const Floats& array, size_t columns, const char* name) {
     if (array.ndim() != 2 || size_t(array.shape(1)) != columns)
@@ -89,7 +119,7 @@ py::tuple eval(const MaterialProbe& probe, const Floats& wo, const Floats& wi) {
         py::gil_scoped_release release;
         for (size_t i = 0; i < n; ++i) {
             Bsdf bsdf;
-            probe.program->evaluate(pointSeenFrom(row(outgoing, i)), bsdf);
+            probe.program->evaluate(probe.seenFrom(row(outgoing, i)), bsdf);
             const glm::vec3 direction = row(incoming, i);
             const BsdfEval e = bsdf.eval(direction);
             const float cosine = std::abs(direction.z);
@@ -113,7 +143,7 @@ py::dict sample(const MaterialProbe& probe, const Floats& wo, const Floats& u) {
         py::gil_scoped_release release;
         for (size_t i = 0; i < n; ++i) {
             Bsdf bsdf;
-            probe.program->evaluate(pointSeenFrom(row(outgoing, i)), bsdf);
+            probe.program->evaluate(probe.seenFrom(row(outgoing, i)), bsdf);
             const float* r = random + 4 * i;
             const BsdfSample s = bsdf.sample({r[0], r[1], r[2]}, r[3]);
             store(directions, i, s.event ? s.wi : glm::vec3(0.0f));
@@ -147,15 +177,35 @@ template <class Function> Floats perDirection(const Floats& wo, Function functio
 Floats albedo(const MaterialProbe& probe, const Floats& wo) {
     return perDirection(wo, [&](const glm::vec3& direction) {
         Bsdf bsdf;
-        probe.program->evaluate(pointSeenFrom(direction), bsdf);
+        probe.program->evaluate(probe.seenFrom(direction), bsdf);
         return bsdf.albedo();
     });
 }
 
 Floats emission(const MaterialProbe& probe, const Floats& wo) {
     return perDirection(wo, [&](const glm::vec3& direction) {
-        return probe.program->emission(pointSeenFrom(direction), direction);
+        return probe.program->emission(probe.seenFrom(direction), direction);
     });
+}
+
+Floats emissionAt(const MaterialProbe& probe, const Floats& uv, float footprint) {
+    const size_t n = rows(uv, 2, "uv");
+    Floats result = triples(n);
+    const float* places = uv.data();
+    float* values = result.mutable_data();
+    {
+        py::gil_scoped_release release;
+        UvPrimvars primvars(*probe.program);
+        ShadingPoint point;
+        point.primvars = &primvars;
+        point.uvFootprint = footprint;
+        for (size_t i = 0; i < n; ++i) {
+            primvars.uv = {places[2 * i], places[2 * i + 1]};
+            point.position = point.objectPosition = glm::vec3(primvars.uv, 0.0f);
+            store(values, i, probe.program->emission(point, glm::vec3(0, 0, 1)));
+        }
+    }
+    return result;
 }
 
 py::list warningsOf(const MaterialProbe& probe) {
@@ -173,6 +223,22 @@ py::dict nodeInputs(const std::string& id) {
     if (def)
         for (const InputDef& input : def->inputs)
             dict[py::str(input.name)] = valueTypeName(input.type);
+    return dict;
+}
+
+py::dict nodeDefaults(const std::string& id) {
+    const NodeDef* def = NodeTable::get().find(id);
+    if (!def)
+        if (const ShadingModel* model = ModelLibrary::get().find(id)) def = &model->def;
+    py::dict dict;
+    if (def)
+        for (const InputDef& input : def->inputs)
+            if (input.geomprop.empty() && !isClosureType(input.type)) {
+                if (valueTypeComponents(input.type) == 0)
+                    dict[py::str(input.name)] = input.value.text;
+                else
+                    dict[py::str(input.name)] = input.value.numbers;
+            }
     return dict;
 }
 
@@ -216,7 +282,18 @@ void bindMaterial(py::module_& m) {
              "numbers.")
         .def("albedo", &albedo, py::arg("wo"), "Directional albedo, delta lobes included.")
         .def("emission", &emission, py::arg("wo"))
-        .def("opacity", [](const MaterialProbe& p) { return p.program->opacity(ShadingPoint()); })
+        .def("move_to", &MaterialProbe::moveTo, py::arg("u"), py::arg("v"),
+             "Chooses the point (u, v) of the unit square in the xy plane for all that follows.")
+        .def("emission_at", &emissionAt, py::arg("uv"), py::arg("footprint") = 0.0f,
+             "What the unit square of the xy plane emits at its points (u, v), seen from above.")
+        .def_property_readonly("uses_uv",
+                               [](const MaterialProbe& p) { return p.program->usesUv(); })
+        .def_property_readonly("constant",
+                               [](const MaterialProbe& p) { return p.program->constant(); })
+        .def("opacity",
+             [](const MaterialProbe& p) {
+                 return p.program->opacity(p.seenFrom(glm::vec3(0, 0, 1)));
+             })
         .def_property_readonly("warnings", &warningsOf);
 
     m.def(
@@ -238,6 +315,28 @@ void bindMaterial(py::module_& m) {
     m.def("display_color_network", &makeDisplayColorNetwork, "The material of prims without one.");
     m.def("node_inputs", &nodeInputs, py::arg("id"),
           "Names and MaterialX types of a node's inputs; empty for an unknown node.");
+    m.def(
+        "translate_material",
+        [](const Network& network, const std::string& target, py::object warnings) {
+            Diagnostics diagnostics;
+            Network result = translateMaterial(network, target, diagnostics);
+            appendWarnings(diagnostics, warnings);
+            return result;
+        },
+        py::arg("network"), py::arg("target"), py::arg("warnings") = py::none(),
+        "The material as another shading model; a network without terminals where it cannot be.");
+    m.def(
+        "model_warnings",
+        [] {
+            py::list list;
+            py::object target = list;
+            appendWarnings(ModelLibrary::get().diagnostics(), target);
+            return list;
+        },
+        "What was wrong with the models of the library, those of PATINA_MODEL_PATH among them.");
+    m.def("translatable_models", &translatableModels);
+    m.def("node_defaults", &nodeDefaults, py::arg("id"),
+          "Default values of a node's inputs; those that come from the geometry are left out.");
     m.def(
         "read_mtlx",
         [](const std::string& path, py::object warnings) {

@@ -25,3 +25,13 @@ PATINA_FN vec2 patternPlace2d(vec2 uv, vec2 pivot, vec2 scale, float angle, vec2
 PATINA_FN vec2 patternTransform2d(vec2 uv, vec2 scale, float angle, vec2 translation) {
     return patternRotate2d(uv * scale, -angle) + translation;
 }
+
+// Rotates about an axis (the y axis when that has no length). angle: degrees; MaterialX multiplies
+// rows by matrices, so it turns clockwise for somebody who looks against the axis.
+PATINA_FN vec3 patternRotate3d(vec3 v, float angle, vec3 axis) {
+    float l2 = dot(axis, axis);
+    vec3 a = select(axis / sqrt(max(l2, 1e-30f)), vec3(0.0f, 1.0f, 0.0f), l2 > 1e-30f);
+    float s = sin(angle * (PI / 180.0f));
+    float c = cos(angle * (PI / 180.0f));
+    return v * c + cross(v, a) * s + a * (dot(a, v) * (1.0f - c));
+}

@@ -70,16 +70,43 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
 }
 )";
 
+// The pattern functions, every file of them.
+const char* const kPatternCalls = R"(
+vec3 everyPattern(vec3 p) {
+    HexSpread spread;
+    spread.rotation = 1.0;
+    spread.rotationRange = vec2(0.0, 360.0);
+    spread.scale = 1.0;
+    spread.scaleRange = vec2(0.5, 2.0);
+    spread.offset = 1.0;
+    spread.offsetRange = vec2(0.0, 1.0);
+    HexTiles tiles = hexTiles(p.xy, spread);
+    FlakeHit flake = patternFlake(0.1, 0.1, 0.5, p, p, p, p);
+    vec3 sum = patternBlackbody(p.x) + patternHsvAdjust(p, p) + patternSaturate(p, 0.5, p) +
+               hexShares(tiles, p, 0.3) + normalGradient(p, p) + flake.normal +
+               worleyNoise2(p.xy, 1.0, 0) + worleyNoise3(p, 1.0, 1) + patternRotate3d(p, 1.0, p);
+    float x = noiseFractal2(p.xy, 3, 2.0, 0.5, 8) + noiseFractal3(p, 3, 2.0, 0.5, 0) +
+              noiseCell2(p.xy) + worleyScalar2(p.xy, 1.0, 0) + worleyScalar3(p, 1.0, 0) +
+              patternShape(2, p.xy, 0.3) + patternChecker(p.xy) + patternGrid(p.xy, 0.1, true) +
+              patternCrosshatch(p.xy, 0.1, false) + patternTiledShape(0, p.xy, 0.3, true, 0.5) +
+              patternRampPosition(p.xy, 1) + patternRampBlend(p.x, 0.0, 1.0, 1) +
+              patternRamp4(1.0, 2.0, 3.0, 4.0, p.xy) + patternRange(p.x, 0.0, 1.0, 2.0, 0.0, 1.0);
+    return sum + vec3(x);
+}
+)";
+
 } // namespace
 
 TEST(GlslDialect, CompilesAsComputeShader) {
     if (kValidator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
     const std::string source = "#version 450\n" + flatten("shaders/compat/glsl.glsl") +
                                flatten("shaders/lobes.glsl") + kCalls +
+                               flatten("shaders/patterns.glsl") + kPatternCalls +
                                "layout(local_size_x = 64) in;\n"
                                "layout(std430, binding = 0) buffer Out { vec4 result[]; };\n"
                                "void main() { result[gl_GlobalInvocationID.x] = "
-                               "vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)), 1); }\n";
+                               "vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)) + "
+                               "everyPattern(vec3(0.5)), 1); }\n";
     EXPECT_EQ(compile(source, "comp"), "");
 }
 
@@ -92,8 +119,9 @@ TEST(GlslDialect, CompilesAsEsFragmentShader) {
         "float albedoTableFetch(int i) {"
         " return texelFetch(table, ivec2(i & 1023, i >> 10), 0).x; }\n" +
         flatten("shaders/compat/glsl.glsl") + flatten("shaders/lobes.glsl") + kCalls +
+        flatten("shaders/patterns.glsl") + kPatternCalls +
         "out vec4 color;\nvoid main() { color = vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), "
-        "vec3(0.5)), 1); }\n";
+        "vec3(0.5)) + everyPattern(vec3(0.5)), 1); }\n";
     EXPECT_EQ(compile(source, "frag"), "");
 }
 

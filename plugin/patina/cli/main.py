@@ -13,6 +13,8 @@ COMMANDS = {
     "record": "record",
     "explain": "explain",
     "bsdf": "bsdf",
+    "check": "check",
+    "bake": "bake",
     "compare": "compare",
     "hydra": "hydra",
     "bench": "bench",
@@ -22,6 +24,8 @@ COMMANDS = {
 SUMMARIES = {
     "record": "render a stage to images",
     "explain": "show what is modelled of a material, and what was left out",
+    "check": "energy, sampling, densities and numbers of materials, checked",
+    "bake": "write a material as textures of another shading model",
     "bsdf": "numbers of a material: values, samples, albedo",
     "compare": "measure how two images differ",
     "hydra": "where the Hydra plugin is, and whether hosts can use it",

@@ -30,7 +30,7 @@ def load(text, set_texts=(), every=False):
     file, name = split(text)
     if not os.path.exists(file):
         raise CommandError(f"there is no file {file}")
-    warnings = []
+    warnings = list(compiled.load().model_warnings())
     found = _of_document(file, warnings) if is_document(file) else _of_stage(file, set_texts, warnings)
     if name:
         chosen = [pair for pair in found if pair[0] == name or pair[0].rpartition("/")[2] == name]

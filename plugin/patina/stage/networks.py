@@ -7,6 +7,7 @@ from . import assets, mtlxFiles
 _TERMINALS = (("surface", "ComputeSurfaceSource"), ("displacement", "ComputeDisplacementSource"),
               ("volume", "ComputeVolumeSource"))
 _CONTEXT = "mtlx"  # preferred to the universal terminals, which pxr falls back to by itself
+_CLOCKS = ("ND_frame_float", "ND_time_float")
 _TEXT = ("string", "token", "asset")
 
 
@@ -15,9 +16,19 @@ def network_of(context, material, path, module):
     :param module: `_patina`
     :returns: its Network; without terminals when it has none that can be used"""
     document = mtlxFiles.network_of(material)
-    if document is not None:
-        return document
-    return _Translation(context, material, path, module).run()
+    network = document if document is not None else _Translation(context, material, path, module).run()
+    if not context.time.IsDefault():
+        _set_frame(network, context)
+    return network
+
+
+def _set_frame(network, context):
+    """MaterialX's nodes for the frame and the time have it from the host."""
+    for node in network.nodes():
+        if node["id"] in _CLOCKS:
+            network.set_input(node["path"], "frame", "float", context.time.GetValue())
+            if node["id"] == "ND_time_float" and "fps" not in node["inputs"]:
+                network.set_input(node["path"], "fps", "float", context.time_codes_per_second)
 
 
 class _Translation:

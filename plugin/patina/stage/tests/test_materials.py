@@ -39,6 +39,28 @@ def test_values_of_each_type(read):
     assert not any("unset" in key for key in m)
 
 
+def test_frame_and_time_come_from_the_stage(read):
+    text = material("""
+        token outputs:mtlx:surface.connect = </m/s.outputs:out>
+        def Shader "frame" { uniform token info:id = "ND_frame_float"
+            float outputs:out }
+        def Shader "time" { uniform token info:id = "ND_time_float"
+            float outputs:out }
+        def Shader "film" { uniform token info:id = "ND_time_float"
+            float inputs:fps = 12
+            float outputs:out }
+        def Shader "s" {
+            uniform token info:id = "ND_surface_unlit"
+            float inputs:emission.connect = </m/frame.outputs:out>
+            float inputs:opacity.connect = </m/time.outputs:out>
+            float inputs:transmission.connect = </m/film.outputs:out>
+            token outputs:out }""")
+    dump = read(text, frame=30.0).text
+    assert dump.count("float frame = 30") == 3
+    assert dump.count("float fps = 24") == 1 and dump.count("float fps = 12") == 1
+    assert "float frame" not in read(text).text
+
+
 def test_connections_and_interfaces(read):
     m = read(material(SHADER % """
         color3f inputs:diffuseColor.connect = </m/graph.outputs:result>

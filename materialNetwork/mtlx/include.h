@@ -1,0 +1,20 @@
+#pragma once
+
+#include "materialNetwork/diagnostics.h"
+
+#include <pugixml.hpp>
+
+#include <string>
+
+namespace patina {
+
+/// Attribute that elements of an included document carry: the path of that document, which file
+/// names are relative to.
+inline constexpr const char* sourceAttribute = "patina-source";
+
+/// Replaces every `xi:include` of a document by the elements of the document that it names,
+/// relative to the including one. Included elements keep their own colour space, file prefix and
+/// version. What cannot be read and documents that include themselves are reported and left out.
+void includeDocuments(pugi::xml_node root, const std::string& path, Diagnostics& diagnostics);
+
+} // namespace patina

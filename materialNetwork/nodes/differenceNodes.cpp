@@ -1,0 +1,86 @@
+// Nodes that need their input at neighbouring points. Graphs are evaluated at one point, so the
+// part of the graph that makes the height is copied twice, with the texture coordinates and
+// positions that it reads moved a little (materialNetwork/differences.h).
+#include "materialNetwork/nodeTable.h"
+
+#include <algorithm>
+
+namespace patina {
+
+namespace {
+
+using glm::vec3;
+using glm::vec4;
+using Call = const PatternCall&;
+
+/// Half a pixel, but no less than what floats can tell apart. In units of the uv set.
+float step(Call c) {
+    return std::max(0.5f * c.point().uvFootprint, 1.0f / 4096.0f);
+}
+
+/// Inputs (in, axis).
+void shiftTexcoord(Call c) {
+    vec4 v = c.in(0);
+    v[c.x(1) != 0.0f ? 1 : 0] += step(c);
+    c.out() = v;
+}
+
+/// Inputs (in, axis, world).
+void shiftPosition(Call c) {
+    const ShadingPoint& p = c.point();
+    vec3 d = (c.x(1) != 0.0f ? p.bitangent : p.tangent) * (step(c) * p.lengthPerUv);
+    if (c.x(2) == 0.0f) d = glm::transpose(p.objectToWorldNormal) * d;
+    c.out() = c.in(0) + vec4(d, 0.0f);
+}
+
+/// Inputs (height here, along u, along v, scale, texcoord here, along u, along v): the normal of
+/// the height over the texture coordinates. The factor 1/16 is that of the Sobel filter which this
+/// node was once defined by.
+void slope(Call c) {
+    const float k = 1.0f / step(c), scale = c.x(3) / 16.0f;
+    const auto along = [&](int height, int place) {
+        return vec3((c.in(place).x - c.in(4).x) * k, (c.in(place).y - c.in(4).y) * k,
+                    (c.x(height) - c.x(0)) * k * scale);
+    };
+    vec3 n = glm::cross(along(1, 5), along(2, 6));
+    if (n.z < 0.0f) n = -n; // mirrored coordinates
+    const float length = glm::length(n);
+    c.out() =
+        vec4((length > 1e-6f && length < 1e30f ? n / length : vec3(0, 0, 1)) * 0.5f + 0.5f, 0.0f);
+}
+
+/// What is left when the height is the same everywhere.
+void flat(Call c) {
+    c.out() = vec4(0.5f, 0.5f, 1.0f, 0.0f);
+}
+
+void same(Call c) {
+    c.out() = c.in(0);
+}
+void warnBlur(PatternSetup& setup, PatternData&) {
+    if (setup.number("size", 1.0f) > 0.0f)
+        setup.warn("size", "blur is not applied; the input is passed on");
+}
+
+const NodeRow rows[] = {
+    {"ND_heighttonormal_vector3", "heighttonormal",
+     "float in=0, float scale=1, vector2 texcoord=@UV0", "vector3", flat},
+    {"ND_blur_$", "blur", "$ in=0, float size=0, string filtertype=box", "$", same, Algebra::None,
+     allTypes, warnBlur},
+    {"PatinaShiftTexcoord_$", "shift_texcoord", "$ in=0, float axis=0", "$", shiftTexcoord,
+     Algebra::None, "vector2 vector3", nullptr, true},
+    {"PatinaShiftPosition", "shift_position", "vector3 in=0, float axis=0, float world=0",
+     "vector3", shiftPosition, Algebra::None, nullptr, nullptr, true},
+    {"PatinaSlope", "slope",
+     "float here=0, float along_u=0, float along_v=0, float scale=1, "
+     "vector2 texcoord=0, vector2 texcoord_u=0, vector2 texcoord_v=0",
+     "vector3", slope, Algebra::None, nullptr, nullptr, true},
+};
+
+} // namespace
+
+NodeRows differenceNodes() {
+    return {std::begin(rows), std::end(rows)};
+}
+
+} // namespace patina

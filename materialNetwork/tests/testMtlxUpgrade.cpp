@@ -1,0 +1,202 @@
+// Included documents, and documents of MaterialX 1.38.
+#include "materialNetwork/tests/patternTest.h"
+
+#include "materialNetwork/mtlx/document.h"
+
+#include <filesystem>
+#include <fstream>
+
+namespace patina {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of documents that lives as long as the test.
+class Documents {
+public:
+    explicit Documents(const std::string& name) : _folder(fs::path(testing::TempDir()) / name) {
+        fs::remove_all(_folder);
+        fs::create_directories(_folder / "sub");
+    }
+    ~Documents() { fs::remove_all(_folder); }
+    void write(const std::string& name, const std::string& body) const {
+        std::ofstream(_folder / name) << "<?xml version=\"1.0\"?>\n" << body;
+    }
+    std::vector<Network> read(const std::string& name, Diagnostics& diagnostics) const {
+        return readMtlx((_folder / name).string(), diagnostics);
+    }
+
+private:
+    fs::path _folder;
+};
+
+std::vector<Network> readBody(const std::string& body, Diagnostics& diagnostics) {
+    const Documents documents("patinaUpgrade");
+    documents.write("a.mtlx", "<materialx version=\"1.38\">" + body + "</materialx>");
+    return documents.read("a.mtlx", diagnostics);
+}
+
+/// What a surface emits whose light is node "p" of a document, a color3.
+glm::vec3 lightOf(const std::string& body, ShadingPoint point = {},
+                  std::map<std::string, glm::vec4> primvars = {}) {
+    Diagnostics diagnostics;
+    const auto networks = readBody(body + R"(<uniform_edf name="e" type="EDF">
+          <input name="color" type="color3" nodename="p" /></uniform_edf>
+          <surface name="s" type="surfaceshader">
+          <input name="edf" type="EDF" nodename="e" /></surface>)",
+                                   diagnostics);
+    EXPECT_EQ(diagnostics.count(), 0) << warnings(diagnostics);
+    EXPECT_EQ(networks.size(), 1u);
+    return networks.empty() ? glm::vec3(-1) : emitted(networks[0], point, std::move(primvars));
+}
+
+const char* const paint = R"(<materialx version="1.39" colorspace="srgb_texture" fileprefix="maps/">
+  <image name="img" type="color3"><input name="file" type="filename" value="a.png" /></image>
+  <oren_nayar_diffuse_bsdf name="d" type="BSDF">
+    <input name="color" type="color3" nodename="img" />
+  </oren_nayar_diffuse_bsdf>
+  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="d" /></surface>
+</materialx>)";
+
+} // namespace
+
+TEST(MtlxInclude, DocumentsKeepTheirFolderAndColorSpace) {
+    const Documents documents("patinaInclude");
+    documents.write("sub/paint.mtlx", paint);
+    documents.write("sub/middle.mtlx", R"(<materialx version="1.39">
+      <xi:include href="paint.mtlx" /></materialx>)");
+    documents.write("look.mtlx", R"(<materialx version="1.39">
+      <xi:include href="sub/middle.mtlx" />
+      <surfacematerial name="M" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="s" />
+      </surfacematerial></materialx>)");
+    Diagnostics diagnostics;
+    const auto networks = documents.read("look.mtlx", diagnostics);
+    EXPECT_EQ(diagnostics.count(), 0) << warnings(diagnostics);
+    ASSERT_EQ(networks.size(), 1u);
+    Compiled c(networks[0]);
+    ASSERT_EQ(c.textures.requests.size(), 1u);
+    EXPECT_EQ(c.textures.requests[0].colorSpace, "srgb_texture");
+    const fs::path file(c.textures.requests[0].file);
+    EXPECT_EQ(file.parent_path().filename(), "maps");
+    EXPECT_EQ(file.parent_path().parent_path().filename(), "sub");
+}
+
+TEST(MtlxInclude, WhatCannotBeReadIsReported) {
+    const Documents documents("patinaIncludeBroken");
+    documents.write("sub/paint.mtlx", paint);
+    documents.write("broken.mtlx", "<materialx><a></materialx>");
+    documents.write("circle.mtlx", R"(<materialx version="1.39">
+      <xi:include href="all.mtlx" /></materialx>)");
+    documents.write("all.mtlx", R"(<materialx version="1.39">
+      <xi:include href="nothing.mtlx" /><xi:include href="broken.mtlx" />
+      <xi:include href="circle.mtlx" /><xi:include href="" />
+      <xi:include href="sub/paint.mtlx" /></materialx>)");
+    Diagnostics diagnostics;
+    EXPECT_EQ(documents.read("all.mtlx", diagnostics).size(), 1u);
+    EXPECT_EQ(diagnostics.count(), 4) << warnings(diagnostics);
+}
+
+TEST(MtlxUpgrade, SwizzlesBecomeExtractsAndCombinations) {
+    const auto swizzled = [](const char* type, const char* value, const char* channels) {
+        return lightOf(std::string("<constant name=\"c\" type=\"") + type +
+                       "\"><input name=\"value\" type=\"" + type + "\" value=\"" + value +
+                       "\" /></constant><swizzle name=\"p\" type=\"color3\"><input name=\"in\" "
+                       "type=\"" +
+                       type +
+                       "\" nodename=\"c\" /><input name=\"channels\" type=\"string\" value=\"" +
+                       channels + "\" /></swizzle>");
+    };
+    expectVector(swizzled("color3", "0.1, 0.2, 0.3", "bgr"), 0.3f, 0.2f, 0.1f);
+    expectVector(swizzled("vector4", "0.1, 0.2, 0.3, 0.4", "ww1"), 0.4f, 0.4f, 1.0f);
+    expectVector(swizzled("float", "0.7", "xx0"), 0.7f, 0.7f, 0.0f);
+    // One channel of three, and a value instead of a connection.
+    expectVector(lightOf(R"(<swizzle name="f" type="float">
+        <input name="in" type="vector3" value="1, 2, 3" />
+        <input name="channels" type="string" value="z" /></swizzle>
+      <convert name="p" type="color3"><input name="in" type="float" nodename="f" /></convert>)"),
+                 3, 3, 3);
+}
+
+TEST(MtlxUpgrade, ChannelsOfAConnection) {
+    expectVector(lightOf(R"(<constant name="c" type="color4">
+        <input name="value" type="color4" value="0.1, 0.2, 0.3, 0.4" /></constant>
+      <multiply name="p" type="color3">
+        <input name="in1" type="color3" nodename="c" channels="rrb" />
+        <input name="in2" type="float" nodename="c" channels="a" /></multiply>)"),
+                 0.04f, 0.04f, 0.12f);
+    Diagnostics diagnostics;
+    readBody(R"(<constant name="c" type="color3" /><surface name="s" type="surfaceshader" />
+      <add name="p" type="float"><input name="in1" type="float" nodename="c" channels="?" /></add>)",
+             diagnostics);
+    EXPECT_EQ(diagnostics.count(), 0); // a channel that is none of them is 0
+    readBody(R"(<add name="p" type="float">
+      <input name="in1" type="float" nodename="nothing" channels="r" /></add>
+      <surface name="s" type="surfaceshader" />)",
+             diagnostics);
+    EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
+}
+
+TEST(MtlxUpgrade, RenamedInputsAndNormalMaps) {
+    expectVector(lightOf(R"(<atan2 name="a" type="float"><input name="in1" type="float" value="1" />
+        <input name="in2" type="float" value="1" /></atan2>
+      <convert name="p" type="color3"><input name="in" type="float" nodename="a" /></convert>)"),
+                 0.7853982f, 0.7853982f, 0.7853982f);
+    expectVector(lightOf(R"(<normalmap name="n" type="vector3">
+        <input name="in" type="vector3" value="0.8, 0.5, 0.9" />
+        <input name="space" type="string" value="object" /></normalmap>
+      <convert name="p" type="color3"><input name="in" type="vector3" nodename="n" /></convert>)"),
+                 0.6f, 0.0f, 0.8f);
+}
+
+TEST(MtlxUpgrade, ThinFilmsMoveIntoTheirBase) {
+    Diagnostics diagnostics;
+    const auto networks = readBody(R"(
+      <thin_film_bsdf name="film" type="BSDF">
+        <input name="thickness" type="float" value="400" /></thin_film_bsdf>
+      <conductor_bsdf name="metal" type="BSDF" />
+      <dielectric_bsdf name="through" type="BSDF">
+        <input name="scatter_mode" type="string" value="T" /></dielectric_bsdf>
+      <mix name="both" type="BSDF"><input name="fg" type="BSDF" nodename="metal" />
+        <input name="bg" type="BSDF" nodename="through" />
+        <input name="mix" type="float" value="0.5" /></mix>
+      <layer name="l" type="BSDF"><input name="top" type="BSDF" nodename="film" />
+        <input name="base" type="BSDF" nodename="both" /></layer>
+      <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="l" />
+      </surface>)",
+                                   diagnostics);
+    EXPECT_EQ(diagnostics.count(), 0) << warnings(diagnostics);
+    ASSERT_EQ(networks.size(), 1u);
+    const NetworkNode* metal = networks[0].find("/metal");
+    ASSERT_NE(metal, nullptr);
+    EXPECT_EQ(metal->inputs.at("thinfilm_thickness").numbers[0], 400.0f);
+    EXPECT_EQ(metal->inputs.at("thinfilm_ior").numbers[0], 1.5f);
+    const NetworkNode* through = networks[0].find("/through");
+    ASSERT_NE(through, nullptr);
+    EXPECT_EQ(through->inputs.count("thinfilm_thickness"), 0u);
+    const NetworkNode* layer = networks[0].find("/l");
+    ASSERT_NE(layer, nullptr);
+    EXPECT_EQ(layer->id, "ND_mix_bsdf");
+}
+
+TEST(MtlxUpgrade, ThinSurfacesHaveABack) {
+    Diagnostics diagnostics;
+    const auto networks = readBody(R"(
+      <oren_nayar_diffuse_bsdf name="f" type="BSDF" /><burley_diffuse_bsdf name="b" type="BSDF" />
+      <thin_surface name="s" type="surfaceshader">
+        <input name="front_bsdf" type="BSDF" nodename="f" />
+        <input name="back_bsdf" type="BSDF" nodename="b" /></thin_surface>
+      <surfacematerial name="M" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="s" /></surfacematerial>)",
+                                   diagnostics);
+    EXPECT_EQ(diagnostics.count(), 0) << warnings(diagnostics);
+    ASSERT_EQ(networks.size(), 1u);
+    const NetworkNode* surface = networks[0].find("/s");
+    ASSERT_NE(surface, nullptr);
+    EXPECT_EQ(surface->id, "ND_surface");
+    EXPECT_EQ(surface->inputs.at("thin_walled").numbers[0], 1.0f);
+    EXPECT_EQ(surface->connections.at("bsdf").node, "/f");
+}
+
+} // namespace patina

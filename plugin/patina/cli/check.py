@@ -1,0 +1,323 @@
+"""Checks the mathematics of materials: what a renderer relies on, over directions and places.
+
+  finite       values, densities, samples, albedo and emission are finite and not negative
+  energy       no more light comes back than arrives, by the material's own albedo and by its samples
+  pdf          densities integrate to 1 at most, and to the share of samples that are not mirrors
+  weight       a sample's weight is f cos / pdf
+  chi2         samples fall where the density says (chi-squared test; significance 1 % for the whole
+               material, by Šidák)
+  reciprocity  f(a, b) = f(b, a) where both directions are above the surface; reported, and a failure
+               only with --reciprocal, since layers by albedo and media inside are not reciprocal
+
+Materials that vary are checked at points of uv 0 to 1. Exit status 1 when a check fails.
+"""
+import json
+import math
+import sys
+
+import numpy as np
+
+from patina.cli import compiled, materials, methods, statistics
+from patina.cli.errors import CommandError, UsageError
+
+CHECKS = ("finite", "energy", "pdf", "weight", "chi2", "reciprocity")
+MIRROR = 4  # event of samples that have a probability instead of a density
+SIGNIFICANCE = 0.01
+ROWS, COLUMNS = 16, 32  # bins of the sphere in height and longitude
+ANGLES = (0.0, 30.0, 60.0, 80.0, 89.0)
+
+
+def add_arguments(parser):
+    parser.add_argument("material", metavar="STAGE|MATERIAL", help=materials.MATERIAL_HELP.replace(
+        "the only material", "every material"))
+    parser.add_argument("--samples", type=int, default=65536, metavar="N", help="per direction (default: 65536)")
+    parser.add_argument("--places", type=int, default=3, metavar="N",
+                        help="of uv per material that varies (default: 3; finite: its square times 16)")
+    parser.add_argument("--tolerance", type=float, default=0.01, metavar="E",
+                        help="of energy, densities and weights (default: 0.01)")
+    parser.add_argument("--reciprocal", action="store_true", help="fail where f(a, b) is not f(b, a)")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the random numbers (default: 0)")
+    parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
+                        help="change an input before (repeatable)")
+    methods.add_flag(parser)
+    parser.add_argument("--json", metavar="FILE", help="write the results as JSON: --json to standard output, "
+                                                       "--json=FILE to a file")
+
+
+def run(arguments):
+    if arguments.samples < 1024 or arguments.places < 1 or arguments.seed < 0 or not arguments.tolerance >= 0.0:
+        raise UsageError("patina check: --samples is 1024 or more, --places 1 or more, --seed and --tolerance 0 or "
+                         "more")
+    chosen = methods.parse(arguments.method)
+    found, warnings = materials.load(arguments.material, arguments.set, every=True)
+    results = []
+    for name, network in found:
+        probe = compiled.load().MaterialProbe(network, chosen)
+        warnings += probe.warnings
+        results.append((name, check(probe, arguments)))
+    for line in statistics.lines(warnings):
+        print("warning: " + line, file=sys.stderr)
+    _report(results, arguments.json)
+    failures = [(name, kind, outcome) for name, outcomes in results for kind, outcome in outcomes.items()
+                if outcome["failed"]]
+    if failures:
+        name, kind, outcome = failures[0]
+        raise CommandError(f"{len(failures)} of {len(CHECKS) * len(results)} checks fail; first {name}: {kind}, "
+                           f"{outcome['text']}")
+
+
+def check(probe, arguments):
+    """:returns: check -> dict of failed, worst (a number), text"""
+    generator = np.random.default_rng(arguments.seed)
+    varies = not probe.constant
+    outcomes = {"finite": _finite(probe, arguments, generator, varies)}
+    places = [(0.5, 0.5)]
+    if varies:
+        places = [tuple(generator.random(2)) for _ in range(arguments.places)]
+    found = {kind: [] for kind in CHECKS[1:]}
+    tests = len(places) * len(ANGLES) * 2
+    for place in places:
+        if varies:
+            probe.move_to(*place)
+        for angle in ANGLES:
+            for below in (False, True):
+                where = f"at {180 - angle if below else angle:g} degrees" + (
+                    f", uv {place[0]:.3f} {place[1]:.3f}" if varies else "")
+                wo = _at(180.0 - angle if below else angle)
+                _direction(probe, wo, where, arguments, generator, tests, found)
+        number, where = _reciprocity(probe, generator, place if varies else None)
+        limit = arguments.tolerance if arguments.reciprocal else None
+        found["reciprocity"].append((number, limit, where))
+    for kind in CHECKS[1:]:
+        outcomes[kind] = _worst(kind, found[kind], arguments)
+    return outcomes
+
+
+def _at(degrees):
+    t = math.radians(degrees)
+    return np.array([math.sin(t), 0.0, math.cos(t)]) if degrees % 180.0 else np.array([0.0, 0.0, math.cos(t)])
+
+
+def _outcome(failed, worst, text):
+    return {"failed": bool(failed), "worst": worst, "text": text}
+
+
+def _worst(kind, entries, arguments):
+    """:param entries: (number, limit or None, where)"""
+    entries = [e for e in entries if e is not None]
+    if not entries:
+        return _outcome(False, 0.0, "nothing to check")
+    number, limit, where = max(entries, key=lambda e: e[0] - (e[1] or 0.0))
+    failed = limit is not None and not number <= limit
+    if kind == "chi2":
+        text = f"{len(entries)} tests, most unlikely p = {math.exp(-number):.3g} {where}"
+    elif kind == "energy":
+        text = f"largest albedo {number:.4g} {where}"
+    else:
+        text = f"largest error {number:.3g} {where}"
+    return _outcome(failed, float(number), text)
+
+
+def _finite(probe, arguments, generator, varies):
+    """Everything over a grid with the extremes in it: grazing, in the plane, from below."""
+    degrees = [0, 1e-3, 20, 45, 70, 85, 89, 89.9, 89.999, 90, 90.001, 91, 120, 160, 180]
+    directions = np.array([_turned(_at(d), p) for d in degrees for p in (0.0, 1.0, 3.5)], np.float32)
+    a = np.repeat(directions, len(directions), axis=0)
+    b = np.tile(directions, (len(directions), 1))
+    places = [None] if not varies else [None] + [tuple(p) for p in generator.random((16 * arguments.places ** 2, 2))]
+    bad = ""
+    for place in places:
+        if place is not None:
+            probe.move_to(*place)
+        f, pdf = probe.eval(a, b)
+        u = generator.random((len(a), 4), dtype=np.float32)
+        s = probe.sample(a, u)
+        values = {"f": f, "pdf": pdf, "weight": s["weight"], "sample pdf": s["pdf"],
+                  "albedo": probe.albedo(directions), "emission": probe.emission(directions)}
+        for what, array in values.items():
+            if not (np.isfinite(array).all() and (array >= 0.0).all()):
+                row = np.argwhere(~(np.isfinite(array) & (array >= 0.0)))[0]
+                direction = (a if len(array) == len(a) else directions)[row[0]]
+                bad = bad or f"{what} is {array[tuple(row)]:g} for wo = {np.round(direction, 5).tolist()}" + (
+                    f", uv {place[0]:.3f} {place[1]:.3f}" if place is not None else "")
+        if not np.isfinite(s["wi"]).all():
+            bad = bad or "a sampled direction is not finite"
+    return _outcome(bool(bad), float(bool(bad)), bad or f"{len(a) * len(places)} pairs of directions")
+
+
+def _turned(direction, phi):
+    c, s = math.cos(phi), math.sin(phi)
+    return [direction[0] * c - direction[1] * s, direction[0] * s + direction[1] * c, direction[2]]
+
+
+def _direction(probe, wo, where, arguments, generator, tests, found):
+    n = arguments.samples
+    outgoing = np.tile(wo.astype(np.float32), (n, 1))
+    s = probe.sample(outgoing, generator.random((n, 4), dtype=np.float32))
+    event, weight = s["event"], s["weight"].astype(np.float64)
+    alive = event != 0
+    # Energy. Samples estimate it with an error of their own, of which four are allowed.
+    estimate = weight.mean(axis=0)
+    noise = 4.0 * weight.std(axis=0) / math.sqrt(n)
+    own = probe.albedo(outgoing[:1])[0].astype(np.float64)
+    found["energy"].append((float(max((estimate - noise).max(), own.max())), 1.0 + arguments.tolerance, where))
+    smooth = alive & ((event & MIRROR) == 0)
+    if not smooth.any():
+        return
+    f, pdf = probe.eval(outgoing[smooth], s["wi"][smooth])
+    cosine = np.abs(s["wi"][smooth][:, 2:3]).astype(np.float64)
+    expected = f.astype(np.float64) * cosine / np.maximum(pdf, 1e-30)[:, None]
+    # Directions as floats are too coarse for the sharpest lobes: the median is what is wrong or not.
+    scale = np.maximum(expected.max(axis=1), 1e-3)
+    error = np.median(np.abs(weight[smooth] - expected).max(axis=1) / scale)
+    found["weight"].append((float(error), arguments.tolerance, where))
+
+    observed = np.bincount(_bins(s["wi"][smooth]), minlength=ROWS * COLUMNS)
+    expected, sure = integrate(probe, wo, observed / n, n)
+    total = expected.sum()
+    if not sure:
+        return  # narrower than the quadrature can see
+    share = smooth.mean()
+    error = max(total - 1.0, abs(total - share) - 4.0 * math.sqrt(share * (1.0 - share) / n))
+    found["pdf"].append((float(error), arguments.tolerance, where))
+    p = chi_squared(observed, expected * n, n)
+    if p is not None:
+        limit = -math.log(1.0 - (1.0 - SIGNIFICANCE) ** (1.0 / tests))
+        found["chi2"].append((-math.log(max(p, 1e-300)), limit, where))
+
+
+def _bins(directions):
+    row = np.clip(((directions[:, 2] + 1.0) * 0.5 * ROWS).astype(int), 0, ROWS - 1)
+    longitude = np.arctan2(directions[:, 1], directions[:, 0]) / (2.0 * math.pi)
+    column = np.clip(((longitude - np.floor(longitude)) * COLUMNS).astype(int), 0, COLUMNS - 1)
+    return row * COLUMNS + column
+
+
+def _quadrature(probe, wo, bins, points):
+    """Integrals of the density over bins, by points x points in each."""
+    offsets = (np.arange(points) + 0.5) / points
+    cells = points * points
+    area = 4.0 * math.pi / (ROWS * COLUMNS)
+    sums = np.empty(len(bins))
+    step = max(1, (1 << 19) // cells)
+    for first in range(0, len(bins), step):
+        part = bins[first:first + step]
+        # In the two rows at the horizon points lie denser there, where grazing densities have their peak.
+        row = (part // COLUMNS)[:, None, None]
+        t = offsets[None, :, None]
+        above, under = row == ROWS // 2, row == ROWS // 2 - 1
+        height = np.where(above, t * t, np.where(under, 1.0 - (1.0 - t) ** 2, t))
+        slope = np.where(above, 2.0 * t, np.where(under, 2.0 * (1.0 - t), 1.0))
+        z = -1.0 + 2.0 * (row + height) / ROWS
+        phi = 2.0 * math.pi * ((part % COLUMNS)[:, None, None] + offsets[None, None, :]) / COLUMNS
+        z, phi = np.broadcast_arrays(z, phi)
+        r = np.sqrt(np.maximum(0.0, 1.0 - z * z))
+        wi = np.stack([r * np.cos(phi), r * np.sin(phi), z], axis=-1).reshape(-1, 3).astype(np.float32)
+        _, pdf = probe.eval(np.tile(wo.astype(np.float32), (len(wi), 1)), wi)
+        weighted = pdf.astype(np.float64).reshape(len(part), points, points) * slope
+        sums[first:first + step] = weighted.mean(axis=(1, 2)) * area
+    return sums
+
+
+def integrate(probe, wo, shares, n):
+    """Integrals of the density over the bins, refined where two of them differ, and where shares of n samples say
+    that points missed something.
+
+    :returns: array of bins, and whether they are precise to 0.001 in sum
+    """
+    bins = np.arange(ROWS * COLUMNS)
+    coarse, fine = _quadrature(probe, wo, bins, 6), _quadrature(probe, wo, bins, 12)
+    difference = np.abs(fine - coarse)
+    for points in (48, 192, 768):
+        noise = np.sqrt(np.maximum(fine, 1.0 / n) / n)
+        doubt = np.maximum(difference, np.where(np.abs(shares - fine) > 3.0 * noise, np.abs(shares - fine), 0.0))
+        open_bins = np.argsort(-doubt)[:64 if points < 768 else 8]
+        open_bins = open_bins[doubt[open_bins] > 2e-5]
+        if not len(open_bins):
+            break
+        finer = _quadrature(probe, wo, open_bins, points)
+        difference[open_bins] = np.abs(finer - fine[open_bins])
+        fine[open_bins] = finer
+    return fine, bool(difference.sum() < 0.001)
+
+
+def chi_squared(observed, expected, n):
+    """Probability of a deviation this large; cells of few expected samples are pooled.
+
+    :returns: None with fewer than two cells
+    """
+    observed = np.append(observed.astype(np.float64), n - observed.sum())
+    expected = np.append(expected, max(0.0, n - expected.sum()))
+    order = np.argsort(expected)
+    cells, o, e = [], 0.0, 0.0
+    for i in order:
+        o, e = o + observed[i], e + expected[i]
+        if e >= 8.0:
+            cells.append((o, e))
+            o = e = 0.0
+    if cells and (o or e):
+        cells[-1] = (cells[-1][0] + o, cells[-1][1] + e)
+    if len(cells) < 2:
+        return None
+    # The quadrature's own error, a thousandth of each cell, is no fault of the samples.
+    statistic = sum(max(0.0, abs(o - e) - 1e-3 * e) ** 2 / e for o, e in cells)
+    return survival(statistic, len(cells) - 1)
+
+
+def survival(statistic, freedom):
+    """Upper tail of the chi-squared distribution: the regularised incomplete gamma function Q, by its series or
+    its continued fraction (Abramowitz and Stegun 1964, 6.5.29 and 6.5.31)."""
+    a, x = freedom / 2.0, statistic / 2.0
+    if x <= 0.0:
+        return 1.0
+    front = math.exp(a * math.log(x) - x - math.lgamma(a))
+    if x < a + 1.0:
+        term = total = 1.0 / a
+        k = a
+        while term > total * 1e-15:
+            k += 1.0
+            term *= x / k
+            total += term
+        return max(0.0, 1.0 - front * total)
+    b = x + 1.0 - a
+    c, d = 1e300, 1.0 / b
+    h = d
+    for i in range(1, 10000):
+        step = -i * (i - a)
+        b += 2.0
+        d = 1.0 / (step * d + b or 1e-300)
+        c = b + step / c or 1e-300
+        h *= d * c
+        if abs(d * c - 1.0) < 1e-14:
+            break
+    return min(1.0, front * h)
+
+
+def _reciprocity(probe, generator, place):
+    z = generator.uniform(0.02, 1.0, (2, 4096))
+    phi = generator.uniform(0.0, 2.0 * math.pi, (2, 4096))
+    r = np.sqrt(1.0 - z * z)
+    a, b = np.stack([r * np.cos(phi), r * np.sin(phi), z], axis=-1).astype(np.float32)
+    there, back = probe.eval(a, b)[0].astype(np.float64), probe.eval(b, a)[0].astype(np.float64)
+    scale = np.maximum(np.maximum(there, back), 1e-3)
+    error = (np.abs(there - back) / scale).max(axis=1)
+    worst = int(error.argmax())
+    return float(error[worst]), "between {:.0f} and {:.0f} degrees".format(
+        *np.degrees(np.arccos([a[worst, 2], b[worst, 2]]))) + (
+            f", uv {place[0]:.3f} {place[1]:.3f}" if place else "")
+
+
+def _report(results, target):
+    if target:
+        text = json.dumps({"materials": [{"name": name, "checks": outcomes} for name, outcomes in results]}, indent=2)
+        if target == "-":
+            print(text)
+            return
+        with open(target, "w", encoding="utf-8") as file:
+            file.write(text + "\n")
+    width = max(len(name) for name, _ in results)
+    for name, outcomes in results:
+        for kind in CHECKS:
+            outcome = outcomes[kind]
+            state = "FAIL" if outcome["failed"] else "ok"
+            print(f"{name:<{width}}  {kind:<12} {state:<5} {outcome['text']}")

@@ -1,0 +1,182 @@
+"""`patina bake`: what is written says the same as the material translated on the fly."""
+import os
+
+import numpy as np
+import pytest
+
+_patina = pytest.importorskip("_patina")
+pytest.importorskip("pxr.Usd")
+
+from patina.cli import bake, main, materials  # noqa: E402
+
+PATTERNS = """<?xml version="1.0"?>
+<materialx version="1.39">
+  <texcoord name="uv" type="vector2"/>
+  <ramp4 name="paint" type="color3">
+    <input name="valuetl" type="color3" value="0.9, 0.2, 0.1"/>
+    <input name="valuetr" type="color3" value="0.02, 0.3, 0.8"/>
+    <input name="valuebl" type="color3" value="0.5, 0.5, 0.0"/>
+  </ramp4>
+  <place2d name="large" type="vector2">
+    <input name="texcoord" type="vector2" nodename="uv"/>
+    <input name="scale" type="vector2" value="0.25, 0.25"/>
+  </place2d>
+  <noise2d name="worn" type="float">
+    <input name="amplitude" type="float" value="0.3"/>
+    <input name="pivot" type="float" value="0.5"/>
+    <input name="texcoord" type="vector2" nodename="large"/>
+  </noise2d>
+  <bump name="bumps" type="vector3"><input name="height" type="float" nodename="worn"/></bump>
+  <standard_surface name="s" type="surfaceshader">
+    <input name="base_color" type="color3" nodename="paint"/>
+    <input name="specular_roughness" type="float" nodename="worn"/>
+    <input name="metalness" type="float" value="0.25"/>
+    <input name="coat" type="float" value="0.5"/>
+    <input name="emission" type="float" value="3"/>
+    <input name="emission_color" type="color3" nodename="paint"/>
+    <input name="normal" type="vector3" nodename="bumps"/>
+  </standard_surface>
+  <surfacematerial name="patterns" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="s"/>
+  </surfacematerial>
+</materialx>
+"""
+
+
+@pytest.fixture
+def document(tmp_path):
+    path = tmp_path / "patterns.mtlx"
+    path.write_text(PATTERNS)
+    return str(path)
+
+
+def _inputs(file, target, size=64):
+    """Inputs of a file's material in the words of the target, at the centres of texels."""
+    warnings = []
+    (_, network), = materials.load(file)[0]
+    return bake.evaluate(_patina.translate_material(network, target, warnings), target, size, warnings), warnings
+
+
+@pytest.mark.parametrize("target", bake.TARGETS)
+@pytest.mark.parametrize("kind", ["png", "exr"])
+def test_textures_hold_what_the_translation_gives(document, tmp_path, target, kind, capsys):
+    out = str(tmp_path / f"{target}.usda")
+    assert main.main(["bake", document, out, "--to", target, "--resolution", "64", "--format", kind]) == 0
+    direct, _ = _inputs(document, target)
+    baked, warnings = _inputs(out, target)
+    assert not warnings
+    assert set(baked) == set(direct)
+    varying = 0
+    for name, (_, value) in direct.items():
+        read = baked[name][1]
+        if np.ndim(value) < 3:
+            np.testing.assert_allclose(read, value, atol=1e-5, err_msg=name)
+            continue
+        varying += 1
+        # PNG: half a step of 8 bits, which sRGB stretches most at white (slope 2.3); emission beyond 1
+        # is cut off. EXR: 11 bits of half float, twice for normals.
+        limit = 2.4 * 0.5 / 255 if kind == "png" else 1e-3
+        expected = np.minimum(value, 1.0) if kind == "png" else value
+        assert np.abs(read - expected).max() <= limit * max(1.0, np.abs(expected).max()), name
+    assert varying >= 3
+    assert ("cut off" in capsys.readouterr().err) == (kind == "png" and target == "UsdPreviewSurface")
+
+
+def test_constant_inputs_stay_values(tmp_path):
+    document = tmp_path / "plain.mtlx"
+    document.write_text("""<materialx version="1.39">
+      <standard_surface name="s" type="surfaceshader">
+        <input name="base" type="float" value="0.5"/>
+        <input name="metalness" type="float" value="1"/>
+      </standard_surface></materialx>""")
+    out = tmp_path / "plain.usda"
+    assert main.main(["bake", str(document), str(out), "--to", "UsdPreviewSurface"]) == 0
+    assert sorted(os.listdir(tmp_path)) == ["plain.mtlx", "plain.usda"]
+    text = out.read_text()
+    assert "inputs:metallic = 1" in text and "inputs:diffuseColor = (0.4, 0.4, 0.4)" in text
+
+
+def test_renders_like_the_translation(document, tmp_path):
+    """Both pictures use the same random numbers; what differs is the 8 bits of the textures and their filter."""
+    out = str(tmp_path / "baked.usda")
+    assert main.main(["bake", document, out, "--to", "gltf_pbr", "--resolution", "256", "--set", "/s.emission=0"]) == 0
+    direct = _direct_network(document, tmp_path)
+    images = [_render(tmp_path, name, file) for name, file in (("baked", out), ("direct", direct))]
+    assert images[0].mean() > 0.02
+    assert np.abs(images[0] - images[1]).mean() <= 0.02 * images[1].mean()
+
+
+def _direct_network(document, tmp_path):
+    """The translated network itself, as a stage of the same nodes."""
+    from pxr import Sdf, Usd, UsdShade
+
+    (_, network), = materials.load(document, ["/s.emission=0"])[0]
+    translated = _patina.translate_material(network, "gltf_pbr", [])
+    stage = Usd.Stage.CreateNew(str(tmp_path / "direct.usda"))
+    material = UsdShade.Material.Define(stage, "/patterns")
+    stage.SetDefaultPrim(material.GetPrim())
+    names = {node["path"]: node["path"].strip("/").replace("/", "_") for node in translated.nodes()}
+    shaders = {path: UsdShade.Shader.Define(stage, "/patterns/" + name) for path, name in names.items()}
+    for node in translated.nodes():
+        shader = shaders[node["path"]]
+        shader.CreateIdAttr(node["id"])
+        for name, value in node["inputs"].items():
+            if value["type"] in ("float", "color3", "vector2", "vector3"):
+                number = value["value"]
+                shader.CreateInput(name, bake._sdf(value["type"])).Set(
+                    number if isinstance(number, float) else tuple(number))
+        for name, (source, output) in node["connections"].items():
+            token = Sdf.ValueTypeNames.Token
+            shaders[source].CreateOutput(output or "out", token)
+            shader.CreateInput(name, token).ConnectToSource(shaders[source].ConnectableAPI(), output or "out")
+    surface = translated.terminals()["surface"][0]
+    shaders[surface].CreateOutput("out", Sdf.ValueTypeNames.Token)
+    material.CreateSurfaceOutput("mtlx").ConnectToSource(shaders[surface].ConnectableAPI(), "out")
+    stage.GetRootLayer().Save()
+    return str(tmp_path / "direct.usda")
+
+
+def _render(tmp_path, name, material):
+    stage = tmp_path / f"scene_{name}.usda"
+    stage.write_text(f"""#usda 1.0
+def Camera "camera" {{
+    float focalLength = 50
+    float horizontalAperture = 20
+    float verticalAperture = 20
+    double3 xformOp:translate = (0, 0, 5)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}}
+def DomeLight "sky"
+{{
+    float inputs:intensity = 0.3
+}}
+def Mesh "quad" (prepend apiSchemas = ["MaterialBindingAPI"]) {{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
+    texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")
+    uniform token subdivisionScheme = "none"
+    rel material:binding = </material>
+}}
+def "material" (prepend references = @{material}@) {{ }}
+""")
+    image = tmp_path / f"{name}.exr"
+    assert main.main(["record", str(stage), str(image), "--quiet", "--camera", "/camera", "--imageWidth", "48",
+                      "--imageHeight", "48", "--samples", "16"]) == 0
+    found = _patina.read_image(str(image))
+    return np.array(found.pixels)[..., [found.channels.index(c) for c in "RGB"]]
+
+
+@pytest.mark.parametrize("arguments, status", [
+    (["--to", "nothing"], 2), (["--to", "gltf_pbr", "--resolution", "0"], 2), ([], 2)])
+def test_wrong_usage(document, tmp_path, arguments, status, capsys):
+    assert main.main(["bake", document, str(tmp_path / "out.usda"), *arguments]) == status
+    assert capsys.readouterr().err
+
+
+def test_what_cannot_be_baked(tmp_path, capsys):
+    document = tmp_path / "bare.mtlx"
+    document.write_text("""<materialx version="1.39"><surface name="s" type="surfaceshader"/></materialx>""")
+    assert main.main(["bake", str(document), str(tmp_path / "out.usda"), "--to", "gltf_pbr"]) == 1
+    assert "no shading model" in capsys.readouterr().err
+    assert not (tmp_path / "out.usda").exists()

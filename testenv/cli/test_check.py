@@ -1,0 +1,108 @@
+"""`patina check`: passes what is right, and finds each kind of mistake in materials made wrong on purpose."""
+import json
+import math
+import types
+
+import numpy as np
+import pytest
+
+_patina = pytest.importorskip("_patina")
+
+from patina.cli import check, main  # noqa: E402
+
+LAMBERT = """<materialx version="1.39">
+  <oren_nayar_diffuse_bsdf name="d" type="BSDF"><input name="color" type="color3" value="0.8, 0.8, 0.8"/>
+  </oren_nayar_diffuse_bsdf>
+  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="d"/></surface>
+  <surfacematerial name="matte" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+  <standard_surface name="p" type="surfaceshader">
+    <input name="specular_roughness" type="float" value="0.3"/></standard_surface>
+  <surfacematerial name="plastic" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="p"/></surfacematerial>
+</materialx>"""
+
+
+@pytest.fixture
+def document(tmp_path):
+    path = tmp_path / "two.mtlx"
+    path.write_text(LAMBERT)
+    return str(path)
+
+
+class Lambert:
+    """A white Lambertian surface in numpy, with mistakes to order."""
+
+    constant = True
+
+    def __init__(self, albedo=1.0, density=1.0, power=1.0, weight=1.0, nan=False, tilt=0.0):
+        self.white, self.density, self.power = albedo, density, power
+        self.weight, self.nan, self.tilt = weight, nan, tilt
+
+    def eval(self, wo, wi):
+        same = (wo[:, 2] * wi[:, 2]) > 0.0
+        f = np.where(same, self.white / math.pi, 0.0)[:, None] * np.ones(3)
+        f = f * (1.0 + self.tilt * np.abs(wo[:, :1]))
+        if self.nan:
+            f[np.abs(wi[:, 2]) < 1e-4] = np.nan
+        return f, np.where(same, np.abs(wi[:, 2]) / math.pi * self.density, 0.0)
+
+    def sample(self, wo, u):
+        z = np.sqrt(1.0 - u[:, 0].astype(float) ** self.power) * np.where(wo[:, 2] < 0.0, -1.0, 1.0)
+        r, phi = np.sqrt(np.maximum(0.0, 1.0 - z * z)), 2.0 * math.pi * u[:, 1]
+        wi = np.stack([r * np.cos(phi), r * np.sin(phi), z], axis=1).astype(np.float32)
+        f, pdf = self.eval(wo, wi)
+        good = pdf > 0.0
+        weight = np.where(good, f[:, 0] * np.abs(wi[:, 2]) / np.maximum(pdf, 1e-9), 0.0) * self.weight
+        return {"wi": wi, "weight": weight[:, None] * np.ones(3), "pdf": pdf, "event": np.where(good, 1, 0)}
+
+    def albedo(self, wo):
+        return np.full((len(wo), 3), self.white)
+
+    def emission(self, wo):
+        return np.zeros((len(wo), 3))
+
+
+def failed(probe, **changes):
+    arguments = types.SimpleNamespace(samples=16384, places=1, tolerance=0.01, reciprocal=True, seed=0)
+    arguments.__dict__.update(changes)
+    outcomes = check.check(probe, arguments)
+    assert set(outcomes) == set(check.CHECKS)
+    return {kind for kind, outcome in outcomes.items() if outcome["failed"]}
+
+
+def test_a_right_material_passes():
+    assert failed(Lambert()) == set()
+
+
+@pytest.mark.parametrize("mistake, kind", [
+    (dict(albedo=1.1), "energy"), (dict(density=1.1), "pdf"), (dict(density=0.5), "pdf"), (dict(power=0.9), "chi2"),
+    (dict(weight=0.9), "weight"), (dict(nan=True), "finite"), (dict(tilt=0.2), "reciprocity")])
+def test_each_mistake_is_found(mistake, kind):
+    assert kind in failed(Lambert(**mistake))
+
+
+def test_reciprocity_is_only_reported_by_default():
+    assert "reciprocity" not in failed(Lambert(tilt=0.2), reciprocal=False)
+
+
+def test_tail_of_chi_squared():
+    scipy = pytest.importorskip("scipy.stats", reason="scipy is the reference")
+    for freedom in (1, 2, 7, 100, 511):
+        for x in (1e-3, 0.5, 1.0, 1.5, 3.0):
+            value = freedom * x
+            assert check.survival(value, freedom) == pytest.approx(scipy.chi2.sf(value, freedom), rel=1e-8, abs=1e-300)
+
+
+def test_command(document, capsys):
+    assert main.main(["check", document, "--samples", "4096"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == 2 * len(check.CHECKS)
+    assert all(" ok " in line for line in lines)
+    assert main.main(["check", document + ":plastic", "--samples", "4096", "--reciprocal", "--json"]) == 1
+    captured = capsys.readouterr()
+    found = json.loads(captured.out)["materials"]
+    assert [m["name"] for m in found] == ["plastic"]
+    assert found[0]["checks"]["reciprocity"]["failed"]
+    assert "reciprocity" in captured.err and len(captured.err.splitlines()) == 1
+    assert main.main(["check", document, "--samples", "10"]) == 2

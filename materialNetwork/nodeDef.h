@@ -14,7 +14,7 @@ enum class ClosureKind {
     OrenNayar,
     Burley,
     Translucent,
-    Subsurface, ///< shown as diffuse
+    Subsurface,
     Dielectric,
     Conductor,
     Schlick,

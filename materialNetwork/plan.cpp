@@ -164,7 +164,8 @@ private:
             break;
         case ClosureKind::Conductor: checkMicrofacet(node); break;
         case ClosureKind::Subsurface:
-            leaveOut(node, "subsurface scattering is shown as diffuse");
+            if (_plan.thinWalled)
+                leaveOut(node, "a thin wall has no inside; subsurface scattering is diffuse");
             break;
         case ClosureKind::Unsupported:
             leaveOut(node, node.def->category + " is not modelled");

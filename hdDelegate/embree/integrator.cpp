@@ -185,6 +185,35 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
            visibility(path, across, origin, light.direction, light.distance, info, counters);
 }
 
+/// Sets the path on its way from a vertex, and keeps what later light hits have to know about it.
+void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
+                        const BsdfSample& next) const {
+    const ShadingPoint& s = point.shading;
+    const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
+    path.specular = (next.event & sh::LOBE_DELTA) != 0;
+    path.pdf = next.pdf;
+    path.vertex = s.position;
+    path.vertexNormal = back ? -s.normal : s.normal;
+    path.vertexTwoSided = bsdf.transmits();
+    path.vertexSurface = hit.surface;
+    path.vertexInstanceCategories = hit.instanceCategories;
+    path.diffuseShare = vec3(next.diffuse ? 1.0f : 0.0f);
+    path.specularShare = vec3(1.0f) - path.diffuseShare;
+    if (_lights.splitsLobes() && !path.specular) {
+        const BsdfEval f = bsdf.eval(next.wi);
+        const vec3 sum = f.diffuse + f.specular;
+        for (int c = 0; c < 3; ++c)
+            path.diffuseShare[c] = sum[c] > 0.0f ? f.diffuse[c] / sum[c] : 0.5f;
+        path.specularShare = vec3(1.0f) - path.diffuseShare;
+    }
+    const float away = glm::dot(next.wi, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
+    path.origin = s.position + s.geometricNormal * (away * point.offset);
+    path.direction = next.wi;
+    path.near = 0.0f;
+    path.far = INFINITY;
+    path.coneSpread = std::min(1.0f, path.coneSpread + 0.5f * next.roughness);
+}
+
 void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& counters) const {
     bool aovsWritten = _aovs.empty();
     int passed = 0;
@@ -235,6 +264,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
 
         Bsdf bsdf;
         program.evaluate(s, bsdf);
+        if (program.hasSubsurface()) bsdf.walkSubsurface();
         if (!aovsWritten) {
             writeAovs(_aovs, target, _camera, point, bsdf);
             aovsWritten = true;
@@ -251,34 +281,15 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         if (next.event == 0) break;
         path.throughput *= next.weight;
         if (!(luminance(path.throughput) > 0.0f)) break;
-        const bool transmits = (next.event & sh::LOBE_TRANSMIT) != 0;
-        if (transmits) path.media.cross(program, s);
-        path.specular = (next.event & sh::LOBE_DELTA) != 0;
-        path.pdf = next.pdf;
-        path.vertex = s.position;
-        path.vertexNormal = back ? -s.normal : s.normal;
-        path.vertexTwoSided = bsdf.transmits();
-        path.vertexSurface = hit.surface;
-        path.vertexInstanceCategories = hit.instanceCategories;
-        path.diffuseShare = vec3(next.diffuse ? 1.0f : 0.0f);
-        path.specularShare = vec3(1.0f) - path.diffuseShare;
-        if (_lights.splitsLobes() && !path.specular) {
-            const BsdfEval f = bsdf.eval(next.wi);
-            const vec3 sum = f.diffuse + f.specular;
-            for (int c = 0; c < 3; ++c)
-                path.diffuseShare[c] = sum[c] > 0.0f ? f.diffuse[c] / sum[c] : 0.5f;
-            path.specularShare = vec3(1.0f) - path.diffuseShare;
+        if ((next.event & LOBE_SUBSURFACE) != 0) {
+            if (!passBeneath(path, point, hit, bsdf.subsurface(next), counters)) break;
+        } else {
+            if ((next.event & sh::LOBE_TRANSMIT) != 0) path.media.cross(program, s);
+            depart(path, point, hit, bsdf, next);
         }
-
         ++path.depth;
         if (!survivesRoulette(path)) break;
-        const float away = glm::dot(next.wi, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
-        path.origin = s.position + s.geometricNormal * (away * point.offset);
-        path.direction = next.wi;
-        path.near = 0.0f;
-        path.far = INFINITY;
         path.coneWidth = width;
-        path.coneSpread = std::min(1.0f, path.coneSpread + 0.5f * next.roughness);
         travelled = 0.0f;
     }
 }

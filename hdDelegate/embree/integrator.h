@@ -53,6 +53,12 @@ private:
     /// Takes the path through the medium that it is in, up to `distance` or to where it scatters.
     Flight fly(Path& path, float distance, TraceCounters& counters) const;
     bool survivesRoulette(Path& path) const;
+    void depart(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
+                const BsdfSample& next) const;
+    /// Takes the path through subsurface scattering, light at its exit included.
+    /// @returns false when the path ends beneath the surface
+    bool passBeneath(Path& path, const SurfacePoint& point, const Hit& hit,
+                     const SubsurfaceEntry& entry, TraceCounters& counters) const;
     vec3 visibility(const Path& path, const MediumStack& media, const vec3& origin,
                     const vec3& direction, float distance, const LightInfo& light,
                     TraceCounters& counters) const;

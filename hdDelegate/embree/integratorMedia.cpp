@@ -1,6 +1,9 @@
 #include "hdDelegate/embree/integrator.h"
 
 #include "hdDelegate/embree/media/freeFlight.h"
+#include "hdDelegate/embree/media/randomWalk.h"
+
+#include "materialNetwork/cpu/shadingFrame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,6 +75,52 @@ Integrator::Flight Integrator::fly(Path& path, float distance, TraceCounters& co
     path.near = 0.0f;
     path.far = INFINITY;
     return Flight::Scatters;
+}
+
+bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& hit,
+                             const SubsurfaceEntry& entry, TraceCounters& counters) const {
+    const ShadingPoint& s = point.shading;
+    const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
+    const vec3 outside = back ? -s.geometricNormal : s.geometricNormal;
+    // Cosine about the geometric normal: beneath the surface there is no shading normal.
+    const vec3 w = sh::sampleCosineHemisphere(path.sampler.next2());
+    vec3 x, y;
+    completeBasis(-outside, x, y);
+    const vec3 inwards = x * w.x + y * w.y - outside * w.z;
+
+    WalkExit exit;
+    // A walk that is too short to be told from staying where it is ends as on an open mesh:
+    // diffuse.
+    const vec3& radius = entry.radius;
+    exit.open = !(std::max({radius.x, radius.y, radius.z}) > 4.0f * point.offset);
+    if (!exit.open) {
+        const bool flat = hit.surface->shape == Surface::Shape::Triangles;
+        const vec3 start = flat ? s.position : s.position - outside * point.offset;
+        exit = walkBeneath(_scene, walkMedium(entry, point.offset), hit, back, start, inwards,
+                           path.sampler, counters.rays);
+    }
+    path.throughput *= exit.open ? entry.color * exit.weight : exit.weight;
+    if (!(luminance(path.throughput) > 0.0f)) return false;
+
+    // Light leaves as from a white diffuse surface, wherever that is.
+    SurfacePoint leaving = point;
+    leaving.hit = &hit;
+    if (exit.found)
+        computeSurfacePoint(exit.hit, exit.origin, exit.direction, path.coneWidth, leaving);
+    ShadingPoint& there = leaving.shading;
+    const vec3 up = back ? -there.geometricNormal : there.geometricNormal;
+    there.viewDirection = up;
+    Bsdf bsdf;
+    bsdf.makeDiffuse(back ? -there.normal : there.normal, up);
+    const Hit& exitHit = exit.found ? exit.hit : hit;
+    const vec4 uLight = path.sampler.next4();
+    if (!_lights.set().empty())
+        addRadiance(path, directLight(path, leaving, bsdf, exitHit, vec3(uLight), counters));
+    const BsdfSample next = bsdf.sample(vec3(path.sampler.next2(), 0.0f), 0.0f);
+    if (next.event == 0) return false;
+    path.throughput *= next.weight;
+    depart(path, leaving, exitHit, bsdf, next);
+    return true;
 }
 
 /// A path that scatters in a bright medium goes on for long and should: it is only ended for what

@@ -61,6 +61,7 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
     out._lobeCount = 0;
     out._nonDelta = false;
     out._transmits = false;
+    out._walks = false;
     out._geometricNormal = point.geometricNormal;
     out._woOutside = glm::dot(point.viewDirection, point.geometricNormal) >= 0.0f;
     if (code.lobes.empty()) return;

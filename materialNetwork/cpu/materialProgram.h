@@ -47,6 +47,7 @@ public:
     /// Rays that presence lets pass are inside the object afterwards: its boundary is there, but
     /// bends nothing.
     bool passingEnters() const { return _hasInterior && _passingEnters; }
+    bool hasSubsurface() const { return _hasSubsurface; }
     bool usesUv() const { return _usesUv; } ///< reads texture coordinates
 
     /// @returns isOpaque() for a prim that lacks some primvars
@@ -82,6 +83,7 @@ private:
     bool _hasTransmission = false;
     bool _hasInterior = false;
     bool _isVolumeOnly = false;
+    bool _hasSubsurface = false;
     bool _passingEnters = false;
     bool _usesUv = false;
     std::unique_ptr<ProgramCode> _code;

@@ -315,6 +315,8 @@ void ProgramBuilder::setFlags() {
         p._hasTransmission |= t.prebuilt.kind == LobeKind::Translucent ||
                               (!t.straight && (t.mode & sh::SCATTER_T) != 0);
     p._isVolumeOnly = _plan.volumeOnly;
+    for (const LobeTemplate& t : _code->lobes)
+        p._hasSubsurface |= t.prebuilt.kind == LobeKind::Subsurface && !_plan.thinWalled;
     p._passingEnters = _plan.volumeOnly || _code->hasStraight;
     p._hasInterior = (!_code->vdf.empty() || !_code->volumeEdf.empty()) && !_plan.thinWalled &&
                      (p._hasTransmission || p._passingEnters);

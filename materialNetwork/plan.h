@@ -28,7 +28,10 @@ struct PlanClosure {
 /// - A reflection lobe over a transmission lobe is one interface ("fused"): the layer has already
 ///   taken what was reflected, so the transmission lobe leaves out its own loss. Without that the
 ///   loss would count twice.
-/// - thin_walled surfaces have no inside: transmission goes straight on and nothing is absorbed.
+/// - thin_walled surfaces have no inside: transmission goes straight on, tinted once, and nothing
+/// is
+///   absorbed. An interface of mode RT or T that lies under no reflection lobe is a slab with two
+///   faces, between which light bounces: it reflects 2 r / (1 + r) and passes (1 - r) / (1 + r).
 struct Plan {
     Graph graph;                       ///< simplified
     std::vector<PlanClosure> closures; ///< parts before wholes

@@ -252,9 +252,13 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
         const bool culled = path.fromCamera() &&
                             (back ? cullsBack(*hit.surface->prim) : cullsFront(*hit.surface->prim));
-        float opacity = culled ? 0.0f : point.slot->opaque ? 1.0f : program.opacity(s);
+        vec3 passes(1.0f);
+        const float opacity = culled               ? 0.0f
+                              : point.slot->opaque ? 1.0f
+                                                   : program.opacity(s, &passes);
         if (opacity < 1.0f && !(path.sampler.random() < opacity)) {
-            if (++passed > maxPassThroughs) break;
+            path.throughput *= passes;
+            if (++passed > maxPassThroughs || path.throughput == vec3(0.0f)) break;
             if (program.passingEnters() && !culled) path.media.cross(program, s);
             path.origin = s.position + path.direction * std::max(point.offset, 1e-7f);
             path.near = 0.0f;

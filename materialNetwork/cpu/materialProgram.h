@@ -55,9 +55,10 @@ public:
     bool isOpaqueWith(const std::vector<int>& attributes) const;
 
     /// Presence of the surface, 0..1: the chance that a ray meets it at all, instead of passing
-    /// straight on. Lobes that would pass light straight on without tint are part of this and no
-    /// lobes of the Bsdf, so that shadow rays see through them; it then depends on viewDirection.
-    float opacity(const ShadingPoint& point) const;
+    /// straight on. What lobes would pass straight on is part of this and not of the Bsdf, so that
+    /// shadow rays see through them; it then depends on viewDirection.
+    /// @param passes if given: colour of the light that passes, divided by 1 - opacity
+    float opacity(const ShadingPoint& point, glm::vec3* passes = nullptr) const;
 
     /// Radiance emitted towards wo (world space, unit). Both sides emit.
     glm::vec3 emission(const ShadingPoint& point, const glm::vec3& wo) const;

@@ -168,11 +168,6 @@ void ProgramBuilder::bsdfOps(std::vector<bool>& needed) {
     bool hasInside = false;
     for (int i = 0; i <= _plan.bsdf; ++i)
         hasInside |= !_plan.thinWalled && refracts(_plan, _plan.closures[size_t(i)]);
-    for (int i = 0; i <= _plan.bsdf; ++i) {
-        const PlanClosure& c = _plan.closures[size_t(i)];
-        _tinted |= c.kind == ClosureKind::Multiply &&
-                   nodeOf(c.node).def->inputs[1].type == ValueType::Color3;
-    }
     std::vector<bool> reached(_plan.closures.size(), false);
     if (_plan.bsdf >= 0) reached[size_t(_plan.bsdf)] = true;
     for (int i = _plan.bsdf; i >= 0; --i)
@@ -273,7 +268,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
         operand.value = Value::makeFloat(0.0f);
         if (node.def->findInput(names[i]) >= 0) operand = closureInput(_plan, closure, names[i]);
         // Light goes straight through a thin wall; the layer above has taken what is reflected.
-        if (_plan.thinWalled && t.mode == sh::SCATTER_T &&
+        if (_plan.thinWalled && closure.fused && t.mode == sh::SCATTER_T &&
             closure.kind == ClosureKind::Dielectric && std::string(names[i]) == "ior") {
             operand = Operand();
             operand.value = Value::makeFloat(1.0f);
@@ -295,13 +290,14 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     _code->lobes.push_back(t);
 }
 
-/// Without tint and without bending: what a shadow ray may cross.
+/// Without bending: what a shadow ray may cross.
 bool ProgramBuilder::isStraight(const PlanClosure& closure) const {
-    if (closure.kind != ClosureKind::Dielectric || _tinted ||
-        scatterMode(_plan, closure) != sh::SCATTER_T ||
-        !isConstantValue(closureInput(_plan, closure, "tint"), 1.0f))
+    const bool dielectric = closure.kind == ClosureKind::Dielectric;
+    if ((!dielectric && closure.kind != ClosureKind::Schlick) ||
+        (scatterMode(_plan, closure) & sh::SCATTER_T) == 0)
         return false;
-    return _plan.thinWalled || isConstantValue(closureInput(_plan, closure, "ior"), 1.0f);
+    return _plan.thinWalled ||
+           (dielectric && isConstantValue(closureInput(_plan, closure, "ior"), 1.0f));
 }
 
 void ProgramBuilder::setFlags() {

@@ -28,7 +28,7 @@ struct LobeTemplate {
     bool constant = false;
     bool flagA = false; ///< retroreflective, or energy_compensation
     bool fused = false;
-    bool straight = false; ///< passes light straight on without tint: part of the presence
+    bool straight = false; ///< passes light straight on: part of the presence
     int mode = 0;          ///< SCATTER_*
     int compensate = 1;
     EnergyCurve energy; ///< of constant interfaces

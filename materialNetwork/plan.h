@@ -38,6 +38,7 @@ struct Plan {
     int bsdf = -1, edf = -1;           ///< roots in closures, -1 for none
     int vdf = -1, volumeEdf = -1;      ///< of the medium inside
     Operand opacity;                   ///< presence
+    int displacementNode = -1; ///< in graph.nodes; -1: the surface stays where it is
     bool thinWalled = false;
     bool volumeOnly = false; ///< a medium without a surface around it
     int compensate = 1;      ///< energy compensation of microfacet lobes (shaders/lib/energy.glsl)

@@ -1,6 +1,8 @@
 #include "hdDelegate/embree/embreeScene.h"
 
 #include "hdDelegate/embree/cameraRays.h"
+#include "hdDelegate/scene/displace.h"
+#include "hdDelegate/scene/splitTriangles.h"
 #include "hdDelegate/scene/tessellate.h"
 #include "materialNetwork/material.h"
 
@@ -124,7 +126,7 @@ int EmbreeScene::category(const std::string& name) const {
 }
 
 std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry>& prim,
-                                            float edgeLength) const {
+                                            float edgeLength, const Programs& displacers) const {
     auto surface = std::make_shared<Surface>();
     surface->prim = prim;
     TessellationOptions options;
@@ -147,7 +149,12 @@ std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry
         surface->points = buildPoints(static_cast<const Points&>(*prim), options, _diagnostics);
         break;
     }
-    bake(*surface, resample(prim->transform, _shutterOpen, _shutterClose));
+    const auto transforms = resample(prim->transform, _shutterOpen, _shutterClose);
+    if (!displacers.empty() && surface->shape == Surface::Shape::Triangles) {
+        splitTriangles(surface->mesh, edgeLength, options.triangleBudget);
+        displace(surface->mesh, displacers, transforms[transforms.size() / 2]);
+    }
+    bake(*surface, transforms);
     surface->stAttribute = surface->findAttribute("st");
     return surface;
 }
@@ -174,6 +181,28 @@ EmbreeScene::program(const std::string& path, const std::string& user, const Sce
                                          textures, _diagnostics, settings.methods);
     }
     return cached.program;
+}
+
+EmbreeScene::Programs EmbreeScene::displacers(const Geometry& prim, const SceneState& state,
+                                              const RenderSettings& settings,
+                                              TextureSource& textures) {
+    if (prim.kind != GeometryKind::Mesh && prim.kind != GeometryKind::Implicit) return {};
+    const auto mayDisplace = [&](const std::string& path) {
+        const auto found = state.materials.find(path);
+        return settings.enableSceneMaterials && found != state.materials.end() &&
+               found->second->network.terminals.count("displacement") > 0;
+    };
+    bool any = false;
+    Programs result;
+    const auto add = [&](const std::string& path) {
+        result.push_back(mayDisplace(path) ? program(path, prim.path, state, settings, textures)
+                                           : nullptr);
+        any |= result.back() && result.back()->hasDisplacement();
+    };
+    add(prim.material);
+    for (const GeomSubset& subset : prim.subsets)
+        add(subset.material.empty() ? prim.material : subset.material);
+    return any ? result : Programs();
 }
 
 MaterialSlot EmbreeScene::makeSlot(const Surface& surface, const std::string& materialPath,
@@ -273,23 +302,31 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
         std::shared_ptr<const Geometry> prim;
         CachedSurface* cached;
         float edge;
+        Programs displacers;
     };
     std::vector<Work> work;
     std::map<std::string, std::vector<mat4>> transformsOf;
     for (const auto& item : state.geometry) {
         const auto& prim = item.second;
         float edge = 0.0f;
-        if (prim->kind == GeometryKind::Mesh &&
-            static_cast<const Mesh&>(*prim).scheme != SubdivisionScheme::None &&
+        Programs moved = displacers(*prim, state, settings, textures);
+        if ((!moved.empty() ||
+             (prim->kind == GeometryKind::Mesh &&
+              static_cast<const Mesh&>(*prim).scheme != SubdivisionScheme::None)) &&
             settings.edgeLength > 0.0f) {
-            const Mesh& mesh = static_cast<const Mesh&>(*prim);
             vec3 lower(INFINITY), upper(-INFINITY);
-            if (!mesh.points.empty())
+            if (prim->kind == GeometryKind::Implicit) {
+                const Implicit& shape = static_cast<const Implicit&>(*prim);
+                upper = vec3(0.5f * std::max({2.0f * shape.radius, 2.0f * shape.radiusTop,
+                                              shape.height, shape.size}));
+                lower = -upper;
+            } else if (const Mesh& mesh = static_cast<const Mesh&>(*prim); !mesh.points.empty()) {
                 for (const vec3& p : mesh.points.first())
                     if (std::isfinite(p.x + p.y + p.z)) {
                         lower = glm::min(lower, p);
                         upper = glm::max(upper, p);
                     }
+            }
             auto places = transformsOf.find(prim->group);
             if (places == transformsOf.end()) {
                 std::vector<mat4> list;
@@ -311,7 +348,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
             }
             if (edge > 0.0f) edge = std::exp2(std::floor(std::log2(edge)));
         }
-        work.push_back({prim, &_surfaces[item.first], edge});
+        work.push_back({prim, &_surfaces[item.first], edge, std::move(moved)});
     }
     for (auto it = _surfaces.begin(); it != _surfaces.end();)
         it = state.geometry.count(it->first) ? std::next(it) : _surfaces.erase(it);
@@ -322,9 +359,11 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
     tbb::parallel_for(size_t(0), work.size(), [&](size_t i) {
         if (stop) return;
         CachedSurface& cached = *work[i].cached;
-        if (cached.prim == work[i].prim && cached.edgeLength == work[i].edge && cached.surface)
+        if (cached.prim == work[i].prim && cached.edgeLength == work[i].edge &&
+            cached.displacers == work[i].displacers && cached.surface)
             return;
-        cached = {work[i].prim, work[i].edge, shape(work[i].prim, work[i].edge)};
+        cached = {work[i].prim, work[i].edge, work[i].displacers,
+                  shape(work[i].prim, work[i].edge, work[i].displacers)};
     });
     if (stop) return;
 

@@ -67,8 +67,12 @@ private:
                                                    const SceneState& state,
                                                    const RenderSettings& settings,
                                                    TextureSource& textures);
-    std::shared_ptr<Surface> shape(const std::shared_ptr<const Geometry>& prim,
-                                   float edgeLength) const;
+    using Programs = std::vector<std::shared_ptr<const MaterialProgram>>;
+    /// The programs of a prim's materials as displace() takes them; empty when none displaces.
+    Programs displacers(const Geometry& prim, const SceneState& state,
+                        const RenderSettings& settings, TextureSource& textures);
+    std::shared_ptr<Surface> shape(const std::shared_ptr<const Geometry>& prim, float edgeLength,
+                                   const Programs& displacers) const;
     std::shared_ptr<InstancerNode> node(const std::shared_ptr<const Instancer>& prim);
     EmbreeGroup* buildGroup(const std::string& name, int depth);
     void gatherTransforms(const std::string& group, const mat4& tail, int depth,
@@ -79,6 +83,7 @@ private:
     struct CachedSurface {
         std::shared_ptr<const Geometry> prim;
         float edgeLength = 0.0f;
+        Programs displacers;
         std::shared_ptr<Surface> surface;
     };
     struct CachedProgram {

@@ -5,6 +5,7 @@
 #include "materialNetwork/cpu/programBuilder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace patina {
@@ -91,6 +92,17 @@ Medium MaterialProgram::interior(const ShadingPoint& point) const {
     RegisterFile registers(*_code);
     registers.run(*_code, _code->interiorCode, point);
     return build(registers.data());
+}
+
+glm::vec3 MaterialProgram::displacement(const ShadingPoint& point) const {
+    if (!_hasDisplacement) return glm::vec3(0.0f);
+    RegisterFile registers(*_code);
+    registers.run(*_code, _code->displacementCode, point);
+    const glm::vec4& value = registers.data()[_code->displacement];
+    const float scale = registers.data()[_code->displacementScale].x;
+    const glm::vec3 moved =
+        (_code->displacementIsVector ? glm::vec3(value) : glm::vec3(0.0f, 0.0f, value.x)) * scale;
+    return std::isfinite(moved.x + moved.y + moved.z) ? moved : glm::vec3(0.0f);
 }
 
 void MaterialProgram::evaluate(const ShadingPoint& point, Bsdf& out) const {

@@ -48,6 +48,7 @@ public:
     /// bends nothing.
     bool passingEnters() const { return _hasInterior && _passingEnters; }
     bool hasSubsurface() const { return _hasSubsurface; }
+    bool hasDisplacement() const { return _hasDisplacement; }
     bool usesUv() const { return _usesUv; } ///< reads texture coordinates
 
     /// @returns isOpaque() for a prim that lacks some primvars
@@ -65,6 +66,10 @@ public:
 
     /// The medium inside the object, as it is at this point.
     Medium interior(const ShadingPoint& point) const;
+
+    /// Where the surface is moved to: along tangent, bitangent and normal, object units. Zero for
+    /// values that are not finite.
+    glm::vec3 displacement(const ShadingPoint& point) const;
 
     /// Sets up the lobes at a point, seen from point.viewDirection.
     void evaluate(const ShadingPoint& point, Bsdf& out) const;
@@ -85,6 +90,7 @@ private:
     bool _hasInterior = false;
     bool _isVolumeOnly = false;
     bool _hasSubsurface = false;
+    bool _hasDisplacement = false;
     bool _passingEnters = false;
     bool _usesUv = false;
     std::unique_ptr<ProgramCode> _code;

@@ -360,6 +360,22 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
     emit(interior, _code->interiorCode);
     emit(opacity, _code->opacityCode);
 
+    if (_plan.displacementNode >= 0) {
+        const GraphNode& node = nodeOf(_plan.displacementNode);
+        std::vector<bool> needed(n, false);
+        const auto read = [&](const char* name) {
+            const Operand& operand = node.inputs[size_t(node.def->findInput(name))];
+            mark(operand, needed);
+            return registerOf(operand);
+        };
+        _code->displacement = read("displacement");
+        _code->displacementScale = read("scale");
+        _code->displacementIsVector =
+            node.def->inputs[size_t(node.def->findInput("displacement"))].type == ValueType::Vec3;
+        emit(needed, _code->displacementCode);
+        _program->_hasDisplacement = true;
+    }
+
     _code->opacityFromPrimvars = !_code->opacityCode.empty();
     for (const Instruction& instruction : _code->opacityCode)
         for (size_t i = 0; i < n; ++i)

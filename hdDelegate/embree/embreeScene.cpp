@@ -148,6 +148,7 @@ std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry
         surface->shape = Surface::Shape::Points;
         surface->points = buildPoints(static_cast<const Points&>(*prim), options, _diagnostics);
         break;
+    case GeometryKind::Volume: break; // no surface, see VolumeScene
     }
     const auto transforms = resample(prim->transform, _shutterOpen, _shutterClose);
     if (!displacers.empty() && surface->shape == Surface::Shape::Triangles) {
@@ -305,9 +306,14 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
         Programs displacers;
     };
     std::vector<Work> work;
+    std::vector<std::shared_ptr<const Volume>> volumes;
     std::map<std::string, std::vector<mat4>> transformsOf;
     for (const auto& item : state.geometry) {
         const auto& prim = item.second;
+        if (prim->kind == GeometryKind::Volume) {
+            volumes.push_back(std::static_pointer_cast<const Volume>(prim));
+            continue;
+        }
         float edge = 0.0f;
         Programs moved = displacers(*prim, state, settings, textures);
         if ((!moved.empty() ||
@@ -394,6 +400,23 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
     rtcGetSceneBounds(_world->scene, &bounds);
     _boundsMin = vec3(bounds.lower_x, bounds.lower_y, bounds.lower_z);
     _boundsMax = vec3(bounds.upper_x, bounds.upper_y, bounds.upper_z);
+    const auto volumeProgram = [&](const Volume& prim, const Network& plain) {
+        if (!prim.material.empty()) {
+            auto own = program(prim.material, prim.path, state, settings, textures);
+            if (own->hasInterior()) return own;
+            _diagnostics.warn(prim.path, "material:binding",
+                              "the material is not a volume; a white one is shown");
+        }
+        if (!_plainVolume) _plainVolume = compileMaterial(plain, textures, _diagnostics);
+        return _plainVolume;
+    };
+    _volumes.update(
+        volumes, volumeProgram, [&](const std::string& group) { return groupTransforms(group); },
+        _shutterOpen, _diagnostics);
+    if (!_volumes.empty()) {
+        _boundsMin = glm::min(_boundsMin, _volumes.boundsMin());
+        _boundsMax = glm::max(_boundsMax, _volumes.boundsMax());
+    }
     collectEmissive();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hdDelegate/embree/embreeGroup.h"
+#include "hdDelegate/embree/media/volumeScene.h"
 #include "hdDelegate/scene/camera.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
@@ -45,7 +46,8 @@ public:
                   unsigned mask) const;
 
     bool allOpaque() const { return _allOpaque; } ///< no material lets shadow rays through
-    bool hasMedia() const { return _hasMedia; }   ///< some material fills its object
+    const VolumeScene& volumes() const { return _volumes; }
+    bool hasMedia() const { return _hasMedia; } ///< some material fills its object
     const std::vector<EmissiveTriangle>& emissiveTriangles() const { return _emissive; }
     /// World transforms of a group (for lights inside prototypes).
     std::vector<mat4> groupTransforms(const std::string& group) const;
@@ -103,6 +105,8 @@ private:
     EmbreeGroup* _world = nullptr;
     std::vector<EmissiveTriangle> _emissive;
     std::map<std::string, int> _categoryIds;
+    VolumeScene _volumes;
+    std::shared_ptr<const MaterialProgram> _plainVolume;
     float _shutterOpen = 0.0f, _shutterClose = 0.0f;
     bool _allOpaque = true, _hasMedia = false;
     vec3 _boundsMin{0.0f}, _boundsMax{0.0f};

@@ -13,14 +13,6 @@
 
 namespace patina {
 
-namespace {
-
-vec3 transmittanceOf(const MediumStack& media, float distance) {
-    return media.empty() ? vec3(1.0f) : transmittance(media.extinction(), distance);
-}
-
-} // namespace
-
 Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
                        const CameraRays& camera, const RenderSettings& settings,
                        const std::vector<AovSpec>& aovs)
@@ -78,7 +70,7 @@ float Integrator::addLightsAlong(Path& path, float distance) const {
                 nearest = &hits[i];
         if (!nearest) return distance;
         path.radiance +=
-            path.throughput * transmittanceOf(path.media, nearest->distance) * nearest->radiance;
+            path.throughput * transmittanceTo(path, nearest->distance) * nearest->radiance;
         path.alpha = 1.0f;
         return nearest->distance;
     }
@@ -87,8 +79,8 @@ float Integrator::addLightsAlong(Path& path, float distance) const {
             path.specular ? 0.0f
                           : _lights.set().pdf(hits[i].light, path.vertex, path.vertexNormal,
                                               path.vertexTwoSided, path.time, hits[i]);
-        addLight(path, hits[i].light,
-                 transmittanceOf(path.media, hits[i].distance) * hits[i].radiance, lightPdf);
+        addLight(path, hits[i].light, transmittanceTo(path, hits[i].distance) * hits[i].radiance,
+                 lightPdf);
     }
     return distance;
 }
@@ -228,7 +220,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         const float distance = found ? hit.distance : path.far;
         float end = distance;
         if (hasFiniteLights && _settings.enableSceneLights) end = addLightsAlong(path, distance);
-        if (!path.media.empty()) {
+        if (!path.media.empty() || !_scene.volumes().empty()) {
             const Flight flight = fly(path, end, counters);
             if (flight == Flight::Ends) break;
             if (flight == Flight::Scatters) {

@@ -52,6 +52,9 @@ private:
     enum class Flight { Arrives, Scatters, Ends };
     /// Takes the path through the medium that it is in, up to `distance` or to where it scatters.
     Flight fly(Path& path, float distance, TraceCounters& counters) const;
+    /// What is left of light on the way of the path up to a distance.
+    vec3 transmittanceTo(const Path& path, float distance) const;
+    Flight scatter(Path& path, const Medium& medium, float distance, TraceCounters& counters) const;
     bool survivesRoulette(Path& path) const;
     void depart(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
                 const BsdfSample& next) const;

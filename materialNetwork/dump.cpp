@@ -51,6 +51,9 @@ public:
             if (_plan.graph.nodes[i].def->closure == ClosureKind::None)
                 text += "pattern %" + std::to_string(i) + " = " +
                         nodeText(_plan.graph, _plan.graph.nodes[i]) + "\n";
+        if (_plan.displacementNode >= 0)
+            text += "displacement " +
+                    nodeText(_plan.graph, _plan.graph.nodes[size_t(_plan.displacementNode)]) + "\n";
         int lobes = 0;
         for (size_t i = 0; i < _plan.closures.size(); ++i)
             if (_plan.closures[i].isLobe()) _lobe[i] = lobes++;

@@ -14,7 +14,7 @@ enum class ClosureKind {
     OrenNayar,
     Burley,
     Translucent,
-    Subsurface, ///< shown as diffuse
+    Subsurface,
     Dielectric,
     Conductor,
     Schlick,
@@ -29,6 +29,7 @@ enum class ClosureKind {
     SurfaceUnlit,
     Volume,
     Material,
+    Displacement,
     Unsupported ///< known by name and inputs; renders as nothing, with a warning
 };
 

@@ -109,9 +109,15 @@ private:
     void planDisplacement(const Operand& operand) {
         if (operand.isConstant()) return;
         const GraphNode& node = nodeOf(operand.node);
-        const int i = node.def->findInput("displacement");
-        if (i < 0 || !isConstantValue(node.inputs[size_t(i)], 0.0f))
-            leaveOut(node, "displacement is not modelled");
+        if (node.def->closure == ClosureKind::Material &&
+            node.def->findInput("displacementshader") >= 0)
+            planDisplacement(input(node, "displacementshader"));
+        else if (node.def->closure != ClosureKind::Displacement)
+            _diagnostics.warn(node.path, "displacement",
+                              node.def->category + " is not a displacement; it is ignored");
+        else if (!isConstantValue(input(node, "displacement"), 0.0f) &&
+                 !isConstantValue(input(node, "scale"), 0.0f))
+            _plan.displacementNode = operand.node;
     }
 
     void leaveOut(const GraphNode& node, const std::string& what) {
@@ -164,7 +170,8 @@ private:
             break;
         case ClosureKind::Conductor: checkMicrofacet(node); break;
         case ClosureKind::Subsurface:
-            leaveOut(node, "subsurface scattering is shown as diffuse");
+            if (_plan.thinWalled)
+                leaveOut(node, "a thin wall has no inside; subsurface scattering is diffuse");
             break;
         case ClosureKind::Unsupported:
             leaveOut(node, node.def->category + " is not modelled");

@@ -28,13 +28,17 @@ struct PlanClosure {
 /// - A reflection lobe over a transmission lobe is one interface ("fused"): the layer has already
 ///   taken what was reflected, so the transmission lobe leaves out its own loss. Without that the
 ///   loss would count twice.
-/// - thin_walled surfaces have no inside: transmission goes straight on and nothing is absorbed.
+/// - thin_walled surfaces have no inside: transmission goes straight on, tinted once, and nothing
+/// is
+///   absorbed. An interface of mode RT or T that lies under no reflection lobe is a slab with two
+///   faces, between which light bounces: it reflects 2 r / (1 + r) and passes (1 - r) / (1 + r).
 struct Plan {
     Graph graph;                       ///< simplified
     std::vector<PlanClosure> closures; ///< parts before wholes
     int bsdf = -1, edf = -1;           ///< roots in closures, -1 for none
     int vdf = -1, volumeEdf = -1;      ///< of the medium inside
     Operand opacity;                   ///< presence
+    int displacementNode = -1; ///< in graph.nodes; -1: the surface stays where it is
     bool thinWalled = false;
     bool volumeOnly = false; ///< a medium without a surface around it
     int compensate = 1;      ///< energy compensation of microfacet lobes (shaders/lib/energy.glsl)

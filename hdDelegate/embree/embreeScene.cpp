@@ -4,6 +4,8 @@
 #include "hdDelegate/embree/drawnPrims.h"
 #include "hdDelegate/embree/primCompare.h"
 #include "hdDelegate/embree/surfaceSpace.h"
+#include "hdDelegate/scene/displace.h"
+#include "hdDelegate/scene/splitTriangles.h"
 #include "hdDelegate/scene/tessellate.h"
 #include "materialNetwork/material.h"
 
@@ -73,7 +75,7 @@ int EmbreeScene::category(const std::string& name) const {
 }
 
 std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry>& prim,
-                                            float edgeLength) const {
+                                            float edgeLength, const Programs& displacers) const {
     auto surface = std::make_shared<Surface>();
     surface->prim = prim;
     TessellationOptions options;
@@ -95,22 +97,31 @@ std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry
         surface->shape = Surface::Shape::Points;
         surface->points = buildPoints(static_cast<const Points&>(*prim), options, _diagnostics);
         break;
+    case GeometryKind::Volume: break; // no surface, see VolumeScene
+    }
+    if (!displacers.empty() && surface->shape == Surface::Shape::Triangles) {
+        const auto transforms = resample(prim->transform, _shutterOpen, _shutterClose);
+        splitTriangles(surface->mesh, edgeLength, options.triangleBudget);
+        displace(surface->mesh, displacers, transforms[transforms.size() / 2]);
     }
     surface->stAttribute = surface->findAttribute("st");
     return surface;
 }
 
 void EmbreeScene::updateSurface(CachedSurface& cached, const std::shared_ptr<const Geometry>& prim,
-                                float edgeLength, bool keepRest) {
-    const bool reshape =
-        !cached.surface || cached.edgeLength != edgeLength || !sameShape(*cached.prim, *prim);
-    if (!reshape && sameTransform(cached.prim->transform, prim->transform)) {
+                                float edgeLength, const Programs& displacers, bool keepRest) {
+    const bool moved = cached.prim && !sameTransform(cached.prim->transform, prim->transform);
+    // Displacement reads the world.
+    const bool reshape = !cached.surface || cached.edgeLength != edgeLength ||
+                         cached.displacers != displacers || (moved && !displacers.empty()) ||
+                         !sameShape(*cached.prim, *prim);
+    if (!reshape && !moved) {
         cached.prim = cached.surface->prim = prim;
         return;
     }
     std::shared_ptr<Surface> surface;
     if (reshape || !cached.rest) {
-        surface = shape(prim, edgeLength);
+        surface = shape(prim, edgeLength, displacers);
         cached.rest = keepRest ? std::make_shared<const RestShape>(restOf(*surface)) : nullptr;
         ++_counts.tessellated;
     } else {
@@ -122,6 +133,7 @@ void EmbreeScene::updateSurface(CachedSurface& cached, const std::shared_ptr<con
     ++_counts.surfaces;
     cached.surface = std::move(surface);
     cached.edgeLength = edgeLength;
+    cached.displacers = displacers;
     cached.prim = prim;
 }
 
@@ -148,6 +160,28 @@ EmbreeScene::program(const std::string& path, const std::string& user, const Sce
                                          textures, _diagnostics, settings.methods);
     }
     return cached.program;
+}
+
+EmbreeScene::Programs EmbreeScene::displacers(const Geometry& prim, const SceneState& state,
+                                              const RenderSettings& settings,
+                                              TextureSource& textures) {
+    if (prim.kind != GeometryKind::Mesh && prim.kind != GeometryKind::Implicit) return {};
+    const auto mayDisplace = [&](const std::string& path) {
+        const auto found = state.materials.find(path);
+        return settings.enableSceneMaterials && found != state.materials.end() &&
+               found->second->network.terminals.count("displacement") > 0;
+    };
+    bool any = false;
+    Programs result;
+    const auto add = [&](const std::string& path) {
+        result.push_back(mayDisplace(path) ? program(path, prim.path, state, settings, textures)
+                                           : nullptr);
+        any |= result.back() && result.back()->hasDisplacement();
+    };
+    add(prim.material);
+    for (const GeomSubset& subset : prim.subsets)
+        add(subset.material.empty() ? prim.material : subset.material);
+    return any ? result : Programs();
 }
 
 MaterialSlot EmbreeScene::makeSlot(const Surface& surface, const std::string& materialPath,
@@ -278,8 +312,10 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
         CachedSurface* cached;
         float edge;
         int rank; ///< among all paths, drawn or not
+        Programs displacers;
     };
     std::vector<Work> work;
+    std::vector<std::shared_ptr<const Volume>> volumes;
     std::set<std::string> drawn;
     size_t primRank = 0;
     std::map<std::string, std::vector<mat4>> transformsOf;
@@ -287,19 +323,30 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
         const auto& prim = item.second;
         const int rank = int(primRank++);
         if (!isDrawn(*prim, settings)) continue;
+        if (prim->kind == GeometryKind::Volume) {
+            volumes.push_back(std::static_pointer_cast<const Volume>(prim));
+            continue;
+        }
         drawn.insert(item.first);
         float edge = 0.0f;
-        if (prim->kind == GeometryKind::Mesh &&
-            static_cast<const Mesh&>(*prim).scheme != SubdivisionScheme::None &&
+        Programs moved = displacers(*prim, state, settings, textures);
+        if ((!moved.empty() ||
+             (prim->kind == GeometryKind::Mesh &&
+              static_cast<const Mesh&>(*prim).scheme != SubdivisionScheme::None)) &&
             settings.edgeLength > 0.0f) {
-            const Mesh& mesh = static_cast<const Mesh&>(*prim);
             vec3 lower(INFINITY), upper(-INFINITY);
-            if (!mesh.points.empty())
+            if (prim->kind == GeometryKind::Implicit) {
+                const Implicit& shape = static_cast<const Implicit&>(*prim);
+                upper = vec3(0.5f * std::max({2.0f * shape.radius, 2.0f * shape.radiusTop,
+                                              shape.height, shape.size}));
+                lower = -upper;
+            } else if (const Mesh& mesh = static_cast<const Mesh&>(*prim); !mesh.points.empty()) {
                 for (const vec3& p : mesh.points.first())
                     if (std::isfinite(p.x + p.y + p.z)) {
                         lower = glm::min(lower, p);
                         upper = glm::max(upper, p);
                     }
+            }
             auto places = transformsOf.find(prim->group);
             if (places == transformsOf.end()) {
                 std::vector<mat4> list;
@@ -321,7 +368,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
             }
             if (edge > 0.0f) edge = std::exp2(std::floor(std::log2(edge)));
         }
-        work.push_back({prim, &_surfaces[item.first], edge, rank});
+        work.push_back({prim, &_surfaces[item.first], edge, rank, std::move(moved)});
     }
     for (auto it = _surfaces.begin(); it != _surfaces.end();)
         it = drawn.count(it->first) ? std::next(it) : _surfaces.erase(it);
@@ -332,9 +379,10 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
     tbb::parallel_for(size_t(0), work.size(), [&](size_t i) {
         if (stop) return;
         CachedSurface& cached = *work[i].cached;
-        if (cached.prim == work[i].prim && cached.edgeLength == work[i].edge && cached.surface)
+        if (cached.prim == work[i].prim && cached.edgeLength == work[i].edge &&
+            cached.displacers == work[i].displacers && cached.surface)
             return;
-        updateSurface(cached, work[i].prim, work[i].edge, settings.interactive);
+        updateSurface(cached, work[i].prim, work[i].edge, work[i].displacers, settings.interactive);
     });
     if (stop) return;
 
@@ -369,6 +417,23 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
     rtcGetSceneBounds(_world->scene, &bounds);
     _boundsMin = vec3(bounds.lower_x, bounds.lower_y, bounds.lower_z);
     _boundsMax = vec3(bounds.upper_x, bounds.upper_y, bounds.upper_z);
+    const auto volumeProgram = [&](const Volume& prim, const Network& plain) {
+        if (!prim.material.empty()) {
+            auto own = program(prim.material, prim.path, state, settings, textures);
+            if (own->hasInterior()) return own;
+            _diagnostics.warn(prim.path, "material:binding",
+                              "the material is not a volume; a white one is shown");
+        }
+        if (!_plainVolume) _plainVolume = compileMaterial(plain, textures, _diagnostics);
+        return _plainVolume;
+    };
+    _volumes.update(
+        volumes, volumeProgram, [&](const std::string& group) { return groupTransforms(group); },
+        _shutterOpen, _diagnostics);
+    if (!_volumes.empty()) {
+        _boundsMin = glm::min(_boundsMin, _volumes.boundsMin());
+        _boundsMax = glm::max(_boundsMax, _volumes.boundsMax());
+    }
     collectEmissive();
 }
 

@@ -2,6 +2,7 @@
 
 #include "hdDelegate/embree/embreeGroup.h"
 #include "hdDelegate/embree/surfaceSpace.h"
+#include "hdDelegate/embree/media/volumeScene.h"
 #include "hdDelegate/scene/camera.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
@@ -55,7 +56,8 @@ public:
                   unsigned mask) const;
 
     bool allOpaque() const { return _allOpaque; } ///< no material lets shadow rays through
-    bool hasMedia() const { return _hasMedia; }   ///< some material fills its object
+    const VolumeScene& volumes() const { return _volumes; }
+    bool hasMedia() const { return _hasMedia; } ///< some material fills its object
     const std::vector<EmissiveTriangle>& emissiveTriangles() const { return _emissive; }
     /// World transforms of a group (for lights inside prototypes).
     std::vector<mat4> groupTransforms(const std::string& group) const;
@@ -76,9 +78,11 @@ public:
     size_t bytes() const;                                 ///< of meshes and Embree's structures
 
 private:
+    using Programs = std::vector<std::shared_ptr<const MaterialProgram>>;
     struct CachedSurface {
         std::shared_ptr<const Geometry> prim;
         float edgeLength = 0.0f;
+        Programs displacers;
         std::shared_ptr<Surface> surface;
         std::shared_ptr<const RestShape> rest; ///< for interactive renders
     };
@@ -91,10 +95,14 @@ private:
                                                    const SceneState& state,
                                                    const RenderSettings& settings,
                                                    TextureSource& textures);
-    std::shared_ptr<Surface> shape(const std::shared_ptr<const Geometry>& prim,
-                                   float edgeLength) const;
+    /// The programs of a prim's materials as displace() takes them; empty when none displaces.
+    Programs displacers(const Geometry& prim, const SceneState& state,
+                        const RenderSettings& settings, TextureSource& textures);
+    /// Not baked yet.
+    std::shared_ptr<Surface> shape(const std::shared_ptr<const Geometry>& prim, float edgeLength,
+                                   const Programs& displacers) const;
     void updateSurface(CachedSurface& cached, const std::shared_ptr<const Geometry>& prim,
-                       float edgeLength, bool keepRest);
+                       float edgeLength, const Programs& displacers, bool keepRest);
     std::shared_ptr<InstancerNode> node(const std::shared_ptr<const Instancer>& prim);
     std::shared_ptr<InstancerNode> currentNode(const std::shared_ptr<const Instancer>& prim);
     EmbreeGroup* finishedGroup(const std::string& name) const; ///< by this update; or null
@@ -129,6 +137,8 @@ private:
     EmbreeGroup* _world = nullptr;
     std::vector<EmissiveTriangle> _emissive;
     std::map<std::string, int> _categoryIds;
+    VolumeScene _volumes;
+    std::shared_ptr<const MaterialProgram> _plainVolume;
     float _shutterOpen = 0.0f, _shutterClose = 0.0f;
     bool _allOpaque = true, _hasMedia = false;
     vec3 _boundsMin{0.0f}, _boundsMax{0.0f};

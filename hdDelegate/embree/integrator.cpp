@@ -13,14 +13,6 @@
 
 namespace patina {
 
-namespace {
-
-vec3 transmittanceOf(const MediumStack& media, float distance) {
-    return media.empty() ? vec3(1.0f) : transmittance(media.extinction(), distance);
-}
-
-} // namespace
-
 Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
                        const CameraRays& camera, const RenderSettings& settings,
                        const std::vector<AovSpec>& aovs)
@@ -78,7 +70,7 @@ float Integrator::addLightsAlong(Path& path, float distance) const {
                 nearest = &hits[i];
         if (!nearest) return distance;
         path.radiance +=
-            path.throughput * transmittanceOf(path.media, nearest->distance) * nearest->radiance;
+            path.throughput * transmittanceTo(path, nearest->distance) * nearest->radiance;
         path.alpha = 1.0f;
         return nearest->distance;
     }
@@ -87,8 +79,8 @@ float Integrator::addLightsAlong(Path& path, float distance) const {
             path.specular ? 0.0f
                           : _lights.set().pdf(hits[i].light, path.vertex, path.vertexNormal,
                                               path.vertexTwoSided, path.time, hits[i]);
-        addLight(path, hits[i].light,
-                 transmittanceOf(path.media, hits[i].distance) * hits[i].radiance, lightPdf);
+        addLight(path, hits[i].light, transmittanceTo(path, hits[i].distance) * hits[i].radiance,
+                 lightPdf);
     }
     return distance;
 }
@@ -185,6 +177,35 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
            visibility(path, across, origin, light.direction, light.distance, info, counters);
 }
 
+/// Sets the path on its way from a vertex, and keeps what later light hits have to know about it.
+void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
+                        const BsdfSample& next) const {
+    const ShadingPoint& s = point.shading;
+    const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
+    path.specular = (next.event & sh::LOBE_DELTA) != 0;
+    path.pdf = next.pdf;
+    path.vertex = s.position;
+    path.vertexNormal = back ? -s.normal : s.normal;
+    path.vertexTwoSided = bsdf.transmits();
+    path.vertexSurface = hit.surface;
+    path.vertexInstanceCategories = hit.instanceCategories;
+    path.diffuseShare = vec3(next.diffuse ? 1.0f : 0.0f);
+    path.specularShare = vec3(1.0f) - path.diffuseShare;
+    if (_lights.splitsLobes() && !path.specular) {
+        const BsdfEval f = bsdf.eval(next.wi);
+        const vec3 sum = f.diffuse + f.specular;
+        for (int c = 0; c < 3; ++c)
+            path.diffuseShare[c] = sum[c] > 0.0f ? f.diffuse[c] / sum[c] : 0.5f;
+        path.specularShare = vec3(1.0f) - path.diffuseShare;
+    }
+    const float away = glm::dot(next.wi, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
+    path.origin = s.position + s.geometricNormal * (away * point.offset);
+    path.direction = next.wi;
+    path.near = 0.0f;
+    path.far = INFINITY;
+    path.coneSpread = std::min(1.0f, path.coneSpread + 0.5f * next.roughness);
+}
+
 void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& counters) const {
     bool aovsWritten = _aovs.empty();
     int passed = 0;
@@ -199,7 +220,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         const float distance = found ? hit.distance : path.far;
         float end = distance;
         if (hasFiniteLights && _settings.enableSceneLights) end = addLightsAlong(path, distance);
-        if (!path.media.empty()) {
+        if (!path.media.empty() || !_scene.volumes().empty()) {
             const Flight flight = fly(path, end, counters);
             if (flight == Flight::Ends) break;
             if (flight == Flight::Scatters) {
@@ -223,9 +244,13 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
         const bool culled = path.fromCamera() &&
                             (back ? cullsBack(*hit.surface->prim) : cullsFront(*hit.surface->prim));
-        float opacity = culled ? 0.0f : point.slot->opaque ? 1.0f : program.opacity(s);
+        vec3 passes(1.0f);
+        const float opacity = culled               ? 0.0f
+                              : point.slot->opaque ? 1.0f
+                                                   : program.opacity(s, &passes);
         if (opacity < 1.0f && !(path.sampler.random() < opacity)) {
-            if (++passed > maxPassThroughs) break;
+            path.throughput *= passes;
+            if (++passed > maxPassThroughs || path.throughput == vec3(0.0f)) break;
             if (program.passingEnters() && !culled) path.media.cross(program, s);
             path.origin = s.position + path.direction * std::max(point.offset, 1e-7f);
             path.near = 0.0f;
@@ -235,6 +260,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
 
         Bsdf bsdf;
         program.evaluate(s, bsdf);
+        if (program.hasSubsurface()) bsdf.walkSubsurface();
         if (!aovsWritten) {
             writeAovs(_aovs, target, _camera, point, bsdf);
             aovsWritten = true;
@@ -251,34 +277,15 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         if (next.event == 0) break;
         path.throughput *= next.weight;
         if (!(luminance(path.throughput) > 0.0f)) break;
-        const bool transmits = (next.event & sh::LOBE_TRANSMIT) != 0;
-        if (transmits) path.media.cross(program, s);
-        path.specular = (next.event & sh::LOBE_DELTA) != 0;
-        path.pdf = next.pdf;
-        path.vertex = s.position;
-        path.vertexNormal = back ? -s.normal : s.normal;
-        path.vertexTwoSided = bsdf.transmits();
-        path.vertexSurface = hit.surface;
-        path.vertexInstanceCategories = hit.instanceCategories;
-        path.diffuseShare = vec3(next.diffuse ? 1.0f : 0.0f);
-        path.specularShare = vec3(1.0f) - path.diffuseShare;
-        if (_lights.splitsLobes() && !path.specular) {
-            const BsdfEval f = bsdf.eval(next.wi);
-            const vec3 sum = f.diffuse + f.specular;
-            for (int c = 0; c < 3; ++c)
-                path.diffuseShare[c] = sum[c] > 0.0f ? f.diffuse[c] / sum[c] : 0.5f;
-            path.specularShare = vec3(1.0f) - path.diffuseShare;
+        if ((next.event & LOBE_SUBSURFACE) != 0) {
+            if (!passBeneath(path, point, hit, bsdf.subsurface(next), counters)) break;
+        } else {
+            if ((next.event & sh::LOBE_TRANSMIT) != 0) path.media.cross(program, s);
+            depart(path, point, hit, bsdf, next);
         }
-
         ++path.depth;
         if (!survivesRoulette(path)) break;
-        const float away = glm::dot(next.wi, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
-        path.origin = s.position + s.geometricNormal * (away * point.offset);
-        path.direction = next.wi;
-        path.near = 0.0f;
-        path.far = INFINITY;
         path.coneWidth = width;
-        path.coneSpread = std::min(1.0f, path.coneSpread + 0.5f * next.roughness);
         travelled = 0.0f;
     }
 }

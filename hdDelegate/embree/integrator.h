@@ -52,7 +52,16 @@ private:
     enum class Flight { Arrives, Scatters, Ends };
     /// Takes the path through the medium that it is in, up to `distance` or to where it scatters.
     Flight fly(Path& path, float distance, TraceCounters& counters) const;
+    /// What is left of light on the way of the path up to a distance.
+    vec3 transmittanceTo(const Path& path, float distance) const;
+    Flight scatter(Path& path, const Medium& medium, float distance, TraceCounters& counters) const;
     bool survivesRoulette(Path& path) const;
+    void depart(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
+                const BsdfSample& next) const;
+    /// Takes the path through subsurface scattering, light at its exit included.
+    /// @returns false when the path ends beneath the surface
+    bool passBeneath(Path& path, const SurfacePoint& point, const Hit& hit,
+                     const SubsurfaceEntry& entry, TraceCounters& counters) const;
     vec3 visibility(const Path& path, const MediumStack& media, const vec3& origin,
                     const vec3& direction, float distance, const LightInfo& light,
                     TraceCounters& counters) const;

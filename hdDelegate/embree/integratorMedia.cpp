@@ -1,6 +1,9 @@
 #include "hdDelegate/embree/integrator.h"
 
 #include "hdDelegate/embree/media/freeFlight.h"
+#include "hdDelegate/embree/media/randomWalk.h"
+
+#include "materialNetwork/cpu/shadingFrame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,26 +30,62 @@ vec3 Integrator::mediumLight(const Path& path, const vec3& position, const Phase
            visibility(path, path.media, position, light.direction, light.distance, info, counters);
 }
 
-Integrator::Flight Integrator::fly(Path& path, float distance, TraceCounters& counters) const {
-    const Medium& medium = path.media.medium();
-    const vec3 extinction = path.media.extinction();
-    if (medium.emission != vec3(0.0f))
-        addRadiance(path, emissionAlong(medium.emission, extinction, distance));
-    if (!medium.scatters()) {
-        path.throughput *= transmittance(extinction, distance);
-        return Flight::Arrives;
-    }
-    const FreeFlight flight = sampleFreeFlight(extinction, path.media.scattering(), path.throughput,
-                                               distance, path.sampler.next2());
-    path.throughput *= flight.weight;
-    if (!(luminance(path.throughput) > 0.0f)) return Flight::Ends;
-    if (!flight.scattered) return Flight::Arrives;
+vec3 Integrator::transmittanceTo(const Path& path, float distance) const {
+    vec3 left(1.0f);
+    if (!path.media.empty()) left = transmittance(path.media.extinction(), distance);
+    if (!_scene.volumes().empty())
+        left *= _scene.volumes().transmittance(path.origin, path.direction, distance, false,
+                                               path.sampler);
+    return left;
+}
 
+Integrator::Flight Integrator::fly(Path& path, float distance, TraceCounters& counters) const {
+    const bool fills = !path.media.empty();
+    const vec3 extinction = fills ? path.media.extinction() : vec3(0.0f);
+    const vec3 scattering = fills ? path.media.scattering() : vec3(0.0f);
+    if (fills && path.media.medium().emission != vec3(0.0f))
+        addRadiance(path, emissionAlong(path.media.medium().emission, extinction, distance));
+    FreeFlight flight;
+    flight.distance = distance;
+    if (scattering != vec3(0.0f))
+        flight = sampleFreeFlight(extinction, scattering, path.throughput, distance,
+                                  path.sampler.next2());
+    VolumeScene::Collision collision;
+    vec3 through(1.0f);
+    if (!_scene.volumes().empty()) {
+        through = path.throughput;
+        collision = _scene.volumes().track(path.origin, path.direction, flight.distance,
+                                           path.fromCamera(), through, path.sampler);
+        if (collision.emitted != vec3(0.0f)) {
+            // It holds the throughput already.
+            const vec3 before = path.throughput;
+            path.throughput = vec3(1.0f);
+            addRadiance(path, collision.emitted);
+            path.throughput = before;
+        }
+        if (collision.absorbed) return Flight::Ends;
+    }
+    // A volume that scatters before the medium does cuts the flight through the medium short.
+    const bool inMedium = flight.scattered && !collision.scattered;
+    const float way = collision.scattered ? collision.distance : flight.distance;
+    const vec3 weight =
+        fills ? weighFreeFlight(extinction, scattering, path.throughput, way, inMedium).weight
+              : vec3(1.0f);
+    if (!_scene.volumes().empty()) path.throughput = through;
+    path.throughput *= weight;
+    if (!(luminance(path.throughput) > 0.0f)) return Flight::Ends;
+    if (collision.scattered) return scatter(path, collision.medium, way, counters);
+    if (!inMedium) return Flight::Arrives;
+    return scatter(path, Medium(path.media.medium()), way, counters);
+}
+
+Integrator::Flight Integrator::scatter(Path& path, const Medium& medium, float distance,
+                                       TraceCounters& counters) const {
     if (path.fromCamera()) path.alpha = 1.0f;
     if (path.depth >= _settings.maxDepth || path.scatterings >= _settings.maxScatterings)
         return Flight::Ends;
     ++path.scatterings;
-    const vec3 position = path.origin + path.direction * flight.distance;
+    const vec3 position = path.origin + path.direction * distance;
     const PhaseMixture phase(medium, path.throughput);
     const vec4 u = path.sampler.next4();
     if (!_lights.set().empty())
@@ -65,13 +104,59 @@ Integrator::Flight Integrator::fly(Path& path, float distance, TraceCounters& co
     path.vertexInstanceCategories = nullptr;
     path.diffuseShare = vec3(1.0f);
     path.specularShare = vec3(0.0f);
-    path.coneWidth += path.coneSpread * flight.distance;
+    path.coneWidth += path.coneSpread * distance;
     path.coneSpread = std::min(1.0f, path.coneSpread + 0.5f);
     path.origin = position;
     path.direction = next.wi;
     path.near = 0.0f;
     path.far = INFINITY;
     return Flight::Scatters;
+}
+
+bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& hit,
+                             const SubsurfaceEntry& entry, TraceCounters& counters) const {
+    const ShadingPoint& s = point.shading;
+    const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
+    const vec3 outside = back ? -s.geometricNormal : s.geometricNormal;
+    // Cosine about the geometric normal: beneath the surface there is no shading normal.
+    const vec3 w = sh::sampleCosineHemisphere(path.sampler.next2());
+    vec3 x, y;
+    completeBasis(-outside, x, y);
+    const vec3 inwards = x * w.x + y * w.y - outside * w.z;
+
+    WalkExit exit;
+    // A walk that is too short to be told from staying where it is ends as on an open mesh:
+    // diffuse.
+    const vec3& radius = entry.radius;
+    exit.open = !(std::max({radius.x, radius.y, radius.z}) > 4.0f * point.offset);
+    if (!exit.open) {
+        const bool flat = hit.surface->shape == Surface::Shape::Triangles;
+        const vec3 start = flat ? s.position : s.position - outside * point.offset;
+        exit = walkBeneath(_scene, walkMedium(entry, point.offset), hit, back, start, inwards,
+                           path.sampler, counters.rays);
+    }
+    path.throughput *= exit.open ? entry.color * exit.weight : exit.weight;
+    if (!(luminance(path.throughput) > 0.0f)) return false;
+
+    // Light leaves as from a white diffuse surface, wherever that is.
+    SurfacePoint leaving = point;
+    leaving.hit = &hit;
+    if (exit.found)
+        computeSurfacePoint(exit.hit, exit.origin, exit.direction, path.coneWidth, leaving);
+    ShadingPoint& there = leaving.shading;
+    const vec3 up = back ? -there.geometricNormal : there.geometricNormal;
+    there.viewDirection = up;
+    Bsdf bsdf;
+    bsdf.makeDiffuse(back ? -there.normal : there.normal, up);
+    const Hit& exitHit = exit.found ? exit.hit : hit;
+    const vec4 uLight = path.sampler.next4();
+    if (!_lights.set().empty())
+        addRadiance(path, directLight(path, leaving, bsdf, exitHit, vec3(uLight), counters));
+    const BsdfSample next = bsdf.sample(vec3(path.sampler.next2(), 0.0f), 0.0f);
+    if (next.event == 0) return false;
+    path.throughput *= next.weight;
+    depart(path, leaving, exitHit, bsdf, next);
+    return true;
 }
 
 /// A path that scatters in a bright medium goes on for long and should: it is only ended for what

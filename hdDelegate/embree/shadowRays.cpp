@@ -33,6 +33,11 @@ vec3 Integrator::visibility(const Path& path, const MediumStack& media, const ve
         return stack.empty() ? vec3(1.0f) : transmittance(stack.extinction(), length);
     };
     if (!light.castsShadows || !_settings.enableShadows) return left(media, distance);
+    const auto volumes = [&] {
+        return _scene.volumes().empty() ? vec3(1.0f)
+                                        : _scene.volumes().transmittance(
+                                              origin, direction, distance, true, path.sampler);
+    };
     float far = distance * (1.0f - 1e-4f);
     if (light.shadowDistance > 0.0f) far = std::min(far, light.shadowDistance);
     ++counters.shadowRays;
@@ -40,7 +45,8 @@ vec3 Integrator::visibility(const Path& path, const MediumStack& media, const ve
                         light.shadowFalloff <= 0.0f;
     if (simple) {
         const bool blocked = _scene.occluded(origin, direction, 0.0f, far, path.time, RayShadow);
-        return (blocked ? light.shadowColor : vec3(1.0f)) * left(media, distance);
+        const vec3 seen = blocked ? light.shadowColor : vec3(1.0f);
+        return seen == vec3(0.0f) ? seen : seen * left(media, distance) * volumes();
     }
     MediumStack here = media;
     vec3 through(1.0f);
@@ -52,13 +58,17 @@ vec3 Integrator::visibility(const Path& path, const MediumStack& media, const ve
         computeSurfacePoint(hit, origin, direction, 0.0f, point);
         if (linked(light.shadowCategory, hit.surface, hit.instanceCategories)) {
             const MaterialProgram& program = *point.slot->program;
-            float opacity = point.slot->opaque ? 1.0f : program.opacity(point.shading);
+            vec3 passes(1.0f);
+            const float opacity =
+                point.slot->opaque ? 1.0f : program.opacity(point.shading, &passes);
+            passes *= 1.0f - opacity;
             if (light.shadowFalloff > 0.0f && light.shadowDistance > 0.0f) {
                 const float fade = std::clamp(
                     (light.shadowDistance - hit.distance) / light.shadowFalloff, 0.0f, 1.0f);
-                opacity *= std::pow(fade, std::max(light.shadowFalloffGamma, 1e-3f));
+                passes = glm::mix(vec3(1.0f), passes,
+                                  std::pow(fade, std::max(light.shadowFalloffGamma, 1e-3f)));
             }
-            through *= 1.0f - opacity;
+            through *= passes;
             if (program.passingEnters()) {
                 through *= left(here, hit.distance - last);
                 last = hit.distance;
@@ -67,7 +77,7 @@ vec3 Integrator::visibility(const Path& path, const MediumStack& media, const ve
         }
         near = hit.distance + std::max(point.offset, hit.distance * 1e-6f);
     }
-    through *= left(here, distance - last);
+    if (through != vec3(0.0f)) through *= left(here, distance - last) * volumes();
     return through + (1.0f - through) * light.shadowColor;
 }
 

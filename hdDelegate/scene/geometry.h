@@ -2,6 +2,8 @@
 
 #include "hdDelegate/scene/types.h"
 
+#include <memory>
+
 namespace patina {
 
 /// Faces (or curves, or points) of a prim with a material of their own.
@@ -19,7 +21,7 @@ struct Visibility {
 };
 
 enum class SubdivisionScheme { None, CatmullClark, Loop, Bilinear };
-enum class GeometryKind { Mesh, Curves, Points, Implicit };
+enum class GeometryKind { Mesh, Curves, Points, Implicit, Volume };
 
 /// What all gprims share.
 struct Geometry {
@@ -99,6 +101,24 @@ struct Implicit : Geometry {
     Implicit() { kind = GeometryKind::Implicit; }
 };
 
+class FieldGrid;
+
+/// A field of a volume: a grid of values in space.
+struct VolumeField {
+    std::string name;                      ///< that materials know it by
+    std::string file;                      ///< OpenVDB, resolved path
+    std::string field;                     ///< name of the grid in the file
+    std::shared_ptr<const FieldGrid> grid; ///< if given, instead of a file
+};
+
+/// UsdVolVolume. Its material is a volume shader, evaluated at every point with the fields as
+/// primvars. A material that reads none of them is scaled by the field `density`.
+struct Volume : Geometry {
+    std::vector<VolumeField> fields;
+
+    Volume() { kind = GeometryKind::Volume; }
+};
+
 /// Many copies of prototypes. A prototype is a group: every prim whose `group` is its name, and
 /// every instancer whose `group` is its name (that is how instancers nest).
 struct Instancer {
@@ -108,8 +128,8 @@ struct Instancer {
     std::vector<int> prototypeIndices;       ///< per instance, into prototypes
     std::vector<MotionTransform> transforms; ///< per instance, local to group
     std::vector<int> ids; ///< per instance, for the instanceId AOV; empty = index
-    /// Per prototype: how many ids there are. The AOV then holds all levels of nesting in one number,
-    /// outer id * count + own id; empty: it holds the innermost id.
+    /// Per prototype: how many ids there are. The AOV then holds all levels of nesting in one
+    /// number, outer id * count + own id; empty: it holds the innermost id.
     std::vector<int> idCounts;
     std::vector<std::vector<std::string>>
         categories;                ///< per instance (light linking); empty = none

@@ -165,7 +165,7 @@ void writeImplicit(Writer& w, const Implicit& i) {
 }
 
 void writeGeometry(Writer& w, const Geometry& g) {
-    static const char* const kinds[] = {"Mesh", "Curves", "Points", "Implicit"};
+    static const char* const kinds[] = {"Mesh", "Curves", "Points", "Implicit", "Volume"};
     w.prim(kinds[int(g.kind)], g.path);
     w.field("group", g.group, std::string());
     w.transform("transform", g.transform);
@@ -183,6 +183,9 @@ void writeGeometry(Writer& w, const Geometry& g) {
         w.line("basis", basisNames[int(curves->basis)]);
         if (curves->wrap != CurveWrap::Nonperiodic) w.line("wrap", wrapNames[int(curves->wrap)]);
     }
+    if (const auto* volume = dynamic_cast<const Volume*>(&g))
+        for (const VolumeField& f : volume->fields)
+            w.line("field " + f.name, text(f.file) + " " + text(f.field));
     for (const GeomSubset& s : g.subsets)
         w.array("subset " + s.path + " material " + text(s.material), s.faces);
     writePrimvars(w, g.primvars);

@@ -1,6 +1,7 @@
 #include "materialNetwork/cpu/bsdf.h"
 
 #include "materialNetwork/cpu/lobeOps.h"
+#include "materialNetwork/cpu/shadingFrame.h"
 
 namespace patina {
 
@@ -12,6 +13,7 @@ BsdfEval Bsdf::eval(const glm::vec3& wi) const {
     for (int i = 0; i < _lobeCount; ++i) {
         const BsdfLobe& l = _lobes[i];
         const BsdfFrame& f = _frames[l.frame];
+        if (_walks && l.kind == LobeKind::Subsurface) continue;
         if (l.frame != frame) {
             local = f.toLocal(wi);
             frame = l.frame;
@@ -32,6 +34,16 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
         sum += _lobes[++chosen].probability;
     const BsdfLobe& l = _lobes[chosen];
     const BsdfFrame& f = _frames[l.frame];
+    result.lobe = chosen;
+    if (_walks && l.kind == LobeKind::Subsurface) {
+        result.wi = _woOutside ? -_geometricNormal : _geometricNormal;
+        result.weight = l.weight / l.probability;
+        result.pdf = l.probability;
+        result.event = LOBE_SUBSURFACE | sh::LOBE_TRANSMIT | sh::LOBE_DELTA;
+        result.diffuse = true;
+        result.roughness = 1.0f;
+        return result;
+    }
     const sh::LobeSample s = lobeSample(l, f.wo, u);
     if (s.event == 0) return result;
     const glm::vec3 wi = f.toWorld(s.wi);
@@ -53,6 +65,7 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
     for (int i = 0; i < _lobeCount; ++i) {
         if (i == chosen) continue;
         const BsdfLobe& other = _lobes[i];
+        if (_walks && other.kind == LobeKind::Subsurface) continue;
         const BsdfFrame& frame = _frames[other.frame];
         const glm::vec3 local = other.frame == l.frame ? s.wi : frame.toLocal(wi);
         if (((local.z > 0.0f) == (frame.wo.z >= 0.0f)) != reflects) continue;
@@ -63,6 +76,37 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
     result.weight = pdf > 0.0f ? value / pdf : glm::vec3(0.0f);
     result.pdf = pdf;
     return result;
+}
+
+void Bsdf::walkSubsurface() {
+    _walks = true;
+    _nonDelta = false;
+    for (int i = 0; i < _lobeCount; ++i)
+        _nonDelta |= _lobes[i].kind != LobeKind::Subsurface && lobeNonDelta(_lobes[i]);
+}
+
+SubsurfaceEntry Bsdf::subsurface(const BsdfSample& sample) const {
+    const SubsurfaceLobe& l = _lobes[sample.lobe].subsurface;
+    return {l.diffuse.color, l.radius, l.anisotropy};
+}
+
+void Bsdf::makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal) {
+    _lobeCount = 1;
+    _nonDelta = true;
+    _transmits = _walks = false;
+    _woOutside = true;
+    _geometricNormal = geometricNormal;
+    BsdfFrame& f = _frames[0];
+    f.normal = normal;
+    completeBasis(normal, f.tangent, f.bitangent);
+    f.wo = glm::vec3(0, 0, 1);
+    BsdfLobe& l = _lobes[0];
+    l.kind = LobeKind::OrenNayar;
+    l.diffuse = true;
+    l.frame = 0;
+    l.probability = 1.0f;
+    l.weight = l.albedo = glm::vec3(1.0f);
+    l.orenNayar = sh::orenNayarSetup(glm::vec3(1.0f), 0.0f, false);
 }
 
 glm::vec3 Bsdf::albedo() const {

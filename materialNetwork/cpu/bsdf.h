@@ -16,6 +16,17 @@ struct BsdfEval {
     float pdf = 0.0f;         ///< solid angle
 };
 
+/// BsdfSample::event bit: light enters to be scattered beneath the surface, see SubsurfaceEntry.
+constexpr int LOBE_SUBSURFACE = 8;
+
+/// What light meets that has gone beneath the surface. It enters spread by the cosine (Lambert),
+/// scatters, and leaves spread by the cosine again.
+struct SubsurfaceEntry {
+    glm::vec3 color{0.0f};  ///< albedo of an infinitely thick object under diffuse light
+    glm::vec3 radius{0.0f}; ///< mean free path per channel, scene units
+    float anisotropy = 0.0f;
+};
+
 struct BsdfSample {
     glm::vec3 wi{0.0f};
     glm::vec3 weight{0.0f}; ///< f |cos| / pdf over all lobes (of the delta lobe alone when delta)
@@ -23,10 +34,26 @@ struct BsdfSample {
     int event = 0;          ///< LOBE_REFLECT, LOBE_TRANSMIT, LOBE_DELTA bits; 0: no sample
     bool diffuse = false;   ///< which kind of lobe was drawn
     float eta = 1.0f;       ///< ior ratio crossed
+    int lobe = -1;          ///< that was drawn
     float roughness = 0.0f; ///< GGX alpha of the lobe drawn (1 for diffuse), to widen the ray cone
 };
 
-enum class LobeKind : uint8_t { OrenNayar, Burley, Translucent, Dielectric, Conductor, Schlick };
+enum class LobeKind : uint8_t {
+    OrenNayar,
+    Burley,
+    Translucent,
+    Dielectric,
+    Conductor,
+    Schlick,
+    Subsurface
+};
+
+/// Subsurface scattering. Where nobody walks beneath the surface it shows as diffuse.
+struct SubsurfaceLobe {
+    sh::OrenNayarLobe diffuse;
+    glm::vec3 radius;
+    float anisotropy;
+};
 
 /// A leaf of the BSDF, ready for one shading point.
 struct BsdfLobe {
@@ -44,6 +71,7 @@ struct BsdfLobe {
         sh::DielectricLobe dielectric;
         sh::ConductorLobe conductor;
         sh::SchlickLobe schlick;
+        SubsurfaceLobe subsurface;
     };
 };
 
@@ -81,6 +109,15 @@ public:
     /// @param u for the direction; @param uLobe for the choice of the lobe; all in [0, 1)
     BsdfSample sample(const glm::vec3& u, float uLobe) const;
 
+    /// From now on subsurface lobes are events: eval() leaves them out, and sample() returns
+    /// LOBE_SUBSURFACE with the inward normal as direction, and a weight without their colour.
+    void walkSubsurface();
+    /// @param sample one with LOBE_SUBSURFACE
+    SubsurfaceEntry subsurface(const BsdfSample& sample) const;
+
+    /// Makes this a white Lambert reflector of the normal.
+    void makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal);
+
     /// @returns directional albedo of the whole material at wo (reflection and transmission)
     glm::vec3 albedo() const;
 
@@ -101,6 +138,7 @@ private:
     int _lobeCount = 0;
     bool _nonDelta = false;
     bool _transmits = false;
+    bool _walks = false;    ///< subsurface lobes are events
     bool _woOutside = true; ///< wo lies on the front side of the geometry
     glm::vec3 _geometricNormal;
     BsdfFrame _frames[maxFrames];

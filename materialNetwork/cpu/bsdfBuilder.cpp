@@ -30,37 +30,60 @@ glm::vec3 factor(const glm::vec4& c) {
 
 void BsdfBuilder::build(const ProgramCode& code, const ShadingPoint& point,
                         const glm::vec4* registers, Bsdf& out) {
-    place(code, point, registers, out);
+    Wall walls[Bsdf::maxLobes];
+    place(code, point, registers, walls, out);
     if (code.lobes.empty()) return;
     if (code.hasStraight) {
         // The surface is only met with the chance that light does not pass straight.
-        const float met = 1.0f - straightWeight(code, out);
+        const float met = 1.0f - largest(glm::vec4(straightWeight(code, walls, out), 0.0f));
         const float scale = met > 0.0f ? 1.0f / met : 0.0f;
         for (size_t i = 0; i < code.lobes.size(); ++i)
-            out._lobes[i].weight *= code.lobes[i].straight ? 0.0f : scale;
+            out._lobes[i].weight *=
+                code.lobes[i].straight ? walls[i].reflected * scale : glm::vec3(scale);
     }
     choose(code, out);
 }
 
-float BsdfBuilder::straight(const ProgramCode& code, const ShadingPoint& point,
-                            const glm::vec4* registers) {
+glm::vec3 BsdfBuilder::straight(const ProgramCode& code, const ShadingPoint& point,
+                                const glm::vec4* registers) {
     Bsdf bsdf;
-    place(code, point, registers, bsdf);
-    return straightWeight(code, bsdf);
+    Wall walls[Bsdf::maxLobes];
+    place(code, point, registers, walls, bsdf);
+    return straightWeight(code, walls, bsdf);
 }
 
-float BsdfBuilder::straightWeight(const ProgramCode& code, const Bsdf& bsdf) {
-    float sum = 0.0f;
+glm::vec3 BsdfBuilder::straightWeight(const ProgramCode& code, const Wall* walls,
+                                      const Bsdf& bsdf) {
+    glm::vec3 sum(0.0f);
     for (size_t i = 0; i < code.lobes.size(); ++i)
-        if (code.lobes[i].straight) sum += bsdf._lobes[i].weight.x;
-    return unit(sum);
+        if (code.lobes[i].straight) sum += bsdf._lobes[i].weight * walls[i].passed;
+    return {unit(sum.x), unit(sum.y), unit(sum.z)};
+}
+
+/// Both faces of the wall reflect: light bounces between them, and the sums of the series are what
+/// passes and what comes back. Of a lobe beneath a reflecting one all passes, for that has taken
+/// its share. Roughness blurs the reflection only.
+template <class Interface>
+BsdfBuilder::Wall BsdfBuilder::wallOf(BsdfLobe& lobe, Interface& interface, const glm::vec3& tint,
+                                      const glm::vec3& wo) {
+    Wall wall;
+    const glm::vec3 once = interface.fused ? glm::vec3(0.0f) : lobeEnergy(lobe, wo).r;
+    wall.passed = tint * (1.0f - once) / (1.0f + once);
+    wall.reflected = glm::vec3(0.0f);
+    if (interface.mode == sh::SCATTER_RT) {
+        wall.reflected = 2.0f / (1.0f + once);
+        interface.mode = sh::SCATTER_R;
+        lobe.albedo = tint * once;
+    }
+    return wall;
 }
 
 void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
-                        const glm::vec4* registers, Bsdf& out) {
+                        const glm::vec4* registers, Wall* walls, Bsdf& out) {
     out._lobeCount = 0;
     out._nonDelta = false;
     out._transmits = false;
+    out._walks = false;
     out._geometricNormal = point.geometricNormal;
     out._woOutside = glm::dot(point.viewDirection, point.geometricNormal) >= 0.0f;
     if (code.lobes.empty()) return;
@@ -89,6 +112,10 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
         l.albedo = glm::vec3(0.0f);
         if (registers[t.weight].x > 0.0f)
             kept[i] = unit(lobeFixWo(l, out._frames[l.frame].wo, t.energy));
+        if (!t.straight) continue;
+        const glm::vec3& wo = out._frames[l.frame].wo;
+        walls[i] = l.kind == LobeKind::Dielectric ? wallOf(l, l.dielectric, l.dielectric.tint, wo)
+                                                  : wallOf(l, l.schlick, glm::vec3(1.0f), wo);
     }
     setWeights(code, registers, kept, out);
 }

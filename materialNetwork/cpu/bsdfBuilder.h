@@ -11,15 +11,24 @@ public:
     static void build(const ProgramCode& code, const ShadingPoint& point,
                       const glm::vec4* registers, Bsdf& out);
 
-    /// @returns the share of light that lobes pass straight on, 0..1. Those lobes are no part of
-    /// what build() makes; they count as absence of the surface.
-    static float straight(const ProgramCode& code, const ShadingPoint& point,
-                          const glm::vec4* registers);
+    /// @returns the share of light that lobes pass straight on, 0..1. It is no part of what build()
+    /// makes, and counts as absence of the surface.
+    static glm::vec3 straight(const ProgramCode& code, const ShadingPoint& point,
+                              const glm::vec4* registers);
 
 private:
+    /// What a lobe of a thin wall, or between equal media, does to light.
+    struct Wall {
+        glm::vec3 passed;    ///< share that goes straight on, without the lobe's weight
+        glm::vec3 reflected; ///< factor on the reflection that is left as a lobe
+    };
+
+    /// @param walls is set for lobes that pass light straight on
     static void place(const ProgramCode& code, const ShadingPoint& point,
-                      const glm::vec4* registers, Bsdf& out);
-    static float straightWeight(const ProgramCode& code, const Bsdf& bsdf);
+                      const glm::vec4* registers, Wall* walls, Bsdf& out);
+    template <class Interface> static Wall wallOf(BsdfLobe& lobe, Interface& interface,
+                                                  const glm::vec3& tint, const glm::vec3& wo);
+    static glm::vec3 straightWeight(const ProgramCode& code, const Wall* walls, const Bsdf& bsdf);
     static void setWeights(const ProgramCode& code, const glm::vec4* registers, const float* kept,
                            Bsdf& out);
     static void choose(const ProgramCode& code, Bsdf& out);

@@ -17,6 +17,7 @@ inline sh::LobeEval lobeEval(const BsdfLobe& l, const glm::vec3& wo, const glm::
     case LobeKind::Dielectric: return sh::dielectricEval(l.dielectric, wo, wi);
     case LobeKind::Conductor: return sh::conductorEval(l.conductor, wo, wi);
     case LobeKind::Schlick: return sh::schlickEval(l.schlick, wo, wi);
+    case LobeKind::Subsurface: return sh::orenNayarEval(l.subsurface.diffuse, wo, wi);
     }
     return sh::lobeEvalNone();
 }
@@ -29,6 +30,7 @@ inline sh::LobeSample lobeSample(const BsdfLobe& l, const glm::vec3& wo, const g
     case LobeKind::Dielectric: return sh::dielectricSample(l.dielectric, wo, u);
     case LobeKind::Conductor: return sh::conductorSample(l.conductor, wo, u);
     case LobeKind::Schlick: return sh::schlickSample(l.schlick, wo, u);
+    case LobeKind::Subsurface: return sh::orenNayarSample(l.subsurface.diffuse, wo, u);
     }
     return sh::lobeSampleNone();
 }
@@ -41,6 +43,7 @@ inline glm::vec3 lobeAlbedo(const BsdfLobe& l, const glm::vec3& wo) {
     case LobeKind::Dielectric: return sh::dielectricAlbedo(l.dielectric, wo);
     case LobeKind::Conductor: return sh::conductorAlbedo(l.conductor, wo);
     case LobeKind::Schlick: return sh::schlickAlbedo(l.schlick, wo);
+    case LobeKind::Subsurface: return sh::orenNayarAlbedo(l.subsurface.diffuse, wo);
     }
     return glm::vec3(0.0f);
 }
@@ -77,6 +80,7 @@ inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& curv
     switch (l.kind) {
     case LobeKind::OrenNayar: l.albedo = l.orenNayar.color; return 1.0f;
     case LobeKind::Burley: l.albedo = l.burley.color; return 1.0f;
+    case LobeKind::Subsurface: l.albedo = l.subsurface.diffuse.color; return 1.0f;
     case LobeKind::Translucent: l.albedo = l.translucent.color; return 1.0f;
     case LobeKind::Conductor:
         l.conductor = sh::conductorAt(l.conductor, wo);

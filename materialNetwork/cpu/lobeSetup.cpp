@@ -5,6 +5,7 @@ namespace patina {
 namespace {
 
 const char* const orenNayarNames[] = {"color", "roughness", nullptr};
+const char* const subsurfaceNames[] = {"color", "radius", "anisotropy", nullptr};
 const char* const burleyNames[] = {"color", "roughness", nullptr};
 const char* const translucentNames[] = {"color", nullptr};
 const char* const dielectricNames[] = {"tint", "ior", "roughness", nullptr};
@@ -17,8 +18,8 @@ const char* const noNames[] = {nullptr};
 
 const char* const* lobeParameters(ClosureKind kind) {
     switch (kind) {
-    case ClosureKind::OrenNayar:
-    case ClosureKind::Subsurface: return orenNayarNames;
+    case ClosureKind::OrenNayar: return orenNayarNames;
+    case ClosureKind::Subsurface: return subsurfaceNames;
     case ClosureKind::Burley: return burleyNames;
     case ClosureKind::Translucent: return translucentNames;
     case ClosureKind::Dielectric: return dielectricNames;
@@ -31,6 +32,7 @@ const char* const* lobeParameters(ClosureKind kind) {
 LobeKind lobeKind(ClosureKind kind) {
     switch (kind) {
     case ClosureKind::Burley: return LobeKind::Burley;
+    case ClosureKind::Subsurface: return LobeKind::Subsurface;
     case ClosureKind::Translucent: return LobeKind::Translucent;
     case ClosureKind::Dielectric: return LobeKind::Dielectric;
     case ClosureKind::Conductor: return LobeKind::Conductor;
@@ -46,6 +48,11 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
     switch (t.prebuilt.kind) {
     case LobeKind::OrenNayar:
         out.orenNayar = sh::orenNayarSetup(color(0), number(1), t.flagA);
+        return;
+    case LobeKind::Subsurface:
+        out.subsurface.diffuse = sh::orenNayarSetup(color(0), 0.0f, false);
+        out.subsurface.radius = sh::max(color(1), glm::vec3(0.0f));
+        out.subsurface.anisotropy = number(2);
         return;
     case LobeKind::Burley: out.burley = sh::burleySetup(color(0), number(1)); return;
     case LobeKind::Translucent: out.translucent = sh::translucentSetup(color(0)); return;

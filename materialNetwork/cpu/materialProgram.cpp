@@ -4,6 +4,8 @@
 #include "materialNetwork/cpu/mediumBuilder.h"
 #include "materialNetwork/cpu/programBuilder.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace patina {
@@ -33,7 +35,7 @@ MaterialProgram::compile(const Plan& plan, TextureSource& textures, Diagnostics&
     return ProgramBuilder(plan, textures, diagnostics).build();
 }
 
-float MaterialProgram::opacity(const ShadingPoint& point) const {
+float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* passes) const {
     float x;
     if (_code->opacityCode.empty()) {
         x = _code->constants[_code->opacity].x;
@@ -43,12 +45,21 @@ float MaterialProgram::opacity(const ShadingPoint& point) const {
         x = registers.data()[_code->opacity].x;
     }
     x = x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
+    if (passes) *passes = glm::vec3(1.0f);
     if (!_code->hasStraight || x == 0.0f) return x;
-    if (_code->surfaceCode.empty())
-        return x * (1.0f - BsdfBuilder::straight(*_code, point, _code->constants.data()));
-    RegisterFile registers(*_code);
-    registers.run(*_code, _code->surfaceCode, point);
-    return x * (1.0f - BsdfBuilder::straight(*_code, point, registers.data()));
+    glm::vec3 straight;
+    if (_code->surfaceCode.empty()) {
+        straight = BsdfBuilder::straight(*_code, point, _code->constants.data());
+    } else {
+        RegisterFile registers(*_code);
+        registers.run(*_code, _code->surfaceCode, point);
+        straight = BsdfBuilder::straight(*_code, point, registers.data());
+    }
+    // As often as its brightest channel passes.
+    const float most = std::max(straight.x, std::max(straight.y, straight.z));
+    const float pass = 1.0f - x + x * most;
+    if (passes && pass > 0.0f) *passes = (1.0f - x + x * straight) / pass;
+    return x * (1.0f - most);
 }
 
 bool MaterialProgram::isOpaqueWith(const std::vector<int>& attributes) const {
@@ -81,6 +92,17 @@ Medium MaterialProgram::interior(const ShadingPoint& point) const {
     RegisterFile registers(*_code);
     registers.run(*_code, _code->interiorCode, point);
     return build(registers.data());
+}
+
+glm::vec3 MaterialProgram::displacement(const ShadingPoint& point) const {
+    if (!_hasDisplacement) return glm::vec3(0.0f);
+    RegisterFile registers(*_code);
+    registers.run(*_code, _code->displacementCode, point);
+    const glm::vec4& value = registers.data()[_code->displacement];
+    const float scale = registers.data()[_code->displacementScale].x;
+    const glm::vec3 moved =
+        (_code->displacementIsVector ? glm::vec3(value) : glm::vec3(0.0f, 0.0f, value.x)) * scale;
+    return std::isfinite(moved.x + moved.y + moved.z) ? moved : glm::vec3(0.0f);
 }
 
 void MaterialProgram::evaluate(const ShadingPoint& point, Bsdf& out) const {

@@ -47,6 +47,8 @@ public:
     /// Rays that presence lets pass are inside the object afterwards: its boundary is there, but
     /// bends nothing.
     bool passingEnters() const { return _hasInterior && _passingEnters; }
+    bool hasSubsurface() const { return _hasSubsurface; }
+    bool hasDisplacement() const { return _hasDisplacement; }
     bool usesUv() const { return _usesUv; } ///< reads texture coordinates
 
     /// @returns isOpaque() for a prim that lacks some primvars
@@ -54,15 +56,20 @@ public:
     bool isOpaqueWith(const std::vector<int>& attributes) const;
 
     /// Presence of the surface, 0..1: the chance that a ray meets it at all, instead of passing
-    /// straight on. Lobes that would pass light straight on without tint are part of this and no
-    /// lobes of the Bsdf, so that shadow rays see through them; it then depends on viewDirection.
-    float opacity(const ShadingPoint& point) const;
+    /// straight on. What lobes would pass straight on is part of this and not of the Bsdf, so that
+    /// shadow rays see through them; it then depends on viewDirection.
+    /// @param passes if given: colour of the light that passes, divided by 1 - opacity
+    float opacity(const ShadingPoint& point, glm::vec3* passes = nullptr) const;
 
     /// Radiance emitted towards wo (world space, unit). Both sides emit.
     glm::vec3 emission(const ShadingPoint& point, const glm::vec3& wo) const;
 
     /// The medium inside the object, as it is at this point.
     Medium interior(const ShadingPoint& point) const;
+
+    /// Where the surface is moved to: along tangent, bitangent and normal, object units. Zero for
+    /// values that are not finite.
+    glm::vec3 displacement(const ShadingPoint& point) const;
 
     /// Sets up the lobes at a point, seen from point.viewDirection.
     void evaluate(const ShadingPoint& point, Bsdf& out) const;
@@ -82,6 +89,8 @@ private:
     bool _hasTransmission = false;
     bool _hasInterior = false;
     bool _isVolumeOnly = false;
+    bool _hasSubsurface = false;
+    bool _hasDisplacement = false;
     bool _passingEnters = false;
     bool _usesUv = false;
     std::unique_ptr<ProgramCode> _code;

@@ -171,11 +171,6 @@ void ProgramBuilder::bsdfOps(std::vector<bool>& needed) {
     bool hasInside = false;
     for (int i = 0; i <= _plan.bsdf; ++i)
         hasInside |= !_plan.thinWalled && refracts(_plan, _plan.closures[size_t(i)]);
-    for (int i = 0; i <= _plan.bsdf; ++i) {
-        const PlanClosure& c = _plan.closures[size_t(i)];
-        _tinted |= c.kind == ClosureKind::Multiply &&
-                   nodeOf(c.node).def->inputs[1].type == ValueType::Color3;
-    }
     std::vector<bool> reached(_plan.closures.size(), false);
     if (_plan.bsdf >= 0) reached[size_t(_plan.bsdf)] = true;
     for (int i = _plan.bsdf; i >= 0; --i)
@@ -276,7 +271,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
         operand.value = Value::makeFloat(0.0f);
         if (node.def->findInput(names[i]) >= 0) operand = closureInput(_plan, closure, names[i]);
         // Light goes straight through a thin wall; the layer above has taken what is reflected.
-        if (_plan.thinWalled && t.mode == sh::SCATTER_T &&
+        if (_plan.thinWalled && closure.fused && t.mode == sh::SCATTER_T &&
             closure.kind == ClosureKind::Dielectric && std::string(names[i]) == "ior") {
             operand = Operand();
             operand.value = Value::makeFloat(1.0f);
@@ -298,13 +293,14 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     _code->lobes.push_back(t);
 }
 
-/// Without tint and without bending: what a shadow ray may cross.
+/// Without bending: what a shadow ray may cross.
 bool ProgramBuilder::isStraight(const PlanClosure& closure) const {
-    if (closure.kind != ClosureKind::Dielectric || _tinted ||
-        scatterMode(_plan, closure) != sh::SCATTER_T ||
-        !isConstantValue(closureInput(_plan, closure, "tint"), 1.0f))
+    const bool dielectric = closure.kind == ClosureKind::Dielectric;
+    if ((!dielectric && closure.kind != ClosureKind::Schlick) ||
+        (scatterMode(_plan, closure) & sh::SCATTER_T) == 0)
         return false;
-    return _plan.thinWalled || isConstantValue(closureInput(_plan, closure, "ior"), 1.0f);
+    return _plan.thinWalled ||
+           (dielectric && isConstantValue(closureInput(_plan, closure, "ior"), 1.0f));
 }
 
 void ProgramBuilder::setFlags() {
@@ -318,6 +314,8 @@ void ProgramBuilder::setFlags() {
         p._hasTransmission |= t.prebuilt.kind == LobeKind::Translucent ||
                               (!t.straight && (t.mode & sh::SCATTER_T) != 0);
     p._isVolumeOnly = _plan.volumeOnly;
+    for (const LobeTemplate& t : _code->lobes)
+        p._hasSubsurface |= t.prebuilt.kind == LobeKind::Subsurface && !_plan.thinWalled;
     p._passingEnters = _plan.volumeOnly || _code->hasStraight;
     p._hasInterior = (!_code->vdf.empty() || !_code->volumeEdf.empty()) && !_plan.thinWalled &&
                      (p._hasTransmission || p._passingEnters);
@@ -368,6 +366,22 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
     emit(emission, _code->emissionCode);
     emit(interior, _code->interiorCode);
     emit(opacity, _code->opacityCode);
+
+    if (_plan.displacementNode >= 0) {
+        const GraphNode& node = nodeOf(_plan.displacementNode);
+        std::vector<bool> needed(n, false);
+        const auto read = [&](const char* name) {
+            const Operand& operand = node.inputs[size_t(node.def->findInput(name))];
+            mark(operand, needed);
+            return registerOf(operand);
+        };
+        _code->displacement = read("displacement");
+        _code->displacementScale = read("scale");
+        _code->displacementIsVector =
+            node.def->inputs[size_t(node.def->findInput("displacement"))].type == ValueType::Vec3;
+        emit(needed, _code->displacementCode);
+        _program->_hasDisplacement = true;
+    }
 
     _code->opacityFromPrimvars = !_code->opacityCode.empty();
     for (const Instruction& instruction : _code->opacityCode)

@@ -45,7 +45,6 @@ private:
     std::vector<int> _register;      ///< of the first output, per graph node; -1 when none
     std::map<std::vector<float>, Register> _constants;
     bool _overflow = false;
-    bool _tinted = false; ///< some closure is multiplied by a colour
 };
 
 } // namespace patina

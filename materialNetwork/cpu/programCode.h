@@ -28,7 +28,7 @@ struct LobeTemplate {
     bool constant = false;
     bool flagA = false; ///< retroreflective, or energy_compensation
     bool fused = false;
-    bool straight = false; ///< passes light straight on without tint: part of the presence
+    bool straight = false; ///< passes light straight on: part of the presence
     int mode = 0;          ///< SCATTER_*
     int compensate = 1;
     EnergyCurve energy; ///< of constant interfaces
@@ -56,12 +56,15 @@ struct ProgramCode {
     std::vector<glm::vec4> constants; ///< the first registers
     int registerCount = 0;
     std::vector<Register> inputPool;
-    std::vector<Instruction> opacityCode, emissionCode, interiorCode, surfaceCode;
+    std::vector<Instruction> opacityCode, emissionCode, interiorCode, surfaceCode,
+        displacementCode;
 
     std::vector<ClosureOp> bsdf, edf, vdf, volumeEdf; ///< the last op is the root
     std::vector<LobeTemplate> lobes;
     std::vector<FrameTemplate> frames;
     Register opacity = 0;
+    Register displacement = 0, displacementScale = 0;
+    bool displacementIsVector = false;
     bool hasStraight = false;         ///< a lobe is straight
     bool opacityFromPrimvars = false; ///< only primvars can make opacity less than 1
     const TextureSource* textures = nullptr;

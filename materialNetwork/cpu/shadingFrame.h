@@ -18,4 +18,12 @@ glm::vec3 bendNormal(glm::vec3 n, const glm::vec3& v, const glm::vec3& g);
 BsdfFrame makeFrame(const ShadingPoint& point, const glm::vec3* normal, const glm::vec3* tangent,
                     bool flips);
 
+/// Two unit vectors that form a right-handed basis with n (Duff et al. 2017).
+inline void completeBasis(const glm::vec3& n, glm::vec3& x, glm::vec3& y) {
+    const float side = n.z >= 0.0f ? 1.0f : -1.0f;
+    const float a = -1.0f / (side + n.z), b = n.x * n.y * a;
+    x = {1.0f + side * n.x * n.x * a, side * b, -side * n.x};
+    y = {b, side + n.y * n.y * a, -n.y};
+}
+
 } // namespace patina

@@ -89,9 +89,9 @@ const NodeRow rows[] = {
     closure("ND_volumematerial", "volumematerial", "volumeshader volumeshader", "material",
             ClosureKind::Material),
     closure("ND_displacement_float", "displacement", "float displacement=0, float scale=1",
-            "displacementshader", ClosureKind::Unsupported),
+            "displacementshader", ClosureKind::Displacement),
     closure("ND_displacement_vector3", "displacement", "vector3 displacement=0, float scale=1",
-            "displacementshader", ClosureKind::Unsupported),
+            "displacementshader", ClosureKind::Displacement),
 };
 
 } // namespace

@@ -92,6 +92,38 @@ TEST(Material, VaryingOpacityPassesLightStraight) {
         }
 }
 
+TEST(Material, ThinWallsAreSlabs) {
+    const glm::vec3 tint(0.9f, 0.5f, 0.2f);
+    for (const float theta : {0.0f, 60.0f, 180.0f}) {
+        Compiled c(
+            makeNetwork({makeNode("surface", "ND_surface", {{"thin_walled", Value::makeBool(true)}},
+                                  {{"bsdf", {"glass", "out"}}}),
+                         makeNode("glass", "ND_dielectric_bsdf",
+                                  {{"scatter_mode", text("RT")},
+                                   {"ior", number(1.5f)},
+                                   {"tint", Value::makeColor3(tint.x, tint.y, tint.z)},
+                                   {"roughness", Value::makeVec2(0.0f, 0.0f)}})}));
+        EXPECT_FALSE(c.program->hasTransmission());
+        EXPECT_FALSE(c.program->isOpaque());
+        ShadingPoint point;
+        point.viewDirection = direction(theta);
+        glm::vec3 passes(0.0f);
+        const float opacity = c.program->opacity(point, &passes);
+        Bsdf bsdf;
+        c.program->evaluate(point, bsdf);
+        EXPECT_FALSE(bsdf.transmits());
+        const float once = sh::fresnelDielectric(std::abs(point.viewDirection.z), 1.5f);
+        const float slab = 2.0f * once / (1.0f + once);
+        const glm::vec3 passed = (1.0f - opacity) * passes;
+        const BsdfSample s = bsdf.sample(glm::vec3(0.5f), 0.5f);
+        ASSERT_EQ(s.event, sh::LOBE_REFLECT | sh::LOBE_DELTA);
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_NEAR(passed[k], tint[k] * (1.0f - slab), 1e-4f) << theta;
+            EXPECT_NEAR(opacity * s.weight[k], tint[k] * slab, 1e-4f) << theta;
+        }
+    }
+}
+
 TEST(Material, ConstantOpacityIsGlass) {
     Compiled c(previewNetwork({{"opacity", number(0.0f)}}));
     EXPECT_TRUE(c.program->hasTransmission());

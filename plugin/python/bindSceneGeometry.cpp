@@ -82,6 +82,24 @@ void setImplicit(PythonEdit& edit, const std::string& path, const py::kwargs& va
     edit.set(std::shared_ptr<const Geometry>(std::move(implicit)));
 }
 
+void setVolume(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
+    auto volume = std::make_shared<Volume>();
+    volume->path = path;
+    std::vector<std::string> names, files, grids;
+    Fields fields("set_volume", path, values);
+    readCommon(fields, *volume)
+        .read("field_names", names)
+        .read("field_files", files)
+        .read("field_grids", grids)
+        .finish();
+    if (files.size() != names.size() || grids.size() != names.size())
+        throw py::value_error("set_volume: " + path +
+                              ": needs as many field_files and field_grids as field_names");
+    for (size_t i = 0; i < names.size(); ++i)
+        volume->fields.push_back({names[i], files[i], grids[i], nullptr});
+    edit.set(std::shared_ptr<const Geometry>(std::move(volume)));
+}
+
 void setInstancer(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
     auto instancer = std::make_shared<Instancer>();
     instancer->path = path;
@@ -108,6 +126,8 @@ void bindSceneGeometry(py::class_<PythonEdit>& edit) {
         .def("set_curves", &setCurves, "A UsdGeomBasisCurves; keywords are the fields of Curves.")
         .def("set_points", &setPoints, "A UsdGeomPoints; keywords are the fields of Points.")
         .def("set_implicit", &setImplicit, "Sphere, cube, cone, cylinder, capsule or plane.")
+        .def("set_volume", &setVolume,
+             "A UsdVolVolume; fields are given by their names, files and the grids in the files.")
         .def("set_instancer", &setInstancer, "Copies of groups; keywords are Instancer's fields.");
 }
 

@@ -1,8 +1,8 @@
 """Exports a test scene to Mitsuba 3, so that a renderer which nobody here wrote can check ours.
 
 Only what the test scenes use is translated: meshes, spheres and cubes with constant materials made
-of one diffuse, conductor or dielectric node, instances, every light with a Mitsuba counterpart, and
-the camera. Anything else raises Unsupported, so a test can never compare two different scenes.
+of one diffuse, conductor, dielectric or subsurface node, homogeneous media inside closed objects,
+instances, every light with a Mitsuba counterpart, and the camera. Anything else raises Unsupported, so a test can never compare two different scenes.
 """
 import math
 import os
@@ -29,13 +29,76 @@ def _color(value):
     return {"type": "rgb", "value": [float(x) for x in value]}
 
 
+def _source(shader, name):
+    """The node connected to an input."""
+    given = shader.GetInput(name)
+    connected = given.GetConnectedSources()[0] if given else None
+    return UsdShade.Shader(connected[0].source) if connected else None
+
+
+def _medium(extinction, scattering, anisotropy):
+    medium = {"type": "homogeneous", "albedo": _volume([s / e for s, e in zip(scattering, extinction)]),
+              "sigma_t": _volume(extinction), "has_spectral_extinction": True}
+    medium["phase"] = {"type": "hg", "g": anisotropy} if anisotropy else {"type": "isotropic"}
+    return medium
+
+
+def _volume(color):
+    return {"type": "constvolume", "value": _color(color)}
+
+
+def _anisotropic_vdf(vdf):
+    if vdf.GetIdAttr().Get() != "ND_anisotropic_vdf":
+        raise Unsupported(f"{vdf.GetPath()}: {vdf.GetIdAttr().Get()}")
+    scattering = _value(vdf, "scattering", (0.0,) * 3)
+    extinction = [a + s for a, s in zip(_value(vdf, "absorption", (0.0,) * 3), scattering)]
+    return _medium(extinction, scattering, _value(vdf, "anisotropy", 0.0))
+
+
+def _inverse_albedo(color):
+    """1 - s^2 for the root s of (1 - s)(1 - 0.139 s) / (1 + 1.17 s) = color (van de Hulst), by halving."""
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        s = (low + high) / 2
+        if (1 - s) * (1 - 0.139 * s) / (1 + 1.17 * s) > color:
+            low = s
+        else:
+            high = s
+    return low * low
+
+
+def interior(material):
+    """The Mitsuba medium inside objects of a bound material, or None."""
+    volume = material.ComputeVolumeSource("mtlx")[0]
+    if volume:
+        return _anisotropic_vdf(_source(volume, "vdf"))
+    surface = material.ComputeSurfaceSource("mtlx")[0]
+    source = _source(surface, "bsdf") if surface else None
+    if source and source.GetIdAttr().Get() == "ND_layer_vdf":
+        return _anisotropic_vdf(_source(source, "base"))
+    if source and source.GetIdAttr().Get() == "ND_subsurface_bsdf":
+        g = _value(source, "anisotropy", 0.0)
+        extinction = [1.0 / r for r in _value(source, "radius", (1.0,) * 3)]
+        squares = [_inverse_albedo(c) for c in _value(source, "color", (0.18,) * 3)]
+        return _medium(extinction, [e * (1 - q) / (1 - g * q) for e, q in zip(extinction, squares)], g)
+    return None
+
+
 def bsdf(mi, material):
     """The Mitsuba BSDF of a bound material."""
     surface = material.ComputeSurfaceSource("mtlx")[0] or material.ComputeSurfaceSource()[0]
+    if not surface and material.ComputeVolumeSource("mtlx")[0]:
+        return {"type": "null"}
     if surface.GetIdAttr().Get() == "UsdPreviewSurface":
         raise Unsupported(f"{surface.GetPath()}: UsdPreviewSurface")
     source = UsdShade.Shader(surface.GetInput("bsdf").GetConnectedSources()[0][0].source)
     kind = source.GetIdAttr().Get()
+    if kind == "ND_layer_vdf":
+        source = _source(source, "top")
+        kind = source.GetIdAttr().Get()
+    if kind == "ND_subsurface_bsdf":
+        # The only lobe left is Lambert's, transmitted: light enters and leaves spread by the cosine.
+        return {"type": "principledthin", "base_color": _color((1.0,) * 3), "diff_trans": 2.0, "spec_trans": 0.0}
     if kind == "ND_oren_nayar_diffuse_bsdf":
         if _value(source, "roughness", 0.0) != 0.0:
             raise Unsupported(f"{source.GetPath()}: roughness")
@@ -199,6 +262,10 @@ def export(mi, stage, folder, width, height, spp, max_depth=17):
             material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
             shape = _gprim(mi, prim, matrix, folder, name)
             shape["bsdf"] = bsdf(mi, material)
+            inside = interior(material)
+            if inside:
+                shape["interior"] = inside
+                scene["integrator"] = {"type": "volpathmis", "max_depth": -1, "rr_depth": 30}
             scene[name] = shape
         elif prim.IsA(UsdGeom.PointInstancer):
             raise Unsupported(f"{prim.GetPath()}: point instancer")

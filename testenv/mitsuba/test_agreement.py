@@ -44,6 +44,7 @@ CASES = {
     "texturedDiffuse": ([], 128, {}),
     "depthOfField": (["/World/sky"], 256, {}),
     "instances": (["/World/sky"], 128, {}),
+    "media": (["/World/sky"], 128, {}),
 }
 
 

@@ -32,10 +32,8 @@ FreeFlight sampleFreeFlight(const vec3& extinction, const vec3& scattering, cons
     FreeFlight result;
     result.distance = end;
     const float sum = throughput.x + throughput.y + throughput.z;
-    if (scattering == vec3(0.0f) || !(sum > 0.0f) || !std::isfinite(sum)) {
-        result.weight = transmittance(extinction, end);
-        return result;
-    }
+    if (scattering == vec3(0.0f) || !(sum > 0.0f) || !std::isfinite(sum))
+        return weighFreeFlight(extinction, scattering, throughput, end, false);
     const vec3 share = throughput / sum;
     int channel = 0;
     for (float below = share.x; channel < 2 && u.x >= below;)
@@ -47,13 +45,22 @@ FreeFlight sampleFreeFlight(const vec3& extinction, const vec3& scattering, cons
         result.scattered = true;
         result.distance = t;
     }
-    const vec3 left = transmittance(extinction, result.distance);
-    const float density = glm::dot(share, result.scattered ? extinction * left : left);
-    if (!(density > 0.0f)) {
-        result.weight = vec3(0.0f);
+    return weighFreeFlight(extinction, scattering, throughput, result.distance, result.scattered);
+}
+
+FreeFlight weighFreeFlight(const vec3& extinction, const vec3& scattering, const vec3& throughput,
+                           float distance, bool scattered) {
+    FreeFlight result;
+    result.distance = distance;
+    result.scattered = scattered;
+    const vec3 left = transmittance(extinction, distance);
+    const float sum = throughput.x + throughput.y + throughput.z;
+    if (scattering == vec3(0.0f) || !(sum > 0.0f) || !std::isfinite(sum)) {
+        result.weight = left;
         return result;
     }
-    result.weight = (result.scattered ? scattering * left : left) / density;
+    const float density = glm::dot(throughput / sum, scattered ? extinction * left : left);
+    result.weight = density > 0.0f ? (scattered ? scattering * left : left) / density : vec3(0.0f);
     return result;
 }
 

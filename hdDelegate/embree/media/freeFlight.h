@@ -28,4 +28,9 @@ struct FreeFlight {
 FreeFlight sampleFreeFlight(const glm::vec3& extinction, const glm::vec3& scattering,
                             const glm::vec3& throughput, float end, const glm::vec2& u);
 
+/// The flight that sampleFreeFlight() would have returned for this outcome: for a way whose end is
+/// found only after the distance is sampled.
+FreeFlight weighFreeFlight(const glm::vec3& extinction, const glm::vec3& scattering,
+                           const glm::vec3& throughput, float distance, bool scattered);
+
 } // namespace patina

@@ -1,8 +1,8 @@
-"""Gprims: meshes, curves, points and implicit shapes."""
+"""Gprims: meshes, curves, points, implicit shapes and volumes."""
 import numpy as np
 from pxr import UsdGeom
 
-from . import meshes, skinning
+from . import meshes, skinning, volumes
 from .context import array, get, number
 from .primvars import add_builtin, read_primvars
 from .transforms import transform_of
@@ -39,6 +39,8 @@ def emit(context, found, kind, bound, categories):
     elif kind == "points":
         _add_builtins(context, prim, UsdGeom.Points(prim), common["primvars"])
         context.edit.set_points(found.path, points=points_of(context, prim, skin), **common)
+    elif kind == "volume":
+        volumes.emit(context, found, common)
     else:
         _implicit(context, found, kind, common)
 

@@ -5,13 +5,14 @@ GPRIMS = {
     "Mesh": "mesh", "BasisCurves": "curves", "Points": "points", "Sphere": "sphere", "Cube": "cube",
     "Cone": "cone", "Cylinder": "cylinder", "Cylinder_1": "cylinder", "Capsule": "capsule",
     "Capsule_1": "capsule", "Plane": "plane",
+    "Volume": "volume",
 }
 LIGHTS = {
     "DistantLight": "distant", "DomeLight": "dome", "DomeLight_1": "dome", "SphereLight": "sphere",
     "DiskLight": "disk", "RectLight": "rect", "CylinderLight": "cylinder", "GeometryLight": "mesh",
 }
 UNSUPPORTED = {
-    "NurbsPatch", "NurbsCurves", "HermiteCurves", "TetMesh", "Volume", "PortalLight", "PluginLight",
+    "NurbsPatch", "NurbsCurves", "HermiteCurves", "TetMesh", "PortalLight", "PluginLight",
     "ParticleField",
 }
 OTHER = {"Camera": "camera", "PointInstancer": "instancer", "SkelRoot": "skelRoot"}

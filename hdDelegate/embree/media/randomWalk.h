@@ -1,0 +1,42 @@
+#pragma once
+
+#include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/embree/sampler.h"
+
+namespace patina {
+
+/// The medium beneath a surface whose thick slabs have a given albedo.
+struct WalkMedium {
+    vec3 extinction{0.0f}, scattering{0.0f};
+    float anisotropy = 0.0f;
+};
+
+/// Inverts albedo and mean free path: the single scattering albedo is that of van de Hulst's
+/// approximation for a half space under diffuse light with similarity for the anisotropy (Kulla and
+/// Conty 2017, Revisiting Physically Based Shading at Imageworks; OpenPBR and MaterialX take the
+/// same). White stays exactly white. Colours are held within 0..1.
+/// @param shortest mean free path that can be told from none
+WalkMedium walkMedium(const SubsurfaceEntry& entry, float shortest = 0.0f);
+
+/// Where a walk beneath a surface ends.
+struct WalkExit {
+    bool found = false;   ///< false: it never came out, or
+    bool open = false;    ///< left through a hole of the object: weight lacks the colour then
+    Hit hit;              ///< of the surface from inside
+    vec3 origin{0.0f};    ///< of the ray that hit
+    vec3 direction{0.0f}; ///< of the ray that hit
+    vec3 weight{1.0f};
+};
+
+/// Walks from just beneath a surface until the walk comes out of the same object (after Chiang,
+/// Kutz and Burley 2016, Practical and Controllable Subsurface Scattering for Production Path
+/// Tracing). The boundary bends nothing; other objects inside are not met; where parts of the
+/// object overlap it ends at the outermost.
+/// @param entry where light went in; its side seen by the path counts as outside
+/// @param back the path saw the back side
+/// @param origin on the surface, or beneath it where it is a curve or a point
+/// @param rays is counted up
+WalkExit walkBeneath(const EmbreeScene& scene, const WalkMedium& medium, const Hit& entry,
+                     bool back, vec3 origin, vec3 direction, Sampler& sampler, uint64_t& rays);
+
+} // namespace patina

@@ -1,0 +1,194 @@
+// Subsurface scattering: the albedo that was asked for, energy, and what open meshes show.
+
+#include "hdDelegate/embree/media/randomWalk.h"
+#include "hdDelegate/embree/media/tests/mediaScene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace patina;
+using namespace patina::test;
+
+namespace {
+
+std::vector<NetworkNode> skin(const vec3& color, const vec3& radius, float anisotropy) {
+    return {node("/m/surface", "ND_surface", {}, {{"bsdf", {"/m/skin", ""}}}),
+            node("/m/skin", "ND_subsurface_bsdf",
+                 {{"color", Value::makeColor3(color.x, color.y, color.z)},
+                  {"radius", Value::makeColor3(radius.x, radius.y, radius.z)},
+                  {"anisotropy", Value::makeFloat(anisotropy)}})};
+}
+
+} // namespace
+
+TEST(Subsurface, WhiteIsWhiteAndBlackIsBlack) {
+    for (float g : {-0.5f, 0.0f, 0.9f}) {
+        const WalkMedium m = walkMedium({vec3(1, 0, 0.5f), vec3(2.0f), g});
+        EXPECT_EQ(m.scattering.x, m.extinction.x);
+        EXPECT_NEAR(m.scattering.y, 0.0f, 1e-5f);
+        EXPECT_GT(m.scattering.z, 0.0f);
+        EXPECT_LT(m.scattering.z, m.extinction.z);
+        EXPECT_FLOAT_EQ(m.extinction.x, 0.5f);
+    }
+}
+
+// Tolerance: five standard errors, and 0.015 that the approximation of van de Hulst is off by.
+TEST(Subsurface, ThickObjectsHaveTheColourAskedFor) {
+    const vec3 color(0.2f, 0.5f, 0.8f);
+    for (float g : {0.0f, 0.5f}) {
+        MediaScene s;
+        s.material("/m", skin(color, vec3(0.01f, 0.02f, 0.04f), g));
+        s.cube("/block", vec3(0, 0, -10), vec3(20, 20, 20), "/m");
+        s.dome(1.0f);
+        s.camera(vec3(0, 0, 5), 0.1f);
+        const auto image = s.render(32, 64);
+        ASSERT_TRUE(image.finite);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(image.mean[c], color[c], 5.0f * image.error[c] + 0.015f) << g;
+    }
+}
+
+// Significance as in mediaTest.cpp: five standard errors.
+TEST(Subsurface, WhiteObjectsLoseNothing) {
+    for (float radius : {1e-4f, 0.1f, 1.0f, 100.0f}) {
+        MediaScene s;
+        s.material("/m", skin(vec3(1), vec3(radius, 0.5f * radius, 0.0f), 0.3f));
+        s.sphere("/ball", vec3(0), 1.0f, "/m");
+        s.dome(1.0f);
+        s.camera(vec3(0, 0, 5), 1.5f);
+        const auto image = s.render(16, 32);
+        ASSERT_TRUE(image.finite);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(image.mean[c], 1.0f, 5.0f * image.error[c] + 2e-3f) << radius;
+    }
+}
+
+TEST(Subsurface, OpenMeshesAreDiffuse) {
+    const vec3 color(0.2f, 0.5f, 0.8f);
+    MediaScene s;
+    s.material("/m", skin(color, vec3(1e5f), 0.0f));
+    auto plane = std::make_shared<Implicit>();
+    plane->path = "/sheet";
+    plane->shape = ImplicitShape::Plane;
+    plane->width = plane->length = 100.0f;
+    plane->material = "/m";
+    s.scene->edit().set(std::shared_ptr<const Geometry>(plane));
+    s.dome(1.0f);
+    s.camera(vec3(0, 0, 5), 1.0f);
+    const auto image = s.render(32, 64);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(image.mean[c], color[c], 5.0f * image.error[c] + 1e-3f);
+}
+
+TEST(Subsurface, OpenBowlsGainNothing) {
+    for (float radius : {0.1f, 1.0f}) {
+        MediaScene s;
+        s.material("/m", skin(vec3(1), vec3(radius, 0.3f * radius, 0.1f * radius), 0.0f));
+        auto mesh = std::make_shared<Mesh>();
+        mesh->path = "/box";
+        mesh->material = "/m";
+        std::vector<vec3> points;
+        for (int i = 0; i < 8; ++i)
+            points.push_back(vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+        // without the side that the camera does not see
+        mesh->faceVertexCounts.assign(5, 4);
+        mesh->faceVertexIndices = {4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+        mesh->points = Sampled<std::vector<vec3>>(points);
+        s.scene->edit().set(std::shared_ptr<const Geometry>(mesh));
+        s.dome(1.0f);
+        s.camera(vec3(0, 0, 5), 1.9f);
+        const auto image = s.render(16, 64);
+        ASSERT_TRUE(image.finite);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_LT(image.mean[c], 1.0f + 5.0f * image.error[c] + 2e-3f) << radius;
+            EXPECT_GT(image.mean[c], 0.9f) << radius;
+        }
+    }
+}
+
+TEST(Subsurface, ThreadsChangeNothing) {
+    std::vector<float> first;
+    for (int threads : {1, 2}) {
+        MediaScene s;
+        s.settings.threads = threads;
+        s.material("/m", skin(vec3(0.8f, 0.5f, 0.3f), vec3(0.5f, 0.2f, 0.1f), 0.2f));
+        s.sphere("/ball", vec3(0), 1.0f, "/m");
+        s.dome(1.0f);
+        s.distant(vec3(2), vec3(0, -1, -1));
+        s.camera(vec3(0, 0, 5), 2.5f);
+        const auto image = s.render(40, 4);
+        if (threads == 1)
+            first = image.color;
+        else
+            EXPECT_EQ(first, image.color);
+    }
+}
+
+TEST(Subsurface, ObjectsInsideAreNotMet) {
+    std::vector<float> first;
+    for (bool inside : {false, true}) {
+        MediaScene s;
+        s.material("/m", skin(vec3(0.8f), vec3(0.3f), 0.0f));
+        s.material("/black", {node("/m/surface", "ND_surface")});
+        s.sphere("/ball", vec3(0), 1.0f, "/m");
+        if (inside) s.sphere("/core", vec3(0), 0.9f, "/black");
+        s.dome(1.0f);
+        s.camera(vec3(0, 0, 5), 1.5f);
+        const auto image = s.render(16, 16);
+        if (!inside)
+            first = image.color;
+        else
+            for (size_t i = 0; i < first.size(); ++i)
+                ASSERT_NEAR(first[i], image.color[i], 0.02f);
+    }
+}
+
+TEST(Subsurface, PartsThatOverlapAreOneObject) {
+    // Two boxes of one mesh, one within the other: the walk must not end at the inner one.
+    const auto meanOf = [](bool inner) {
+        MediaScene s;
+        s.material("/m", skin(vec3(0.9f), vec3(0.5f), 0.0f));
+        auto mesh = std::make_shared<Mesh>();
+        mesh->path = "/boxes";
+        mesh->material = "/m";
+        std::vector<vec3> points;
+        for (int box = 0; box < (inner ? 2 : 1); ++box) {
+            const int base = int(points.size());
+            const float half = box == 0 ? 1.0f : 0.7f;
+            for (int i = 0; i < 8; ++i)
+                points.push_back(half * vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+            const int faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                     {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+            for (const auto& face : faces) {
+                mesh->faceVertexCounts.push_back(4);
+                for (int k : face)
+                    mesh->faceVertexIndices.push_back(base + k);
+            }
+        }
+        mesh->points = Sampled<std::vector<vec3>>(points);
+        s.scene->edit().set(std::shared_ptr<const Geometry>(mesh));
+        s.dome(1.0f);
+        s.camera(vec3(0, 0, 5), 1.9f);
+        return s.render(32, 64);
+    };
+    const auto one = meanOf(false), two = meanOf(true);
+    EXPECT_NEAR(one.mean.x, two.mean.x, 5.0f * (one.error.x + two.error.x));
+}
+
+TEST(Subsurface, ExtremesStayFinite) {
+    for (const vec3& radius :
+         {vec3(0.0f), vec3(INFINITY), vec3(NAN), vec3(-1.0f), vec3(1e-30f, 1, 0)})
+        for (const vec3& color : {vec3(0.0f), vec3(2.0f), vec3(NAN, -1, 0.5f)})
+            for (float g : {-1.0f, 1.0f, NAN}) {
+                MediaScene s;
+                s.material("/m", skin(color, radius, g));
+                s.sphere("/ball", vec3(0), 1.0f, "/m");
+                s.dome(1.0f);
+                s.camera(vec3(0, 0, 5), 2.5f);
+                const auto image = s.render(6, 4);
+                ASSERT_TRUE(image.finite);
+                for (float x : image.color)
+                    ASSERT_TRUE(x >= 0.0f && x < 100.0f) << x;
+            }
+}

@@ -1,0 +1,172 @@
+// Volumes of fields against closed forms and homogeneous media.
+
+#include "hdDelegate/embree/media/tests/mediaScene.h"
+#include "hdDelegate/scene/fieldGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace patina;
+using namespace patina::test;
+
+namespace {
+
+/// A cube of -1..1 whose density is what `f` says at voxel centres.
+template <class F> std::shared_ptr<const FieldGrid> cubeGrid(int bricks, const F& f) {
+    constexpr int edge = FieldGrid::edge;
+    const int n = bricks * edge;
+    const float size = 2.0f / float(n);
+    mat4 place(1.0f);
+    for (int a = 0; a < 3; ++a) {
+        place[a][a] = size;
+        place[3][a] = -1.0f + 0.5f * size;
+    }
+    auto grid = std::make_shared<FieldGrid>(ivec3(0), ivec3(bricks), 1, place);
+    std::vector<float> values(FieldGrid::voxels);
+    for (int b = 0; b < bricks * bricks * bricks; ++b) {
+        const ivec3 brick(b / (bricks * bricks), b / bricks % bricks, b % bricks);
+        for (int i = 0; i < FieldGrid::voxels; ++i) {
+            const ivec3 voxel = brick * edge + ivec3(i / (edge * edge), i / edge % edge, i % edge);
+            values[size_t(i)] = f((vec3(voxel) + 0.5f) * size - 1.0f);
+        }
+        grid->setBrick(brick, values);
+    }
+    return grid;
+}
+
+void volume(MediaScene& s, std::shared_ptr<const FieldGrid> grid, const std::string& material,
+            const vec3& center = vec3(0)) {
+    auto prim = std::make_shared<Volume>();
+    prim->path = "/volume";
+    prim->material = material;
+    prim->transform = MotionTransform(
+        mat4(vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0), vec4(center, 1)));
+    prim->fields.push_back({"density", "", "", std::move(grid)});
+    s.scene->edit().set(std::shared_ptr<const Geometry>(prim));
+}
+
+void volumeMaterial(MediaScene& s, const vec3& absorption, const vec3& scattering,
+                    float anisotropy = 0.0f) {
+    s.material("/m", volumeNodes(absorption, scattering, anisotropy), "volume");
+}
+
+} // namespace
+
+TEST(FieldGrid, InterpolatesLinearlyAndBounds) {
+    const auto grid = cubeGrid(2, [](const vec3& p) { return 1.0f + p.x + 2.0f * p.y; });
+    for (const vec3& p : {vec3(0.1f, -0.2f, 0.3f), vec3(0.0f), vec3(-0.7f, 0.61f, 0.0f)})
+        EXPECT_NEAR(grid->sample(p).x, 1.0f + p.x + 2.0f * p.y, 1e-5f);
+    EXPECT_EQ(grid->sample(vec3(1.5f)).x, 0.0f);
+    vec3 least(INFINITY), most(-INFINITY);
+    grid->range(vec3(-0.1f), vec3(0.1f), least, most);
+    EXPECT_LE(least.x, 0.7f);
+    EXPECT_GE(most.x, 1.3f);
+}
+
+// Significance as in mediaTest.cpp: five standard errors.
+TEST(Volumes, AbsorptionFollowsTheIntegralOfDensity) {
+    MediaScene s;
+    const vec3 absorption(0.5f, 1.0f, 2.0f);
+    volumeMaterial(s, absorption, vec3(0));
+    // Rays along z see the same density at every x and y near the middle: its integral is 2.
+    volume(s, cubeGrid(4, [](const vec3& p) { return 1.0f + std::sin(3.0f * p.z); }), "/m");
+    s.dome(1.0f);
+    s.camera(vec3(0, 0, 5), 0.1f);
+    const auto image = s.render(16, 256);
+    ASSERT_TRUE(image.finite);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(image.mean[c], std::exp(-2.0f * absorption[c]), 5.0f * image.error[c] + 2e-3f);
+}
+
+TEST(Volumes, ShadowsFollowTheIntegralOfDensity) {
+    const auto lit = [](bool with) {
+        MediaScene s;
+        volumeMaterial(s, vec3(0.5f, 1.0f, 2.0f), vec3(0));
+        if (with) volume(s, cubeGrid(2, [](const vec3&) { return 0.5f; }), "/m", vec3(0, 0, 3));
+        s.material("/white", {node("/m/surface", "ND_surface", {}, {{"bsdf", {"/m/diffuse", ""}}}),
+                              node("/m/diffuse", "ND_oren_nayar_diffuse_bsdf",
+                                   {{"color", Value::makeColor3(1, 1, 1)}})});
+        s.cube("/floor", vec3(0, 0, -1), vec3(2, 2, 2), "/white");
+        s.distant(vec3(1), vec3(0, 0, -1));
+        s.camera(vec3(0, 0, 1.5f), 0.1f); // between the volume and the floor
+        return s.render(16, 256);
+    };
+    const auto without = lit(false), with = lit(true);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(with.mean[c] / without.mean[c], std::exp(-std::exp2(float(c) - 1.0f)),
+                    5.0f * with.error[c] / without.mean[c] + 2e-2f);
+}
+
+TEST(Volumes, WhiteVolumesLoseNothing) {
+    for (float density : {0.5f, 5.0f}) {
+        MediaScene s;
+        volumeMaterial(s, vec3(0), vec3(1.0f, 0.5f, 2.0f), 0.4f);
+        volume(s, cubeGrid(2, [&](const vec3& p) { return density * (1.0f + p.x); }), "/m");
+        s.dome(1.0f);
+        s.camera(vec3(0, 0, 5), 2.2f);
+        const auto image = s.render(16, 64);
+        ASSERT_TRUE(image.finite);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(image.mean[c], 1.0f, 5.0f * image.error[c] + 2e-3f) << density;
+    }
+}
+
+TEST(Volumes, ConstantDensityIsAHomogeneousMedium) {
+    const auto mean = [](bool fields) {
+        MediaScene s;
+        volumeMaterial(s, vec3(0.2f, 0.5f, 1.0f), vec3(1.5f, 1.0f, 0.5f), 0.3f);
+        if (fields) {
+            // Many voxels, for the density falls off over half a voxel at the faces.
+            volume(s, cubeGrid(16, [](const vec3&) { return 1.0f; }), "/m");
+        } else {
+            s.cube("/cube", vec3(0), vec3(2), "/m");
+        }
+        s.distant(vec3(3), vec3(0, -1, -1));
+        s.dome(0.3f);
+        s.camera(vec3(0, 0, 5), 1.6f);
+        return s.render(16, 256);
+    };
+    const auto a = mean(true), b = mean(false);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(a.mean[c], b.mean[c], 5.0f * (a.error[c] + b.error[c]) / 4.0f + 5e-3f);
+}
+
+TEST(Volumes, ThreadsChangeNothing) {
+    std::vector<float> first;
+    for (int threads : {1, 2}) {
+        MediaScene s;
+        s.settings.threads = threads;
+        volumeMaterial(s, vec3(0.2f), vec3(1.5f, 1.0f, 0.5f));
+        volume(s, cubeGrid(2, [](const vec3& p) { return 1.0f + p.x; }), "/m");
+        s.dome(1.0f);
+        s.camera(vec3(0, 0, 5), 2.5f);
+        const auto image = s.render(40, 4);
+        if (threads == 1)
+            first = image.color;
+        else
+            EXPECT_EQ(first, image.color);
+    }
+}
+
+TEST(Volumes, ExtremesStayFinite) {
+    for (float density : {-1.0f, 1e30f, float(NAN), 1e-30f}) {
+        MediaScene s;
+        volumeMaterial(s, vec3(1), vec3(1));
+        volume(s, cubeGrid(1, [&](const vec3&) { return density; }), "/m");
+        s.dome(1.0f);
+        s.camera(vec3(0, 0, 5), 2.5f);
+        const auto image = s.render(6, 4);
+        ASSERT_TRUE(image.finite);
+        for (float x : image.color)
+            ASSERT_TRUE(x >= 0.0f && x < 100.0f) << x;
+    }
+    MediaScene s;
+    auto prim = std::make_shared<Volume>();
+    prim->path = "/volume";
+    prim->fields.push_back({"density", "/does/not/exist.vdb", "density", nullptr});
+    s.scene->edit().set(std::shared_ptr<const Geometry>(prim));
+    s.dome(1.0f);
+    s.camera(vec3(0, 0, 5), 2.5f);
+    EXPECT_TRUE(s.render(6, 4).finite);
+}

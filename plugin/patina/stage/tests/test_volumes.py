@@ -1,0 +1,38 @@
+"""UsdVolVolume: fields, their files, and what can be wrong with them."""
+
+VOLUME = """
+def Volume "v" {
+    %s
+    def OpenVDBAsset "a" {
+        asset filePath = @./a.vdb@
+        token fieldName = "smoke"
+    }
+    def OpenVDBAsset "b" {
+        asset filePath = @/elsewhere/b.vdb@
+        %s
+    }
+    def Field3DAsset "c" { }
+}
+"""
+
+
+def test_fields_are_named_by_the_relationship(read):
+    v = read(VOLUME % ("rel field:density = </v/a>\nrel field:heat = </v/b>", "")).prim("/v")
+    file, grid = v["field density"].split(" ")
+    assert file.endswith('a.vdb"') and grid == '"smoke"'
+    # Without a fieldName the grid has the name of the field.
+    assert v["field heat"] == '"/elsewhere/b.vdb" "heat"'
+
+
+def test_fields_that_cannot_be_read_are_named(read):
+    stage = read(VOLUME % ("rel field:density = </v/none>\nrel field:heat = </v/c>", ""))
+    assert not any(key.startswith("field") for key in stage.prim("/v"))
+    text = "\n".join(stage.warnings)
+    assert "/v/none" in text and "Field3DAsset" in text
+
+
+def test_moved_fields_are_reported(read):
+    moved = """double3 xformOp:translate = (1, 0, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]"""
+    stage = read(VOLUME % ("rel field:heat = </v/b>", moved))
+    assert any("not moved" in w for w in stage.warnings)

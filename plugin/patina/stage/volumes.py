@@ -1,0 +1,29 @@
+"""UsdVolVolume: fields of OpenVDB files."""
+from pxr import UsdGeom, UsdVol
+
+from .assets import resolve
+from .context import get
+
+
+def emit(context, found, common):
+    volume = UsdVol.Volume(found.prim)
+    names, files, grids = [], [], []
+    for name, path in sorted(volume.GetFieldPaths().items()):
+        prim = context.stage.GetPrimAtPath(path)
+        if not prim:
+            context.warn(found.prim.GetPath(), f"field:{name}", f"there is no prim {path}; the field is left out")
+            continue
+        if prim.GetTypeName() != "OpenVDBAsset":
+            context.warn(path, "", f"fields of type {prim.GetTypeName() or 'none'} are not read")
+            continue
+        if _moved(context, prim, found.prim):
+            context.warn(path, "xformOpOrder", "a field is not moved apart from its volume")
+        names.append(name)
+        files.append(resolve(context, prim.GetAttribute("filePath")))
+        grids.append(get(prim, "fieldName", context.time) or name)
+    context.edit.set_volume(found.path, field_names=names, field_files=files, field_grids=grids, **common)
+
+
+def _moved(context, field, volume):
+    cache = UsdGeom.XformCache(context.time)
+    return not cache.GetLocalToWorldTransform(field) == cache.GetLocalToWorldTransform(volume)

@@ -176,6 +176,7 @@ bool rewriteClosure(const Graph& graph, const GraphNode& node, Operand& out, std
     case ClosureKind::Dielectric:
     case ClosureKind::Conductor:
     case ClosureKind::Schlick:
+    case ClosureKind::Sheen:
         return !in.empty() && node.def->inputs[0].name == "weight" &&
                isConstantValue(in[0], 0.0f) && cut("weight 0");
     case ClosureKind::UniformEdf: return isConstantValue(in[0], 0.0f) && cut("black");

@@ -18,6 +18,7 @@ enum class ClosureKind {
     Dielectric,
     Conductor,
     Schlick,
+    Sheen,
     UniformEdf,
     AbsorptionVdf,
     AnisotropicVdf,

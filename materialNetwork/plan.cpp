@@ -163,6 +163,7 @@ private:
             checkMicrofacet(node);
             break;
         case ClosureKind::Conductor: checkMicrofacet(node); break;
+        case ClosureKind::Sheen: checkChoice(node, "mode", {"conty_kulla", "zeltner"}); break;
         case ClosureKind::Subsurface:
             leaveOut(node, "subsurface scattering is shown as diffuse");
             break;
@@ -196,17 +197,22 @@ private:
 
     bool reflects(int index) const { return index >= 0 && _plan.closures[size_t(index)].reflects; }
 
+    /// Warns about a string that is none of the choices; the first choice stands in.
+    void checkChoice(const GraphNode& node, const char* name,
+                     std::initializer_list<const char*> choices) {
+        const std::string& text = input(node, name).value.text;
+        for (const char* choice : choices)
+            if (text == choice) return;
+        _diagnostics.warn(node.path, name,
+                          "'" + text + "' is not known; " + *choices.begin() + " is used");
+    }
+
     void checkMicrofacet(const GraphNode& node) {
         if (!isConstantValue(input(node, "thinfilm_thickness"), 0.0f))
             leaveOut(node, "thin film is not modelled");
-        const Operand& distribution = input(node, "distribution");
-        if (distribution.value.text != "ggx")
-            _diagnostics.warn(node.path, "distribution",
-                              "'" + distribution.value.text + "' is not known; ggx is used");
+        checkChoice(node, "distribution", {"ggx"});
         if (node.def->findInput("scatter_mode") < 0) return;
-        const std::string& mode = input(node, "scatter_mode").value.text;
-        if (mode != "R" && mode != "T" && mode != "RT")
-            _diagnostics.warn(node.path, "scatter_mode", "'" + mode + "' is not known; R is used");
+        checkChoice(node, "scatter_mode", {"R", "T", "RT"});
     }
 
     Plan& _plan;
@@ -232,6 +238,13 @@ const Operand& closureInput(const Plan& plan, const PlanClosure& closure, const 
 int scatterMode(const Plan& plan, const PlanClosure& closure) {
     const std::string& mode = closureInput(plan, closure, "scatter_mode").value.text;
     return mode == "T" ? sh::SCATTER_T : mode == "RT" ? sh::SCATTER_RT : sh::SCATTER_R;
+}
+
+int lobeVariant(const Plan& plan, const PlanClosure& closure) {
+    if (closure.kind == ClosureKind::Sheen)
+        return closureInput(plan, closure, "mode").value.text == "zeltner" ? sh::SHEEN_ZELTNER
+                                                                           : sh::SHEEN_CONTY_KULLA;
+    return 0;
 }
 
 bool refracts(const Plan& plan, const PlanClosure& closure) {

@@ -9,6 +9,7 @@
 #include "shaders/lib/schlickAlbedo.glsl"
 #include "shaders/lib/conductorAlbedo.glsl"
 #include "shaders/lib/energy.glsl"
+#include "shaders/lib/sheenAlbedo.glsl"
 #include "shaders/lobes/orenNayarDiffuse.glsl"
 #include "shaders/lobes/burleyDiffuse.glsl"
 #include "shaders/lobes/translucent.glsl"
@@ -16,3 +17,4 @@
 #include "shaders/lobes/dielectric.glsl"
 #include "shaders/lobes/generalizedSchlick.glsl"
 #include "shaders/lobes/phaseHenyeyGreenstein.glsl"
+#include "shaders/lobes/sheen.glsl"

@@ -26,7 +26,15 @@ struct BsdfSample {
     float roughness = 0.0f; ///< GGX alpha of the lobe drawn (1 for diffuse), to widen the ray cone
 };
 
-enum class LobeKind : uint8_t { OrenNayar, Burley, Translucent, Dielectric, Conductor, Schlick };
+enum class LobeKind : uint8_t {
+    OrenNayar,
+    Burley,
+    Translucent,
+    Dielectric,
+    Conductor,
+    Schlick,
+    Sheen
+};
 
 /// A leaf of the BSDF, ready for one shading point.
 struct BsdfLobe {
@@ -44,6 +52,7 @@ struct BsdfLobe {
         sh::DielectricLobe dielectric;
         sh::ConductorLobe conductor;
         sh::SchlickLobe schlick;
+        sh::SheenLobe sheen;
     };
 };
 

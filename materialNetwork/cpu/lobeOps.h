@@ -17,6 +17,7 @@ inline sh::LobeEval lobeEval(const BsdfLobe& l, const glm::vec3& wo, const glm::
     case LobeKind::Dielectric: return sh::dielectricEval(l.dielectric, wo, wi);
     case LobeKind::Conductor: return sh::conductorEval(l.conductor, wo, wi);
     case LobeKind::Schlick: return sh::schlickEval(l.schlick, wo, wi);
+    case LobeKind::Sheen: return sh::sheenEval(l.sheen, wo, wi);
     }
     return sh::lobeEvalNone();
 }
@@ -29,6 +30,7 @@ inline sh::LobeSample lobeSample(const BsdfLobe& l, const glm::vec3& wo, const g
     case LobeKind::Dielectric: return sh::dielectricSample(l.dielectric, wo, u);
     case LobeKind::Conductor: return sh::conductorSample(l.conductor, wo, u);
     case LobeKind::Schlick: return sh::schlickSample(l.schlick, wo, u);
+    case LobeKind::Sheen: return sh::sheenSample(l.sheen, wo, u);
     }
     return sh::lobeSampleNone();
 }
@@ -41,6 +43,7 @@ inline glm::vec3 lobeAlbedo(const BsdfLobe& l, const glm::vec3& wo) {
     case LobeKind::Dielectric: return sh::dielectricAlbedo(l.dielectric, wo);
     case LobeKind::Conductor: return sh::conductorAlbedo(l.conductor, wo);
     case LobeKind::Schlick: return sh::schlickAlbedo(l.schlick, wo);
+    case LobeKind::Sheen: return sh::sheenAlbedo(l.sheen, wo);
     }
     return glm::vec3(0.0f);
 }
@@ -71,8 +74,8 @@ template <class Interface> float lobeSetEnergy(BsdfLobe& l, Interface& interface
 
 /// Looks up what depends on wo alone, once for all evaluations. Sets l.albedo, exact for interfaces
 /// and else an estimate that is good enough to choose lobes by.
-/// @returns the share that an interface keeps from the base of a layer: its largest channel,
-/// without tint. 1 for all other lobes.
+/// @returns the share that an interface or sheen keeps from the base of a layer: its largest
+/// channel, without tint. 1 for all other lobes.
 inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& curve) {
     switch (l.kind) {
     case LobeKind::OrenNayar: l.albedo = l.orenNayar.color; return 1.0f;
@@ -85,6 +88,11 @@ inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& curv
         return 1.0f;
     case LobeKind::Dielectric: return lobeSetEnergy(l, l.dielectric, l.dielectric.tint, wo, curve);
     case LobeKind::Schlick: return lobeSetEnergy(l, l.schlick, glm::vec3(1.0f), wo, curve);
+    case LobeKind::Sheen: {
+        const float kept = wo.z >= 0.0f ? sh::sheenWhiteAlbedo(l.sheen, wo.z) : 0.0f;
+        l.albedo = l.sheen.color * kept;
+        return kept;
+    }
     }
     return 1.0f;
 }

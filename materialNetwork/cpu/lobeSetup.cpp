@@ -11,6 +11,7 @@ const char* const dielectricNames[] = {"tint", "ior", "roughness", nullptr};
 const char* const conductorNames[] = {"ior", "extinction", "roughness", nullptr};
 const char* const schlickNames[] = {"color0",   "color82",   "color90",
                                     "exponent", "roughness", nullptr};
+const char* const sheenNames[] = {"color", "roughness", nullptr};
 const char* const noNames[] = {nullptr};
 
 } // namespace
@@ -24,6 +25,7 @@ const char* const* lobeParameters(ClosureKind kind) {
     case ClosureKind::Dielectric: return dielectricNames;
     case ClosureKind::Conductor: return conductorNames;
     case ClosureKind::Schlick: return schlickNames;
+    case ClosureKind::Sheen: return sheenNames;
     default: return noNames;
     }
 }
@@ -35,6 +37,7 @@ LobeKind lobeKind(ClosureKind kind) {
     case ClosureKind::Dielectric: return LobeKind::Dielectric;
     case ClosureKind::Conductor: return LobeKind::Conductor;
     case ClosureKind::Schlick: return LobeKind::Schlick;
+    case ClosureKind::Sheen: return LobeKind::Sheen;
     default: return LobeKind::OrenNayar;
     }
 }
@@ -60,6 +63,7 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
         out.schlick = sh::schlickSetup(color(0), color(1), color(2), number(3), pair(4), t.flagA,
                                        t.mode, t.fused, t.compensate);
         return;
+    case LobeKind::Sheen: out.sheen = sh::sheenSetup(color(0), number(1), t.variant); return;
     }
 }
 

@@ -247,7 +247,8 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.prebuilt.kind = lobeKind(closure.kind);
     t.prebuilt.diffuse =
         closure.kind == ClosureKind::OrenNayar || closure.kind == ClosureKind::Burley ||
-        closure.kind == ClosureKind::Subsurface || closure.kind == ClosureKind::Translucent;
+        closure.kind == ClosureKind::Subsurface || closure.kind == ClosureKind::Translucent ||
+        closure.kind == ClosureKind::Sheen;
     const bool interface =
         closure.kind == ClosureKind::Dielectric || closure.kind == ClosureKind::Schlick;
     t.fused = closure.fused;
@@ -260,6 +261,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.flagA =
         flag(closure.kind == ClosureKind::OrenNayar ? "energy_compensation" : "retroreflective");
     if (interface) t.mode = scatterMode(_plan, closure);
+    t.variant = lobeVariant(_plan, closure);
     // Metals and diffuse lobes show the same face on both sides; an interface has an inside.
     const bool flips = !interface || !hasInside;
     t.prebuilt.frame = uint8_t(frame(closure, flips, needed));

@@ -30,6 +30,7 @@ struct LobeTemplate {
     bool fused = false;
     bool straight = false; ///< passes light straight on without tint: part of the presence
     int mode = 0;          ///< SCATTER_*
+    int variant = 0;       ///< lobeVariant()
     int compensate = 1;
     EnergyCurve energy; ///< of constant interfaces
     Register weight = 0;

@@ -50,7 +50,7 @@ const NodeRow rows[] = {
     closure("ND_sheen_bsdf", "sheen_bsdf",
             "float weight=1, color3 color=1, float roughness=0.3, vector3 normal=@Nworld, "
             "string mode=conty_kulla",
-            "BSDF", ClosureKind::Unsupported),
+            "BSDF", ClosureKind::Sheen),
     closure("ND_thin_film_bsdf", "thin_film_bsdf", "float thickness=550, float ior=1.5", "BSDF",
             ClosureKind::Unsupported),
     closure("ND_uniform_edf", "uniform_edf", "color3 color=1", "EDF", ClosureKind::UniformEdf),

@@ -71,6 +71,28 @@ void bakeInterface(bool above) {
             }
 }
 
+// Sheen is as wide as the hemisphere or hugs the horizon: a plain product rule, dense there.
+void bakeSheen() {
+    const bake::GaussRule rule(48);
+    const int turns = 64;
+    for (int r = 0; r < SHEEN_ROUGHNESS; ++r)
+        for (int m = 0; m < SHEEN_MU; ++m) {
+            const double roughness = sheenRoughnessAt(double(r) / (SHEEN_ROUGHNESS - 1));
+            const double mu = sheenMuAt(double(m) / (SHEEN_MU - 1));
+            const vec3 wo(std::sqrt(std::max(0.0, 1.0 - mu * mu)), 0.0, mu);
+            double sum = 0.0;
+            for (std::size_t i = 0; i < rule.x.size(); ++i)
+                for (int j = 0; j < turns; ++j) {
+                    const double z = rule.x[i] * rule.x[i];
+                    const double s = std::sqrt(1.0 - z * z);
+                    const double phi = sh64::PI * (j + 0.5) / turns;
+                    const vec3 wi(s * std::cos(phi), s * std::sin(phi), z);
+                    sum += rule.w[i] * 2.0 * rule.x[i] * sheenContyKulla(roughness, wo, wi).x;
+                }
+            push(sum * 2.0 * sh64::PI / turns);
+        }
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -81,6 +103,7 @@ int main(int argc, char** argv) {
     bakeMoments();
     bakeInterface(true);
     bakeInterface(false);
+    bakeSheen();
     if (entryCount != ALBEDO_TABLE_SIZE) {
         std::fprintf(stderr, "bakeAlbedo: %d entries, the layout has %d\n", entryCount,
                      ALBEDO_TABLE_SIZE);

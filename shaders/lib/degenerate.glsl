@@ -35,6 +35,9 @@ const float TINY = 1e-20f;
 // Input range of tints and colours: negative and NaN become 0, Inf becomes this.
 const float COLOR_MAX = 65504.0f;
 
+// Smallest roughness of a sheen lobe; its exponent is 100 there.
+const float SHEEN_ROUGHNESS_MIN = 0.01f;
+
 // Largest |anisotropy| of a phase function: its peak is 2e6 / (4 pi) there, and 1 - g still has
 // four digits.
 const float PHASE_ANISOTROPY_MAX = 0.999f;

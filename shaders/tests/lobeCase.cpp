@@ -31,11 +31,23 @@ void addDiffuse(std::vector<LobeCase>& cases) {
     cases.push_back(t);
 }
 
+void addSheen(std::vector<LobeCase>& cases) {
+    for (double r : {0.05, 0.3, 1.0})
+        for (int mode : {0, 1}) {
+            LobeCase c = PATINA_LOBE_CASE(label(mode == 0 ? "contyKulla" : "zeltner", r, 0, 0, 0),
+                                          sheen, vec3(1.0, 0.5, 0.1), r, mode);
+            // The bound on the albedo and the fit over wo alone are declared to break it.
+            c.reciprocal = mode == 0 && r >= 0.3;
+            cases.push_back(c);
+        }
+}
+
 } // namespace
 
 std::vector<LobeCase> lobeCases(int compensate) {
     std::vector<LobeCase> cases;
     addDiffuse(cases);
+    addSheen(cases);
     const bool bare = compensate == 0;
     const double alphas[][2] = {{0.05, 0.05}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.4}};
     for (const auto& a : alphas) {

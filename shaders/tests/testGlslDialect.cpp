@@ -55,6 +55,8 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
     DielectricLobe d = dielectricSetup(vec3(1.0), 1.5, vec2(0.2), false, SCATTER_RT, false, 1);
     SchlickLobe s = schlickSetup(vec3(0.04), vec3(1.0), vec3(1.0), 5.0, vec2(0.2), false,
                                  SCATTER_RT, false, 1);
+    SheenLobe k = sheenSetup(vec3(0.8), 0.3, SHEEN_CONTY_KULLA);
+    SheenLobe z = sheenSetup(vec3(0.8), 0.3, SHEEN_ZELTNER);
     PhaseHenyeyGreensteinLobe p = phaseHenyeyGreensteinSetup(0.5);
     vec3 sum = phaseHenyeyGreensteinEval(p, wo, wi).value +
                phaseHenyeyGreensteinSample(p, wo, u).wi + phaseHenyeyGreensteinAlbedo(p, wo) +
@@ -66,6 +68,8 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
            dielectricSample(d, wo, u).weight + schlickSample(s, wo, u).weight;
     sum += orenNayarAlbedo(o, wo) + burleyAlbedo(b, wo) + translucentAlbedo(t, wo) +
            conductorAlbedo(c, wo) + dielectricAlbedo(d, wo) + schlickAlbedo(s, wo);
+    sum += sheenEval(k, wo, wi).value + sheenEval(z, wo, wi).value + sheenSample(k, wo, u).weight +
+           sheenSample(z, wo, u).weight + sheenAlbedo(k, wo) + sheenAlbedo(z, wo);
     return sum + dielectricAlbedoReflect(d, wo) + schlickAlbedoReflect(s, wo);
 }
 )";

@@ -124,6 +124,15 @@ TEST(LobeDegenerate, DiffuseIsSane) {
         }
 }
 
+TEST(LobeDegenerate, SheenIsSane) {
+    for (float r : {0.0f, 1e-8f, 0.02f, 0.3f, 1.0f, 5.0f, -1.0f, kNan})
+        for (float color : {0.0f, 1.0f, 2.0f, -1.0f, kInf, kNan})
+            for (int mode : {0, 1}) {
+                const LobeCase c = PATINA_LOBE_CASE("s", sheen, vec3(color, 1.0, 0.5), r, mode);
+                ASSERT_TRUE(sane(c.f32)) << mode << " r " << r << " color " << color;
+            }
+}
+
 TEST(LobeDegenerate, MirrorGlassFollowsSnell) {
     const auto glass =
         sh64::dielectricSetup(vec3(1.0), 1.5, vec2(0.0), false, sh::SCATTER_RT, false, 1);

@@ -1,0 +1,101 @@
+// Every BSDF node through the whole way from network to Bsdf: it is modelled, gains no energy, and
+// is sampled by the density that it states.
+#include "materialNetwork/tests/materialTest.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+struct Case {
+    const char* id;
+    Inputs inputs;
+    float budget = 2e-3f; ///< how far the albedo may be above 1
+};
+
+const std::vector<Case> cases = {
+    {"ND_sheen_bsdf", {{"color", grey(1.0f)}, {"roughness", number(0.05f)}}},
+    {"ND_sheen_bsdf", {{"color", grey(1.0f)}, {"roughness", number(0.8f)}}},
+    {"ND_sheen_bsdf", {{"color", grey(1.0f)}, {"mode", text("zeltner")}}},
+};
+
+ShadingPoint seenFrom(const glm::vec3& wo) {
+    ShadingPoint point;
+    point.viewDirection = wo;
+    return point;
+}
+
+std::string describe(const Case& c, float theta) {
+    return std::string(c.id) + " at " + std::to_string(theta);
+}
+
+} // namespace
+
+TEST(Closures, AreModelledAndKeepEnergy) {
+    for (const Case& c : cases) {
+        const Network network = bsdfNetwork({makeNode("bsdf", c.id, c.inputs)});
+        Compiled compiled(network);
+        EXPECT_EQ(warnings(compiled.diagnostics), "") << c.id;
+        for (const float theta : {0.0f, 40.0f, 75.0f, 89.0f, 89.9f}) {
+            Bsdf bsdf;
+            compiled.program->evaluate(seenFrom(direction(theta, 20.0f)), bsdf);
+            ASSERT_EQ(bsdf.lobeCount(), 1) << describe(c, theta);
+            const glm::vec3 a = bsdf.albedo();
+            EXPECT_LE(std::max({a.x, a.y, a.z}), 1.0f + c.budget) << describe(c, theta);
+            EXPECT_GT(std::max({a.x, a.y, a.z}), 0.0f) << describe(c, theta);
+        }
+    }
+}
+
+TEST(Closures, SamplesAgreeWithEval) {
+    for (const Case& c : cases) {
+        Compiled compiled(bsdfNetwork({makeNode("bsdf", c.id, c.inputs)}));
+        Random random(5);
+        int found = 0;
+        for (int i = 0; i < 300; ++i) {
+            Bsdf bsdf;
+            const glm::vec3 wo = random.direction();
+            compiled.program->evaluate(seenFrom(wo), bsdf);
+            const BsdfSample s = bsdf.sample(random.next3(), random.next());
+            if (s.event == 0 || (s.event & sh::LOBE_DELTA) != 0) continue;
+            const BsdfEval e = bsdf.eval(s.wi);
+            const glm::vec3 f = e.diffuse + e.specular;
+            EXPECT_NEAR(s.pdf / e.pdf, 1.0f, 5e-3f) << c.id;
+            EXPECT_NEAR(s.weight.y, f.y / e.pdf, 5e-3f * (1.0f + s.weight.y)) << c.id;
+            ++found;
+        }
+        EXPECT_GT(found, 50) << c.id;
+    }
+}
+
+// A sheen layer takes from its base what it reflects, whatever its colour.
+TEST(Closures, SheenScalesTheBaseByItsAlbedo) {
+    for (const char* mode : {"conty_kulla", "zeltner"})
+        for (const float theta : {10.0f, 60.0f, 85.0f}) {
+            const auto layered = [&](const Value& tint) {
+                Compiled c(bsdfNetwork(
+                    {makeNode("top", "ND_sheen_bsdf", {{"color", tint}, {"mode", text(mode)}}),
+                     makeNode("base", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(1.0f)}}),
+                     makeNode("bsdf", "ND_layer_bsdf", {},
+                              {{"top", {"top", ""}}, {"base", {"base", ""}}})}));
+                Bsdf bsdf;
+                c.program->evaluate(seenFrom(direction(theta)), bsdf);
+                return bsdf.albedo();
+            };
+            EXPECT_NEAR(layered(grey(1.0f)).x, 1.0f, 1e-5f) << mode << theta;
+            const glm::vec3 red = layered(color(1.0f, 0.0f, 0.0f));
+            EXPECT_NEAR(red.x, 1.0f, 1e-5f) << mode << theta;
+            EXPECT_LT(red.y, 0.999f) << mode << theta;
+            EXPECT_GE(red.y, 0.0f) << mode << theta;
+        }
+}
+
+TEST(Closures, UnknownChoicesAreReported) {
+    Compiled c(bsdfNetwork({makeNode("bsdf", "ND_sheen_bsdf", {{"mode", text("velvet")}})}));
+    EXPECT_EQ(warnings(c.diagnostics),
+              "/m/bsdf [mode] 'velvet' is not known; conty_kulla is used\n");
+}
+
+} // namespace patina

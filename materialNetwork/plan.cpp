@@ -167,12 +167,16 @@ private:
         case ClosureKind::Subsurface:
             leaveOut(node, "subsurface scattering is shown as diffuse");
             break;
+        case ClosureKind::Ward: checkChoice(node, "form", {"bounded", "exact"}); break;
+        case ClosureKind::CookTorrance: checkChoice(node, "fresnel", {"exact", "schlick"}); break;
         case ClosureKind::Unsupported:
             leaveOut(node, node.def->category + " is not modelled");
             return -1;
         case ClosureKind::OrenNayar:
         case ClosureKind::Burley:
         case ClosureKind::Translucent:
+        case ClosureKind::Phong:
+        case ClosureKind::BlinnPhong:
         case ClosureKind::UniformEdf:
         case ClosureKind::AbsorptionVdf:
         case ClosureKind::AnisotropicVdf: break;
@@ -241,10 +245,17 @@ int scatterMode(const Plan& plan, const PlanClosure& closure) {
 }
 
 int lobeVariant(const Plan& plan, const PlanClosure& closure) {
-    if (closure.kind == ClosureKind::Sheen)
-        return closureInput(plan, closure, "mode").value.text == "zeltner" ? sh::SHEEN_ZELTNER
-                                                                           : sh::SHEEN_CONTY_KULLA;
-    return 0;
+    const auto chosen = [&](const char* name, const char* text) {
+        return closureInput(plan, closure, name).value.text == text;
+    };
+    switch (closure.kind) {
+    case ClosureKind::Sheen:
+        return chosen("mode", "zeltner") ? sh::SHEEN_ZELTNER : sh::SHEEN_CONTY_KULLA;
+    case ClosureKind::Ward: return chosen("form", "exact") ? sh::WARD_EXACT : sh::WARD_BOUNDED;
+    case ClosureKind::CookTorrance:
+        return chosen("fresnel", "schlick") ? sh::COOK_TORRANCE_SCHLICK : sh::COOK_TORRANCE_EXACT;
+    default: return 0;
+    }
 }
 
 bool refracts(const Plan& plan, const PlanClosure& closure) {

@@ -33,7 +33,11 @@ enum class LobeKind : uint8_t {
     Dielectric,
     Conductor,
     Schlick,
-    Sheen
+    Sheen,
+    Phong,
+    BlinnPhong,
+    Ward,
+    CookTorrance
 };
 
 /// A leaf of the BSDF, ready for one shading point.
@@ -53,6 +57,10 @@ struct BsdfLobe {
         sh::ConductorLobe conductor;
         sh::SchlickLobe schlick;
         sh::SheenLobe sheen;
+        sh::PhongLobe phong;
+        sh::BlinnPhongLobe blinnPhong;
+        sh::WardLobe ward;
+        sh::CookTorranceLobe cookTorrance;
     };
 };
 

@@ -18,6 +18,10 @@ inline sh::LobeEval lobeEval(const BsdfLobe& l, const glm::vec3& wo, const glm::
     case LobeKind::Conductor: return sh::conductorEval(l.conductor, wo, wi);
     case LobeKind::Schlick: return sh::schlickEval(l.schlick, wo, wi);
     case LobeKind::Sheen: return sh::sheenEval(l.sheen, wo, wi);
+    case LobeKind::Phong: return sh::phongEval(l.phong, wo, wi);
+    case LobeKind::BlinnPhong: return sh::blinnPhongEval(l.blinnPhong, wo, wi);
+    case LobeKind::Ward: return sh::wardEval(l.ward, wo, wi);
+    case LobeKind::CookTorrance: return sh::cookTorranceEval(l.cookTorrance, wo, wi);
     }
     return sh::lobeEvalNone();
 }
@@ -31,6 +35,10 @@ inline sh::LobeSample lobeSample(const BsdfLobe& l, const glm::vec3& wo, const g
     case LobeKind::Conductor: return sh::conductorSample(l.conductor, wo, u);
     case LobeKind::Schlick: return sh::schlickSample(l.schlick, wo, u);
     case LobeKind::Sheen: return sh::sheenSample(l.sheen, wo, u);
+    case LobeKind::Phong: return sh::phongSample(l.phong, wo, u);
+    case LobeKind::BlinnPhong: return sh::blinnPhongSample(l.blinnPhong, wo, u);
+    case LobeKind::Ward: return sh::wardSample(l.ward, wo, u);
+    case LobeKind::CookTorrance: return sh::cookTorranceSample(l.cookTorrance, wo, u);
     }
     return sh::lobeSampleNone();
 }
@@ -44,6 +52,10 @@ inline glm::vec3 lobeAlbedo(const BsdfLobe& l, const glm::vec3& wo) {
     case LobeKind::Conductor: return sh::conductorAlbedo(l.conductor, wo);
     case LobeKind::Schlick: return sh::schlickAlbedo(l.schlick, wo);
     case LobeKind::Sheen: return sh::sheenAlbedo(l.sheen, wo);
+    case LobeKind::Phong: return sh::phongAlbedo(l.phong, wo);
+    case LobeKind::BlinnPhong: return sh::blinnPhongAlbedo(l.blinnPhong, wo);
+    case LobeKind::Ward: return sh::wardAlbedo(l.ward, wo);
+    case LobeKind::CookTorrance: return sh::cookTorranceAlbedo(l.cookTorrance, wo);
     }
     return glm::vec3(0.0f);
 }
@@ -93,6 +105,10 @@ inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& curv
         l.albedo = l.sheen.color * kept;
         return kept;
     }
+    case LobeKind::Phong:
+    case LobeKind::BlinnPhong:
+    case LobeKind::Ward:
+    case LobeKind::CookTorrance: l.albedo = lobeAlbedo(l, wo); return 1.0f;
     }
     return 1.0f;
 }
@@ -125,6 +141,10 @@ inline float lobeRoughness(const BsdfLobe& l) {
     case LobeKind::Dielectric: return 0.5f * (l.dielectric.alpha.x + l.dielectric.alpha.y);
     case LobeKind::Conductor: return 0.5f * (l.conductor.alpha.x + l.conductor.alpha.y);
     case LobeKind::Schlick: return 0.5f * (l.schlick.alpha.x + l.schlick.alpha.y);
+    case LobeKind::Phong: return sh::phongAlpha(l.phong.exponent);
+    case LobeKind::BlinnPhong: return sh::phongAlpha(l.blinnPhong.exponent);
+    case LobeKind::Ward: return 0.5f * (l.ward.alpha.x + l.ward.alpha.y);
+    case LobeKind::CookTorrance: return l.cookTorrance.alpha;
     default: return 1.0f;
     }
 }

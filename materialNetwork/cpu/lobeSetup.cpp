@@ -12,6 +12,9 @@ const char* const conductorNames[] = {"ior", "extinction", "roughness", nullptr}
 const char* const schlickNames[] = {"color0",   "color82",   "color90",
                                     "exponent", "roughness", nullptr};
 const char* const sheenNames[] = {"color", "roughness", nullptr};
+const char* const phongNames[] = {"color", "exponent", nullptr};
+const char* const wardNames[] = {"color", "roughness", nullptr};
+const char* const cookTorranceNames[] = {"color", "ior", "extinction", "roughness", nullptr};
 const char* const noNames[] = {nullptr};
 
 } // namespace
@@ -26,6 +29,10 @@ const char* const* lobeParameters(ClosureKind kind) {
     case ClosureKind::Conductor: return conductorNames;
     case ClosureKind::Schlick: return schlickNames;
     case ClosureKind::Sheen: return sheenNames;
+    case ClosureKind::Phong:
+    case ClosureKind::BlinnPhong: return phongNames;
+    case ClosureKind::Ward: return wardNames;
+    case ClosureKind::CookTorrance: return cookTorranceNames;
     default: return noNames;
     }
 }
@@ -38,6 +45,10 @@ LobeKind lobeKind(ClosureKind kind) {
     case ClosureKind::Conductor: return LobeKind::Conductor;
     case ClosureKind::Schlick: return LobeKind::Schlick;
     case ClosureKind::Sheen: return LobeKind::Sheen;
+    case ClosureKind::Phong: return LobeKind::Phong;
+    case ClosureKind::BlinnPhong: return LobeKind::BlinnPhong;
+    case ClosureKind::Ward: return LobeKind::Ward;
+    case ClosureKind::CookTorrance: return LobeKind::CookTorrance;
     default: return LobeKind::OrenNayar;
     }
 }
@@ -64,6 +75,13 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
                                        t.mode, t.fused, t.compensate);
         return;
     case LobeKind::Sheen: out.sheen = sh::sheenSetup(color(0), number(1), t.variant); return;
+    case LobeKind::Phong: out.phong = sh::phongSetup(color(0), number(1)); return;
+    case LobeKind::BlinnPhong: out.blinnPhong = sh::blinnPhongSetup(color(0), number(1)); return;
+    case LobeKind::Ward: out.ward = sh::wardSetup(color(0), pair(1), t.variant); return;
+    case LobeKind::CookTorrance:
+        out.cookTorrance =
+            sh::cookTorranceSetup(color(0), color(1), color(2), number(3), t.variant);
+        return;
     }
 }
 

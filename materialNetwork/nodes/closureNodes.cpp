@@ -51,6 +51,25 @@ const NodeRow rows[] = {
             "float weight=1, color3 color=1, float roughness=0.3, vector3 normal=@Nworld, "
             "string mode=conty_kulla",
             "BSDF", ClosureKind::Sheen),
+    // The classic BRDFs. exponent and roughness are those of each paper.
+    closure("ND_patina_lambert_bsdf", "patina_lambert_bsdf",
+            "float weight=1, color3 color=0.18, vector3 normal=@Nworld", "BSDF",
+            ClosureKind::OrenNayar),
+    closure("ND_patina_phong_bsdf", "patina_phong_bsdf",
+            "float weight=1, color3 color=1, float exponent=32, vector3 normal=@Nworld", "BSDF",
+            ClosureKind::Phong),
+    closure("ND_patina_blinn_phong_bsdf", "patina_blinn_phong_bsdf",
+            "float weight=1, color3 color=1, float exponent=128, vector3 normal=@Nworld", "BSDF",
+            ClosureKind::BlinnPhong),
+    closure("ND_patina_ward_bsdf", "patina_ward_bsdf",
+            "float weight=1, color3 color=1, vector2 roughness=0.2, vector3 normal=@Nworld, "
+            "vector3 tangent=@Tworld, string form=bounded",
+            "BSDF", ClosureKind::Ward),
+    closure("ND_patina_cook_torrance_bsdf", "patina_cook_torrance_bsdf",
+            "float weight=1, color3 color=1, color3 ior=2.911 2.950 2.590, "
+            "color3 extinction=3.089 2.930 2.770, float roughness=0.2, vector3 normal=@Nworld, "
+            "string fresnel=exact",
+            "BSDF", ClosureKind::CookTorrance),
     closure("ND_thin_film_bsdf", "thin_film_bsdf", "float thickness=550, float ior=1.5", "BSDF",
             ClosureKind::Unsupported),
     closure("ND_uniform_edf", "uniform_edf", "color3 color=1", "EDF", ClosureKind::UniformEdf),

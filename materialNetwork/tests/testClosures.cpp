@@ -19,6 +19,14 @@ const std::vector<Case> cases = {
     {"ND_sheen_bsdf", {{"color", grey(1.0f)}, {"roughness", number(0.05f)}}},
     {"ND_sheen_bsdf", {{"color", grey(1.0f)}, {"roughness", number(0.8f)}}},
     {"ND_sheen_bsdf", {{"color", grey(1.0f)}, {"mode", text("zeltner")}}},
+    {"ND_patina_lambert_bsdf", {{"color", grey(1.0f)}}},
+    {"ND_patina_phong_bsdf", {{"exponent", number(1.0f)}}},
+    {"ND_patina_phong_bsdf", {{"exponent", number(100.0f)}}},
+    {"ND_patina_blinn_phong_bsdf", {{"exponent", number(1.0f)}}},
+    {"ND_patina_blinn_phong_bsdf", {{"exponent", number(100.0f)}}},
+    {"ND_patina_ward_bsdf", {{"roughness", Value::makeVec2(0.1f, 0.4f)}}},
+    {"ND_patina_cook_torrance_bsdf", {}},
+    {"ND_patina_cook_torrance_bsdf", {{"fresnel", text("schlick")}}},
 };
 
 ShadingPoint seenFrom(const glm::vec3& wo) {

@@ -7,7 +7,7 @@
 const vec3 CONDUCTOR_COS = vec3(0.0894427191f, 0.252982213f, 0.464758002f);
 const float CONDUCTOR_COS3 = 0.715541753f;
 
-PATINA_FN vec3 conductorMean(float mu, float alpha, vec3 n, vec3 k) {
+PATINA_FN vec3 conductorMean(MomentPlace p, vec3 n, vec3 k) {
     vec3 f1 = fresnelConductor(CONDUCTOR_COS.x, n, k);
     vec3 f2 = fresnelConductor(CONDUCTOR_COS.y, n, k);
     vec3 f3 = fresnelConductor(CONDUCTOR_COS.z, n, k);
@@ -24,7 +24,6 @@ PATINA_FN vec3 conductorMean(float mu, float alpha, vec3 n, vec3 k) {
               f4 * 35.1275446f + f5 * 13.7307572f;
     vec3 a5 = one * 1.9835266f - f1 * 6.63279535f + f2 * 11.8655679f - f3 * 13.9281384f +
               f4 * 10.6694767f - f5 * 3.95763754f;
-    MomentPlace p = momentPlace(mu, alpha);
     vec3 mean = f5 + a1 * momentMean(p, 1.7f) + a2 * momentMean(p, 2.5f) +
                 a3 * momentMean(p, 5.0f) + a4 * momentMean(p, 10.0f) + a5 * momentMean(p, 20.0f);
     return min(max(mean, vec3(0.0f)), one);

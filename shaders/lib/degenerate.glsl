@@ -38,6 +38,12 @@ const float COLOR_MAX = 65504.0f;
 // Smallest roughness of a sheen lobe; its exponent is 100 there.
 const float SHEEN_ROUGHNESS_MIN = 0.01f;
 
+// Largest exponent of the cosine power lobes; they are 4 mrad wide there.
+const float EXPONENT_MAX = 1e5f;
+
+// Smallest product of both cosines in Ward's lobe, which divides by its root.
+const float WARD_COS_MIN = 1e-6f;
+
 // Largest |anisotropy| of a phase function: its peak is 2e6 / (4 pi) there, and 1 - g still has
 // four digits.
 const float PHASE_ANISOTROPY_MAX = 0.999f;

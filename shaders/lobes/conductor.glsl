@@ -70,7 +70,7 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
 PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
     if (l.alpha.x == 0.0f) return fresnelConductor(wo.z, l.ior, l.extinction);
-    vec3 mean = conductorMean(wo.z, ggxAlphaSeen(wo, l.alpha), l.ior, l.extinction);
+    vec3 mean = conductorMean(momentPlace(wo.z, ggxAlphaSeen(wo, l.alpha)), l.ior, l.extinction);
     float ess = momentAlbedo0(momentPlace(wo.z, ggxAlphaLoss(wo, l.alpha)));
     return mean * conductorAt(l, wo).k * ess;
 }

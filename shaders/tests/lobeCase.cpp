@@ -42,12 +42,40 @@ void addSheen(std::vector<LobeCase>& cases) {
         }
 }
 
+void addClassic(std::vector<LobeCase>& cases) {
+    const vec3 color(1.0, 0.5, 0.1);
+    const auto add = [&](LobeCase c, double alpha) {
+        c.alpha = alpha;
+        c.reciprocal = true;
+        cases.push_back(c);
+    };
+    for (double n : {1.0, 30.0, 500.0}) {
+        const double alpha = std::sqrt(2.0 / (n + 2.0));
+        add(PATINA_LOBE_CASE(label("phong", n, 0, 0, 0), phong, vec3(color), n), alpha);
+        add(PATINA_LOBE_CASE(label("blinnPhong", n, 0, 0, 0), blinnPhong, vec3(color), n), alpha);
+    }
+    const double alphas[][2] = {{0.05, 0.05}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.4}};
+    for (const auto& a : alphas) {
+        for (int form : {0, 1})
+            add(PATINA_LOBE_CASE(label(form ? "wardExact" : "wardBounded", a[0], a[1], 0, 0), ward,
+                                 vec3(color), vec2(a[0], a[1]), form),
+                a[0]);
+        if (a[0] != a[1]) continue;
+        for (int fresnel : {0, 1})
+            add(PATINA_LOBE_CASE(label("cookTorrance", a[0], fresnel, 0, 0), cookTorrance,
+                                 vec3(color), vec3(0.183, 0.421, 1.373), vec3(3.424, 2.346, 1.77),
+                                 a[0], fresnel),
+                a[0]);
+    }
+}
+
 } // namespace
 
 std::vector<LobeCase> lobeCases(int compensate) {
     std::vector<LobeCase> cases;
     addDiffuse(cases);
     addSheen(cases);
+    addClassic(cases);
     const bool bare = compensate == 0;
     const double alphas[][2] = {{0.05, 0.05}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.4}};
     for (const auto& a : alphas) {

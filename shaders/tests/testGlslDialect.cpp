@@ -70,6 +70,16 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
            conductorAlbedo(c, wo) + dielectricAlbedo(d, wo) + schlickAlbedo(s, wo);
     sum += sheenEval(k, wo, wi).value + sheenEval(z, wo, wi).value + sheenSample(k, wo, u).weight +
            sheenSample(z, wo, u).weight + sheenAlbedo(k, wo) + sheenAlbedo(z, wo);
+    PhongLobe q = phongSetup(vec3(0.8), 20.0);
+    BlinnPhongLobe n = blinnPhongSetup(vec3(0.8), 20.0);
+    WardLobe w = wardSetup(vec3(0.8), vec2(0.2), WARD_BOUNDED);
+    CookTorranceLobe x =
+        cookTorranceSetup(vec3(0.8), vec3(1.5), vec3(0.0), 0.2, COOK_TORRANCE_SCHLICK);
+    sum += phongEval(q, wo, wi).value + phongSample(q, wo, u).weight + phongAlbedo(q, wo) +
+           blinnPhongEval(n, wo, wi).value + blinnPhongSample(n, wo, u).weight +
+           blinnPhongAlbedo(n, wo) + wardEval(w, wo, wi).value + wardSample(w, wo, u).weight +
+           wardAlbedo(w, wo) + cookTorranceEval(x, wo, wi).value +
+           cookTorranceSample(x, wo, u).weight + cookTorranceAlbedo(x, wo);
     return sum + dielectricAlbedoReflect(d, wo) + schlickAlbedoReflect(s, wo);
 }
 )";

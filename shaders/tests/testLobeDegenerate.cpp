@@ -133,6 +133,38 @@ TEST(LobeDegenerate, SheenIsSane) {
             }
 }
 
+TEST(LobeDegenerate, ClassicsAreSane) {
+    for (float color : {0.0f, 1.0f, 2.0f, -1.0f, kInf, kNan}) {
+        for (float n : {0.0f, 1e-8f, 1.0f, 1e3f, 1e9f, -1.0f, kInf, kNan}) {
+            const LobeCase a = PATINA_LOBE_CASE("phong", phong, vec3(color, 1.0, 0.5), n);
+            const LobeCase b = PATINA_LOBE_CASE("blinn", blinnPhong, vec3(color, 1.0, 0.5), n);
+            for (const LobeCase& l : {a, b})
+                ASSERT_TRUE(sane(l.f32)) << l.name << " n " << n << " color " << color;
+        }
+        for (float ax : kRoughness)
+            for (float ay : {ax, 0.0f, 0.5f})
+                for (int choice : {0, 1}) {
+                    const LobeCase a =
+                        PATINA_LOBE_CASE("ward", ward, vec3(color, 1.0, 0.5), vec2(ax, ay), choice);
+                    const LobeCase b =
+                        PATINA_LOBE_CASE("cook", cookTorrance, vec3(color, 1.0, 0.5),
+                                         vec3(ay, 1.0, 0.2), vec3(color, 0.0, 3.0), ax, choice);
+                    for (const LobeCase& l : {a, b})
+                        ASSERT_TRUE(sane(l.f32)) << l.name << " " << ax << " " << ay << " color "
+                                                 << color << " choice " << choice;
+                }
+    }
+}
+
+TEST(LobeDegenerate, ClassicsOfPowerZeroAreLambert) {
+    const vec3 wo = direction(0.3, 0.2);
+    const vec3 wi = direction(0.4, 2.0);
+    const auto blinn = sh64::blinnPhongSetup(vec3(0.8), 0.0);
+    EXPECT_NEAR(sh64::blinnPhongEval(blinn, wo, wi).value.x, 0.8 * 0.4 / sh64::PI, 1e-12);
+    const auto phong = sh64::phongSetup(vec3(0.8), 0.0);
+    EXPECT_NEAR(sh64::phongEval(phong, wo, wi).value.x, 0.8 * 0.4 / sh64::PI, 1e-12);
+}
+
 TEST(LobeDegenerate, MirrorGlassFollowsSnell) {
     const auto glass =
         sh64::dielectricSetup(vec3(1.0), 1.5, vec2(0.0), false, sh::SCATTER_RT, false, 1);

@@ -136,6 +136,11 @@ private:
         closure.node = index;
         switch (closure.kind) {
         case ClosureKind::Layer: {
+            const Operand& top = node.inputs[0];
+            if (!top.isConstant() && nodeOf(top.node).def->closure == ClosureKind::ThinFilm) {
+                const GraphNode film = nodeOf(top.node);
+                return build(coat(node.inputs[1], film), fused);
+            }
             closure.a = build(node.inputs[0], fused);
             if (node.def->inputs[1].type == ValueType::Vdf) {
                 addInterior(node);
@@ -169,6 +174,10 @@ private:
             break;
         case ClosureKind::Ward: checkChoice(node, "form", {"bounded", "exact"}); break;
         case ClosureKind::CookTorrance: checkChoice(node, "fresnel", {"exact", "schlick"}); break;
+        case ClosureKind::ThinFilm:
+            _diagnostics.warn(node.path, "",
+                              "thin_film_bsdf coats only as the top of a layer; it is left out");
+            return -1;
         case ClosureKind::Unsupported:
             leaveOut(node, node.def->category + " is not modelled");
             return -1;
@@ -188,6 +197,31 @@ private:
         closure.reflects |= reflects(closure.a) || reflects(closure.b);
         _plan.closures.push_back(closure);
         return int(_plan.closures.size()) - 1;
+    }
+
+    /// The same closures with the film on every interface that reflects, as MaterialX 1.39 reads
+    /// the older thin_film_bsdf. The graph keeps what it had; coated copies are appended.
+    Operand coat(const Operand& operand, const GraphNode& film) {
+        if (operand.isConstant()) return operand;
+        GraphNode node = nodeOf(operand.node);
+        const int thickness = node.def->findInput("thinfilm_thickness");
+        if (thickness >= 0) {
+            const int mode = node.def->findInput("scatter_mode");
+            if (mode >= 0 && node.inputs[size_t(mode)].value.text == "T") return operand;
+            node.inputs[size_t(thickness)] = input(film, "thickness");
+            node.inputs[size_t(node.def->findInput("thinfilm_ior"))] = input(film, "ior");
+        } else {
+            bool changed = false;
+            for (size_t i = 0; i < node.inputs.size(); ++i) {
+                if (node.def->inputs[i].type != ValueType::Bsdf) continue;
+                const Operand coated = coat(node.inputs[i], film);
+                changed |= coated.node != node.inputs[i].node;
+                node.inputs[i] = coated;
+            }
+            if (!changed) return operand;
+        }
+        _plan.graph.nodes.push_back(std::move(node));
+        return {int(_plan.graph.nodes.size()) - 1, operand.output, {}};
     }
 
     void addInterior(const GraphNode& layer) {
@@ -212,8 +246,6 @@ private:
     }
 
     void checkMicrofacet(const GraphNode& node) {
-        if (!isConstantValue(input(node, "thinfilm_thickness"), 0.0f))
-            leaveOut(node, "thin film is not modelled");
         checkChoice(node, "distribution", {"ggx"});
         if (node.def->findInput("scatter_mode") < 0) return;
         checkChoice(node, "scatter_mode", {"R", "T", "RT"});
@@ -256,6 +288,17 @@ int lobeVariant(const Plan& plan, const PlanClosure& closure) {
         return chosen("fresnel", "schlick") ? sh::COOK_TORRANCE_SCHLICK : sh::COOK_TORRANCE_EXACT;
     default: return 0;
     }
+}
+
+bool hasFilm(const Plan& plan, const PlanClosure& closure) {
+    const GraphNode& node = plan.graph.nodes[size_t(closure.node)];
+    if (node.def->findInput("thinfilm_thickness") < 0) return false;
+    // A film on a thin wall's transmission is that of the reflection over it.
+    if (plan.thinWalled && node.def->findInput("scatter_mode") >= 0 &&
+        scatterMode(plan, closure) == sh::SCATTER_T)
+        return false;
+    return !isConstantValue(closureInput(plan, closure, "thinfilm_thickness"), 0.0f) &&
+           !isConstantValue(closureInput(plan, closure, "thinfilm_ior"), 1.0f);
 }
 
 bool refracts(const Plan& plan, const PlanClosure& closure) {

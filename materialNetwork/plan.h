@@ -57,6 +57,9 @@ int scatterMode(const Plan& plan, const PlanClosure& closure);
 /// sh::WARD_*, sh::COOK_TORRANCE_*. 0 for lobes with one model.
 int lobeVariant(const Plan& plan, const PlanClosure& closure);
 
+/// Whether a lobe may have a thin film; false when it certainly shows none.
+bool hasFilm(const Plan& plan, const PlanClosure& closure);
+
 /// Whether light that is transmitted changes direction, so that the surface has an inside.
 bool refracts(const Plan& plan, const PlanClosure& closure);
 

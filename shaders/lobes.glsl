@@ -4,6 +4,7 @@
 #include "shaders/lib/lobe.glsl"
 #include "shaders/lib/sampling.glsl"
 #include "shaders/lib/fresnel.glsl"
+#include "shaders/lib/film.glsl"
 #include "shaders/lib/ggx.glsl"
 #include "shaders/lib/albedoTable.glsl"
 #include "shaders/lib/schlickAlbedo.glsl"

@@ -95,11 +95,10 @@ inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& curv
     case LobeKind::Translucent: l.albedo = l.translucent.color; return 1.0f;
     case LobeKind::Conductor:
         l.conductor = sh::conductorAt(l.conductor, wo);
-        l.albedo = sh::fresnelConductor(glm::clamp(wo.z, 0.0f, 1.0f), l.conductor.ior,
-                                        l.conductor.extinction);
+        l.albedo = sh::conductorReflectance(l.conductor, glm::clamp(wo.z, 0.0f, 1.0f));
         return 1.0f;
     case LobeKind::Dielectric: return lobeSetEnergy(l, l.dielectric, l.dielectric.tint, wo, curve);
-    case LobeKind::Schlick: return lobeSetEnergy(l, l.schlick, glm::vec3(1.0f), wo, curve);
+    case LobeKind::Schlick: return lobeSetEnergy(l, l.schlick, l.schlick.tint, wo, curve);
     case LobeKind::Sheen: {
         const float kept = wo.z >= 0.0f ? sh::sheenWhiteAlbedo(l.sheen, wo.z) : 0.0f;
         l.albedo = l.sheen.color * kept;

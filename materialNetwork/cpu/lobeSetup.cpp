@@ -7,10 +7,13 @@ namespace {
 const char* const orenNayarNames[] = {"color", "roughness", nullptr};
 const char* const burleyNames[] = {"color", "roughness", nullptr};
 const char* const translucentNames[] = {"color", nullptr};
-const char* const dielectricNames[] = {"tint", "ior", "roughness", nullptr};
-const char* const conductorNames[] = {"ior", "extinction", "roughness", nullptr};
-const char* const schlickNames[] = {"color0",   "color82",   "color90",
-                                    "exponent", "roughness", nullptr};
+const char* const dielectricNames[] = {"tint",         "ior",  "roughness", "thinfilm_thickness",
+                                       "thinfilm_ior", nullptr};
+const char* const conductorNames[] = {
+    "ior", "extinction", "roughness", "thinfilm_thickness", "thinfilm_ior", nullptr};
+const char* const schlickNames[] = {"color0",       "color82",   "color90",
+                                    "exponent",     "roughness", "thinfilm_thickness",
+                                    "thinfilm_ior", nullptr};
 const char* const sheenNames[] = {"color", "roughness", nullptr};
 const char* const phongNames[] = {"color", "exponent", nullptr};
 const char* const wardNames[] = {"color", "roughness", nullptr};
@@ -69,10 +72,18 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
         return;
     case LobeKind::Conductor:
         out.conductor = sh::conductorSetup(color(0), color(1), pair(2), t.flagA, t.compensate);
+        if (t.film) out.conductor = sh::conductorFilm(out.conductor, number(3), number(4));
         return;
     case LobeKind::Schlick:
+        if (t.filmDielectric) {
+            out.schlick =
+                sh::filmDielectricSetup(color(0), number(1), pair(2), number(3), number(4), t.flagA,
+                                        t.mode, t.fused, t.compensate);
+            return;
+        }
         out.schlick = sh::schlickSetup(color(0), color(1), color(2), number(3), pair(4), t.flagA,
                                        t.mode, t.fused, t.compensate);
+        if (t.film) out.schlick = sh::schlickFilm(out.schlick, number(5), number(6));
         return;
     case LobeKind::Sheen: out.sheen = sh::sheenSetup(color(0), number(1), t.variant); return;
     case LobeKind::Phong: out.phong = sh::phongSetup(color(0), number(1)); return;

@@ -262,6 +262,10 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
         flag(closure.kind == ClosureKind::OrenNayar ? "energy_compensation" : "retroreflective");
     if (interface) t.mode = scatterMode(_plan, closure);
     t.variant = lobeVariant(_plan, closure);
+    t.film = hasFilm(_plan, closure);
+    // A film colours the reflectance, for which a dielectric has no room.
+    t.filmDielectric = t.film && closure.kind == ClosureKind::Dielectric;
+    if (t.filmDielectric) t.prebuilt.kind = LobeKind::Schlick;
     // Metals and diffuse lobes show the same face on both sides; an interface has an inside.
     const bool flips = !interface || !hasInside;
     t.prebuilt.frame = uint8_t(frame(closure, flips, needed));
@@ -299,7 +303,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
 
 /// Without tint and without bending: what a shadow ray may cross.
 bool ProgramBuilder::isStraight(const PlanClosure& closure) const {
-    if (closure.kind != ClosureKind::Dielectric || _tinted ||
+    if (closure.kind != ClosureKind::Dielectric || _tinted || hasFilm(_plan, closure) ||
         scatterMode(_plan, closure) != sh::SCATTER_T ||
         !isConstantValue(closureInput(_plan, closure, "tint"), 1.0f))
         return false;

@@ -22,15 +22,17 @@ struct Instruction {
 /// Parameters of a lobe: registers in the order of lobeParameters(), and what is known at compile
 /// time.
 struct LobeTemplate {
-    static constexpr int maxParameters = 6;
+    static constexpr int maxParameters = 10;
 
     BsdfLobe prebuilt; ///< set up already when constant; kind, diffuse and frame always
     bool constant = false;
     bool flagA = false; ///< retroreflective, or energy_compensation
     bool fused = false;
-    bool straight = false; ///< passes light straight on without tint: part of the presence
-    int mode = 0;          ///< SCATTER_*
-    int variant = 0;       ///< lobeVariant()
+    bool film = false;           ///< has a thin film
+    bool filmDielectric = false; ///< a dielectric with a film: LobeKind::Schlick
+    bool straight = false;       ///< passes light straight on without tint: part of the presence
+    int mode = 0;                ///< SCATTER_*
+    int variant = 0;             ///< lobeVariant()
     int compensate = 1;
     EnergyCurve energy; ///< of constant interfaces
     Register weight = 0;

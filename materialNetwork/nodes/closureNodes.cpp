@@ -71,7 +71,7 @@ const NodeRow rows[] = {
             "string fresnel=exact",
             "BSDF", ClosureKind::CookTorrance),
     closure("ND_thin_film_bsdf", "thin_film_bsdf", "float thickness=550, float ior=1.5", "BSDF",
-            ClosureKind::Unsupported),
+            ClosureKind::ThinFilm),
     closure("ND_uniform_edf", "uniform_edf", "color3 color=1", "EDF", ClosureKind::UniformEdf),
     closure("ND_absorption_vdf", "absorption_vdf", "vector3 absorption=0", "VDF",
             ClosureKind::AbsorptionVdf),

@@ -44,6 +44,12 @@ const float EXPONENT_MAX = 1e5f;
 // Smallest product of both cosines in Ward's lobe, which divides by its root.
 const float WARD_COS_MIN = 1e-6f;
 
+// Thin films in nm: thinner ones are left out (they change a reflectance by 2e-3 at most), thicker
+// ones have no colour left. Their ior has the range of solids.
+const float FILM_THICKNESS_MIN = 0.1f;
+const float FILM_THICKNESS_MAX = 1e5f;
+const float FILM_IOR_MAX = 5.0f;
+
 // Largest |anisotropy| of a phase function: its peak is 2e6 / (4 pi) there, and 1 - g still has
 // four digits.
 const float PHASE_ANISOTROPY_MAX = 0.999f;

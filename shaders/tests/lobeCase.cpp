@@ -69,6 +69,42 @@ void addClassic(std::vector<LobeCase>& cases) {
     }
 }
 
+// Interfaces under a film: lobe PREFIX with its inputs, and film(lobe, thickness, ior).
+void addFilm(std::vector<LobeCase>& cases, int compensate) {
+    for (double thickness : {400.0})
+        for (double alpha : {0.3}) {
+            const vec2 a(alpha);
+            LobeCase metal;
+            metal.f32 = bindLobe<sh::vec3>(
+                sh::conductorFilm(sh::conductorSetup(sh::vec3(0.183, 0.421, 1.373),
+                                                     sh::vec3(3.424, 2.346, 1.77), sh::vec2(a),
+                                                     false, compensate),
+                                  float(thickness), 1.6f),
+                sh::conductorEval, sh::conductorSample, sh::conductorAlbedo);
+            metal.f64 =
+                bindLobe<vec3>(sh64::conductorFilm(sh64::conductorSetup(vec3(0.183, 0.421, 1.373),
+                                                                        vec3(3.424, 2.346, 1.77), a,
+                                                                        false, compensate),
+                                                   thickness, 1.6f),
+                               sh64::conductorEval, sh64::conductorSample, sh64::conductorAlbedo);
+            metal.name = label("film conductor", thickness, alpha, 0, 0);
+            metal.alpha = alpha;
+            metal.reciprocal = compensate == 0;
+            cases.push_back(metal);
+            for (double ior : {1.5, 0.75}) {
+                LobeCase d =
+                    PATINA_LOBE_CASE_AS(label("film dielectric", thickness, alpha, ior, 3),
+                                        filmDielectric, schlick, vec3(1.0, 0.9, 0.2), ior,
+                                        vec2(alpha), thickness, 1.33, false, 3, false, compensate);
+                d.alpha = alpha * std::fabs(ior - 1.0);
+                d.ior = ior;
+                d.twoSided = true;
+                d.reciprocal = compensate == 0;
+                cases.push_back(d);
+            }
+        }
+}
+
 } // namespace
 
 std::vector<LobeCase> lobeCases(int compensate) {
@@ -76,6 +112,7 @@ std::vector<LobeCase> lobeCases(int compensate) {
     addDiffuse(cases);
     addSheen(cases);
     addClassic(cases);
+    addFilm(cases, compensate);
     const bool bare = compensate == 0;
     const double alphas[][2] = {{0.05, 0.05}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.4}};
     for (const auto& a : alphas) {

@@ -80,6 +80,12 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
            blinnPhongAlbedo(n, wo) + wardEval(w, wo, wi).value + wardSample(w, wo, u).weight +
            wardAlbedo(w, wo) + cookTorranceEval(x, wo, wi).value +
            cookTorranceSample(x, wo, u).weight + cookTorranceAlbedo(x, wo);
+    ConductorLobe cf = conductorFilm(c, 300.0, 1.5);
+    SchlickLobe sf = schlickFilm(s, 300.0, 1.5);
+    SchlickLobe df = filmDielectricSetup(vec3(1.0), 1.5, vec2(0.2), 300.0, 1.3, false, SCATTER_RT,
+                                         false, 1);
+    sum += conductorEval(cf, wo, wi).value + schlickEval(sf, wo, wi).value +
+           schlickAlbedo(df, wo) + conductorAlbedo(cf, wo);
     return sum + dielectricAlbedoReflect(d, wo) + schlickAlbedoReflect(s, wo);
 }
 )";

@@ -100,13 +100,13 @@ TEST(LobeAlbedo, EqualsTheMeanSampleWeight) {
         double measuredOutside;
         double measuredInside;
     };
-    Budget budgets[] = {{"anisotropic", 0.1, 0.14, 0, 0},   {"conductor", 2e-3, 0.0, 0, 0},
-                        {"dielectric", 1.2e-2, 8e-3, 0, 0}, {"schlickR(", 2e-3, 0.1, 0, 0},
-                        {"schlick", 5e-2, 0.1, 0, 0},       {"translucent", 1e-9, 1e-9, 0, 0},
-                        {"contyKulla", 5e-3, 0.0, 0, 0},    {"zeltner", 1e-6, 0.0, 0, 0},
-                        {"phong", 5e-3, 0.0, 0, 0},         {"blinnPhong", 5e-3, 0.0, 0, 0},
-                        {"wardBounded", 5e-3, 0.0, 0, 0},   {"wardExact", 3e-2, 0.0, 0, 0},
-                        {"cookTorrance", 5e-3, 0.0, 0, 0}};
+    Budget budgets[] = {{"anisotropic", 0.1, 0.14, 0, 0},  {"film", 4e-2, 0.2, 0, 0},
+                        {"conductor", 2e-3, 0.0, 0, 0},    {"dielectric", 1.2e-2, 8e-3, 0, 0},
+                        {"schlickR(", 2e-3, 0.1, 0, 0},    {"schlick", 5e-2, 0.1, 0, 0},
+                        {"translucent", 1e-9, 1e-9, 0, 0}, {"contyKulla", 5e-3, 0.0, 0, 0},
+                        {"zeltner", 1e-6, 0.0, 0, 0},      {"phong", 5e-3, 0.0, 0, 0},
+                        {"blinnPhong", 5e-3, 0.0, 0, 0},   {"wardBounded", 5e-3, 0.0, 0, 0},
+                        {"wardExact", 3e-2, 0.0, 0, 0},    {"cookTorrance", 5e-3, 0.0, 0, 0}};
     for (int compensate : {0, 1})
         for (const LobeCase& c : lobeCases(compensate))
             for (Budget& b : budgets) {

@@ -165,6 +165,20 @@ TEST(LobeDegenerate, ClassicsOfPowerZeroAreLambert) {
     EXPECT_NEAR(sh64::phongEval(phong, wo, wi).value.x, 0.8 * 0.4 / sh64::PI, 1e-12);
 }
 
+TEST(LobeDegenerate, FilmsAreSane) {
+    for (float thickness : {0.0f, 1e-3f, 0.1f, 300.0f, 2000.0f, 1e9f, -1.0f, kNan, kInf})
+        for (float film : {1.0f, 1.0001f, 1.5f, 2.5f, 0.0f, kNan, kInf})
+            for (float ior : {1.5f, 1.0f, 1.0001f, 1.0f / 1.5f, 0.0f, kInf})
+                for (float alpha : {0.0f, 0.3f, 1.0f})
+                    for (int mode : {1, 2, 3}) {
+                        const LobeCase c = PATINA_LOBE_CASE_AS(
+                            "f", filmDielectric, schlick, vec3(1.0, 0.5, 0.1), ior, vec2(alpha),
+                            thickness, film, false, mode, mode == 2, 1);
+                        ASSERT_TRUE(sane(c.f32)) << "thickness " << thickness << " film " << film
+                                                 << " ior " << ior << " alpha " << alpha << mode;
+                    }
+}
+
 TEST(LobeDegenerate, MirrorGlassFollowsSnell) {
     const auto glass =
         sh64::dielectricSetup(vec3(1.0), 1.5, vec2(0.0), false, sh::SCATTER_RT, false, 1);

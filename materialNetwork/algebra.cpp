@@ -181,6 +181,7 @@ bool rewriteClosure(const Graph& graph, const GraphNode& node, Operand& out, std
     case ClosureKind::BlinnPhong:
     case ClosureKind::Ward:
     case ClosureKind::CookTorrance:
+    case ClosureKind::ChiangHair:
         return !in.empty() && node.def->inputs[0].name == "weight" &&
                isConstantValue(in[0], 0.0f) && cut("weight 0");
     case ClosureKind::UniformEdf: return isConstantValue(in[0], 0.0f) && cut("black");

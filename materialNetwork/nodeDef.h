@@ -23,6 +23,7 @@ enum class ClosureKind {
     BlinnPhong,
     Ward,
     CookTorrance,
+    ChiangHair,
     ThinFilm, ///< MaterialX 1.38: as the top of a layer it coats the base
     UniformEdf,
     AbsorptionVdf,

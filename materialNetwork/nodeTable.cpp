@@ -81,7 +81,7 @@ const NodeTable& NodeTable::get() {
 NodeTable::NodeTable() {
     for (const NodeRows& rows :
          {mathNodes(), vectorNodes(), channelNodes(), conditionalNodes(), geometryNodes(),
-          textureNodes(), usdNodes(), helperNodes(), closureNodes()})
+          textureNodes(), usdNodes(), helperNodes(), closureNodes(), hairNodes()})
         for (const NodeRow* row = rows.begin; row != rows.end; ++row)
             add(*row);
 

@@ -71,6 +71,7 @@ NodeRows textureNodes();
 NodeRows usdNodes();
 NodeRows helperNodes();
 NodeRows closureNodes();
+NodeRows hairNodes();
 
 /// Types that most stdlib families have.
 inline constexpr const char* allTypes = "float color3 color4 vector2 vector3 vector4";

@@ -186,6 +186,7 @@ private:
         case ClosureKind::Translucent:
         case ClosureKind::Phong:
         case ClosureKind::BlinnPhong:
+        case ClosureKind::ChiangHair:
         case ClosureKind::UniformEdf:
         case ClosureKind::AbsorptionVdf:
         case ClosureKind::AnisotropicVdf: break;

@@ -16,7 +16,7 @@ struct PlanClosure {
     bool fused = false;    ///< a transmission lobe under a reflection lobe, see Plan
 
     bool isLobe() const {
-        return kind >= ClosureKind::OrenNayar && kind <= ClosureKind::CookTorrance;
+        return kind >= ClosureKind::OrenNayar && kind <= ClosureKind::ChiangHair;
     }
 };
 

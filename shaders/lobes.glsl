@@ -25,3 +25,4 @@
 #include "shaders/lobes/blinnPhong.glsl"
 #include "shaders/lobes/ward.glsl"
 #include "shaders/lobes/cookTorrance.glsl"
+#include "shaders/lobes/chiangHair.glsl"

@@ -37,7 +37,8 @@ enum class LobeKind : uint8_t {
     Phong,
     BlinnPhong,
     Ward,
-    CookTorrance
+    CookTorrance,
+    ChiangHair
 };
 
 /// A leaf of the BSDF, ready for one shading point.
@@ -61,6 +62,7 @@ struct BsdfLobe {
         sh::BlinnPhongLobe blinnPhong;
         sh::WardLobe ward;
         sh::CookTorranceLobe cookTorrance;
+        sh::ChiangHairLobe chiangHair;
     };
 };
 

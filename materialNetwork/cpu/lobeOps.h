@@ -22,6 +22,7 @@ inline sh::LobeEval lobeEval(const BsdfLobe& l, const glm::vec3& wo, const glm::
     case LobeKind::BlinnPhong: return sh::blinnPhongEval(l.blinnPhong, wo, wi);
     case LobeKind::Ward: return sh::wardEval(l.ward, wo, wi);
     case LobeKind::CookTorrance: return sh::cookTorranceEval(l.cookTorrance, wo, wi);
+    case LobeKind::ChiangHair: return sh::chiangHairEval(l.chiangHair, wo, wi);
     }
     return sh::lobeEvalNone();
 }
@@ -39,6 +40,7 @@ inline sh::LobeSample lobeSample(const BsdfLobe& l, const glm::vec3& wo, const g
     case LobeKind::BlinnPhong: return sh::blinnPhongSample(l.blinnPhong, wo, u);
     case LobeKind::Ward: return sh::wardSample(l.ward, wo, u);
     case LobeKind::CookTorrance: return sh::cookTorranceSample(l.cookTorrance, wo, u);
+    case LobeKind::ChiangHair: return sh::chiangHairSample(l.chiangHair, wo, u);
     }
     return sh::lobeSampleNone();
 }
@@ -56,6 +58,7 @@ inline glm::vec3 lobeAlbedo(const BsdfLobe& l, const glm::vec3& wo) {
     case LobeKind::BlinnPhong: return sh::blinnPhongAlbedo(l.blinnPhong, wo);
     case LobeKind::Ward: return sh::wardAlbedo(l.ward, wo);
     case LobeKind::CookTorrance: return sh::cookTorranceAlbedo(l.cookTorrance, wo);
+    case LobeKind::ChiangHair: return sh::chiangHairAlbedo(l.chiangHair, wo);
     }
     return glm::vec3(0.0f);
 }
@@ -107,14 +110,16 @@ inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& curv
     case LobeKind::Phong:
     case LobeKind::BlinnPhong:
     case LobeKind::Ward:
-    case LobeKind::CookTorrance: l.albedo = lobeAlbedo(l, wo); return 1.0f;
+    case LobeKind::CookTorrance:
+    case LobeKind::ChiangHair: l.albedo = lobeAlbedo(l, wo); return 1.0f;
     }
     return 1.0f;
 }
 
 inline bool lobeTransmits(const BsdfLobe& l) {
     switch (l.kind) {
-    case LobeKind::Translucent: return true;
+    case LobeKind::Translucent:
+    case LobeKind::ChiangHair: return true;
     case LobeKind::Dielectric: return (l.dielectric.mode & sh::SCATTER_T) != 0;
     case LobeKind::Schlick: return (l.schlick.mode & sh::SCATTER_T) != 0;
     default: return false;

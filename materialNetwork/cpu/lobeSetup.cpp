@@ -18,6 +18,10 @@ const char* const sheenNames[] = {"color", "roughness", nullptr};
 const char* const phongNames[] = {"color", "exponent", nullptr};
 const char* const wardNames[] = {"color", "roughness", nullptr};
 const char* const cookTorranceNames[] = {"color", "ior", "extinction", "roughness", nullptr};
+const char* const hairNames[] = {"tint_R",        "tint_TT",       "tint_TRT",
+                                 "ior",           "roughness_R",   "roughness_TT",
+                                 "roughness_TRT", "cuticle_angle", "absorption_coefficient",
+                                 nullptr};
 const char* const noNames[] = {nullptr};
 
 } // namespace
@@ -36,6 +40,7 @@ const char* const* lobeParameters(ClosureKind kind) {
     case ClosureKind::BlinnPhong: return phongNames;
     case ClosureKind::Ward: return wardNames;
     case ClosureKind::CookTorrance: return cookTorranceNames;
+    case ClosureKind::ChiangHair: return hairNames;
     default: return noNames;
     }
 }
@@ -52,6 +57,7 @@ LobeKind lobeKind(ClosureKind kind) {
     case ClosureKind::BlinnPhong: return LobeKind::BlinnPhong;
     case ClosureKind::Ward: return LobeKind::Ward;
     case ClosureKind::CookTorrance: return LobeKind::CookTorrance;
+    case ClosureKind::ChiangHair: return LobeKind::ChiangHair;
     default: return LobeKind::OrenNayar;
     }
 }
@@ -89,6 +95,10 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
     case LobeKind::Phong: out.phong = sh::phongSetup(color(0), number(1)); return;
     case LobeKind::BlinnPhong: out.blinnPhong = sh::blinnPhongSetup(color(0), number(1)); return;
     case LobeKind::Ward: out.ward = sh::wardSetup(color(0), pair(1), t.variant); return;
+    case LobeKind::ChiangHair:
+        out.chiangHair = sh::chiangHairSetup(color(0), color(1), color(2), number(3), pair(4),
+                                             pair(5), pair(6), number(7), color(8));
+        return;
     case LobeKind::CookTorrance:
         out.cookTorrance =
             sh::cookTorranceSetup(color(0), color(1), color(2), number(3), t.variant);

@@ -219,7 +219,8 @@ int ProgramBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bo
         return int(registerOf(operand));
     };
     f.normal = choose("normal", "ND_normal_vector3");
-    f.tangent = choose("tangent", "ND_tangent_vector3");
+    f.tangent = choose(closure.kind == ClosureKind::ChiangHair ? "curve_direction" : "tangent",
+                       "ND_tangent_vector3");
     auto& frames = _code->frames;
     for (size_t i = 0; i < frames.size(); ++i)
         if (frames[i].normal == f.normal && frames[i].tangent == f.tangent &&
@@ -294,7 +295,9 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
         setupLobe(t, _code->constants.data(), t.prebuilt);
         t.energy.measure(t.prebuilt);
     }
-    const Operand& weight = closureInput(_plan, closure, "weight");
+    Operand weight;
+    weight.value = Value::makeFloat(1.0f);
+    if (node.def->findInput("weight") >= 0) weight = closureInput(_plan, closure, "weight");
     mark(weight, needed);
     op.factor = t.weight = registerOf(weight);
     op.lobe = int(_code->lobes.size());
@@ -319,6 +322,7 @@ void ProgramBuilder::setFlags() {
                   !_plan.opacity.value.numbers.empty() && _plan.opacity.value.numbers[0] >= 1.0f;
     for (const LobeTemplate& t : _code->lobes)
         p._hasTransmission |= t.prebuilt.kind == LobeKind::Translucent ||
+                              t.prebuilt.kind == LobeKind::ChiangHair ||
                               (!t.straight && (t.mode & sh::SCATTER_T) != 0);
     p._isVolumeOnly = _plan.volumeOnly;
     p._passingEnters = _plan.volumeOnly || _code->hasStraight;

@@ -70,6 +70,12 @@ const NodeRow rows[] = {
             "color3 extinction=3.089 2.930 2.770, float roughness=0.2, vector3 normal=@Nworld, "
             "string fresnel=exact",
             "BSDF", ClosureKind::CookTorrance),
+    closure("ND_chiang_hair_bsdf", "chiang_hair_bsdf",
+            "color3 tint_R=1, color3 tint_TT=1, color3 tint_TRT=1, float ior=1.55, "
+            "vector2 roughness_R=0.1, vector2 roughness_TT=0.05, vector2 roughness_TRT=0.2, "
+            "float cuticle_angle=0.5, vector3 absorption_coefficient=0, vector3 normal=@Nworld, "
+            "vector3 curve_direction=@Tworld",
+            "BSDF", ClosureKind::ChiangHair),
     closure("ND_thin_film_bsdf", "thin_film_bsdf", "float thickness=550, float ior=1.5", "BSDF",
             ClosureKind::ThinFilm),
     closure("ND_uniform_edf", "uniform_edf", "color3 color=1", "EDF", ClosureKind::UniformEdf),

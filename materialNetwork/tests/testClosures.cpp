@@ -34,6 +34,8 @@ const std::vector<Case> cases = {
       {"scatter_mode", text("RT")},
       {"roughness", pair(0.2f)}},
      2e-2f},
+    {"ND_chiang_hair_bsdf", {}},
+    {"ND_chiang_hair_bsdf", {{"absorption_coefficient", Value::makeVec3(0.2f, 0.5f, 1.0f)}}},
     {"ND_patina_lambert_bsdf", {{"color", grey(1.0f)}}},
     {"ND_patina_phong_bsdf", {{"exponent", number(1.0f)}}},
     {"ND_patina_phong_bsdf", {{"exponent", number(100.0f)}}},
@@ -141,6 +143,34 @@ TEST(Closures, OldThinFilmCoatsWhatIsBelow) {
     EXPECT_GT(std::fabs(a.albedo().x - a.albedo().z), 0.02f);
     Compiled alone(bsdfNetwork({makeNode("bsdf", "ND_thin_film_bsdf")}));
     EXPECT_NE(warnings(alone.diagnostics).find("coats only as the top"), std::string::npos);
+}
+
+// The helpers at their defaults, against the formulas by hand.
+TEST(Closures, HairHelpersFeedTheLobe) {
+    const auto albedo = [](std::vector<NetworkNode> helpers, const Connections& connections) {
+        helpers.push_back(makeNode("bsdf", "ND_chiang_hair_bsdf", {}, connections));
+        Compiled c(bsdfNetwork(std::move(helpers)));
+        EXPECT_EQ(warnings(c.diagnostics), "");
+        Bsdf bsdf;
+        c.program->evaluate(seenFrom(direction(20.0f, 90.0f)), bsdf);
+        return bsdf.albedo();
+    };
+    const glm::vec3 melanin = albedo({makeNode("melanin", "ND_deon_hair_absorption_from_melanin")},
+                                     {{"absorption_coefficient", {"melanin", ""}}});
+    const float m = -std::log(0.75f) * 0.5f;
+    Compiled byHand(bsdfNetwork({makeNode(
+        "bsdf", "ND_chiang_hair_bsdf",
+        {{"absorption_coefficient",
+          Value::makeVec3(m * (0.419f + 0.187f), m * (0.697f + 0.4f), m * (1.37f + 1.05f))}})}));
+    Bsdf bsdf;
+    byHand.program->evaluate(seenFrom(direction(20.0f, 90.0f)), bsdf);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(melanin[i], bsdf.albedo()[i], 1e-4f);
+    const glm::vec3 white = albedo(
+        {makeNode("color", "ND_chiang_hair_absorption_from_color"),
+         makeNode("rough", "ND_chiang_hair_roughness")},
+        {{"absorption_coefficient", {"color", ""}}, {"roughness_TT", {"rough", "roughness_TT"}}});
+    EXPECT_NEAR(white.x, 1.0f, 1e-3f);
 }
 
 TEST(Closures, UnknownChoicesAreReported) {

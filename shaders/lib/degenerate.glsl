@@ -50,6 +50,14 @@ const float FILM_THICKNESS_MIN = 0.1f;
 const float FILM_THICKNESS_MAX = 1e5f;
 const float FILM_IOR_MAX = 5.0f;
 
+// Bounds of a hair fibre's longitudinal variance and azimuthal scale: 0.5 degrees, and as good as
+// uniform. Rays that graze the fibre arrive at HAIR_H_MAX of its radius at most.
+const float HAIR_VARIANCE_MIN = 1e-4f;
+const float HAIR_VARIANCE_MAX = 30.0f;
+const float HAIR_SCALE_MIN = 0.008f;
+const float HAIR_SCALE_MAX = 10.0f;
+const float HAIR_H_MAX = 0.9999f;
+
 // Largest |anisotropy| of a phase function: its peak is 2e6 / (4 pi) there, and 1 - g still has
 // four digits.
 const float PHASE_ANISOTROPY_MAX = 0.999f;

@@ -105,6 +105,19 @@ void addFilm(std::vector<LobeCase>& cases, int compensate) {
         }
 }
 
+void addHair(std::vector<LobeCase>& cases) {
+    for (double v : {0.02, 0.3})
+        for (double cuticle : {0.5, 0.53}) {
+            LobeCase c = PATINA_LOBE_CASE(label("chiangHair", v, cuticle, 0, 0), chiangHair,
+                                          vec3(1.0, 0.9, 0.8), vec3(1.0), vec3(0.5, 1.0, 1.0), 1.55,
+                                          vec2(v, 0.2), vec2(0.5 * v, 0.1), vec2(2.0 * v, 0.3),
+                                          cuticle, vec3(0.1, 0.4, 1.2));
+            c.alpha = 0.1;
+            c.twoSided = true;
+            cases.push_back(c);
+        }
+}
+
 } // namespace
 
 std::vector<LobeCase> lobeCases(int compensate) {
@@ -113,6 +126,7 @@ std::vector<LobeCase> lobeCases(int compensate) {
     addSheen(cases);
     addClassic(cases);
     addFilm(cases, compensate);
+    addHair(cases);
     const bool bare = compensate == 0;
     const double alphas[][2] = {{0.05, 0.05}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.4}};
     for (const auto& a : alphas) {

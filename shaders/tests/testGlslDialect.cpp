@@ -86,6 +86,10 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
                                          false, 1);
     sum += conductorEval(cf, wo, wi).value + schlickEval(sf, wo, wi).value +
            schlickAlbedo(df, wo) + conductorAlbedo(cf, wo);
+    ChiangHairLobe h = chiangHairSetup(vec3(1.0), vec3(1.0), vec3(1.0), 1.55, vec2(0.1), vec2(0.1),
+                                       vec2(0.2), 0.5, vec3(0.3));
+    sum += chiangHairEval(h, wo, wi).value + chiangHairSample(h, wo, u).weight +
+           chiangHairAlbedo(h, wo);
     return sum + dielectricAlbedoReflect(d, wo) + schlickAlbedoReflect(s, wo);
 }
 )";

@@ -179,6 +179,20 @@ TEST(LobeDegenerate, FilmsAreSane) {
                     }
 }
 
+TEST(LobeDegenerate, HairIsSane) {
+    for (float v : {0.0f, 1e-6f, 0.01f, 1.0f, 1e6f, -1.0f, kNan})
+        for (float s : {0.0f, 0.05f, 1.0f, kInf, kNan})
+            for (float ior : {1.55f, 1.0f, 0.5f, 0.0f, kNan})
+                for (float cuticle : {0.5f, 0.0f, 1.0f, kNan})
+                    for (float sigma : {0.0f, 1.0f, 1e9f, -1.0f, kNan}) {
+                        const LobeCase c = PATINA_LOBE_CASE(
+                            "hair", chiangHair, vec3(1.0, sigma, 0.5), vec3(1.0), vec3(1.0), ior,
+                            vec2(v, s), vec2(s, v), vec2(v, s), cuticle, vec3(sigma, 0.0, 1.0));
+                        ASSERT_TRUE(sane(c.f32)) << "v " << v << " s " << s << " ior " << ior
+                                                 << " cuticle " << cuticle << " sigma " << sigma;
+                    }
+}
+
 TEST(LobeDegenerate, MirrorGlassFollowsSnell) {
     const auto glass =
         sh64::dielectricSetup(vec3(1.0), 1.5, vec2(0.0), false, sh::SCATTER_RT, false, 1);

@@ -26,6 +26,8 @@ enum class ClosureKind {
     ChiangHair,
     ThinFilm, ///< MaterialX 1.38: as the top of a layer it coats the base
     UniformEdf,
+    ConicalEdf,
+    SchlickEdf, ///< a factor on its base
     AbsorptionVdf,
     AnisotropicVdf,
     Layer, ///< (top, base)

@@ -161,6 +161,10 @@ private:
             closure.a = build(node.inputs[0], fused);
             if (closure.a < 0) return -1;
             break;
+        case ClosureKind::SchlickEdf:
+            closure.a = build(node.inputs[3], fused);
+            if (closure.a < 0) return -1;
+            break;
         case ClosureKind::Dielectric:
         case ClosureKind::Schlick:
             closure.fused = fused && scatterMode(_plan, closure) == sh::SCATTER_T;
@@ -188,6 +192,7 @@ private:
         case ClosureKind::BlinnPhong:
         case ClosureKind::ChiangHair:
         case ClosureKind::UniformEdf:
+        case ClosureKind::ConicalEdf:
         case ClosureKind::AbsorptionVdf:
         case ClosureKind::AnisotropicVdf: break;
         default:

@@ -26,3 +26,4 @@
 #include "shaders/lobes/ward.glsl"
 #include "shaders/lobes/cookTorrance.glsl"
 #include "shaders/lobes/chiangHair.glsl"
+#include "shaders/lobes/edf.glsl"

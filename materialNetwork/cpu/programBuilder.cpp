@@ -127,9 +127,10 @@ std::vector<ClosureOp> ProgramBuilder::linearOps(int root, std::vector<bool>& ne
         op.b = c.b;
         // Parts of other trees stand in the same list; they get no value and are never read.
         const char* name =
-            c.kind == ClosureKind::Mix          ? "mix"
-            : c.kind == ClosureKind::Multiply   ? "in2"
-            : c.kind == ClosureKind::UniformEdf ? "color"
+            c.kind == ClosureKind::Mix                                               ? "mix"
+            : c.kind == ClosureKind::Multiply                                        ? "in2"
+            : c.kind == ClosureKind::UniformEdf || c.kind == ClosureKind::ConicalEdf ? "color"
+            : c.kind == ClosureKind::SchlickEdf                                      ? "color0"
             : c.kind == ClosureKind::AbsorptionVdf || c.kind == ClosureKind::AnisotropicVdf
                 ? "absorption"
                 : nullptr;
@@ -144,6 +145,20 @@ std::vector<ClosureOp> ProgramBuilder::linearOps(int root, std::vector<bool>& ne
                 mark(anisotropy, needed);
                 op.scattering = registerOf(scattering);
                 op.anisotropy = registerOf(anisotropy);
+            }
+            const auto extra = [&](const char* input) {
+                const Operand& o = closureInput(_plan, c, input);
+                mark(o, needed);
+                return registerOf(o);
+            };
+            if (c.kind == ClosureKind::ConicalEdf) {
+                op.first = extra("inner_angle");
+                op.second = extra("outer_angle");
+                if (!isShadingPoints(closureInput(_plan, c, "normal"), "ND_normal_vector3"))
+                    op.normal = int(extra("normal"));
+            } else if (c.kind == ClosureKind::SchlickEdf) {
+                op.first = extra("color90");
+                op.second = extra("exponent");
             }
         } else if (c.kind != ClosureKind::Add) {
             op.factor = constant(Value::makeFloat(0.0f));
@@ -202,6 +217,13 @@ void ProgramBuilder::bsdfOps(std::vector<bool>& needed) {
     markTops(_code->bsdf);
 }
 
+/// A default that comes from the geometry is the shading point's own.
+bool ProgramBuilder::isShadingPoints(const Operand& operand, const char* standard) const {
+    if (operand.isConstant()) return false;
+    const GraphNode& source = nodeOf(operand.node);
+    return source.def->id == standard && source.inputs[0].value.text == "world";
+}
+
 int ProgramBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bool>& needed) {
     FrameTemplate f;
     f.flips = flips;
@@ -210,11 +232,7 @@ int ProgramBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bo
         const int i = node.def->findInput(input);
         if (i < 0) return -1;
         const Operand& operand = node.inputs[size_t(i)];
-        // A default that comes from the geometry is the shading point's own.
-        if (!operand.isConstant()) {
-            const GraphNode& source = nodeOf(operand.node);
-            if (source.def->id == standard && source.inputs[0].value.text == "world") return -1;
-        }
+        if (isShadingPoints(operand, standard)) return -1;
         mark(operand, needed);
         return int(registerOf(operand));
     };

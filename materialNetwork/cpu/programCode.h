@@ -48,6 +48,9 @@ struct ClosureOp {
     Register factor = 0;      ///< lobe: weight; Mix: mix; Multiply: factor; EDF: value
                               ///< VDF: absorption
     Register scattering = 0, anisotropy = 0; ///< of an AnisotropicVdf
+    /// ConicalEdf: inner and outer angle. SchlickEdf: color90 and exponent (factor is color0).
+    Register first = 0, second = 0;
+    int normal = -1; ///< ConicalEdf: its own normal, -1 for that of the point
 };
 
 struct FrameTemplate {

@@ -173,6 +173,40 @@ TEST(Closures, HairHelpersFeedTheLobe) {
     EXPECT_NEAR(white.x, 1.0f, 1e-3f);
 }
 
+TEST(Closures, EdfsDependOnTheDirection) {
+    const auto emitted = [](std::vector<NetworkNode> nodes, float theta) {
+        nodes.push_back(makeNode("surface", "ND_surface", {}, {{"edf", {"edf", ""}}}));
+        Compiled c(makeNetwork(std::move(nodes)));
+        EXPECT_EQ(warnings(c.diagnostics), "");
+        return c.program->emission(seenFrom(direction(theta)), direction(theta));
+    };
+    const auto cone = [&](float inner, float outer, float theta) {
+        return emitted({makeNode("edf", "ND_conical_edf",
+                                 {{"color", color(2.0f, 1.0f, 0.0f)},
+                                  {"inner_angle", number(inner)},
+                                  {"outer_angle", number(outer)}})},
+                       theta);
+    };
+    EXPECT_NEAR(cone(60.0f, 0.0f, 29.0f).x, 2.0f, 1e-5f);
+    EXPECT_EQ(cone(60.0f, 0.0f, 31.0f).x, 0.0f);
+    EXPECT_NEAR(cone(60.0f, 0.0f, 151.0f).x, 2.0f, 1e-5f); // both sides emit
+    EXPECT_NEAR(cone(60.0f, 120.0f, 29.0f).x, 2.0f, 1e-5f);
+    // Half way in the cosine between 30 and 60 degrees.
+    const float half = std::acos(0.5f * (0.8660254f + 0.5f)) * 57.29578f;
+    EXPECT_NEAR(cone(60.0f, 120.0f, half).y, 0.5f, 1e-4f);
+    EXPECT_EQ(cone(60.0f, 120.0f, 61.0f).x, 0.0f);
+
+    const auto schlick = [&](float theta) {
+        NetworkNode edf =
+            makeNode("edf", "ND_generalized_schlick_edf",
+                     {{"color0", grey(0.75f)}, {"color90", grey(0.0f)}}, {{"base", {"glow", ""}}});
+        return emitted({makeNode("glow", "ND_uniform_edf", {{"color", grey(4.0f)}}), edf}, theta).x;
+    };
+    EXPECT_NEAR(schlick(0.0f), 3.0f, 1e-5f);
+    EXPECT_NEAR(schlick(60.0f), 3.0f * (1.0f - 1.0f / 32.0f), 1e-4f);
+    EXPECT_LT(schlick(89.9f), 0.05f);
+}
+
 TEST(Closures, UnknownChoicesAreReported) {
     Compiled c(bsdfNetwork({makeNode("bsdf", "ND_sheen_bsdf", {{"mode", text("velvet")}})}));
     EXPECT_EQ(warnings(c.diagnostics),

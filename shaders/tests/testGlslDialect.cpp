@@ -90,6 +90,7 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
                                        vec2(0.2), 0.5, vec3(0.3));
     sum += chiangHairEval(h, wo, wi).value + chiangHairSample(h, wo, u).weight +
            chiangHairAlbedo(h, wo);
+    sum += edfSchlick(wo, wi, 5.0, u.x) * edfConical(60.0, 90.0, wo.z);
     return sum + dielectricAlbedoReflect(d, wo) + schlickAlbedoReflect(s, wo);
 }
 )";

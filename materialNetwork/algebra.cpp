@@ -178,9 +178,17 @@ bool rewriteClosure(const Graph& graph, const GraphNode& node, Operand& out, std
     case ClosureKind::Dielectric:
     case ClosureKind::Conductor:
     case ClosureKind::Schlick:
+    case ClosureKind::Sheen:
+    case ClosureKind::Phong:
+    case ClosureKind::BlinnPhong:
+    case ClosureKind::Ward:
+    case ClosureKind::CookTorrance:
+    case ClosureKind::ChiangHair:
         return !in.empty() && node.def->inputs[0].name == "weight" &&
                isConstantValue(in[0], 0.0f) && cut("weight 0");
-    case ClosureKind::UniformEdf: return isConstantValue(in[0], 0.0f) && cut("black");
+    case ClosureKind::UniformEdf:
+    case ClosureKind::ConicalEdf: return isConstantValue(in[0], 0.0f) && cut("black");
+    case ClosureKind::SchlickEdf: return isNone(in[3]) && keep(in[3], "");
     case ClosureKind::AbsorptionVdf: return isConstantValue(in[0], 0.0f) && cut("nothing absorbed");
     case ClosureKind::AnisotropicVdf:
         return isConstantValue(in[0], 0.0f) && isConstantValue(in[1], 0.0f) &&

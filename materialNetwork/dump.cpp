@@ -145,9 +145,11 @@ private:
         const PlanClosure& c = _plan.closures[size_t(i)];
         const GraphNode& node = _plan.graph.nodes[size_t(c.node)];
         if (c.isLobe()) {
-            const std::string weight = operandText(_plan.graph, node.inputs[0]);
-            const bool interface =
-                c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Schlick;
+            const std::string weight = node.def->inputs[0].name == "weight"
+                                           ? operandText(_plan.graph, node.inputs[0])
+                                           : "1";
+            const bool interface = c.kind == ClosureKind::Dielectric ||
+                                   c.kind == ClosureKind::Schlick || c.kind == ClosureKind::Sheen;
             const std::string e = "E" + std::to_string(_lobe[size_t(i)]);
             return "(1 - " + (interface ? product(weight, e) : weight) + ")";
         }

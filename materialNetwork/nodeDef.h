@@ -18,7 +18,16 @@ enum class ClosureKind {
     Dielectric,
     Conductor,
     Schlick,
+    Sheen,
+    Phong,
+    BlinnPhong,
+    Ward,
+    CookTorrance,
+    ChiangHair,
+    ThinFilm, ///< MaterialX 1.38: as the top of a layer it coats the base
     UniformEdf,
+    ConicalEdf,
+    SchlickEdf, ///< a factor on its base
     AbsorptionVdf,
     AnisotropicVdf,
     Layer, ///< (top, base)

@@ -83,7 +83,7 @@ NodeTable::NodeTable() {
          {mathNodes(), vectorNodes(), channelNodes(), conditionalNodes(), geometryNodes(),
           textureNodes(), usdNodes(), helperNodes(), noiseNodes(), shapeNodes(), colorNodes(),
           placedImageNodes(), hexTileNodes(), matrixNodes(), spaceNodes(), differenceNodes(),
-          closureNodes()})
+          closureNodes(), hairNodes()})
         for (const NodeRow* row = rows.begin; row != rows.end; ++row)
             add(*row);
 

@@ -81,6 +81,7 @@ NodeRows matrixNodes();
 NodeRows spaceNodes();
 NodeRows differenceNodes();
 NodeRows closureNodes();
+NodeRows hairNodes();
 
 /// Types that most stdlib families have.
 inline constexpr const char* allTypes = "float color3 color4 vector2 vector3 vector4";

@@ -142,6 +142,11 @@ private:
         closure.node = index;
         switch (closure.kind) {
         case ClosureKind::Layer: {
+            const Operand& top = node.inputs[0];
+            if (!top.isConstant() && nodeOf(top.node).def->closure == ClosureKind::ThinFilm) {
+                const GraphNode film = nodeOf(top.node);
+                return build(coat(node.inputs[1], film), fused);
+            }
             closure.a = build(node.inputs[0], fused);
             if (node.def->inputs[1].type == ValueType::Vdf) {
                 addInterior(node);
@@ -162,6 +167,10 @@ private:
             closure.a = build(node.inputs[0], fused);
             if (closure.a < 0) return -1;
             break;
+        case ClosureKind::SchlickEdf:
+            closure.a = build(node.inputs[3], fused);
+            if (closure.a < 0) return -1;
+            break;
         case ClosureKind::Dielectric:
         case ClosureKind::Schlick:
             closure.fused = fused && scatterMode(_plan, closure) == sh::SCATTER_T;
@@ -169,17 +178,28 @@ private:
             checkMicrofacet(node);
             break;
         case ClosureKind::Conductor: checkMicrofacet(node); break;
+        case ClosureKind::Sheen: checkChoice(node, "mode", {"conty_kulla", "zeltner"}); break;
         case ClosureKind::Subsurface:
             if (_plan.thinWalled)
                 leaveOut(node, "a thin wall has no inside; subsurface scattering is diffuse");
             break;
+        case ClosureKind::Ward: checkChoice(node, "form", {"bounded", "exact"}); break;
+        case ClosureKind::CookTorrance: checkChoice(node, "fresnel", {"exact", "schlick"}); break;
+        case ClosureKind::ThinFilm:
+            _diagnostics.warn(node.path, "",
+                              "thin_film_bsdf coats only as the top of a layer; it is left out");
+            return -1;
         case ClosureKind::Unsupported:
             leaveOut(node, node.def->category + " is not modelled");
             return -1;
         case ClosureKind::OrenNayar:
         case ClosureKind::Burley:
         case ClosureKind::Translucent:
+        case ClosureKind::Phong:
+        case ClosureKind::BlinnPhong:
+        case ClosureKind::ChiangHair:
         case ClosureKind::UniformEdf:
+        case ClosureKind::ConicalEdf:
         case ClosureKind::AbsorptionVdf:
         case ClosureKind::AnisotropicVdf: break;
         default:
@@ -190,6 +210,31 @@ private:
         closure.reflects |= reflects(closure.a) || reflects(closure.b);
         _plan.closures.push_back(closure);
         return int(_plan.closures.size()) - 1;
+    }
+
+    /// The same closures with the film on every interface that reflects, as MaterialX 1.39 reads
+    /// the older thin_film_bsdf. The graph keeps what it had; coated copies are appended.
+    Operand coat(const Operand& operand, const GraphNode& film) {
+        if (operand.isConstant()) return operand;
+        GraphNode node = nodeOf(operand.node);
+        const int thickness = node.def->findInput("thinfilm_thickness");
+        if (thickness >= 0) {
+            const int mode = node.def->findInput("scatter_mode");
+            if (mode >= 0 && node.inputs[size_t(mode)].value.text == "T") return operand;
+            node.inputs[size_t(thickness)] = input(film, "thickness");
+            node.inputs[size_t(node.def->findInput("thinfilm_ior"))] = input(film, "ior");
+        } else {
+            bool changed = false;
+            for (size_t i = 0; i < node.inputs.size(); ++i) {
+                if (node.def->inputs[i].type != ValueType::Bsdf) continue;
+                const Operand coated = coat(node.inputs[i], film);
+                changed |= coated.node != node.inputs[i].node;
+                node.inputs[i] = coated;
+            }
+            if (!changed) return operand;
+        }
+        _plan.graph.nodes.push_back(std::move(node));
+        return {int(_plan.graph.nodes.size()) - 1, operand.output, {}};
     }
 
     void addInterior(const GraphNode& layer) {
@@ -203,17 +248,20 @@ private:
 
     bool reflects(int index) const { return index >= 0 && _plan.closures[size_t(index)].reflects; }
 
+    /// Warns about a string that is none of the choices; the first choice stands in.
+    void checkChoice(const GraphNode& node, const char* name,
+                     std::initializer_list<const char*> choices) {
+        const std::string& text = input(node, name).value.text;
+        for (const char* choice : choices)
+            if (text == choice) return;
+        _diagnostics.warn(node.path, name,
+                          "'" + text + "' is not known; " + *choices.begin() + " is used");
+    }
+
     void checkMicrofacet(const GraphNode& node) {
-        if (!isConstantValue(input(node, "thinfilm_thickness"), 0.0f))
-            leaveOut(node, "thin film is not modelled");
-        const Operand& distribution = input(node, "distribution");
-        if (distribution.value.text != "ggx")
-            _diagnostics.warn(node.path, "distribution",
-                              "'" + distribution.value.text + "' is not known; ggx is used");
+        checkChoice(node, "distribution", {"ggx"});
         if (node.def->findInput("scatter_mode") < 0) return;
-        const std::string& mode = input(node, "scatter_mode").value.text;
-        if (mode != "R" && mode != "T" && mode != "RT")
-            _diagnostics.warn(node.path, "scatter_mode", "'" + mode + "' is not known; R is used");
+        checkChoice(node, "scatter_mode", {"R", "T", "RT"});
     }
 
     Plan& _plan;
@@ -239,6 +287,31 @@ const Operand& closureInput(const Plan& plan, const PlanClosure& closure, const 
 int scatterMode(const Plan& plan, const PlanClosure& closure) {
     const std::string& mode = closureInput(plan, closure, "scatter_mode").value.text;
     return mode == "T" ? sh::SCATTER_T : mode == "RT" ? sh::SCATTER_RT : sh::SCATTER_R;
+}
+
+int lobeVariant(const Plan& plan, const PlanClosure& closure) {
+    const auto chosen = [&](const char* name, const char* text) {
+        return closureInput(plan, closure, name).value.text == text;
+    };
+    switch (closure.kind) {
+    case ClosureKind::Sheen:
+        return chosen("mode", "zeltner") ? sh::SHEEN_ZELTNER : sh::SHEEN_CONTY_KULLA;
+    case ClosureKind::Ward: return chosen("form", "exact") ? sh::WARD_EXACT : sh::WARD_BOUNDED;
+    case ClosureKind::CookTorrance:
+        return chosen("fresnel", "schlick") ? sh::COOK_TORRANCE_SCHLICK : sh::COOK_TORRANCE_EXACT;
+    default: return 0;
+    }
+}
+
+bool hasFilm(const Plan& plan, const PlanClosure& closure) {
+    const GraphNode& node = plan.graph.nodes[size_t(closure.node)];
+    if (node.def->findInput("thinfilm_thickness") < 0) return false;
+    // A film on a thin wall's transmission is that of the reflection over it.
+    if (plan.thinWalled && node.def->findInput("scatter_mode") >= 0 &&
+        scatterMode(plan, closure) == sh::SCATTER_T)
+        return false;
+    return !isConstantValue(closureInput(plan, closure, "thinfilm_thickness"), 0.0f) &&
+           !isConstantValue(closureInput(plan, closure, "thinfilm_ior"), 1.0f);
 }
 
 bool refracts(const Plan& plan, const PlanClosure& closure) {

@@ -15,7 +15,9 @@ struct PlanClosure {
     bool reflects = false; ///< contains the reflecting half of an interface
     bool fused = false;    ///< a transmission lobe under a reflection lobe, see Plan
 
-    bool isLobe() const { return kind >= ClosureKind::OrenNayar && kind <= ClosureKind::Schlick; }
+    bool isLobe() const {
+        return kind >= ClosureKind::OrenNayar && kind <= ClosureKind::ChiangHair;
+    }
 };
 
 /// What a back end has to render: closures with their parameters, and the patterns these need.
@@ -54,6 +56,13 @@ const Operand& closureInput(const Plan& plan, const PlanClosure& closure, const 
 
 /// The scatter_mode of a dielectric or Schlick lobe: sh::SCATTER_*.
 int scatterMode(const Plan& plan, const PlanClosure& closure);
+
+/// Which of the models of a lobe its string inputs choose: sh::SHEEN_*,
+/// sh::WARD_*, sh::COOK_TORRANCE_*. 0 for lobes with one model.
+int lobeVariant(const Plan& plan, const PlanClosure& closure);
+
+/// Whether a lobe may have a thin film; false when it certainly shows none.
+bool hasFilm(const Plan& plan, const PlanClosure& closure);
 
 /// Whether light that is transmitted changes direction, so that the surface has an inside.
 bool refracts(const Plan& plan, const PlanClosure& closure);

@@ -45,7 +45,13 @@ enum class LobeKind : uint8_t {
     Dielectric,
     Conductor,
     Schlick,
-    Subsurface
+    Subsurface,
+    Sheen,
+    Phong,
+    BlinnPhong,
+    Ward,
+    CookTorrance,
+    ChiangHair
 };
 
 /// Subsurface scattering. Where nobody walks beneath the surface it shows as diffuse.
@@ -72,6 +78,12 @@ struct BsdfLobe {
         sh::ConductorLobe conductor;
         sh::SchlickLobe schlick;
         SubsurfaceLobe subsurface;
+        sh::SheenLobe sheen;
+        sh::PhongLobe phong;
+        sh::BlinnPhongLobe blinnPhong;
+        sh::WardLobe ward;
+        sh::CookTorranceLobe cookTorrance;
+        sh::ChiangHairLobe chiangHair;
     };
 };
 

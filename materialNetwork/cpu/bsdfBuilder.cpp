@@ -6,6 +6,7 @@
 #include "materialNetwork/cpu/shadingFrame.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace patina {
 
@@ -202,7 +203,8 @@ void BsdfBuilder::choose(const ProgramCode& code, Bsdf& out) {
     out._lobeCount = count;
 }
 
-glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* registers) {
+glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* registers,
+                        const glm::vec3& wo, const glm::vec3& normal) {
     const int n = int(ops.size());
     if (n == 0) return glm::vec3(0.0f);
     Scratch<glm::vec3> value(size_t(n) + 1);
@@ -217,6 +219,24 @@ glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* regi
         }
         case ClosureKind::Add: value[i] = of(op.a) + of(op.b); break;
         case ClosureKind::Multiply: value[i] = of(op.a) * factor(registers[op.factor]); break;
+        // Both sides emit alike.
+        case ClosureKind::ConicalEdf: {
+            glm::vec3 n = normal;
+            if (op.normal >= 0) {
+                n = glm::vec3(registers[op.normal]);
+                const float length = glm::length(n);
+                n = length > 0.0f ? n / length : normal;
+            }
+            value[i] = factor(registers[op.factor]) * sh::edfConical(registers[op.first].x,
+                                                                     registers[op.second].x,
+                                                                     std::fabs(glm::dot(wo, n)));
+            break;
+        }
+        case ClosureKind::SchlickEdf:
+            value[i] = of(op.a) * sh::edfSchlick(glm::vec3(registers[op.factor]),
+                                                 glm::vec3(registers[op.first]),
+                                                 registers[op.second].x, glm::dot(wo, normal));
+            break;
         default: value[i] = factor(registers[op.factor]);
         }
     }

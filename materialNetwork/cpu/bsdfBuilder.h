@@ -35,6 +35,9 @@ private:
 };
 
 /// Value of a tree of EDFs, which are linear: sum of leaf values times factors.
-glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* registers);
+/// @param wo direction of emission; @param normal of the surface; both 0 inside a medium, which
+/// emits the same everywhere
+glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* registers,
+                        const glm::vec3& wo, const glm::vec3& normal);
 
 } // namespace patina

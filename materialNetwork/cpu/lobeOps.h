@@ -18,6 +18,12 @@ inline sh::LobeEval lobeEval(const BsdfLobe& l, const glm::vec3& wo, const glm::
     case LobeKind::Conductor: return sh::conductorEval(l.conductor, wo, wi);
     case LobeKind::Schlick: return sh::schlickEval(l.schlick, wo, wi);
     case LobeKind::Subsurface: return sh::orenNayarEval(l.subsurface.diffuse, wo, wi);
+    case LobeKind::Sheen: return sh::sheenEval(l.sheen, wo, wi);
+    case LobeKind::Phong: return sh::phongEval(l.phong, wo, wi);
+    case LobeKind::BlinnPhong: return sh::blinnPhongEval(l.blinnPhong, wo, wi);
+    case LobeKind::Ward: return sh::wardEval(l.ward, wo, wi);
+    case LobeKind::CookTorrance: return sh::cookTorranceEval(l.cookTorrance, wo, wi);
+    case LobeKind::ChiangHair: return sh::chiangHairEval(l.chiangHair, wo, wi);
     }
     return sh::lobeEvalNone();
 }
@@ -31,6 +37,12 @@ inline sh::LobeSample lobeSample(const BsdfLobe& l, const glm::vec3& wo, const g
     case LobeKind::Conductor: return sh::conductorSample(l.conductor, wo, u);
     case LobeKind::Schlick: return sh::schlickSample(l.schlick, wo, u);
     case LobeKind::Subsurface: return sh::orenNayarSample(l.subsurface.diffuse, wo, u);
+    case LobeKind::Sheen: return sh::sheenSample(l.sheen, wo, u);
+    case LobeKind::Phong: return sh::phongSample(l.phong, wo, u);
+    case LobeKind::BlinnPhong: return sh::blinnPhongSample(l.blinnPhong, wo, u);
+    case LobeKind::Ward: return sh::wardSample(l.ward, wo, u);
+    case LobeKind::CookTorrance: return sh::cookTorranceSample(l.cookTorrance, wo, u);
+    case LobeKind::ChiangHair: return sh::chiangHairSample(l.chiangHair, wo, u);
     }
     return sh::lobeSampleNone();
 }
@@ -44,6 +56,12 @@ inline glm::vec3 lobeAlbedo(const BsdfLobe& l, const glm::vec3& wo) {
     case LobeKind::Conductor: return sh::conductorAlbedo(l.conductor, wo);
     case LobeKind::Schlick: return sh::schlickAlbedo(l.schlick, wo);
     case LobeKind::Subsurface: return sh::orenNayarAlbedo(l.subsurface.diffuse, wo);
+    case LobeKind::Sheen: return sh::sheenAlbedo(l.sheen, wo);
+    case LobeKind::Phong: return sh::phongAlbedo(l.phong, wo);
+    case LobeKind::BlinnPhong: return sh::blinnPhongAlbedo(l.blinnPhong, wo);
+    case LobeKind::Ward: return sh::wardAlbedo(l.ward, wo);
+    case LobeKind::CookTorrance: return sh::cookTorranceAlbedo(l.cookTorrance, wo);
+    case LobeKind::ChiangHair: return sh::chiangHairAlbedo(l.chiangHair, wo);
     }
     return glm::vec3(0.0f);
 }
@@ -74,8 +92,8 @@ template <class Interface> float lobeSetEnergy(BsdfLobe& l, Interface& interface
 
 /// Looks up what depends on wo alone, once for all evaluations. Sets l.albedo, exact for interfaces
 /// and else an estimate that is good enough to choose lobes by.
-/// @returns the share that an interface keeps from the base of a layer: its largest channel,
-/// without tint. 1 for all other lobes.
+/// @returns the share that an interface or sheen keeps from the base of a layer: its largest
+/// channel, without tint. 1 for all other lobes.
 inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& curve) {
     switch (l.kind) {
     case LobeKind::OrenNayar: l.albedo = l.orenNayar.color; return 1.0f;
@@ -84,18 +102,28 @@ inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& curv
     case LobeKind::Translucent: l.albedo = l.translucent.color; return 1.0f;
     case LobeKind::Conductor:
         l.conductor = sh::conductorAt(l.conductor, wo);
-        l.albedo = sh::fresnelConductor(glm::clamp(wo.z, 0.0f, 1.0f), l.conductor.ior,
-                                        l.conductor.extinction);
+        l.albedo = sh::conductorReflectance(l.conductor, glm::clamp(wo.z, 0.0f, 1.0f));
         return 1.0f;
     case LobeKind::Dielectric: return lobeSetEnergy(l, l.dielectric, l.dielectric.tint, wo, curve);
-    case LobeKind::Schlick: return lobeSetEnergy(l, l.schlick, glm::vec3(1.0f), wo, curve);
+    case LobeKind::Schlick: return lobeSetEnergy(l, l.schlick, l.schlick.tint, wo, curve);
+    case LobeKind::Sheen: {
+        const float kept = wo.z >= 0.0f ? sh::sheenWhiteAlbedo(l.sheen, wo.z) : 0.0f;
+        l.albedo = l.sheen.color * kept;
+        return kept;
+    }
+    case LobeKind::Phong:
+    case LobeKind::BlinnPhong:
+    case LobeKind::Ward:
+    case LobeKind::CookTorrance:
+    case LobeKind::ChiangHair: l.albedo = lobeAlbedo(l, wo); return 1.0f;
     }
     return 1.0f;
 }
 
 inline bool lobeTransmits(const BsdfLobe& l) {
     switch (l.kind) {
-    case LobeKind::Translucent: return true;
+    case LobeKind::Translucent:
+    case LobeKind::ChiangHair: return true;
     case LobeKind::Dielectric: return (l.dielectric.mode & sh::SCATTER_T) != 0;
     case LobeKind::Schlick: return (l.schlick.mode & sh::SCATTER_T) != 0;
     default: return false;
@@ -121,6 +149,10 @@ inline float lobeRoughness(const BsdfLobe& l) {
     case LobeKind::Dielectric: return 0.5f * (l.dielectric.alpha.x + l.dielectric.alpha.y);
     case LobeKind::Conductor: return 0.5f * (l.conductor.alpha.x + l.conductor.alpha.y);
     case LobeKind::Schlick: return 0.5f * (l.schlick.alpha.x + l.schlick.alpha.y);
+    case LobeKind::Phong: return sh::phongAlpha(l.phong.exponent);
+    case LobeKind::BlinnPhong: return sh::phongAlpha(l.blinnPhong.exponent);
+    case LobeKind::Ward: return 0.5f * (l.ward.alpha.x + l.ward.alpha.y);
+    case LobeKind::CookTorrance: return l.cookTorrance.alpha;
     default: return 1.0f;
     }
 }

@@ -8,10 +8,21 @@ const char* const orenNayarNames[] = {"color", "roughness", nullptr};
 const char* const subsurfaceNames[] = {"color", "radius", "anisotropy", nullptr};
 const char* const burleyNames[] = {"color", "roughness", nullptr};
 const char* const translucentNames[] = {"color", nullptr};
-const char* const dielectricNames[] = {"tint", "ior", "roughness", nullptr};
-const char* const conductorNames[] = {"ior", "extinction", "roughness", nullptr};
-const char* const schlickNames[] = {"color0",   "color82",   "color90",
-                                    "exponent", "roughness", nullptr};
+const char* const dielectricNames[] = {"tint",         "ior",  "roughness", "thinfilm_thickness",
+                                       "thinfilm_ior", nullptr};
+const char* const conductorNames[] = {
+    "ior", "extinction", "roughness", "thinfilm_thickness", "thinfilm_ior", nullptr};
+const char* const schlickNames[] = {"color0",       "color82",   "color90",
+                                    "exponent",     "roughness", "thinfilm_thickness",
+                                    "thinfilm_ior", nullptr};
+const char* const sheenNames[] = {"color", "roughness", nullptr};
+const char* const phongNames[] = {"color", "exponent", nullptr};
+const char* const wardNames[] = {"color", "roughness", nullptr};
+const char* const cookTorranceNames[] = {"color", "ior", "extinction", "roughness", nullptr};
+const char* const hairNames[] = {"tint_R",        "tint_TT",       "tint_TRT",
+                                 "ior",           "roughness_R",   "roughness_TT",
+                                 "roughness_TRT", "cuticle_angle", "absorption_coefficient",
+                                 nullptr};
 const char* const noNames[] = {nullptr};
 
 } // namespace
@@ -25,6 +36,12 @@ const char* const* lobeParameters(ClosureKind kind) {
     case ClosureKind::Dielectric: return dielectricNames;
     case ClosureKind::Conductor: return conductorNames;
     case ClosureKind::Schlick: return schlickNames;
+    case ClosureKind::Sheen: return sheenNames;
+    case ClosureKind::Phong:
+    case ClosureKind::BlinnPhong: return phongNames;
+    case ClosureKind::Ward: return wardNames;
+    case ClosureKind::CookTorrance: return cookTorranceNames;
+    case ClosureKind::ChiangHair: return hairNames;
     default: return noNames;
     }
 }
@@ -37,6 +54,12 @@ LobeKind lobeKind(ClosureKind kind) {
     case ClosureKind::Dielectric: return LobeKind::Dielectric;
     case ClosureKind::Conductor: return LobeKind::Conductor;
     case ClosureKind::Schlick: return LobeKind::Schlick;
+    case ClosureKind::Sheen: return LobeKind::Sheen;
+    case ClosureKind::Phong: return LobeKind::Phong;
+    case ClosureKind::BlinnPhong: return LobeKind::BlinnPhong;
+    case ClosureKind::Ward: return LobeKind::Ward;
+    case ClosureKind::CookTorrance: return LobeKind::CookTorrance;
+    case ClosureKind::ChiangHair: return LobeKind::ChiangHair;
     default: return LobeKind::OrenNayar;
     }
 }
@@ -62,10 +85,30 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
         return;
     case LobeKind::Conductor:
         out.conductor = sh::conductorSetup(color(0), color(1), pair(2), t.flagA, t.compensate);
+        if (t.film) out.conductor = sh::conductorFilm(out.conductor, number(3), number(4));
         return;
     case LobeKind::Schlick:
+        if (t.filmDielectric) {
+            out.schlick =
+                sh::filmDielectricSetup(color(0), number(1), pair(2), number(3), number(4), t.flagA,
+                                        t.mode, t.fused, t.compensate);
+            return;
+        }
         out.schlick = sh::schlickSetup(color(0), color(1), color(2), number(3), pair(4), t.flagA,
                                        t.mode, t.fused, t.compensate);
+        if (t.film) out.schlick = sh::schlickFilm(out.schlick, number(5), number(6));
+        return;
+    case LobeKind::Sheen: out.sheen = sh::sheenSetup(color(0), number(1), t.variant); return;
+    case LobeKind::Phong: out.phong = sh::phongSetup(color(0), number(1)); return;
+    case LobeKind::BlinnPhong: out.blinnPhong = sh::blinnPhongSetup(color(0), number(1)); return;
+    case LobeKind::Ward: out.ward = sh::wardSetup(color(0), pair(1), t.variant); return;
+    case LobeKind::ChiangHair:
+        out.chiangHair = sh::chiangHairSetup(color(0), color(1), color(2), number(3), pair(4),
+                                             pair(5), pair(6), number(7), color(8));
+        return;
+    case LobeKind::CookTorrance:
+        out.cookTorrance =
+            sh::cookTorranceSetup(color(0), color(1), color(2), number(3), t.variant);
         return;
     }
 }

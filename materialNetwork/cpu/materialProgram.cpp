@@ -73,19 +73,21 @@ bool MaterialProgram::isOpaqueWith(const std::vector<int>& attributes) const {
     return opacity(ShadingPoint()) >= 1.0f;
 }
 
-glm::vec3 MaterialProgram::emission(const ShadingPoint& point, const glm::vec3&) const {
+glm::vec3 MaterialProgram::emission(const ShadingPoint& point, const glm::vec3& wo) const {
     if (!_hasEmission) return glm::vec3(0.0f);
-    if (_code->emissionCode.empty()) return linearClosure(_code->edf, _code->constants.data());
+    if (_code->emissionCode.empty())
+        return linearClosure(_code->edf, _code->constants.data(), wo, point.normal);
     RegisterFile registers(*_code);
     registers.run(*_code, _code->emissionCode, point);
-    return linearClosure(_code->edf, registers.data());
+    return linearClosure(_code->edf, registers.data(), wo, point.normal);
 }
 
 Medium MaterialProgram::interior(const ShadingPoint& point) const {
     if (!_hasInterior) return Medium();
     const auto build = [&](const glm::vec4* registers) {
         Medium medium = buildMedium(_code->vdf, registers);
-        medium.emission = linearClosure(_code->volumeEdf, registers);
+        medium.emission =
+            linearClosure(_code->volumeEdf, registers, glm::vec3(0.0f), glm::vec3(0.0f));
         return medium;
     };
     if (_code->interiorCode.empty()) return build(_code->constants.data());

@@ -130,9 +130,10 @@ std::vector<ClosureOp> ProgramBuilder::linearOps(int root, std::vector<bool>& ne
         op.b = c.b;
         // Parts of other trees stand in the same list; they get no value and are never read.
         const char* name =
-            c.kind == ClosureKind::Mix          ? "mix"
-            : c.kind == ClosureKind::Multiply   ? "in2"
-            : c.kind == ClosureKind::UniformEdf ? "color"
+            c.kind == ClosureKind::Mix                                               ? "mix"
+            : c.kind == ClosureKind::Multiply                                        ? "in2"
+            : c.kind == ClosureKind::UniformEdf || c.kind == ClosureKind::ConicalEdf ? "color"
+            : c.kind == ClosureKind::SchlickEdf                                      ? "color0"
             : c.kind == ClosureKind::AbsorptionVdf || c.kind == ClosureKind::AnisotropicVdf
                 ? "absorption"
                 : nullptr;
@@ -147,6 +148,20 @@ std::vector<ClosureOp> ProgramBuilder::linearOps(int root, std::vector<bool>& ne
                 mark(anisotropy, needed);
                 op.scattering = registerOf(scattering);
                 op.anisotropy = registerOf(anisotropy);
+            }
+            const auto extra = [&](const char* input) {
+                const Operand& o = closureInput(_plan, c, input);
+                mark(o, needed);
+                return registerOf(o);
+            };
+            if (c.kind == ClosureKind::ConicalEdf) {
+                op.first = extra("inner_angle");
+                op.second = extra("outer_angle");
+                if (!isShadingPoints(closureInput(_plan, c, "normal"), "ND_normal_vector3"))
+                    op.normal = int(extra("normal"));
+            } else if (c.kind == ClosureKind::SchlickEdf) {
+                op.first = extra("color90");
+                op.second = extra("exponent");
             }
         } else if (c.kind != ClosureKind::Add) {
             op.factor = constant(Value::makeFloat(0.0f));
@@ -200,6 +215,13 @@ void ProgramBuilder::bsdfOps(std::vector<bool>& needed) {
     markTops(_code->bsdf);
 }
 
+/// A default that comes from the geometry is the shading point's own.
+bool ProgramBuilder::isShadingPoints(const Operand& operand, const char* standard) const {
+    if (operand.isConstant()) return false;
+    const GraphNode& source = nodeOf(operand.node);
+    return source.def->id == standard && source.inputs[0].value.text == "world";
+}
+
 int ProgramBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bool>& needed) {
     FrameTemplate f;
     f.flips = flips;
@@ -208,16 +230,13 @@ int ProgramBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bo
         const int i = node.def->findInput(input);
         if (i < 0) return -1;
         const Operand& operand = node.inputs[size_t(i)];
-        // A default that comes from the geometry is the shading point's own.
-        if (!operand.isConstant()) {
-            const GraphNode& source = nodeOf(operand.node);
-            if (source.def->id == standard && source.inputs[0].value.text == "world") return -1;
-        }
+        if (isShadingPoints(operand, standard)) return -1;
         mark(operand, needed);
         return int(registerOf(operand));
     };
     f.normal = choose("normal", "ND_normal_vector3");
-    f.tangent = choose("tangent", "ND_tangent_vector3");
+    f.tangent = choose(closure.kind == ClosureKind::ChiangHair ? "curve_direction" : "tangent",
+                       "ND_tangent_vector3");
     auto& frames = _code->frames;
     for (size_t i = 0; i < frames.size(); ++i)
         if (frames[i].normal == f.normal && frames[i].tangent == f.tangent &&
@@ -245,7 +264,8 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.prebuilt.kind = lobeKind(closure.kind);
     t.prebuilt.diffuse =
         closure.kind == ClosureKind::OrenNayar || closure.kind == ClosureKind::Burley ||
-        closure.kind == ClosureKind::Subsurface || closure.kind == ClosureKind::Translucent;
+        closure.kind == ClosureKind::Subsurface || closure.kind == ClosureKind::Translucent ||
+        closure.kind == ClosureKind::Sheen;
     const bool interface =
         closure.kind == ClosureKind::Dielectric || closure.kind == ClosureKind::Schlick;
     t.fused = closure.fused;
@@ -258,6 +278,11 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.flagA =
         flag(closure.kind == ClosureKind::OrenNayar ? "energy_compensation" : "retroreflective");
     if (interface) t.mode = scatterMode(_plan, closure);
+    t.variant = lobeVariant(_plan, closure);
+    t.film = hasFilm(_plan, closure);
+    // A film colours the reflectance, for which a dielectric has no room.
+    t.filmDielectric = t.film && closure.kind == ClosureKind::Dielectric;
+    if (t.filmDielectric) t.prebuilt.kind = LobeKind::Schlick;
     // Metals and diffuse lobes show the same face on both sides; an interface has an inside.
     const bool flips = !interface || !hasInside;
     t.prebuilt.frame = uint8_t(frame(closure, flips, needed));
@@ -286,7 +311,9 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
         setupLobe(t, _code->constants.data(), t.prebuilt);
         t.energy.measure(t.prebuilt);
     }
-    const Operand& weight = closureInput(_plan, closure, "weight");
+    Operand weight;
+    weight.value = Value::makeFloat(1.0f);
+    if (node.def->findInput("weight") >= 0) weight = closureInput(_plan, closure, "weight");
     mark(weight, needed);
     op.factor = t.weight = registerOf(weight);
     op.lobe = int(_code->lobes.size());
@@ -297,7 +324,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
 bool ProgramBuilder::isStraight(const PlanClosure& closure) const {
     const bool dielectric = closure.kind == ClosureKind::Dielectric;
     if ((!dielectric && closure.kind != ClosureKind::Schlick) ||
-        (scatterMode(_plan, closure) & sh::SCATTER_T) == 0)
+        (scatterMode(_plan, closure) & sh::SCATTER_T) == 0 || hasFilm(_plan, closure))
         return false;
     return _plan.thinWalled ||
            (dielectric && isConstantValue(closureInput(_plan, closure, "ior"), 1.0f));
@@ -312,6 +339,7 @@ void ProgramBuilder::setFlags() {
                   !_plan.opacity.value.numbers.empty() && _plan.opacity.value.numbers[0] >= 1.0f;
     for (const LobeTemplate& t : _code->lobes)
         p._hasTransmission |= t.prebuilt.kind == LobeKind::Translucent ||
+                              t.prebuilt.kind == LobeKind::ChiangHair ||
                               (!t.straight && (t.mode & sh::SCATTER_T) != 0);
     p._isVolumeOnly = _plan.volumeOnly;
     for (const LobeTemplate& t : _code->lobes)

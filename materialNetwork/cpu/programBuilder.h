@@ -27,6 +27,7 @@ private:
     std::vector<ClosureOp> linearOps(int root, std::vector<bool>& needed);
     void bsdfOps(std::vector<bool>& needed);
     void lobe(const PlanClosure& closure, ClosureOp& op, bool hasInside, std::vector<bool>& needed);
+    bool isShadingPoints(const Operand& operand, const char* standard) const;
     int frame(const PlanClosure& closure, bool flips, std::vector<bool>& needed);
     void markTops(std::vector<ClosureOp>& ops) const;
     bool isStraight(const PlanClosure& closure) const;

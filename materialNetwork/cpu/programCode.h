@@ -22,14 +22,17 @@ struct Instruction {
 /// Parameters of a lobe: registers in the order of lobeParameters(), and what is known at compile
 /// time.
 struct LobeTemplate {
-    static constexpr int maxParameters = 6;
+    static constexpr int maxParameters = 10;
 
     BsdfLobe prebuilt; ///< set up already when constant; kind, diffuse and frame always
     bool constant = false;
     bool flagA = false; ///< retroreflective, or energy_compensation
     bool fused = false;
-    bool straight = false; ///< passes light straight on: part of the presence
-    int mode = 0;          ///< SCATTER_*
+    bool film = false;           ///< has a thin film
+    bool filmDielectric = false; ///< a dielectric with a film: LobeKind::Schlick
+    bool straight = false;       ///< passes light straight on: part of the presence
+    int mode = 0;                ///< SCATTER_*
+    int variant = 0;             ///< lobeVariant()
     int compensate = 1;
     EnergyCurve energy; ///< of constant interfaces
     Register weight = 0;
@@ -45,6 +48,9 @@ struct ClosureOp {
     Register factor = 0;      ///< lobe: weight; Mix: mix; Multiply: factor; EDF: value
                               ///< VDF: absorption
     Register scattering = 0, anisotropy = 0; ///< of an AnisotropicVdf
+    /// ConicalEdf: inner and outer angle. SchlickEdf: color90 and exponent (factor is color0).
+    Register first = 0, second = 0;
+    int normal = -1; ///< ConicalEdf: its own normal, -1 for that of the point
 };
 
 struct FrameTemplate {
@@ -56,8 +62,7 @@ struct ProgramCode {
     std::vector<glm::vec4> constants; ///< the first registers
     int registerCount = 0;
     std::vector<Register> inputPool;
-    std::vector<Instruction> opacityCode, emissionCode, interiorCode, surfaceCode,
-        displacementCode;
+    std::vector<Instruction> opacityCode, emissionCode, interiorCode, surfaceCode, displacementCode;
 
     std::vector<ClosureOp> bsdf, edf, vdf, volumeEdf; ///< the last op is the root
     std::vector<LobeTemplate> lobes;

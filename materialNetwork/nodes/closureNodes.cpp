@@ -50,10 +50,44 @@ const NodeRow rows[] = {
     closure("ND_sheen_bsdf", "sheen_bsdf",
             "float weight=1, color3 color=1, float roughness=0.3, vector3 normal=@Nworld, "
             "string mode=conty_kulla",
-            "BSDF", ClosureKind::Unsupported),
+            "BSDF", ClosureKind::Sheen),
+    // The classic BRDFs. exponent and roughness are those of each paper.
+    closure("ND_patina_lambert_bsdf", "patina_lambert_bsdf",
+            "float weight=1, color3 color=0.18, vector3 normal=@Nworld", "BSDF",
+            ClosureKind::OrenNayar),
+    closure("ND_patina_phong_bsdf", "patina_phong_bsdf",
+            "float weight=1, color3 color=1, float exponent=32, vector3 normal=@Nworld", "BSDF",
+            ClosureKind::Phong),
+    closure("ND_patina_blinn_phong_bsdf", "patina_blinn_phong_bsdf",
+            "float weight=1, color3 color=1, float exponent=128, vector3 normal=@Nworld", "BSDF",
+            ClosureKind::BlinnPhong),
+    closure("ND_patina_ward_bsdf", "patina_ward_bsdf",
+            "float weight=1, color3 color=1, vector2 roughness=0.2, vector3 normal=@Nworld, "
+            "vector3 tangent=@Tworld, string form=bounded",
+            "BSDF", ClosureKind::Ward),
+    closure("ND_patina_cook_torrance_bsdf", "patina_cook_torrance_bsdf",
+            "float weight=1, color3 color=1, color3 ior=2.911 2.950 2.590, "
+            "color3 extinction=3.089 2.930 2.770, float roughness=0.2, vector3 normal=@Nworld, "
+            "string fresnel=exact",
+            "BSDF", ClosureKind::CookTorrance),
+    closure("ND_chiang_hair_bsdf", "chiang_hair_bsdf",
+            "color3 tint_R=1, color3 tint_TT=1, color3 tint_TRT=1, float ior=1.55, "
+            "vector2 roughness_R=0.1, vector2 roughness_TT=0.05, vector2 roughness_TRT=0.2, "
+            "float cuticle_angle=0.5, vector3 absorption_coefficient=0, vector3 normal=@Nworld, "
+            "vector3 curve_direction=@Tworld",
+            "BSDF", ClosureKind::ChiangHair),
     closure("ND_thin_film_bsdf", "thin_film_bsdf", "float thickness=550, float ior=1.5", "BSDF",
-            ClosureKind::Unsupported),
+            ClosureKind::ThinFilm),
     closure("ND_uniform_edf", "uniform_edf", "color3 color=1", "EDF", ClosureKind::UniformEdf),
+    closure("ND_conical_edf", "conical_edf",
+            "color3 color=1, vector3 normal=@Nworld, float inner_angle=60, float outer_angle=0",
+            "EDF", ClosureKind::ConicalEdf),
+    closure("ND_generalized_schlick_edf", "generalized_schlick_edf",
+            "color3 color0=1, color3 color90=1, float exponent=5, EDF base", "EDF",
+            ClosureKind::SchlickEdf),
+    closure("ND_measured_edf", "measured_edf",
+            "color3 color=1, vector3 normal=@Nworld, filename file", "EDF",
+            ClosureKind::Unsupported),
     closure("ND_absorption_vdf", "absorption_vdf", "vector3 absorption=0", "VDF",
             ClosureKind::AbsorptionVdf),
     closure("ND_anisotropic_vdf", "anisotropic_vdf",

@@ -239,12 +239,38 @@ TEST(Models, SubsurfaceIsAnEvent) {
     }
 }
 
+TEST(Models, ThinFilmColoursTheHighlight) {
+    const auto tinted = [](const std::string& model, const Inputs& inputs) {
+        Compiled c(modelNetwork(model, inputs));
+        ShadingPoint point;
+        point.viewDirection = direction(30.0f);
+        Bsdf bsdf;
+        c.program->evaluate(point, bsdf);
+        const glm::vec3 a = bsdf.albedo();
+        return std::max({a.x, a.y, a.z}) - std::min({a.x, a.y, a.z});
+    };
+    EXPECT_GT(tinted("standard_surface", {{"base", number(0.0f)},
+                                          {"thin_film_IOR", number(1.8f)},
+                                          {"thin_film_thickness", number(400.0f)}}),
+              5e-3f);
+    EXPECT_GT(tinted("open_pbr_surface", {{"base_color", grey(0.5f)},
+                                          {"base_metalness", number(1.0f)},
+                                          {"thin_film_weight", number(1.0f)},
+                                          {"thin_film_thickness", number(0.4f)}}),
+              5e-3f);
+    EXPECT_GT(tinted("gltf_pbr", {{"base_color", grey(0.5f)},
+                                  {"iridescence", number(1.0f)},
+                                  {"iridescence_thickness", number(400.0f)}}),
+              5e-3f);
+}
+
 TEST(Models, WhatIsMissingIsSaid) {
     Diagnostics diagnostics;
-    const std::string text = explainMaterial(
-        modelNetwork("standard_surface", {{"sheen", number(1.0f)}, {"subsurface", number(1.0f)}}),
-        diagnostics);
-    EXPECT_NE(text.find("sheen_bsdf is not modelled"), std::string::npos) << text;
+    const std::string text =
+        explainMaterial(modelNetwork("standard_surface", {{"subsurface", number(1.0f)},
+                                                          {"thin_walled", Value::makeBool(true)}}),
+                        diagnostics);
+    EXPECT_NE(text.find("a thin wall has no inside"), std::string::npos) << text;
 }
 
 } // namespace patina

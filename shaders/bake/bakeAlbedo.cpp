@@ -71,6 +71,90 @@ void bakeInterface(bool above) {
             }
 }
 
+// Sheen is as wide as the hemisphere or hugs the horizon: a plain product rule, dense there.
+void bakeSheen() {
+    const bake::GaussRule rule(48);
+    const int turns = 64;
+    for (int r = 0; r < SHEEN_ROUGHNESS; ++r)
+        for (int m = 0; m < SHEEN_MU; ++m) {
+            const double roughness = sheenRoughnessAt(double(r) / (SHEEN_ROUGHNESS - 1));
+            const double mu = sheenMuAt(double(m) / (SHEEN_MU - 1));
+            const vec3 wo(std::sqrt(std::max(0.0, 1.0 - mu * mu)), 0.0, mu);
+            double sum = 0.0;
+            for (std::size_t i = 0; i < rule.x.size(); ++i)
+                for (int j = 0; j < turns; ++j) {
+                    const double z = rule.x[i] * rule.x[i];
+                    const double s = std::sqrt(1.0 - z * z);
+                    const double phi = sh64::PI * (j + 0.5) / turns;
+                    const vec3 wi(s * std::cos(phi), s * std::sin(phi), z);
+                    sum += rule.w[i] * 2.0 * rule.x[i] * sheenContyKulla(roughness, wo, wi).x;
+                }
+            push(sum * 2.0 * sh64::PI / turns);
+        }
+}
+
+// Mean weight of a lobe's own sampler over a product rule whose columns are shifted against each
+// other, so that the edge at the horizon averages out.
+template <typename Sample> double meanWeight(int n, const Sample& sample) {
+    double sum = 0.0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const double shift = (i + 0.5) * 0.6180339887498949;
+            sum += sample((i + 0.5) / n, (j + shift - std::floor(shift)) / n);
+        }
+    return sum / (double(n) * n);
+}
+
+void bakeClassic(int plane) {
+    for (int a = 0; a < CLASSIC_ALPHA; ++a)
+        for (int m = 0; m < CLASSIC_MU; ++m) {
+            const double alpha = tableAlphaAt(double(a) / (CLASSIC_ALPHA - 1));
+            const double mu = tableMuAt(std::max(double(m), kFirst) / (CLASSIC_MU - 1), alpha);
+            const vec3 wo(std::sqrt(std::max(0.0, 1.0 - mu * mu)), 0.0, mu);
+            const PhongLobe phong = phongSetup(vec3(1.0), phongExponent(alpha));
+            const BlinnPhongLobe blinn = blinnPhongSetup(vec3(1.0), phongExponent(alpha));
+            const WardLobe ward = wardSetup(
+                vec3(1.0), vec2(alpha), plane == CLASSIC_WARD_EXACT ? WARD_EXACT : WARD_BOUNDED);
+            push(meanWeight(64, [&](double x, double y) {
+                const vec3 u(x, y, 0.5);
+                if (plane == CLASSIC_PHONG) return phongSample(phong, wo, u).weight.x;
+                if (plane == CLASSIC_BLINN_PHONG) return blinnPhongSample(blinn, wo, u).weight.x;
+                return wardSample(ward, wo, u).weight.x;
+            }));
+        }
+}
+
+// Moments of the V-cavity lobe, over both facets of each cavity.
+void bakeVCavity() {
+    for (int a = 0; a < MOMENT_ALPHA; ++a)
+        for (int m = 0; m < MOMENT_MU; ++m) {
+            const double alpha = tableAlphaAt(double(a) / (MOMENT_ALPHA - 1));
+            const double mu = tableMuAt(std::max(double(m), kFirst) / (MOMENT_MU - 1), alpha);
+            const vec3 wo(std::sqrt(std::max(0.0, 1.0 - mu * mu)), 0.0, mu);
+            double e[MOMENT_COUNT] = {};
+            meanWeight(32, [&](double x, double y) {
+                const vec3 first = beckmannSample(alpha, vec2(x, y));
+                const vec3 facets[] = {first, vec3(-first.x, -first.y, first.z)};
+                const double seen[] = {std::max(sh64::dot(wo, facets[0]), 0.0),
+                                       std::max(sh64::dot(wo, facets[1]), 0.0)};
+                for (int k = 0; k < 2; ++k) {
+                    const double c = seen[k];
+                    const double iz = 2.0 * c * facets[k].z - mu;
+                    if (c <= 0.0 || iz <= 0.0) continue;
+                    const double mz = facets[k].z;
+                    const double weight = c / (seen[0] + seen[1]) * vCavityBoth(mu, iz, c, mz) /
+                                          vCavityVisible(mu, c, mz);
+                    for (int p = 0; p < MOMENT_COUNT; ++p)
+                        e[p] += weight * powSchlick(1.0 - std::min(c, 1.0), momentExponent(p));
+                }
+                return 0.0;
+            });
+            push(e[0] / (32.0 * 32.0));
+            for (int k = 1; k < MOMENT_COUNT; ++k)
+                push(std::pow(e[k] / e[0], 1.0 / momentExponent(k)) - (1.0 - mu));
+        }
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -81,6 +165,10 @@ int main(int argc, char** argv) {
     bakeMoments();
     bakeInterface(true);
     bakeInterface(false);
+    bakeSheen();
+    for (int plane = CLASSIC_PHONG; plane <= CLASSIC_WARD_EXACT; ++plane)
+        bakeClassic(plane);
+    bakeVCavity();
     if (entryCount != ALBEDO_TABLE_SIZE) {
         std::fprintf(stderr, "bakeAlbedo: %d entries, the layout has %d\n", entryCount,
                      ALBEDO_TABLE_SIZE);

@@ -20,7 +20,12 @@ const int MOMENT_SIZE = MOMENT_COUNT * MOMENT_MU * MOMENT_ALPHA;
 const int INTERFACE_SIZE = 2 * INTERFACE_MU * INTERFACE_ALPHA * INTERFACE_ETA;
 const int INTERFACE_ABOVE = MOMENT_SIZE;
 const int INTERFACE_BELOW = MOMENT_SIZE + INTERFACE_SIZE;
-const int ALBEDO_TABLE_SIZE = MOMENT_SIZE + 2 * INTERFACE_SIZE;
+const int SHEEN_SIZE = 32 * 32; // sheenAlbedo.glsl
+const int CLASSIC_MU = 32;      // classicAlbedo.glsl
+const int CLASSIC_ALPHA = 32;
+const int CLASSIC_TABLE = MOMENT_SIZE + 2 * INTERFACE_SIZE + SHEEN_SIZE;
+const int V_CAVITY_TABLE = CLASSIC_TABLE + 4 * CLASSIC_MU * CLASSIC_ALPHA;
+const int ALBEDO_TABLE_SIZE = V_CAVITY_TABLE + MOMENT_SIZE;
 
 // Exponents of the moment table; 5, 6 and 7 (Schlick and its dip) are entries.
 PATINA_FN float momentExponent(int i) {

@@ -35,6 +35,29 @@ const float TINY = 1e-20f;
 // Input range of tints and colours: negative and NaN become 0, Inf becomes this.
 const float COLOR_MAX = 65504.0f;
 
+// Smallest roughness of a sheen lobe; its exponent is 100 there.
+const float SHEEN_ROUGHNESS_MIN = 0.01f;
+
+// Largest exponent of the cosine power lobes; they are 4 mrad wide there.
+const float EXPONENT_MAX = 1e5f;
+
+// Smallest product of both cosines in Ward's lobe, which divides by its root.
+const float WARD_COS_MIN = 1e-6f;
+
+// Thin films in nm: thinner ones are left out (they change a reflectance by 2e-3 at most), thicker
+// ones have no colour left. Their ior has the range of solids.
+const float FILM_THICKNESS_MIN = 0.1f;
+const float FILM_THICKNESS_MAX = 1e5f;
+const float FILM_IOR_MAX = 5.0f;
+
+// Bounds of a hair fibre's longitudinal variance and azimuthal scale: 0.5 degrees, and as good as
+// uniform. Rays that graze the fibre arrive at HAIR_H_MAX of its radius at most.
+const float HAIR_VARIANCE_MIN = 1e-4f;
+const float HAIR_VARIANCE_MAX = 30.0f;
+const float HAIR_SCALE_MIN = 0.008f;
+const float HAIR_SCALE_MAX = 10.0f;
+const float HAIR_H_MAX = 0.9999f;
+
 // Largest |anisotropy| of a phase function: its peak is 2e6 / (4 pi) there, and 1 - g still has
 // four digits.
 const float PHASE_ANISOTROPY_MAX = 0.999f;

@@ -28,3 +28,29 @@ PATINA_FN vec3 sampleCosineHemisphere(vec2 u) {
     float phi = TWO_PI * u.y;
     return vec3(r * cos(phi), r * sin(phi), safeSqrt(1.0f - u.x));
 }
+
+// Direction at versine (1 - cos) v from unit axis n, turned by phi about it (basis of Duff et al.
+// 2017).
+PATINA_FN vec3 aroundAxis(vec3 n, float v, float phi) {
+    float side = select(1.0f, -1.0f, n.z >= 0.0f);
+    float a = -1.0f / (side + n.z);
+    float b = n.x * n.y * a;
+    vec3 x = vec3(1.0f + side * n.x * n.x * a, side * b, -side * n.x);
+    vec3 y = vec3(b, side + n.y * n.y * a, -n.y);
+    float r = safeSqrt(v * (2.0f - v));
+    return x * (r * cos(phi)) + y * (r * sin(phi)) + n * (1.0f - v);
+}
+
+// (1 - v)^e without loss for small v and large e; 0 from v = 1 on.
+PATINA_FN float powFromVersine(float v, float e) {
+    float ln = -v * (1.0f + v * (0.5f + v * (1.0f / 3.0f + v * 0.25f)));
+    float lg = select(1.44269504f * ln, log2(max(1.0f - v, 1e-30f)), v < 0.01f);
+    return select(exp2(e * lg), 0.0f, v < 1.0f);
+}
+
+// The versine of a direction whose cosine has density proportional to cos^(e - 1): cos = u^(1/e).
+PATINA_FN float sampleVersine(float u, float e) {
+    float y = -0.693147181f * log2(max(1.0f - u, 1e-30f)) / e;
+    float small = y * (1.0f - y * (0.5f - y * (1.0f / 6.0f - y * (1.0f / 24.0f))));
+    return select(small, 1.0f - exp2(-1.44269504f * y), y < 0.01f);
+}

@@ -1,12 +1,13 @@
 // Rough or smooth metal: GGX reflection with the exact Fresnel equations of a complex ior.
-// MaterialX conductor_bsdf, without thin film. One-sided: no light for wo or wi at or below the
+// MaterialX conductor_bsdf. One-sided: no light for wo or wi at or below the
 // horizon. Reciprocal when `compensate` is 0.
 
 struct ConductorLobe {
     vec3 ior;
     vec3 extinction;
     vec3 favg;
-    vec2 alpha;  // 0 = mirror
+    vec2 alpha; // 0 = mirror
+    Film film;
     float retro; // -1 sends the lobe back to where it came from, else 1
     int compensate;
     bool known; // k is that of the wo at hand (conductorAt)
@@ -22,11 +23,24 @@ PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness
     l.extinction = min(max(extinction, vec3(0.0f)), vec3(IOR_MAX));
     l.favg = conductorAverage(l.ior, l.extinction);
     l.alpha = ggxAlpha(roughness);
+    l.film = makeFilm(0.0f, 1.0f);
     l.retro = select(-1.0f, 1.0f, retroreflective);
     l.compensate = compensate;
     l.known = false;
     l.k = vec3(1.0f);
     return l;
+}
+
+// The lobe under a film (makeFilm).
+PATINA_FN ConductorLobe conductorFilm(ConductorLobe l, float thickness, float ior) {
+    l.film = makeFilm(thickness, ior);
+    if (l.film.thickness > 0.0f) l.favg = filmAverage(l.film, l.ior, l.extinction);
+    return l;
+}
+
+PATINA_FN vec3 conductorReflectance(ConductorLobe l, float c) {
+    if (l.film.thickness > 0.0f) return filmReflectance(l.film, c, l.ior, l.extinction);
+    return fresnelConductor(c, l.ior, l.extinction);
 }
 
 // The lobe with its energy factor for one wo. Optional: a caller that evaluates and samples several
@@ -44,7 +58,7 @@ PATINA_FN LobeEval conductorEval(ConductorLobe l, vec3 wo, vec3 wi) {
     GgxPair p = ggxPair(wo, vec3(wi.x * l.retro, wi.y * l.retro, wi.z), l.alpha, 1.0f);
     if (!l.known) l = conductorAt(l, wo);
     LobeEval e;
-    e.value = fresnelConductor(p.c, l.ior, l.extinction) * l.k * p.value;
+    e.value = conductorReflectance(l, p.c) * l.k * p.value;
     e.pdf = p.pdf;
     return e;
 }
@@ -60,7 +74,7 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
     if (!l.known) l = conductorAt(l, wo);
     LobeSample s;
     s.wi = vec3(b.wi.x * l.retro, b.wi.y * l.retro, b.wi.z);
-    s.weight = fresnelConductor(c, l.ior, l.extinction) * l.k * b.ratio;
+    s.weight = conductorReflectance(l, c) * l.k * b.ratio;
     s.pdf = b.pdf;
     s.event = select(LOBE_REFLECT + LOBE_DELTA, LOBE_REFLECT, mirror);
     s.eta = 1.0f;
@@ -69,8 +83,10 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
 
 PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
-    if (l.alpha.x == 0.0f) return fresnelConductor(wo.z, l.ior, l.extinction);
-    vec3 mean = conductorMean(wo.z, ggxAlphaSeen(wo, l.alpha), l.ior, l.extinction);
+    if (l.alpha.x == 0.0f) return conductorReflectance(l, min(wo.z, 1.0f));
+    MomentPlace p = momentPlace(wo.z, ggxAlphaSeen(wo, l.alpha));
+    vec3 mean = conductorMean(p, l.ior, l.extinction);
+    if (l.film.thickness > 0.0f) mean = filmMean(p, l.film, l.ior, l.extinction);
     float ess = momentAlbedo0(momentPlace(wo.z, ggxAlphaLoss(wo, l.alpha)));
     return mean * conductorAt(l, wo).k * ess;
 }

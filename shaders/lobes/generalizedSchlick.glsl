@@ -1,5 +1,6 @@
-// GGX interface with a generalized Schlick reflectance: MaterialX generalized_schlick_bsdf, without
-// thin film.
+// GGX interface with a generalized Schlick reflectance: MaterialX generalized_schlick_bsdf. Also
+// the coloured reflectance of dielectric_bsdf under a thin film, since dielectric.glsl has one
+// number.
 //
 // Sides and flux form as in dielectric.glsl. The ior that bends T follows from the mean of color0.
 // From the inside the curve is read at the cosine on the outside, and total internal reflection is
@@ -7,6 +8,9 @@
 
 struct SchlickLobe {
     SchlickFresnel fresnel;
+    Film film;
+    vec3 filmBase; // ior of the base under the film, per channel
+    vec3 tint;
     vec3 favg;
     vec2 alpha; // 0 = mirror
     float ior;
@@ -14,6 +18,7 @@ struct SchlickLobe {
     float retro; // -1 sends reflection back to where it came from, else 1
     int mode;
     int compensate;
+    bool exact; // a dielectric under a film, not Schlick's curve
     bool fused;
     bool deltaT; // refraction too narrow to evaluate
     bool known;  // kr and kt are those of the wo at hand (schlickAt)
@@ -41,8 +46,65 @@ PATINA_FN SchlickLobe schlickSetup(vec3 color0, vec3 color82, vec3 color90, floa
     l.fused = fused && scatterMode == SCATTER_T;
     l.deltaT = min(l.alpha.x, l.alpha.y) * (l.ior - 1.0f) < REFRACTION_DELTA * l.ior;
     l.known = false;
+    l.exact = false;
+    l.film = makeFilm(0.0f, 1.0f);
+    l.filmBase = vec3(1.0f);
+    l.tint = vec3(1.0f);
     l.kr = vec3(1.0f);
     l.kt = vec3(1.0f);
+    return l;
+}
+
+// The bare dielectric that a film lobe is built on.
+PATINA_FN vec3 schlickBare(vec3 n, float c) {
+    return vec3(fresnelDielectric(c, n.x), fresnelDielectric(c, n.y), fresnelDielectric(c, n.z));
+}
+
+// Reflectance from outside at cosine c. A film under Schlick's curve changes it by as much as it
+// changes a dielectric of the same color0: the curve itself knows no phases.
+PATINA_FN vec3 schlickOutside(SchlickLobe l, float c) {
+    vec3 curve = min(fresnelSchlick(c, l.fresnel), vec3(1.0f));
+    if (l.film.thickness <= 0.0f) {
+        if (l.exact) return schlickBare(l.filmBase, c);
+        return curve;
+    }
+    vec3 coated = filmReflectance(l.film, c, l.filmBase, vec3(0.0f));
+    if (l.exact) return coated;
+    return min(max(curve + coated - schlickBare(l.filmBase, c), vec3(0.0f)), vec3(1.0f));
+}
+
+PATINA_FN vec3 schlickAverage(SchlickLobe l) {
+    return (schlickOutside(l, 0.335710687f) + schlickOutside(l, 0.941965145f)) * (5.0f / 18.0f) +
+           schlickOutside(l, 0.707106781f) * (8.0f / 18.0f);
+}
+
+// The lobe under a film (makeFilm).
+PATINA_FN SchlickLobe schlickFilm(SchlickLobe l, float thickness, float ior) {
+    l.film = makeFilm(thickness, ior);
+    vec3 r = sqrt(min(l.fresnel.f0, vec3(F0_MAX)));
+    l.filmBase = (vec3(1.0f) + r) / (vec3(1.0f) - r);
+    if (l.film.thickness > 0.0f) l.favg = schlickAverage(l);
+    return l;
+}
+
+// A dielectric under a film; inputs as in dielectricSetup and makeFilm. ior 0 reflects all.
+PATINA_FN SchlickLobe filmDielectricSetup(vec3 tint, float ior, vec2 roughness, float thickness,
+                                          float filmIor, bool retroreflective, int scatterMode,
+                                          bool fused, int compensate) {
+    bool off = !(ior > 0.0f);
+    SchlickLobe l = schlickSetup(
+        vec3(select(0.0f, select(0.0f, 1.0f, scatterMode == SCATTER_T), off)), vec3(1.0f),
+        vec3(1.0f), 5.0f, roughness, retroreflective, scatterMode, fused, compensate);
+    l.tint = lobeColor(tint);
+    if (off) return l;
+    l.exact = true;
+    float n = clamp(ior, 1.0f / IOR_MAX, IOR_MAX);
+    l.ior = select(n, 1.0f, abs(n - 1.0f) >= IOR_MATCHED);
+    l.invIor = 1.0f / l.ior;
+    l.filmBase = vec3(l.ior);
+    l.film = makeFilm(thickness, filmIor);
+    l.favg = schlickAverage(l);
+    l.deltaT = min(l.alpha.x, l.alpha.y) * abs(l.ior - 1.0f) < REFRACTION_DELTA * max(l.ior, 1.0f);
     return l;
 }
 
@@ -52,7 +114,7 @@ PATINA_FN float schlickEta(SchlickLobe l, float z) {
 
 PATINA_FN vec3 schlickReflectance(SchlickLobe l, float c, float eta) {
     float ct = cosRefracted(c, eta);
-    vec3 f = min(fresnelSchlick(select(ct, c, eta < 1.0f), l.fresnel), vec3(1.0f));
+    vec3 f = schlickOutside(l, select(c, ct, eta == l.ior));
     return select(vec3(1.0f), f, eta < 1.0f && ct <= 0.0f);
 }
 
@@ -85,20 +147,29 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
     bool compensates = l.compensate != 0;
     vec3 gain = select(l.favg, vec3(0.0f), compensates);
     e.kr = vec3(1.0f) + gain * ((1.0f - ess) / max(ess, ALBEDO_MIN));
-    vec3 mean = schlickMean(mu, alpha, l.fresnel);
+    bool thinner = eta >= 1.0f;
+    vec3 f5 = l.fresnel.f0;
+    vec3 mean = vec3(0.0f);
+    if (l.exact || l.film.thickness > 0.0f) {
+        f5 = schlickOutside(l, 1.0f);
+        mean = curveMean(momentPlace(mu, alpha), schlickOutside(l, 0.0f),
+                         schlickOutside(l, CONDUCTOR_COS.x), schlickOutside(l, CONDUCTOR_COS.y),
+                         schlickOutside(l, CONDUCTOR_COS.z), schlickOutside(l, CONDUCTOR_COS3), f5);
+    } else
+        mean = schlickMean(mu, alpha, l.fresnel);
     e.r = mean * e.kr * ess;
-    if (l.mode == SCATTER_R && z >= 0.0f) return e;
+    if (l.mode == SCATTER_R && thinner) return e;
     vec2 a = interfaceAlbedo(mu, alpha, eta);
     float f0 = sqr((l.ior - 1.0f) / (l.ior + 1.0f));
     float rise = clamp((a.x - f0) / (1.0f - f0), 0.0f, 1.0f);
-    mean = select(mean, mix(l.fresnel.f0, vec3(1.0f), rise), z >= 0.0f);
+    mean = select(mean, mix(f5, vec3(1.0f), rise), thinner);
     vec3 er = mean * ess;
     vec3 et = (vec3(1.0f) - mean) * min(ess * a.y / max(1.0f - a.x, ALBEDO_MIN), 1.0f);
     if (compensates) {
         vec3 both = vec3(1.0f) / max(er + et, vec3(ALBEDO_MIN));
         vec3 rest = max(vec3(1.0f) - er * e.kr, vec3(0.0f)) / max(et, vec3(ALBEDO_MIN));
-        e.kr = select(e.kr, both, z >= 0.0f);
-        e.kt = select(rest, both, z >= 0.0f);
+        e.kr = select(e.kr, both, thinner);
+        e.kt = select(rest, both, thinner);
     } else
         e.kt = vec3(1.0f);
     e.r = er * e.kr;
@@ -138,7 +209,7 @@ PATINA_FN LobeEval schlickEval(SchlickLobe l, vec3 wo, vec3 wi) {
     float chance = schlickChance(l, f);
     if (!l.known) l = schlickAt(l, wo);
     LobeEval e;
-    e.value = select(f * l.kr, (vec3(1.0f) - f) * l.kt, reflects) * p.value;
+    e.value = l.tint * select(f * l.kr, (vec3(1.0f) - f) * l.kt, reflects) * p.value;
     e.pdf = p.pdf * select(chance, 1.0f - chance, reflects);
     return e;
 }
@@ -162,7 +233,7 @@ PATINA_FN LobeSample schlickSample(SchlickLobe l, vec3 wo, vec3 u) {
     float turn = select(l.retro, 1.0f, reflects);
     LobeSample s;
     s.wi = vec3(b.wi.x * turn, b.wi.y * turn, b.wi.z * side);
-    s.weight = select(f * l.kr, (vec3(1.0f) - f) * l.kt, reflects) * (b.ratio / p);
+    s.weight = l.tint * select(f * l.kr, (vec3(1.0f) - f) * l.kt, reflects) * (b.ratio / p);
     s.pdf = select(1.0f, b.pdf, isDelta) * p;
     s.event = select(LOBE_REFLECT, LOBE_TRANSMIT, reflects) + select(LOBE_DELTA, 0, isDelta);
     s.eta = select(1.0f, 1.0f / eta, reflects);
@@ -170,11 +241,11 @@ PATINA_FN LobeSample schlickSample(SchlickLobe l, vec3 wo, vec3 u) {
 }
 
 PATINA_FN vec3 schlickAlbedoReflect(SchlickLobe l, vec3 wo) {
-    return select(schlickEnergy(l, wo).r, vec3(0.0f), (l.mode & SCATTER_R) != 0);
+    return l.tint * select(schlickEnergy(l, wo).r, vec3(0.0f), (l.mode & SCATTER_R) != 0);
 }
 
 PATINA_FN vec3 schlickAlbedo(SchlickLobe l, vec3 wo) {
     SchlickEnergy e = schlickEnergy(l, wo);
-    return select(e.r, vec3(0.0f), (l.mode & SCATTER_R) != 0) +
-           select(e.t, vec3(0.0f), (l.mode & SCATTER_T) != 0);
+    return l.tint * (select(e.r, vec3(0.0f), (l.mode & SCATTER_R) != 0) +
+                     select(e.t, vec3(0.0f), (l.mode & SCATTER_T) != 0));
 }

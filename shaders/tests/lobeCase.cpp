@@ -31,11 +31,102 @@ void addDiffuse(std::vector<LobeCase>& cases) {
     cases.push_back(t);
 }
 
+void addSheen(std::vector<LobeCase>& cases) {
+    for (double r : {0.05, 0.3, 1.0})
+        for (int mode : {0, 1}) {
+            LobeCase c = PATINA_LOBE_CASE(label(mode == 0 ? "contyKulla" : "zeltner", r, 0, 0, 0),
+                                          sheen, vec3(1.0, 0.5, 0.1), r, mode);
+            // The bound on the albedo and the fit over wo alone are declared to break it.
+            c.reciprocal = mode == 0 && r >= 0.3;
+            cases.push_back(c);
+        }
+}
+
+void addClassic(std::vector<LobeCase>& cases) {
+    const vec3 color(1.0, 0.5, 0.1);
+    const auto add = [&](LobeCase c, double alpha) {
+        c.alpha = alpha;
+        c.reciprocal = true;
+        cases.push_back(c);
+    };
+    for (double n : {1.0, 30.0, 500.0}) {
+        const double alpha = std::sqrt(2.0 / (n + 2.0));
+        add(PATINA_LOBE_CASE(label("phong", n, 0, 0, 0), phong, vec3(color), n), alpha);
+        add(PATINA_LOBE_CASE(label("blinnPhong", n, 0, 0, 0), blinnPhong, vec3(color), n), alpha);
+    }
+    const double alphas[][2] = {{0.05, 0.05}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.4}};
+    for (const auto& a : alphas) {
+        for (int form : {0, 1})
+            add(PATINA_LOBE_CASE(label(form ? "wardExact" : "wardBounded", a[0], a[1], 0, 0), ward,
+                                 vec3(color), vec2(a[0], a[1]), form),
+                a[0]);
+        if (a[0] != a[1]) continue;
+        for (int fresnel : {0, 1})
+            add(PATINA_LOBE_CASE(label("cookTorrance", a[0], fresnel, 0, 0), cookTorrance,
+                                 vec3(color), vec3(0.183, 0.421, 1.373), vec3(3.424, 2.346, 1.77),
+                                 a[0], fresnel),
+                a[0]);
+    }
+}
+
+// Interfaces under a film: lobe PREFIX with its inputs, and film(lobe, thickness, ior).
+void addFilm(std::vector<LobeCase>& cases, int compensate) {
+    for (double thickness : {400.0})
+        for (double alpha : {0.3}) {
+            const vec2 a(alpha);
+            LobeCase metal;
+            metal.f32 = bindLobe<sh::vec3>(
+                sh::conductorFilm(sh::conductorSetup(sh::vec3(0.183, 0.421, 1.373),
+                                                     sh::vec3(3.424, 2.346, 1.77), sh::vec2(a),
+                                                     false, compensate),
+                                  float(thickness), 1.6f),
+                sh::conductorEval, sh::conductorSample, sh::conductorAlbedo);
+            metal.f64 =
+                bindLobe<vec3>(sh64::conductorFilm(sh64::conductorSetup(vec3(0.183, 0.421, 1.373),
+                                                                        vec3(3.424, 2.346, 1.77), a,
+                                                                        false, compensate),
+                                                   thickness, 1.6f),
+                               sh64::conductorEval, sh64::conductorSample, sh64::conductorAlbedo);
+            metal.name = label("film conductor", thickness, alpha, 0, 0);
+            metal.alpha = alpha;
+            metal.reciprocal = compensate == 0;
+            cases.push_back(metal);
+            for (double ior : {1.5, 0.75}) {
+                LobeCase d =
+                    PATINA_LOBE_CASE_AS(label("film dielectric", thickness, alpha, ior, 3),
+                                        filmDielectric, schlick, vec3(1.0, 0.9, 0.2), ior,
+                                        vec2(alpha), thickness, 1.33, false, 3, false, compensate);
+                d.alpha = alpha * std::fabs(ior - 1.0);
+                d.ior = ior;
+                d.twoSided = true;
+                d.reciprocal = compensate == 0;
+                cases.push_back(d);
+            }
+        }
+}
+
+void addHair(std::vector<LobeCase>& cases) {
+    for (double v : {0.02, 0.3})
+        for (double cuticle : {0.5, 0.53}) {
+            LobeCase c = PATINA_LOBE_CASE(label("chiangHair", v, cuticle, 0, 0), chiangHair,
+                                          vec3(1.0, 0.9, 0.8), vec3(1.0), vec3(0.5, 1.0, 1.0), 1.55,
+                                          vec2(v, 0.2), vec2(0.5 * v, 0.1), vec2(2.0 * v, 0.3),
+                                          cuticle, vec3(0.1, 0.4, 1.2));
+            c.alpha = 0.1;
+            c.twoSided = true;
+            cases.push_back(c);
+        }
+}
+
 } // namespace
 
 std::vector<LobeCase> lobeCases(int compensate) {
     std::vector<LobeCase> cases;
     addDiffuse(cases);
+    addSheen(cases);
+    addClassic(cases);
+    addFilm(cases, compensate);
+    addHair(cases);
     const bool bare = compensate == 0;
     const double alphas[][2] = {{0.05, 0.05}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.4}};
     for (const auto& a : alphas) {

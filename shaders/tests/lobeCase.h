@@ -53,7 +53,10 @@ BoundLobe bindLobe(Lobe l, Eval eval, Sample sample, Albedo albedo) {
 
 /// LobeCase of lobe PREFIX with the inputs of its setup function; vec2 and vec3 in the inputs mean
 /// those of either instance.
-#define PATINA_LOBE_CASE(NAME, PREFIX, ...)                                                        \
+#define PATINA_LOBE_CASE(NAME, PREFIX, ...) PATINA_LOBE_CASE_AS(NAME, PREFIX, PREFIX, __VA_ARGS__)
+
+/// The same where SETUP##Setup makes a lobe PREFIX.
+#define PATINA_LOBE_CASE_AS(NAME, SETUP, PREFIX, ...)                                              \
     [&] {                                                                                          \
         patina::test::LobeCase c;                                                                  \
         c.name = NAME;                                                                             \
@@ -61,14 +64,14 @@ BoundLobe bindLobe(Lobe l, Eval eval, Sample sample, Albedo albedo) {
             using patina::sh::vec2;                                                                \
             using patina::sh::vec3;                                                                \
             c.f32 = patina::test::bindLobe<vec3>(                                                  \
-                patina::sh::PREFIX##Setup(__VA_ARGS__), patina::sh::PREFIX##Eval,                  \
+                patina::sh::SETUP##Setup(__VA_ARGS__), patina::sh::PREFIX##Eval,                   \
                 patina::sh::PREFIX##Sample, patina::sh::PREFIX##Albedo);                           \
         }                                                                                          \
         {                                                                                          \
             using patina::sh64::vec2;                                                              \
             using patina::sh64::vec3;                                                              \
             c.f64 = patina::test::bindLobe<vec3>(                                                  \
-                patina::sh64::PREFIX##Setup(__VA_ARGS__), patina::sh64::PREFIX##Eval,              \
+                patina::sh64::SETUP##Setup(__VA_ARGS__), patina::sh64::PREFIX##Eval,               \
                 patina::sh64::PREFIX##Sample, patina::sh64::PREFIX##Albedo);                       \
         }                                                                                          \
         return c;                                                                                  \

@@ -55,6 +55,8 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
     DielectricLobe d = dielectricSetup(vec3(1.0), 1.5, vec2(0.2), false, SCATTER_RT, false, 1);
     SchlickLobe s = schlickSetup(vec3(0.04), vec3(1.0), vec3(1.0), 5.0, vec2(0.2), false,
                                  SCATTER_RT, false, 1);
+    SheenLobe k = sheenSetup(vec3(0.8), 0.3, SHEEN_CONTY_KULLA);
+    SheenLobe z = sheenSetup(vec3(0.8), 0.3, SHEEN_ZELTNER);
     PhaseHenyeyGreensteinLobe p = phaseHenyeyGreensteinSetup(0.5);
     vec3 sum = phaseHenyeyGreensteinEval(p, wo, wi).value +
                phaseHenyeyGreensteinSample(p, wo, u).wi + phaseHenyeyGreensteinAlbedo(p, wo) +
@@ -66,6 +68,29 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
            dielectricSample(d, wo, u).weight + schlickSample(s, wo, u).weight;
     sum += orenNayarAlbedo(o, wo) + burleyAlbedo(b, wo) + translucentAlbedo(t, wo) +
            conductorAlbedo(c, wo) + dielectricAlbedo(d, wo) + schlickAlbedo(s, wo);
+    sum += sheenEval(k, wo, wi).value + sheenEval(z, wo, wi).value + sheenSample(k, wo, u).weight +
+           sheenSample(z, wo, u).weight + sheenAlbedo(k, wo) + sheenAlbedo(z, wo);
+    PhongLobe q = phongSetup(vec3(0.8), 20.0);
+    BlinnPhongLobe n = blinnPhongSetup(vec3(0.8), 20.0);
+    WardLobe w = wardSetup(vec3(0.8), vec2(0.2), WARD_BOUNDED);
+    CookTorranceLobe x =
+        cookTorranceSetup(vec3(0.8), vec3(1.5), vec3(0.0), 0.2, COOK_TORRANCE_SCHLICK);
+    sum += phongEval(q, wo, wi).value + phongSample(q, wo, u).weight + phongAlbedo(q, wo) +
+           blinnPhongEval(n, wo, wi).value + blinnPhongSample(n, wo, u).weight +
+           blinnPhongAlbedo(n, wo) + wardEval(w, wo, wi).value + wardSample(w, wo, u).weight +
+           wardAlbedo(w, wo) + cookTorranceEval(x, wo, wi).value +
+           cookTorranceSample(x, wo, u).weight + cookTorranceAlbedo(x, wo);
+    ConductorLobe cf = conductorFilm(c, 300.0, 1.5);
+    SchlickLobe sf = schlickFilm(s, 300.0, 1.5);
+    SchlickLobe df = filmDielectricSetup(vec3(1.0), 1.5, vec2(0.2), 300.0, 1.3, false, SCATTER_RT,
+                                         false, 1);
+    sum += conductorEval(cf, wo, wi).value + schlickEval(sf, wo, wi).value +
+           schlickAlbedo(df, wo) + conductorAlbedo(cf, wo);
+    ChiangHairLobe h = chiangHairSetup(vec3(1.0), vec3(1.0), vec3(1.0), 1.55, vec2(0.1), vec2(0.1),
+                                       vec2(0.2), 0.5, vec3(0.3));
+    sum += chiangHairEval(h, wo, wi).value + chiangHairSample(h, wo, u).weight +
+           chiangHairAlbedo(h, wo);
+    sum += edfSchlick(wo, wi, 5.0, u.x) * edfConical(60.0, 90.0, wo.z);
     return sum + dielectricAlbedoReflect(d, wo) + schlickAlbedoReflect(s, wo);
 }
 )";

@@ -100,9 +100,14 @@ TEST(LobeAlbedo, EqualsTheMeanSampleWeight) {
         double measuredOutside;
         double measuredInside;
     };
-    Budget budgets[] = {{"anisotropic", 0.1, 0.14, 0, 0},   {"conductor", 2e-3, 0.0, 0, 0},
+    Budget budgets[] = {{"anisotropic", 0.1, 0.14, 0, 0},   {"film", 4e-2, 0.22, 0, 0},
+                        {"chiangHair", 5e-3, 5e-3, 0, 0},   {"conductor", 2e-3, 0.0, 0, 0},
                         {"dielectric", 1.2e-2, 8e-3, 0, 0}, {"schlickR(", 2e-3, 0.1, 0, 0},
-                        {"schlick", 5e-2, 0.1, 0, 0},       {"translucent", 1e-9, 1e-9, 0, 0}};
+                        {"schlick", 5e-2, 0.1, 0, 0},       {"translucent", 1e-9, 1e-9, 0, 0},
+                        {"contyKulla", 5e-3, 0.0, 0, 0},    {"zeltner", 1e-6, 0.0, 0, 0},
+                        {"phong", 5e-3, 0.0, 0, 0},         {"blinnPhong", 5e-3, 0.0, 0, 0},
+                        {"wardBounded", 5e-3, 0.0, 0, 0},   {"wardExact", 3e-2, 0.0, 0, 0},
+                        {"cookTorrance", 5e-3, 0.0, 0, 0}};
     for (int compensate : {0, 1})
         for (const LobeCase& c : lobeCases(compensate))
             for (Budget& b : budgets) {
@@ -153,6 +158,20 @@ TEST(LobeAlbedo, WhiteEonLosesNothing) {
                 sh64::orenNayarAlbedo(sh64::orenNayarSetup(vec3(1.0), r, true), direction(z, 0.0))
                     .x,
                 1.0, 1e-6);
+}
+
+TEST(LobeAlbedo, HairWithoutPigmentLosesNothing) {
+    for (double v : {1e-3, 0.05, 1.0, 20.0})
+        for (double z : {1.0, 0.4, 0.02}) {
+            const LobeCase c = PATINA_LOBE_CASE("white", chiangHair, vec3(1.0), vec3(1.0),
+                                                vec3(1.0), 1.55, vec2(v, 0.2), vec2(0.5 * v, 0.1),
+                                                vec2(2.0 * v, 0.3), 0.5, vec3(0.0));
+            for (double phi : {0.0, 0.8, 1.57}) {
+                EXPECT_NEAR(c.f64.albedo(direction(z, phi)).x, 1.0, 1e-2) << v << z << phi;
+                EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, phi), kPoints).x, 1.0, 1e-2)
+                    << v << " " << z << " " << phi;
+            }
+        }
 }
 
 TEST(LobeAlbedo, WhiteMetalLosesNothing) {

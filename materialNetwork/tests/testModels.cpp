@@ -264,13 +264,4 @@ TEST(Models, ThinFilmColoursTheHighlight) {
               5e-3f);
 }
 
-TEST(Models, WhatIsMissingIsSaid) {
-    Diagnostics diagnostics;
-    const std::string text =
-        explainMaterial(modelNetwork("standard_surface", {{"subsurface", number(1.0f)},
-                                                          {"thin_walled", Value::makeBool(true)}}),
-                        diagnostics);
-    EXPECT_NE(text.find("a thin wall has no inside"), std::string::npos) << text;
-}
-
 } // namespace patina

@@ -1,5 +1,7 @@
 #include "testenv/hydra/edits/edits.h"
 
+#include <pxr/usd/usd/errors.h>
+
 namespace patina {
 
 RandomEdits::RandomEdits(const UsdStageRefPtr& stage, Host& host, uint32_t seed)
@@ -9,7 +11,11 @@ RandomEdits::RandomEdits(const UsdStageRefPtr& stage, Host& host, uint32_t seed)
 std::string RandomEdits::apply() {
     const std::vector<Edit>& group = *_random.pick(_groups);
     const Edit& edit = _random.pick(group);
-    edit.apply(_stage, _host, _random);
+    try {
+        edit.apply(_stage, _host, _random);
+    } catch (const UsdExpiredPrimAccessError&) {
+        // Another edit took away what this one is about.
+    }
     return edit.name;
 }
 

@@ -27,40 +27,55 @@ inline std::string sceneText(Host& host) {
     return text.str();
 }
 
-/// A scene's text without what hosts number in the order in which they came by it: prototypes. Its
-/// prims are sorted.
-inline std::string withoutNumbers(const std::string& text) {
+/// The prims of a scene's text, without what hosts number in the order in which they came by it
+/// (prototypes), and without links that no light uses: UsdImagingDelegate remembers those.
+inline std::multiset<std::string> primsOf(const std::string& text) {
     static const std::regex names("proto[0-9]+_|_id[0-9]+|__Prototype_[0-9]+");
+    const std::string renamed = std::regex_replace(text, names, "_");
+    std::set<std::string> used;
+    std::istringstream links(renamed);
+    std::string line;
+    while (std::getline(links, line)) {
+        const size_t at = line.find("Link = \"");
+        if (at != std::string::npos) used.insert(line.substr(at + 8, line.size() - at - 9));
+    }
     std::multiset<std::string> prims;
-    std::istringstream in(std::regex_replace(text, names, "_"));
-    std::string line, prim, all;
+    std::istringstream in(renamed);
+    std::string prim;
     while (std::getline(in, line)) {
         if (!line.empty() && line[0] != ' ') {
             prims.insert(prim);
             prim.clear();
         }
+        const size_t at = line.find(" = ");
+        if (line.find("categories") != std::string::npos && at != std::string::npos) {
+            std::istringstream words(line.substr(at + 3));
+            std::string word, kept;
+            while (words >> word)
+                if (used.count(word)) kept += " " + word;
+            if (kept.empty()) continue;
+            line = line.substr(0, at) + " =" + kept;
+        }
         prim += line + "\n";
     }
     prims.insert(prim);
-    for (const std::string& one : prims)
-        all += one;
-    return all;
+    return prims;
 }
 
-/// @returns the first line that differs, of both; empty when they are equal
-inline std::string firstDifference(const std::string& a, const std::string& b) {
-    std::istringstream inA(a), inB(b);
-    std::string lineA, lineB, prim;
-    for (int number = 1;; ++number) {
-        const bool moreA = bool(std::getline(inA, lineA)), moreB = bool(std::getline(inB, lineB));
-        if (!moreA && !moreB) return std::string();
-        if (!moreA) lineA = "(end)";
-        if (!moreB) lineB = "(end)";
-        if (lineA != lineB)
-            return "line " + std::to_string(number) + " of " + prim + ":\n  " + lineA + "\n  " +
-                   lineB;
-        if (!lineA.empty() && lineA[0] != ' ') prim = lineA;
+/// @returns the first prim of a fresh host's text that an edited host does not have like that, and
+/// what that has instead; empty when there is none. Prims that are not drawn (purposes) stay in an
+/// edited host, but never reach a fresh one: the picture tells whether they matter.
+inline std::string firstDifference(const std::string& edited, const std::string& fresh) {
+    const auto a = primsOf(edited), b = primsOf(fresh);
+    for (const std::string& prim : b) {
+        if (a.count(prim) >= b.count(prim)) continue;
+        const std::string name = prim.substr(0, prim.find('\n') + 1);
+        std::string instead;
+        for (const std::string& other : a)
+            if (other.compare(0, name.size(), name) == 0 && !b.count(other)) instead += other;
+        return "fresh:\n" + prim + "edited:\n" + instead;
     }
+    return std::string();
 }
 
 /// @returns the number of pixels that differ in any bit; -1 for images of other sizes

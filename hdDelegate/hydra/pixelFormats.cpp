@@ -34,36 +34,22 @@ int32_t bitsOf(float value) {
     return bits;
 }
 
-/// HdGetComponentFormat does not know 16-bit integers.
-HdFormat componentOf(HdFormat format, size_t& count) {
-    for (const HdFormat first : {HdFormatInt16, HdFormatUInt16})
-        if (format >= first && format < first + 4) {
-            count = size_t(format - first) + 1;
-            return first;
-        }
-    count = HdGetComponentCount(format);
-    return HdGetComponentFormat(format);
-}
-
 } // namespace
 
 bool isWritableFormat(HdFormat format) {
-    size_t count = 0;
-    switch (componentOf(format, count)) {
+    switch (HdGetComponentFormat(format)) {
     case HdFormatUNorm8:
     case HdFormatSNorm8:
     case HdFormatFloat16:
     case HdFormatFloat32:
-    case HdFormatInt16:
-    case HdFormatUInt16:
     case HdFormatInt32: return true;
-    default: return false;
+    default: return false; // Hydra gives 16-bit integers no size
     }
 }
 
 void writePixel(const float source[4], bool isInteger, HdFormat format, void* target) {
-    size_t n = 0;
-    const HdFormat component = componentOf(format, n);
+    const size_t n = HdGetComponentCount(format);
+    const HdFormat component = HdGetComponentFormat(format);
     float values[4] = {source[0], source[1], source[2], source[3]};
     if (isInteger) {
         if (component == HdFormatInt32 && n == 1) {
@@ -90,12 +76,6 @@ void writePixel(const float source[4], bool isInteger, HdFormat format, void* ta
         });
         break;
     case HdFormatFloat32: std::memcpy(target, values, n * sizeof(float)); break;
-    case HdFormatInt16:
-        store<int16_t>(values, n, target, [](float x) { return rounded<int16_t>(finite(x)); });
-        break;
-    case HdFormatUInt16:
-        store<uint16_t>(values, n, target, [](float x) { return rounded<uint16_t>(finite(x)); });
-        break;
     case HdFormatInt32:
         store<int32_t>(values, n, target, [](float x) { return rounded<int32_t>(finite(x)); });
         break;

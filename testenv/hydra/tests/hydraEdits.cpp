@@ -40,8 +40,7 @@ protected:
         HostOptions options = edited.options();
         Host fresh(stage, options);
         ASSERT_TRUE(fresh.render(120.0)) << after;
-        const std::string difference =
-            firstDifference(withoutNumbers(sceneText(edited)), withoutNumbers(sceneText(fresh)));
+        const std::string difference = firstDifference(sceneText(edited), sceneText(fresh));
         ASSERT_EQ(difference, "") << "edited and fresh scene differ after " << after;
         ASSERT_EQ(differentPixels(edited.read("color"), fresh.read("color")), 0)
             << "after " << after;

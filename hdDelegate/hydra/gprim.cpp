@@ -35,21 +35,28 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
 
 } // namespace
 
+std::vector<std::string> categoriesOf(HdSceneDelegate& delegate, const SdfPath& id) {
+    std::vector<std::string> categories;
+    for (const TfToken& category : delegate.GetCategories(id))
+        categories.push_back(category.GetString());
+    return categories;
+}
+
+std::string renderTagOf(HdSceneDelegate& delegate, const SdfPath& id) {
+    const TfToken tag = delegate.GetRenderTag(id);
+    return tag == HdRenderTagTokens->geometry ? std::string() : tag.GetString();
+}
+
 void readGprim(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
                const SdfPath& instancerId, HdDirtyBits dirtyBits, bool all, Geometry& prim) {
     if (all || HdChangeTracker::IsTransformDirty(dirtyBits, id))
         prim.transform = transformOf(delegate, param, id);
-    if (all || (dirtyBits & HdChangeTracker::DirtyCategories)) {
-        prim.categories.clear();
-        for (const TfToken& category : delegate.GetCategories(id))
-            prim.categories.push_back(category.GetString());
-    }
+    if (all || (dirtyBits & HdChangeTracker::DirtyCategories))
+        prim.categories = categoriesOf(delegate, id);
     if (all || HdChangeTracker::IsDoubleSidedDirty(dirtyBits, id))
         prim.doubleSided = delegate.GetDoubleSided(id);
-    if (all || (dirtyBits & HdChangeTracker::DirtyRenderTag)) {
-        const TfToken tag = delegate.GetRenderTag(id);
-        prim.renderTag = tag == HdRenderTagTokens->geometry ? std::string() : tag.GetString();
-    }
+    if (all || (dirtyBits & HdChangeTracker::DirtyRenderTag))
+        prim.renderTag = renderTagOf(delegate, id);
     if (all || HdChangeTracker::IsInstancerDirty(dirtyBits, id) ||
         HdChangeTracker::IsInstanceIndexDirty(dirtyBits, id)) {
         if (instancerId.IsEmpty()) {

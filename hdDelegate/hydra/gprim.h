@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hdDelegate/hydra/instancer.h"
+#include "hdDelegate/hydra/linkedPrim.h"
 #include "hdDelegate/hydra/primvars.h"
 #include "hdDelegate/hydra/renderParam.h"
 #include "hdDelegate/hydra/values.h"
@@ -21,11 +22,17 @@ namespace patina {
 void readGprim(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
                const SdfPath& instancerId, HdDirtyBits dirtyBits, bool all, Geometry& prim);
 
+/// The light and shadow links that a prim belongs to.
+std::vector<std::string> categoriesOf(HdSceneDelegate& delegate, const SdfPath& id);
+
+/// Empty for the tag that everything has by default.
+std::string renderTagOf(HdSceneDelegate& delegate, const SdfPath& id);
+
 /// A Hydra prim that becomes a prim of the scene. It keeps the last one, so that a sync fetches
 /// only what is dirty.
 /// @tparam Base HdMesh, HdBasisCurves, HdPoints...
 /// @tparam Prim Mesh, Curves, Points...
-template <class Base, class Prim> class HdPatinaGprim : public Base {
+template <class Base, class Prim> class HdPatinaGprim : public Base, public HdPatinaLinkedPrim {
 public:
     explicit HdPatinaGprim(const SdfPath& id) : Base(id) {}
 
@@ -70,6 +77,25 @@ public:
         param.instances().leave(this->GetId());
         param.removeGeometry(this->GetId().GetString());
         _prim.reset();
+    }
+
+    void updateCategories(HdSceneDelegate& delegate, HdPatinaRenderParam& param) override {
+        if (!_prim) return;
+        std::vector<std::string> categories = categoriesOf(delegate, this->GetId());
+        if (categories == _prim->categories) return;
+        auto prim = std::make_shared<Prim>(*_prim);
+        prim->categories = std::move(categories);
+        _prim = prim;
+        if (this->IsVisible()) param.set(std::shared_ptr<const Geometry>(_prim));
+    }
+
+    void updateRenderTag(HdSceneDelegate& delegate, HdPatinaRenderParam& param) override {
+        const std::string tag = renderTagOf(delegate, this->GetId());
+        if (!_prim || tag == _prim->renderTag) return;
+        auto prim = std::make_shared<Prim>(*_prim);
+        prim->renderTag = tag;
+        _prim = prim;
+        if (this->IsVisible()) param.set(std::shared_ptr<const Geometry>(_prim));
     }
 
 protected:

@@ -111,6 +111,7 @@ std::shared_ptr<const Instancer> HdPatinaInstances::build(const SdfPath& path, c
     result->visibility = {data.visible, data.visible, data.visible};
     std::vector<int> sources; // index of each instance
     for (const auto& item : entry.groups) {
+        if (item.second.indices.empty()) continue; // placed, but drawn nowhere
         const int prototype = int(result->prototypes.size());
         result->prototypes.push_back(item.first);
         result->idCounts.push_back(int(item.second.indices.size()));

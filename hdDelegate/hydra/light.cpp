@@ -3,11 +3,13 @@
 #include "hdDelegate/hydra/instancer.h"
 #include "hdDelegate/hydra/instances.h"
 #include "hdDelegate/hydra/lightParams.h"
+#include "hdDelegate/hydra/linkedPrim.h"
 #include "hdDelegate/hydra/sampling.h"
 #include "hdDelegate/hydra/values.h"
 
 #include <pxr/imaging/hd/instancer.h>
 #include <pxr/imaging/hd/renderIndex.h>
+#include <pxr/imaging/hd/rprim.h>
 #include <pxr/imaging/hd/sceneDelegate.h>
 #include <pxr/imaging/hd/tokens.h>
 
@@ -47,6 +49,18 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
     return sampledOf(std::move(times), std::move(values));
 }
 
+/// Neither UsdImagingDelegate nor Hydra's light linking tells all prims whose links have changed.
+void readLinksAgain(HdRenderIndex& index, HdPatinaRenderParam& param) {
+    for (const SdfPath& path : param.instances().instancers())
+        if (HdInstancer* instancer = index.GetInstancer(path))
+            static_cast<HdPatinaInstancer*>(instancer)->updateCategories(param);
+    for (const SdfPath& path : index.GetRprimIds()) {
+        auto* prim = dynamic_cast<HdPatinaLinkedPrim*>(const_cast<HdRprim*>(index.GetRprim(path)));
+        HdSceneDelegate* delegate = index.GetSceneDelegateForRprim(path);
+        if (prim && delegate) prim->updateCategories(*delegate, param);
+    }
+}
+
 } // namespace
 
 void HdPatinaLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
@@ -71,13 +85,10 @@ void HdPatinaLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
         light->group = param.instances().place(id, GetInstancerId(),
                                                delegate->GetInstanceIndices(GetInstancerId(), id));
     }
-    // Hydra's light linking does not tell instancers inside of prototypes that their links changed.
-    if (_light &&
-        (_light->lightLink != light->lightLink || _light->shadowLink != light->shadowLink)) {
-        for (const SdfPath& path : param.instances().instancers())
-            if (HdInstancer* instancer = delegate->GetRenderIndex().GetInstancer(path))
-                static_cast<HdPatinaInstancer*>(instancer)->updateCategories(param);
-    }
+    const bool links = !light->lightLink.empty() || !light->shadowLink.empty();
+    const bool linked = _light && (!_light->lightLink.empty() || !_light->shadowLink.empty());
+    if ((all || (*dirtyBits & (DirtyCollection | DirtyParams))) && (links || linked))
+        readLinksAgain(delegate->GetRenderIndex(), param);
     _light = light;
     if (_light->visible)
         param.set(_light);

@@ -1,9 +1,12 @@
 #include "hdDelegate/hydra/renderPass.h"
 
+#include "hdDelegate/hydra/linkedPrim.h"
+
 #include "hdDelegate/hydra/aovs.h"
 #include "hdDelegate/hydra/clearValue.h"
 
 #include <pxr/base/tf/diagnostic.h>
+#include <pxr/imaging/hd/rprim.h>
 #include <pxr/imaging/hd/renderIndex.h>
 #include <pxr/imaging/hd/renderPassState.h>
 #include <pxr/imaging/hd/tokens.h>
@@ -83,6 +86,7 @@ void HdPatinaRenderPass::_Execute(const HdRenderPassStateSharedPtr& passState,
     const int width = current.empty() ? 0 : int(current.front().buffer->GetWidth());
     const int height = current.empty() ? 0 : int(current.front().buffer->GetHeight());
     HdPatinaRenderParam& param = _state->param;
+    readRenderTags();
     param.commit(); // hosts may execute without CommitResources
     const HdPatinaView view =
         viewOf(*passState, param.scene()->snapshot()->cameras, width, height, _cameraPath);
@@ -132,6 +136,18 @@ void HdPatinaRenderPass::_Execute(const HdRenderPassStateSharedPtr& passState,
     }
     if (_pending) show(*_pending);
     param.reportWarnings();
+}
+
+void HdPatinaRenderPass::readRenderTags() {
+    HdRenderIndex& index = *GetRenderIndex();
+    const unsigned int version = index.GetChangeTracker().GetRenderTagVersion();
+    if (version == _renderTagVersion) return;
+    _renderTagVersion = version;
+    for (const SdfPath& path : index.GetRprimIds()) {
+        auto* prim = dynamic_cast<HdPatinaLinkedPrim*>(const_cast<HdRprim*>(index.GetRprim(path)));
+        HdSceneDelegate* delegate = index.GetSceneDelegateForRprim(path);
+        if (prim && delegate) prim->updateRenderTag(*delegate, _state->param);
+    }
 }
 
 void HdPatinaRenderPass::show(const HdPatinaFrame& frame) {

@@ -41,6 +41,7 @@ private:
                   const TfTokenVector& renderTags) override;
     std::vector<Target> targetsOf(const HdRenderPassAovBindingVector& bindings) const;
     RenderSettings settingsFor(const HdPatinaView& view, const TfTokenVector& renderTags) const;
+    void readRenderTags();
     void show(const HdPatinaFrame& frame);
     void finish(const HdPatinaFrame& frame);
 
@@ -55,6 +56,7 @@ private:
     TfTokenVector _renderTags;
     HdRprimCollection _shownCollection;
     uint64_t _sceneVersion = 0;
+    unsigned int _renderTagVersion = 0;
     unsigned int _settingsVersion = 0;
 
     bool _hasOwnCamera = false;

@@ -28,54 +28,44 @@ inline std::string sceneText(Host& host) {
 }
 
 /// The prims of a scene's text, without what hosts number in the order in which they came by it
-/// (prototypes), and without links that no light uses: UsdImagingDelegate remembers those.
+/// (prototypes), and without links: UsdImagingDelegate names equal collections by the first of
+/// them.
 inline std::multiset<std::string> primsOf(const std::string& text) {
     static const std::regex names("proto[0-9]+_|_id[0-9]+|__Prototype_[0-9]+");
     const std::string renamed = std::regex_replace(text, names, "_");
-    std::set<std::string> used;
-    std::istringstream links(renamed);
-    std::string line;
-    while (std::getline(links, line)) {
-        const size_t at = line.find("Link = \"");
-        if (at != std::string::npos) used.insert(line.substr(at + 8, line.size() - at - 9));
-    }
     std::multiset<std::string> prims;
     std::istringstream in(renamed);
+    std::string line;
     std::string prim;
     while (std::getline(in, line)) {
         if (!line.empty() && line[0] != ' ') {
             prims.insert(prim);
             prim.clear();
         }
-        const size_t at = line.find(" = ");
-        if (line.find("categories") != std::string::npos && at != std::string::npos) {
-            std::istringstream words(line.substr(at + 3));
-            std::string word, kept;
-            while (words >> word)
-                if (used.count(word)) kept += " " + word;
-            if (kept.empty()) continue;
-            line = line.substr(0, at) + " =" + kept;
-        }
+        const bool isLink = line.find("Link = ") != std::string::npos ||
+                            line.find("  categories") != std::string::npos;
+        if (isLink) continue;
         prim += line + "\n";
     }
     prims.insert(prim);
     return prims;
 }
 
-/// @returns the first prim of a fresh host's text that an edited host does not have like that, and
-/// what that has instead; empty when there is none. Prims that are not drawn (purposes) stay in an
+/// @returns the prims of a fresh host's text that an edited host does not have like that, and
+/// what that has instead; empty when there are none. Prims that are not drawn (purposes) stay in an
 /// edited host, but never reach a fresh one: the picture tells whether they matter.
-inline std::string firstDifference(const std::string& edited, const std::string& fresh) {
+inline std::string differences(const std::string& edited, const std::string& fresh) {
     const auto a = primsOf(edited), b = primsOf(fresh);
+    std::string difference;
     for (const std::string& prim : b) {
         if (a.count(prim) >= b.count(prim)) continue;
         const std::string name = prim.substr(0, prim.find('\n') + 1);
         std::string instead;
         for (const std::string& other : a)
             if (other.compare(0, name.size(), name) == 0 && !b.count(other)) instead += other;
-        return "fresh:\n" + prim + "edited:\n" + instead;
+        difference += "fresh:\n" + prim + "edited:\n" + instead;
     }
-    return std::string();
+    return difference;
 }
 
 /// @returns the number of pixels that differ in any bit; -1 for images of other sizes

@@ -32,7 +32,7 @@ HostOptions optionsFor(bool sceneIndex) {
 
 class HydraEdits : public testing::TestWithParam<bool> {
 protected:
-    /// Both hosts show the same stage: text first, then every bit of the picture.
+    /// Both hosts show the same stage: as text (scene indices), and every bit of the picture.
     static void expectSame(Host& edited, const UsdStageRefPtr& stage, const std::string& after) {
         edited.setSize(24, 24);
         edited.setAovs({HostAov()});
@@ -40,8 +40,11 @@ protected:
         HostOptions options = edited.options();
         Host fresh(stage, options);
         ASSERT_TRUE(fresh.render(120.0)) << after;
-        const std::string difference = firstDifference(sceneText(edited), sceneText(fresh));
-        ASSERT_EQ(difference, "") << "edited and fresh scene differ after " << after;
+        // UsdImagingDelegate names instancers after whichever instance it met first.
+        if (options.sceneIndex) {
+            const std::string difference = differences(sceneText(edited), sceneText(fresh));
+            ASSERT_EQ(difference, "") << "edited and fresh scene differ after " << after;
+        }
         ASSERT_EQ(differentPixels(edited.read("color"), fresh.read("color")), 0)
             << "after " << after;
     }

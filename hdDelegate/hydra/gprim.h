@@ -4,6 +4,7 @@
 #include "hdDelegate/hydra/linkedPrim.h"
 #include "hdDelegate/hydra/primvars.h"
 #include "hdDelegate/hydra/renderParam.h"
+#include "hdDelegate/hydra/materialBinding.h"
 #include "hdDelegate/hydra/values.h"
 
 #include <pxr/imaging/hd/changeTracker.h>
@@ -53,7 +54,7 @@ public:
         prim->path = id.GetString();
         prim->id = this->GetPrimId();
         if (all || (*dirtyBits & HdChangeTracker::DirtyMaterialId)) {
-            this->SetMaterialId(delegate->GetMaterialId(id));
+            this->SetMaterialId(materialOf(*delegate, id, delegate->GetMaterialId(id)));
             prim->material = this->GetMaterialId().GetString();
         }
         readGprim(*delegate, param, id, this->GetInstancerId(), *dirtyBits, all, *prim);

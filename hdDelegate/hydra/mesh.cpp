@@ -1,5 +1,7 @@
 #include "hdDelegate/hydra/mesh.h"
 
+#include "hdDelegate/hydra/materialBinding.h"
+
 #include <pxr/imaging/hd/meshTopology.h>
 #include <pxr/imaging/pxOsd/tokens.h>
 
@@ -52,8 +54,9 @@ void HdPatinaMesh::readTopology(HdSceneDelegate& delegate, HdPatinaRenderParam& 
             param.warn(subset.id, "elementType", "is not face; the subset is left out");
             continue;
         }
-        mesh.subsets.push_back(
-            {subset.id.GetString(), subset.materialId.GetString(), toVector(subset.indices)});
+        mesh.subsets.push_back({subset.id.GetString(),
+                                materialOf(delegate, subset.id, subset.materialId).GetString(),
+                                toVector(subset.indices)});
     }
     std::sort(mesh.subsets.begin(), mesh.subsets.end(),
               [](const GeomSubset& a, const GeomSubset& b) { return a.path < b.path; });

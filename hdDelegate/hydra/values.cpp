@@ -1,5 +1,7 @@
 #include "hdDelegate/hydra/values.h"
 
+#include "hdDelegate/hydra/assets.h"
+
 #include <pxr/base/gf/half.h>
 #include <pxr/base/gf/matrix3d.h>
 #include <pxr/base/gf/matrix3f.h>
@@ -138,10 +140,7 @@ bool pointsOf(const VtValue& value, std::vector<vec3>& points) {
 std::string textOf(const VtValue& value) {
     if (value.IsHolding<TfToken>()) return value.UncheckedGet<TfToken>().GetString();
     if (value.IsHolding<std::string>()) return value.UncheckedGet<std::string>();
-    if (value.IsHolding<SdfAssetPath>()) {
-        const SdfAssetPath& path = value.UncheckedGet<SdfAssetPath>();
-        return path.GetResolvedPath().empty() ? path.GetAssetPath() : path.GetResolvedPath();
-    }
+    if (value.IsHolding<SdfAssetPath>()) return fileOf(value.UncheckedGet<SdfAssetPath>());
     return std::string();
 }
 

@@ -101,6 +101,8 @@ def _wrapped(opened, path, lens, light, folder):
              for name in ("upAxis", "metersPerUnit", "startTimeCode", "endTimeCode", "timeCodesPerSecond")
              if root.HasInfo(name)]
     text = "#usda 1.0\n(\n    " + "\n    ".join(lines + [f"subLayers = [@{os.path.abspath(path)}@]"]) + "\n)\n"
+    if opened.GetTimeCodesPerSecond() == 0:  # a sublayer's times would be scaled by 0 / 0, and USD never returns
+        text = opened.Flatten().ExportToString()
     if lens:
         rows = ", ".join("(" + ", ".join(row.split()) + ")" for row in lens["transform"].split(","))
         text += CAMERA.format(rows=rows, **lens)

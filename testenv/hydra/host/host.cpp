@@ -5,6 +5,7 @@
 #include <pxr/imaging/hd/rendererPluginRegistry.h>
 #include <pxr/imaging/hd/rprimCollection.h>
 #include <pxr/imaging/hd/tokens.h>
+#include <pxr/usd/usdGeom/metrics.h>
 
 #include <chrono>
 #include <stdexcept>
@@ -30,6 +31,9 @@ Host::Host(const UsdStageRefPtr& stage, const HostOptions& options)
     if (!_delegate)
         throw std::runtime_error("the renderer " + options.renderer +
                                  " is not found or does not start (see PXR_PLUGINPATH_NAME)");
+    // Hydra has no word for it; this is how hosts that know tell it.
+    _delegate->SetRenderSetting(TfToken("stageMetersPerUnit"),
+                                VtValue(UsdGeomGetStageMetersPerUnit(stage)));
     _index.reset(HdRenderIndex::New(_delegate.Get(), {}, options.instanceName));
     if (!_index) throw std::runtime_error("there is no render index for " + options.renderer);
     _buffers = std::make_unique<HostBuffers>(_index.get());

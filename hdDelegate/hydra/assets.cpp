@@ -1,0 +1,117 @@
+#include "hdDelegate/hydra/assets.h"
+
+#include <pxr/usd/ar/asset.h>
+#include <pxr/usd/ar/packageUtils.h>
+#include <pxr/usd/ar/resolvedPath.h>
+#include <pxr/usd/ar/resolver.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <random>
+
+namespace patina {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string UDIM = "<UDIM>";
+
+class Copies {
+public:
+    ~Copies() {
+        std::error_code ignored;
+        if (!_folder.empty()) fs::remove_all(_folder, ignored);
+    }
+
+    std::string copyOf(const std::string& path) {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        const auto known = _copies.find(path);
+        if (known != _copies.end()) return known->second;
+        const std::string copy = write(path);
+        // What cannot be read now may be there later, when the host asks again.
+        if (!copy.empty()) _copies[path] = copy;
+        return copy;
+    }
+
+private:
+    std::string write(const std::string& path) {
+        const std::shared_ptr<ArAsset> asset = ArGetResolver().OpenAsset(ArResolvedPath(path));
+        const std::shared_ptr<const char> data = asset ? asset->GetBuffer() : nullptr;
+        if (!data) return {};
+        if (_folder.empty()) _folder = makeFolder();
+        if (_folder.empty()) return {};
+        const auto [package, inner] = ArSplitPackageRelativePathInner(path);
+        const fs::path name(inner.empty() ? package : inner);
+        // One folder per folder of a package: tiles stay together, equal names of others apart.
+        const std::string from =
+            (inner.empty() ? std::string() : package) + "\n" + name.parent_path().string();
+        const fs::path folder = _folder / std::to_string(std::hash<std::string>{}(from));
+        std::error_code error;
+        fs::create_directories(folder, error);
+        const fs::path file = folder / (name.has_filename() ? name.filename() : fs::path("file"));
+        std::ofstream out(file, std::ios::binary);
+        out.write(data.get(), std::streamsize(asset->GetSize()));
+        out.close();
+        return out ? file.string() : std::string();
+    }
+
+    static fs::path makeFolder() {
+        std::error_code error;
+        const fs::path base = fs::temp_directory_path(error);
+        if (error) return {};
+        std::random_device random;
+        for (int attempt = 0; attempt < 100; ++attempt) {
+            const fs::path folder = base / ("patina-" + std::to_string(random()));
+            if (fs::create_directory(folder, error)) return folder;
+        }
+        return {};
+    }
+
+    std::mutex _mutex;
+    std::map<std::string, std::string> _copies; // by asset
+    fs::path _folder;
+};
+
+Copies& copies() {
+    static Copies all;
+    return all;
+}
+
+bool needsCopy(const std::string& path) {
+    std::error_code error;
+    return ArIsPackageRelativePath(path) || !fs::exists(path, error);
+}
+
+std::string tilesOf(const std::string& path) {
+    if (!ArIsPackageRelativePath(path)) return path;
+    std::string found;
+    const size_t at = path.rfind(UDIM);
+    for (int tile = 1001; tile <= 1100; ++tile) {
+        std::string one = path;
+        const std::string number = std::to_string(tile);
+        std::string copy = copies().copyOf(one.replace(at, UDIM.size(), number));
+        const size_t place = copy.rfind(number);
+        if (!copy.empty() && place != std::string::npos)
+            found = copy.replace(place, number.size(), UDIM);
+    }
+    return found.empty() ? path : found;
+}
+
+} // namespace
+
+std::string fileOf(const SdfAssetPath& asset) {
+    const std::string& path =
+        asset.GetResolvedPath().empty() ? asset.GetAssetPath() : asset.GetResolvedPath();
+    if (path.empty()) return path;
+    if (path.find(UDIM) != std::string::npos) return tilesOf(path);
+    if (!needsCopy(path)) return path;
+    const std::string copy = copies().copyOf(path);
+    return copy.empty() ? path : copy;
+}
+
+} // namespace patina

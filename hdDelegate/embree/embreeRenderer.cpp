@@ -1,4 +1,5 @@
 #include "hdDelegate/embree/embreeRenderer.h"
+
 #include "hdDelegate/parallel.h"
 
 #include <cmath>

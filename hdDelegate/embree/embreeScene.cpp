@@ -4,11 +4,11 @@
 #include "hdDelegate/embree/drawnPrims.h"
 #include "hdDelegate/embree/primCompare.h"
 #include "hdDelegate/embree/surfaceSpace.h"
+#include "hdDelegate/parallel.h"
 #include "hdDelegate/scene/displace.h"
 #include "hdDelegate/scene/splitTriangles.h"
 #include "hdDelegate/scene/tessellate.h"
 #include "materialNetwork/material.h"
-#include "hdDelegate/parallel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
 #include "hdDelegate/film/film.h"
+
 #include "hdDelegate/parallel.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "hdDelegate/scene/displace.h"
 
+#include "hdDelegate/parallel.h"
 #include "hdDelegate/scene/primvarEval.h"
 #include "hdDelegate/scene/tangentFrames.h"
-#include "hdDelegate/parallel.h"
 
 #include <algorithm>
 #include <cmath>

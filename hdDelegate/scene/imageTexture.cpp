@@ -1,4 +1,5 @@
 #include "hdDelegate/scene/imageTexture.h"
+
 #include "hdDelegate/parallel.h"
 
 #include <OpenImageIO/half.h>

@@ -1,4 +1,5 @@
 #include "hdDelegate/scene/imageTextureLoad.h"
+
 #include "hdDelegate/parallel.h"
 
 #include <OpenImageIO/half.h>

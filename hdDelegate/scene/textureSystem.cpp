@@ -1,4 +1,5 @@
 #include "hdDelegate/scene/textureSystem.h"
+
 #include "hdDelegate/parallel.h"
 
 #include <algorithm>

@@ -47,9 +47,10 @@ void EmbreeRenderer::start(std::shared_ptr<Scene> scene, const std::string& came
 
 void EmbreeRenderer::stop() {
     std::lock_guard<std::mutex> control(_control);
-    _stop = _interrupt = true;
     {
+        // Locked, or waitWhilePaused() could overwrite _interrupt, and a whole pass would go on.
         std::lock_guard<std::mutex> lock(_mutex);
+        _stop = _interrupt = true;
         _pause = false;
     }
     _changed.notify_all();

@@ -12,6 +12,12 @@ function(_patina_flags target)
     if(PATINA_SANITIZE)
         target_compile_options(${target} PRIVATE -fsanitize=${PATINA_SANITIZE} -fno-omit-frame-pointer)
         target_link_options(${target} PUBLIC -fsanitize=${PATINA_SANITIZE})
+        if(PATINA_SANITIZE STREQUAL "thread")
+            # TBB is not instrumented; see hdDelegate/parallel.h.
+            target_compile_definitions(${target} PUBLIC PATINA_PLAIN_THREADS)
+            # OpenUSD's reference counts use fences, which ThreadSanitizer does not know.
+            target_compile_options(${target} PRIVATE -Wno-tsan)
+        endif()
     endif()
 endfunction()
 

@@ -1,7 +1,6 @@
 #include "hdDelegate/embree/embreeRenderer.h"
 
-#include <tbb/parallel_for_each.h>
-#include <tbb/task_arena.h>
+#include "hdDelegate/parallel.h"
 
 #include <cmath>
 
@@ -48,9 +47,10 @@ void EmbreeRenderer::start(std::shared_ptr<Scene> scene, const std::string& came
 
 void EmbreeRenderer::stop() {
     std::lock_guard<std::mutex> control(_control);
-    _stop = _interrupt = true;
     {
+        // Locked, or waitWhilePaused() could overwrite _interrupt, and a whole pass would go on.
         std::lock_guard<std::mutex> lock(_mutex);
+        _stop = _interrupt = true;
         _pause = false;
     }
     _changed.notify_all();
@@ -222,8 +222,7 @@ void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) 
 
 void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     const auto buildStart = Clock::now();
-    tbb::task_arena arena(_settings.threads > 0 ? _settings.threads
-                                                : int(tbb::task_arena::automatic));
+    Arena arena(_settings.threads);
     arena.execute([&] { updateScene(state, camera); });
     if (_stop) return;
     {
@@ -254,7 +253,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         const std::vector<int> tiles = schedule.pending();
         if (tiles.empty()) break;
         arena.execute([&] {
-            tbb::parallel_for_each(tiles.begin(), tiles.end(), [&](int tile) {
+            parallelForEach(tiles.begin(), tiles.end(), [&](int tile) {
                 renderTile(integrator, schedule, tile);
                 if (haveImage && outOfTime()) _interrupt = true;
                 if (!_settings.checkpointFile.empty() &&

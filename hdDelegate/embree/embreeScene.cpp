@@ -4,12 +4,11 @@
 #include "hdDelegate/embree/drawnPrims.h"
 #include "hdDelegate/embree/primCompare.h"
 #include "hdDelegate/embree/surfaceSpace.h"
+#include "hdDelegate/parallel.h"
 #include "hdDelegate/scene/displace.h"
 #include "hdDelegate/scene/splitTriangles.h"
 #include "hdDelegate/scene/tessellate.h"
 #include "materialNetwork/material.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -376,7 +375,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
         it = it->first.empty() || state.materials.count(it->first) ? std::next(it)
                                                                    : _programs.erase(it);
 
-    tbb::parallel_for(size_t(0), work.size(), [&](size_t i) {
+    parallelFor(size_t(0), work.size(), [&](size_t i) {
         if (stop) return;
         CachedSurface& cached = *work[i].cached;
         if (cached.prim == work[i].prim && cached.edgeLength == work[i].edge &&

@@ -1,7 +1,6 @@
 #include "hdDelegate/film/imageOutput.h"
+#include "hdDelegate/parallel.h"
 #include "hdDelegate/scene/colorSpaces.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +23,7 @@ template <class T> void quantize(const std::vector<float>& from, std::vector<T>&
     const float top = float(std::numeric_limits<T>::max());
     to.resize(from.size());
     const size_t rowSize = size_t(width) * size_t(channels);
-    tbb::parallel_for(size_t(0), from.size() / rowSize, [&](size_t y) {
+    parallelFor(size_t(0), from.size() / rowSize, [&](size_t y) {
         for (size_t i = 0; i < rowSize; ++i) {
             uint32_t x = uint32_t(i / size_t(channels)), c = uint32_t(i % size_t(channels));
             float v = std::min(std::max(from[y * rowSize + i], 0.0f), 1.0f) * top;
@@ -38,7 +37,7 @@ template <class T> void quantize(const std::vector<float>& from, std::vector<T>&
 void toDisplay(std::vector<float>& pixels, int width, int height, int channels, bool straightAlpha,
                const ColorTransform* transform) {
     const size_t rowSize = size_t(width) * size_t(channels);
-    tbb::parallel_for(0, height, [&](int y) {
+    parallelFor(0, height, [&](int y) {
         float* row = &pixels[size_t(y) * rowSize];
         if (straightAlpha)
             for (int x = 0; x < width; ++x) {
@@ -74,7 +73,7 @@ void writeDisplayImage(const float* pixels, int channels, int sourceWidth,
     const int written = channels == 4 && !alpha ? 3 : channels;
 
     std::vector<float> image(size_t(placement.width) * size_t(placement.height) * size_t(written));
-    tbb::parallel_for(0, placement.height, [&](int y) {
+    parallelFor(0, placement.height, [&](int y) {
         const float* from = pixels + (size_t(placement.sourceY + y) * size_t(sourceWidth) +
                                       size_t(placement.sourceX)) *
                                          size_t(channels);

@@ -1,7 +1,7 @@
 #include "hdDelegate/film/imageOutput.h"
+#include "hdDelegate/parallel.h"
 
 #include <OpenImageIO/half.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,7 @@ void writeExr(const std::vector<ChannelSource>& channels, int sourceWidth,
         std::vector<uint8_t> packed(pixelBytes * size_t(placement.width) * strip);
         for (int top = 0; top < placement.height; top += strip) {
             int rows = std::min(strip, placement.height - top);
-            tbb::parallel_for(0, rows, [&](int row) {
+            parallelFor(0, rows, [&](int row) {
                 size_t source = size_t(placement.sourceY + top + row) * size_t(sourceWidth) +
                                 size_t(placement.sourceX);
                 uint8_t* to = &packed[size_t(row) * size_t(placement.width) * pixelBytes];

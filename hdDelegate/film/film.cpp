@@ -1,6 +1,6 @@
 #include "hdDelegate/film/film.h"
 
-#include <tbb/parallel_for.h>
+#include "hdDelegate/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -156,7 +156,7 @@ std::vector<float> Film::resolve(const std::string& name) const {
     size_t n = size_t(spec.components);
     std::vector<float> out(_pixels.size() * n);
     auto eachPixel = [&](auto value) {
-        tbb::parallel_for(0, _height, [&](int y) {
+        parallelFor(0, _height, [&](int y) {
             for (int x = 0; x < _width; ++x)
                 value(x, y, &out[index(x, y) * n]);
         });

@@ -1,9 +1,8 @@
 #include "hdDelegate/scene/displace.h"
 
+#include "hdDelegate/parallel.h"
 #include "hdDelegate/scene/primvarEval.h"
 #include "hdDelegate/scene/tangentFrames.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +54,7 @@ struct Places {
     }
     size_t count() const { return first.size() - 1; }
     template <class F> void each(const F& f) const {
-        tbb::parallel_for(size_t(0), count(), [&](size_t i) { f(i, first[i], first[i + 1]); });
+        parallelFor(size_t(0), count(), [&](size_t i) { f(i, first[i], first[i + 1]); });
     }
 };
 
@@ -63,7 +62,7 @@ struct Places {
 std::vector<vec3> weightedNormals(const TriangleMesh& mesh, size_t step) {
     std::vector<vec3> result(mesh.triangles.size() * 3);
     const std::vector<vec3>& p = mesh.positions[step];
-    tbb::parallel_for(size_t(0), mesh.triangles.size(), [&](size_t t) {
+    parallelFor(size_t(0), mesh.triangles.size(), [&](size_t t) {
         const uvec3& v = mesh.triangles[t];
         const vec3 n = unitOr(glm::cross(p[v.y] - p[v.x], p[v.z] - p[v.x]), vec3(0.0f));
         for (int k = 0; k < 3; ++k) {
@@ -115,7 +114,7 @@ struct Displacement {
             }
         }
         before.resize(mesh.triangles.size() * 3);
-        tbb::parallel_for(size_t(0), mesh.triangles.size(), [&](size_t t) {
+        parallelFor(size_t(0), mesh.triangles.size(), [&](size_t t) {
             for (int k = 0; k < 3; ++k)
                 before[t * 3 + k] = evalNormal(mesh, unsigned(t), k == 1, k == 2);
         });
@@ -130,7 +129,7 @@ struct Displacement {
     std::vector<vec3> amounts(const std::vector<vec3>& normals) const {
         const mat3 normalMatrix = glm::transpose(glm::inverse(mat3(objectToWorld)));
         std::vector<vec3> result(mesh.triangles.size() * 3, vec3(0.0f));
-        tbb::parallel_for(size_t(0), mesh.triangles.size(), [&](size_t t) {
+        parallelFor(size_t(0), mesh.triangles.size(), [&](size_t t) {
             const size_t material = materialOf(t);
             const MaterialProgram* program = materials[material].get();
             if (!program || !program->hasDisplacement()) return;

@@ -1,8 +1,8 @@
 #include "hdDelegate/scene/imageTexture.h"
 
+#include "hdDelegate/parallel.h"
+
 #include <OpenImageIO/half.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -169,9 +169,9 @@ template <class T, int N> void ImageTexture::buildLevel(int number) {
     std::vector<Span> columns;
     for (int x = 0; x < to.width; ++x)
         columns.emplace_back(x, from.width, to.width);
-    tbb::parallel_for(tbb::blocked_range<int>(0, to.height), [&](const auto& range) {
+    parallelRanges(0, to.height, [&](int begin, int end) {
         std::vector<float> row(size_t(from.width) * N);
-        for (int y = range.begin(); y < range.end(); ++y) {
+        for (int y = begin; y < end; ++y) {
             Span rows(y, from.height, to.height);
             std::fill(row.begin(), row.end(), 0.0f);
             for (int j = 0; j < rows.count; ++j) {

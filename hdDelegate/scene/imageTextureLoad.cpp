@@ -1,9 +1,9 @@
 #include "hdDelegate/scene/imageTextureLoad.h"
 
+#include "hdDelegate/parallel.h"
+
 #include <OpenImageIO/half.h>
 #include <OpenImageIO/imageio.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -170,7 +170,7 @@ template <class From, class To> size_t convertRows(const void* from, void* to, i
                                                    const ColorTransform& transform) {
     std::atomic<size_t> bad{0};
     const size_t rowSize = size_t(width) * size_t(channelCount(layout));
-    tbb::parallel_for(0, height, [&](int y) {
+    parallelFor(0, height, [&](int y) {
         convertRow(static_cast<const From*>(from) + size_t(y) * rowSize,
                    static_cast<To*>(to) + size_t(y) * rowSize, width, layout, transform, bad);
     });
@@ -258,7 +258,7 @@ std::shared_ptr<ImageTexture> loadImageTexture(const ImageSource& source,
 
     // Isolated: a thread that waits here must not take up another task, which might want this very
     // texture.
-    tbb::this_task_arena::isolate([&] {
+    runIsolated([&] {
         if (maybeHalf) {
             const float* v = reinterpret_cast<const float*>(buffer.get());
             const float* end = v + size_t(spec.width) * size_t(spec.height) * size_t(channels);
@@ -303,7 +303,7 @@ ImageRGB loadImageLinear(const std::string& file, const std::string& colorSpace,
     result.width = texture->width();
     result.height = texture->height();
     result.pixels.resize(size_t(result.width) * size_t(result.height));
-    tbb::parallel_for(0, result.height, [&](int y) {
+    parallelFor(0, result.height, [&](int y) {
         for (int x = 0; x < result.width; ++x)
             result.pixels[size_t(y) * size_t(result.width) + size_t(x)] =
                 glm::vec3(texture->texel(0, x, y));

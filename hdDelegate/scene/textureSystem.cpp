@@ -1,6 +1,6 @@
 #include "hdDelegate/scene/textureSystem.h"
 
-#include <tbb/parallel_for.h>
+#include "hdDelegate/parallel.h"
 
 #include <algorithm>
 #include <cctype>
@@ -227,7 +227,7 @@ void TextureSystem::loadAll() const {
     for (auto& entry : _entries)
         for (auto& image : entry->tiles)
             if (image) images.push_back(image.get());
-    tbb::parallel_for(size_t(0), images.size(), [&](size_t i) { images[i]->get(); });
+    parallelFor(size_t(0), images.size(), [&](size_t i) { images[i]->get(); });
 }
 
 size_t TextureSystem::memoryBytes() const {

@@ -1,6 +1,7 @@
 // What has to happen to a scene before the delegate sees it.
 
 #include "plugin/hydra/meshLightSceneIndex.h"
+#include "plugin/hydra/relinkedLightSceneIndex.h"
 
 #include <pxr/imaging/hd/sceneIndexPlugin.h>
 #include <pxr/imaging/hd/sceneIndexPluginRegistry.h>
@@ -27,6 +28,7 @@ protected:
 #endif
         scene = HdPatinaMeshLightSceneIndex::New(scene);
 #if PATINA_HAS_LIGHT_LINKING
+        scene = HdPatinaRelinkedLightSceneIndex::New(scene);
         scene = HdsiLightLinkingSceneIndex::New(scene, nullptr);
 #endif
         return scene;

@@ -1,24 +1,29 @@
 #!/usr/bin/env bash
-# Builds the Hydra plugin and its tests with a sanitizer and runs them: 10,000 random edits while rendering,
+# Builds the Hydra plugin and its tests with sanitizers and runs them: 10,000 random edits while rendering,
 # and everything that hosts do to a delegate. Each sanitizer has a build folder of its own.
 #
-#   testenv/hydra/sanitize.sh address|thread|undefined [EDITS] [BUILD_FOLDER]
+#   testenv/hydra/sanitize.sh [address|thread|undefined|both] [EDITS] [BUILD_FOLDER]
+#
+# Without arguments (or with "both"): AddressSanitizer, then ThreadSanitizer, in BUILD_FOLDER-address and
+# BUILD_FOLDER-thread. A summary ends the run: program, seconds, exit status, reports. The logs stay in the
+# build folders.
 #
 # OpenUSD, TBB and Embree are not instrumented. AddressSanitizer does not need them to be, for what is
 # allocated and freed passes through its allocator all the same. ThreadSanitizer does not see how they
-# synchronise; testenv/sanitizers/thread.supp says which reports that explains.
+# synchronise: our own loops run on plain threads then (hdDelegate/parallel.h), and
+# testenv/sanitizers/thread.supp says which other reports that explains.
 set -euo pipefail
 
-kind=${1:?which sanitizer: address, thread or undefined}
+kinds=${1:-both}
 edits=${2:-10000}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
-build=${3:-$root/build-$kind}
+folder=${3:-$root/build}
 supp=$root/testenv/sanitizers
-
-cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DPATINA_SANITIZE="$kind" \
-    -DPATINA_BUILD_TESTS=ON ${PATINA_CMAKE_FLAGS:-} >"$build.configure.log" 2>&1 ||
-    { tail -20 "$build.configure.log" >&2; exit 1; }
-cmake --build "$build" --target hdPatina hydraEdits hydraLifetime
+case $kinds in
+both) kinds="address thread" ;;
+address | thread | undefined) ;;
+*) echo "sanitize.sh: unknown sanitizer '$kinds': address, thread, undefined or both" >&2; exit 2 ;;
+esac
 
 # Interceptors come from the program, so the plugin's own copy may be loaded late.
 export ASAN_OPTIONS=detect_odr_violation=0:strict_string_checks=1:detect_stack_use_after_return=1:suppressions=$supp/address.supp
@@ -26,8 +31,35 @@ export LSAN_OPTIONS=suppressions=$supp/leak.supp:print_suppressions=0
 export TSAN_OPTIONS=suppressions=$supp/thread.supp:ignore_noninstrumented_modules=1:second_deadlock_stack=1:history_size=4
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export PATINA_HYDRA_EDITS=$edits
+
 status=0
-for program in hydraLifetime hydraEdits; do
-    "$build/tests/$program" || status=1
+summary=""
+for kind in $kinds; do
+    build=$folder-$kind
+    # A folder that was named for one sanitizer is used as it is.
+    [[ $kinds == "$kind" && -n ${3:-} ]] && build=$3
+    if ! cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+        -DPATINA_SANITIZE="$kind" -DPATINA_BUILD_TESTS=ON ${PATINA_CMAKE_FLAGS:-} \
+        >"$build.configure.log" 2>&1; then
+        tail -20 "$build.configure.log" >&2
+        summary+="$kind: not configured"$'\n'
+        status=1
+        continue
+    fi
+    if ! cmake --build "$build" --target hdPatina hydraEdits hydraLifetime; then
+        summary+="$kind: not built"$'\n'
+        status=1
+        continue
+    fi
+    for program in hydraLifetime hydraEdits; do
+        log=$build/$program.log
+        start=$SECONDS
+        code=0
+        "$build/tests/$program" 2>&1 | tee "$log" || code=${PIPESTATUS[0]}
+        reports=$(grep -cE '(ERROR|WARNING): [A-Za-z]+Sanitizer|runtime error:' "$log" || true)
+        summary+="$kind $program: $((SECONDS - start)) s, exit status $code, $reports reports"$'\n'
+        [[ $code == 0 && $reports == 0 ]] || status=1
+    done
 done
+printf '\n%s edits\n%s' "$edits" "$summary"
 exit $status

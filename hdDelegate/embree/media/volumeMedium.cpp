@@ -1,6 +1,5 @@
 #include "hdDelegate/embree/media/volumeScene.h"
-
-#include <tbb/parallel_for.h>
+#include "hdDelegate/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +100,7 @@ void VolumeMedium::measure() {
     _count = glm::min(bricks, ivec3(mostCells));
     const vec3 size = (_max - _min) / vec3(_count);
     std::vector<float> cells(size_t(_count.x) * _count.y * _count.z);
-    tbb::parallel_for(size_t(0), cells.size(), [&](size_t i) {
+    parallelFor(size_t(0), cells.size(), [&](size_t i) {
         const vec3 cell(float(i / (size_t(_count.y) * _count.z)),
                         float(i / size_t(_count.z) % size_t(_count.y)),
                         float(i % size_t(_count.z)));

@@ -1,7 +1,7 @@
 #include "hdDelegate/film/film.h"
+#include "hdDelegate/parallel.h"
 
 #include <gtest/gtest.h>
-#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <cstring>
@@ -70,7 +70,7 @@ TEST(Film, BadSamplesAreDroppedCountedAndBlack) {
 TEST(Film, DroppedSamplesAreCountedWithoutRaces) {
     Film film;
     film.reset(64, 64, {});
-    tbb::parallel_for(0, 64 * 64, [&](int i) {
+    parallelFor(0, 64 * 64, [&](int i) {
         for (int s = 0; s < 50; ++s)
             film.addColor(i % 64, i / 64, glm::vec3(nan), 1);
     });

@@ -1,9 +1,9 @@
 #include "hdDelegate/film/tests/tempFolder.h"
+#include "hdDelegate/parallel.h"
 #include "hdDelegate/scene/textureSystem.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
-#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <filesystem>
@@ -275,7 +275,7 @@ TEST_F(Textures, ManyThreadsMayBeTheFirstToSample) {
         writeImage(file, 128, 128, {float(i) / 255.0f}, OIIO::TypeUInt8);
         handles.push_back(open(file));
     }
-    tbb::parallel_for(0, 4096, [&](int i) {
+    parallelFor(0, 4096, [&](int i) {
         int which = i % 16;
         float r = textures.sample(handles[size_t(which)], {0.3f, 0.3f}, 0.0f).r;
         EXPECT_NEAR(r, float(which) / 255.0f, 1e-6f);

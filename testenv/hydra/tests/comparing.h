@@ -27,6 +27,14 @@ inline std::string sceneText(Host& host) {
     return text.str();
 }
 
+/// Of a prim that no ray meets only the name and that: Hydra does not sync what it holds.
+inline std::string drawnText(const std::string& prim) {
+    for (const char* ray : {"camera", "indirect", "shadow"})
+        if (prim.find(std::string("  visibility ") + ray + " = false\n") == std::string::npos)
+            return prim;
+    return prim.substr(0, prim.find('\n') + 1) + "  hidden\n";
+}
+
 /// The prims of a scene's text, without what hosts number in the order in which they came by it
 /// (prototypes), and without links: UsdImagingDelegate names equal collections by the first of
 /// them.
@@ -39,7 +47,7 @@ inline std::multiset<std::string> primsOf(const std::string& text) {
     std::string prim;
     while (std::getline(in, line)) {
         if (!line.empty() && line[0] != ' ') {
-            prims.insert(prim);
+            prims.insert(drawnText(prim));
             prim.clear();
         }
         const bool isLink = line.find("Link = ") != std::string::npos ||
@@ -47,7 +55,7 @@ inline std::multiset<std::string> primsOf(const std::string& text) {
         if (isLink) continue;
         prim += line + "\n";
     }
-    prims.insert(prim);
+    prims.insert(drawnText(prim));
     return prims;
 }
 

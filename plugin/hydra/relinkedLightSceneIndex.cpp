@@ -1,0 +1,56 @@
+#include "plugin/hydra/relinkedLightSceneIndex.h"
+
+#if PATINA_HAS_LIGHT_LINKING
+
+#include <pxr/imaging/hd/collectionsSchema.h>
+#include <pxr/imaging/hd/tokens.h>
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+namespace {
+
+bool hasLinks(const TfToken& primType) {
+    return HdPrimTypeIsLight(primType) || primType == HdPrimTypeTokens->lightFilter;
+}
+
+} // namespace
+
+HdSceneIndexPrim HdPatinaRelinkedLightSceneIndex::GetPrim(const SdfPath& path) const {
+    return _GetInputSceneIndex()->GetPrim(path);
+}
+
+SdfPathVector HdPatinaRelinkedLightSceneIndex::GetChildPrimPaths(const SdfPath& path) const {
+    return _GetInputSceneIndex()->GetChildPrimPaths(path);
+}
+
+void HdPatinaRelinkedLightSceneIndex::_PrimsAdded(
+    const HdSceneIndexBase&, const HdSceneIndexObserver::AddedPrimEntries& entries) {
+    _SendPrimsAdded(entries);
+}
+
+void HdPatinaRelinkedLightSceneIndex::_PrimsRemoved(
+    const HdSceneIndexBase&, const HdSceneIndexObserver::RemovedPrimEntries& entries) {
+    _SendPrimsRemoved(entries);
+}
+
+void HdPatinaRelinkedLightSceneIndex::_PrimsDirtied(
+    const HdSceneIndexBase&, const HdSceneIndexObserver::DirtiedPrimEntries& entries) {
+    // A prim that loses its type keeps its children, while removal would take them along.
+    HdSceneIndexObserver::AddedPrimEntries untyped, typed;
+    for (const auto& entry : entries) {
+        if (!entry.dirtyLocators.Intersects(HdCollectionsSchema::GetDefaultLocator())) continue;
+        const TfToken type = _GetInputSceneIndex()->GetPrim(entry.primPath).primType;
+        if (!hasLinks(type)) continue;
+        untyped.emplace_back(entry.primPath, TfToken());
+        typed.emplace_back(entry.primPath, type);
+    }
+    if (!typed.empty()) {
+        _SendPrimsAdded(untyped);
+        _SendPrimsAdded(typed);
+    }
+    _SendPrimsDirtied(entries);
+}
+
+PXR_NAMESPACE_CLOSE_SCOPE
+
+#endif

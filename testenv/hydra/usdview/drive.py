@@ -3,7 +3,8 @@ camera, picks a prim, changes a material and takes screenshots.
 
     xvfb-run python drive.py FOLDER STAGE --renderer Patina [--defaultsettings ...]
 
-Everything after FOLDER is usdview's. Writes start.png, turned.png, edited.png and result.json to FOLDER.
+Everything after FOLDER is usdview's. Writes start.png, turned.png, edited.png (the view), the same of the whole window (startWindow.png, ...) and
+result.json to FOLDER. $PATINA_DRIVE_SIZE is the size of the view, 480x360 if not given.
 Runs in the Python of OpenUSD. The stage has to have a shader at the path that $PATINA_DRIVE_SHADER names,
 with the colour input that $PATINA_DRIVE_INPUT names.
 """
@@ -16,7 +17,7 @@ from pxr import Gf, Sdf, Usdviewq, UsdShade
 from pxr.Usdviewq.qt import QtCore, QtWidgets
 
 PATIENCE = 120.0  # seconds until a picture has to be whole
-SIZE = (480, 360)  # of the view, in points of the screen
+SIZE = tuple(map(int, os.environ.get("PATINA_DRIVE_SIZE", "480x360").split("x")))  # of the view, in points of the screen
 
 
 class Driver:
@@ -56,6 +57,7 @@ class Driver:
         self.view.updateView()  # the last pixels come with the repaint after the last sample
         self.events()
         self.controller.GrabViewportShot().save(os.path.join(self.folder, name + ".png"), "PNG")
+        self.controller.GrabWindowShot().save(os.path.join(self.folder, name + "Window.png"), "PNG")
         self.result["shots"].append({"name": name, "converged": self.view._getRenderer().IsConverged()})
 
     def pick(self):

@@ -3,12 +3,19 @@
 #include "materialNetwork/dump.h"
 #include "materialNetwork/expand.h"
 #include "materialNetwork/simplify.h"
+#include "materialNetwork/wholeShaders.h"
 
 namespace patina {
 
 namespace {
 
 const char* const displayColorPath = "/displayColor";
+
+Graph simplifyMaterial(const Graph& graph, std::vector<std::string>& cuts,
+                       Diagnostics& diagnostics) {
+    Graph simple = simplify(graph, cuts);
+    return mergeWholeShaders(simple, diagnostics) ? simplify(simple, cuts) : simple;
+}
 
 Plan planMaterial(const Network& network, Diagnostics& diagnostics) {
     const Network expanded = expand(network, diagnostics);
@@ -21,7 +28,7 @@ Plan planMaterial(const Network& network, Diagnostics& diagnostics) {
         return planMaterial(makeDisplayColorNetwork(), diagnostics);
     }
     std::vector<std::string> cuts;
-    Graph simple = simplify(graph, cuts);
+    Graph simple = simplifyMaterial(graph, cuts, diagnostics);
     return makePlan(std::move(simple), std::move(cuts), diagnostics);
 }
 
@@ -40,7 +47,7 @@ std::string explainMaterial(const Network& network, Diagnostics& diagnostics) {
     const Network expanded = expand(network, diagnostics);
     std::vector<std::string> cuts;
     const Graph graph = buildGraph(expanded, diagnostics);
-    Graph simple = simplify(graph, cuts);
+    Graph simple = simplifyMaterial(graph, cuts, diagnostics);
     const size_t before = graph.nodes.size();
     std::string text = dumpNetwork(network) + "\n" + dumpGraph(simple);
     text += "(" + std::to_string(before) + " nodes before simplification, " +

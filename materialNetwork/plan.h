@@ -14,6 +14,7 @@ struct PlanClosure {
     int a = -1, b = -1;    ///< Layer: top, base. Mix: fg, bg. Add: both. Multiply: a
     bool reflects = false; ///< contains the reflecting half of an interface
     bool fused = false;    ///< a transmission lobe under a reflection lobe, see Plan
+    bool thin = false;     ///< of a surface without an inside
 
     bool isLobe() const {
         return kind >= ClosureKind::OrenNayar && kind <= ClosureKind::ChiangHair;
@@ -40,10 +41,10 @@ struct Plan {
     int bsdf = -1, edf = -1;           ///< roots in closures, -1 for none
     int vdf = -1, volumeEdf = -1;      ///< of the medium inside
     Operand opacity;                   ///< presence
-    int displacementNode = -1; ///< in graph.nodes; -1: the surface stays where it is
-    bool thinWalled = false;
-    bool volumeOnly = false; ///< a medium without a surface around it
-    int compensate = 1;      ///< energy compensation of microfacet lobes (shaders/lib/energy.glsl)
+    int displacementNode = -1;         ///< in graph.nodes; -1: the surface stays where it is
+    bool thinWalled = false;           ///< all of it; see PlanClosure::thin
+    bool volumeOnly = false;           ///< a medium without a surface around it
+    int compensate = 1; ///< energy compensation of microfacet lobes (shaders/lib/energy.glsl)
     std::vector<std::string> leftOut; ///< what is not modelled, one line each
 };
 

@@ -30,6 +30,7 @@ struct LobeTemplate {
     bool fused = false;
     bool film = false;           ///< has a thin film
     bool filmDielectric = false; ///< a dielectric with a film: LobeKind::Schlick
+    bool thin = false;           ///< of a thin wall
     bool straight = false;       ///< passes light straight on: part of the presence
     int mode = 0;                ///< SCATTER_*
     int variant = 0;             ///< lobeVariant()

@@ -5,6 +5,7 @@
 #include "shaders/shaders.h"
 
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace patina {
@@ -16,6 +17,8 @@ public:
     Planner(Plan& plan, Diagnostics& diagnostics) : _plan(plan), _diagnostics(diagnostics) {}
 
     void run() {
+        _fuse = _plan.methods["reflectionOverTransmission"] == "fused";
+        _thinWalls = _plan.methods["thinWalled"] != "solid";
         _plan.opacity.value = Value::makeFloat(1.0f);
         const auto surface = _plan.graph.terminals.find("surface");
         if (surface != _plan.graph.terminals.end()) planSurface(surface->second, "surface");
@@ -47,8 +50,8 @@ private:
             _plan.opacity = input(node, "opacity");
             float thin = 0.0f;
             constantNumber(input(node, "thin_walled"), thin);
-            _plan.thinWalled = thin != 0.0f;
-            buildBsdf(bsdf, _plan.thinWalled);
+            _plan.thinWalled = thin != 0.0f && _thinWalls;
+            buildBsdf(bsdf, thin != 0.0f);
             _plan.edf = build(edf);
             return;
         }
@@ -98,7 +101,8 @@ private:
         }
         case ClosureKind::Add: return either(interior(node.inputs[0]), interior(node.inputs[1]));
         case ClosureKind::Multiply: return interior(node.inputs[0]);
-        default: return {}; // thin walls have no inside
+        case ClosureKind::ThinWall: return _thinWalls ? Operand() : interior(node.inputs[0]);
+        default: return {};
         }
     }
 
@@ -169,7 +173,9 @@ private:
         const GraphNode node = nodeOf(index);
         closure.kind = node.def->closure;
         closure.node = index;
-        closure.thin = place.thin;
+        closure.thin = place.thin && _thinWalls;
+        closure.inThinWall = place.thin;
+        closure.underReflection = place.fused;
         switch (closure.kind) {
         case ClosureKind::Layer: {
             const Operand& top = node.inputs[0];
@@ -201,7 +207,7 @@ private:
             break;
         case ClosureKind::Dielectric:
         case ClosureKind::Schlick:
-            closure.fused = place.fused && scatterMode(_plan, closure) == sh::SCATTER_T;
+            closure.fused = _fuse && place.fused && scatterMode(_plan, closure) == sh::SCATTER_T;
             closure.reflects = (scatterMode(_plan, closure) & sh::SCATTER_R) != 0;
             checkMicrofacet(node);
             break;
@@ -285,18 +291,39 @@ private:
 
     Plan& _plan;
     Diagnostics& _diagnostics;
+    bool _fuse = true, _thinWalls = true; ///< methods
     std::map<std::tuple<int, bool, bool>, int> _built;
     std::map<int, Operand> _interiors; ///< by node
 };
 
 } // namespace
 
-Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnostics) {
+Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnostics,
+              const MethodChoices& methods) {
     Plan plan;
     plan.graph = std::move(graph);
     plan.leftOut = std::move(cuts);
+    for (const ChoicePoint& point : choicePoints())
+        plan.methods[point.name] = chosenMethod(methods, point.name);
     Planner(plan, diagnostics).run();
     return plan;
+}
+
+std::vector<std::string> choicesThatMatter(const Plan& plan) {
+    std::set<std::string> matter;
+    for (const PlanClosure& c : plan.closures) {
+        const bool interface = c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Schlick;
+        if (interface || c.kind == ClosureKind::Conductor) matter.insert("energyCompensation");
+        if (c.kind == ClosureKind::Layer) matter.insert("layerTransmittance");
+        if (c.underReflection && interface && scatterMode(plan, c) == sh::SCATTER_T)
+            matter.insert("reflectionOverTransmission");
+        if (c.inThinWall && interface && (scatterMode(plan, c) & sh::SCATTER_T) != 0)
+            matter.insert("thinWalled");
+    }
+    std::vector<std::string> result;
+    for (const ChoicePoint& point : choicePoints())
+        if (matter.count(point.name)) result.push_back(point.name);
+    return result;
 }
 
 const Operand& closureInput(const Plan& plan, const PlanClosure& closure, const char* name) {

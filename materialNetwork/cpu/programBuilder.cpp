@@ -270,7 +270,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     const bool interface =
         closure.kind == ClosureKind::Dielectric || closure.kind == ClosureKind::Schlick;
     t.fused = closure.fused;
-    t.compensate = _plan.compensate;
+    t.compensate = chosenMethod(_plan.methods, "energyCompensation") == "none" ? 0 : 1;
     const auto flag = [&](const char* input) {
         float x = 0.0f;
         return node.def->findInput(input) >= 0 &&
@@ -361,6 +361,14 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
     _program->_code = std::make_unique<ProgramCode>();
     _code = _program->_code.get();
     _code->textures = &_textures;
+    const auto chosen = [&](const char* point, const char* method) {
+        return chosenMethod(_plan.methods, point) == method;
+    };
+    _code->layerTransmittance =
+        chosen("layerTransmittance", "average")  ? LayerTransmittance::Average
+        : chosen("layerTransmittance", "tinted") ? LayerTransmittance::Tinted
+                                                 : LayerTransmittance::Largest;
+    _code->wallsHaveTwoFaces = !chosen("thinWalled", "sheet");
     _data.resize(n);
     _prepared.resize(n, false);
     _readsTexture.resize(n, false);

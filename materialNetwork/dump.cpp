@@ -64,10 +64,21 @@ public:
         if (_plan.volumeOnly) text += "no surface\n";
         for (const std::string& line : _plan.leftOut)
             text += "left out: " + line + "\n";
+        for (const std::string& point : choicesThatMatter(_plan))
+            text += choiceText(point, chosenMethod(_plan.methods, point));
         return text;
     }
 
 private:
+    static std::string choiceText(const std::string& point, const std::string& method) {
+        for (const ChoicePoint& choice : choicePoints())
+            if (choice.name == point)
+                for (const Method& m : choice.methods)
+                    if (m.name == method)
+                        return "method " + point + " = " + method + ": " + m.description + "\n";
+        return "";
+    }
+
     /// Leaves below a root with their weights.
     std::string section(int root, const std::string& title) {
         if (root < 0) return "";
@@ -95,7 +106,8 @@ private:
         const GraphNode& node = _plan.graph.nodes[size_t(c.node)];
         std::string text = title;
         if (_lobe[size_t(i)] >= 0) text += " " + std::to_string(_lobe[size_t(i)]);
-        text += ": " + nodeText(_plan.graph, node) + (c.fused ? " fused" : "");
+        text += ": " + nodeText(_plan.graph, node) + (c.fused ? " fused" : "") +
+                (c.thin && !_plan.thinWalled ? " thin walled" : "");
         return text + " * " + weight + "\n";
     }
 

@@ -31,7 +31,7 @@ public:
             else
                 _diagnostics.warn(_network.path, name, problem + "; the terminal is ignored");
         }
-        return insertDifferences(_graph);
+        return insertDifferences(_graph, _diagnostics);
     }
 
 private:

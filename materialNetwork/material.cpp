@@ -3,6 +3,7 @@
 #include "materialNetwork/dump.h"
 #include "materialNetwork/expand.h"
 #include "materialNetwork/simplify.h"
+#include "materialNetwork/wholeShaders.h"
 
 namespace patina {
 
@@ -10,7 +11,13 @@ namespace {
 
 const char* const displayColorPath = "/displayColor";
 
-Plan planMaterial(const Network& network, Diagnostics& diagnostics) {
+Graph simplifyMaterial(const Graph& graph, std::vector<std::string>& cuts,
+                       Diagnostics& diagnostics) {
+    Graph simple = simplify(graph, cuts);
+    return mergeWholeShaders(simple, diagnostics) ? simplify(simple, cuts) : simple;
+}
+
+Plan planMaterial(const Network& network, Diagnostics& diagnostics, const MethodChoices& methods) {
     const Network expanded = expand(network, diagnostics);
     const Graph graph = buildGraph(expanded, diagnostics);
     // Nothing is known of this surface; grey or the prim's own colour is better than a black hole.
@@ -18,11 +25,11 @@ Plan planMaterial(const Network& network, Diagnostics& diagnostics) {
     if (lost && network.path != displayColorPath) {
         diagnostics.warn(network.path, "outputs:surface",
                          "the material has no usable surface; displayColor is shown");
-        return planMaterial(makeDisplayColorNetwork(), diagnostics);
+        return planMaterial(makeDisplayColorNetwork(), diagnostics, methods);
     }
     std::vector<std::string> cuts;
-    Graph simple = simplify(graph, cuts);
-    return makePlan(std::move(simple), std::move(cuts), diagnostics);
+    Graph simple = simplifyMaterial(graph, cuts, diagnostics);
+    return makePlan(std::move(simple), std::move(cuts), diagnostics, methods);
 }
 
 } // namespace
@@ -31,21 +38,21 @@ std::shared_ptr<const MaterialProgram> compileMaterial(const Network& network,
                                                        TextureSource& textures,
                                                        Diagnostics& diagnostics,
                                                        const MethodChoices& methods) {
-    Plan plan = planMaterial(network, diagnostics);
-    plan.compensate = chosenMethod(methods, "energyCompensation") == "none" ? 0 : 1;
-    return MaterialProgram::compile(plan, textures, diagnostics);
+    return MaterialProgram::compile(planMaterial(network, diagnostics, methods), textures,
+                                    diagnostics);
 }
 
-std::string explainMaterial(const Network& network, Diagnostics& diagnostics) {
+std::string explainMaterial(const Network& network, Diagnostics& diagnostics,
+                            const MethodChoices& methods) {
     const Network expanded = expand(network, diagnostics);
     std::vector<std::string> cuts;
     const Graph graph = buildGraph(expanded, diagnostics);
-    Graph simple = simplify(graph, cuts);
+    Graph simple = simplifyMaterial(graph, cuts, diagnostics);
     const size_t before = graph.nodes.size();
     std::string text = dumpNetwork(network) + "\n" + dumpGraph(simple);
     text += "(" + std::to_string(before) + " nodes before simplification, " +
             std::to_string(simple.nodes.size()) + " after)\n\n";
-    return text + dumpPlan(makePlan(std::move(simple), std::move(cuts), diagnostics));
+    return text + dumpPlan(makePlan(std::move(simple), std::move(cuts), diagnostics, methods));
 }
 
 Network makeDisplayColorNetwork() {

@@ -22,8 +22,9 @@ std::shared_ptr<const MaterialProgram> compileMaterial(const Network& network,
                                                        const MethodChoices& methods = {});
 
 /// What compileMaterial() makes of a network, as text: the network, the simplified graph, the plan,
-/// and what was cut on the way.
-std::string explainMaterial(const Network& network, Diagnostics& diagnostics);
+/// what was cut on the way, and the methods at the choice points that matter to it.
+std::string explainMaterial(const Network& network, Diagnostics& diagnostics,
+                            const MethodChoices& methods = {});
 
 /// @returns the network with inputs replaced. An override that names no input of the network is
 /// reported through diagnostics.

@@ -8,7 +8,26 @@ const std::vector<ChoicePoint>& choicePoints() {
          {{"turquin", "rough microfacet lobes are scaled by what single scattering loses (Turquin "
                       "2019); white ones keep all energy; not reciprocal"},
           {"none", "single scattering only, as most renderers have it; a white metal of alpha 1 "
-                   "loses about half of the light"}}}};
+                   "loses about half of the light"}}},
+        {"layerTransmittance",
+         {{"largest", "a layer lets through 1 - E in all channels, E the largest channel of its "
+                      "top's directional albedo without tint; no channel gains energy, and a tint "
+                      "colours the top alone"},
+          {"average", "1 - the mean of the channels, as in MaterialX's shaders; a coloured top may "
+                      "give a channel more light than came"},
+          {"tinted", "each channel on its own, with the tint: what the top does not reflect in a "
+                     "channel is the base's, so that a red sheen lets blue through"}}},
+        {"reflectionOverTransmission",
+         {{"fused", "a reflection lobe layered over a transmission lobe is one interface: what the "
+                    "top reflects is taken once, by the layer"},
+          {"literal", "each node as it is defined: the layer takes the reflection, and the "
+                      "transmission lobe leaves it out once more; glass darkens by 1 - F"}}},
+        {"thinWalled",
+         {{"slab", "a thin wall has two faces between which light bounces: it reflects 2 r / (1 + "
+                   "r), passes (1 - r) / (1 + r) straight on, and absorbs nothing"},
+          {"sheet", "a single face: it reflects r and passes 1 - r straight on"},
+          {"solid", "thin_walled is ignored, as in MaterialX's shaders: the surface refracts and "
+                    "bounds a medium"}}}};
     return points;
 }
 

@@ -12,7 +12,8 @@ struct Method {
     std::string description; ///< what it costs and where it errs
 };
 
-/// A place where something can be computed in several ways. The first method is the default.
+/// A place where something can be computed in several ways, or where the field leaves a meaning
+/// open. The first method is the default.
 struct ChoicePoint {
     std::string name;
     std::vector<Method> methods;

@@ -34,6 +34,7 @@ enum class ClosureKind {
     Mix,   ///< (fg, bg, mix)
     Add,
     Multiply,
+    ThinWall, ///< its closure belongs to a surface without an inside
     Surface,
     SurfaceUnlit,
     Volume,

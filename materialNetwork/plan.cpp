@@ -5,6 +5,8 @@
 #include "shaders/shaders.h"
 
 #include <map>
+#include <set>
+#include <tuple>
 
 namespace patina {
 
@@ -15,6 +17,8 @@ public:
     Planner(Plan& plan, Diagnostics& diagnostics) : _plan(plan), _diagnostics(diagnostics) {}
 
     void run() {
+        _fuse = _plan.methods["reflectionOverTransmission"] == "fused";
+        _thinWalls = _plan.methods["thinWalled"] != "solid";
         _plan.opacity.value = Value::makeFloat(1.0f);
         const auto surface = _plan.graph.terminals.find("surface");
         if (surface != _plan.graph.terminals.end()) planSurface(surface->second, "surface");
@@ -35,49 +39,71 @@ private:
         return node.inputs[size_t(node.def->findInput(name))];
     }
 
+    /// The surface has been made one by mergeWholeShaders().
     void planSurface(const Operand& operand, const char* terminal) {
         if (operand.isConstant()) return;
         const GraphNode& node = nodeOf(operand.node);
         switch (node.def->closure) {
-        case ClosureKind::Material:
-            if (!input(node, "backsurfaceshader").isConstant())
-                leaveOut(node, "backsurfaceshader is not modelled");
-            planSurface(input(node, "surfaceshader"), terminal);
-            return;
+        case ClosureKind::Material: planSurface(input(node, "surfaceshader"), terminal); return;
         case ClosureKind::Surface: {
+            const Operand bsdf = input(node, "bsdf"), edf = input(node, "edf");
             _plan.opacity = input(node, "opacity");
             float thin = 0.0f;
-            if (!constantNumber(input(node, "thin_walled"), thin))
-                leaveOut(node, "thin_walled varies over the surface and is taken as false");
-            _plan.thinWalled = thin != 0.0f;
-            _plan.bsdf = build(input(node, "bsdf"), false);
-            _plan.edf = build(input(node, "edf"), false);
+            constantNumber(input(node, "thin_walled"), thin);
+            _plan.thinWalled = thin != 0.0f && _thinWalls;
+            buildBsdf(bsdf, thin != 0.0f);
+            _plan.edf = build(edf);
             return;
         }
-        case ClosureKind::SurfaceUnlit: planUnlit(operand.node); return;
         default: break;
         }
         // A bare closure on the terminal is understood as a surface made of it.
         const ValueType type = node.def->outputs[size_t(operand.output)].type;
         if (type == ValueType::Bsdf)
-            _plan.bsdf = build(operand, false);
+            buildBsdf(operand, false);
         else if (type == ValueType::Edf)
-            _plan.edf = build(operand, false);
+            _plan.edf = build(operand);
         else
             _diagnostics.warn(node.path, terminal,
                               node.def->category + " is not a surface; black is shown");
     }
 
-    void planUnlit(int index) {
-        const GraphNode node = nodeOf(index);
-        _plan.opacity = input(node, "opacity");
-        if (!isConstantValue(input(node, "transmission"), 0.0f))
-            leaveOut(node, "transmission of an unlit surface is not modelled");
-        const Operand color =
-            append("ND_multiply_color3FA", {input(node, "emission_color"), input(node, "emission")},
-                   node.path);
-        const Operand edf = append("ND_uniform_edf", {color}, node.path);
-        _plan.edf = build(edf, false);
+    void buildBsdf(const Operand& operand, bool thin) {
+        _plan.bsdf = build(operand, {false, thin});
+        _plan.vdf = build(interior(operand));
+    }
+
+    /// The VDF beneath the layers of a BSDF. Where surfaces are mixed, their media are.
+    Operand interior(const Operand& operand) {
+        if (operand.isConstant()) return {};
+        const auto known = _interiors.find(operand.node);
+        if (known != _interiors.end()) return known->second;
+        const Operand result = interiorOf(nodeOf(operand.node));
+        _interiors[operand.node] = result;
+        return result;
+    }
+
+    Operand interiorOf(const GraphNode node) {
+        const auto either = [&](const Operand& a, const Operand& b) {
+            if (!a.isConstant() && !b.isConstant() && a.node != b.node)
+                leaveOut(node, "a second medium inside the same object is not modelled");
+            return a.isConstant() ? b : a;
+        };
+        switch (node.def->closure) {
+        case ClosureKind::Layer:
+            if (node.def->inputs[1].type == ValueType::Vdf)
+                return either(node.inputs[1], interior(node.inputs[0]));
+            return either(interior(node.inputs[1]), interior(node.inputs[0]));
+        case ClosureKind::Mix: {
+            const Operand a = interior(node.inputs[0]), b = interior(node.inputs[1]);
+            if (a.isConstant() || b.isConstant() || a.node == b.node) return either(a, b);
+            return append("ND_mix_vdf", {a, b, node.inputs[2]}, node.path);
+        }
+        case ClosureKind::Add: return either(interior(node.inputs[0]), interior(node.inputs[1]));
+        case ClosureKind::Multiply: return interior(node.inputs[0]);
+        case ClosureKind::ThinWall: return _thinWalls ? Operand() : interior(node.inputs[0]);
+        default: return {};
+        }
     }
 
     Operand append(const char* id, std::vector<Operand> inputs, const std::string& path) {
@@ -96,10 +122,11 @@ private:
         if (node.def->closure == ClosureKind::Material) {
             planVolume(input(node, "volumeshader"));
         } else if (node.def->closure == ClosureKind::Volume) {
-            _plan.vdf = build(input(node, "vdf"), false);
-            _plan.volumeEdf = build(input(node, "edf"), false);
+            const Operand vdf = input(node, "vdf"), edf = input(node, "edf");
+            _plan.vdf = build(vdf);
+            _plan.volumeEdf = build(edf);
         } else if (node.def->outputs[size_t(operand.output)].type == ValueType::Vdf) {
-            _plan.vdf = build(operand, false);
+            _plan.vdf = build(operand);
         } else {
             _diagnostics.warn(node.path, "volume",
                               node.def->category + " is not a volume; it is ignored");
@@ -124,63 +151,70 @@ private:
         _plan.leftOut.push_back(node.path + ": " + what);
     }
 
+    /// Where a closure stands.
+    struct Place {
+        bool fused; ///< under a reflection lobe
+        bool thin;  ///< in a thin wall
+    };
+
     /// @returns index in Plan::closures, -1 for no closure
-    int build(const Operand& operand, bool fused) {
+    int build(const Operand& operand, Place place = {false, false}) {
         if (operand.isConstant()) return -1;
-        const auto key = std::make_pair(operand.node, fused);
+        const auto key = std::make_tuple(operand.node, place.fused, place.thin);
         const auto known = _built.find(key);
         if (known != _built.end()) return known->second;
-        const int index = buildNode(operand.node, fused);
+        const int index = buildNode(operand.node, place);
         _built[key] = index;
         return index;
     }
 
-    int buildNode(int index, bool fused) {
+    int buildNode(int index, Place place) {
         PlanClosure closure;
         const GraphNode node = nodeOf(index);
         closure.kind = node.def->closure;
         closure.node = index;
+        closure.thin = place.thin && _thinWalls;
+        closure.inThinWall = place.thin;
+        closure.underReflection = place.fused;
         switch (closure.kind) {
         case ClosureKind::Layer: {
             const Operand& top = node.inputs[0];
             if (!top.isConstant() && nodeOf(top.node).def->closure == ClosureKind::ThinFilm) {
                 const GraphNode film = nodeOf(top.node);
-                return build(coat(node.inputs[1], film), fused);
+                return build(coat(node.inputs[1], film), place);
             }
-            closure.a = build(node.inputs[0], fused);
-            if (node.def->inputs[1].type == ValueType::Vdf) {
-                addInterior(node);
-                return closure.a;
-            }
-            closure.b = build(node.inputs[1], fused || reflects(closure.a));
+            closure.a = build(node.inputs[0], place);
+            if (node.def->inputs[1].type == ValueType::Vdf) return closure.a;
+            closure.b = build(node.inputs[1], {place.fused || reflects(closure.a), place.thin});
             if (closure.a < 0) return closure.b;
             if (closure.b < 0) return closure.a;
             break;
         }
         case ClosureKind::Mix:
         case ClosureKind::Add:
-            closure.a = build(node.inputs[0], fused);
-            closure.b = build(node.inputs[1], fused);
+            closure.a = build(node.inputs[0], place);
+            closure.b = build(node.inputs[1], place);
             if (closure.a < 0 && closure.b < 0) return -1;
             break;
+        case ClosureKind::ThinWall: return build(node.inputs[0], {place.fused, true});
         case ClosureKind::Multiply:
-            closure.a = build(node.inputs[0], fused);
+            closure.a = build(node.inputs[0], place);
             if (closure.a < 0) return -1;
             break;
         case ClosureKind::SchlickEdf:
-            closure.a = build(node.inputs[3], fused);
+            closure.a = build(node.inputs[3], place);
             if (closure.a < 0) return -1;
             break;
         case ClosureKind::Dielectric:
         case ClosureKind::Schlick:
-            closure.fused = fused && scatterMode(_plan, closure) == sh::SCATTER_T;
+            closure.fused = _fuse && place.fused && scatterMode(_plan, closure) == sh::SCATTER_T;
             closure.reflects = (scatterMode(_plan, closure) & sh::SCATTER_R) != 0;
             checkMicrofacet(node);
             break;
         case ClosureKind::Conductor: checkMicrofacet(node); break;
         case ClosureKind::Sheen: checkChoice(node, "mode", {"conty_kulla", "zeltner"}); break;
         case ClosureKind::Subsurface:
-            if (_plan.thinWalled)
+            if (closure.thin)
                 leaveOut(node, "a thin wall has no inside; subsurface scattering is diffuse");
             break;
         case ClosureKind::Ward: checkChoice(node, "form", {"bounded", "exact"}); break;
@@ -237,15 +271,6 @@ private:
         return {int(_plan.graph.nodes.size()) - 1, operand.output, {}};
     }
 
-    void addInterior(const GraphNode& layer) {
-        const int vdf = build(layer.inputs[1], false);
-        if (vdf < 0 || vdf == _plan.vdf) return;
-        if (_plan.vdf >= 0)
-            leaveOut(layer, "a second medium inside the same object is not modelled");
-        else
-            _plan.vdf = vdf;
-    }
-
     bool reflects(int index) const { return index >= 0 && _plan.closures[size_t(index)].reflects; }
 
     /// Warns about a string that is none of the choices; the first choice stands in.
@@ -266,17 +291,39 @@ private:
 
     Plan& _plan;
     Diagnostics& _diagnostics;
-    std::map<std::pair<int, bool>, int> _built;
+    bool _fuse = true, _thinWalls = true; ///< methods
+    std::map<std::tuple<int, bool, bool>, int> _built;
+    std::map<int, Operand> _interiors; ///< by node
 };
 
 } // namespace
 
-Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnostics) {
+Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnostics,
+              const MethodChoices& methods) {
     Plan plan;
     plan.graph = std::move(graph);
     plan.leftOut = std::move(cuts);
+    for (const ChoicePoint& point : choicePoints())
+        plan.methods[point.name] = chosenMethod(methods, point.name);
     Planner(plan, diagnostics).run();
     return plan;
+}
+
+std::vector<std::string> choicesThatMatter(const Plan& plan) {
+    std::set<std::string> matter;
+    for (const PlanClosure& c : plan.closures) {
+        const bool interface = c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Schlick;
+        if (interface || c.kind == ClosureKind::Conductor) matter.insert("energyCompensation");
+        if (c.kind == ClosureKind::Layer) matter.insert("layerTransmittance");
+        if (c.underReflection && interface && scatterMode(plan, c) == sh::SCATTER_T)
+            matter.insert("reflectionOverTransmission");
+        if (c.inThinWall && interface && (scatterMode(plan, c) & sh::SCATTER_T) != 0)
+            matter.insert("thinWalled");
+    }
+    std::vector<std::string> result;
+    for (const ChoicePoint& point : choicePoints())
+        if (matter.count(point.name)) result.push_back(point.name);
+    return result;
 }
 
 const Operand& closureInput(const Plan& plan, const PlanClosure& closure, const char* name) {
@@ -307,7 +354,7 @@ bool hasFilm(const Plan& plan, const PlanClosure& closure) {
     const GraphNode& node = plan.graph.nodes[size_t(closure.node)];
     if (node.def->findInput("thinfilm_thickness") < 0) return false;
     // A film on a thin wall's transmission is that of the reflection over it.
-    if (plan.thinWalled && node.def->findInput("scatter_mode") >= 0 &&
+    if (closure.thin && node.def->findInput("scatter_mode") >= 0 &&
         scatterMode(plan, closure) == sh::SCATTER_T)
         return false;
     return !isConstantValue(closureInput(plan, closure, "thinfilm_thickness"), 0.0f) &&

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "materialNetwork/graph.h"
+#include "materialNetwork/methods.h"
 
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@ struct PlanClosure {
     int a = -1, b = -1;    ///< Layer: top, base. Mix: fg, bg. Add: both. Multiply: a
     bool reflects = false; ///< contains the reflecting half of an interface
     bool fused = false;    ///< a transmission lobe under a reflection lobe, see Plan
+    bool thin = false;     ///< of a surface without an inside
+    /// Where the network has it, whatever the methods make of that.
+    bool inThinWall = false, underReflection = false;
 
     bool isLobe() const {
         return kind >= ClosureKind::OrenNayar && kind <= ClosureKind::ChiangHair;
@@ -22,7 +26,7 @@ struct PlanClosure {
 
 /// What a back end has to render: closures with their parameters, and the patterns these need.
 ///
-/// Three meanings that the field leaves open are fixed here:
+/// Three meanings that the field leaves open are choice points (methods.h). Their defaults:
 /// - A layer lets through 1 - E of its top. E is the top's directional albedo at wo without tint,
 ///   the largest channel where the interface itself is coloured, so that no channel gains energy.
 ///   A diffuse or metal top lets through 1 - weight, mix and add follow from their parts, and a
@@ -40,16 +44,20 @@ struct Plan {
     int bsdf = -1, edf = -1;           ///< roots in closures, -1 for none
     int vdf = -1, volumeEdf = -1;      ///< of the medium inside
     Operand opacity;                   ///< presence
-    int displacementNode = -1; ///< in graph.nodes; -1: the surface stays where it is
-    bool thinWalled = false;
-    bool volumeOnly = false; ///< a medium without a surface around it
-    int compensate = 1;      ///< energy compensation of microfacet lobes (shaders/lib/energy.glsl)
-    std::vector<std::string> leftOut; ///< what is not modelled, one line each
+    int displacementNode = -1;         ///< in graph.nodes; -1: the surface stays where it is
+    bool thinWalled = false;           ///< all of it; see PlanClosure::thin
+    bool volumeOnly = false;           ///< a medium without a surface around it
+    MethodChoices methods;             ///< at every choice point
+    std::vector<std::string> leftOut;  ///< what is not modelled, one line each
 };
 
 /// @param graph simplified
 /// @param cuts what simplify() removed; becomes the beginning of Plan::leftOut
-Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnostics);
+Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnostics,
+              const MethodChoices& methods = {});
+
+/// Choice points whose method makes a difference to this plan, in the order of choicePoints().
+std::vector<std::string> choicesThatMatter(const Plan& plan);
 
 /// Index of an input of the closure's node by name.
 const Operand& closureInput(const Plan& plan, const PlanClosure& closure, const char* name);

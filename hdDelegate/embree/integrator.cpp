@@ -124,8 +124,9 @@ void Integrator::addEscaped(Path& path) const {
 }
 
 /// Light that the surface itself gives off towards the ray.
-void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& hit) const {
-    const vec3 radiance = _lights.emission(point);
+void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& hit,
+                             float presence) const {
+    const vec3 radiance = _lights.emission(point) * presence;
     if (radiance == vec3(0.0f)) return;
     const int light = path.fromCamera()
                           ? -1
@@ -245,9 +246,12 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         const bool culled = path.fromCamera() &&
                             (back ? cullsBack(*hit.surface->prim) : cullsFront(*hit.surface->prim));
         vec3 passes(1.0f);
+        float presence = 1.0f;
         const float opacity = culled               ? 0.0f
                               : point.slot->opaque ? 1.0f
-                                                   : program.opacity(s, &passes);
+                                                   : program.opacity(s, &passes, &presence);
+        // What is present emits, whether or not light also passes.
+        if (!culled && presence > 0.0f) addEmission(path, point, hit, presence);
         if (opacity < 1.0f && !(path.sampler.random() < opacity)) {
             path.throughput *= passes;
             if (++passed > maxPassThroughs || path.throughput == vec3(0.0f)) break;
@@ -265,7 +269,6 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
             writeAovs(_aovs, target, _camera, point, bsdf);
             aovsWritten = true;
         }
-        addEmission(path, point, hit);
         if (path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface)) break;
 
         const vec4 uLight = path.sampler.next4();

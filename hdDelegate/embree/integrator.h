@@ -43,7 +43,7 @@ private:
     void addLight(Path& path, int light, const vec3& radiance, float lightPdf) const;
     void addRadiance(Path& path, const vec3& radiance) const;
     void addEscaped(Path& path) const;
-    void addEmission(Path& path, const SurfacePoint& point, const Hit& hit) const;
+    void addEmission(Path& path, const SurfacePoint& point, const Hit& hit, float presence) const;
     vec3 directLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf, const Hit& hit,
                      const vec3& u, TraceCounters& counters) const;
     /// Light that a medium scatters towards the path, from one light sample.

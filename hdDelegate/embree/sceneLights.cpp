@@ -146,8 +146,12 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
                 SurfacePoint point;
                 const vec3 p = triangle.vertices[0] * (1 - uv.x - uv.y) +
                                triangle.vertices[1] * uv.x + triangle.vertices[2] * uv.y;
-                computeSurfacePoint(hit, p + n, -n, 0.0f, point);
-                brightest = std::max(brightest, luminance(emission(point)));
+                // Each side may have a shader of its own.
+                for (const float side : {1.0f, -1.0f}) {
+                    computeSurfacePoint(hit, p + n * side, -n * side, 0.0f, point);
+                    brightest = std::max(brightest, luminance(emission(point)));
+                    if (!glows) break;
+                }
             }
             if (!(brightest > 0.0f) && surface.material(t).program->constant()) continue;
             triangle.luminance = std::max(brightest, 1e-6f);
@@ -206,7 +210,9 @@ vec3 SceneLights::triangleRadiance(const LightSample& sample, const vec3& from, 
     hit.time = time;
     SurfacePoint point;
     computeSurfacePoint(hit, from, sample.direction, 0.0f, point);
-    return emission(point);
+    float presence = 1.0f;
+    if (!point.slot->opaque) point.slot->program->opacity(point.shading, nullptr, &presence);
+    return emission(point) * presence;
 }
 
 bool SceneLights::hidesMaterial(const Surface* surface) const {

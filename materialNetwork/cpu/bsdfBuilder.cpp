@@ -22,6 +22,33 @@ float unit(float x) {
     return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
 }
 
+glm::vec3 unit(const glm::vec3& c) {
+    return {unit(c.x), unit(c.y), unit(c.z)};
+}
+
+/// One number or three for what a coloured share takes from a base.
+glm::vec3 shareOf(const ProgramCode& code, const glm::vec3& c) {
+    switch (code.layerTransmittance) {
+    case LayerTransmittance::Largest: return glm::vec3(unit(largest(glm::vec4(c, 0.0f))));
+    case LayerTransmittance::Average: return glm::vec3(unit((c.x + c.y + c.z) / 3.0f));
+    default: return unit(c);
+    }
+}
+
+/// How much of a closure there is that is multiplied by a colour.
+glm::vec3 coverOf(const ProgramCode& code, const glm::vec4& c) {
+    return shareOf(code, glm::vec3(c));
+}
+
+/// @param kept what lobeFixWo() says
+glm::vec3 keptFromBase(const ProgramCode& code, const BsdfLobe& l, const glm::vec3& kept) {
+    if (code.layerTransmittance != LayerTransmittance::Tinted) return shareOf(code, kept);
+    const bool tinted = (l.kind == LobeKind::Dielectric && l.dielectric.mode == sh::SCATTER_R) ||
+                        (l.kind == LobeKind::Schlick && l.schlick.mode == sh::SCATTER_R) ||
+                        l.kind == LobeKind::Sheen;
+    return unit(tinted ? l.albedo : kept);
+}
+
 /// Authored factors: negative and NaN count as 0.
 glm::vec3 factor(const glm::vec4& c) {
     return sh::max(glm::vec3(c), glm::vec3(0.0f));
@@ -66,13 +93,14 @@ glm::vec3 BsdfBuilder::straightWeight(const ProgramCode& code, const Wall* walls
 /// its share. Roughness blurs the reflection only.
 template <class Interface>
 BsdfBuilder::Wall BsdfBuilder::wallOf(BsdfLobe& lobe, Interface& interface, const glm::vec3& tint,
-                                      const glm::vec3& wo) {
+                                      const glm::vec3& wo, bool twoFaces) {
     Wall wall;
     const glm::vec3 once = interface.fused ? glm::vec3(0.0f) : lobeEnergy(lobe, wo).r;
-    wall.passed = tint * (1.0f - once) / (1.0f + once);
+    const glm::vec3 bounces = twoFaces ? once : glm::vec3(0.0f);
+    wall.passed = tint * (1.0f - once) / (1.0f + bounces);
     wall.reflected = glm::vec3(0.0f);
     if (interface.mode == sh::SCATTER_RT) {
-        wall.reflected = 2.0f / (1.0f + once);
+        wall.reflected = (twoFaces ? 2.0f : 1.0f) / (1.0f + bounces);
         interface.mode = sh::SCATTER_R;
         lobe.albedo = tint * once;
     }
@@ -96,10 +124,10 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
         out._frames[i] =
             makeFrame(point, f.normal >= 0 ? &n : nullptr, f.tangent >= 0 ? &t : nullptr, f.flips);
     }
-    float kept[Bsdf::maxLobes];
+    glm::vec3 kept[Bsdf::maxLobes];
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const LobeTemplate& t = code.lobes[i];
-        kept[i] = 0.0f;
+        kept[i] = glm::vec3(0.0f);
         BsdfLobe& l = out._lobes[i];
         if (t.constant) {
             l = t.prebuilt;
@@ -112,21 +140,22 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
         l.weight = glm::vec3(0.0f);
         l.albedo = glm::vec3(0.0f);
         if (registers[t.weight].x > 0.0f)
-            kept[i] = unit(lobeFixWo(l, out._frames[l.frame].wo, t.energy));
+            kept[i] = keptFromBase(code, l, lobeFixWo(l, out._frames[l.frame].wo, t.energy));
         if (!t.straight) continue;
         const glm::vec3& wo = out._frames[l.frame].wo;
-        walls[i] = l.kind == LobeKind::Dielectric ? wallOf(l, l.dielectric, l.dielectric.tint, wo)
-                                                  : wallOf(l, l.schlick, glm::vec3(1.0f), wo);
+        walls[i] = l.kind == LobeKind::Dielectric
+                       ? wallOf(l, l.dielectric, l.dielectric.tint, wo, code.wallsHaveTwoFaces)
+                       : wallOf(l, l.schlick, glm::vec3(1.0f), wo, code.wallsHaveTwoFaces);
     }
     setWeights(code, registers, kept, out);
 }
 
-void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers, const float* kept,
-                             Bsdf& out) {
+void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers,
+                             const glm::vec3* kept, Bsdf& out) {
     const int n = int(code.bsdf.size());
     // Upwards: what the tops of layers let through.
-    Scratch<float> passed(size_t(n) + 1);
-    const auto passedBy = [&](int i) { return i < 0 ? 1.0f : passed[i]; };
+    Scratch<glm::vec3> passed(size_t(n) + 1);
+    const auto passedBy = [&](int i) { return i < 0 ? glm::vec3(1.0f) : passed[i]; };
     for (int i = 0; i < n; ++i) {
         const ClosureOp& op = code.bsdf[size_t(i)];
         if (!op.needsPassed) continue;
@@ -138,17 +167,18 @@ void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers
             break;
         }
         case ClosureKind::Add:
-            passed[i] = std::max(passedBy(op.a) + passedBy(op.b) - 1.0f, 0.0f);
+            passed[i] = sh::max(passedBy(op.a) + passedBy(op.b) - 1.0f, glm::vec3(0.0f));
             break;
         case ClosureKind::Multiply:
-            passed[i] = 1.0f - unit(largest(registers[op.factor])) * (1.0f - passedBy(op.a));
+            passed[i] = 1.0f - coverOf(code, registers[op.factor]) * (1.0f - passedBy(op.a));
             break;
         default:
-            passed[i] = op.lobe < 0 ? 1.0f : 1.0f - unit(registers[op.factor].x) * kept[op.lobe];
+            passed[i] = glm::vec3(1.0f);
+            if (op.lobe >= 0) passed[i] -= unit(registers[op.factor].x) * kept[op.lobe];
         }
     }
     // Downwards: a closure's weight is the sum over the wholes it is part of.
-    Scratch<glm::vec3> weight(size_t(n) + 1);
+    Scratch<glm::vec3, 1> weight(size_t(n) + 1);
     for (int i = 0; i < n; ++i)
         weight[i] = glm::vec3(0.0f);
     weight[n - 1] = glm::vec3(1.0f);

@@ -27,10 +27,11 @@ private:
     static void place(const ProgramCode& code, const ShadingPoint& point,
                       const glm::vec4* registers, Wall* walls, Bsdf& out);
     template <class Interface> static Wall wallOf(BsdfLobe& lobe, Interface& interface,
-                                                  const glm::vec3& tint, const glm::vec3& wo);
+                                                  const glm::vec3& tint, const glm::vec3& wo,
+                                                  bool twoFaces);
     static glm::vec3 straightWeight(const ProgramCode& code, const Wall* walls, const Bsdf& bsdf);
-    static void setWeights(const ProgramCode& code, const glm::vec4* registers, const float* kept,
-                           Bsdf& out);
+    static void setWeights(const ProgramCode& code, const glm::vec4* registers,
+                           const glm::vec3* kept, Bsdf& out);
     static void choose(const ProgramCode& code, Bsdf& out);
 };
 

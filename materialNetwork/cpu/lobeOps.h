@@ -76,9 +76,9 @@ inline void setFactors(sh::SchlickLobe& l, const EnergyCurve::Energy& e) {
     l.kt = e.kt;
 }
 
-template <class Interface> float lobeSetEnergy(BsdfLobe& l, Interface& interface,
-                                               const glm::vec3& tint, const glm::vec3& wo,
-                                               const EnergyCurve& curve) {
+template <class Interface> glm::vec3 lobeSetEnergy(BsdfLobe& l, Interface& interface,
+                                                   const glm::vec3& tint, const glm::vec3& wo,
+                                                   const EnergyCurve& curve) {
     const EnergyCurve::Energy e =
         wo.z >= 0.0f && !curve.empty() ? curve.at(wo.z) : lobeEnergy(l, wo);
     interface.known = true;
@@ -87,37 +87,37 @@ template <class Interface> float lobeSetEnergy(BsdfLobe& l, Interface& interface
     if ((interface.mode & sh::SCATTER_R) != 0) kept += e.r;
     if ((interface.mode & sh::SCATTER_T) != 0) kept += e.t;
     l.albedo = tint * kept;
-    return interface.mode == sh::SCATTER_T ? 1.0f : std::max(kept.x, std::max(kept.y, kept.z));
+    return interface.mode == sh::SCATTER_T ? glm::vec3(1.0f) : kept;
 }
 
 /// Looks up what depends on wo alone, once for all evaluations. Sets l.albedo, exact for interfaces
 /// and else an estimate that is good enough to choose lobes by.
-/// @returns the share that an interface or sheen keeps from the base of a layer: its largest
-/// channel, without tint. 1 for all other lobes.
-inline float lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& curve) {
+/// @returns the share that an interface or sheen keeps from the base of a layer, without tint. 1
+/// for all other lobes.
+inline glm::vec3 lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& curve) {
     switch (l.kind) {
-    case LobeKind::OrenNayar: l.albedo = l.orenNayar.color; return 1.0f;
-    case LobeKind::Burley: l.albedo = l.burley.color; return 1.0f;
-    case LobeKind::Subsurface: l.albedo = l.subsurface.diffuse.color; return 1.0f;
-    case LobeKind::Translucent: l.albedo = l.translucent.color; return 1.0f;
+    case LobeKind::OrenNayar: l.albedo = l.orenNayar.color; return glm::vec3(1.0f);
+    case LobeKind::Burley: l.albedo = l.burley.color; return glm::vec3(1.0f);
+    case LobeKind::Subsurface: l.albedo = l.subsurface.diffuse.color; return glm::vec3(1.0f);
+    case LobeKind::Translucent: l.albedo = l.translucent.color; return glm::vec3(1.0f);
     case LobeKind::Conductor:
         l.conductor = sh::conductorAt(l.conductor, wo);
         l.albedo = sh::conductorReflectance(l.conductor, glm::clamp(wo.z, 0.0f, 1.0f));
-        return 1.0f;
+        return glm::vec3(1.0f);
     case LobeKind::Dielectric: return lobeSetEnergy(l, l.dielectric, l.dielectric.tint, wo, curve);
     case LobeKind::Schlick: return lobeSetEnergy(l, l.schlick, l.schlick.tint, wo, curve);
     case LobeKind::Sheen: {
         const float kept = wo.z >= 0.0f ? sh::sheenWhiteAlbedo(l.sheen, wo.z) : 0.0f;
         l.albedo = l.sheen.color * kept;
-        return kept;
+        return glm::vec3(kept);
     }
     case LobeKind::Phong:
     case LobeKind::BlinnPhong:
     case LobeKind::Ward:
     case LobeKind::CookTorrance:
-    case LobeKind::ChiangHair: l.albedo = lobeAlbedo(l, wo); return 1.0f;
+    case LobeKind::ChiangHair: l.albedo = lobeAlbedo(l, wo); return glm::vec3(1.0f);
     }
-    return 1.0f;
+    return glm::vec3(1.0f);
 }
 
 inline bool lobeTransmits(const BsdfLobe& l) {

@@ -35,7 +35,8 @@ MaterialProgram::compile(const Plan& plan, TextureSource& textures, Diagnostics&
     return ProgramBuilder(plan, textures, diagnostics).build();
 }
 
-float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* passes) const {
+float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* passes,
+                               float* presence) const {
     float x;
     if (_code->opacityCode.empty()) {
         x = _code->constants[_code->opacity].x;
@@ -46,6 +47,7 @@ float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* passes) con
     }
     x = x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
     if (passes) *passes = glm::vec3(1.0f);
+    if (presence) *presence = x;
     if (!_code->hasStraight || x == 0.0f) return x;
     glm::vec3 straight;
     if (_code->surfaceCode.empty()) {

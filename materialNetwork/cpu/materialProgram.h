@@ -59,9 +59,12 @@ public:
     /// straight on. What lobes would pass straight on is part of this and not of the Bsdf, so that
     /// shadow rays see through them; it then depends on viewDirection.
     /// @param passes if given: colour of the light that passes, divided by 1 - opacity
-    float opacity(const ShadingPoint& point, glm::vec3* passes = nullptr) const;
+    /// @param presence if given: the part that is not absent; it emits, even where light passes
+    float opacity(const ShadingPoint& point, glm::vec3* passes = nullptr,
+                  float* presence = nullptr) const;
 
-    /// Radiance emitted towards wo (world space, unit). Both sides emit.
+    /// Radiance emitted towards wo (world space, unit), where the surface is present. Both sides
+    /// emit.
     glm::vec3 emission(const ShadingPoint& point, const glm::vec3& wo) const;
 
     /// The medium inside the object, as it is at this point.

@@ -185,7 +185,7 @@ void ProgramBuilder::markTops(std::vector<ClosureOp>& ops) const {
 void ProgramBuilder::bsdfOps(std::vector<bool>& needed) {
     bool hasInside = false;
     for (int i = 0; i <= _plan.bsdf; ++i)
-        hasInside |= !_plan.thinWalled && refracts(_plan, _plan.closures[size_t(i)]);
+        hasInside |= !_plan.closures[size_t(i)].thin && refracts(_plan, _plan.closures[size_t(i)]);
     std::vector<bool> reached(_plan.closures.size(), false);
     if (_plan.bsdf >= 0) reached[size_t(_plan.bsdf)] = true;
     for (int i = _plan.bsdf; i >= 0; --i)
@@ -262,6 +262,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     }
     LobeTemplate t;
     t.prebuilt.kind = lobeKind(closure.kind);
+    t.thin = closure.thin;
     t.prebuilt.diffuse =
         closure.kind == ClosureKind::OrenNayar || closure.kind == ClosureKind::Burley ||
         closure.kind == ClosureKind::Subsurface || closure.kind == ClosureKind::Translucent ||
@@ -269,7 +270,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     const bool interface =
         closure.kind == ClosureKind::Dielectric || closure.kind == ClosureKind::Schlick;
     t.fused = closure.fused;
-    t.compensate = _plan.compensate;
+    t.compensate = chosenMethod(_plan.methods, "energyCompensation") == "none" ? 0 : 1;
     const auto flag = [&](const char* input) {
         float x = 0.0f;
         return node.def->findInput(input) >= 0 &&
@@ -284,19 +285,22 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.filmDielectric = t.film && closure.kind == ClosureKind::Dielectric;
     if (t.filmDielectric) t.prebuilt.kind = LobeKind::Schlick;
     // Metals and diffuse lobes show the same face on both sides; an interface has an inside.
-    const bool flips = !interface || !hasInside;
+    const bool flips = !interface || !hasInside || closure.thin;
     t.prebuilt.frame = uint8_t(frame(closure, flips, needed));
     t.prebuilt.weight = t.prebuilt.albedo = glm::vec3(0.0f);
     t.prebuilt.probability = 0.0f;
 
     t.constant = true;
-    const char* const* names = lobeParameters(closure.kind);
+    // Nothing walks beneath a thin wall.
+    const bool flat = closure.thin && closure.kind == ClosureKind::Subsurface;
+    if (flat) t.prebuilt.kind = LobeKind::OrenNayar;
+    const char* const* names = lobeParameters(flat ? ClosureKind::OrenNayar : closure.kind);
     for (int i = 0; names[i]; ++i) {
         Operand operand;
         operand.value = Value::makeFloat(0.0f);
         if (node.def->findInput(names[i]) >= 0) operand = closureInput(_plan, closure, names[i]);
         // Light goes straight through a thin wall; the layer above has taken what is reflected.
-        if (_plan.thinWalled && closure.fused && t.mode == sh::SCATTER_T &&
+        if (closure.thin && closure.fused && t.mode == sh::SCATTER_T &&
             closure.kind == ClosureKind::Dielectric && std::string(names[i]) == "ior") {
             operand = Operand();
             operand.value = Value::makeFloat(1.0f);
@@ -326,7 +330,7 @@ bool ProgramBuilder::isStraight(const PlanClosure& closure) const {
     if ((!dielectric && closure.kind != ClosureKind::Schlick) ||
         (scatterMode(_plan, closure) & sh::SCATTER_T) == 0 || hasFilm(_plan, closure))
         return false;
-    return _plan.thinWalled ||
+    return closure.thin ||
            (dielectric && isConstantValue(closureInput(_plan, closure, "ior"), 1.0f));
 }
 
@@ -343,8 +347,10 @@ void ProgramBuilder::setFlags() {
                               (!t.straight && (t.mode & sh::SCATTER_T) != 0);
     p._isVolumeOnly = _plan.volumeOnly;
     for (const LobeTemplate& t : _code->lobes)
-        p._hasSubsurface |= t.prebuilt.kind == LobeKind::Subsurface && !_plan.thinWalled;
-    p._passingEnters = _plan.volumeOnly || _code->hasStraight;
+        p._hasSubsurface |= t.prebuilt.kind == LobeKind::Subsurface;
+    p._passingEnters = _plan.volumeOnly;
+    for (const LobeTemplate& t : _code->lobes)
+        p._passingEnters |= t.straight && !t.thin;
     p._hasInterior = (!_code->vdf.empty() || !_code->volumeEdf.empty()) && !_plan.thinWalled &&
                      (p._hasTransmission || p._passingEnters);
 }
@@ -355,6 +361,14 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
     _program->_code = std::make_unique<ProgramCode>();
     _code = _program->_code.get();
     _code->textures = &_textures;
+    const auto chosen = [&](const char* point, const char* method) {
+        return chosenMethod(_plan.methods, point) == method;
+    };
+    _code->layerTransmittance =
+        chosen("layerTransmittance", "average")  ? LayerTransmittance::Average
+        : chosen("layerTransmittance", "tinted") ? LayerTransmittance::Tinted
+                                                 : LayerTransmittance::Largest;
+    _code->wallsHaveTwoFaces = !chosen("thinWalled", "sheet");
     _data.resize(n);
     _prepared.resize(n, false);
     _readsTexture.resize(n, false);

@@ -30,6 +30,7 @@ struct LobeTemplate {
     bool fused = false;
     bool film = false;           ///< has a thin film
     bool filmDielectric = false; ///< a dielectric with a film: LobeKind::Schlick
+    bool thin = false;           ///< of a thin wall
     bool straight = false;       ///< passes light straight on: part of the presence
     int mode = 0;                ///< SCATTER_*
     int variant = 0;             ///< lobeVariant()
@@ -58,6 +59,9 @@ struct FrameTemplate {
     bool flips = true;             ///< turns to the viewer; false where the surface has an inside
 };
 
+/// Methods of the choice point layerTransmittance.
+enum class LayerTransmittance : uint8_t { Largest, Average, Tinted };
+
 struct ProgramCode {
     std::vector<glm::vec4> constants; ///< the first registers
     int registerCount = 0;
@@ -70,7 +74,9 @@ struct ProgramCode {
     Register opacity = 0;
     Register displacement = 0, displacementScale = 0;
     bool displacementIsVector = false;
-    bool hasStraight = false;         ///< a lobe is straight
+    bool hasStraight = false;      ///< a lobe is straight
+    bool wallsHaveTwoFaces = true; ///< thin walls
+    LayerTransmittance layerTransmittance = LayerTransmittance::Largest;
     bool opacityFromPrimvars = false; ///< only primvars can make opacity less than 1
     const TextureSource* textures = nullptr;
 };

@@ -5,9 +5,9 @@
 
 namespace patina {
 
-/// Space for one value per closure; on the stack unless the material is huge. Of each type only one
-/// may be alive per thread.
-template <class T> class Scratch {
+/// Space for one value per closure; on the stack unless the material is huge. Of each type and use only
+/// one may be alive per thread.
+template <class T, int use = 0> class Scratch {
 public:
     explicit Scratch(size_t n) : _data(_local) {
         if (n > localCount) {

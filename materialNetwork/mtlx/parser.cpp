@@ -309,6 +309,9 @@ void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocum
             const auto c = node.connections.find(input);
             if (c != node.connections.end()) material.terminals[terminal] = c->second;
         }
+        // Which side is seen is for the material to choose.
+        if (node.connections.count("backsurfaceshader"))
+            material.terminals["surface"] = {node.path, ""};
     }
     if (!out.materials.empty()) return;
     for (const Element& child : root.children())

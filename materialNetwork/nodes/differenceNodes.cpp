@@ -1,5 +1,5 @@
 // Nodes that need their input at neighbouring points. Graphs are evaluated at one point, so the
-// part of the graph that makes the height is copied twice, with the texture coordinates and
+// part of the graph that makes their input is copied, with the texture coordinates and
 // positions that it reads moved a little (materialNetwork/differences.h).
 #include "materialNetwork/nodeTable.h"
 
@@ -54,23 +54,38 @@ void flat(Call c) {
     c.out() = vec4(0.5f, 0.5f, 1.0f, 0.0f);
 }
 
+/// What is left of a blur when its input is the same everywhere.
 void same(Call c) {
     c.out() = c.in(0);
 }
-void warnBlur(PatternSetup& setup, PatternData&) {
-    if (setup.number("size", 1.0f) > 0.0f)
-        setup.warn("size", "blur is not applied; the input is passed on");
+
+/// Inputs (in, size, u, v).
+void moveTexcoord(Call c) {
+    c.out() = c.in(0) + vec4(c.x(2), c.x(3), 0.0f, 0.0f) * std::max(c.x(1), 0.0f);
+}
+
+/// Inputs (in, size, u, v, world).
+void movePosition(Call c) {
+    const ShadingPoint& p = c.point();
+    vec3 d = (p.tangent * c.x(2) + p.bitangent * c.x(3)) * (std::max(c.x(1), 0.0f) * p.lengthPerUv);
+    if (c.x(4) == 0.0f) d = glm::transpose(p.objectToWorldNormal) * d;
+    c.out() = c.in(0) + vec4(d, 0.0f);
 }
 
 const NodeRow rows[] = {
     {"ND_heighttonormal_vector3", "heighttonormal",
      "float in=0, float scale=1, vector2 texcoord=@UV0", "vector3", flat},
     {"ND_blur_$", "blur", "$ in=0, float size=0, string filtertype=box", "$", same, Algebra::None,
-     allTypes, warnBlur},
+     allTypes},
     {"PatinaShiftTexcoord_$", "shift_texcoord", "$ in=0, float axis=0", "$", shiftTexcoord,
      Algebra::None, "vector2 vector3", nullptr, true},
     {"PatinaShiftPosition", "shift_position", "vector3 in=0, float axis=0, float world=0",
      "vector3", shiftPosition, Algebra::None, nullptr, nullptr, true},
+    {"PatinaMoveTexcoord_$", "move_texcoord", "$ in=0, float size=0, float u=0, float v=0", "$",
+     moveTexcoord, Algebra::None, "vector2 vector3", nullptr, true},
+    {"PatinaMovePosition", "move_position",
+     "vector3 in=0, float size=0, float u=0, float v=0, float world=0", "vector3", movePosition,
+     Algebra::None, nullptr, nullptr, true},
     {"PatinaSlope", "slope",
      "float here=0, float along_u=0, float along_v=0, float scale=1, "
      "vector2 texcoord=0, vector2 texcoord_u=0, vector2 texcoord_v=0",

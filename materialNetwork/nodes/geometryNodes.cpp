@@ -48,6 +48,10 @@ void tangent(Call c) {
 void bitangent(Call c) {
     c.out() = vec4(tangentTo(c, c.point().bitangent), 0.0f);
 }
+void backSide(Call c) {
+    c.out() =
+        vec4(glm::dot(c.point().viewDirection, c.point().geometricNormal) < 0.0f ? 1.0f : 0.0f);
+}
 void viewDirection(Call c) {
     c.out() = vec4(tangentTo(c, c.point().viewDirection), 0.0f);
 }
@@ -131,6 +135,7 @@ const char* const spaces = "string space=object";
 const NodeRow rows[] = {
     {"ND_position_vector3", "position", spaces, "vector3", position, Algebra::None, nullptr,
      prepareSpace, true},
+    {"PatinaBackSide", "back_side", "", "float", backSide, Algebra::None, nullptr, nullptr, true},
     {"ND_normal_vector3", "normal", spaces, "vector3", normal, Algebra::None, nullptr, prepareSpace,
      true},
     {"ND_tangent_vector3", "tangent", "string space=object, integer index=0", "vector3", tangent,

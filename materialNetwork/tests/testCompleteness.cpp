@@ -12,20 +12,8 @@ namespace patina {
 
 namespace {
 
-// Lights of rasterizers, hair, directional emission, mixes of whole shaders; and a model's helper,
-// which is part of the model here.
-const std::set<std::string> mayBeUnknown = {"ND_light",
-                                            "ND_chiang_hair_bsdf",
-                                            "ND_chiang_hair_roughness",
-                                            "ND_chiang_hair_absorption_from_color",
-                                            "ND_deon_hair_absorption_from_melanin",
-                                            "ND_conical_edf",
-                                            "ND_measured_edf",
-                                            "ND_generalized_schlick_edf",
-                                            "ND_mix_surfaceshader",
-                                            "ND_mix_displacementshader",
-                                            "ND_mix_volumeshader",
-                                            "ND_open_pbr_anisotropy"};
+// Lights of rasterizers, measured emission, and a model's helper, which is part of the model here.
+const std::set<std::string> mayBeUnknown = {"ND_light", "ND_open_pbr_anisotropy"};
 
 } // namespace
 

@@ -298,13 +298,13 @@ void bindMaterial(py::module_& m) {
 
     m.def(
         "explain_material",
-        [](const Network& network, py::object warnings) {
+        [](const Network& network, py::object warnings, const MethodChoices& methods) {
             Diagnostics diagnostics;
-            std::string text = explainMaterial(network, diagnostics);
+            std::string text = explainMaterial(network, diagnostics, methods);
             appendWarnings(diagnostics, warnings);
             return text;
         },
-        py::arg("network"), py::arg("warnings") = py::none(),
+        py::arg("network"), py::arg("warnings") = py::none(), py::arg("methods") = MethodChoices(),
         "What is modelled of a material, as text. Warnings are appended to the list.");
     m.def("override_material", &overridden, py::arg("network"), py::arg("inputs"),
           "The network with inputs replaced, given as text; ValueError names what cannot be.");

@@ -139,3 +139,18 @@ def test_methods_are_listed_and_checked(document, capsys):
     assert not end.value.code and "energyCompensation" in capsys.readouterr().out
     for text in ("nowhere=none", "energyCompensation=nonsense", "energyCompensation"):
         assert main.main(["bsdf", "albedo", document, "--method", text]) == 2
+
+
+def test_open_meanings_are_methods(capsys, tmp_path):
+    path = tmp_path / "pane.mtlx"
+    path.write_text(DIFFUSE.replace("oren_nayar_diffuse_bsdf", "dielectric_bsdf").replace(
+        'name="color" type="color3" value="0.5, 0.25, 0.125"', 'name="scatter_mode" type="string" value="RT"').replace(
+        '<surface name', '<surface  name').replace('</surface>', '<input name="thin_walled" type="boolean" value="true" /></surface>'))
+    assert main.main(["explain", str(path)]) == 0
+    assert "method thinWalled = slab" in capsys.readouterr().out
+    assert main.main(["explain", str(path), "--method", "thinWalled=solid"]) == 0
+    assert "method thinWalled = solid" in capsys.readouterr().out
+    (slab,) = lines(capsys, "albedo", str(path))
+    (solid,) = lines(capsys, "albedo", str(path), "--method", "thinWalled=solid")
+    assert solid["albedo"][0] > 0.9  # reflected and refracted; the slab's light goes straight on
+    assert slab["albedo"] != solid["albedo"]

@@ -1,10 +1,11 @@
 """Shows what becomes of a material: its network as authored, the simplified graph, the plan of
-lobes, and what was left out. Of a stage without a named material all materials are shown.
+lobes, what was left out, and the method at each choice point that matters. Of a stage without a named
+material all materials are shown.
 """
 import json
 import sys
 
-from patina.cli import compiled, materials, statistics
+from patina.cli import compiled, materials, methods, statistics
 
 
 def add_arguments(parser):
@@ -12,6 +13,7 @@ def add_arguments(parser):
         "the only material", "every material"))
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
+    methods.add_flag(parser)
     parser.add_argument("--json", metavar="FILE", help="write texts and warnings as JSON: --json to standard "
                                                        "output, --json=FILE to a file")
 
@@ -19,7 +21,8 @@ def add_arguments(parser):
 def run(arguments):
     found, warnings = materials.load(arguments.material, arguments.set, every=True)
     module = compiled.load()
-    texts = [(name, module.explain_material(network, warnings)) for name, network in found]
+    chosen = methods.parse(arguments.method)
+    texts = [(name, module.explain_material(network, warnings, chosen)) for name, network in found]
     if arguments.json:
         text = json.dumps({"materials": [{"name": name, "text": text} for name, text in texts],
                            "warnings": warnings}, indent=2)

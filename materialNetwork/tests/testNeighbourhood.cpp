@@ -1,0 +1,128 @@
+// Nodes that look at the neighbourhood of a point, against what calculus says.
+#include "materialNetwork/tests/patternTest.h"
+
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+/// "uv", and "square": u * u.
+std::vector<NetworkNode> square() {
+    return {makeNode("uv", "ND_texcoord_vector2"),
+            makeNode("u", "ND_separate2_vector2", {}, {{"in", {"uv", ""}}}),
+            makeNode("square", "ND_multiply_float", {},
+                     {{"in1", {"u", "outx"}}, {"in2", {"u", "outx"}}})};
+}
+
+glm::vec3 at(std::vector<NetworkNode> nodes, const std::string& last, float u, float v = 0.0f,
+             ShadingPoint point = {}) {
+    nodes.push_back(makeNode("x", "ND_convert_float_color3", {}, {{"in", {last, ""}}}));
+    return emitted(emitting(std::move(nodes)), point, {{"st", glm::vec4(u, v, 0, 0)}});
+}
+
+NetworkNode blurOf(const std::string& name, const std::string& source, float size,
+                   const char* filter = "box") {
+    return makeNode(name, "ND_blur_float", {{"size", number(size)}, {"filtertype", text(filter)}},
+                    {{"in", {source, ""}}});
+}
+
+} // namespace
+
+TEST(Neighbourhood, BlurIsTheMeanOverASquare) {
+    const float u = 0.5f, size = 0.4f;
+    auto nodes = square();
+    nodes.push_back(blurOf("blur", "square", size));
+    // Taps at -2 to 2 fifths of the size: their mean square is 2 / 25.
+    EXPECT_NEAR(at(nodes, "blur", u).x, u * u + size * size * 0.08f, 1e-5f);
+    nodes.back() = blurOf("blur", "square", size, "gaussian");
+    const float a = std::exp(-0.5f), b = std::exp(-2.0f);
+    const float variance = (2.0f * a + 8.0f * b) / (1.0f + 2.0f * a + 2.0f * b) / 25.0f;
+    EXPECT_NEAR(at(nodes, "blur", u).x, u * u + size * size * variance, 1e-5f);
+    nodes.back() = blurOf("blur", "square", 0.0f);
+    EXPECT_NEAR(at(nodes, "blur", u).x, u * u, 1e-6f);
+}
+
+TEST(Neighbourhood, BlursAddUp) {
+    auto nodes = square();
+    nodes.push_back(blurOf("first", "square", 0.4f));
+    nodes.push_back(blurOf("second", "first", 0.2f));
+    EXPECT_NEAR(at(nodes, "second", 0.5f).x, 0.25f + (0.16f + 0.04f) * 0.08f, 1e-5f);
+}
+
+TEST(Neighbourhood, TexturesAndPositionsMove) {
+    ShadingPoint point;
+    point.tangent = glm::vec3(0, 1, 0);
+    point.bitangent = glm::vec3(-1, 0, 0);
+    point.lengthPerUv = 3.0f;
+    point.position = glm::vec3(0.5f, 0.0f, 0.0f);
+    // v runs along -x: the width in the world is 3 times that in uv.
+    const std::vector<NetworkNode> nodes = {
+        makeNode("p", "ND_position_vector3", {{"space", text("world")}}),
+        makeNode("x", "ND_separate3_vector3", {}, {{"in", {"p", ""}}}),
+        makeNode("square", "ND_multiply_float", {},
+                 {{"in1", {"x", "outx"}}, {"in2", {"x", "outx"}}}),
+        blurOf("blur", "square", 0.2f),
+        makeNode("c", "ND_convert_float_color3", {}, {{"in", {"blur", ""}}}),
+        makeNode("edf", "ND_uniform_edf", {}, {{"color", {"c", ""}}}),
+        makeNode("surface", "ND_surface", {}, {{"edf", {"edf", ""}}})};
+    EXPECT_NEAR(emitted(makeNetwork(nodes), point).x, 0.25f + 0.36f * 0.08f, 1e-5f);
+
+    Compiled c(emitting(
+        {makeNode("image", "ND_image_color3", {{"file", Value::makeFilename("a.png")}}),
+         makeNode("x", "ND_blur_color3", {{"size", number(0.5f)}}, {{"in", {"image", ""}}})}));
+    EXPECT_EQ(c.textures.requests.size(), 25u);
+    const FakePrimvars uv(*c.program, {{"st", glm::vec4(0.3f, 0.6f, 0, 0)}});
+    point.primvars = &uv;
+    expectVector(c.program->emission(point, glm::vec3(0, 0, 1)), 0.3f, 0.6f, 0.5f);
+}
+
+TEST(Neighbourhood, SlopesOfBlursAndOfSlopes) {
+    const auto normal = [](std::vector<NetworkNode> nodes, const std::string& height, float u) {
+        nodes.push_back(makeNode("x", "ND_heighttonormal_vector3", {{"scale", number(16.0f)}},
+                                 {{"in", {height, ""}}}));
+        return emitted(emitting(std::move(nodes)), {}, {{"st", glm::vec4(u, 0, 0, 0)}});
+    };
+    // The slope of u * u is 2 u, and a blur does not change that.
+    auto nodes = square();
+    nodes.push_back(blurOf("blur", "square", 0.4f));
+    for (const char* height : {"square", "blur"}) {
+        const glm::vec3 n = normal(nodes, height, 0.25f) * 2.0f - 1.0f;
+        EXPECT_NEAR(-n.x / n.z, 0.5f, 2e-3f) << height;
+    }
+    // The height is a coordinate of another slope's normal.
+    nodes.push_back(makeNode("first", "ND_heighttonormal_vector3", {{"scale", number(16.0f)}},
+                             {{"in", {"square", ""}}}));
+    nodes.push_back(makeNode("parts", "ND_separate3_vector3", {}, {{"in", {"first", ""}}}));
+    nodes.push_back(makeNode("height", "ND_dot_float", {}, {{"in", {"parts", "outx"}}}));
+    const glm::vec3 n = normal(nodes, "height", 0.25f) * 2.0f - 1.0f;
+    // x = -2 u / sqrt(1 + 4 u^2), so half of its slope is -1 / (1 + 4 u^2)^1.5.
+    EXPECT_NEAR(-n.x / n.z, -std::pow(1.25f, -1.5f), 2e-2f);
+}
+
+TEST(Neighbourhood, OddBlursAreReported) {
+    auto nodes = square();
+    nodes.push_back(blurOf("blur", "square", 0.4f, "median"));
+    nodes.push_back(makeNode("x", "ND_convert_float_color3", {}, {{"in", {"blur", ""}}}));
+    Compiled odd(emitting(nodes));
+    EXPECT_EQ(warnings(odd.diagnostics),
+              "/m/blur [filtertype] 'median' is not known; box is used\n");
+
+    nodes = square();
+    std::string last = "square";
+    for (int i = 0; i < 4; ++i) {
+        const std::string name = "blur" + std::to_string(i);
+        nodes.push_back(blurOf(name, last, 0.1f));
+        last = name;
+    }
+    nodes.push_back(makeNode("x", "ND_convert_float_color3", {}, {{"in", {last, ""}}}));
+    Compiled many(emitting(nodes));
+    EXPECT_NE(warnings(many.diagnostics).find("too much would have to be evaluated"),
+              std::string::npos);
+    const FakePrimvars uv(*many.program, {{"st", glm::vec4(0.5f)}});
+    ShadingPoint point;
+    point.primvars = &uv;
+    EXPECT_NEAR(many.program->emission(point, {0, 0, 1}).x, 0.25f + 2.0f * 0.01f * 0.08f, 1e-4f);
+}
+
+} // namespace patina

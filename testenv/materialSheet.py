@@ -1,0 +1,151 @@
+"""Renders every material of the MaterialX documents under a folder on a ball, as one sheet.
+
+    python testenv/materialSheet.py FOLDER SHEET.png [--width 200] [--samples 64] [--columns 7]
+
+Prints a table: material, seconds, warnings. Run it with the environment that ./patina makes
+(PYTHONPATH=plugin:build/python).
+"""
+import argparse
+import math
+import os
+import sys
+import tempfile
+
+import numpy as np
+
+from contactSheet import paste, render
+
+SKY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "scenes", "textures", "sky.exr")
+STAGE = """#usda 1.0
+(
+    upAxis = "Y"
+)
+def Camera "camera"
+{
+    float2 clippingRange = (0.01, 1000)
+    float focalLength = 50
+    float horizontalAperture = 24
+    float verticalAperture = 24
+    double3 xformOp:translate = (0, 1.9, 5)
+    float3 xformOp:rotateXYZ = (-10.5, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+}
+def DomeLight "sky"
+{
+    asset inputs:texture:file = @%(sky)s@
+    float inputs:intensity = 0.7
+}
+def RectLight "key"
+{
+    float inputs:intensity = 20
+    float inputs:width = 2
+    float inputs:height = 2
+    double3 xformOp:translate = (-2.5, 4, 3)
+    float3 xformOp:rotateXYZ = (-48, -42, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+}
+def Mesh "ground" (prepend apiSchemas = ["MaterialBindingAPI"])
+{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-8, 0, 8), (8, 0, 8), (8, 0, -8), (-8, 0, -8)]
+    texCoord2f[] primvars:st = [(0, 0), (8, 0), (8, 8), (0, 8)] (interpolation = "vertex")
+    uniform token subdivisionScheme = "none"
+    rel material:binding = </checker>
+}
+def Mesh "ball" (prepend apiSchemas = ["MaterialBindingAPI"])
+{
+    int[] faceVertexCounts = %(counts)s
+    int[] faceVertexIndices = %(indices)s
+    point3f[] points = %(points)s
+    normal3f[] normals = %(normals)s (interpolation = "vertex")
+    texCoord2f[] primvars:st = %(uv)s (interpolation = "vertex")
+    uniform token subdivisionScheme = "none"
+    rel material:binding = </documents/Materials/%(material)s>
+    double3 xformOp:translate = (0, 1, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def "documents" (prepend references = @%(document)s@</MaterialX>) {}
+def Material "checker"
+{
+    token outputs:mtlx:surface.connect = </checker/surface.outputs:out>
+    def Shader "pattern"
+    {
+        uniform token info:id = "ND_checkerboard_color3"
+        color3f inputs:color1 = (0.45, 0.45, 0.45)
+        color3f inputs:color2 = (0.2, 0.2, 0.2)
+        token outputs:out
+    }
+    def Shader "diffuse"
+    {
+        uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
+        color3f inputs:color.connect = </checker/pattern.outputs:out>
+        token outputs:out
+    }
+    def Shader "surface"
+    {
+        uniform token info:id = "ND_surface"
+        token inputs:bsdf.connect = </checker/diffuse.outputs:out>
+        token outputs:out
+    }
+}
+"""
+
+
+def ball(columns=64, rows=32):
+    """A sphere of radius 1 as u runs round it and v up it."""
+    points, uv, counts, indices = [], [], [], []
+    for j in range(rows + 1):
+        for i in range(columns + 1):
+            u, v = i / columns, j / rows
+            theta, phi = math.pi * (1 - v), 2 * math.pi * (u - 0.25)
+            points.append((math.sin(theta) * math.sin(phi), math.cos(theta), math.sin(theta) * math.cos(phi)))
+            uv.append((u, v))
+    for j in range(rows):
+        for i in range(columns):
+            a = j * (columns + 1) + i
+            counts.append(4)
+            indices += [a, a + 1, a + columns + 2, a + columns + 1]
+    text = [tuple(round(x, 6) for x in p) for p in points]
+    return {"points": text, "normals": text, "uv": uv, "counts": counts, "indices": indices}
+
+
+def materials(document):
+    """:returns: names of the materials of a document"""
+    import _patina
+
+    return [network.path.rpartition(":")[2] for network in _patina.read_mtlx(document, [])]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder")
+    parser.add_argument("sheet")
+    parser.add_argument("--width", type=int, default=200)
+    parser.add_argument("--samples", type=int, default=64)
+    parser.add_argument("--columns", type=int, default=7)
+    parser.add_argument("--record", nargs=argparse.REMAINDER, default=[])
+    arguments = parser.parse_args()
+    documents = sorted(os.path.join(root, name) for root, _, names in os.walk(arguments.folder) for name in names
+                       if name.endswith(".mtlx"))
+    geometry, images = ball(), []
+    with tempfile.TemporaryDirectory() as folder:
+        for document in documents:
+            for name in materials(document):
+                stage = os.path.join(folder, "stage.usda")
+                with open(stage, "w", encoding="utf-8") as file:
+                    file.write(STAGE % {**geometry, "sky": SKY, "document": os.path.abspath(document), "material": name})
+                pixels, seconds, warnings, error = render(stage, folder, arguments.width, arguments.samples, arguments.record)
+                images.append(pixels)
+                print(f"{len(images) - 1:4d} {seconds:7.2f} s  {os.path.relpath(document, arguments.folder)}:{name}"
+                      f"  {'FAILED ' + error[0] if error else ''}", flush=True)
+                for warning in warnings:
+                    print(f"              {warning}")
+    import _patina
+
+    _patina.write_image(arguments.sheet, np.ascontiguousarray(paste(images, arguments.width, arguments.columns), np.float32))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,18 @@
+"""The wedge pictures of the README can be made: no stage of them fails or warns."""
+import os
+import sys
+
+import pytest
+
+from rendering import SCENES, pixels
+
+sys.path.append(os.path.join(SCENES, ".."))
+import wedges  # noqa: E402
+
+
+@pytest.mark.parametrize("name", wedges.WEDGES)
+def test_wedges_render(name, tmp_path):
+    image = tmp_path / "wedge.exr"
+    wedges.render(name, str(image), 70, 1)
+    rows = len(wedges.WEDGES[name]())
+    assert pixels(image).shape[:2] == (10 * rows, 70)

@@ -279,6 +279,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
         flag(closure.kind == ClosureKind::OrenNayar ? "energy_compensation" : "retroreflective");
     if (interface) t.mode = scatterMode(_plan, closure);
     t.variant = lobeVariant(_plan, closure);
+    t.facets = facetDistribution(_plan, closure);
     t.film = hasFilm(_plan, closure);
     // A film colours the reflectance, for which a dielectric has no room.
     t.filmDielectric = t.film && closure.kind == ClosureKind::Dielectric;

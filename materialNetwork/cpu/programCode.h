@@ -33,6 +33,7 @@ struct LobeTemplate {
     bool straight = false;       ///< passes light straight on: part of the presence
     int mode = 0;                ///< SCATTER_*
     int variant = 0;             ///< lobeVariant()
+    int facets = 0;              ///< facetDistribution()
     int compensate = 1;
     EnergyCurve energy; ///< of constant interfaces
     Register weight = 0;

@@ -34,6 +34,13 @@ const std::vector<Case> cases = {
       {"scatter_mode", text("RT")},
       {"roughness", pair(0.2f)}},
      2e-2f},
+    {"ND_conductor_bsdf",
+     {{"distribution", text("beckmann")}, {"roughness", Value::makeVec2(0.1f, 0.4f)}}},
+    {"ND_dielectric_bsdf",
+     {{"distribution", text("beckmann")}, {"roughness", pair(0.4f)}, {"scatter_mode", text("RT")}},
+     2e-2f},
+    {"ND_generalized_schlick_bsdf",
+     {{"distribution", text("beckmann")}, {"color0", grey(0.5f)}, {"roughness", pair(0.7f)}}},
     {"ND_chiang_hair_bsdf", {}},
     {"ND_chiang_hair_bsdf", {{"absorption_coefficient", Value::makeVec3(0.2f, 0.5f, 1.0f)}}},
     {"ND_patina_lambert_bsdf", {{"color", grey(1.0f)}}},
@@ -146,6 +153,21 @@ TEST(Closures, OldThinFilmCoatsWhatIsBelow) {
 }
 
 // The helpers at their defaults, against the formulas by hand.
+TEST(Closures, DistributionChoosesTheFacets) {
+    const auto value = [&](const char* distribution) {
+        Compiled c(bsdfNetwork(
+            {makeNode("bsdf", "ND_conductor_bsdf",
+                      {{"roughness", pair(0.3f)}, {"distribution", text(distribution)}})}));
+        EXPECT_TRUE(c.diagnostics.all().empty()) << warnings(c.diagnostics);
+        Bsdf bsdf;
+        c.program->evaluate(seenFrom(direction(30.0f)), bsdf);
+        return bsdf.eval(direction(60.0f)).specular.x;
+    };
+    // Far from the mirror direction Beckmann's tail is the thinner one.
+    EXPECT_LT(value("beckmann"), 0.1f * value("ggx"));
+    EXPECT_GT(value("beckmann"), 0.0f);
+}
+
 TEST(Closures, HairHelpersFeedTheLobe) {
     const auto albedo = [](std::vector<NetworkNode> helpers, const Connections& connections) {
         helpers.push_back(makeNode("bsdf", "ND_chiang_hair_bsdf", {}, connections));

@@ -200,6 +200,7 @@ private:
         case ClosureKind::ChiangHair:
         case ClosureKind::UniformEdf:
         case ClosureKind::ConicalEdf:
+        case ClosureKind::MeasuredEdf:
         case ClosureKind::AbsorptionVdf:
         case ClosureKind::AnisotropicVdf: break;
         default:

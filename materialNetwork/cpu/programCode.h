@@ -6,6 +6,7 @@
 #include "materialNetwork/plan.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace patina {
@@ -51,7 +52,8 @@ struct ClosureOp {
     Register scattering = 0, anisotropy = 0; ///< of an AnisotropicVdf
     /// ConicalEdf: inner and outer angle. SchlickEdf: color90 and exponent (factor is color0).
     Register first = 0, second = 0;
-    int normal = -1; ///< ConicalEdf: its own normal, -1 for that of the point
+    int normal = -1; ///< ConicalEdf, MeasuredEdf: its own normal, -1 for that of the point
+    std::shared_ptr<const EmissionProfile> profile; ///< MeasuredEdf; null emits evenly
 };
 
 struct FrameTemplate {

@@ -229,6 +229,39 @@ TEST(Closures, EdfsDependOnTheDirection) {
     EXPECT_LT(schlick(89.9f), 0.05f);
 }
 
+TEST(Closures, MeasuredEdfFollowsItsProfile) {
+    struct Profile : EmissionProfile {
+        float factor(float theta, float phi) const override {
+            return std::cos(theta) * (2.0f + std::cos(phi));
+        }
+    };
+    const auto network = [](Inputs inputs) {
+        return makeNetwork({makeNode("edf", "ND_measured_edf", std::move(inputs)),
+                            makeNode("surface", "ND_surface", {}, {{"edf", {"edf", ""}}})});
+    };
+    FakeTextures textures;
+    textures.profile = std::make_shared<Profile>();
+    Diagnostics diagnostics;
+    const auto program =
+        compileMaterial(network({{"color", grey(3.0f)}, {"file", Value::makeFilename("lamp.ies")}}),
+                        textures, diagnostics);
+    EXPECT_EQ(warnings(diagnostics), "");
+    for (float theta : {0.0f, 40.0f, 80.0f})
+        for (float phi : {0.0f, 70.0f, 200.0f}) {
+            const glm::vec3 wo = direction(theta, phi);
+            const float expected = 3.0f * std::cos(glm::radians(theta)) *
+                                   (2.0f + (theta == 0.0f ? 1.0f : std::cos(glm::radians(phi))));
+            EXPECT_NEAR(program->emission(seenFrom(wo), wo).y, expected, 1e-4f) << theta << phi;
+            // The other side emits alike.
+            const glm::vec3 back(wo.x, wo.y, -wo.z);
+            EXPECT_NEAR(program->emission(seenFrom(back), back).y, expected, 1e-4f) << theta;
+        }
+    Compiled without(network({{"color", grey(3.0f)}}));
+    EXPECT_EQ(warnings(without.diagnostics),
+              "/m/edf [file] names no IES file; it emits the same everywhere\n");
+    EXPECT_EQ(without.program->emission(ShadingPoint(), direction(50.0f)).x, 3.0f);
+}
+
 TEST(Closures, UnknownChoicesAreReported) {
     Compiled c(bsdfNetwork({makeNode("bsdf", "ND_sheen_bsdf", {{"mode", text("velvet")}})}));
     EXPECT_EQ(warnings(c.diagnostics),

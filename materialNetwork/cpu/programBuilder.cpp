@@ -363,6 +363,8 @@ void ProgramBuilder::setFlags() {
                               (!t.straight && (t.mode & sh::SCATTER_T) != 0);
     p._isVolumeOnly = _plan.volumeOnly;
     for (const LobeTemplate& t : _code->lobes)
+        p._isFibre |= t.prebuilt.kind == LobeKind::ChiangHair;
+    for (const LobeTemplate& t : _code->lobes)
         p._hasSubsurface |= t.prebuilt.kind == LobeKind::Subsurface && !_plan.thinWalled;
     p._passingEnters = _plan.volumeOnly || _code->hasStraight;
     p._hasInterior = (!_code->vdf.empty() || !_code->volumeEdf.empty()) && !_plan.thinWalled &&

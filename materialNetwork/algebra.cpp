@@ -187,7 +187,8 @@ bool rewriteClosure(const Graph& graph, const GraphNode& node, Operand& out, std
         return !in.empty() && node.def->inputs[0].name == "weight" &&
                isConstantValue(in[0], 0.0f) && cut("weight 0");
     case ClosureKind::UniformEdf:
-    case ClosureKind::ConicalEdf: return isConstantValue(in[0], 0.0f) && cut("black");
+    case ClosureKind::ConicalEdf:
+    case ClosureKind::MeasuredEdf: return isConstantValue(in[0], 0.0f) && cut("black");
     case ClosureKind::SchlickEdf: return isNone(in[3]) && keep(in[3], "");
     case ClosureKind::AbsorptionVdf: return isConstantValue(in[0], 0.0f) && cut("nothing absorbed");
     case ClosureKind::AnisotropicVdf:

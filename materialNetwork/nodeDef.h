@@ -27,7 +27,8 @@ enum class ClosureKind {
     ThinFilm, ///< MaterialX 1.38: as the top of a layer it coats the base
     UniformEdf,
     ConicalEdf,
-    SchlickEdf, ///< a factor on its base
+    MeasuredEdf, ///< by an IES profile
+    SchlickEdf,  ///< a factor on its base
     AbsorptionVdf,
     AnisotropicVdf,
     Layer, ///< (top, base)

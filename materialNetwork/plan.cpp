@@ -234,6 +234,7 @@ private:
         case ClosureKind::ChiangHair:
         case ClosureKind::UniformEdf:
         case ClosureKind::ConicalEdf:
+        case ClosureKind::MeasuredEdf:
         case ClosureKind::AbsorptionVdf:
         case ClosureKind::AnisotropicVdf: break;
         default:
@@ -284,7 +285,7 @@ private:
     }
 
     void checkMicrofacet(const GraphNode& node) {
-        checkChoice(node, "distribution", {"ggx"});
+        checkChoice(node, "distribution", {"ggx", "beckmann"});
         if (node.def->findInput("scatter_mode") < 0) return;
         checkChoice(node, "scatter_mode", {"R", "T", "RT"});
     }
@@ -334,6 +335,14 @@ const Operand& closureInput(const Plan& plan, const PlanClosure& closure, const 
 int scatterMode(const Plan& plan, const PlanClosure& closure) {
     const std::string& mode = closureInput(plan, closure, "scatter_mode").value.text;
     return mode == "T" ? sh::SCATTER_T : mode == "RT" ? sh::SCATTER_RT : sh::SCATTER_R;
+}
+
+int facetDistribution(const Plan& plan, const PlanClosure& closure) {
+    const GraphNode& node = plan.graph.nodes[size_t(closure.node)];
+    if (node.def->findInput("distribution") < 0) return sh::FACETS_GGX;
+    return closureInput(plan, closure, "distribution").value.text == "beckmann"
+               ? sh::FACETS_BECKMANN
+               : sh::FACETS_GGX;
 }
 
 int lobeVariant(const Plan& plan, const PlanClosure& closure) {

@@ -65,6 +65,9 @@ const Operand& closureInput(const Plan& plan, const PlanClosure& closure, const 
 /// The scatter_mode of a dielectric or Schlick lobe: sh::SCATTER_*.
 int scatterMode(const Plan& plan, const PlanClosure& closure);
 
+/// The distribution of facets of a microfacet lobe: sh::FACETS_*.
+int facetDistribution(const Plan& plan, const PlanClosure& closure);
+
 /// Which of the models of a lobe its string inputs choose: sh::SHEEN_*,
 /// sh::WARD_*, sh::COOK_TORRANCE_*. 0 for lobes with one model.
 int lobeVariant(const Plan& plan, const PlanClosure& closure);

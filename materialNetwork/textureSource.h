@@ -1,7 +1,10 @@
 #pragma once
 
+#include "materialNetwork/emissionProfile.h"
+
 #include <glm/glm.hpp>
 
+#include <memory>
 #include <string>
 
 namespace patina {
@@ -31,6 +34,12 @@ public:
     /// @param footprint width of the filter in uv units, 0 for the finest level
     virtual glm::vec4 sample(int handle, glm::vec2 uv, float footprint) const = 0;
     virtual int channels(int handle) const = 0; ///< of the file: 1..4
+
+    /// Reads an IES file; file, prim and input of the request count.
+    /// @returns null after a warning when it cannot be read, or where none are read
+    virtual std::shared_ptr<const EmissionProfile> openProfile(const TextureRequest&) {
+        return nullptr;
+    }
 };
 
 } // namespace patina

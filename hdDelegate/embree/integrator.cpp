@@ -164,7 +164,7 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
     }
     const float weight = light.delta ? 1.0f : powerHeuristic(light.pdf, f.pdf);
     const float away = glm::dot(light.direction, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
-    const vec3 origin = s.position + s.geometricNormal * (away * point.offset);
+    const vec3 origin = point.departure(light.direction);
     value *= radiance * (weight / light.pdf);
     const MaterialProgram& program = *point.slot->program;
     const bool crosses = program.hasInterior() &&
@@ -199,8 +199,7 @@ void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit, c
             path.diffuseShare[c] = sum[c] > 0.0f ? f.diffuse[c] / sum[c] : 0.5f;
         path.specularShare = vec3(1.0f) - path.diffuseShare;
     }
-    const float away = glm::dot(next.wi, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
-    path.origin = s.position + s.geometricNormal * (away * point.offset);
+    path.origin = point.departure(next.wi);
     path.direction = next.wi;
     path.near = 0.0f;
     path.far = INFINITY;

@@ -1,5 +1,6 @@
 #include "hdDelegate/embree/surface.h"
 
+#include "hdDelegate/scene/curveSegments.h"
 #include "hdDelegate/scene/primvarEval.h"
 #include "hdDelegate/scene/tangentFrames.h"
 
@@ -33,6 +34,8 @@ template <class T> StepPair<T> stepsAt(const std::vector<std::vector<T>>& steps,
 struct Local {
     vec3 position, geometricNormal, normal, dPdu{0.0f}, dPdv{0.0f};
     float uvPerLength = 0.0f;
+    float radius = 0.0f; ///< of a curve
+    vec3 across{0.0f};   ///< from a curve's middle line, in radii
 };
 
 Local triangleLocal(const Hit& hit) {
@@ -79,11 +82,35 @@ Local triangleLocal(const Hit& hit) {
     return local;
 }
 
+/// dPdu is along the curve.
 Local curveLocal(const Hit& hit, const vec3& position) {
     Local local;
     local.position = position;
     local.geometricNormal = local.normal = safeNormalize(hit.groupNormal, vec3(0, 0, 1));
+    if (hit.surface->shape != Surface::Shape::Curves) return local;
+    const CurveSet& curves = hit.surface->curves;
+    const auto points = stepsAt(curves.controlPoints, hit.time);
+    const size_t first = curves.segments[hit.primitive];
+    const int count = curves.basis == CurveBasis::Linear ? 2 : 4;
+    const vec4 slopes = basisSlopes(curves.basis, hit.u),
+               weights = basisWeights(curves.basis, hit.u);
+    vec4 middle(0.0f);
+    for (int i = 0; i < count; ++i) {
+        const vec4 p = points.at(first + size_t(i));
+        local.dPdu += slopes[i] * vec3(p);
+        middle += weights[i] * p;
+    }
+    local.radius = middle.w;
+    local.across = (position - vec3(middle)) / std::max(middle.w, 1e-20f);
     return local;
+}
+
+/// A ribbon that stands for a fibre is shaded as round: its normal leans over as that of a tube
+/// does across the width.
+vec3 roundNormal(const vec3& normal, const vec3& tangent, const vec3& across) {
+    const vec3 side = glm::cross(normal, tangent);
+    const float h = std::clamp(glm::dot(across, side), -0.999f, 0.999f);
+    return normal * std::sqrt(1.0f - h * h) + side * h;
 }
 
 } // namespace
@@ -176,6 +203,12 @@ void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& directi
     } else {
         orthonormalBasis(s.normal, s.tangent, s.bitangent);
     }
+    out.fibre = surface.shape == Surface::Shape::Curves && out.slot->program->isFibre();
+    if (out.fibre && flat) {
+        s.normal = s.geometricNormal =
+            roundNormal(s.normal, s.tangent, tangentMatrix * local.across);
+        s.bitangent = glm::cross(s.normal, s.tangent);
+    }
     s.objectToWorldNormal = normalMatrix * glm::transpose(mat3(surface.groupToObject));
     const float scale = hit.instanced ? std::cbrt(std::abs(glm::determinant(tangentMatrix))) : 1.0f;
     s.lengthPerUv = scale / std::max(local.uvPerLength, 1e-20f);
@@ -186,6 +219,22 @@ void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& directi
     const float largest = std::max({magnitude.x, magnitude.y, magnitude.z, hit.distance * 0.25f});
     const bool analytic = surface.shape != Surface::Shape::Triangles;
     out.offset = largest * (analytic ? 1e-4f : 4e-6f);
+    out.fibreRadius = out.fibre && !flat ? local.radius * scale : 0.0f;
+}
+
+vec3 SurfacePoint::departure(const vec3& direction) const {
+    const vec3& n = shading.geometricNormal;
+    const float cosine = glm::dot(direction, n);
+    const bool tube = fibreRadius > 0.0f;
+    if (!fibre || (tube && cosine >= 0.0f))
+        return shading.position + n * (cosine < 0.0f ? -offset : offset);
+    // The chord of a straight tube, no longer than a few radii for directions along it.
+    float inside = 0.0f;
+    if (tube) {
+        const float along = glm::dot(direction, shading.tangent);
+        inside = 2.0f * fibreRadius * -cosine / std::max(1.0f - along * along, 0.01f);
+    }
+    return shading.position + direction * (inside * 1.01f + offset);
 }
 
 } // namespace patina

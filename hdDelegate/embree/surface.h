@@ -63,7 +63,13 @@ struct SurfacePoint : PrimvarReader {
     const Hit* hit = nullptr;
     const MaterialSlot* slot = nullptr;
     ShadingPoint shading;
-    float offset = 0.0f; ///< distance by which rays that leave start off the surface
+    float offset = 0.0f;      ///< distance by which rays that leave start off the surface
+    float fibreRadius = 0.0f; ///< of a tube whose material is a fibre
+    bool fibre = false;       ///< the material is a fibre: the lobes are those of its whole width
+
+    /// Where a ray that leaves starts. From a fibre that is the other side of the tube when it goes
+    /// inwards, for the lobes have taken it through already.
+    vec3 departure(const vec3& direction) const;
 
     bool read(int slotIndex, float out[4]) const override;
 };

@@ -57,4 +57,18 @@ vec4 basisWeights(CurveBasis basis, float u) {
     return vec4(v, u, 0, 0);
 }
 
+vec4 basisSlopes(CurveBasis basis, float u) {
+    const float v = 1.0f - u;
+    switch (basis) {
+    case CurveBasis::Bezier:
+        return 3.0f * vec4(-v * v, v * v - 2 * u * v, 2 * u * v - u * u, u * u);
+    case CurveBasis::Bspline: return 0.5f * vec4(-v * v, u * (3 * u - 4), v * (4 - 3 * v), u * u);
+    case CurveBasis::CatmullRom:
+        return 0.5f *
+               vec4(-1 + u * (4 - 3 * u), u * (-10 + 9 * u), 1 + u * (8 - 9 * u), u * (-2 + 3 * u));
+    case CurveBasis::Linear: break;
+    }
+    return vec4(-1, 1, 0, 0);
+}
+
 } // namespace patina

@@ -29,6 +29,9 @@ int varyingCount(const CurveLayout& layout, CurveWrap wrap);
 /// Weights of the four control points of a cubic segment at u (two of them for linear ones).
 vec4 basisWeights(CurveBasis basis, float u);
 
+/// Derivatives of basisWeights by u.
+vec4 basisSlopes(CurveBasis basis, float u);
+
 /// Bezier control points of a cubic segment. T is float, vec3...
 template <class T> void toBezier(CurveBasis basis, const T p[4], T out[4]) {
     switch (basis) {

@@ -205,6 +205,10 @@ bool IesProfile::expandHorizontal(std::string& error) {
     return true;
 }
 
+float IesProfile::factor(float theta, float phi) const {
+    return _mean > 0.0f ? candela(theta, phi) / _mean : 0.0f;
+}
+
 void IesProfile::measure() {
     const size_t rows = _vertical.size();
     double total = 0.0;

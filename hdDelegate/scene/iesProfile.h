@@ -1,12 +1,14 @@
 #pragma once
 
+#include "materialNetwork/emissionProfile.h"
+
 #include <string>
 #include <vector>
 
 namespace patina {
 
 /// The distribution of a luminaire, from an IES LM-63 file (1986 to 2019) of photometric type C.
-class IesProfile {
+class IesProfile : public EmissionProfile {
 public:
     /// Reads a file's text.
     /// @param error receives the reason in one line when the text cannot be used
@@ -23,6 +25,8 @@ public:
 
     /// Mean candela over the sphere, or over the hemisphere when the table spans no more than a
     /// quarter turn: `shaping:ies:normalize` divides by it.
+    /// candela() over mean().
+    float factor(float theta, float phi) const override;
     float mean() const { return _mean; }
     float peak() const { return _peak; }
 

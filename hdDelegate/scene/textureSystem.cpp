@@ -1,6 +1,7 @@
 #include "hdDelegate/scene/textureSystem.h"
 
 #include "hdDelegate/parallel.h"
+#include "hdDelegate/scene/iesProfile.h"
 
 #include <algorithm>
 #include <cctype>
@@ -127,6 +128,21 @@ void TextureSystem::openTiles(Entry& entry) {
         entry.tiles[size_t(tile - firstTile)] = shareImage(entry.source(withTile(file, tile)));
     entry.watched = std::max<size_t>(entry.tiles.size(), 100);
     entry.warned.reset(new std::atomic<bool>[entry.watched + 1]());
+}
+
+std::shared_ptr<const EmissionProfile> TextureSystem::openProfile(const TextureRequest& request) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    const auto known = _profiles.find(request.file);
+    if (known != _profiles.end()) return known->second;
+    auto profile = std::make_shared<IesProfile>();
+    std::string error;
+    if (!profile->load(request.file, error)) {
+        _diagnostics.warn(request.prim, request.input,
+                          "'" + request.file + "' " + error + "; it emits the same everywhere");
+        profile = nullptr;
+    }
+    _profiles[request.file] = profile;
+    return profile;
 }
 
 int TextureSystem::open(const TextureRequest& request) {

@@ -25,6 +25,7 @@ public:
     /// tiles the wrap modes are without meaning: filters stop at the edge of a tile.
     glm::vec4 sample(int handle, glm::vec2 uv, float footprint) const override;
     int channels(int handle) const override;
+    std::shared_ptr<const EmissionProfile> openProfile(const TextureRequest& request) override;
 
     /// Reads what was opened and not yet read, with all threads.
     void loadAll() const;
@@ -45,6 +46,7 @@ private:
     std::mutex _mutex; ///< of open()
     std::map<std::string, int> _handles;
     std::map<std::string, std::shared_ptr<Image>> _images;
+    std::map<std::string, std::shared_ptr<const EmissionProfile>> _profiles;
     tbb::concurrent_vector<std::unique_ptr<Entry>> _entries; ///< grows while others read
     std::atomic<int> _count{0};                              ///< entries that are complete
 };

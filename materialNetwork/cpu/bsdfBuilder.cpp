@@ -233,8 +233,35 @@ void BsdfBuilder::choose(const ProgramCode& code, Bsdf& out) {
     out._lobeCount = count;
 }
 
+namespace {
+
+glm::vec3 normalOf(const ClosureOp& op, const glm::vec4* registers, const glm::vec3& normal) {
+    if (op.normal < 0) return normal;
+    const glm::vec3 n(registers[op.normal]);
+    const float length = glm::length(n);
+    return length > 0.0f ? n / length : normal;
+}
+
+/// The axis is the normal, and the azimuth begins at the tangent.
+float measured(const EmissionProfile& profile, const glm::vec3& wo, const glm::vec3& n,
+               const glm::vec3& tangent) {
+    glm::vec3 x = tangent - n * glm::dot(tangent, n), y;
+    const float length = glm::length(x);
+    if (length > 1e-6f) {
+        x /= length;
+        y = glm::cross(n, x);
+    } else {
+        completeBasis(n, x, y);
+    }
+    const float z = std::min(std::fabs(glm::dot(wo, n)), 1.0f);
+    const float amount = profile.factor(std::acos(z), std::atan2(glm::dot(wo, y), glm::dot(wo, x)));
+    return amount > 0.0f ? amount : 0.0f;
+}
+
+} // namespace
+
 glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* registers,
-                        const glm::vec3& wo, const glm::vec3& normal) {
+                        const glm::vec3& wo, const glm::vec3& normal, const glm::vec3& tangent) {
     const int n = int(ops.size());
     if (n == 0) return glm::vec3(0.0f);
     Scratch<glm::vec3> value(size_t(n) + 1);
@@ -251,17 +278,17 @@ glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* regi
         case ClosureKind::Multiply: value[i] = of(op.a) * factor(registers[op.factor]); break;
         // Both sides emit alike.
         case ClosureKind::ConicalEdf: {
-            glm::vec3 n = normal;
-            if (op.normal >= 0) {
-                n = glm::vec3(registers[op.normal]);
-                const float length = glm::length(n);
-                n = length > 0.0f ? n / length : normal;
-            }
+            const glm::vec3 n = normalOf(op, registers, normal);
             value[i] = factor(registers[op.factor]) * sh::edfConical(registers[op.first].x,
                                                                      registers[op.second].x,
                                                                      std::fabs(glm::dot(wo, n)));
             break;
         }
+        case ClosureKind::MeasuredEdf:
+            value[i] = factor(registers[op.factor]);
+            if (op.profile)
+                value[i] *= measured(*op.profile, wo, normalOf(op, registers, normal), tangent);
+            break;
         case ClosureKind::SchlickEdf:
             value[i] = of(op.a) * sh::edfSchlick(glm::vec3(registers[op.factor]),
                                                  glm::vec3(registers[op.first]),

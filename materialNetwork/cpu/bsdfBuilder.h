@@ -36,9 +36,9 @@ private:
 };
 
 /// Value of a tree of EDFs, which are linear: sum of leaf values times factors.
-/// @param wo direction of emission; @param normal of the surface; both 0 inside a medium, which
-/// emits the same everywhere
+/// @param wo direction of emission; @param normal and tangent of the surface; all 0 inside a
+/// medium, which emits the same everywhere
 glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* registers,
-                        const glm::vec3& wo, const glm::vec3& normal);
+                        const glm::vec3& wo, const glm::vec3& normal, const glm::vec3& tangent);
 
 } // namespace patina

@@ -82,9 +82,11 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
     case LobeKind::Dielectric:
         out.dielectric = sh::dielectricSetup(color(0), number(1), pair(2), t.flagA, t.mode, t.fused,
                                              t.compensate);
+        out.dielectric.facets = t.facets;
         return;
     case LobeKind::Conductor:
         out.conductor = sh::conductorSetup(color(0), color(1), pair(2), t.flagA, t.compensate);
+        out.conductor.facets = t.facets;
         if (t.film) out.conductor = sh::conductorFilm(out.conductor, number(3), number(4));
         return;
     case LobeKind::Schlick:
@@ -92,10 +94,12 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
             out.schlick =
                 sh::filmDielectricSetup(color(0), number(1), pair(2), number(3), number(4), t.flagA,
                                         t.mode, t.fused, t.compensate);
+            out.schlick.facets = t.facets;
             return;
         }
         out.schlick = sh::schlickSetup(color(0), color(1), color(2), number(3), pair(4), t.flagA,
                                        t.mode, t.fused, t.compensate);
+        out.schlick.facets = t.facets;
         if (t.film) out.schlick = sh::schlickFilm(out.schlick, number(5), number(6));
         return;
     case LobeKind::Sheen: out.sheen = sh::sheenSetup(color(0), number(1), t.variant); return;

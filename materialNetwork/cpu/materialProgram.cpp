@@ -78,10 +78,10 @@ bool MaterialProgram::isOpaqueWith(const std::vector<int>& attributes) const {
 glm::vec3 MaterialProgram::emission(const ShadingPoint& point, const glm::vec3& wo) const {
     if (!_hasEmission) return glm::vec3(0.0f);
     if (_code->emissionCode.empty())
-        return linearClosure(_code->edf, _code->constants.data(), wo, point.normal);
+        return linearClosure(_code->edf, _code->constants.data(), wo, point.normal, point.tangent);
     RegisterFile registers(*_code);
     registers.run(*_code, _code->emissionCode, point);
-    return linearClosure(_code->edf, registers.data(), wo, point.normal);
+    return linearClosure(_code->edf, registers.data(), wo, point.normal, point.tangent);
 }
 
 Medium MaterialProgram::interior(const ShadingPoint& point) const {
@@ -89,7 +89,7 @@ Medium MaterialProgram::interior(const ShadingPoint& point) const {
     const auto build = [&](const glm::vec4* registers) {
         Medium medium = buildMedium(_code->vdf, registers);
         medium.emission =
-            linearClosure(_code->volumeEdf, registers, glm::vec3(0.0f), glm::vec3(0.0f));
+            linearClosure(_code->volumeEdf, registers, glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f));
         return medium;
     };
     if (_code->interiorCode.empty()) return build(_code->constants.data());

@@ -40,6 +40,8 @@ public:
     bool hasEmission() const { return _hasEmission; }
     bool isOpaque() const { return _isOpaque; } ///< opacity() is 1 everywhere
     bool isThinWalled() const { return _isThinWalled; }
+    /// Has a hair lobe, which stands for a whole fibre: what it lets through leaves on the far side.
+    bool isFibre() const { return _isFibre; }
     bool hasTransmission() const { return _hasTransmission; } ///< a lobe may send light through
     bool hasInterior() const { return _hasInterior; }         ///< a medium fills closed objects
     /// There is no surface: rays go on past the boundary, and only the medium is seen.
@@ -90,6 +92,7 @@ private:
     bool _isOpaque = true;
     bool _isThinWalled = false;
     bool _hasTransmission = false;
+    bool _isFibre = false;
     bool _hasInterior = false;
     bool _isVolumeOnly = false;
     bool _hasSubsurface = false;

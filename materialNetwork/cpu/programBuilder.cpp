@@ -130,10 +130,12 @@ std::vector<ClosureOp> ProgramBuilder::linearOps(int root, std::vector<bool>& ne
         op.b = c.b;
         // Parts of other trees stand in the same list; they get no value and are never read.
         const char* name =
-            c.kind == ClosureKind::Mix                                               ? "mix"
-            : c.kind == ClosureKind::Multiply                                        ? "in2"
-            : c.kind == ClosureKind::UniformEdf || c.kind == ClosureKind::ConicalEdf ? "color"
-            : c.kind == ClosureKind::SchlickEdf                                      ? "color0"
+            c.kind == ClosureKind::Mix        ? "mix"
+            : c.kind == ClosureKind::Multiply ? "in2"
+            : c.kind == ClosureKind::UniformEdf || c.kind == ClosureKind::ConicalEdf ||
+                    c.kind == ClosureKind::MeasuredEdf
+                ? "color"
+            : c.kind == ClosureKind::SchlickEdf ? "color0"
             : c.kind == ClosureKind::AbsorptionVdf || c.kind == ClosureKind::AnisotropicVdf
                 ? "absorption"
                 : nullptr;
@@ -154,11 +156,14 @@ std::vector<ClosureOp> ProgramBuilder::linearOps(int root, std::vector<bool>& ne
                 mark(o, needed);
                 return registerOf(o);
             };
+            const bool measured = c.kind == ClosureKind::MeasuredEdf;
+            if (measured) op.profile = profile(c);
+            if ((measured || c.kind == ClosureKind::ConicalEdf) &&
+                !isShadingPoints(closureInput(_plan, c, "normal"), "ND_normal_vector3"))
+                op.normal = int(extra("normal"));
             if (c.kind == ClosureKind::ConicalEdf) {
                 op.first = extra("inner_angle");
                 op.second = extra("outer_angle");
-                if (!isShadingPoints(closureInput(_plan, c, "normal"), "ND_normal_vector3"))
-                    op.normal = int(extra("normal"));
             } else if (c.kind == ClosureKind::SchlickEdf) {
                 op.first = extra("color90");
                 op.second = extra("exponent");
@@ -169,6 +174,20 @@ std::vector<ClosureOp> ProgramBuilder::linearOps(int root, std::vector<bool>& ne
         ops.push_back(op);
     }
     return ops;
+}
+
+std::shared_ptr<const EmissionProfile> ProgramBuilder::profile(const PlanClosure& closure) {
+    const std::string& prim = nodeOf(closure.node).path;
+    const Operand& file = closureInput(_plan, closure, "file");
+    if (!file.isConstant() || file.value.text.empty()) {
+        _diagnostics.warn(prim, "file", "names no IES file; it emits the same everywhere");
+        return nullptr;
+    }
+    TextureRequest request;
+    request.file = file.value.text;
+    request.prim = prim;
+    request.input = "file";
+    return _textures.openProfile(request);
 }
 
 void ProgramBuilder::markTops(std::vector<ClosureOp>& ops) const {
@@ -280,6 +299,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
         flag(closure.kind == ClosureKind::OrenNayar ? "energy_compensation" : "retroreflective");
     if (interface) t.mode = scatterMode(_plan, closure);
     t.variant = lobeVariant(_plan, closure);
+    t.facets = facetDistribution(_plan, closure);
     t.film = hasFilm(_plan, closure);
     // A film colours the reflectance, for which a dielectric has no room.
     t.filmDielectric = t.film && closure.kind == ClosureKind::Dielectric;
@@ -346,6 +366,8 @@ void ProgramBuilder::setFlags() {
                               t.prebuilt.kind == LobeKind::ChiangHair ||
                               (!t.straight && (t.mode & sh::SCATTER_T) != 0);
     p._isVolumeOnly = _plan.volumeOnly;
+    for (const LobeTemplate& t : _code->lobes)
+        p._isFibre |= t.prebuilt.kind == LobeKind::ChiangHair;
     for (const LobeTemplate& t : _code->lobes)
         p._hasSubsurface |= t.prebuilt.kind == LobeKind::Subsurface;
     p._passingEnters = _plan.volumeOnly;

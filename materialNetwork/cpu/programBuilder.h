@@ -25,6 +25,7 @@ private:
     Register constant(const Value& value);
     Register allocate(int count);
     std::vector<ClosureOp> linearOps(int root, std::vector<bool>& needed);
+    std::shared_ptr<const EmissionProfile> profile(const PlanClosure& closure);
     void bsdfOps(std::vector<bool>& needed);
     void lobe(const PlanClosure& closure, ClosureOp& op, bool hasInside, std::vector<bool>& needed);
     bool isShadingPoints(const Operand& operand, const char* standard) const;

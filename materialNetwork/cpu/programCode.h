@@ -6,6 +6,7 @@
 #include "materialNetwork/plan.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace patina {
@@ -34,6 +35,7 @@ struct LobeTemplate {
     bool straight = false;       ///< passes light straight on: part of the presence
     int mode = 0;                ///< SCATTER_*
     int variant = 0;             ///< lobeVariant()
+    int facets = 0;              ///< facetDistribution()
     int compensate = 1;
     EnergyCurve energy; ///< of constant interfaces
     Register weight = 0;
@@ -51,7 +53,8 @@ struct ClosureOp {
     Register scattering = 0, anisotropy = 0; ///< of an AnisotropicVdf
     /// ConicalEdf: inner and outer angle. SchlickEdf: color90 and exponent (factor is color0).
     Register first = 0, second = 0;
-    int normal = -1; ///< ConicalEdf: its own normal, -1 for that of the point
+    int normal = -1; ///< ConicalEdf, MeasuredEdf: its own normal, -1 for that of the point
+    std::shared_ptr<const EmissionProfile> profile; ///< MeasuredEdf; null emits evenly
 };
 
 struct FrameTemplate {

@@ -87,7 +87,7 @@ const NodeRow rows[] = {
             ClosureKind::SchlickEdf),
     closure("ND_measured_edf", "measured_edf",
             "color3 color=1, vector3 normal=@Nworld, filename file", "EDF",
-            ClosureKind::Unsupported),
+            ClosureKind::MeasuredEdf),
     closure("ND_absorption_vdf", "absorption_vdf", "vector3 absorption=0", "VDF",
             ClosureKind::AbsorptionVdf),
     closure("ND_anisotropic_vdf", "anisotropic_vdf",

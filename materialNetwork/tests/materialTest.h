@@ -27,6 +27,12 @@ public:
         return valid(handle) ? glm::vec4(uv, 0.5f, 1.0f) : glm::vec4(1.0f, 0.0f, 1.0f, 1.0f);
     }
     int channels(int) const override { return 4; }
+    std::shared_ptr<const EmissionProfile> openProfile(const TextureRequest& request) override {
+        requests.push_back(request);
+        return profile;
+    }
+
+    std::shared_ptr<const EmissionProfile> profile;
 
     std::vector<TextureRequest> requests;
 };

@@ -34,6 +34,13 @@ const std::vector<Case> cases = {
       {"scatter_mode", text("RT")},
       {"roughness", pair(0.2f)}},
      2e-2f},
+    {"ND_conductor_bsdf",
+     {{"distribution", text("beckmann")}, {"roughness", Value::makeVec2(0.1f, 0.4f)}}},
+    {"ND_dielectric_bsdf",
+     {{"distribution", text("beckmann")}, {"roughness", pair(0.4f)}, {"scatter_mode", text("RT")}},
+     2e-2f},
+    {"ND_generalized_schlick_bsdf",
+     {{"distribution", text("beckmann")}, {"color0", grey(0.5f)}, {"roughness", pair(0.7f)}}},
     {"ND_chiang_hair_bsdf", {}},
     {"ND_chiang_hair_bsdf", {{"absorption_coefficient", Value::makeVec3(0.2f, 0.5f, 1.0f)}}},
     {"ND_patina_lambert_bsdf", {{"color", grey(1.0f)}}},
@@ -146,6 +153,21 @@ TEST(Closures, OldThinFilmCoatsWhatIsBelow) {
 }
 
 // The helpers at their defaults, against the formulas by hand.
+TEST(Closures, DistributionChoosesTheFacets) {
+    const auto value = [&](const char* distribution) {
+        Compiled c(bsdfNetwork(
+            {makeNode("bsdf", "ND_conductor_bsdf",
+                      {{"roughness", pair(0.3f)}, {"distribution", text(distribution)}})}));
+        EXPECT_TRUE(c.diagnostics.all().empty()) << warnings(c.diagnostics);
+        Bsdf bsdf;
+        c.program->evaluate(seenFrom(direction(30.0f)), bsdf);
+        return bsdf.eval(direction(60.0f)).specular.x;
+    };
+    // Far from the mirror direction Beckmann's tail is the thinner one.
+    EXPECT_LT(value("beckmann"), 0.1f * value("ggx"));
+    EXPECT_GT(value("beckmann"), 0.0f);
+}
+
 TEST(Closures, HairHelpersFeedTheLobe) {
     const auto albedo = [](std::vector<NetworkNode> helpers, const Connections& connections) {
         helpers.push_back(makeNode("bsdf", "ND_chiang_hair_bsdf", {}, connections));
@@ -205,6 +227,39 @@ TEST(Closures, EdfsDependOnTheDirection) {
     EXPECT_NEAR(schlick(0.0f), 3.0f, 1e-5f);
     EXPECT_NEAR(schlick(60.0f), 3.0f * (1.0f - 1.0f / 32.0f), 1e-4f);
     EXPECT_LT(schlick(89.9f), 0.05f);
+}
+
+TEST(Closures, MeasuredEdfFollowsItsProfile) {
+    struct Profile : EmissionProfile {
+        float factor(float theta, float phi) const override {
+            return std::cos(theta) * (2.0f + std::cos(phi));
+        }
+    };
+    const auto network = [](Inputs inputs) {
+        return makeNetwork({makeNode("edf", "ND_measured_edf", std::move(inputs)),
+                            makeNode("surface", "ND_surface", {}, {{"edf", {"edf", ""}}})});
+    };
+    FakeTextures textures;
+    textures.profile = std::make_shared<Profile>();
+    Diagnostics diagnostics;
+    const auto program =
+        compileMaterial(network({{"color", grey(3.0f)}, {"file", Value::makeFilename("lamp.ies")}}),
+                        textures, diagnostics);
+    EXPECT_EQ(warnings(diagnostics), "");
+    for (float theta : {10.0f, 40.0f, 80.0f})
+        for (float phi : {0.0f, 70.0f, 200.0f}) {
+            const glm::vec3 wo = direction(theta, phi);
+            const float expected =
+                3.0f * std::cos(glm::radians(theta)) * (2.0f + std::cos(glm::radians(phi)));
+            EXPECT_NEAR(program->emission(seenFrom(wo), wo).y, expected, 1e-4f) << theta << phi;
+            // The other side emits alike.
+            const glm::vec3 back(wo.x, wo.y, -wo.z);
+            EXPECT_NEAR(program->emission(seenFrom(back), back).y, expected, 1e-4f) << theta;
+        }
+    Compiled without(network({{"color", grey(3.0f)}}));
+    EXPECT_EQ(warnings(without.diagnostics),
+              "/m/edf [file] names no IES file; it emits the same everywhere\n");
+    EXPECT_EQ(without.program->emission(ShadingPoint(), direction(50.0f)).x, 3.0f);
 }
 
 TEST(Closures, UnknownChoicesAreReported) {

@@ -28,34 +28,85 @@ GaussRule::GaussRule(int n) : x(n), w(n) {
     }
 }
 
-void InterfaceQuadrature::moments(double mu, double alpha, const double* exponents, int count,
-                                  double* result) const {
-    for (int k = 0; k < count; ++k)
-        result[k] = 0.0;
-    if (alpha <= 0.0) {
-        for (int k = 0; k < count; ++k)
-            result[k] = powSchlick(1.0 - mu, exponents[k]);
-        return;
-    }
-    forEachNormal(mu, alpha, [&](double weight, double c, vec3 wo, vec3 m) {
-        const GgxBounce b = ggxBounce(wo, m, c, vec2(alpha), 1.0, true);
-        if (!b.valid) return;
-        for (int k = 0; k < count; ++k)
-            result[k] += weight * b.ratio * powSchlick(1.0 - c, exponents[k]);
-    });
+vec3 slanted(double mu) {
+    return vec3(std::sqrt(std::max(0.0, 1.0 - mu * mu)), 0.0, mu);
 }
 
-vec2 InterfaceQuadrature::dielectric(double mu, double alpha, double eta) const {
-    if (alpha <= 0.0) return vec2(fresnelDielectric(mu, eta), 1.0 - fresnelDielectric(mu, eta));
+void InterfaceQuadrature::look(vec3 wo, vec2 alpha) {
+    _wo = wo;
+    _alpha = alpha;
+    _normals.clear();
+    if (alpha.x <= 0.0) {
+        _normals.push_back({vec3(0.0, 0.0, 1.0), wo.z, 1.0, 1.0});
+        return;
+    }
+    _length = facetLength(wo, alpha, _facets);
+    if (alpha.x != alpha.y || wo.y != 0.0) return lookAround();
+    const bool ggx = _facets == FACETS_GGX;
+    const std::size_t half = _rule.x.size();
+    for (int i = 0; i < _columns; ++i) {
+        const double golden = (i + 0.5) * 0.6180339887498949;
+        const double cut = 0.2 + 0.6 * (golden - std::floor(golden));
+        const double x = 0.5 * (i + 0.5) / _columns;
+        for (std::size_t j = 0; j < 2 * half; ++j) {
+            const bool upper = j >= half;
+            const double width = upper ? 1.0 - cut : cut;
+            const double y = (upper ? cut : 0.0) + width * _rule.x[j % half];
+            const double crowd = ggx ? 3.0 * y * y : 1.0;
+            add(ggx ? vec2(x, 1.0 - y * y * y) : vec2(y, x),
+                crowd * width * _rule.w[j % half] / _columns);
+        }
+    }
+}
+
+void InterfaceQuadrature::lookAround() {
+    const bool ggx = _facets == FACETS_GGX;
+    for (int i = 0; i < _columns; ++i)
+        for (int j = 0; j < _columns; ++j) {
+            const double shift = (i + 0.5) * 0.6180339887498949;
+            const double x = (i + 0.5) / _columns;
+            const double y = (j + shift - std::floor(shift)) / _columns;
+            add(ggx ? vec2(x, 1.0 - y * y) : vec2(y, x),
+                (ggx ? 2.0 * y : 1.0) / (double(_columns) * _columns));
+        }
+}
+
+void InterfaceQuadrature::add(vec2 u, double weight) {
+    Normal n;
+    n.weight = weight;
+    n.m = facetSampleVisible(_wo, _alpha, u, _facets);
+    n.c = std::min(std::max(sh64::dot(_wo, n.m), 0.0), 1.0);
+    const vec3 wi = n.m * (2.0 * n.c) - _wo;
+    n.reflected = 0.0;
+    if (wi.z > 0.0)
+        n.reflected =
+            weight * facetG2OverG1(_wo.z, _length, wi.z, facetLength(wi, _alpha, _facets));
+    _normals.push_back(n);
+}
+
+void InterfaceQuadrature::moments(const double* exponents, int count, double* result) const {
+    for (int k = 0; k < count; ++k)
+        result[k] = 0.0;
+    for (const Normal& n : _normals) {
+        const double ln = std::log(std::max(1.0 - n.c, 1e-30));
+        for (int k = 0; k < count; ++k)
+            result[k] += n.reflected * std::exp(exponents[k] * ln);
+    }
+}
+
+vec2 InterfaceQuadrature::dielectric(double eta) const {
     double reflected = 0.0;
     double transmitted = 0.0;
-    forEachNormal(mu, alpha, [&](double weight, double c, vec3 wo, vec3 m) {
-        const double f = fresnelDielectric(c, eta);
-        const GgxBounce r = ggxBounce(wo, m, c, vec2(alpha), eta, true);
-        if (r.valid) reflected += weight * f * r.ratio;
-        const GgxBounce t = ggxBounce(wo, m, c, vec2(alpha), eta, false);
-        if (t.valid && f < 1.0) transmitted += weight * (1.0 - f) * t.ratio;
-    });
+    for (const Normal& n : _normals) {
+        const double f = fresnelDielectric(n.c, eta);
+        reflected += f * n.reflected;
+        if (f >= 1.0) continue;
+        const vec3 wi = facetDirection(_wo, n.m, n.c, eta, false);
+        double ratio = wi.z < 0.0 ? 1.0 : 0.0;
+        if (_alpha.x > 0.0 && wi.z < 0.0)
+            ratio = facetG2OverG1(_wo.z, _length, -wi.z, facetLength(wi, _alpha, _facets));
+        transmitted += n.weight * (1.0 - f) * ratio;
+    }
     return vec2(reflected, transmitted);
 }
 

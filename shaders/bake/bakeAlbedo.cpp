@@ -2,6 +2,7 @@
 // the array that C++ links.
 
 #include <cstdio>
+#include <thread>
 
 #include "shaders/bake/albedoQuadrature.h"
 
@@ -30,13 +31,16 @@ using namespace patina::sh64;
 // Points per side of the product rule.
 constexpr int kMomentPoints = 64;
 constexpr int kAbovePoints = 20;
-constexpr int kBelowPoints = 28; // total reflection has a kink
+// Total reflection has a kink; Beckmann facets have no tail and need fewer.
+constexpr int kBelowPoints[] = {28, 20};
+constexpr int kTurnedPoints[] = {24, 16};
 
 // The entry for mu = 0 is taken at this fraction of the first cell: exactly at 0 the albedos jump.
 constexpr double kFirst = 0.1;
 
-void bakeMoments() {
-    const bake::InterfaceQuadrature quadrature(kMomentPoints);
+// The tables of one distribution are written at `out`; the look-ups read what is there already.
+void bakeMoments(int facets, float* out) {
+    bake::InterfaceQuadrature quadrature(kMomentPoints, facets);
     double exponents[MOMENT_COUNT];
     for (int k = 0; k < MOMENT_COUNT; ++k)
         exponents[k] = momentExponent(k);
@@ -45,30 +49,110 @@ void bakeMoments() {
             double e[MOMENT_COUNT];
             const double alpha = tableAlphaAt(double(a) / (MOMENT_ALPHA - 1));
             const double mu = tableMuAt(std::max(double(m), kFirst) / (MOMENT_MU - 1), alpha);
-            quadrature.moments(mu, alpha, exponents, MOMENT_COUNT, e);
-            push(e[0]);
+            quadrature.look(bake::slanted(mu), vec2(alpha));
+            quadrature.moments(exponents, MOMENT_COUNT, e);
+            *out++ = float(e[0]);
             for (int k = 1; k < MOMENT_COUNT; ++k)
-                push(std::pow(e[k] / e[0], 1.0 / exponents[k]) - (1.0 - mu));
+                *out++ = float(std::pow(e[k] / e[0], 1.0 / exponents[k]) - (1.0 - mu));
         }
 }
 
-void bakeInterface(bool above) {
-    const bake::InterfaceQuadrature quadrature(above ? kAbovePoints : kBelowPoints);
-    for (int i = 0; i < INTERFACE_ETA; ++i)
-        for (int a = 0; a < INTERFACE_ALPHA; ++a)
-            for (int m = 0; m < INTERFACE_MU; ++m) {
+// From the thinner side the normals seen are the same for every ior, so that is the inner loop.
+void bakeInterface(int facets, bool above, float* out) {
+    bake::InterfaceQuadrature quadrature(above ? kAbovePoints : kBelowPoints[facets], facets);
+    for (int a = 0; a < INTERFACE_ALPHA; ++a)
+        for (int m = 0; m < INTERFACE_MU; ++m)
+            for (int i = 0; i < INTERFACE_ETA; ++i) {
                 const double ior = tableEtaAt(double(i) / (INTERFACE_ETA - 1));
                 const double eta = above ? ior : 1.0 / ior;
                 const double alpha = tableAlphaAt(double(a) / (INTERFACE_ALPHA - 1));
                 const double t = std::max(double(m), kFirst) / (INTERFACE_MU - 1);
                 const double mu =
                     above ? tableMuAt(t, alpha) : tableMuBelowAt(t, tableMuCritical(eta), alpha);
+                if (!above || i == 0) quadrature.look(bake::slanted(mu), vec2(alpha));
                 // Relative to what the look-up will multiply with, not to the exact E[0].
-                const double e0 = momentAlbedo0(momentPlace(mu, alpha));
-                const vec2 e = quadrature.dielectric(mu, alpha, eta);
-                push(e.x / e0 - interfaceGuess(mu, alpha, eta));
-                push(1.0 - (e.x + e.y) / e0);
+                const double e0 = momentEntry(momentPlace(mu, alpha, facets * FACET_SIZE), 0);
+                const vec2 e = quadrature.dielectric(eta);
+                float* entry = out + 2 * ((i * INTERFACE_ALPHA + a) * INTERFACE_MU + m);
+                entry[0] = float(e.x / e0 - interfaceGuess(mu, alpha, eta));
+                entry[1] = float(1.0 - (e.x + e.y) / e0);
             }
+}
+
+// A row of the tables of anisotropy.
+struct TurnedNode {
+    vec3 wo;
+    vec2 alpha;
+};
+
+// mu: from the coordinate on its axis and the alpha along the azimuth.
+template <typename Mu> TurnedNode turnedNode(int row, int alphas, const Mu& mu) {
+    const int m = row % TURNED_MU;
+    const int c = row / TURNED_MU % TURNED_AZIMUTH;
+    const int r = row / (TURNED_MU * TURNED_AZIMUTH) % TURNED_RATIO;
+    const int a = row / (TURNED_MU * TURNED_AZIMUTH * TURNED_RATIO);
+    const double larger = tableAlphaAt(double(a) / (alphas - 1));
+    const double ratio = turnedRatioAt(double(r) / (TURNED_RATIO - 1));
+    const double x = double(c) / (TURNED_AZIMUTH - 1);
+    const double t = std::max(double(m), kFirst) / (TURNED_MU - 1);
+    const double z = mu(t, turnedAlpha(larger, ratio, x));
+    const double s = std::sqrt(std::max(0.0, 1.0 - z * z));
+    return {vec3(s * x, s * std::sqrt(1.0 - x * x), z),
+            vec2(larger, std::max(larger * ratio, double(ALPHA_MIRROR)))};
+}
+
+void bakeTurnedMoments(int facets, float* out) {
+    bake::InterfaceQuadrature quadrature(kTurnedPoints[facets], facets);
+    double exponents[MOMENT_COUNT];
+    for (int k = 0; k < MOMENT_COUNT; ++k)
+        exponents[k] = momentExponent(k);
+    for (int row = 0; row < turnedRow(TURNED_ALPHA, 0, 0, 0); ++row, out += MOMENT_COUNT) {
+        const TurnedNode node = turnedNode(
+            row, TURNED_ALPHA, [](double t, double alpha) { return tableMuAt(t, alpha); });
+        if (node.alpha.x == node.alpha.y) continue; // nothing to add
+        double e[MOMENT_COUNT];
+        quadrature.look(node.wo, node.alpha);
+        quadrature.moments(exponents, MOMENT_COUNT, e);
+        const MomentPlace same =
+            momentPlace(node.wo.z, facetAlphaSeen(node.wo, node.alpha), facets * FACET_SIZE);
+        out[0] = float(e[0] - momentEntry(same, 0));
+        for (int k = 1; k < MOMENT_COUNT; ++k)
+            out[k] = float(std::pow(e[k] / e[0], 1.0 / exponents[k]) - (1.0 - node.wo.z) -
+                           momentEntry(same, k));
+    }
+}
+
+void bakeTurnedInterface(int facets, bool above, float* out) {
+    bake::InterfaceQuadrature quadrature(kTurnedPoints[facets], facets);
+    const int rows = turnedRow(TURNED_ETA_ALPHA, 0, 0, 0);
+    for (int row = 0; row < rows; ++row)
+        for (int i = 0; i < TURNED_ETA; ++i) {
+            const double ior = tableEtaAt(double(i) / (TURNED_ETA - 1));
+            const double eta = above ? ior : 1.0 / ior;
+            const auto mu = [&](double t, double alpha) {
+                return above ? tableMuAt(t, alpha) : tableMuBelowAt(t, tableMuCritical(eta), alpha);
+            };
+            const TurnedNode node = turnedNode(row, TURNED_ETA_ALPHA, mu);
+            if (node.alpha.x == node.alpha.y) continue; // nothing to add
+            if (!above || i == 0) quadrature.look(node.wo, node.alpha);
+            const FacetPlace place = facetPlace(node.wo, node.alpha, facets);
+            const double e0 = facetAlbedo0(place);
+            const vec2 e = quadrature.dielectric(eta);
+            const vec2 same = interfaceEntry(place.mu, place.alpha, eta, facets);
+            float* entry = out + 2 * (i * rows + row);
+            entry[0] = float(e.x / e0 - interfaceGuess(place.mu, place.alpha, eta) - same.x);
+            entry[1] = float(1.0 - (e.x + e.y) / e0 - same.y);
+        }
+}
+
+void bakeFacets(int facets) {
+    float* const table = entries + facets * FACET_SIZE;
+    bakeMoments(facets, table);
+    bakeInterface(facets, true, table + INTERFACE_ABOVE);
+    bakeInterface(facets, false, table + INTERFACE_BELOW);
+    bakeTurnedMoments(facets, table + TURNED_MOMENT);
+    bakeTurnedInterface(facets, true, table + TURNED_ABOVE);
+    bakeTurnedInterface(facets, false, table + TURNED_BELOW);
 }
 
 // Sheen is as wide as the hemisphere or hugs the horizon: a plain product rule, dense there.
@@ -162,9 +246,10 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: bakeAlbedo OUT.cpp\n");
         return 2;
     }
-    bakeMoments();
-    bakeInterface(true);
-    bakeInterface(false);
+    std::thread beckmann(bakeFacets, FACETS_BECKMANN);
+    bakeFacets(FACETS_GGX);
+    beckmann.join();
+    entryCount = 2 * FACET_SIZE;
     bakeSheen();
     for (int plane = CLASSIC_PHONG; plane <= CLASSIC_WARD_EXACT; ++plane)
         bakeClassic(plane);

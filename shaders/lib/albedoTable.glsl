@@ -1,6 +1,8 @@
-// Directional albedo of the bare GGX interface, from tables that shaders/bake writes at build time
-// with the functions of this dialect. Layout and coordinates stand here once: the look-ups use them
-// forwards, the bake program backwards. alpha >= ALPHA_MIRROR throughout; a mirror needs no table.
+// Directional albedo of the bare interface, isotropic, from tables that shaders/bake writes at build
+// time with the functions of this dialect, one set per distribution of facets. Layout and
+// coordinates stand here once: the look-ups use them forwards, the bake program backwards.
+// alpha >= ALPHA_MIRROR throughout; a mirror needs no table. Anisotropic lobes read these tables at
+// one alpha and add what anisotropicAlbedo.glsl holds.
 //
 // Moments: E[p](mu, alpha) = integral of D G2 / (4 o.z) (1 - o.h)^p over wi, the albedo of a lobe
 //   whose Fresnel curve is (1 - c)^p. E[0] is stored as it is, the others as the small d in
@@ -20,10 +22,28 @@ const int MOMENT_SIZE = MOMENT_COUNT * MOMENT_MU * MOMENT_ALPHA;
 const int INTERFACE_SIZE = 2 * INTERFACE_MU * INTERFACE_ALPHA * INTERFACE_ETA;
 const int INTERFACE_ABOVE = MOMENT_SIZE;
 const int INTERFACE_BELOW = MOMENT_SIZE + INTERFACE_SIZE;
+
+// What anisotropy adds (anisotropicAlbedo.glsl).
+const int TURNED_MU = 16;
+const int TURNED_AZIMUTH = 5;
+const int TURNED_RATIO = 7;
+const int TURNED_ALPHA = 12;
+const int TURNED_ETA_ALPHA = 10;
+const int TURNED_ETA = 10;
+const int TURNED_MOMENT_SIZE =
+    MOMENT_COUNT * TURNED_MU * TURNED_AZIMUTH * TURNED_RATIO * TURNED_ALPHA;
+const int TURNED_INTERFACE_SIZE =
+    2 * TURNED_MU * TURNED_AZIMUTH * TURNED_RATIO * TURNED_ETA_ALPHA * TURNED_ETA;
+const int TURNED_MOMENT = INTERFACE_BELOW + INTERFACE_SIZE;
+const int TURNED_ABOVE = TURNED_MOMENT + TURNED_MOMENT_SIZE;
+const int TURNED_BELOW = TURNED_ABOVE + TURNED_INTERFACE_SIZE;
+
+// The tables of one distribution, then what is not of microfacets.
+const int FACET_SIZE = TURNED_BELOW + TURNED_INTERFACE_SIZE;
 const int SHEEN_SIZE = 32 * 32; // sheenAlbedo.glsl
 const int CLASSIC_MU = 32;      // classicAlbedo.glsl
 const int CLASSIC_ALPHA = 32;
-const int CLASSIC_TABLE = MOMENT_SIZE + 2 * INTERFACE_SIZE + SHEEN_SIZE;
+const int CLASSIC_TABLE = 2 * FACET_SIZE + SHEEN_SIZE;
 const int V_CAVITY_TABLE = CLASSIC_TABLE + 4 * CLASSIC_MU * CLASSIC_ALPHA;
 const int ALBEDO_TABLE_SIZE = V_CAVITY_TABLE + MOMENT_SIZE;
 
@@ -116,22 +136,21 @@ PATINA_FN float tableFraction(float t, int n) {
     return clamp(t * float(n - 1) - float(tableCell(t, n)), 0.0f, 1.0f);
 }
 
-// Where (mu, alpha) lies in the moment table.
+// Where (mu, alpha) lies in the moment table that begins at `table`.
 struct MomentPlace {
     int base;
     float fm;
     float fa;
-    float mu;
 };
 
-PATINA_FN MomentPlace momentPlace(float mu, float alpha) {
+PATINA_FN MomentPlace momentPlace(float mu, float alpha, int table) {
     float tm = tableMuCoord(mu, alpha);
     float ta = tableAlphaCoord(alpha);
+    int row = tableCell(ta, MOMENT_ALPHA) * MOMENT_MU + tableCell(tm, MOMENT_MU);
     MomentPlace p;
-    p.base = (tableCell(ta, MOMENT_ALPHA) * MOMENT_MU + tableCell(tm, MOMENT_MU)) * MOMENT_COUNT;
+    p.base = table + row * MOMENT_COUNT;
     p.fm = tableFraction(tm, MOMENT_MU);
     p.fa = tableFraction(ta, MOMENT_ALPHA);
-    p.mu = mu;
     return p;
 }
 
@@ -141,21 +160,6 @@ PATINA_FN float momentEntry(MomentPlace p, int i) {
     float a = mix(albedoTableFetch(k), albedoTableFetch(k + MOMENT_COUNT), p.fm);
     float b = mix(albedoTableFetch(k + stepA), albedoTableFetch(k + stepA + MOMENT_COUNT), p.fm);
     return mix(a, b, p.fa);
-}
-
-// E[0]: the albedo of a perfect mirror, single scattering. Anisotropic lobes ask at ggxAlphaLoss,
-// and for means at ggxAlphaSeen.
-PATINA_FN float momentAlbedo0(MomentPlace p) {
-    return momentEntry(p, 0);
-}
-
-// E[p] / E[0]: the mean of (1 - c)^exponent over the facets seen.
-PATINA_FN float momentMean(MomentPlace p, float exponent) {
-    int i = momentCell(exponent);
-    float e0 = momentExponent(i);
-    float f = clamp((exponent - e0) / (momentExponent(i + 1) - e0), 0.0f, 1.0f);
-    float d = mix(momentEntry(p, i), momentEntry(p, i + 1), f);
-    return powSchlick(clamp(1.0f - p.mu + d, 0.0f, 1.0f), exponent);
 }
 
 // What the mean reflectance is about: for eta >= 1 the reflectance at mu. For eta < 1 the same with
@@ -183,22 +187,20 @@ PATINA_FN vec2 interfaceBilinear(int i, float fm, float fa) {
     return a * (1.0f - fa) + b * fa;
 }
 
-// x: E_R / E[0], the mean reflectance over the facets seen; y: E_T / E[0]. Both not negative.
-PATINA_FN vec2 interfaceAlbedo(float mu, float alpha, float eta) {
+// The two floats of the interface table.
+PATINA_FN vec2 interfaceEntry(float mu, float alpha, float eta, int facets) {
     bool above = eta >= 1.0f;
     float muC = tableMuCritical(min(eta, 1.0f));
     float tm = select(tableMuCoord(mu, alpha), tableMuBelowCoord(mu, muC, alpha), above);
     float ta = tableAlphaCoord(alpha);
     float te = tableEtaCoord(eta);
     int cell = tableCell(te, INTERFACE_ETA) * INTERFACE_ALPHA + tableCell(ta, INTERFACE_ALPHA);
-    int i = select(INTERFACE_ABOVE, INTERFACE_BELOW, above) +
+    int i = facets * FACET_SIZE + select(INTERFACE_ABOVE, INTERFACE_BELOW, above) +
             2 * (cell * INTERFACE_MU + tableCell(tm, INTERFACE_MU));
     float fm = tableFraction(tm, INTERFACE_MU);
     float fa = tableFraction(ta, INTERFACE_ALPHA);
     float fe = tableFraction(te, INTERFACE_ETA);
     vec2 a = interfaceBilinear(i, fm, fa);
     vec2 b = interfaceBilinear(i + 2 * INTERFACE_MU * INTERFACE_ALPHA, fm, fa);
-    vec2 e = a * (1.0f - fe) + b * fe;
-    float r = clamp(e.x + interfaceGuess(mu, alpha, eta), 0.0f, 1.0f);
-    return vec2(r, max(1.0f - r - e.y, 0.0f));
+    return a * (1.0f - fe) + b * fe;
 }

@@ -1,4 +1,4 @@
-// Rough or smooth metal: GGX reflection with the exact Fresnel equations of a complex ior.
+// Rough or smooth metal: microfacet reflection with the exact Fresnel equations of a complex ior.
 // MaterialX conductor_bsdf. One-sided: no light for wo or wi at or below the
 // horizon. Reciprocal when `compensate` is 0.
 
@@ -10,6 +10,7 @@ struct ConductorLobe {
     Film film;
     float retro; // -1 sends the lobe back to where it came from, else 1
     int compensate;
+    int facets; // FACETS_*, FACETS_GGX unless the caller sets another
     bool known; // k is that of the wo at hand (conductorAt)
     vec3 k;     // factor for multiple scattering
 };
@@ -26,6 +27,7 @@ PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness
     l.film = makeFilm(0.0f, 1.0f);
     l.retro = select(-1.0f, 1.0f, retroreflective);
     l.compensate = compensate;
+    l.facets = FACETS_GGX;
     l.known = false;
     l.k = vec3(1.0f);
     return l;
@@ -48,14 +50,14 @@ PATINA_FN vec3 conductorReflectance(ConductorLobe l, float c) {
 PATINA_FN ConductorLobe conductorAt(ConductorLobe l, vec3 wo) {
     l.known = true;
     if (l.compensate == 0 || l.alpha.x == 0.0f) return l;
-    float ess = momentAlbedo0(momentPlace(wo.z, ggxAlphaLoss(wo, l.alpha)));
+    float ess = facetAlbedo0(facetPlace(wo, l.alpha, l.facets));
     l.k = vec3(1.0f) + l.favg * ((1.0f - ess) / max(ess, ALBEDO_MIN));
     return l;
 }
 
 PATINA_FN LobeEval conductorEval(ConductorLobe l, vec3 wo, vec3 wi) {
     if (l.alpha.x == 0.0f || wo.z < 0.0f || wi.z <= 0.0f) return lobeEvalNone();
-    GgxPair p = ggxPair(wo, vec3(wi.x * l.retro, wi.y * l.retro, wi.z), l.alpha, 1.0f);
+    FacetPair p = facetPair(wo, vec3(wi.x * l.retro, wi.y * l.retro, wi.z), l.alpha, 1.0f, l.facets);
     if (!l.known) l = conductorAt(l, wo);
     LobeEval e;
     e.value = conductorReflectance(l, p.c) * l.k * p.value;
@@ -67,9 +69,9 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
     if (wo.z < 0.0f) return lobeSampleNone();
     bool mirror = l.alpha.x == 0.0f;
     vec3 m = vec3(0.0f, 0.0f, 1.0f);
-    if (!mirror) m = ggxSampleVisible(wo, l.alpha, vec2(u.x, u.y));
+    if (!mirror) m = facetSampleVisible(wo, l.alpha, vec2(u.x, u.y), l.facets);
     float c = clamp(dot(wo, m), 0.0f, 1.0f);
-    GgxBounce b = ggxBounce(wo, m, c, l.alpha, 1.0f, true);
+    FacetBounce b = facetBounce(wo, m, c, l.alpha, 1.0f, true, l.facets);
     if (!b.valid) return lobeSampleNone();
     if (!l.known) l = conductorAt(l, wo);
     LobeSample s;
@@ -84,9 +86,8 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
 PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
     if (l.alpha.x == 0.0f) return conductorReflectance(l, min(wo.z, 1.0f));
-    MomentPlace p = momentPlace(wo.z, ggxAlphaSeen(wo, l.alpha));
+    FacetPlace p = facetPlace(wo, l.alpha, l.facets);
     vec3 mean = conductorMean(p, l.ior, l.extinction);
     if (l.film.thickness > 0.0f) mean = filmMean(p, l.film, l.ior, l.extinction);
-    float ess = momentAlbedo0(momentPlace(wo.z, ggxAlphaLoss(wo, l.alpha)));
-    return mean * conductorAt(l, wo).k * ess;
+    return mean * conductorAt(l, wo).k * facetAlbedo0(p);
 }

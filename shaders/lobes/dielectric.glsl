@@ -1,4 +1,4 @@
-// Rough or smooth interface between two dielectrics: GGX reflection (R), refraction (T) or both
+// Rough or smooth interface between two dielectrics: microfacet reflection (R), refraction (T) or both
 // (RT) with the exact Fresnel equations. MaterialX dielectric_bsdf, without thin film.
 //
 // Sides: wo.z >= 0 is outside, wo.z < 0 inside; ior is inside over outside. wi lies on either side.
@@ -17,6 +17,7 @@ struct DielectricLobe {
     float retro; // -1 sends reflection back to where it came from, else 1
     int mode;
     int compensate;
+    int facets; // FACETS_*, FACETS_GGX unless the caller sets another
     bool fused;
     bool full;    // Fresnel off, reflects everything
     bool matched; // no interface
@@ -44,6 +45,7 @@ PATINA_FN DielectricLobe dielectricSetup(vec3 tint, float ior, vec2 roughness, b
     l.retro = select(-1.0f, 1.0f, retroreflective);
     l.mode = select(SCATTER_R, scatterMode, l.full);
     l.compensate = compensate;
+    l.facets = FACETS_GGX;
     l.fused = fused && scatterMode == SCATTER_T;
     l.deltaT = min(l.alpha.x, l.alpha.y) * abs(l.ior - 1.0f) < REFRACTION_DELTA * max(l.ior, 1.0f);
     l.known = false;
@@ -78,8 +80,9 @@ PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, vec3 wo) {
     e.r = f;
     e.t = (1.0f - f) * e.kt;
     if (l.alpha.x == 0.0f || l.matched) return e;
-    float ess = momentAlbedo0(momentPlace(mu, ggxAlphaLoss(wo, l.alpha)));
-    vec2 a = interfaceAlbedo(mu, ggxAlphaSeen(wo, l.alpha), eta);
+    FacetPlace p = facetPlace(wo, l.alpha, l.facets);
+    float ess = facetAlbedo0(p);
+    vec2 a = facetInterface(p, eta);
     float er = ess * select(1.0f, a.x, l.full);
     float et = ess * select(0.0f, a.y, l.full);
     e.kr = energyReflect(ess, l.favg, l.compensate);
@@ -102,7 +105,7 @@ PATINA_FN DielectricLobe dielectricAt(DielectricLobe l, vec3 wo) {
     bool plain = (l.compensate == 0 || l.alpha.x == 0.0f) && !l.fused;
     if (plain || l.matched) return l;
     if (l.mode == SCATTER_R && (l.full || dielectricEta(l, wo.z) >= 1.0f)) {
-        float ess = momentAlbedo0(momentPlace(abs(wo.z), ggxAlphaLoss(wo, l.alpha)));
+        float ess = facetAlbedo0(facetPlace(wo, l.alpha, l.facets));
         l.kr = energyReflect(ess, l.favg, l.compensate);
         return l;
     }
@@ -122,7 +125,7 @@ PATINA_FN LobeEval dielectricEval(DielectricLobe l, vec3 wo, vec3 wi) {
     float turn = select(l.retro, 1.0f, reflects);
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
     vec3 i = vec3(wi.x * turn, wi.y * turn, wi.z * side);
-    GgxPair p = ggxPair(o, i, l.alpha, select(1.0f, eta, reflects));
+    FacetPair p = facetPair(o, i, l.alpha, select(1.0f, eta, reflects), l.facets);
     float f = dielectricFresnel(l, p.c, eta);
     float share = select(f, 1.0f - f, reflects);
     if (!l.known) l = dielectricAt(l, wo);
@@ -138,12 +141,12 @@ PATINA_FN LobeSample dielectricSample(DielectricLobe l, vec3 wo, vec3 u) {
     bool mirror = l.alpha.x == 0.0f;
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
     vec3 m = vec3(0.0f, 0.0f, 1.0f);
-    if (!mirror) m = ggxSampleVisible(o, l.alpha, vec2(u.x, u.y));
+    if (!mirror) m = facetSampleVisible(o, l.alpha, vec2(u.x, u.y), l.facets);
     float c = clamp(dot(o, m), 0.0f, 1.0f);
     float f = dielectricFresnel(l, c, eta);
     float chance = select(f, select(1.0f, 0.0f, l.mode == SCATTER_R), l.mode == SCATTER_RT);
     bool reflects = u.z < chance;
-    GgxBounce b = ggxBounce(o, m, c, l.alpha, eta, reflects);
+    FacetBounce b = facetBounce(o, m, c, l.alpha, eta, reflects, l.facets);
     float share = select(f, 1.0f - f, reflects);
     if (!b.valid || share <= 0.0f) return lobeSampleNone();
     if (!l.known) l = dielectricAt(l, wo);

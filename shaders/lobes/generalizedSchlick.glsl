@@ -1,4 +1,4 @@
-// GGX interface with a generalized Schlick reflectance: MaterialX generalized_schlick_bsdf. Also
+// Microfacet interface with a generalized Schlick reflectance: MaterialX generalized_schlick_bsdf. Also
 // the coloured reflectance of dielectric_bsdf under a thin film, since dielectric.glsl has one
 // number.
 //
@@ -18,6 +18,7 @@ struct SchlickLobe {
     float retro; // -1 sends reflection back to where it came from, else 1
     int mode;
     int compensate;
+    int facets; // FACETS_*, FACETS_GGX unless the caller sets another
     bool exact; // a dielectric under a film, not Schlick's curve
     bool fused;
     bool deltaT; // refraction too narrow to evaluate
@@ -43,6 +44,7 @@ PATINA_FN SchlickLobe schlickSetup(vec3 color0, vec3 color82, vec3 color90, floa
     l.retro = select(-1.0f, 1.0f, retroreflective);
     l.mode = scatterMode;
     l.compensate = compensate;
+    l.facets = FACETS_GGX;
     l.fused = fused && scatterMode == SCATTER_T;
     l.deltaT = min(l.alpha.x, l.alpha.y) * (l.ior - 1.0f) < REFRACTION_DELTA * l.ior;
     l.known = false;
@@ -142,8 +144,8 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
     e.kt = schlickFused(e.r, l.fused);
     e.t = (vec3(1.0f) - e.r) * e.kt;
     if (l.alpha.x == 0.0f) return e;
-    float ess = momentAlbedo0(momentPlace(mu, ggxAlphaLoss(wo, l.alpha)));
-    float alpha = ggxAlphaSeen(wo, l.alpha);
+    FacetPlace p = facetPlace(wo, l.alpha, l.facets);
+    float ess = facetAlbedo0(p);
     bool compensates = l.compensate != 0;
     vec3 gain = select(l.favg, vec3(0.0f), compensates);
     e.kr = vec3(1.0f) + gain * ((1.0f - ess) / max(ess, ALBEDO_MIN));
@@ -152,14 +154,14 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
     vec3 mean = vec3(0.0f);
     if (l.exact || l.film.thickness > 0.0f) {
         f5 = schlickOutside(l, 1.0f);
-        mean = curveMean(momentPlace(mu, alpha), schlickOutside(l, 0.0f),
+        mean = curveMean(p, schlickOutside(l, 0.0f),
                          schlickOutside(l, CONDUCTOR_COS.x), schlickOutside(l, CONDUCTOR_COS.y),
                          schlickOutside(l, CONDUCTOR_COS.z), schlickOutside(l, CONDUCTOR_COS3), f5);
     } else
-        mean = schlickMean(mu, alpha, l.fresnel);
+        mean = schlickMean(p, l.fresnel);
     e.r = mean * e.kr * ess;
     if (l.mode == SCATTER_R && thinner) return e;
-    vec2 a = interfaceAlbedo(mu, alpha, eta);
+    vec2 a = facetInterface(p, eta);
     float f0 = sqr((l.ior - 1.0f) / (l.ior + 1.0f));
     float rise = clamp((a.x - f0) / (1.0f - f0), 0.0f, 1.0f);
     mean = select(mean, mix(f5, vec3(1.0f), rise), thinner);
@@ -204,7 +206,7 @@ PATINA_FN LobeEval schlickEval(SchlickLobe l, vec3 wo, vec3 wi) {
     float turn = select(l.retro, 1.0f, reflects);
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
     vec3 i = vec3(wi.x * turn, wi.y * turn, wi.z * side);
-    GgxPair p = ggxPair(o, i, l.alpha, select(1.0f, eta, reflects));
+    FacetPair p = facetPair(o, i, l.alpha, select(1.0f, eta, reflects), l.facets);
     vec3 f = schlickReflectance(l, p.c, eta);
     float chance = schlickChance(l, f);
     if (!l.known) l = schlickAt(l, wo);
@@ -220,12 +222,12 @@ PATINA_FN LobeSample schlickSample(SchlickLobe l, vec3 wo, vec3 u) {
     bool mirror = l.alpha.x == 0.0f;
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
     vec3 m = vec3(0.0f, 0.0f, 1.0f);
-    if (!mirror) m = ggxSampleVisible(o, l.alpha, vec2(u.x, u.y));
+    if (!mirror) m = facetSampleVisible(o, l.alpha, vec2(u.x, u.y), l.facets);
     float c = clamp(dot(o, m), 0.0f, 1.0f);
     vec3 f = schlickReflectance(l, c, eta);
     float chance = schlickChance(l, f);
     bool reflects = u.z < chance;
-    GgxBounce b = ggxBounce(o, m, c, l.alpha, eta, reflects);
+    FacetBounce b = facetBounce(o, m, c, l.alpha, eta, reflects, l.facets);
     float p = select(chance, 1.0f - chance, reflects);
     if (!b.valid || p <= 0.0f) return lobeSampleNone();
     if (!l.known) l = schlickAt(l, wo);

@@ -62,5 +62,5 @@ PATINA_FN LobeSample wardSample(WardLobe l, vec3 wo, vec3 u) {
 PATINA_FN vec3 wardAlbedo(WardLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
     int plane = select(CLASSIC_WARD_EXACT, CLASSIC_WARD_BOUNDED, l.form == WARD_EXACT);
-    return l.color * classicAlbedo(plane, wo.z, ggxAlphaSeen(wo, l.alpha));
+    return l.color * classicAlbedo(plane, wo.z, facetAlphaSeen(wo, l.alpha));
 }

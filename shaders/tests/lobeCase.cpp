@@ -118,6 +118,36 @@ void addHair(std::vector<LobeCase>& cases) {
         }
 }
 
+// Beckmann facets instead of GGX. Alpha 1 has no other paths than 0.3, and interfaces differ by
+// mode only in what they leave out.
+void addBeckmann(std::vector<LobeCase>& cases, int compensate) {
+    const double alphas[][2] = {{0.05, 0.05}, {0.5, 0.5}, {0.1, 0.4}};
+    for (const auto& a : alphas) {
+        const double ax = a[0], ay = a[1];
+        const auto add = [&](LobeCase c, double ior, bool transmits) {
+            c.alpha = ax * (transmits ? std::min(1.0, std::fabs(ior - 1.0)) : 1.0);
+            c.ior = ior;
+            c.twoSided = transmits;
+            c.reciprocal = compensate == 0;
+            cases.push_back(c);
+        };
+        const int facets = sh::FACETS_BECKMANN;
+        add(PATINA_LOBE_CASE_WITH(label("beckmann conductor", ax, ay, 0, 0), conductor, conductor,
+                                  l.facets = facets, vec3(0.183, 0.421, 1.373),
+                                  vec3(3.424, 2.346, 1.77), vec2(ax, ay), ax == 0.5, compensate),
+            1.0, false);
+        add(PATINA_LOBE_CASE_WITH(label("beckmann dielectric", ax, ay, 1.5, 3), dielectric,
+                                  dielectric, l.facets = facets, vec3(1.0, 0.9, 0.2), 1.5,
+                                  vec2(ax, ay), false, 3, false, compensate),
+            1.5, true);
+        add(PATINA_LOBE_CASE_WITH(label("beckmann schlick", ax, ay, 0.04, 3), schlick, schlick,
+                                  l.facets = facets, vec3(0.02, 0.04, 0.06), vec3(0.9, 1.0, 0.5),
+                                  vec3(1.0, 0.9, 1.0), 5.0, vec2(ax, ay), false, 3, false,
+                                  compensate),
+            1.5, true);
+    }
+}
+
 } // namespace
 
 std::vector<LobeCase> lobeCases(int compensate) {
@@ -127,6 +157,7 @@ std::vector<LobeCase> lobeCases(int compensate) {
     addClassic(cases);
     addFilm(cases, compensate);
     addHair(cases);
+    addBeckmann(cases, compensate);
     const bool bare = compensate == 0;
     const double alphas[][2] = {{0.05, 0.05}, {0.3, 0.3}, {1.0, 1.0}, {0.1, 0.4}};
     for (const auto& a : alphas) {

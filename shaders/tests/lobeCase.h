@@ -57,22 +57,30 @@ BoundLobe bindLobe(Lobe l, Eval eval, Sample sample, Albedo albedo) {
 
 /// The same where SETUP##Setup makes a lobe PREFIX.
 #define PATINA_LOBE_CASE_AS(NAME, SETUP, PREFIX, ...)                                              \
+    PATINA_LOBE_CASE_WITH(NAME, SETUP, PREFIX, (void)l, __VA_ARGS__)
+
+/// The same after the statement CHANGE to the lobe `l`.
+#define PATINA_LOBE_CASE_WITH(NAME, SETUP, PREFIX, CHANGE, ...)                                    \
     [&] {                                                                                          \
         patina::test::LobeCase c;                                                                  \
         c.name = NAME;                                                                             \
         {                                                                                          \
             using patina::sh::vec2;                                                                \
             using patina::sh::vec3;                                                                \
-            c.f32 = patina::test::bindLobe<vec3>(                                                  \
-                patina::sh::SETUP##Setup(__VA_ARGS__), patina::sh::PREFIX##Eval,                   \
-                patina::sh::PREFIX##Sample, patina::sh::PREFIX##Albedo);                           \
+            auto l = patina::sh::SETUP##Setup(__VA_ARGS__);                                        \
+            CHANGE;                                                                                \
+            c.f32 = patina::test::bindLobe<vec3>(l, patina::sh::PREFIX##Eval,                      \
+                                                 patina::sh::PREFIX##Sample,                       \
+                                                 patina::sh::PREFIX##Albedo);                      \
         }                                                                                          \
         {                                                                                          \
             using patina::sh64::vec2;                                                              \
             using patina::sh64::vec3;                                                              \
-            c.f64 = patina::test::bindLobe<vec3>(                                                  \
-                patina::sh64::SETUP##Setup(__VA_ARGS__), patina::sh64::PREFIX##Eval,               \
-                patina::sh64::PREFIX##Sample, patina::sh64::PREFIX##Albedo);                       \
+            auto l = patina::sh64::SETUP##Setup(__VA_ARGS__);                                      \
+            CHANGE;                                                                                \
+            c.f64 = patina::test::bindLobe<vec3>(l, patina::sh64::PREFIX##Eval,                    \
+                                                 patina::sh64::PREFIX##Sample,                     \
+                                                 patina::sh64::PREFIX##Albedo);                    \
         }                                                                                          \
         return c;                                                                                  \
     }()

@@ -84,6 +84,9 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
     SchlickLobe sf = schlickFilm(s, 300.0, 1.5);
     SchlickLobe df = filmDielectricSetup(vec3(1.0), 1.5, vec2(0.2), 300.0, 1.3, false, SCATTER_RT,
                                          false, 1);
+    c.facets = FACETS_BECKMANN;
+    d.facets = FACETS_BECKMANN;
+    sum += conductorSample(c, wo, u).weight + dielectricEval(d, wo, wi).value;
     sum += conductorEval(cf, wo, wi).value + schlickEval(sf, wo, wi).value +
            schlickAlbedo(df, wo) + conductorAlbedo(cf, wo);
     ChiangHairLobe h = chiangHairSetup(vec3(1.0), vec3(1.0), vec3(1.0), 1.55, vec2(0.1), vec2(0.1),

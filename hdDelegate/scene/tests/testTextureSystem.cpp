@@ -1,5 +1,6 @@
 #include "hdDelegate/film/tests/tempFolder.h"
 #include "hdDelegate/parallel.h"
+#include "hdDelegate/scene/iesProfile.h"
 #include "hdDelegate/scene/textureSystem.h"
 
 #include <OpenImageIO/imageio.h>
@@ -295,6 +296,37 @@ TEST_F(Textures, LinearImagesForLights) {
     EXPECT_FALSE(image.valid);
     EXPECT_EQ(image.pixels.at(0), glm::vec3(1, 0, 1));
     EXPECT_TRUE(has(onlyMessage(), "/Dome"));
+}
+
+// A profile that falls with the cosine: its mean over the hemisphere is half of its peak, so the
+// factor is 2 cos. The table is linear between every 5 degrees.
+TEST_F(Textures, ReadsIesProfiles) {
+    const std::string file = temp.file("lamp.ies");
+    {
+        std::ofstream out(file);
+        out << "IESNA:LM-63-2002\nTILT=NONE\n1 1000 1 19 1 1 2 0 0 0\n1 1 100\n";
+        for (int i = 0; i <= 90; i += 5)
+            out << i << ' ';
+        out << "\n0\n";
+        for (int i = 0; i <= 90; i += 5)
+            out << 700.0 * std::cos(i * 0.017453292519943295) << ' ';
+        out << '\n';
+    }
+    TextureRequest request;
+    request.file = file;
+    request.prim = "/Material/edf";
+    request.input = "file";
+    const auto profile = textures.openProfile(request);
+    ASSERT_TRUE(profile);
+    EXPECT_EQ(profile, textures.openProfile(request));
+    for (float theta : {0.0f, 0.4f, 1.0f, 1.5f})
+        EXPECT_NEAR(profile->factor(theta, 2.0f), 2.0f * std::cos(theta), 6e-3f) << theta;
+    EXPECT_EQ(profile->factor(1.7f, 0.0f), 0.0f);
+
+    request.file = temp.file("missing.ies");
+    EXPECT_FALSE(textures.openProfile(request));
+    EXPECT_FALSE(textures.openProfile(request)); // says so once
+    EXPECT_NE(onlyMessage().find("it emits the same everywhere"), std::string::npos);
 }
 
 } // namespace patina

@@ -10,6 +10,9 @@
                only with --reciprocal, since layers by albedo and media inside are not reciprocal
 
 Materials that vary are checked at points of uv 0 to 1. Exit status 1 when a check fails.
+
+--layers takes no material: it prints how far the albedo of layers, which scale what is below by what the top lets
+through, is from a random walk between the interfaces.
 """
 import json
 import math
@@ -17,7 +20,7 @@ import sys
 
 import numpy as np
 
-from patina.cli import compiled, materials, methods, statistics
+from patina.cli import compiled, layers, materials, methods, statistics
 from patina.cli.errors import CommandError, UsageError
 
 CHECKS = ("finite", "energy", "pdf", "weight", "chi2", "reciprocity")
@@ -28,8 +31,9 @@ ANGLES = (0.0, 30.0, 60.0, 80.0, 89.0)
 
 
 def add_arguments(parser):
-    parser.add_argument("material", metavar="STAGE|MATERIAL", help=materials.MATERIAL_HELP.replace(
+    parser.add_argument("material", metavar="STAGE|MATERIAL", nargs="?", help=materials.MATERIAL_HELP.replace(
         "the only material", "every material"))
+    parser.add_argument("--layers", action="store_true", help="the error of layers, as a table")
     parser.add_argument("--samples", type=int, default=65536, metavar="N", help="per direction (default: 65536)")
     parser.add_argument("--places", type=int, default=3, metavar="N",
                         help="of uv per material that varies (default: 3; finite: its square times 16)")
@@ -48,7 +52,12 @@ def run(arguments):
     if arguments.samples < 1024 or arguments.places < 1 or arguments.seed < 0 or not arguments.tolerance >= 0.0:
         raise UsageError("patina check: --samples is 1024 or more, --places 1 or more, --seed and --tolerance 0 or "
                          "more")
+    if arguments.layers == bool(arguments.material):
+        raise UsageError("patina check: name a material, or --layers without one")
     chosen = methods.parse(arguments.method)
+    if arguments.layers:
+        _report_layers(layers.report(chosen, arguments.samples, arguments.seed), arguments.json)
+        return
     found, warnings = materials.load(arguments.material, arguments.set, every=True)
     results = []
     for name, network in found:
@@ -307,14 +316,28 @@ def _reciprocity(probe, generator, place):
             f", uv {place[0]:.3f} {place[1]:.3f}" if place else "")
 
 
+def _write_json(value, target):
+    """:returns: whether it took standard output"""
+    if not target:
+        return False
+    text = json.dumps(value, indent=2)
+    if target == "-":
+        print(text)
+        return True
+    with open(target, "w", encoding="utf-8") as file:
+        file.write(text + "\n")
+    return False
+
+
+def _report_layers(rows, target):
+    if not _write_json({"layers": rows}, target):
+        print(layers.table(rows))
+
+
 def _report(results, target):
-    if target:
-        text = json.dumps({"materials": [{"name": name, "checks": outcomes} for name, outcomes in results]}, indent=2)
-        if target == "-":
-            print(text)
-            return
-        with open(target, "w", encoding="utf-8") as file:
-            file.write(text + "\n")
+    named = [{"name": name, "checks": outcomes} for name, outcomes in results]
+    if _write_json({"materials": named}, target):
+        return
     width = max(len(name) for name, _ in results)
     for name, outcomes in results:
         for kind in CHECKS:

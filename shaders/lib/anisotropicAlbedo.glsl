@@ -1,0 +1,139 @@
+// Directional albedos of microfacet lobes of any alpha: those of the isotropic lobe that stands in,
+// plus what anisotropy changes, from tables over the azimuth and the ratio of both alphas. Same
+// quantities as in albedoTable.glsl, stored as differences.
+//
+// Errors (shaders/tests/testLobeAlbedo.cpp measures them): 1.5e-2 for a mirror, 1e-2 for interfaces
+// from outside, 2e-2 from inside. From inside at grazing angles, where one alpha is ten times the
+// other, up to 0.1.
+
+// The alpha of the isotropic lobe that stands in: what wo sees along its own azimuth, the root mean
+// square when it looks straight down.
+PATINA_FN float facetAlphaSeen(vec3 wo, vec2 alpha) {
+    float x = alpha.x * wo.x;
+    float y = alpha.y * wo.y;
+    return min(sqrt(x * x + y * y + wo.z * wo.z * 0.5f * dot(alpha, alpha)), 1.0f);
+}
+
+// Coordinate of the ratio of alphas, smaller over larger, and back.
+PATINA_FN float turnedRatioCoord(float ratio) {
+    return 1.0f - sqrt(ratio);
+}
+
+PATINA_FN float turnedRatioAt(float t) {
+    return sqr(1.0f - t);
+}
+
+// alpha along an azimuth; c: its cosine from the axis of the larger alpha.
+PATINA_FN float turnedAlpha(float larger, float ratio, float c) {
+    return max(larger * sqrt(c * c + ratio * ratio * (1.0f - c * c)), ALPHA_MIRROR);
+}
+
+// Where (wo, alpha) lies in the tables of a distribution.
+struct FacetPlace {
+    MomentPlace moment;
+    float mu;
+    float alpha; // facetAlphaSeen
+    int facets;
+    bool turned;  // anisotropic
+    float larger; // what follows is for anisotropic lobes: larger alpha, smaller over larger
+    float ratio;
+    float c; // cosine of the azimuth from the axis of the larger alpha
+    int turnedBase;
+    vec4 turnedAt; // fractions of mu, azimuth, ratio, alpha
+};
+
+PATINA_FN int turnedRow(int a, int r, int c, int m) {
+    return ((a * TURNED_RATIO + r) * TURNED_AZIMUTH + c) * TURNED_MU + m;
+}
+
+PATINA_FN FacetPlace facetPlace(vec3 wo, vec2 alpha, int facets) {
+    FacetPlace p;
+    p.mu = min(abs(wo.z), 1.0f);
+    p.alpha = facetAlphaSeen(wo, alpha);
+    p.facets = facets;
+    p.turned = alpha.x != alpha.y;
+    p.moment = momentPlace(p.mu, p.alpha, facets * FACET_SIZE);
+    p.larger = p.alpha;
+    p.ratio = 1.0f;
+    p.c = 1.0f;
+    p.turnedBase = 0;
+    p.turnedAt = vec4(0.0f);
+    if (!p.turned) return p;
+    p.larger = max(alpha.x, alpha.y);
+    p.ratio = min(alpha.x, alpha.y) / p.larger;
+    float across = sqrt(wo.x * wo.x + wo.y * wo.y);
+    float along = abs(select(wo.x, wo.y, alpha.x >= alpha.y));
+    p.c = min(along / max(across, TINY), 1.0f);
+    float tm = tableMuCoord(p.mu, turnedAlpha(p.larger, p.ratio, p.c));
+    float tr = turnedRatioCoord(p.ratio);
+    float ta = tableAlphaCoord(p.larger);
+    p.turnedBase = turnedRow(tableCell(ta, TURNED_ALPHA), tableCell(tr, TURNED_RATIO),
+                             tableCell(p.c, TURNED_AZIMUTH), tableCell(tm, TURNED_MU));
+    p.turnedAt = vec4(tableFraction(tm, TURNED_MU), tableFraction(p.c, TURNED_AZIMUTH),
+                      tableFraction(tr, TURNED_RATIO), tableFraction(ta, TURNED_ALPHA));
+    return p;
+}
+
+// Corner k of a cell with four axes: the row it is in, and its weight.
+PATINA_FN int turnedCorner(int k) {
+    return turnedRow((k >> 3) & 1, (k >> 2) & 1, (k >> 1) & 1, k & 1);
+}
+
+PATINA_FN float turnedWeight(int k, vec4 f) {
+    return select(f.x, 1.0f - f.x, (k & 1) != 0) * select(f.y, 1.0f - f.y, (k & 2) != 0) *
+           select(f.z, 1.0f - f.z, (k & 4) != 0) * select(f.w, 1.0f - f.w, (k & 8) != 0);
+}
+
+PATINA_FN float facetEntry(FacetPlace p, int i) {
+    float e = momentEntry(p.moment, i);
+    if (!p.turned) return e;
+    int table = p.facets * FACET_SIZE + TURNED_MOMENT + i;
+    for (int k = 0; k < 16; ++k) {
+        int row = p.turnedBase + turnedCorner(k);
+        e += turnedWeight(k, p.turnedAt) * albedoTableFetch(table + row * MOMENT_COUNT);
+    }
+    return e;
+}
+
+// E[0]: the albedo of a perfect mirror, single scattering.
+PATINA_FN float facetAlbedo0(FacetPlace p) {
+    return clamp(facetEntry(p, 0), ALBEDO_MIN, 1.0f);
+}
+
+// E[p] / E[0]: the mean of (1 - c)^exponent over the facets seen.
+PATINA_FN float facetMean(FacetPlace p, float exponent) {
+    int i = momentCell(exponent);
+    float e0 = momentExponent(i);
+    float f = clamp((exponent - e0) / (momentExponent(i + 1) - e0), 0.0f, 1.0f);
+    float d = mix(facetEntry(p, i), facetEntry(p, i + 1), f);
+    return powSchlick(clamp(1.0f - p.mu + d, 0.0f, 1.0f), exponent);
+}
+
+// x: E_R / E[0], the mean reflectance over the facets seen; y: E_T / E[0]. Both not negative.
+PATINA_FN vec2 facetInterface(FacetPlace p, float eta) {
+    vec2 e = interfaceEntry(p.mu, p.alpha, eta, p.facets);
+    if (p.turned) {
+        bool above = eta >= 1.0f;
+        float muC = tableMuCritical(min(eta, 1.0f));
+        float width = turnedAlpha(p.larger, p.ratio, p.c);
+        float tm = select(tableMuCoord(p.mu, width), tableMuBelowCoord(p.mu, muC, width), above);
+        float tr = turnedRatioCoord(p.ratio);
+        float ta = tableAlphaCoord(p.larger);
+        float te = tableEtaCoord(eta);
+        int base = turnedRow(tableCell(ta, TURNED_ETA_ALPHA), tableCell(tr, TURNED_RATIO),
+                             tableCell(p.c, TURNED_AZIMUTH), tableCell(tm, TURNED_MU));
+        vec4 at = vec4(tableFraction(tm, TURNED_MU), tableFraction(p.c, TURNED_AZIMUTH),
+                       tableFraction(tr, TURNED_RATIO), tableFraction(ta, TURNED_ETA_ALPHA));
+        float fe = tableFraction(te, TURNED_ETA);
+        int stepE = 2 * turnedRow(TURNED_ETA_ALPHA, 0, 0, 0);
+        int table = p.facets * FACET_SIZE + select(TURNED_ABOVE, TURNED_BELOW, above) +
+                    tableCell(te, TURNED_ETA) * stepE;
+        for (int k = 0; k < 16; ++k) {
+            int i = table + 2 * (base + turnedCorner(k));
+            float w = turnedWeight(k, at);
+            e += interfaceFetch(i) * (w * (1.0f - fe)) + interfaceFetch(i + stepE) * (w * fe);
+        }
+    }
+    float r = clamp(e.x + interfaceGuess(p.mu, p.alpha, eta), 0.0f, 1.0f);
+    return vec2(r, max(1.0f - r - e.y, 0.0f));
+}

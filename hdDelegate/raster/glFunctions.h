@@ -41,6 +41,7 @@ namespace patina {
     X(Disable, DISABLE)                                                                            \
     X(DispatchCompute, DISPATCHCOMPUTE)                                                            \
     X(DrawArrays, DRAWARRAYS)                                                                      \
+    X(DrawArraysInstanced, DRAWARRAYSINSTANCED)                                                    \
     X(DrawElementsInstanced, DRAWELEMENTSINSTANCED)                                                \
     X(Enable, ENABLE)                                                                              \
     X(Finish, FINISH)                                                                              \
@@ -85,6 +86,7 @@ namespace patina {
     X(Uniform1ui, UNIFORM1UI)                                                                      \
     X(Uniform2f, UNIFORM2F)                                                                        \
     X(Uniform3f, UNIFORM3F)                                                                        \
+    X(Uniform4i, UNIFORM4I)                                                                        \
     X(Uniform4f, UNIFORM4F)                                                                        \
     X(UniformMatrix4fv, UNIFORMMATRIX4FV)                                                          \
     X(UseProgram, USEPROGRAM)                                                                      \

@@ -31,6 +31,7 @@ namespace sh {
 
 #undef PATINA_FN
 #undef PATINA_OUT
+#undef PATINA_UNUSED
 
 namespace sh64 {
 #define float double
@@ -41,5 +42,6 @@ namespace sh64 {
 
 #undef PATINA_FN
 #undef PATINA_OUT
+#undef PATINA_UNUSED
 
 } // namespace patina

@@ -238,6 +238,10 @@ std::shared_ptr<const ImageTexture> TextureSystem::image(int handle, int tile) c
     return entry.tiles[i]->texture;
 }
 
+const TextureRequest& TextureSystem::request(int handle) const {
+    return _entries[size_t(handle)]->request;
+}
+
 void TextureSystem::loadAll() const {
     std::vector<const Image*> images;
     for (auto& entry : _entries)

@@ -79,6 +79,9 @@ public:
     /// Sets up the lobes at a point, seen from point.viewDirection.
     void evaluate(const ShadingPoint& point, Bsdf& out) const;
 
+    /// What other back ends are generated from.
+    const ProgramCode& code() const { return *_code; }
+
     MaterialProgram(const MaterialProgram&) = delete;
     MaterialProgram& operator=(const MaterialProgram&) = delete;
 

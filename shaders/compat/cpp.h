@@ -7,6 +7,8 @@
 
 #define PATINA_FN inline
 #define PATINA_OUT(T) T&
+// A parameter that is not read; drivers want a name where compilers warn of one.
+#define PATINA_UNUSED(T, name) T
 
 using vec2 = glm::vec<2, float, glm::defaultp>;
 using vec3 = glm::vec<3, float, glm::defaultp>;

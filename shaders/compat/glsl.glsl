@@ -3,6 +3,7 @@
 
 #define PATINA_FN
 #define PATINA_OUT(T) out T
+#define PATINA_UNUSED(T, name) T name
 
 const float PI = 3.14159265358979323846;
 const float INV_PI = 0.318309886183790671538;

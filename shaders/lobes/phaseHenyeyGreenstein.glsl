@@ -52,6 +52,7 @@ PATINA_FN LobeSample phaseHenyeyGreensteinSample(PhaseHenyeyGreensteinLobe l, ve
     return s;
 }
 
-PATINA_FN vec3 phaseHenyeyGreensteinAlbedo(PhaseHenyeyGreensteinLobe /*l*/, vec3 /*wo*/) {
+PATINA_FN vec3 phaseHenyeyGreensteinAlbedo(PATINA_UNUSED(PhaseHenyeyGreensteinLobe, l),
+                                         PATINA_UNUSED(vec3, wo)) {
     return vec3(1.0f);
 }

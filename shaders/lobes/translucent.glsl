@@ -31,6 +31,6 @@ PATINA_FN LobeSample translucentSample(TranslucentLobe l, vec3 wo, vec3 u) {
     return s;
 }
 
-PATINA_FN vec3 translucentAlbedo(TranslucentLobe l, vec3 /*wo*/) {
+PATINA_FN vec3 translucentAlbedo(TranslucentLobe l, PATINA_UNUSED(vec3, wo)) {
     return l.color;
 }

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace patina {
+
+/// An OpenGL 4.5 core context without display or window. Belongs to one thread at a time.
+///
+/// Candidates in this order: the EGL devices that are hardware, Mesa's surfaceless platform, the
+/// software devices, the default display. The environment variable PATINA_EGL_PLATFORM (device,
+/// surfaceless or default) leaves only one kind.
+class EglContext {
+public:
+    /// @returns null with a one-line reason in `error`
+    static std::unique_ptr<EglContext> create(std::string& error);
+    ~EglContext(); ///< must not be current on another thread
+
+    const std::string& renderer() const {
+        return _renderer;
+    }                                                       ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
+    const std::string& version() const { return _version; } ///< "4.5 (Core Profile) Mesa 22.3.6"
+
+    /// Makes a context current for a scope, and then again whatever the host had current.
+    class Use {
+    public:
+        explicit Use(const EglContext& context);
+        ~Use();
+        Use(const Use&) = delete;
+        Use& operator=(const Use&) = delete;
+        bool ok() const { return _ok; } ///< false: the context cannot be used by this thread
+
+    private:
+        void *_display, *_context, *_draw, *_read;
+        unsigned _api;
+        void* _ownDisplay;
+        bool _ok;
+    };
+
+    /// True after the driver reset (GPU hang, driver update): all objects are gone, make a new
+    /// context. Call with the context current.
+    bool lost() const;
+
+    EglContext(const EglContext&) = delete;
+    EglContext& operator=(const EglContext&) = delete;
+
+private:
+    EglContext() = default;
+
+    void* _display = nullptr;
+    void* _context = nullptr;
+    std::string _renderer, _version;
+};
+
+} // namespace patina

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <GL/glcorearb.h>
+
+#include <string>
+
+namespace patina {
+
+// The functions of OpenGL 4.5 core that the rasterizer calls; no other are loaded.
+#define PATINA_GL_FUNCTIONS(X)                                                                     \
+    X(ActiveTexture, ACTIVETEXTURE)                                                                \
+    X(AttachShader, ATTACHSHADER)                                                                  \
+    X(BindBufferBase, BINDBUFFERBASE)                                                              \
+    X(BindFramebuffer, BINDFRAMEBUFFER)                                                            \
+    X(BindImageTexture, BINDIMAGETEXTURE)                                                          \
+    X(BindTextureUnit, BINDTEXTUREUNIT)                                                            \
+    X(BindVertexArray, BINDVERTEXARRAY)                                                            \
+    X(BlendFunc, BLENDFUNC)                                                                        \
+    X(BlendFunci, BLENDFUNCI)                                                                      \
+    X(CheckNamedFramebufferStatus, CHECKNAMEDFRAMEBUFFERSTATUS)                                    \
+    X(ClearNamedFramebufferfv, CLEARNAMEDFRAMEBUFFERFV)                                            \
+    X(ClearNamedFramebufferiv, CLEARNAMEDFRAMEBUFFERIV)                                            \
+    X(ColorMask, COLORMASK)                                                                        \
+    X(CompileShader, COMPILESHADER)                                                                \
+    X(CreateBuffers, CREATEBUFFERS)                                                                \
+    X(CreateFramebuffers, CREATEFRAMEBUFFERS)                                                      \
+    X(CreateProgram, CREATEPROGRAM)                                                                \
+    X(CreateShader, CREATESHADER)                                                                  \
+    X(CreateTextures, CREATETEXTURES)                                                              \
+    X(CreateVertexArrays, CREATEVERTEXARRAYS)                                                      \
+    X(CullFace, CULLFACE)                                                                          \
+    X(DeleteBuffers, DELETEBUFFERS)                                                                \
+    X(DeleteFramebuffers, DELETEFRAMEBUFFERS)                                                      \
+    X(DeleteProgram, DELETEPROGRAM)                                                                \
+    X(DeleteShader, DELETESHADER)                                                                  \
+    X(DeleteTextures, DELETETEXTURES)                                                              \
+    X(DeleteVertexArrays, DELETEVERTEXARRAYS)                                                      \
+    X(DepthFunc, DEPTHFUNC)                                                                        \
+    X(DepthMask, DEPTHMASK)                                                                        \
+    X(DetachShader, DETACHSHADER)                                                                  \
+    X(Disable, DISABLE)                                                                            \
+    X(DispatchCompute, DISPATCHCOMPUTE)                                                            \
+    X(DrawArrays, DRAWARRAYS)                                                                      \
+    X(DrawArraysInstanced, DRAWARRAYSINSTANCED)                                                    \
+    X(DrawElementsInstanced, DRAWELEMENTSINSTANCED)                                                \
+    X(Enable, ENABLE)                                                                              \
+    X(Finish, FINISH)                                                                              \
+    X(Flush, FLUSH)                                                                                \
+    X(GenerateTextureMipmap, GENERATETEXTUREMIPMAP)                                                \
+    X(GetError, GETERROR)                                                                          \
+    X(GetGraphicsResetStatus, GETGRAPHICSRESETSTATUS)                                              \
+    X(GetIntegerv, GETINTEGERV)                                                                    \
+    X(GetNamedBufferSubData, GETNAMEDBUFFERSUBDATA)                                                \
+    X(GetProgramBinary, GETPROGRAMBINARY)                                                          \
+    X(GetProgramInfoLog, GETPROGRAMINFOLOG)                                                        \
+    X(GetProgramiv, GETPROGRAMIV)                                                                  \
+    X(GetShaderInfoLog, GETSHADERINFOLOG)                                                          \
+    X(GetShaderiv, GETSHADERIV)                                                                    \
+    X(GetString, GETSTRING)                                                                        \
+    X(GetTextureImage, GETTEXTUREIMAGE)                                                            \
+    X(GetUniformLocation, GETUNIFORMLOCATION)                                                      \
+    X(LinkProgram, LINKPROGRAM)                                                                    \
+    X(MemoryBarrier, MEMORYBARRIER)                                                                \
+    X(NamedBufferStorage, NAMEDBUFFERSTORAGE)                                                      \
+    X(NamedBufferSubData, NAMEDBUFFERSUBDATA)                                                      \
+    X(NamedFramebufferDrawBuffers, NAMEDFRAMEBUFFERDRAWBUFFERS)                                    \
+    X(NamedFramebufferReadBuffer, NAMEDFRAMEBUFFERREADBUFFER)                                      \
+    X(NamedFramebufferTexture, NAMEDFRAMEBUFFERTEXTURE)                                            \
+    X(NamedFramebufferTextureLayer, NAMEDFRAMEBUFFERTEXTURELAYER)                                  \
+    X(PixelStorei, PIXELSTOREI)                                                                    \
+    X(PolygonOffset, POLYGONOFFSET)                                                                \
+    X(ProgramBinary, PROGRAMBINARY)                                                                \
+    X(ProgramParameteri, PROGRAMPARAMETERI)                                                        \
+    X(ReadPixels, READPIXELS)                                                                      \
+    X(ShaderSource, SHADERSOURCE)                                                                  \
+    X(TextureBuffer, TEXTUREBUFFER)                                                                \
+    X(TextureParameterf, TEXTUREPARAMETERF)                                                        \
+    X(TextureParameterfv, TEXTUREPARAMETERFV)                                                      \
+    X(TextureParameteri, TEXTUREPARAMETERI)                                                        \
+    X(TextureStorage2D, TEXTURESTORAGE2D)                                                          \
+    X(TextureStorage3D, TEXTURESTORAGE3D)                                                          \
+    X(TextureSubImage2D, TEXTURESUBIMAGE2D)                                                        \
+    X(TextureSubImage3D, TEXTURESUBIMAGE3D)                                                        \
+    X(Uniform1f, UNIFORM1F)                                                                        \
+    X(Uniform1i, UNIFORM1I)                                                                        \
+    X(Uniform1ui, UNIFORM1UI)                                                                      \
+    X(Uniform2f, UNIFORM2F)                                                                        \
+    X(Uniform3f, UNIFORM3F)                                                                        \
+    X(Uniform4i, UNIFORM4I)                                                                        \
+    X(Uniform4f, UNIFORM4F)                                                                        \
+    X(UniformMatrix4fv, UNIFORMMATRIX4FV)                                                          \
+    X(UseProgram, USEPROGRAM)                                                                      \
+    X(Viewport, VIEWPORT)
+
+struct GlFunctions {
+#define PATINA_GL_DECLARE(name, NAME) PFNGL##NAME##PROC name = nullptr;
+    PATINA_GL_FUNCTIONS(PATINA_GL_DECLARE)
+#undef PATINA_GL_DECLARE
+};
+
+/// OpenGL as EGL gives it; filled by the first EglContext. Call only while a context is current.
+extern GlFunctions gl;
+
+/// Fills `gl`. @returns false with a one-line error that names the first missing function
+bool loadGlFunctions(std::string& error);
+
+} // namespace patina

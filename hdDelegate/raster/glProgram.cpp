@@ -1,0 +1,56 @@
+#include "hdDelegate/raster/glProgram.h"
+
+#include "shaders/shaderText.h"
+
+namespace patina {
+
+namespace {
+
+std::string log(GLuint object, PFNGLGETSHADERIVPROC get, PFNGLGETSHADERINFOLOGPROC read) {
+    GLint length = 0;
+    get(object, GL_INFO_LOG_LENGTH, &length);
+    std::string text(size_t(length > 0 ? length : 0), '\0');
+    if (!text.empty()) read(object, length, nullptr, &text[0]);
+    while (!text.empty() && (text.back() == '\0' || text.back() == '\n'))
+        text.pop_back();
+    return text;
+}
+
+GLuint compile(const GlStage& stage, std::string& error) {
+    ShaderText source = flattenShader(stage.name, stage.text, error);
+    if (!error.empty()) return 0;
+    source.text = "#version 450 core\n#line 1 0\n" + source.text;
+    const GLuint shader = gl.CreateShader(stage.type);
+    const char* text = source.text.c_str();
+    gl.ShaderSource(shader, 1, &text, nullptr);
+    gl.CompileShader(shader);
+    GLint ok = 0;
+    gl.GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (ok) return shader;
+    error = stage.name + " does not compile:\n" +
+            source.named(log(shader, gl.GetShaderiv, gl.GetShaderInfoLog));
+    gl.DeleteShader(shader);
+    return 0;
+}
+
+} // namespace
+
+std::unique_ptr<GlProgram> GlProgram::make(const std::vector<GlStage>& stages, std::string& error) {
+    error.clear();
+    std::unique_ptr<GlProgram> program(new GlProgram(gl.CreateProgram()));
+    for (const GlStage& stage : stages) {
+        const GLuint shader = compile(stage, error);
+        if (!shader) return nullptr;
+        gl.AttachShader(program->_id, shader);
+        gl.DeleteShader(shader); // lives as long as the program
+    }
+    gl.LinkProgram(program->_id);
+    GLint ok = 0;
+    gl.GetProgramiv(program->_id, GL_LINK_STATUS, &ok);
+    if (ok) return program;
+    error = (stages.empty() ? "program" : stages[0].name) + " does not link:\n" +
+            log(program->_id, gl.GetProgramiv, gl.GetProgramInfoLog);
+    return nullptr;
+}
+
+} // namespace patina

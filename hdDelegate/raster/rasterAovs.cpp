@@ -1,0 +1,53 @@
+#include "hdDelegate/raster/rasterAovs.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace patina {
+
+void RasterAovs::write(const std::vector<vec4>& positions, const std::vector<vec4>& normals,
+                       const std::vector<int>& ids, Film& film) const {
+    const mat4& toCamera = camera.worldToCamera();
+    for (size_t a = 0; a < aovs.size(); ++a) {
+        const std::string& name = aovs[a].name;
+        const auto each = [&](const std::function<vec3(size_t)>& value) {
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x) {
+                    const size_t i = size_t(height - 1 - y) * size_t(width) + size_t(x);
+                    if (positions[i].w == 0.0f) continue;
+                    const vec3 v = value(i);
+                    const float out[4] = {v.x, v.y, v.z, 0.0f};
+                    film.addAov(int(a), x, y, out, 0.0f);
+                }
+        };
+        const auto inCamera = [&](size_t i) {
+            return vec3(toCamera * vec4(vec3(positions[i]), 1.0f));
+        };
+        const auto id = [&](int k) {
+            each([&, k](size_t i) { return vec3(glm::intBitsToFloat(ids[4 * i + size_t(k)])); });
+        };
+        if (name == "depth")
+            each([&](size_t i) { return vec3(-inCamera(i).z); });
+        else if (name == "cameraDepth")
+            each([&](size_t i) { return vec3(glm::length(inCamera(i))); });
+        else if (name == "deviceDepth")
+            each([&](size_t i) { return vec3(camera.windowDepth(inCamera(i))); });
+        else if (name == "normal")
+            each([&](size_t i) { return vec3(normals[i]); });
+        else if (name == "Neye")
+            each([&](size_t i) {
+                const vec3 n = mat3(toCamera) * vec3(normals[i]);
+                return n / std::max(1e-30f, glm::length(n));
+            });
+        else if (name == "position")
+            each([&](size_t i) { return vec3(positions[i]); });
+        else if (name == "primId")
+            id(0);
+        else if (name == "instanceId")
+            id(1);
+        else if (name == "elementId")
+            id(2);
+    }
+}
+
+} // namespace patina

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "hdDelegate/scene/camera.h"
+#include "hdDelegate/scene/settings.h"
+
+namespace patina {
+
+/// What one pass sees: matrices for one point of the pixel, the lens and the shutter.
+struct RasterView {
+    mat4 worldToClip{1.0f}, clipToWorld{1.0f};
+    vec3 eye{0.0f}, forward{0, 0, -1}; ///< world
+    bool perspective = true;
+    float pixelSpread = 0.0f; ///< angle of a pixel; its width when orthographic
+};
+
+/// The camera of a rasterized image, as hdDelegate/embree/cameraRays has it: the same window,
+/// conform policy and lens.
+class RasterCamera {
+public:
+    RasterCamera(const Camera& camera, const RenderSettings& settings);
+
+    /// @param offset of the sample from the pixel's centre, in pixels, y down
+    /// @param lens two numbers for the lens, in [0,1)
+    /// @param time in [0,1) over the shutter
+    /// @param boundsMin,boundsMax of the scene; the depth range is fitted to them
+    RasterView view(vec2 offset, vec2 lens, float time, const vec3& boundsMin,
+                    const vec3& boundsMax) const;
+
+    float timeCode(float time) const { return _shutterOpen + time * _shutterLength; }
+    const mat4& worldToCamera() const { return _worldToCamera; } ///< at the middle of the shutter
+    /// Depth in [0,1] as OpenGL's default window depth over the camera's own clipping range.
+    float windowDepth(const vec3& cameraPoint) const;
+    const Camera& camera() const { return _camera; }
+
+private:
+    Camera _camera;
+    vec2 _windowMin{0.0f}, _windowMax{0.0f}, _imageSize{1.0f};
+    float _shutterOpen = 0.0f, _shutterLength = 0.0f, _lensRadius = 0.0f;
+    mat4 _worldToCamera{1.0f};
+};
+
+} // namespace patina

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/settings.h"
+
+#include <map>
+
+namespace patina {
+
+/// One place where the prims of a group are drawn.
+struct RasterPlace {
+    mat4 groupToWorld{1.0f};
+    int id = -1; ///< for the instanceId AOV
+    std::vector<std::string> categories;
+};
+
+/// Where groups are drawn: instancers, nested ones too, made flat.
+class RasterInstances {
+public:
+    RasterInstances(const SceneState& state, const RenderSettings& settings, float timeCode);
+    /// The world has one place.
+    const std::vector<RasterPlace>& places(const std::string& group);
+
+private:
+    void gather(const std::string& group, const RasterPlace& inner, int depth,
+                std::vector<RasterPlace>& out) const;
+
+    std::vector<std::shared_ptr<const Instancer>> _instancers;
+    std::map<std::string, std::vector<RasterPlace>> _places;
+    float _time;
+};
+
+/// Whether the settings let a prim be drawn (render tags, root and excluded paths).
+bool isDrawnInRaster(const Geometry& prim, const RenderSettings& settings);
+
+} // namespace patina

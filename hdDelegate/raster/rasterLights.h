@@ -1,0 +1,84 @@
+#pragma once
+
+#include "hdDelegate/embree/lights/areaShape.h"
+#include "hdDelegate/embree/lights/environmentMap.h"
+#include "hdDelegate/embree/lights/lightImages.h"
+#include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/rasterInstances.h"
+
+#include <map>
+
+namespace patina {
+
+/// A light as shaders/raster/pass.glsl has it.
+struct GpuLight {
+    vec4 sampled, normal, radiance, origin, axis[3], inverse[3], shaping, focusTint, cone, shadow,
+        shadowColor;
+};
+
+/// A view from a light, to be drawn into one shadow map.
+struct ShadowView {
+    mat4 worldToMap{1.0f};
+};
+
+/// Boxes that shadows are fitted to.
+struct ShadowBounds {
+    vec3 sceneMin{0.0f}, sceneMax{0.0f};       ///< all that casts
+    vec3 receiverMin{0.0f}, receiverMax{0.0f}; ///< all that the camera sees
+};
+
+/// The lights of a scene, for passes that each take one sample of every light (more of the dome).
+/// All pixels of a pass share the samples, so that a shadow map tells what they reach; passes add
+/// up to soft shadows.
+class RasterLights {
+public:
+    static constexpr int domeSamples = 4; ///< per pass
+    static constexpr int maxMaps = 32;    ///< shadow maps per pass; lights beyond are not shadowed
+    static constexpr int maxLights = 64;  ///< per pass; of more lights each pass takes a choice
+
+    RasterLights(const SceneState& state, const RenderSettings& settings, RasterInstances& places,
+                 float timeCode, LightImages& images, const std::map<std::string, int>& categories,
+                 Diagnostics& diagnostics);
+
+    /// Samples of a pass.
+    /// @param shadows receives the views; they have the order of the layers of the shadow maps
+    std::vector<GpuLight> sample(uint32_t pass, const ShadowBounds& bounds, int mapSize,
+                                 std::vector<ShadowView>& shadows) const;
+
+    bool hasDome() const { return _dome >= 0; }
+    vec3 domeRadiance() const;
+    mat4 domeToWorld() const;
+    bool domeVisible() const;
+    const GlTexture& domeMap() const { return _domeMap; } ///< empty for a constant dome
+    const GlTexture& domeDensity() const { return _domeDensity; }
+    int warnedShadows() const { return _warned; }
+
+private:
+    enum Kind { Rect, Disk, Sphere, Cylinder, Point, Distant, Dome, MoreDome, OtherDome };
+    struct Source {
+        Kind kind = Point;
+        GpuLight fixed;
+        AreaShape shape;
+        vec3 radiance{0.0f}, position{0.0f}, toLight{0.0f};
+        float halfAngle = 0.0f;
+        bool delta = false, shadows = true;
+        mat3 domeToWorld{1.0f};
+        std::shared_ptr<const EnvironmentMap> environment;
+        bool cameraVisible = true;
+    };
+
+    void add(const Light& light, const mat4& toWorld, LightImages& images,
+             const std::map<std::string, int>& categories, Diagnostics& diagnostics);
+    void uploadDome();
+    GpuLight draw(const Source& source, vec2 u, const vec3& from) const;
+    void castShadow(const Source& source, GpuLight& light, float turn, const ShadowBounds& bounds,
+                    int mapSize, std::vector<ShadowView>& shadows) const;
+
+    std::vector<Source> _sources;
+    int _dome = -1;
+    bool _shadows = true;
+    GlTexture _domeMap, _domeDensity;
+    int _warned = 0;
+};
+
+} // namespace patina

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "hdDelegate/raster/glProgram.h"
+#include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/settings.h"
+#include "hdDelegate/scene/textureSystem.h"
+#include "materialNetwork/glsl/glslMaterial.h"
+
+#include <map>
+
+namespace patina {
+
+/// Programs of one text.
+struct RasterPrograms {
+    std::unique_ptr<GlProgram> color, aovs;
+};
+
+/// A material on the GPU.
+struct RasterMaterial {
+    std::shared_ptr<const MaterialProgram> program;
+    GlslMaterial glsl;
+    std::shared_ptr<const RasterPrograms> programs; ///< null: its text does not compile
+    GlBuffer parameters;
+    std::vector<std::shared_ptr<const GlTexture>> textures;
+};
+
+/// The materials of a scene. Equal texts share a program, for as long as this lives; an edit of a
+/// parameter writes a buffer.
+class RasterMaterials {
+public:
+    explicit RasterMaterials(Diagnostics& diagnostics);
+
+    /// @param path of a material, or empty for displayColor
+    /// @param user who is told about in messages
+    const RasterMaterial& get(const std::string& path, const std::string& user,
+                              const SceneState& state, const RenderSettings& settings);
+    /// Forgets materials whose prim has changed; programs and textures stay.
+    void update(const SceneState& state, const RenderSettings& settings);
+
+    size_t programsBuilt() const { return _built; }
+
+private:
+    struct Cached {
+        std::shared_ptr<const MaterialPrim> prim;
+        std::map<std::string, std::string> methods;
+        RasterMaterial material;
+    };
+
+    std::shared_ptr<const RasterPrograms> build(const GlslMaterial& glsl, int primvars,
+                                                const std::string& user);
+    std::shared_ptr<const GlTexture> texture(int handle);
+
+    Diagnostics& _diagnostics;
+    TextureSystem _textures;
+    std::map<std::string, Cached> _materials;
+    std::map<std::string, std::shared_ptr<const RasterPrograms>> _programs; ///< by text
+    std::map<int, std::shared_ptr<const GlTexture>> _uploaded;              ///< by handle
+    size_t _built = 0;
+};
+
+} // namespace patina

@@ -1,0 +1,245 @@
+#include "hdDelegate/raster/rasterPasses.h"
+
+#include "hdDelegate/raster/rasterAovs.h"
+#include "shaders/shaders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace patina {
+
+/// The uniform block `Pass` of passBlock.glsl.
+struct RasterPasses::PassBlock {
+    mat4 worldToClip{1.0f}, clipToWorld{1.0f};
+    vec4 eye{0.0f}, forward{0.0f};
+    int counts[4] = {0, 0, 0, 0};
+    vec4 extra{0.0f};
+    mat4 domeToWorld{1.0f};
+    vec4 dome{0.0f};
+    int domeInfo[4] = {0, 0, 0, 0};
+};
+
+RasterPasses::RasterPasses(std::string& error)
+    : _passBuffer(sizeof(PassBlock), nullptr),
+      _albedoTable(sh::ALBEDO_TABLE_SIZE * sizeof(float), patinaAlbedoTable) {
+    gl.CreateVertexArrays(1, &_vertexArray);
+    gl.CreateFramebuffers(1, &_shadowTarget);
+    _background = GlProgram::make(
+        {{GL_VERTEX_SHADER, "background", "#include \"shaders/raster/background.vert.glsl\"\n"},
+         {GL_FRAGMENT_SHADER, "background", "#include \"shaders/raster/background.frag.glsl\"\n"}},
+        error);
+    if (!_background) return;
+    _shadow = GlProgram::make(
+        {{GL_VERTEX_SHADER, "shadow", "#include \"shaders/raster/shadow.vert.glsl\"\n"},
+         {GL_FRAGMENT_SHADER, "shadow", "#include \"shaders/raster/shadow.frag.glsl\"\n"}},
+        error);
+}
+
+RasterPasses::~RasterPasses() {
+    gl.DeleteVertexArrays(1, &_vertexArray);
+    gl.DeleteFramebuffers(1, &_shadowTarget);
+}
+
+bool RasterPasses::resize(int width, int height) {
+    if (width == _width && height == _height) return true;
+    GLint largest = 0;
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (width > largest || height > largest) return false;
+    const auto make = [&](GLenum format) {
+        return GlTexture(GL_TEXTURE_2D, format, width, height);
+    };
+    _color = make(GL_RGBA32F);
+    _depth = make(GL_DEPTH_COMPONENT32F);
+    _position = make(GL_RGBA32F);
+    _normal = make(GL_RGBA32F);
+    _ids = make(GL_RGBA32I);
+    _colorTarget = GlFramebuffer({&_color}, &_depth);
+    _aovTarget = GlFramebuffer({&_position, &_normal, &_ids}, &_depth);
+    _width = width;
+    _height = height;
+    return _colorTarget.complete() && _aovTarget.complete();
+}
+
+RasterPasses::PassBlock RasterPasses::block(const RasterView& view) const {
+    PassBlock b;
+    b.worldToClip = view.worldToClip;
+    b.clipToWorld = view.clipToWorld;
+    b.eye = vec4(view.eye, view.perspective ? 1.0f : 0.0f);
+    b.forward = vec4(view.forward, view.pixelSpread);
+    b.counts[3] = shadowMapSize;
+    return b;
+}
+
+void RasterPasses::drawSurfaces(const RasterScene& scene, bool aovs) const {
+    scene.bind();
+    const GlProgram* last = nullptr;
+    const RasterMaterial* lastMaterial = nullptr;
+    for (const RasterDraw& d : scene.draws()) {
+        const GlProgram* program =
+            aovs ? d.material->programs->aovs.get() : d.material->programs->color.get();
+        if (program != last) program->use();
+        last = program;
+        if (d.material != lastMaterial) {
+            d.material->parameters.bindUniform(1);
+            for (size_t i = 0; i < d.material->textures.size(); ++i)
+                d.material->textures[i]->bind(GLuint(i));
+        }
+        lastMaterial = d.material;
+        gl.Uniform4i(0, d.firstFloat, d.floatsPerCorner, d.firstInstance, d.flags);
+        gl.Uniform4i(1, d.primvarBits, d.primId, d.flags, 0);
+        gl.DrawArraysInstanced(GL_TRIANGLES, 0, d.cornerCount, d.instanceCount);
+    }
+}
+
+void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera,
+                            const std::vector<AovSpec>& aovs, Film& film) {
+    const RasterView view =
+        camera.view(vec2(0.0f), vec2(0.0f), 0.5f, scene.boundsMin(), scene.boundsMax());
+    const PassBlock b = block(view);
+    _passBuffer.write(&b, sizeof b);
+    _passBuffer.bindUniform(0);
+    _albedoTable.bindStorage(7);
+    _aovTarget.bind();
+    gl.Viewport(0, 0, _width, _height);
+    const float none[4] = {0, 0, 0, 0}, far = 1.0f;
+    const GLint noIds[4] = {-1, -1, -1, -1};
+    gl.ClearNamedFramebufferfv(_aovTarget.id(), GL_COLOR, 0, none);
+    gl.ClearNamedFramebufferfv(_aovTarget.id(), GL_COLOR, 1, none);
+    gl.ClearNamedFramebufferiv(_aovTarget.id(), GL_COLOR, 2, noIds);
+    gl.ClearNamedFramebufferfv(_aovTarget.id(), GL_DEPTH, 0, &far);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    gl.DepthMask(GL_TRUE);
+    gl.BindVertexArray(_vertexArray);
+    drawSurfaces(scene, true);
+
+    const size_t pixels = size_t(_width) * size_t(_height);
+    std::vector<vec4> positions(pixels), normals(pixels);
+    std::vector<int> ids(pixels * 4);
+    gl.GetTextureImage(_position.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels * sizeof(vec4)),
+                       positions.data());
+    gl.GetTextureImage(_normal.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels * sizeof(vec4)),
+                       normals.data());
+    gl.GetTextureImage(_ids.id(), 0, GL_RGBA_INTEGER, GL_INT, GLsizei(pixels * 4 * sizeof(int)),
+                       ids.data());
+    measureReceivers(positions, scene);
+    const RasterAovs target{camera, aovs, _width, _height};
+    target.write(positions, normals, ids, film);
+}
+
+/// What the camera sees, which is all that shadows have to be found on.
+void RasterPasses::measureReceivers(const std::vector<vec4>& positions, const RasterScene& scene) {
+    vec3 low(INFINITY), high(-INFINITY);
+    for (const vec4& p : positions)
+        if (p.w > 0.0f) {
+            low = glm::min(low, vec3(p));
+            high = glm::max(high, vec3(p));
+        }
+    _bounds.sceneMin = scene.boundsMin();
+    _bounds.sceneMax = scene.boundsMax();
+    if (low.x > high.x) {
+        low = _bounds.sceneMin;
+        high = _bounds.sceneMax;
+    }
+    // A pixel's footprint, lens and shutter reach a little further than its centre.
+    const vec3 margin = 0.02f * (high - low) + 1e-4f * glm::length(high - low);
+    _bounds.receiverMin = glm::max(low - margin, _bounds.sceneMin);
+    _bounds.receiverMax = glm::min(high + margin, _bounds.sceneMax);
+}
+
+void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views) {
+    const int layers = std::max(1, int(views.size()));
+    if (layers > _shadowLayers) {
+        _shadowMaps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, shadowMapSize,
+                                shadowMapSize, layers);
+        _shadowLayers = layers;
+        _shadowMaps.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        _shadowMaps.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        _shadowMaps.parameter(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        _shadowMaps.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        _shadowMaps.parameter(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        _shadowMaps.parameter(GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    }
+    if (views.empty()) return;
+    scene.bind();
+    _shadow->use();
+    gl.BindFramebuffer(GL_FRAMEBUFFER, _shadowTarget);
+    gl.Viewport(0, 0, shadowMapSize, shadowMapSize);
+    gl.Enable(GL_POLYGON_OFFSET_FILL);
+    gl.PolygonOffset(1.1f, 2.0f);
+    const GLenum noColor = GL_NONE;
+    gl.NamedFramebufferDrawBuffers(_shadowTarget, 1, &noColor);
+    const float far = 1.0f;
+    for (size_t i = 0; i < views.size(); ++i) {
+        gl.NamedFramebufferTextureLayer(_shadowTarget, GL_DEPTH_ATTACHMENT, _shadowMaps.id(), 0,
+                                        GLint(i));
+        gl.ClearNamedFramebufferfv(_shadowTarget, GL_DEPTH, 0, &far);
+        gl.UniformMatrix4fv(2, 1, GL_FALSE, &views[i].worldToMap[0][0]);
+        for (const RasterDraw& d : scene.draws()) {
+            if (!d.prim->visibility.shadow) continue;
+            gl.Uniform4i(0, d.firstFloat, d.floatsPerCorner, d.firstInstance, d.flags);
+            gl.DrawArraysInstanced(GL_TRIANGLES, 0, d.cornerCount, d.instanceCount);
+        }
+    }
+    gl.Disable(GL_POLYGON_OFFSET_FILL);
+}
+
+void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
+                        const RasterCamera& camera, uint32_t pass, vec2 offset, vec2 lens,
+                        float time, Film& film) {
+    std::vector<ShadowView> views;
+    const std::vector<GpuLight> sampled = lights.sample(pass, _bounds, shadowMapSize, views);
+    const GlBuffer lightBuffer(sampled), matrixBuffer(views);
+    gl.BindVertexArray(_vertexArray);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    gl.DepthMask(GL_TRUE);
+    drawShadows(scene, views);
+
+    const RasterView view = camera.view(offset, lens, time, scene.boundsMin(), scene.boundsMax());
+    PassBlock b = block(view);
+    b.counts[0] = int(sampled.size());
+    b.counts[1] = bsdfSamples;
+    b.counts[2] = int(pass);
+    b.domeToWorld = lights.domeToWorld();
+    b.dome = vec4(lights.domeRadiance(), lights.hasDome() ? 1.0f : 0.0f);
+    b.domeInfo[0] = RasterLights::domeSamples;
+    b.domeInfo[1] = lights.domeVisible();
+    b.extra = vec4(1.0f, camera.camera().exposureScale, 0.0f, 0.0f);
+    if (const GlTexture& map = lights.domeMap()) {
+        map.bind(16);
+        lights.domeDensity().bind(17);
+        b.domeInfo[2] = map.levels() - 1;
+        b.domeInfo[3] = 1;
+        b.extra.x = float(map.width()) * float(map.height());
+    }
+    _passBuffer.write(&b, sizeof b);
+    _passBuffer.bindUniform(0);
+    lightBuffer.bindStorage(4);
+    matrixBuffer.bindStorage(5);
+    _albedoTable.bindStorage(7);
+    _shadowMaps.bind(18);
+
+    _colorTarget.bind();
+    gl.Viewport(0, 0, _width, _height);
+    const float none[4] = {0, 0, 0, 0}, far = 1.0f;
+    gl.ClearNamedFramebufferfv(_colorTarget.id(), GL_COLOR, 0, none);
+    gl.ClearNamedFramebufferfv(_colorTarget.id(), GL_DEPTH, 0, &far);
+    gl.DepthFunc(GL_LEQUAL);
+    _background->use();
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    gl.DepthFunc(GL_LESS);
+    drawSurfaces(scene, false);
+
+    std::vector<vec4> pixels(size_t(_width) * size_t(_height));
+    gl.GetTextureImage(_color.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels.size() * sizeof(vec4)),
+                       pixels.data());
+    for (int y = 0; y < _height; ++y) {
+        const vec4* row = &pixels[size_t(_height - 1 - y) * size_t(_width)];
+        for (int x = 0; x < _width; ++x)
+            film.addColor(x, y, vec3(row[x]), row[x].w);
+    }
+}
+
+} // namespace patina

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "hdDelegate/film/film.h"
+#include "hdDelegate/raster/rasterLights.h"
+#include "hdDelegate/raster/rasterScene.h"
+
+namespace patina {
+
+/// Draws passes over a scene and hands their pixels to a film. Lives with one context.
+class RasterPasses {
+public:
+    /// @param error is set, and ok() false, when the driver does not take what every pass needs
+    explicit RasterPasses(std::string& error);
+    bool ok() const { return _background && _shadow; }
+
+    /// Sets the size of the image. @returns false when the driver has no room for it
+    bool resize(int width, int height);
+
+    /// Ids, positions and normals through the pixels' centres; writes the film's AOVs.
+    void drawAovs(const RasterScene& scene, const RasterCamera& camera,
+                  const std::vector<AovSpec>& aovs, Film& film);
+
+    /// One sample of every pixel.
+    /// @param offset of the sample from the pixels' centres; lens, time as of RasterCamera::view()
+    void draw(const RasterScene& scene, const RasterLights& lights, const RasterCamera& camera,
+              uint32_t pass, vec2 offset, vec2 lens, float time, Film& film);
+
+    static constexpr int shadowMapSize = 1024;
+    static constexpr int bsdfSamples = 2; ///< per pixel and pass
+
+private:
+    struct PassBlock;
+    PassBlock block(const RasterView& view) const;
+    void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views);
+    void drawSurfaces(const RasterScene& scene, bool aovs) const;
+    void measureReceivers(const std::vector<vec4>& positions, const RasterScene& scene);
+
+    std::unique_ptr<GlProgram> _background, _shadow;
+    GlBuffer _passBuffer, _albedoTable;
+    GLuint _vertexArray = 0;
+    int _width = 0, _height = 0;
+    GlTexture _color, _depth, _position, _normal, _ids, _shadowMaps;
+    GlFramebuffer _colorTarget, _aovTarget;
+    GLuint _shadowTarget = 0;
+    int _shadowLayers = 0;
+    ShadowBounds _bounds;
+
+public:
+    ~RasterPasses();
+};
+
+} // namespace patina

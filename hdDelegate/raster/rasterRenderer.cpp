@@ -1,0 +1,275 @@
+#include "hdDelegate/raster/rasterRenderer.h"
+
+#include "hdDelegate/raster/eglContext.h"
+#include "hdDelegate/raster/rasterPasses.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+namespace patina {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Point `i` of a sequence that fills the unit square evenly (Roberts 2018).
+vec2 evenly(uint32_t i, double a, double b) {
+    const double x = 0.5 + a * (i + 1.0), y = 0.5 + b * (i + 1.0);
+    return {float(x - std::floor(x)), float(y - std::floor(y))};
+}
+
+/// Offset from a pixel's centre with the density of the pixel filter: a box up to radius 0.5, else
+/// a Gaussian cut off at the radius with a standard deviation of half of it.
+vec2 filterOffset(vec2 u, float radius) {
+    if (radius <= 0.5f) return (u * 2.0f - 1.0f) * std::max(radius, 0.0f);
+    // Both axes by inverting the error function's logistic neighbour would be biased; a polar
+    // Gaussian whose radius is cut at the filter's is round instead of square, which no eye sees.
+    const float cut = 1.0f - std::exp(-2.0f);
+    const float r = std::sqrt(-2.0f * std::log(1.0f - u.x * cut)) * 0.5f * radius;
+    const float phi = 6.2831853f * u.y;
+    return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+class RasterRenderer : public Renderer {
+public:
+    explicit RasterRenderer(std::unique_ptr<EglContext> context) : _context(std::move(context)) {}
+
+    ~RasterRenderer() override {
+        stop();
+        const EglContext::Use use(*_context);
+        release();
+    }
+
+    void start(std::shared_ptr<Scene> scene, const std::string& camera,
+               const RenderSettings& settings, std::shared_ptr<Film> film) override {
+        stop();
+        const std::lock_guard<std::mutex> control(_control);
+        _scene = std::move(scene);
+        _film = std::move(film);
+        _settings = settings;
+        _stop = _pause = false;
+        {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            _progress = RenderProgress();
+            _idle = false;
+        }
+        _running = true;
+        _started = Clock::now();
+        _thread = std::thread(&RasterRenderer::run, this, _scene->snapshot(), camera);
+    }
+
+    void stop() override {
+        const std::lock_guard<std::mutex> control(_control);
+        _stop = true;
+        {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            _pause = false;
+        }
+        _changed.notify_all();
+        if (_thread.joinable()) _thread.join();
+    }
+
+    void pause() override {
+        std::unique_lock<std::mutex> lock(_mutex);
+        _pause = true;
+        _changed.wait(lock, [&] { return _idle || !_running; });
+    }
+
+    void resume() override {
+        {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            _pause = false;
+        }
+        _changed.notify_all();
+    }
+
+    bool isRunning() const override { return _running; }
+
+    void wait() override {
+        std::unique_lock<std::mutex> lock(_mutex);
+        _changed.wait(lock, [&] { return !_running; });
+    }
+
+    RenderProgress progress() const override {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        return _progress;
+    }
+
+    void setListener(FilmListener listener) override { _listener = std::move(listener); }
+
+private:
+    void release() {
+        _lights.reset();
+        _passes.reset();
+        _raster.reset();
+        _images.reset();
+        _builtFor.reset();
+    }
+
+    void run(std::shared_ptr<const SceneState> state, std::string cameraPath) {
+        std::string failure;
+        try {
+            const EglContext::Use use(*_context);
+            if (!use.ok()) throw std::runtime_error("the OpenGL context cannot be used");
+            if (_settings.width < 1 || _settings.height < 1)
+                throw std::runtime_error("the image has no pixels");
+            const auto camera = state->cameras.find(cameraPath);
+            if (camera == state->cameras.end())
+                throw std::runtime_error("there is no camera " + cameraPath);
+            for (const mat4& transform : camera->second->transform.values) {
+                const float volume = glm::determinant(mat3(transform));
+                if (!std::isfinite(volume) || volume == 0.0f)
+                    throw std::runtime_error("the camera " + cameraPath +
+                                             " has a transform without an inverse");
+            }
+            render(*state, *camera->second);
+        } catch (const std::exception& error) {
+            failure = error.what();
+        }
+        finish(failure);
+    }
+
+    void build(const SceneState& state, const RasterCamera& camera) {
+        if (_builtFor != _scene) {
+            release();
+            std::string error;
+            _passes = std::make_unique<RasterPasses>(error);
+            if (!_passes->ok())
+                throw std::runtime_error("the driver does not take the shaders: " + error);
+            _raster = std::make_unique<RasterScene>(_scene->diagnostics());
+            _images = std::make_unique<LightImages>(_scene->diagnostics());
+            _builtFor = _scene;
+        }
+        _raster->update(state, camera, _settings, _stop);
+        if (_stop) return;
+        RasterInstances places(state, _settings, camera.timeCode(0.5f));
+        _lights =
+            std::make_unique<RasterLights>(state, _settings, places, camera.timeCode(0.5f),
+                                           *_images, _raster->categories(), _scene->diagnostics());
+    }
+
+    void render(const SceneState& state, const Camera& cameraPrim) {
+        const RasterCamera camera(cameraPrim, _settings);
+        build(state, camera);
+        if (_stop) return;
+        if (!_passes->resize(_settings.width, _settings.height))
+            throw std::runtime_error("the driver has no room for an image of this size");
+        std::vector<AovSpec> aovs;
+        for (const std::string& name : _settings.aovs)
+            if (name != "color" && name != "alpha" && name != "sampleCount" && name != "variance")
+                aovs.push_back(standardAov(name));
+        _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
+        {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            _progress.statistics["secondsBuild"] = secondsSince(_started);
+            _progress.statistics["trianglesStored"] = double(_raster->triangles());
+            _progress.statistics["instances"] = double(_raster->instanceCount());
+            _progress.statistics["programsBuilt"] = double(_raster->programsBuilt());
+        }
+        _passes->drawAovs(*_raster, camera, aovs, *_film);
+        const auto sampling = Clock::now();
+        const uint32_t taken = _film->sampleCount(0, 0);
+        auto told = Clock::now() - std::chrono::seconds(1);
+        for (uint32_t i = taken; i < uint32_t(std::max(1, _settings.samples)) && !_stop; ++i) {
+            const float time = evenly(i, 0.6180339887498949, 0.4142135623730951).x;
+            const vec2 offset = filterOffset(evenly(i, 0.7548776662466927, 0.5698402909980532),
+                                             _settings.filterRadius);
+            const vec2 lens = evenly(i, 0.8191725133961645, 0.6710436067037893);
+            _raster->moveTo(state, _settings, camera.timeCode(time));
+            _passes->draw(*_raster, *_lights, camera, i, offset, lens, time, *_film);
+            if (gl.GetError() == GL_OUT_OF_MEMORY)
+                throw std::runtime_error("the driver is out of memory");
+            if (_context->lost()) throw std::runtime_error("the driver has reset the context");
+            {
+                const std::lock_guard<std::mutex> lock(_mutex);
+                _progress.samplesDone = int(i) + 1;
+                _progress.fraction = double(i + 1) / std::max(1, _settings.samples);
+                _progress.secondsRendering = secondsSince(sampling);
+                _progress.secondsLeft =
+                    _progress.secondsRendering * (1.0 - _progress.fraction) / _progress.fraction;
+            }
+            if (_listener && int(i) + 1 < _settings.samples &&
+                Clock::now() - told > std::chrono::milliseconds(30)) {
+                _listener(*_film, progress());
+                told = Clock::now();
+            }
+            if (!waitWhilePaused()) return;
+            if (_settings.seconds > 0.0 && secondsSince(_started) > _settings.seconds) break;
+        }
+    }
+
+    bool waitWhilePaused() {
+        std::unique_lock<std::mutex> lock(_mutex);
+        if (_pause) {
+            _idle = true;
+            _changed.notify_all();
+            _changed.wait(lock, [&] { return !_pause; });
+            _idle = false;
+        }
+        return !_stop;
+    }
+
+    void finish(const std::string& failure) {
+        RenderProgress seen = progress();
+        if (!failure.empty()) {
+            seen.failed = true;
+            seen.error = failure;
+        } else if (!_stop) {
+            seen.converged = true;
+            seen.fraction = 1.0;
+            seen.secondsLeft = 0.0;
+        }
+        if (_listener && (seen.converged || seen.failed)) _listener(*_film, seen);
+        {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            _progress = seen;
+            _running = false;
+            _idle = true;
+        }
+        _changed.notify_all();
+    }
+
+    std::unique_ptr<EglContext> _context;
+    std::shared_ptr<Scene> _scene, _builtFor;
+    std::shared_ptr<Film> _film;
+    RenderSettings _settings;
+    FilmListener _listener;
+
+    // Kept between renders, so that an edit rebuilds less than everything.
+    std::unique_ptr<RasterPasses> _passes;
+    std::unique_ptr<RasterScene> _raster;
+    std::unique_ptr<RasterLights> _lights;
+    std::unique_ptr<LightImages> _images;
+
+    std::thread _thread;
+    std::mutex _control;
+    mutable std::mutex _mutex;
+    std::condition_variable _changed;
+    RenderProgress _progress;
+    std::atomic<bool> _running{false}, _stop{false}, _pause{false};
+    bool _idle = true;
+    Clock::time_point _started;
+};
+
+} // namespace
+
+std::unique_ptr<Renderer> makeRasterRenderer(std::string& error) {
+    auto context = EglContext::create(error);
+    if (!context) {
+        error = "the rasterizer cannot run: " + error;
+        return nullptr;
+    }
+    return std::make_unique<RasterRenderer>(std::move(context));
+}
+
+} // namespace patina

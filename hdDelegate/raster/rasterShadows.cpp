@@ -1,0 +1,83 @@
+// The views from lights that shadow maps are drawn with.
+
+#include "hdDelegate/raster/rasterLights.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+std::vector<vec3> corners(const vec3& low, const vec3& high) {
+    std::vector<vec3> out;
+    for (int i = 0; i < 8; ++i)
+        out.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+    return out;
+}
+
+/// World to a space with -z along `direction`, turned about it.
+mat4 looking(const vec3& from, const vec3& direction, float turn) {
+    const float angle = 6.2831853f * turn;
+    const vec3 helper = std::fabs(direction.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0);
+    const vec3 x = glm::normalize(glm::cross(direction, helper));
+    const vec3 y = glm::cross(x, direction);
+    return glm::lookAt(from, from + direction, x * std::cos(angle) + y * std::sin(angle));
+}
+
+} // namespace
+
+void RasterLights::castShadow(const Source& s, GpuLight& light, float turn,
+                              const ShadowBounds& bounds, int mapSize,
+                              std::vector<ShadowView>& shadows) const {
+    const auto full = [&](int more) { return shadows.size() + size_t(more) > size_t(maxMaps); };
+    const auto receivers = corners(bounds.receiverMin, bounds.receiverMax);
+    const auto casters = corners(bounds.sceneMin, bounds.sceneMax);
+    if (s.kind >= Distant) {
+        if (full(1)) return;
+        const mat4 view = looking(vec3(0.0f), -vec3(light.sampled), turn);
+        vec3 low(INFINITY), high(-INFINITY);
+        for (const vec3& p : receivers) {
+            const vec3 q = vec3(view * vec4(p, 1.0f));
+            low = glm::min(low, q);
+            high = glm::max(high, q);
+        }
+        for (const vec3& p : casters)
+            high.z = std::max(high.z, (view * vec4(p, 1.0f)).z);
+        const float side = std::max(high.x - low.x, high.y - low.y) * 1.02f + 1e-6f;
+        const float pad = 0.01f * (high.z - low.z) + 1e-6f;
+        const vec2 c = 0.5f * vec2(low + high);
+        light.shadow = vec4(float(shadows.size()), 1.0f, side / float(mapSize), 0.0f);
+        const float h = 0.5f * side;
+        shadows.push_back(
+            {glm::ortho(c.x - h, c.x + h, c.y - h, c.y + h, -high.z - pad, -low.z + pad) * view});
+        return;
+    }
+    const vec3 from = vec3(light.sampled);
+    const vec3 center = 0.5f * (bounds.receiverMin + bounds.receiverMax);
+    const float radius = 0.5f * glm::length(bounds.receiverMax - bounds.receiverMin);
+    const float distance = glm::length(center - from);
+    const float reach = distance + radius;
+    const float nearest = std::max(1e-3f * reach, 1e-6f);
+    if (distance > 1.3f * radius) {
+        if (full(1)) return;
+        const float tangent = 1.02f * radius / std::sqrt(distance * distance - radius * radius);
+        const float n = nearest * tangent;
+        light.shadow = vec4(float(shadows.size()), 1.0f, 2.0f * tangent / float(mapSize), 1.0f);
+        shadows.push_back({glm::frustum(-n, n, -n, n, nearest, reach * 1.01f) *
+                           looking(from, (center - from) / distance, turn)});
+        return;
+    }
+    if (full(6)) return;
+    light.shadow = vec4(float(shadows.size()), 6.0f, 2.0f / float(mapSize), 1.0f);
+    const vec3 directions[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    // A little wider than a face of the cube, for offsets and filters at its edges.
+    const float n = nearest * 1.02f;
+    for (const vec3& d : directions)
+        shadows.push_back(
+            {glm::frustum(-n, n, -n, n, nearest, reach * 1.01f) * looking(from, d, 0.0f)});
+}
+
+} // namespace patina

@@ -1,0 +1,82 @@
+// The context, and a program on it: what is drawn comes back, and what is wrong is told by name.
+
+#include "hdDelegate/raster/glProgram.h"
+#include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/tests/rasterTest.h"
+
+#include <EGL/egl.h>
+
+#include <cstdlib>
+
+using namespace patina;
+
+TEST(RasterContext, ComputesWithALobe) {
+    PATINA_NEED_CONTEXT();
+    std::string error;
+    const auto program =
+        GlProgram::make({{GL_COMPUTE_SHADER, "test",
+                          "#include \"shaders/compat/glsl.glsl\"\n"
+                          "#include \"shaders/lobes.glsl\"\n"
+                          "layout(local_size_x = 1) in;\n"
+                          "layout(std430, binding = 0) buffer Result { vec4 result[]; };\n"
+                          "void main() {\n"
+                          "    OrenNayarLobe l = orenNayarSetup(vec3(0.5), 0.0, false);\n"
+                          "    vec3 n = vec3(0.0, 0.0, 1.0);\n"
+                          "    result[gl_GlobalInvocationID.x] ="
+                          "        vec4(orenNayarEval(l, n, n).value, 1.0);\n"
+                          "}\n"}},
+                        error);
+    ASSERT_TRUE(program) << error;
+    const GlBuffer result(2 * 4 * sizeof(float), nullptr);
+    result.bindStorage(0);
+    program->use();
+    gl.DispatchCompute(2, 1, 1);
+    gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    float values[8] = {};
+    result.read(values, sizeof values);
+    EXPECT_NEAR(values[0], 0.5 / 3.14159265, 1e-6);
+    EXPECT_EQ(values[7], 1.0f);
+    EXPECT_EQ(gl.GetError(), GLenum(GL_NO_ERROR));
+}
+
+TEST(RasterContext, NamesFileAndLineOfAnError) {
+    PATINA_NEED_CONTEXT();
+    std::string error;
+    EXPECT_FALSE(GlProgram::make({{GL_COMPUTE_SHADER, "broken",
+                                   "#include \"shaders/lib/lobe.glsl\"\n"
+                                   "layout(local_size_x = 1) in;\n"
+                                   "void main() {}\n"}},
+                                 error));
+    EXPECT_NE(error.find("shaders/lib/lobe.glsl:"), std::string::npos) << error;
+    EXPECT_FALSE(
+        GlProgram::make({{GL_COMPUTE_SHADER, "lost", "#include \"no/such.glsl\"\n"}}, error));
+    EXPECT_NE(error.find("no/such.glsl"), std::string::npos) << error;
+}
+
+TEST(RasterContext, LeavesTheHostsContextCurrent) {
+    std::string error;
+    const auto host = EglContext::create(error);
+    if (!host) GTEST_SKIP() << error;
+    EXPECT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
+    const EglContext::Use hostUse(*host);
+    const EGLContext before = eglGetCurrentContext();
+    EXPECT_NE(before, EGL_NO_CONTEXT);
+    {
+        const auto own = EglContext::create(error);
+        ASSERT_TRUE(own) << error;
+        EXPECT_EQ(eglGetCurrentContext(), before);
+        const EglContext::Use use(*own);
+        EXPECT_NE(eglGetCurrentContext(), before);
+        EXPECT_FALSE(own->lost());
+    }
+    EXPECT_EQ(eglGetCurrentContext(), before);
+}
+
+TEST(RasterContext, SaysInOneLineWhyThereIsNone) {
+    setenv("PATINA_EGL_PLATFORM", "none", 1);
+    std::string error;
+    EXPECT_FALSE(EglContext::create(error));
+    EXPECT_FALSE(error.empty());
+    EXPECT_EQ(error.find('\n'), std::string::npos);
+    unsetenv("PATINA_EGL_PLATFORM");
+}

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "hdDelegate/raster/eglContext.h"
+
+#include <gtest/gtest.h>
+
+/// Leaves a test that needs OpenGL with one line where there is none. Defines `context` and makes
+/// it current for the rest of the scope.
+#define PATINA_NEED_CONTEXT()                                                                      \
+    std::string contextError;                                                                      \
+    const auto context = patina::EglContext::create(contextError);                                 \
+    if (!context) GTEST_SKIP() << contextError;                                                    \
+    const patina::EglContext::Use useContext(*context);                                            \
+    ASSERT_TRUE(useContext.ok())

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "materialNetwork/cpu/programCode.h"
+
+#include <functional>
+#include <string>
+
+namespace patina {
+
+/// Beginning of the names of a lobe's functions, "conductor".
+std::string glslLobePrefix(LobeKind kind);
+/// GLSL type of a lobe, "ConductorLobe".
+std::string glslLobeType(LobeKind kind);
+
+/// GLSL expression that sets a lobe up, as setupLobe() does.
+/// @param registers text of a register, a vec4
+std::string glslLobeSetup(const LobeTemplate& lobe,
+                          const std::function<std::string(Register)>& registers);
+
+} // namespace patina

@@ -1,0 +1,349 @@
+#include "materialNetwork/glsl/glslMaterial.h"
+
+#include "materialNetwork/cpu/programCode.h"
+#include "materialNetwork/glsl/glslLobes.h"
+#include "materialNetwork/glsl/glslPatterns.h"
+
+#include <algorithm>
+#include <set>
+
+namespace patina {
+
+namespace {
+
+std::string number(int i) {
+    return std::to_string(i);
+}
+
+/// Writes the text of one material. Every use of a constant gets a parameter of its own, so that
+/// equal constants do not change the text.
+class Writer {
+public:
+    Writer(const MaterialProgram& program, GlslMaterial& out)
+        : _program(program), _code(program.code()), _out(out) {}
+
+    void write() {
+        for (const auto* list : {&_code.surfaceCode, &_code.emissionCode, &_code.opacityCode})
+            declareRegisters(*list);
+        for (size_t i = 0; i < _code.lobes.size(); ++i)
+            line(glslLobeType(_code.lobes[i].prebuilt.kind) + " lobe" + number(int(i)) + ";");
+        const int lobes = std::max(1, int(_code.lobes.size()));
+        line("vec3 lobeWeight[" + number(lobes) + "];");
+        line("vec3 lobeAlbedo[" + number(lobes) + "];");
+        line("float lobeChance[" + number(lobes) + "];");
+        line("Frame frames[" + number(std::max(1, int(_code.frames.size()))) + "];");
+        line("vec3 straight;");
+        placeFunction();
+        setupFunction();
+        presenceFunction();
+        emissionFunction();
+        evalFunction();
+        sampleFunction();
+        std::string head = "layout(std140, binding = 1) uniform Parameters { vec4 parameters[" +
+                           number(std::max(1, int(_out.parameters.size()))) + "]; };\n";
+        for (size_t i = 0; i < _out.textures.size(); ++i) {
+            const std::string t = "texture" + number(int(i));
+            head += "layout(binding = " + number(int(i)) + ") uniform sampler2D sampler" +
+                    number(int(i)) + ";\nvec4 " + t +
+                    "(vec2 uv, float footprint) { return nodeTexture(sampler" + number(int(i)) +
+                    ", uv, footprint); }\n";
+        }
+        _out.text = head + _text;
+        if (_out.parameters.empty()) _out.parameters.emplace_back(0.0f);
+        _out.presence = !_program.isOpaque();
+        _out.emission = _program.hasEmission();
+    }
+
+private:
+    void line(const std::string& text) { _text += text + "\n"; }
+
+    std::string reg(Register r) {
+        if (r >= _code.constants.size()) return "r" + number(r);
+        _out.parameters.push_back(_code.constants[r]);
+        return "parameters[" + number(int(_out.parameters.size()) - 1) + "]";
+    }
+    std::string reg(int r) { return reg(Register(r)); }
+
+    std::string sampler(int handle) {
+        auto& list = _out.textures;
+        const auto found = std::find(list.begin(), list.end(), handle);
+        const int i = int(found - list.begin());
+        if (found == list.end()) list.push_back(handle);
+        return "texture" + number(i);
+    }
+
+    std::vector<std::string> expressions(const Instruction& instruction) {
+        return glslPattern(
+            instruction,
+            [&](int i) { return reg(_code.inputPool[instruction.firstInput + uint32_t(i)]); },
+            [&](int handle) { return sampler(handle); });
+    }
+
+    void declareRegisters(const std::vector<Instruction>& code) {
+        const size_t parameters = _out.parameters.size();
+        for (const Instruction& i : code) {
+            const size_t outputs = std::max<size_t>(1, expressions(i).size());
+            for (size_t k = 0; k < outputs; ++k)
+                if (_declared.insert(i.output + int(k)).second)
+                    line("vec4 r" + number(i.output + int(k)) + ";");
+        }
+        _out.parameters.resize(parameters);
+    }
+
+    /// What has no GLSL becomes the value that it has at one point.
+    void instructions(const std::vector<Instruction>& code) {
+        for (const Instruction& i : code) {
+            const size_t parameters = _out.parameters.size();
+            std::vector<std::string> values = expressions(i);
+            if (values.empty()) {
+                _out.parameters.resize(parameters);
+                _out.leftOut.push_back("a pattern without GLSL shows one value everywhere");
+                RegisterFile registers(_code);
+                registers.run(_code, code, ShadingPoint());
+                _out.parameters.push_back(registers.data()[i.output]);
+                values = {"parameters[" + number(int(_out.parameters.size()) - 1) + "]"};
+            }
+            for (size_t k = 0; k < values.size(); ++k)
+                line("    r" + number(i.output + int(k)) + " = " + values[k] + ";");
+        }
+    }
+
+    void frame(int i) {
+        const FrameTemplate& f = _code.frames[size_t(i)];
+        const std::string n = f.normal >= 0 ? reg(f.normal) + ".xyz" : "vec3(0.0)";
+        const std::string t = f.tangent >= 0 ? reg(f.tangent) + ".xyz" : "vec3(0.0)";
+        line("    frames[" + number(i) + "] = makeFrame(" + n + ", " + t + ", " +
+             (f.flips ? "true" : "false") + ");");
+    }
+
+    std::string frameOf(size_t lobe) const {
+        return "frames[" + number(_code.lobes[lobe].prebuilt.frame) + "]";
+    }
+
+    /// Lobes set up, with weights that do not yet know what passes straight.
+    void placeFunction() {
+        line("void place() {");
+        instructions(_code.surfaceCode);
+        for (size_t i = 0; i < _code.frames.size(); ++i)
+            frame(int(i));
+        for (size_t i = 0; i < _code.lobes.size(); ++i)
+            placeLobe(i);
+        weights();
+        line("    straight = vec3(0.0);");
+        for (size_t i = 0; i < _code.lobes.size(); ++i)
+            if (_code.lobes[i].straight)
+                line("    straight += lobeWeight[" + number(int(i)) + "] * wallPassed" +
+                     number(int(i)) + ";");
+        if (_code.hasStraight) {
+            line("    straight = clamp(straight, 0.0, 1.0);");
+            line("    float met = 1.0 - largest(straight);");
+            line("    float scale = met > 0.0 ? 1.0 / met : 0.0;");
+            for (size_t i = 0; i < _code.lobes.size(); ++i)
+                line("    lobeWeight[" + number(int(i)) + "] *= " +
+                     (_code.lobes[i].straight ? "wallReflected" + number(int(i)) + " * scale;"
+                                              : "scale;"));
+        }
+        line("}");
+    }
+
+    void placeLobe(size_t i) {
+        const LobeTemplate& t = _code.lobes[i];
+        const std::string n = number(int(i)), lobe = "lobe" + n;
+        const std::string prefix = glslLobePrefix(t.prebuilt.kind);
+        const auto registers = [&](Register r) { return reg(r); };
+        line("    " + lobe + " = " + glslLobeSetup(t, registers) + ";");
+        line("    float kept" + n + " = unit(" + prefix + "Fix(" + lobe + ", " + frameOf(i) +
+             ".wo, lobeAlbedo[" + n + "]));");
+        if (!t.straight) return;
+        line("    vec3 wallPassed" + n + ", wallReflected" + n + ";");
+        line("    " + prefix + "Wall(" + lobe + ", " + frameOf(i) + ".wo, lobeAlbedo[" + n +
+             "], wallPassed" + n + ", wallReflected" + n + ");");
+    }
+
+    /// As BsdfBuilder::setWeights(), unrolled.
+    void weights() {
+        const int count = int(_code.bsdf.size());
+        const auto passed = [&](int i) { return i < 0 ? "1.0" : "passed" + number(i); };
+        std::vector<std::string> factor(size_t(count) + 1);
+        for (int i = 0; i < count; ++i) {
+            const ClosureOp& op = _code.bsdf[size_t(i)];
+            if (op.kind == ClosureKind::Mix || op.lobe >= 0)
+                factor[size_t(i)] = "unit(" + reg(op.factor) + ".x)";
+            else if (op.kind == ClosureKind::Multiply)
+                factor[size_t(i)] = reg(op.factor) + ".xyz";
+        }
+        for (int i = 0; i < count; ++i) {
+            const ClosureOp& op = _code.bsdf[size_t(i)];
+            if (!op.needsPassed) continue;
+            const std::string& f = factor[size_t(i)];
+            std::string value = "1.0";
+            switch (op.kind) {
+            case ClosureKind::Layer: value = passed(op.a) + " * " + passed(op.b); break;
+            case ClosureKind::Mix:
+                value = "mix(" + passed(op.b) + ", " + passed(op.a) + ", " + f + ")";
+                break;
+            case ClosureKind::Add:
+                value = "max(" + passed(op.a) + " + " + passed(op.b) + " - 1.0, 0.0)";
+                break;
+            case ClosureKind::Multiply:
+                value = "1.0 - unit(largest(" + f + ")) * (1.0 - " + passed(op.a) + ")";
+                break;
+            default:
+                if (op.lobe >= 0) value = "1.0 - " + f + " * kept" + number(op.lobe);
+            }
+            line("    float passed" + number(i) + " = " + value + ";");
+        }
+        for (int i = 0; i < count; ++i)
+            line("    vec3 w" + number(i) + " = vec3(" + (i == count - 1 ? "1.0" : "0.0") + ");");
+        for (int i = count - 1; i >= 0; --i) {
+            const ClosureOp& op = _code.bsdf[size_t(i)];
+            const std::string w = "w" + number(i);
+            const std::string& f = factor[size_t(i)];
+            const auto give = [&](int to, const std::string& what) {
+                if (to >= 0) line("    w" + number(to) + " += " + what + ";");
+            };
+            switch (op.kind) {
+            case ClosureKind::Layer:
+                give(op.a, w);
+                give(op.b, w + " * " + passed(op.a));
+                break;
+            case ClosureKind::Mix:
+                give(op.a, w + " * " + f);
+                give(op.b, w + " * (1.0 - " + f + ")");
+                break;
+            case ClosureKind::Add:
+                give(op.a, w);
+                give(op.b, w);
+                break;
+            case ClosureKind::Multiply: give(op.a, w + " * max(" + f + ", vec3(0.0))"); break;
+            default:
+                if (op.lobe >= 0)
+                    line("    lobeWeight[" + number(op.lobe) + "] = " + w + " * " + f + ";");
+            }
+        }
+    }
+
+    void setupFunction() {
+        line("void materialSetup() {");
+        line("    place();");
+        line("    float sum = 0.0;");
+        for (size_t i = 0; i < _code.lobes.size(); ++i) {
+            const std::string n = "[" + number(int(i)) + "]";
+            line("    lobeChance" + n + " = max(luminance(lobeWeight" + n + " * lobeAlbedo" + n +
+                 "), luminance(lobeWeight" + n + ") > 0.0 ? 1e-6 : 0.0);");
+            line("    sum += lobeChance" + n + ";");
+        }
+        for (size_t i = 0; i < _code.lobes.size(); ++i)
+            line("    lobeChance[" + number(int(i)) + "] /= max(sum, 1e-20);");
+        line("}");
+    }
+
+    void presenceFunction() {
+        line("float materialPresence(out vec3 passes) {");
+        line("    passes = vec3(1.0);");
+        instructions(_code.opacityCode);
+        line("    float x = unit(" + reg(_code.opacity) + ".x);");
+        if (_code.hasStraight) {
+            line("    place();");
+            line("    float most = largest(straight);");
+            line("    float pass = 1.0 - x + x * most;");
+            line("    if (pass > 0.0) passes = (1.0 - x + x * straight) / pass;");
+            line("    x *= 1.0 - most;");
+        }
+        line("    return x;");
+        line("}");
+    }
+
+    /// As linearClosure().
+    void emissionFunction() {
+        line("vec3 materialEmission(vec3 wo) {");
+        instructions(_code.emissionCode);
+        const int count = int(_code.edf.size());
+        const auto of = [&](int i) { return i < 0 ? "vec3(0.0)" : "e" + number(i); };
+        for (int i = 0; i < count; ++i) {
+            const ClosureOp& op = _code.edf[size_t(i)];
+            std::string value;
+            switch (op.kind) {
+            case ClosureKind::Mix:
+                value = "mix(" + of(op.b) + ", " + of(op.a) + ", unit(" + reg(op.factor) + ".x))";
+                break;
+            case ClosureKind::Add: value = of(op.a) + " + " + of(op.b); break;
+            case ClosureKind::Multiply:
+                value = of(op.a) + " * max(" + reg(op.factor) + ".xyz, vec3(0.0))";
+                break;
+            case ClosureKind::ConicalEdf: {
+                value = "max(" + reg(op.factor) + ".xyz, vec3(0.0)) * edfConical(";
+                value += reg(op.first) + ".x, ";
+                value += reg(op.second) + ".x, abs(dot(wo, ";
+                value += op.normal >= 0 ? "unitOr(" + reg(op.normal) + ".xyz, point.normal)"
+                                        : std::string("point.normal");
+                value += ")))";
+                break;
+            }
+            case ClosureKind::SchlickEdf:
+                value = of(op.a) + " * edfSchlick(" + reg(op.factor) + ".xyz, ";
+                value += reg(op.first) + ".xyz, ";
+                value += reg(op.second) + ".x, dot(wo, point.normal))";
+                break;
+            default: value = "max(" + reg(op.factor) + ".xyz, vec3(0.0))";
+            }
+            line("    vec3 e" + number(i) + " = " + value + ";");
+        }
+        line("    return " + of(count - 1) + ";");
+        line("}");
+    }
+
+    void evalFunction() {
+        line("MaterialEval materialEval(vec3 wi) {");
+        line("    MaterialEval sum = materialEvalNone();");
+        line("    bool reflects = (dot(wi, point.geometricNormal) > 0.0) == woOutside();");
+        for (size_t i = 0; i < _code.lobes.size(); ++i) {
+            const LobeTemplate& t = _code.lobes[i];
+            const std::string n = number(int(i));
+            line("    addLobe(sum, " + std::string(t.prebuilt.diffuse ? "true" : "false") +
+                 ", lobeWeight[" + n + "], lobeChance[" + n + "], reflects, " + frameOf(i) +
+                 ", wi, " + glslLobePrefix(t.prebuilt.kind) + "Eval(lobe" + n + ", " + frameOf(i) +
+                 ".wo, toLocal(" + frameOf(i) + ", wi)));");
+        }
+        line("    return sum;");
+        line("}");
+    }
+
+    void sampleFunction() {
+        line("MaterialSample materialSample(vec3 u, float uLobe) {");
+        line("    MaterialSample s = materialSampleNone();");
+        line("    LobeSample l = lobeSampleNone();");
+        line("    float below = 0.0;");
+        for (size_t i = 0; i < _code.lobes.size(); ++i) {
+            const LobeTemplate& t = _code.lobes[i];
+            const std::string n = number(int(i));
+            line("    if (uLobe >= below && uLobe < below + lobeChance[" + n + "]) {");
+            line("        l = " + glslLobePrefix(t.prebuilt.kind) + "Sample(lobe" + n + ", " +
+                 frameOf(i) + ".wo, u);");
+            line("        s.wi = toWorld(" + frameOf(i) + ", l.wi);");
+            line("        s.diffuse = " + std::string(t.prebuilt.diffuse ? "true" : "false") + ";");
+            line("        s.weight = lobeWeight[" + n + "] * l.weight / lobeChance[" + n + "];");
+            line("        s.pdf = l.pdf * lobeChance[" + n + "];");
+            line("    }");
+            line("    below += lobeChance[" + n + "];");
+        }
+        line("    return finishSample(s, l);");
+        line("}");
+    }
+
+    const MaterialProgram& _program;
+    const ProgramCode& _code;
+    GlslMaterial& _out;
+    std::string _text;
+    std::set<int> _declared;
+};
+
+} // namespace
+
+GlslMaterial makeGlslMaterial(const MaterialProgram& program) {
+    GlslMaterial out;
+    Writer(program, out).write();
+    return out;
+}
+
+} // namespace patina

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "materialNetwork/cpu/materialProgram.h"
+
+#include <glm/glm.hpp>
+
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// A material as GLSL functions, generated from the program that the path tracer runs, so that both
+/// have the same registers, lobes and weights.
+///
+/// The text expects shaders/raster/material.glsl before it, and defines
+///   void materialSetup()                     patterns, frames and lobes at `point`
+///   float materialPresence(out vec3 passes)  as MaterialProgram::opacity()
+///   vec3 materialEmission(vec3 wo)
+///   MaterialEval materialEval(vec3 wi)       as Bsdf::eval()
+///   MaterialSample materialSample(vec3 u, float uLobe)  as Bsdf::sample()
+/// No string of a scene is part of it, and no number but those that choose the shape of the
+/// program: every other is in `parameters`, so that equal graphs have equal text.
+struct GlslMaterial {
+    std::string text;
+    std::vector<glm::vec4> parameters; ///< `vec4 parameters[]` of the text
+    std::vector<int> textures;         ///< TextureSource handle of each sampler `texture0`...
+    std::vector<std::string> leftOut;  ///< patterns that have no GLSL: their value at one point
+    bool presence = false;             ///< materialPresence() may be less than 1
+    bool emission = false;
+};
+
+GlslMaterial makeGlslMaterial(const MaterialProgram& program);
+
+} // namespace patina

@@ -1,0 +1,315 @@
+// What the text of a generated material stands on: the shading point, frames, and how lobes become
+// a whole. The same steps as materialNetwork/cpu (bsdf, bsdfBuilder, shadingFrame), in GLSL.
+#include "shaders/compat/glsl.glsl"
+#include "shaders/lobes.glsl"
+#include "shaders/patterns.glsl"
+
+// World space, unit vectors; see materialNetwork/cpu/shadingPoint.h.
+struct SurfacePoint {
+    vec3 position;
+    vec3 objectPosition;
+    vec3 geometricNormal;
+    vec3 normal;
+    vec3 tangent;
+    vec3 bitangent;
+    vec3 view;
+    mat3 objectToWorldNormal;
+    float uvFootprint;
+};
+SurfacePoint point;
+
+// Defined by the pass: the value of a primvar, or what stands in for it.
+vec4 primvar(int slot, vec4 fallback);
+
+struct Frame {
+    vec3 tangent;
+    vec3 bitangent;
+    vec3 normal;
+    vec3 wo;
+};
+
+struct MaterialEval {
+    vec3 diffuse;
+    vec3 specular;
+    float pdf;
+};
+
+struct MaterialSample {
+    vec3 wi;
+    vec3 weight;   // of delta lobes, or both shares below together
+    vec3 diffuseWeight;
+    vec3 specularWeight;
+    float pdf;
+    int event;
+    bool diffuse;
+};
+
+MaterialEval materialEval(vec3 wi);
+
+float largest(vec3 c) {
+    return max(c.x, max(c.y, c.z));
+}
+float luminance(vec3 c) {
+    return dot(c, vec3(0.2126, 0.7152, 0.0722));
+}
+float unit(float x) {
+    return x > 0.0 ? min(x, 1.0) : 0.0;
+}
+vec3 unitOr(vec3 v, vec3 fallback) {
+    float l = length(v);
+    return l > 1e-12 && l < 1e30 ? v / l : fallback;
+}
+
+vec3 anyTangent(vec3 n) {
+    float side = n.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (side + n.z);
+    return vec3(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x);
+}
+
+vec3 toLocal(Frame f, vec3 v) {
+    return vec3(dot(v, f.tangent), dot(v, f.bitangent), dot(v, f.normal));
+}
+vec3 toWorld(Frame f, vec3 v) {
+    return f.tangent * v.x + f.bitangent * v.y + f.normal * v.z;
+}
+
+bool woOutside() {
+    return dot(point.view, point.geometricNormal) >= 0.0;
+}
+
+// As bendNormal() of materialNetwork/cpu/shadingFrame.cpp.
+vec3 bendNormal(vec3 n, vec3 v, vec3 g) {
+    const float margin = 1e-3;
+    float nv = dot(n, v);
+    if (nv <= 0.0) {
+        n = unitOr(n + v * (margin - nv), g);
+        nv = dot(n, v);
+    }
+    vec3 mirror = n * (2.0 * nv) - v;
+    float above = dot(mirror, g);
+    float wanted = min(margin, dot(v, g));
+    if (above >= wanted) return n;
+    vec3 lifted = unitOr(mirror + g * (wanted - above), vec3(0.0));
+    if (lifted == vec3(0.0)) return g;
+    return unitOr(v + lifted, g);
+}
+
+// normal, tangent: zero for those of the point.
+Frame makeFrame(vec3 normal, vec3 tangent, bool flips) {
+    vec3 v = point.view;
+    float side = woOutside() ? 1.0 : -1.0;
+    vec3 n = unitOr(normal, point.normal);
+    Frame f;
+    vec3 facing = bendNormal(n * side, v, point.geometricNormal * side);
+    f.normal = flips ? facing : facing * side;
+    vec3 t = unitOr(tangent, point.tangent);
+    t -= f.normal * dot(f.normal, t);
+    float l = length(t);
+    f.tangent = l > 1e-6 ? t / l : anyTangent(f.normal);
+    f.bitangent = cross(f.normal, f.tangent);
+    f.wo = toLocal(f, v);
+    return f;
+}
+
+// lobeFixWo() of materialNetwork/cpu/lobeOps.h: looks up what depends on wo alone, and returns the
+// share that the lobe keeps from the base of a layer.
+float orenNayarFix(inout OrenNayarLobe l, vec3 wo, out vec3 albedo) {
+    albedo = l.color;
+    return 1.0;
+}
+float burleyFix(inout BurleyLobe l, vec3 wo, out vec3 albedo) {
+    albedo = l.color;
+    return 1.0;
+}
+float translucentFix(inout TranslucentLobe l, vec3 wo, out vec3 albedo) {
+    albedo = l.color;
+    return 1.0;
+}
+float conductorFix(inout ConductorLobe l, vec3 wo, out vec3 albedo) {
+    l = conductorAt(l, wo);
+    albedo = conductorReflectance(l, clamp(wo.z, 0.0, 1.0));
+    return 1.0;
+}
+float dielectricFix(inout DielectricLobe l, vec3 wo, out vec3 albedo) {
+    DielectricEnergy e = dielectricEnergy(l, wo);
+    l.known = true;
+    l.kr = e.kr;
+    l.kt = e.kt;
+    float kept = ((l.mode & SCATTER_R) != 0 ? e.r : 0.0) + ((l.mode & SCATTER_T) != 0 ? e.t : 0.0);
+    albedo = l.tint * kept;
+    return l.mode == SCATTER_T ? 1.0 : kept;
+}
+float schlickFix(inout SchlickLobe l, vec3 wo, out vec3 albedo) {
+    SchlickEnergy e = schlickEnergy(l, wo);
+    l.known = true;
+    l.kr = e.kr;
+    l.kt = e.kt;
+    vec3 kept = ((l.mode & SCATTER_R) != 0 ? e.r : vec3(0.0)) +
+                ((l.mode & SCATTER_T) != 0 ? e.t : vec3(0.0));
+    albedo = l.tint * kept;
+    return l.mode == SCATTER_T ? 1.0 : largest(kept);
+}
+float sheenFix(inout SheenLobe l, vec3 wo, out vec3 albedo) {
+    float kept = wo.z >= 0.0 ? sheenWhiteAlbedo(l, wo.z) : 0.0;
+    albedo = l.color * kept;
+    return kept;
+}
+float phongFix(inout PhongLobe l, vec3 wo, out vec3 albedo) {
+    albedo = phongAlbedo(l, wo);
+    return 1.0;
+}
+float blinnPhongFix(inout BlinnPhongLobe l, vec3 wo, out vec3 albedo) {
+    albedo = blinnPhongAlbedo(l, wo);
+    return 1.0;
+}
+float wardFix(inout WardLobe l, vec3 wo, out vec3 albedo) {
+    albedo = wardAlbedo(l, wo);
+    return 1.0;
+}
+float cookTorranceFix(inout CookTorranceLobe l, vec3 wo, out vec3 albedo) {
+    albedo = cookTorranceAlbedo(l, wo);
+    return 1.0;
+}
+float chiangHairFix(inout ChiangHairLobe l, vec3 wo, out vec3 albedo) {
+    albedo = chiangHairAlbedo(l, wo);
+    return 1.0;
+}
+
+// The two faces of a thin wall, as BsdfBuilder::wallOf().
+void dielectricWall(inout DielectricLobe l, vec3 wo, inout vec3 albedo, out vec3 passed,
+                    out vec3 reflected) {
+    float once = l.fused ? 0.0 : dielectricEnergy(l, wo).r;
+    passed = l.tint * (1.0 - once) / (1.0 + once);
+    reflected = vec3(0.0);
+    if (l.mode == SCATTER_RT) {
+        reflected = vec3(2.0 / (1.0 + once));
+        l.mode = SCATTER_R;
+        albedo = l.tint * once;
+    }
+}
+void schlickWall(inout SchlickLobe l, vec3 wo, inout vec3 albedo, out vec3 passed,
+                 out vec3 reflected) {
+    vec3 once = l.fused ? vec3(0.0) : schlickEnergy(l, wo).r;
+    passed = (1.0 - once) / (1.0 + once);
+    reflected = vec3(0.0);
+    if (l.mode == SCATTER_RT) {
+        reflected = 2.0 / (1.0 + once);
+        l.mode = SCATTER_R;
+        albedo = once;
+    }
+}
+
+MaterialEval materialEvalNone() {
+    return MaterialEval(vec3(0.0), vec3(0.0), 0.0);
+}
+
+MaterialSample materialSampleNone() {
+    return MaterialSample(vec3(0.0, 0.0, 1.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0, false);
+}
+
+// Light leaks through no surface because of an interpolated or mapped normal: both normals must
+// agree whether wi reflects.
+void addLobe(inout MaterialEval sum, bool diffuse, vec3 weight, float chance, bool reflects,
+             Frame f, vec3 wi, LobeEval e) {
+    bool above = (dot(wi, f.normal) > 0.0) == (f.wo.z >= 0.0);
+    if (above != reflects || !(chance > 0.0)) return;
+    if (diffuse)
+        sum.diffuse += weight * e.value;
+    else
+        sum.specular += weight * e.value;
+    sum.pdf += chance * e.pdf;
+}
+
+MaterialSample finishSample(MaterialSample s, LobeSample l) {
+    bool reflects = (l.event & LOBE_REFLECT) != 0;
+    if (l.event == 0 || ((dot(s.wi, point.geometricNormal) > 0.0) == woOutside()) != reflects)
+        return materialSampleNone();
+    s.event = l.event;
+    if ((l.event & LOBE_DELTA) != 0) {
+        s.diffuseWeight = s.diffuse ? s.weight : vec3(0.0);
+        s.specularWeight = s.diffuse ? vec3(0.0) : s.weight;
+        return s;
+    }
+    MaterialEval e = materialEval(s.wi);
+    s.pdf = e.pdf;
+    float inverse = e.pdf > 0.0 ? 1.0 / e.pdf : 0.0;
+    s.diffuseWeight = e.diffuse * inverse;
+    s.specularWeight = e.specular * inverse;
+    s.weight = s.diffuseWeight + s.specularWeight;
+    return s;
+}
+
+// Pattern nodes beyond what shaders/patterns has.
+vec4 nodeDivide(vec4 a, vec4 b) {
+    return mix(a / b, vec4(0.0), equal(b, vec4(0.0)));
+}
+vec4 nodeModulo(vec4 a, vec4 b) {
+    return mix(a - b * floor(a / b), vec4(0.0), equal(b, vec4(0.0)));
+}
+float nodePowerOne(float a, float b) {
+    // GLSL leaves a negative base open; C++ gives a number for whole exponents.
+    float p = pow(abs(a), b);
+    if (a < 0.0) p = b == floor(b) ? (mod(b, 2.0) == 0.0 ? p : -p) : 0.0;
+    if (b == 0.0) p = 1.0;
+    return isinf(p) || isnan(p) ? 0.0 : p;
+}
+vec4 nodePower(vec4 a, vec4 b) {
+    return vec4(nodePowerOne(a.x, b.x), nodePowerOne(a.y, b.y), nodePowerOne(a.z, b.z),
+                nodePowerOne(a.w, b.w));
+}
+vec4 nodeRound(vec4 a) {
+    return sign(a) * floor(abs(a) + 0.5);
+}
+vec4 nodeSmoothstep(vec4 x, vec4 low, vec4 high) {
+    vec4 t = mix(vec4(greaterThanEqual(x, high)), clamp((x - low) / (high - low), 0.0, 1.0),
+                 greaterThan(high, low));
+    return t * t * (3.0 - 2.0 * t);
+}
+float nodeDot(vec4 a, vec4 b, int size) {
+    vec4 p = a * b;
+    return p.x + (size > 1 ? p.y : 0.0) + (size > 2 ? p.z : 0.0) + (size > 3 ? p.w : 0.0);
+}
+vec4 nodeNormalize(vec4 a, int size) {
+    float l = sqrt(nodeDot(a, a, size));
+    return l > 0.0 ? a / l : vec4(0.0);
+}
+float nodeLargest(vec4 a, int size) {
+    float x = max(a.x, a.y);
+    if (size > 2) x = max(x, a.z);
+    return size > 3 ? max(x, a.w) : x;
+}
+vec4 nodeArtisticIor(vec4 r, vec4 e) {
+    return vec4(patternArtisticIor(r.x, e.x), patternArtisticIor(r.y, e.y),
+                patternArtisticIor(r.z, e.z), 0.0);
+}
+vec4 nodeArtisticExtinction(vec4 r, vec4 e) {
+    vec4 n = nodeArtisticIor(r, e);
+    return vec4(patternArtisticExtinction(r.x, n.x), patternArtisticExtinction(r.y, n.y),
+                patternArtisticExtinction(r.z, n.z), 0.0);
+}
+vec2 nodeTiledUv(vec4 uv, vec4 tiling, vec4 offset, vec4 image, vec4 tile) {
+    vec2 t = uv.xy * tiling.xy - offset.xy;
+    return vec2(image.x != 0.0 ? t.x / image.x * tile.x : 0.0,
+                image.y != 0.0 ? t.y / image.y * tile.y : 0.0);
+}
+float nodeTiledFootprint(vec4 tiling) {
+    return point.uvFootprint * max(abs(tiling.x), abs(tiling.y));
+}
+// mode 0 is world space.
+vec4 nodePosition(int mode) {
+    return vec4(mode == 0 ? point.position : point.objectPosition, 0.0);
+}
+vec4 nodeNormal(int mode, vec3 n) {
+    if (mode == 0) return vec4(n, 0.0);
+    return vec4(unitOr(inverse(point.objectToWorldNormal) * n, vec3(0.0, 0.0, 1.0)), 0.0);
+}
+vec4 nodeTangent(int mode, vec3 t) {
+    if (mode == 0) return vec4(t, 0.0);
+    return vec4(unitOr(transpose(point.objectToWorldNormal) * t, vec3(1.0, 0.0, 0.0)), 0.0);
+}
+// ImageTexture::sample(): lambda from the footprint and the larger side.
+vec4 nodeTexture(sampler2D s, vec2 uv, float footprint) {
+    ivec2 size = textureSize(s, 0);
+    float lambda = log2(max(footprint * float(max(size.x, size.y)), 1e-6));
+    return textureLod(s, uv, lambda);
+}

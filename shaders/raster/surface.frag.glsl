@@ -1,0 +1,59 @@
+// Begins the fragment stage of everything that evaluates a material: the shading point.
+in vec3 vPosition;
+in vec3 vObjectPosition;
+in vec3 vNormal;
+flat in vec3 vTangent;
+flat in vec3 vBitangent;
+flat in vec3 vGeometricNormal;
+flat in float vUvPerLength;
+flat in mat3 vNormalMatrix;
+flat in ivec4 vIds;
+#if PRIMVARS > 0
+in vec4 vPrimvars[PRIMVARS];
+#endif
+layout(location = 1) uniform ivec4 drawInfo; // bits of primvars that there are, prim id, flags
+
+vec4 primvar(int slot, vec4 fallback) {
+#if PRIMVARS > 0
+    if (slot >= 0 && slot < PRIMVARS && (drawInfo.x & (1 << slot)) != 0) return vPrimvars[slot];
+#endif
+    return fallback;
+}
+
+void setPoint(vec3 view, float coneWidth) {
+    point.position = vPosition;
+    point.objectPosition = vObjectPosition;
+    point.geometricNormal = vGeometricNormal;
+    point.view = view;
+    point.normal = (drawInfo.z & 2) != 0 ? vGeometricNormal : unitOr(vNormal, vGeometricNormal);
+    if (dot(point.normal, point.geometricNormal) < 0.0) point.normal = -point.normal;
+    vec3 t = vTangent - point.normal * dot(point.normal, vTangent);
+    float l = length(t);
+    if (l > 1e-20) {
+        point.tangent = t / l;
+        vec3 across = cross(point.normal, point.tangent);
+        point.bitangent = dot(across, vBitangent) < 0.0 ? -across : across;
+    } else {
+        point.tangent = anyTangent(point.normal);
+        point.bitangent = cross(point.normal, point.tangent);
+    }
+    point.objectToWorldNormal = vNormalMatrix;
+    float cosine = max(0.1, abs(dot(point.geometricNormal, view)));
+    point.uvFootprint = vUvPerLength * coneWidth / sqrt(cosine);
+}
+
+void setPointFromCamera() {
+    vec3 toEye = eye.xyz - vPosition;
+    float distance = length(toEye);
+    vec3 view = eye.w != 0.0 ? toEye / max(distance, 1e-20) : -forward.xyz;
+    setPoint(view, eye.w != 0.0 ? forward.w * distance : forward.w);
+}
+
+// Whether this pass shows the surface at all: presence as a chance (stochastic transparency).
+bool isPresent() {
+    vec3 passes;
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    float x = materialPresence(passes);
+    uint id = hash(uint(gl_PrimitiveID) + 4099u * uint(drawInfo.y));
+    return randomAt(pixel + uvec2(id & 1023u, id >> 22u), uint(counts.z), 31u) < x;
+}

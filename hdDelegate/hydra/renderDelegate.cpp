@@ -15,6 +15,7 @@
 #include "hdDelegate/hydra/renderSettingsPrim.h"
 #include "hdDelegate/hydra/renderStats.h"
 #include "hdDelegate/hydra/settingsTable.h"
+#include "hdDelegate/hydra/volume.h"
 
 #include <pxr/base/tf/diagnostic.h>
 #include <pxr/imaging/hd/coordSys.h>
@@ -68,7 +69,7 @@ HdPatinaRenderDelegate::~HdPatinaRenderDelegate() {
 const TfTokenVector& HdPatinaRenderDelegate::GetSupportedRprimTypes() const {
     static const TfTokenVector types = [] {
         TfTokenVector all = {HdPrimTypeTokens->mesh, HdPrimTypeTokens->basisCurves,
-                             HdPrimTypeTokens->points};
+                             HdPrimTypeTokens->points, HdPrimTypeTokens->volume};
         all.insert(all.end(), implicitTypes().begin(), implicitTypes().end());
         return all;
     }();
@@ -87,8 +88,11 @@ const TfTokenVector& HdPatinaRenderDelegate::GetSupportedSprimTypes() const {
 }
 
 const TfTokenVector& HdPatinaRenderDelegate::GetSupportedBprimTypes() const {
-    static const TfTokenVector types = {HdPrimTypeTokens->renderBuffer,
-                                        HdPrimTypeTokens->renderSettings};
+    static const TfTokenVector types = [] {
+        TfTokenVector all = {HdPrimTypeTokens->renderBuffer, HdPrimTypeTokens->renderSettings};
+        all.insert(all.end(), fieldTypes().begin(), fieldTypes().end());
+        return all;
+    }();
     return types;
 }
 
@@ -178,6 +182,7 @@ HdRprim* HdPatinaRenderDelegate::CreateRprim(const TfToken& type, const SdfPath&
     if (type == HdPrimTypeTokens->mesh) return new HdPatinaMesh(id);
     if (type == HdPrimTypeTokens->basisCurves) return new HdPatinaBasisCurves(id);
     if (type == HdPrimTypeTokens->points) return new HdPatinaPoints(id);
+    if (type == HdPrimTypeTokens->volume) return new HdPatinaVolume(id);
     if (contains(implicitTypes(), type)) return new HdPatinaImplicit(type, id);
     TF_WARN("%s: prims of type %s cannot be drawn", id.GetText(), type.GetText());
     return nullptr;
@@ -208,6 +213,7 @@ void HdPatinaRenderDelegate::DestroySprim(HdSprim* prim) {
 HdBprim* HdPatinaRenderDelegate::CreateBprim(const TfToken& type, const SdfPath& id) {
     if (type == HdPrimTypeTokens->renderBuffer) return new HdPatinaRenderBuffer(id);
     if (type == HdPrimTypeTokens->renderSettings) return new HdPatinaRenderSettings(id, _state);
+    if (contains(fieldTypes(), type)) return new HdPatinaField(id);
     TF_WARN("%s: prims of type %s are not known", id.GetText(), type.GetText());
     return nullptr;
 }

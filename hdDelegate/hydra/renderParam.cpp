@@ -39,6 +39,18 @@ void HdPatinaRenderParam::removeMaterial(const std::string& path) {
     _edit.remove(path, PrimKind::Material);
 }
 
+void HdPatinaRenderParam::useField(const SdfPath& field, const SdfPath& volume) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    _volumes[field].insert(volume);
+}
+
+std::vector<SdfPath> HdPatinaRenderParam::volumesOf(const SdfPath& field) const {
+    std::lock_guard<std::mutex> lock(_mutex);
+    const auto found = _volumes.find(field);
+    if (found == _volumes.end()) return {};
+    return {found->second.begin(), found->second.end()};
+}
+
 void HdPatinaRenderParam::setMetersPerUnit(double metersPerUnit) {
     std::lock_guard<std::mutex> lock(_mutex);
     _edit.setMetersPerUnit(metersPerUnit);

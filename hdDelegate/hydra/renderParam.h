@@ -6,9 +6,12 @@
 #include <pxr/base/gf/vec2f.h>
 #include <pxr/imaging/hd/renderDelegate.h>
 
+#include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace patina {
 
@@ -48,6 +51,11 @@ public:
     /// Instances of rprims, gathered while prims sync.
     HdPatinaInstances& instances() { return *_instances; }
 
+    /// Remembers that a volume reads a field. Any thread.
+    void useField(const SdfPath& field, const SdfPath& volume);
+    /// @returns paths of the volumes that read a field, or once did
+    std::vector<SdfPath> volumesOf(const SdfPath& field) const;
+
     /// Hands warnings that came up since the last call to the host, through TF_WARN. Host's thread.
     void reportWarnings();
 
@@ -60,7 +68,8 @@ private:
     SceneEdit _edit;
     std::unique_ptr<HdPatinaInstances> _instances;
     GfVec2f _shutter{0.0f};
-    size_t _reported = 0; ///< diagnostics that the host was told
+    std::map<SdfPath, std::set<SdfPath>> _volumes; ///< by field
+    size_t _reported = 0;                          ///< diagnostics that the host was told
 };
 
 } // namespace patina

@@ -1,0 +1,52 @@
+#include "hdDelegate/hydra/volume.h"
+
+#include "hdDelegate/hydra/values.h"
+
+#include <algorithm>
+
+namespace patina {
+
+const TfTokenVector& fieldTypes() {
+    // UsdVolImaging's name for them; linking that library for a word would tie the plugin to it.
+    static const TfTokenVector types = {TfToken("openvdbAsset")};
+    return types;
+}
+
+void HdPatinaField::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
+                         HdDirtyBits* dirtyBits) {
+    if (_known && *dirtyBits != Clean) {
+        auto& param = *static_cast<HdPatinaRenderParam*>(renderParam);
+        HdChangeTracker& tracker = delegate->GetRenderIndex().GetChangeTracker();
+        for (const SdfPath& volume : param.volumesOf(GetId()))
+            if (delegate->GetRenderIndex().HasRprim(volume))
+                tracker.MarkRprimDirty(volume, HdChangeTracker::DirtyVolumeField);
+    }
+    _known = true;
+    *dirtyBits = Clean;
+}
+
+void HdPatinaVolume::syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                               HdDirtyBits dirtyBits, bool all, const TfToken&, Volume& volume) {
+    if (!all && !(dirtyBits & (HdChangeTracker::DirtyVolumeField | HdChangeTracker::DirtyTopology)))
+        return;
+    volume.fields.clear();
+    for (const HdVolumeFieldDescriptor& field : delegate.GetVolumeFieldDescriptors(GetId())) {
+        const std::string input = "field:" + field.fieldName.GetString();
+        if (std::find(fieldTypes().begin(), fieldTypes().end(), field.fieldPrimType) ==
+            fieldTypes().end()) {
+            param.warn(GetId(), input,
+                       "is of type " + field.fieldPrimType.GetString() +
+                           ", which is not read; it is left out");
+            continue;
+        }
+        const std::string name = textOf(delegate.Get(field.fieldId, HdFieldTokens->fieldName));
+        volume.fields.push_back({field.fieldName.GetString(),
+                                 textOf(delegate.Get(field.fieldId, HdFieldTokens->filePath)),
+                                 name.empty() ? field.fieldName.GetString() : name, nullptr});
+        param.useField(field.fieldId, GetId());
+    }
+    std::sort(volume.fields.begin(), volume.fields.end(),
+              [](const VolumeField& a, const VolumeField& b) { return a.name < b.name; });
+}
+
+} // namespace patina

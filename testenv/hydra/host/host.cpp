@@ -24,7 +24,7 @@ TfTokenVector tagsOf(const std::vector<std::string>& purposes) {
 
 } // namespace
 
-Host::Host(const UsdStageRefPtr& stage, const HostOptions& options)
+Host::Host(const UsdStageRefPtr& stage, const HostOptions& options, const Host* shared)
     : _options(options), _stage(stage) {
     _delegate = HdRendererPluginRegistry::GetInstance().CreateRenderDelegate(
         TfToken(options.renderer), options.settings);
@@ -37,8 +37,10 @@ Host::Host(const UsdStageRefPtr& stage, const HostOptions& options)
     _index.reset(HdRenderIndex::New(_delegate.Get(), {}, options.instanceName));
     if (!_index) throw std::runtime_error("there is no render index for " + options.renderer);
     _buffers = std::make_unique<HostBuffers>(_index.get());
-    _input = options.sceneIndex ? makeSceneIndexInput(_index.get(), stage)
-                                : makeDelegateInput(_index.get(), stage);
+    if (shared) _input = shared->_input->makeShared(_index.get());
+    if (!_input)
+        _input = options.sceneIndex ? makeSceneIndexInput(_index.get(), stage)
+                                    : makeDelegateInput(_index.get(), stage);
     HdRprimCollection collection(HdTokens->geometry, HdReprSelector(HdReprTokens->smoothHull));
     collection.SetRootPath(SdfPath::AbsoluteRootPath());
     _task = std::make_shared<HostRenderTask>(_delegate->CreateRenderPass(_index.get(), collection),
@@ -77,7 +79,12 @@ void Host::bind() {
 }
 
 void Host::execute() {
-    _input->update(_options.time, _options.refineLevel);
+    try {
+        _input->update(_options.time, _options.refineLevel);
+    } catch (...) {
+        _isLost = true;
+        throw;
+    }
     HdTaskSharedPtrVector tasks = {_task};
     _engine.Execute(_index.get(), &tasks);
 }

@@ -41,13 +41,18 @@ struct HostOptions {
 /// loads, one render pass. Everything happens on the caller's thread, but for the renderer's own.
 class Host {
 public:
+    /// @param shared host of which the scene indices are taken, with all that they went through;
+    /// null: own ones
     /// @throws std::runtime_error when the plugin is not found or does not start
-    Host(const UsdStageRefPtr& stage, const HostOptions& options);
+    Host(const UsdStageRefPtr& stage, const HostOptions& options, const Host* shared = nullptr);
     ~Host();
 
     /// Brings edits of the stage to the renderer and lets it draw once, like a window that is
     /// repainted.
     void execute();
+    /// OpenUSD threw while it brought edits: it follows the stage no more, and only another host
+    /// does.
+    bool isLost() const { return _isLost; }
     bool isConverged() const { return _task && _task->isConverged(); }
     /// Executes until converged. @returns false when it takes longer than the limit, in seconds
     bool render(double limit = 600.0);
@@ -85,6 +90,7 @@ private:
 
     HostOptions _options;
     UsdStageRefPtr _stage;
+    bool _isLost = false;
     HdPluginRenderDelegateUniqueHandle _delegate;
     std::unique_ptr<HdRenderIndex> _index;
     std::unique_ptr<HostBuffers> _buffers;

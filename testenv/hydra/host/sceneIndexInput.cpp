@@ -22,7 +22,16 @@ public:
         _stage->SetStage(stage);
     }
 
+    SceneIndexInput(HdRenderIndex* index, const SceneIndexInput& other)
+        : _index(index), _stage(other._stage), _style(other._style), _globals(other._globals) {
+        _index->InsertSceneIndex(_globals, SdfPath::AbsoluteRootPath());
+    }
+
     ~SceneIndexInput() override { _index->RemoveSceneIndex(_globals); }
+
+    std::unique_ptr<SceneInput> makeShared(HdRenderIndex* index) const override {
+        return std::make_unique<SceneIndexInput>(index, *this);
+    }
 
     void update(UsdTimeCode time, int refineLevel) override {
         _style->SetRefineLevel({true, refineLevel});

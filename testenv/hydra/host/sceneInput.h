@@ -29,6 +29,8 @@ public:
     /// The camera whose shutter says when motion is sampled.
     virtual void setCamera(const SdfPath& path) = 0;
     virtual HostHit decode(int primId, int instanceId) = 0;
+    /// Another index on top of the same scene indices, as they are; null when there are none.
+    virtual std::unique_ptr<SceneInput> makeShared(HdRenderIndex*) const { return nullptr; }
 };
 
 /// UsdImagingDelegate: the default until OpenUSD 25.

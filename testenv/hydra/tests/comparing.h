@@ -27,12 +27,14 @@ inline std::string sceneText(Host& host) {
     return text.str();
 }
 
+constexpr const char* hidden = "  hidden\n";
+
 /// Of a prim that no ray meets only the name and that: Hydra does not sync what it holds.
 inline std::string drawnText(const std::string& prim) {
     for (const char* ray : {"camera", "indirect", "shadow"})
         if (prim.find(std::string("  visibility ") + ray + " = false\n") == std::string::npos)
             return prim;
-    return prim.substr(0, prim.find('\n') + 1) + "  hidden\n";
+    return prim.substr(0, prim.find('\n') + 1) + hidden;
 }
 
 /// The prims of a scene's text, without what hosts number in the order in which they came by it
@@ -68,6 +70,8 @@ inline std::string differences(const std::string& edited, const std::string& fre
     for (const std::string& prim : b) {
         if (a.count(prim) >= b.count(prim)) continue;
         const std::string name = prim.substr(0, prim.find('\n') + 1);
+        // Instancers that nothing visible asks for are not synced: the picture tells.
+        if (name.rfind("Instancer ", 0) == 0 && prim == name + hidden) continue;
         std::string instead;
         for (const std::string& other : a)
             if (other.compare(0, name.size(), name) == 0 && !b.count(other)) instead += other;

@@ -5,8 +5,12 @@
 #include "testenv/hydra/edits/edits.h"
 #include "testenv/hydra/tests/comparing.h"
 
+#include <pxr/usd/usd/errors.h>
+
 #include <chrono>
 #include <cstdlib>
+#include <iostream>
+#include <optional>
 #include <thread>
 
 using namespace patina;
@@ -32,21 +36,36 @@ HostOptions optionsFor(bool sceneIndex) {
 
 class HydraEdits : public testing::TestWithParam<bool> {
 protected:
-    /// Both hosts show the same stage: as text (scene indices), and every bit of the picture.
-    static void expectSame(Host& edited, const UsdStageRefPtr& stage, const std::string& after) {
+    static std::string difference(Host& edited, Host& fresh) {
+        // UsdImagingDelegate names instancers after whichever instance it met first.
+        std::string text;
+        if (edited.options().sceneIndex) text = differences(sceneText(edited), sceneText(fresh));
+        const int pixels = differentPixels(edited.read("color"), fresh.read("color"));
+        if (pixels != 0) text += std::to_string(pixels) + " pixels differ";
+        return text;
+    }
+
+    /// Both hosts show the same stage: as text (scene indices), and every bit of the picture. Where
+    /// UsdImaging's scene indices themselves are no longer those of a new host, the edited host has
+    /// to show what they say.
+    /// @param follows whether they still were
+    static void expectSame(Host& edited, const UsdStageRefPtr& stage, const std::string& after,
+                           bool& follows) {
         edited.setSize(24, 24);
         edited.setAovs({HostAov()});
         ASSERT_TRUE(edited.render(120.0)) << after;
-        HostOptions options = edited.options();
-        Host fresh(stage, options);
+        Host fresh(stage, edited.options());
         ASSERT_TRUE(fresh.render(120.0)) << after;
-        // UsdImagingDelegate names instancers after whichever instance it met first.
-        if (options.sceneIndex) {
-            const std::string difference = differences(sceneText(edited), sceneText(fresh));
-            ASSERT_EQ(difference, "") << "edited and fresh scene differ after " << after;
-        }
-        ASSERT_EQ(differentPixels(edited.read("color"), fresh.read("color")), 0)
-            << "after " << after;
+        const std::string found = difference(edited, fresh);
+        follows = found.empty();
+        if (follows) return;
+        ASSERT_TRUE(edited.options().sceneIndex)
+            << "edited and fresh host differ after " << after << "\n"
+            << found;
+        Host same(stage, edited.options(), &edited);
+        ASSERT_TRUE(same.render(120.0)) << after;
+        ASSERT_EQ(difference(edited, same), "")
+            << "edited and fresh host of the same scene indices differ after " << after;
     }
 };
 
@@ -54,24 +73,42 @@ protected:
 
 TEST_P(HydraEdits, EndLikeAFreshHost) {
     const UsdStageRefPtr stage = makeBaseStage();
-    Host host(stage, optionsFor(GetParam()));
-    RandomEdits edits(stage, host, seed);
+    std::optional<Host> host;
+    host.emplace(stage, optionsFor(GetParam()));
+    RandomEdits edits(stage, *host, seed);
     Random pace(seed + 1);
     const int count = editCount();
     // Differences are found near their cause, but most edits meet a render that goes on.
     const int between = std::max(count / 40, 10);
     std::string recent;
+    int lost = 0;
     for (int i = 1; i <= count; ++i) {
         recent += edits.apply() + " ";
-        if (pace.chance(0.6f)) host.execute();
+        const bool compares = i % between == 0 || i == count;
+        try {
+            if (pace.chance(0.6f) || compares) host->execute();
+        } catch (const UsdExpiredPrimAccessError&) {
+            // Then isLost() says so.
+        }
+        bool follows = !host->isLost();
         if (pace.chance(0.1f))
             std::this_thread::sleep_for(std::chrono::microseconds(pace.index(3000)));
-        if (i % between == 0 || i == count) {
-            expectSame(host, stage, std::to_string(i) + " edits, the last of them " + recent);
+        if (compares && follows) {
+            expectSame(*host, stage, std::to_string(i) + " edits, the last of them " + recent,
+                       follows);
             if (HasFatalFailure()) return;
             recent.clear();
         }
+        if (!follows) {
+            const HostOptions options = host->options();
+            host.emplace(stage, options);
+            ++lost;
+        }
     }
+    // UsdImaging's scene indices now and then ask a prim that is gone, or go on counting a native
+    // instance that is none any more (seen in 24.11).
+    EXPECT_LE(lost, 1 + count / 500);
+    if (lost > 0) std::cout << "OpenUSD lost the stage " << lost << " times\n";
 }
 
 INSTANTIATE_TEST_SUITE_P(Inputs, HydraEdits, testing::Bool(),

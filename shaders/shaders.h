@@ -30,6 +30,7 @@ namespace sh {
 } // namespace sh
 
 #undef PATINA_FN
+#undef PATINA_FN_RARE
 #undef PATINA_OUT
 #undef PATINA_UNUSED
 
@@ -41,6 +42,7 @@ namespace sh64 {
 } // namespace sh64
 
 #undef PATINA_FN
+#undef PATINA_FN_RARE
 #undef PATINA_OUT
 #undef PATINA_UNUSED
 

@@ -262,6 +262,41 @@ TEST(Closures, MeasuredEdfFollowsItsProfile) {
     EXPECT_EQ(without.program->emission(ShadingPoint(), direction(50.0f)).x, 3.0f);
 }
 
+// Names of MaterialX 1.38 and earlier stand for the same lobes.
+TEST(Closures, OldNamesAreTheSameLobes) {
+    const std::vector<std::pair<const char*, const char*>> names = {
+        {"ND_diffuse_brdf", "ND_oren_nayar_diffuse_bsdf"},
+        {"ND_oren_nayar_diffuse_brdf", "ND_oren_nayar_diffuse_bsdf"},
+        {"ND_burley_diffuse_brdf", "ND_burley_diffuse_bsdf"},
+        {"ND_diffuse_btdf", "ND_translucent_bsdf"},
+        {"ND_dielectric_brdf", "ND_dielectric_bsdf"},
+        {"ND_conductor_brdf", "ND_conductor_bsdf"},
+        {"ND_generalized_schlick_brdf", "ND_generalized_schlick_bsdf"},
+        {"ND_subsurface_brdf", "ND_subsurface_bsdf"},
+        {"ND_sheen_brdf", "ND_sheen_bsdf"}};
+    const auto bsdf = [&](const char* id, Inputs inputs) {
+        Compiled c(bsdfNetwork({makeNode("bsdf", id, std::move(inputs))}));
+        EXPECT_EQ(warnings(c.diagnostics), "") << id;
+        Bsdf result;
+        c.program->evaluate(seenFrom(direction(40.0f)), result);
+        return result;
+    };
+    for (const auto& [old, current] : names) {
+        EXPECT_GT(bsdf(old, {}).lobeCount(), 0) << old;
+        EXPECT_EQ(bsdf(old, {}).albedo(), bsdf(current, {}).albedo()) << old;
+        EXPECT_EQ(bsdf(old, {}).lobe(0).kind, bsdf(current, {}).lobe(0).kind) << old;
+    }
+    // The transmitting half by its own name, and by mode.
+    EXPECT_EQ(bsdf("ND_dielectric_btdf", {}).albedo(),
+              bsdf("ND_dielectric_bsdf", {{"scatter_mode", text("T")}}).albedo());
+    // A radius was once a vector.
+    Bsdf beneath = bsdf("ND_subsurface_bsdf", {{"radius", Value::makeVec3(1.0f, 0.5f, 0.2f)}});
+    beneath.walkSubsurface();
+    const BsdfSample entering = beneath.sample(glm::vec3(0.5f), 0.5f);
+    ASSERT_NE(entering.event & LOBE_SUBSURFACE, 0);
+    EXPECT_EQ(beneath.subsurface(entering).radius, glm::vec3(1.0f, 0.5f, 0.2f));
+}
+
 TEST(Closures, UnknownChoicesAreReported) {
     Compiled c(bsdfNetwork({makeNode("bsdf", "ND_sheen_bsdf", {{"mode", text("velvet")}})}));
     EXPECT_EQ(warnings(c.diagnostics),

@@ -6,6 +6,8 @@
 // scalar, and so that they win over the templates which argument dependent lookup finds in glm.
 
 #define PATINA_FN inline
+// For what is seldom called from functions that are called often and should stay small.
+#define PATINA_FN_RARE [[gnu::noinline]] inline
 #define PATINA_OUT(T) T&
 // A parameter that is not read; drivers want a name where compilers warn of one.
 #define PATINA_UNUSED(T, name) T

@@ -2,6 +2,7 @@
 // Include it first, after #version. What is missing here is missing from the dialect.
 
 #define PATINA_FN
+#define PATINA_FN_RARE
 #define PATINA_OUT(T) out T
 #define PATINA_UNUSED(T, name) T name
 

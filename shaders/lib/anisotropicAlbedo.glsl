@@ -46,19 +46,7 @@ PATINA_FN int turnedRow(int a, int r, int c, int m) {
     return ((a * TURNED_RATIO + r) * TURNED_AZIMUTH + c) * TURNED_MU + m;
 }
 
-PATINA_FN FacetPlace facetPlace(vec3 wo, vec2 alpha, int facets) {
-    FacetPlace p;
-    p.mu = min(abs(wo.z), 1.0f);
-    p.alpha = facetAlphaSeen(wo, alpha);
-    p.facets = facets;
-    p.turned = alpha.x != alpha.y;
-    p.moment = momentPlace(p.mu, p.alpha, facets * FACET_SIZE);
-    p.larger = p.alpha;
-    p.ratio = 1.0f;
-    p.c = 1.0f;
-    p.turnedBase = 0;
-    p.turnedAt = vec4(0.0f);
-    if (!p.turned) return p;
+PATINA_FN_RARE FacetPlace turnedPlace(FacetPlace p, vec3 wo, vec2 alpha) {
     p.larger = max(alpha.x, alpha.y);
     p.ratio = min(alpha.x, alpha.y) / p.larger;
     float across = sqrt(wo.x * wo.x + wo.y * wo.y);
@@ -74,6 +62,22 @@ PATINA_FN FacetPlace facetPlace(vec3 wo, vec2 alpha, int facets) {
     return p;
 }
 
+PATINA_FN FacetPlace facetPlace(vec3 wo, vec2 alpha, int facets) {
+    FacetPlace p;
+    p.mu = min(abs(wo.z), 1.0f);
+    p.alpha = facetAlphaSeen(wo, alpha);
+    p.facets = facets;
+    p.turned = alpha.x != alpha.y;
+    p.moment = momentPlace(p.mu, p.alpha, facets * FACET_SIZE);
+    p.larger = p.alpha;
+    p.ratio = 1.0f;
+    p.c = 1.0f;
+    p.turnedBase = 0;
+    p.turnedAt = vec4(0.0f);
+    if (p.turned) p = turnedPlace(p, wo, alpha);
+    return p;
+}
+
 // Corner k of a cell with four axes: the row it is in, and its weight.
 PATINA_FN int turnedCorner(int k) {
     return turnedRow((k >> 3) & 1, (k >> 2) & 1, (k >> 1) & 1, k & 1);
@@ -84,14 +88,20 @@ PATINA_FN float turnedWeight(int k, vec4 f) {
            select(f.z, 1.0f - f.z, (k & 4) != 0) * select(f.w, 1.0f - f.w, (k & 8) != 0);
 }
 
-PATINA_FN float facetEntry(FacetPlace p, int i) {
-    float e = momentEntry(p.moment, i);
-    if (!p.turned) return e;
+// What anisotropy adds to entry i of the moments.
+PATINA_FN_RARE float turnedEntry(FacetPlace p, int i) {
+    float e = 0.0f;
     int table = p.facets * FACET_SIZE + TURNED_MOMENT + i;
     for (int k = 0; k < 16; ++k) {
         int row = p.turnedBase + turnedCorner(k);
         e += turnedWeight(k, p.turnedAt) * albedoTableFetch(table + row * MOMENT_COUNT);
     }
+    return e;
+}
+
+PATINA_FN float facetEntry(FacetPlace p, int i) {
+    float e = momentEntry(p.moment, i);
+    if (p.turned) e += turnedEntry(p, i);
     return e;
 }
 
@@ -109,31 +119,36 @@ PATINA_FN float facetMean(FacetPlace p, float exponent) {
     return powSchlick(clamp(1.0f - p.mu + d, 0.0f, 1.0f), exponent);
 }
 
+// What anisotropy adds to the two floats of the interface.
+PATINA_FN_RARE vec2 turnedInterface(FacetPlace p, float eta) {
+    vec2 e = vec2(0.0f);
+    bool above = eta >= 1.0f;
+    float muC = tableMuCritical(min(eta, 1.0f));
+    float width = turnedAlpha(p.larger, p.ratio, p.c);
+    float tm = select(tableMuCoord(p.mu, width), tableMuBelowCoord(p.mu, muC, width), above);
+    float tr = turnedRatioCoord(p.ratio);
+    float ta = tableAlphaCoord(p.larger);
+    float te = tableEtaCoord(eta);
+    int base = turnedRow(tableCell(ta, TURNED_ETA_ALPHA), tableCell(tr, TURNED_RATIO),
+                         tableCell(p.c, TURNED_AZIMUTH), tableCell(tm, TURNED_MU));
+    vec4 at = vec4(tableFraction(tm, TURNED_MU), tableFraction(p.c, TURNED_AZIMUTH),
+                   tableFraction(tr, TURNED_RATIO), tableFraction(ta, TURNED_ETA_ALPHA));
+    float fe = tableFraction(te, TURNED_ETA);
+    int stepE = 2 * turnedRow(TURNED_ETA_ALPHA, 0, 0, 0);
+    int table = p.facets * FACET_SIZE + select(TURNED_ABOVE, TURNED_BELOW, above) +
+                tableCell(te, TURNED_ETA) * stepE;
+    for (int k = 0; k < 16; ++k) {
+        int i = table + 2 * (base + turnedCorner(k));
+        float w = turnedWeight(k, at);
+        e += interfaceFetch(i) * (w * (1.0f - fe)) + interfaceFetch(i + stepE) * (w * fe);
+    }
+    return e;
+}
+
 // x: E_R / E[0], the mean reflectance over the facets seen; y: E_T / E[0]. Both not negative.
 PATINA_FN vec2 facetInterface(FacetPlace p, float eta) {
     vec2 e = interfaceEntry(p.mu, p.alpha, eta, p.facets);
-    if (p.turned) {
-        bool above = eta >= 1.0f;
-        float muC = tableMuCritical(min(eta, 1.0f));
-        float width = turnedAlpha(p.larger, p.ratio, p.c);
-        float tm = select(tableMuCoord(p.mu, width), tableMuBelowCoord(p.mu, muC, width), above);
-        float tr = turnedRatioCoord(p.ratio);
-        float ta = tableAlphaCoord(p.larger);
-        float te = tableEtaCoord(eta);
-        int base = turnedRow(tableCell(ta, TURNED_ETA_ALPHA), tableCell(tr, TURNED_RATIO),
-                             tableCell(p.c, TURNED_AZIMUTH), tableCell(tm, TURNED_MU));
-        vec4 at = vec4(tableFraction(tm, TURNED_MU), tableFraction(p.c, TURNED_AZIMUTH),
-                       tableFraction(tr, TURNED_RATIO), tableFraction(ta, TURNED_ETA_ALPHA));
-        float fe = tableFraction(te, TURNED_ETA);
-        int stepE = 2 * turnedRow(TURNED_ETA_ALPHA, 0, 0, 0);
-        int table = p.facets * FACET_SIZE + select(TURNED_ABOVE, TURNED_BELOW, above) +
-                    tableCell(te, TURNED_ETA) * stepE;
-        for (int k = 0; k < 16; ++k) {
-            int i = table + 2 * (base + turnedCorner(k));
-            float w = turnedWeight(k, at);
-            e += interfaceFetch(i) * (w * (1.0f - fe)) + interfaceFetch(i + stepE) * (w * fe);
-        }
-    }
+    if (p.turned) e += turnedInterface(p, eta);
     float r = clamp(e.x + interfaceGuess(p.mu, p.alpha, eta), 0.0f, 1.0f);
     return vec2(r, max(1.0f - r - e.y, 0.0f));
 }

@@ -56,7 +56,7 @@ PATINA_FN float beckmannErfInv(float x) {
     return x * select(p, q, w < 5.0f);
 }
 
-PATINA_FN float beckmannLength(vec3 w, vec2 alpha) {
+PATINA_FN_RARE float beckmannLength(vec3 w, vec2 alpha) {
     float x = alpha.x * w.x;
     float y = alpha.y * w.y;
     float s = sqrt(x * x + y * y);
@@ -74,7 +74,7 @@ PATINA_FN float beckmannExponent(vec2 xy, vec2 alpha, float z2) {
 }
 
 // Density of facet normals m (unit) per solid angle and projected area.
-PATINA_FN float beckmannDensity(vec3 m, vec2 alpha) {
+PATINA_FN_RARE float beckmannDensity(vec3 m, vec2 alpha) {
     float z2 = max(m.z * m.z, BECKMANN_Z2_MIN);
     return INV_PI * beckmannExponent(vec2(m.x, m.y), alpha, z2) / (alpha.x * alpha.y) / z2 / z2;
 }
@@ -83,7 +83,7 @@ PATINA_FN float beckmannDensity(vec3 m, vec2 alpha) {
 // on a surface stretched to alpha 1. Across wo they are Gaussian. Along it their distribution
 // function is F(x) = z (1 + erf(x)) / 2 + s exp(-x^2) / (2 sqrt(PI)), up to x = z / s; it is
 // inverted in y = erf(x), where it is concave.
-PATINA_FN vec3 beckmannSampleVisible(vec3 wo, vec2 alpha, vec2 u) {
+PATINA_FN_RARE vec3 beckmannSampleVisible(vec3 wo, vec2 alpha, vec2 u) {
     vec3 o = normalize(vec3(alpha.x * wo.x, alpha.y * wo.y, max(wo.z, 0.0f)));
     float s = sqrt(o.x * o.x + o.y * o.y);
     float a = min(o.z / max(s, TINY), 10.0f);
@@ -110,4 +110,12 @@ PATINA_FN vec3 beckmannSampleVisible(vec3 wo, vec2 alpha, vec2 u) {
     float c = select(1.0f, o.x / max(s, TINY), upright);
     float d = select(0.0f, o.y / max(s, TINY), upright);
     return normalize(vec3(-alpha.x * (c * x - d * across), -alpha.y * (d * x + c * across), 1.0f));
+}
+
+// x: D |o.h| |i.h| over |h|^4 for an unnormalised h; y, z: the lengths of both directions.
+PATINA_FN_RARE vec3 beckmannPair(vec3 o, vec3 i, vec3 h, vec2 alpha) {
+    float z2 = max(h.z * h.z, BECKMANN_Z2_MIN);
+    float e = beckmannExponent(vec2(h.x, h.y), alpha, z2);
+    float shape = INV_PI * e / (alpha.x * alpha.y) * (dot(o, h) / z2) * (abs(dot(i, h)) / z2);
+    return vec3(shape, beckmannLength(o, alpha), beckmannLength(i, alpha));
 }

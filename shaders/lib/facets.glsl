@@ -56,27 +56,25 @@ PATINA_FN FacetPair facetPair(vec3 o, vec3 i, vec2 alpha, float eta, int facets)
     h = select(h, -h, h.z >= 0.0f);
     float oh = dot(o, h);
     float ih = dot(i, h);
-    // D over the square of |H|^2, as a product of both factors that stay in range.
-    float t = 0.0f;
-    float scale = INV_PI * alpha.x * alpha.y;
+    vec3 shapes;
     if (facets == FACETS_BECKMANN) {
-        float z2 = max(h.z * h.z, BECKMANN_Z2_MIN);
-        float e = beckmannExponent(vec2(h.x, h.y), alpha, z2);
-        t = 1.0f / z2;
-        scale = INV_PI * e / (alpha.x * alpha.y);
+        shapes = beckmannPair(o, i, h, alpha);
     } else {
+        float a = alpha.x * alpha.y;
         float x = h.x * alpha.y;
         float y = h.y * alpha.x;
-        float z = h.z * alpha.x * alpha.y;
-        t = alpha.x * alpha.y / max(x * x + y * y + z * z, TINY * TINY);
+        float z = h.z * a;
+        float t = a / max(x * x + y * y + z * z, TINY * TINY);
+        shapes.x = INV_PI * a * (t * oh) * (t * abs(ih));
+        shapes.y = ggxLength(o, alpha);
+        shapes.z = ggxLength(i, alpha);
     }
     bool valid = oh > 0.0f && ih * i.z > 0.0f;
-    float shape = scale * eta * eta * (t * oh) * (t * abs(ih));
-    shape = select(shape, 0.0f, valid);
+    float shape = select(shapes.x * eta * eta, 0.0f, valid);
     float oz = max(o.z, 0.0f);
     float iz = abs(i.z);
-    float lo = facetLength(o, alpha, facets);
-    float li = facetLength(i, alpha, facets);
+    float lo = shapes.y;
+    float li = shapes.z;
     FacetPair p;
     p.value = shape * iz * facetG2Ratio(oz, lo, iz, li);
     p.pdf = shape * 2.0f / max(oz + lo, TINY);

@@ -154,9 +154,11 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
     vec3 mean = vec3(0.0f);
     if (l.exact || l.film.thickness > 0.0f) {
         f5 = schlickOutside(l, 1.0f);
-        mean = curveMean(p, schlickOutside(l, 0.0f),
-                         schlickOutside(l, CONDUCTOR_COS.x), schlickOutside(l, CONDUCTOR_COS.y),
-                         schlickOutside(l, CONDUCTOR_COS.z), schlickOutside(l, CONDUCTOR_COS3), f5);
+        mean = curveMean(p, schlickReflectance(l, 0.0f, eta),
+                         schlickReflectance(l, CONDUCTOR_COS.x, eta),
+                         schlickReflectance(l, CONDUCTOR_COS.y, eta),
+                         schlickReflectance(l, CONDUCTOR_COS.z, eta),
+                         schlickReflectance(l, CONDUCTOR_COS3, eta), f5);
     } else
         mean = schlickMean(p, l.fresnel);
     e.r = mean * e.kr * ess;

@@ -171,3 +171,48 @@ TEST(Film, SmoothGlassUnderAFilmLosesNothing) {
             EXPECT_NEAR(sh64::schlickAlbedo(l, direction(z, 0.0)).y, 1.0, 1e-6) << ior << z;
         }
 }
+
+// Smooth lobes are mirrors: what they sample is the reflectance itself, and of lossless interfaces
+// the rest is transmitted, from both sides, by whichever mode. Against the spectrum, with the
+// largest budget of the formula; Schlick's curve has the base's error on top.
+TEST(Film, EveryLobeFollowsTheSpectrum) {
+    const double ior = 1.5, film = 1.33, budget = 1e-2;
+    const vec3 u(0.3, 0.6, 0.999999);
+    for (double thickness : {150.0, 400.0, 700.0})
+        for (double z : {1.0, 0.7, 0.3}) {
+            const vec3 wo = direction(z, 0.4);
+            const vec3 coated = exact(z, thickness, film, vec3(ior), vec3(0.0));
+            for (int mode : {sh::SCATTER_R, sh::SCATTER_T, sh::SCATTER_RT}) {
+                const auto l = sh64::filmDielectricSetup(vec3(1.0), ior, vec2(0.0), thickness, film,
+                                                         false, mode, false, 1);
+                // The far side sees the same interface at the refracted angle.
+                const double zt = std::sqrt(1.0 - (1.0 - z * z) / (ior * ior));
+                for (const vec3& from : {wo, direction(-zt, 0.4)}) {
+                    const vec3 all = sh64::schlickAlbedo(l, from);
+                    vec3 expected = mode == sh::SCATTER_R ? coated : vec3(1.0) - coated;
+                    if (mode == sh::SCATTER_RT) expected = vec3(1.0);
+                    EXPECT_LT(largest(all - expected), budget) << mode << " " << from.z;
+                    const auto s = sh64::schlickSample(l, from, u);
+                    ASSERT_NE(s.event, 0);
+                    if (mode == sh::SCATTER_RT) expected = (vec3(1.0) - coated) / s.pdf;
+                    EXPECT_EQ((s.event & sh::LOBE_TRANSMIT) != 0, mode != sh::SCATTER_R);
+                    EXPECT_LT(largest(s.weight - expected), 2.0 * budget) << mode << " " << from.z;
+                }
+            }
+            const vec3 n(0.183, 0.421, 1.373), k(3.424, 2.346, 1.77);
+            const auto metal = sh64::conductorFilm(sh64::conductorSetup(n, k, vec2(0.0), false, 1),
+                                                   thickness, film);
+            EXPECT_LT(largest(sh64::conductorAlbedo(metal, wo) - exact(z, thickness, film, n, k)),
+                      5e-2)
+                << z;
+            const auto curve =
+                sh64::schlickFilm(sh64::schlickSetup(vec3(0.04), vec3(1.0), vec3(1.0), 5.0,
+                                                     vec2(0.0), false, sh::SCATTER_RT, false, 1),
+                                  thickness, film);
+            const double off =
+                std::fabs(sh64::fresnelDielectric(z, ior) - 0.04 - 0.96 * std::pow(1.0 - z, 5.0));
+            EXPECT_LT(largest(sh64::schlickReflectance(curve, z, curve.ior) - coated), budget + off)
+                << z;
+            EXPECT_NEAR(sh64::schlickAlbedo(curve, wo).x, 1.0, 1e-6);
+        }
+}

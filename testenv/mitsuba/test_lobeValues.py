@@ -6,6 +6,7 @@ Fresnel equations, Jacobians and normalisation are compared to float precision.
 """
 import io
 import json
+import math
 import sys
 
 import numpy as np
@@ -118,11 +119,46 @@ def test_rough_dielectric(tmp_path, capsys, monkeypatch, alpha, ior):
     compare(a, b * correlated(pairs, alpha, alpha))
 
 
-def beckmann_g1(w, alpha):
+def beckmann_g1(w, ax, ay=None):
     """the rational fit that Mitsuba uses (Walter et al. 2007)"""
-    tan = np.sqrt(np.maximum(1.0 - w[:, 2] ** 2, 0.0)) / w[:, 2]
-    a = 1.0 / np.maximum(alpha * tan, 1e-12)
+    slope = np.hypot(ax * w[:, 0], (ax if ay is None else ay) * w[:, 1])
+    a = np.abs(w[:, 2]) / np.maximum(slope, 1e-12)
     return np.where(a >= 1.6, 1.0, (3.535 * a + 2.181 * a * a) / (1.0 + 2.276 * a + 2.577 * a * a))
+
+
+def beckmann_lambda(w, ax, ay):
+    """the exact form, Heitz 2014"""
+    a = np.abs(w[:, 2]) / np.maximum(np.hypot(ax * w[:, 0], ay * w[:, 1]), 1e-12)
+    tail = np.array([math.erfc(x) for x in a])
+    return 0.5 * (np.exp(-a * a) / (a * math.sqrt(math.pi)) - tail)
+
+
+def beckmann_masking(pairs, ax, ay):
+    """ours over Mitsuba's"""
+    o, i = pairs[:, 0], pairs[:, 1]
+    exact = 1.0 / (1.0 + beckmann_lambda(o, ax, ay) + beckmann_lambda(i, ax, ay))
+    return (exact / (beckmann_g1(o, ax, ay) * beckmann_g1(i, ax, ay)))[:, None]
+
+
+@pytest.mark.parametrize("ax, ay", [(0.1, 0.1), (0.5, 0.5), (0.15, 0.5)])
+def test_beckmann_conductor(tmp_path, capsys, monkeypatch, ax, ay):
+    pairs = directions(400, False)
+    a = ours(tmp_path, capsys, monkeypatch, "conductor_bsdf", [
+        ("ior", "color3", ", ".join(map(str, GOLD[0]))), ("extinction", "color3", ", ".join(map(str, GOLD[1]))),
+        ("roughness", "vector2", f"{ax}, {ay}"), ("distribution", "string", "beckmann")], pairs)
+    b = theirs({"type": "roughconductor", "distribution": "beckmann", "alpha_u": ax, "alpha_v": ay,
+                "eta": {"type": "rgb", "value": list(GOLD[0])}, "k": {"type": "rgb", "value": list(GOLD[1])}}, pairs)
+    compare(a, b * beckmann_masking(pairs, ax, ay))
+
+
+def test_beckmann_dielectric(tmp_path, capsys, monkeypatch):
+    pairs = directions(600, True)
+    a = ours(tmp_path, capsys, monkeypatch, "dielectric_bsdf", [
+        ("ior", "float", 1.5), ("roughness", "vector2", "0.4, 0.4"), ("scatter_mode", "string", "RT"),
+        ("distribution", "string", "beckmann")], pairs)
+    b = theirs({"type": "roughdielectric", "distribution": "beckmann", "alpha": 0.4, "int_ior": 1.5, "ext_ior": 1.0},
+               pairs)
+    compare(a, b * beckmann_masking(pairs, 0.4, 0.4))
 
 
 @pytest.mark.parametrize("alpha", [0.2, 0.5])

@@ -42,7 +42,7 @@ namespace patina {
     X(DispatchCompute, DISPATCHCOMPUTE)                                                            \
     X(DrawArrays, DRAWARRAYS)                                                                      \
     X(DrawArraysInstanced, DRAWARRAYSINSTANCED)                                                    \
-    X(DrawElementsInstanced, DRAWELEMENTSINSTANCED)                                                \
+    X(DrawElementsInstancedBaseVertex, DRAWELEMENTSINSTANCEDBASEVERTEX)                            \
     X(Enable, ENABLE)                                                                              \
     X(Finish, FINISH)                                                                              \
     X(Flush, FLUSH)                                                                                \
@@ -89,6 +89,7 @@ namespace patina {
     X(Uniform4i, UNIFORM4I)                                                                        \
     X(Uniform4f, UNIFORM4F)                                                                        \
     X(UniformMatrix4fv, UNIFORMMATRIX4FV)                                                          \
+    X(VertexArrayElementBuffer, VERTEXARRAYELEMENTBUFFER)                                          \
     X(UseProgram, USEPROGRAM)                                                                      \
     X(Viewport, VIEWPORT)
 

@@ -11,8 +11,8 @@ void RasterAovs::write(const std::vector<vec4>& positions, const std::vector<vec
     for (size_t a = 0; a < aovs.size(); ++a) {
         const std::string& name = aovs[a].name;
         const auto each = [&](const std::function<vec3(size_t)>& value) {
-            for (int y = 0; y < height; ++y)
-                for (int x = 0; x < width; ++x) {
+            for (int y = window[1]; y <= window[3]; ++y)
+                for (int x = window[0]; x <= window[2]; ++x) {
                     const size_t i = size_t(height - 1 - y) * size_t(width) + size_t(x);
                     if (positions[i].w == 0.0f) continue;
                     const vec3 v = value(i);

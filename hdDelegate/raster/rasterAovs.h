@@ -10,6 +10,7 @@ struct RasterAovs {
     const RasterCamera& camera;
     const std::vector<AovSpec>& aovs;
     int width, height;
+    const int* window; ///< pixels that are written: xmin, ymin, xmax, ymax, inclusive
 
     /// @param positions world space, w 0 where nothing is; @param ids prim, instance, element, -.
     /// Rows from the bottom, as OpenGL counts.

@@ -53,10 +53,7 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
     for (const auto& item : state.lights) {
         const Light& light = *item.second;
         if (!light.visible) continue;
-        if (light.type == LightType::Mesh) {
-            diagnostics.warn(light.path, "geometry", "the rasterizer shows no mesh lights");
-            continue;
-        }
+        if (light.type == LightType::Mesh) continue; // see RasterEmitters
         for (const RasterPlace& place : places.places(light.group))
             add(light, place.groupToWorld * transformAt(light.transform, timeCode), images,
                 categories, diagnostics);
@@ -204,7 +201,7 @@ bool RasterLights::domeVisible() const {
     return _dome >= 0 && _sources[size_t(_dome)].cameraVisible;
 }
 
-GpuLight RasterLights::draw(const Source& s, vec2 u, const vec3&) const {
+GpuLight RasterLights::draw(const Source& s, vec2 u) const {
     GpuLight g = s.fixed;
     vec3 radiance = s.radiance;
     switch (s.kind) {
@@ -235,6 +232,7 @@ GpuLight RasterLights::draw(const Source& s, vec2 u, const vec3&) const {
         g.normal = vec4(wide / length, 1.0f / ((s.kind == Sphere ? 4.0f : 2.0f) * pi * stretched));
         break;
     }
+    case Triangle: break; // see sample()
     case Point: g.sampled = vec4(s.position, 1.0f); break;
     case Distant: {
         const float z = 1.0f - g.cone.z * u.x;
@@ -268,7 +266,8 @@ GpuLight RasterLights::draw(const Source& s, vec2 u, const vec3&) const {
     return g;
 }
 
-std::vector<GpuLight> RasterLights::sample(uint32_t pass, const ShadowBounds& bounds, int mapSize,
+std::vector<GpuLight> RasterLights::sample(uint32_t pass, const RasterEmitters& emitters,
+                                           const ShadowBounds& bounds, int mapSize,
                                            std::vector<ShadowView>& shadows) const {
     std::vector<GpuLight> out;
     uint32_t dimension = 100;
@@ -284,15 +283,35 @@ std::vector<GpuLight> RasterLights::sample(uint32_t pass, const ShadowBounds& bo
         const int samples = s.kind == Dome || s.kind == OtherDome ? domeSamples : 1;
         for (int n = 0; n < samples; ++n) {
             const uint32_t index = samples > 1 ? pass * uint32_t(samples) + uint32_t(n) : pass;
-            GpuLight g = draw(s, passNumbers(index, dimension), vec3(0.0f));
+            GpuLight g = draw(s, passNumbers(index, dimension));
             const float factor = share / float(samples);
             // The first of the dome also stands for what samples of the BSDF find.
             if (n > 0 && s.kind == Dome) g.radiance.w = float(MoreDome);
             g.radiance *= vec4(vec3(factor), 1.0f);
             if (_shadows && s.shadows)
-                castShadow(s, g, passNumbers(index, dimension + 1).x, bounds, mapSize, shadows);
+                castShadow(g, passNumbers(index, dimension + 1).x, bounds, mapSize, shadows);
             out.push_back(g);
         }
+    }
+    for (uint32_t n = 0; n < uint32_t(emitterSamples) && !emitters.empty(); ++n) {
+        const vec2 u = passNumbers(pass * emitterSamples + n, 17);
+        const vec2 turn = passNumbers(pass * emitterSamples + n, 18);
+        float within, chance;
+        const RasterEmitter& e = emitters.choose(u.x, within, chance);
+        // Uniform over the triangle (Turk 1990).
+        const float root = std::sqrt(within);
+        GpuLight g;
+        g.sampled = vec4(e.corner + e.edge1 * (root * (1.0f - u.y)) + e.edge2 * (root * u.y), 1.0f);
+        g.normal = vec4(glm::normalize(glm::cross(e.edge1, e.edge2)), chance / e.area);
+        g.radiance = vec4(e.radiance / float(emitterSamples), float(Triangle));
+        g.origin = g.shaping = g.focusTint = g.shadowColor = vec4(0.0f);
+        g.cone = vec4(0.0f, 0.0f, e.twoSided ? 1.0f : 0.0f, 0.0f);
+        for (int i = 0; i < 3; ++i)
+            g.axis[i] = g.inverse[i] = vec4(0.0f, 0.0f, 0.0f, i < 2 ? 1.0f : 0.0f);
+        g.axis[2].w = float(e.category);
+        g.shadow = vec4(-1.0f, 0.0f, 0.0f, 0.0f);
+        if (_shadows) castShadow(g, turn.x, bounds, mapSize, shadows);
+        out.push_back(g);
     }
     return out;
 }

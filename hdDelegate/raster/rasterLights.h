@@ -4,6 +4,7 @@
 #include "hdDelegate/embree/lights/environmentMap.h"
 #include "hdDelegate/embree/lights/lightImages.h"
 #include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/rasterEmitters.h"
 #include "hdDelegate/raster/rasterInstances.h"
 
 #include <map>
@@ -19,6 +20,7 @@ struct GpuLight {
 /// A view from a light, to be drawn into one shadow map.
 struct ShadowView {
     mat4 worldToMap{1.0f};
+    vec4 towards{0.0f}; ///< position of the light; direction to it where w is 0
 };
 
 /// Boxes that shadows are fitted to.
@@ -32,9 +34,10 @@ struct ShadowBounds {
 /// up to soft shadows.
 class RasterLights {
 public:
-    static constexpr int domeSamples = 4; ///< per pass
-    static constexpr int maxMaps = 32;    ///< shadow maps per pass; lights beyond are not shadowed
-    static constexpr int maxLights = 64;  ///< per pass; of more lights each pass takes a choice
+    static constexpr int domeSamples = 4;    ///< per pass
+    static constexpr int emitterSamples = 2; ///< of all glowing triangles together, per pass
+    static constexpr int maxMaps = 32;   ///< shadow maps per pass; lights beyond are not shadowed
+    static constexpr int maxLights = 64; ///< per pass; of more lights each pass takes a choice
 
     RasterLights(const SceneState& state, const RenderSettings& settings, RasterInstances& places,
                  float timeCode, LightImages& images, const std::map<std::string, int>& categories,
@@ -42,7 +45,8 @@ public:
 
     /// Samples of a pass.
     /// @param shadows receives the views; they have the order of the layers of the shadow maps
-    std::vector<GpuLight> sample(uint32_t pass, const ShadowBounds& bounds, int mapSize,
+    std::vector<GpuLight> sample(uint32_t pass, const RasterEmitters& emitters,
+                                 const ShadowBounds& bounds, int mapSize,
                                  std::vector<ShadowView>& shadows) const;
 
     bool hasDome() const { return _dome >= 0; }
@@ -51,10 +55,9 @@ public:
     bool domeVisible() const;
     const GlTexture& domeMap() const { return _domeMap; } ///< empty for a constant dome
     const GlTexture& domeDensity() const { return _domeDensity; }
-    int warnedShadows() const { return _warned; }
 
 private:
-    enum Kind { Rect, Disk, Sphere, Cylinder, Point, Distant, Dome, MoreDome, OtherDome };
+    enum Kind { Rect, Disk, Sphere, Cylinder, Point, Distant, Dome, MoreDome, OtherDome, Triangle };
     struct Source {
         Kind kind = Point;
         GpuLight fixed;
@@ -70,15 +73,14 @@ private:
     void add(const Light& light, const mat4& toWorld, LightImages& images,
              const std::map<std::string, int>& categories, Diagnostics& diagnostics);
     void uploadDome();
-    GpuLight draw(const Source& source, vec2 u, const vec3& from) const;
-    void castShadow(const Source& source, GpuLight& light, float turn, const ShadowBounds& bounds,
-                    int mapSize, std::vector<ShadowView>& shadows) const;
+    GpuLight draw(const Source& source, vec2 u) const;
+    void castShadow(GpuLight& light, float turn, const ShadowBounds& bounds, int mapSize,
+                    std::vector<ShadowView>& shadows) const;
 
     std::vector<Source> _sources;
     int _dome = -1;
     bool _shadows = true;
     GlTexture _domeMap, _domeDensity;
-    int _warned = 0;
 };
 
 } // namespace patina

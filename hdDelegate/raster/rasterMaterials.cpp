@@ -70,7 +70,8 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
 std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial& glsl, int primvars,
                                                              const std::string& user) {
     const std::string head = "#define PRIMVARS " + std::to_string(primvars) + "\n" +
-                             (glsl.presence ? "#define PRESENCE\n" : "");
+                             (glsl.presence ? "#define PRESENCE\n" : "") +
+                             "#define MATERIAL_GLOWS " + (glsl.emission ? "true\n" : "false\n");
     auto& shared = _programs[head + glsl.text];
     if (shared) return shared;
     const GlStage vertex{GL_VERTEX_SHADER, "surface",
@@ -92,8 +93,15 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
                              {GL_FRAGMENT_SHADER, "material",
                               surface + "#include \"shaders/raster/aovs.frag.glsl\"\n"}},
                             error);
+    if (programs->aovs && glsl.presence)
+        programs->shadow = GlProgram::make(
+            {{GL_VERTEX_SHADER, "shadow",
+              "#define SHADOW\n" + head + "#include \"shaders/raster/surface.vert.glsl\"\n"},
+             {GL_FRAGMENT_SHADER, "material",
+              surface + "#include \"shaders/raster/presence.frag.glsl\"\n"}},
+            error);
     ++_built;
-    if (!programs->aovs) {
+    if (!programs->aovs || (glsl.presence && !programs->shadow)) {
         _diagnostics.warn(user, "",
                           "the driver does not take the material's shader, prims with it "
                           "are not drawn: " +

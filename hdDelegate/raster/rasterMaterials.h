@@ -14,6 +14,7 @@ namespace patina {
 /// Programs of one text.
 struct RasterPrograms {
     std::unique_ptr<GlProgram> color, aovs;
+    std::unique_ptr<GlProgram> shadow; ///< only of what light may pass
 };
 
 /// A material on the GPU.

@@ -41,7 +41,14 @@ RasterPasses::~RasterPasses() {
     gl.DeleteFramebuffers(1, &_shadowTarget);
 }
 
-bool RasterPasses::resize(int width, int height) {
+bool RasterPasses::resize(const RenderSettings& settings) {
+    const int width = settings.width, height = settings.height;
+    const int* crop = settings.dataWindow;
+    const bool all = crop[2] < crop[0] || crop[3] < crop[1];
+    _window[0] = all ? 0 : std::clamp(crop[0], 0, width);
+    _window[1] = all ? 0 : std::clamp(crop[1], 0, height);
+    _window[2] = all ? width - 1 : std::min(crop[2], width - 1);
+    _window[3] = all ? height - 1 : std::min(crop[3], height - 1);
     if (width == _width && height == _height) return true;
     GLint largest = 0;
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
@@ -72,7 +79,7 @@ RasterPasses::PassBlock RasterPasses::block(const RasterView& view) const {
 }
 
 void RasterPasses::drawSurfaces(const RasterScene& scene, bool aovs) const {
-    scene.bind();
+    scene.bind(_vertexArray);
     const GlProgram* last = nullptr;
     const RasterMaterial* lastMaterial = nullptr;
     for (const RasterDraw& d : scene.draws()) {
@@ -88,6 +95,10 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, bool aovs) const {
         lastMaterial = d.material;
         gl.Uniform4i(0, d.firstFloat, d.floatsPerCorner, d.firstInstance, d.flags);
         gl.Uniform4i(1, d.primvarBits, d.primId, d.flags, 0);
+        if (!aovs) {
+            const vec3& l = d.meshLight.radiance;
+            gl.Uniform4f(7, l.x, l.y, l.z, float(d.meshLight.mode));
+        }
         gl.DrawArraysInstanced(GL_TRIANGLES, 0, d.cornerCount, d.instanceCount);
     }
 }
@@ -124,7 +135,7 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
     gl.GetTextureImage(_ids.id(), 0, GL_RGBA_INTEGER, GL_INT, GLsizei(pixels * 4 * sizeof(int)),
                        ids.data());
     measureReceivers(positions, scene);
-    const RasterAovs target{camera, aovs, _width, _height};
+    const RasterAovs target{camera, aovs, _width, _height, _window};
     target.write(positions, normals, ids, film);
 }
 
@@ -162,8 +173,7 @@ void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<Shado
         _shadowMaps.parameter(GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     }
     if (views.empty()) return;
-    scene.bind();
-    _shadow->use();
+    scene.bind(_vertexArray);
     gl.BindFramebuffer(GL_FRAMEBUFFER, _shadowTarget);
     gl.Viewport(0, 0, shadowMapSize, shadowMapSize);
     gl.Enable(GL_POLYGON_OFFSET_FILL);
@@ -175,10 +185,27 @@ void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<Shado
         gl.NamedFramebufferTextureLayer(_shadowTarget, GL_DEPTH_ATTACHMENT, _shadowMaps.id(), 0,
                                         GLint(i));
         gl.ClearNamedFramebufferfv(_shadowTarget, GL_DEPTH, 0, &far);
+        _shadow->use();
         gl.UniformMatrix4fv(2, 1, GL_FALSE, &views[i].worldToMap[0][0]);
+        for (const RasterCaster& c : scene.casters()) {
+            gl.Uniform1i(0, c.firstInstance);
+            gl.DrawElementsInstancedBaseVertex(
+                GL_TRIANGLES, c.indexCount, GL_UNSIGNED_INT,
+                reinterpret_cast<const void*>(size_t(c.firstIndex) * sizeof(uint32_t)),
+                c.instanceCount, c.baseVertex);
+        }
         for (const RasterDraw& d : scene.draws()) {
-            if (!d.prim->visibility.shadow) continue;
+            const GlProgram* program = d.material->programs->shadow.get();
+            if (!program || !d.prim->visibility.shadow) continue;
+            program->use();
+            d.material->parameters.bindUniform(1);
+            for (size_t t = 0; t < d.material->textures.size(); ++t)
+                d.material->textures[t]->bind(GLuint(t));
+            const vec4& to = views[i].towards;
             gl.Uniform4i(0, d.firstFloat, d.floatsPerCorner, d.firstInstance, d.flags);
+            gl.Uniform4i(1, d.primvarBits, d.primId, d.flags, 0);
+            gl.UniformMatrix4fv(2, 1, GL_FALSE, &views[i].worldToMap[0][0]);
+            gl.Uniform4f(6, to.x, to.y, to.z, to.w);
             gl.DrawArraysInstanced(GL_TRIANGLES, 0, d.cornerCount, d.instanceCount);
         }
     }
@@ -186,16 +213,15 @@ void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<Shado
 }
 
 void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
-                        const RasterCamera& camera, uint32_t pass, vec2 offset, vec2 lens,
-                        float time, Film& film) {
+                        const RasterCamera& camera, uint32_t pass, uint32_t taken, vec2 offset,
+                        vec2 lens, float time, Film& film) {
     std::vector<ShadowView> views;
-    const std::vector<GpuLight> sampled = lights.sample(pass, _bounds, shadowMapSize, views);
-    const GlBuffer lightBuffer(sampled), matrixBuffer(views);
-    gl.BindVertexArray(_vertexArray);
-    gl.Enable(GL_DEPTH_TEST);
-    gl.DepthFunc(GL_LESS);
-    gl.DepthMask(GL_TRUE);
-    drawShadows(scene, views);
+    const std::vector<GpuLight> sampled =
+        lights.sample(pass, scene.emitters(), _bounds, shadowMapSize, views);
+    std::vector<mat4> matrices;
+    for (const ShadowView& v : views)
+        matrices.push_back(v.worldToMap);
+    const GlBuffer lightBuffer(sampled), matrixBuffer(matrices);
 
     const RasterView view = camera.view(offset, lens, time, scene.boundsMin(), scene.boundsMax());
     PassBlock b = block(view);
@@ -206,7 +232,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     b.dome = vec4(lights.domeRadiance(), lights.hasDome() ? 1.0f : 0.0f);
     b.domeInfo[0] = RasterLights::domeSamples;
     b.domeInfo[1] = lights.domeVisible();
-    b.extra = vec4(1.0f, camera.camera().exposureScale, 0.0f, 0.0f);
+    b.extra = vec4(1.0f, camera.camera().exposureScale, float(taken), 0.0f);
     if (const GlTexture& map = lights.domeMap()) {
         map.bind(16);
         lights.domeDensity().bind(17);
@@ -216,9 +242,14 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     }
     _passBuffer.write(&b, sizeof b);
     _passBuffer.bindUniform(0);
+    gl.BindVertexArray(_vertexArray);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    gl.DepthMask(GL_TRUE);
+    _albedoTable.bindStorage(7);
+    drawShadows(scene, views);
     lightBuffer.bindStorage(4);
     matrixBuffer.bindStorage(5);
-    _albedoTable.bindStorage(7);
     _shadowMaps.bind(18);
 
     _colorTarget.bind();
@@ -235,9 +266,9 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     std::vector<vec4> pixels(size_t(_width) * size_t(_height));
     gl.GetTextureImage(_color.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels.size() * sizeof(vec4)),
                        pixels.data());
-    for (int y = 0; y < _height; ++y) {
+    for (int y = _window[1]; y <= _window[3]; ++y) {
         const vec4* row = &pixels[size_t(_height - 1 - y) * size_t(_width)];
-        for (int x = 0; x < _width; ++x)
+        for (int x = _window[0]; x <= _window[2]; ++x)
             film.addColor(x, y, vec3(row[x]), row[x].w);
     }
 }

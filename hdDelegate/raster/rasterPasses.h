@@ -13,17 +13,23 @@ public:
     explicit RasterPasses(std::string& error);
     bool ok() const { return _background && _shadow; }
 
-    /// Sets the size of the image. @returns false when the driver has no room for it
-    bool resize(int width, int height);
+    /// Sets the size of the image, and which of its pixels reach the film.
+    /// @returns false when the driver has no room for it
+    bool resize(const RenderSettings& settings);
+    bool inWindow(int x, int y) const {
+        return x >= _window[0] && y >= _window[1] && x <= _window[2] && y <= _window[3];
+    }
+    const int* window() const { return _window; } ///< xmin, ymin, xmax, ymax, inclusive
 
     /// Ids, positions and normals through the pixels' centres; writes the film's AOVs.
     void drawAovs(const RasterScene& scene, const RasterCamera& camera,
                   const std::vector<AovSpec>& aovs, Film& film);
 
     /// One sample of every pixel.
+    /// @param pass number of its samples; @param taken how many passes there are with this one
     /// @param offset of the sample from the pixels' centres; lens, time as of RasterCamera::view()
     void draw(const RasterScene& scene, const RasterLights& lights, const RasterCamera& camera,
-              uint32_t pass, vec2 offset, vec2 lens, float time, Film& film);
+              uint32_t pass, uint32_t taken, vec2 offset, vec2 lens, float time, Film& film);
 
     static constexpr int shadowMapSize = 1024;
     static constexpr int bsdfSamples = 2; ///< per pixel and pass
@@ -39,6 +45,7 @@ private:
     GlBuffer _passBuffer, _albedoTable;
     GLuint _vertexArray = 0;
     int _width = 0, _height = 0;
+    int _window[4] = {0, 0, -1, -1};
     GlTexture _color, _depth, _position, _normal, _ids, _shadowMaps;
     GlFramebuffer _colorTarget, _aovTarget;
     GLuint _shadowTarget = 0;

@@ -162,7 +162,7 @@ private:
         const RasterCamera camera(cameraPrim, _settings);
         build(state, camera);
         if (_stop) return;
-        if (!_passes->resize(_settings.width, _settings.height))
+        if (!_passes->resize(_settings))
             throw std::runtime_error("the driver has no room for an image of this size");
         std::vector<AovSpec> aovs;
         for (const std::string& name : _settings.aovs)
@@ -178,15 +178,19 @@ private:
         }
         _passes->drawAovs(*_raster, camera, aovs, *_film);
         const auto sampling = Clock::now();
-        const uint32_t taken = _film->sampleCount(0, 0);
+        const int* window = _passes->window();
+        const bool empty = window[2] < window[0] || window[3] < window[1];
+        const uint32_t taken = empty ? 0 : _film->sampleCount(window[2], window[3]);
+        auto saved = Clock::now();
         auto told = Clock::now() - std::chrono::seconds(1);
         for (uint32_t i = taken; i < uint32_t(std::max(1, _settings.samples)) && !_stop; ++i) {
-            const float time = evenly(i, 0.6180339887498949, 0.4142135623730951).x;
-            const vec2 offset = filterOffset(evenly(i, 0.7548776662466927, 0.5698402909980532),
+            const uint32_t index = i + _settings.seed * 2654435761u;
+            const float time = evenly(index, 0.6180339887498949, 0.4142135623730951).x;
+            const vec2 offset = filterOffset(evenly(index, 0.7548776662466927, 0.5698402909980532),
                                              _settings.filterRadius);
-            const vec2 lens = evenly(i, 0.8191725133961645, 0.6710436067037893);
+            const vec2 lens = evenly(index, 0.8191725133961645, 0.6710436067037893);
             _raster->moveTo(state, _settings, camera.timeCode(time));
-            _passes->draw(*_raster, *_lights, camera, i, offset, lens, time, *_film);
+            _passes->draw(*_raster, *_lights, camera, index, i + 1, offset, lens, time, *_film);
             if (gl.GetError() == GL_OUT_OF_MEMORY)
                 throw std::runtime_error("the driver is out of memory");
             if (_context->lost()) throw std::runtime_error("the driver has reset the context");
@@ -202,6 +206,11 @@ private:
                 Clock::now() - told > std::chrono::milliseconds(30)) {
                 _listener(*_film, progress());
                 told = Clock::now();
+            }
+            if (!_settings.checkpointFile.empty() &&
+                secondsSince(saved) > _settings.checkpointSeconds) {
+                _film->saveCheckpoint(_settings.checkpointFile);
+                saved = Clock::now();
             }
             if (!waitWhilePaused()) return;
             if (_settings.seconds > 0.0 && secondsSince(_started) > _settings.seconds) break;

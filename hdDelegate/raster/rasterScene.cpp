@@ -26,6 +26,17 @@ float intBits(int value) {
     return bits;
 }
 
+float areaOf(const TriangleMesh& mesh, const mat4& toWorld) {
+    double area = 0.0;
+    for (const uvec3& t : mesh.triangles) {
+        vec3 p[3];
+        for (int k = 0; k < 3; ++k)
+            p[k] = vec3(toWorld * vec4(mesh.positions[0][t[k]], 1.0f));
+        area += 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+    }
+    return float(area);
+}
+
 /// The longest edge, in object units, that looks `pixels` long from the camera.
 float wantedEdge(const Geometry& prim, const RasterCamera& camera, const RenderSettings& settings,
                  const std::vector<RasterPlace>& places) {
@@ -71,11 +82,50 @@ void RasterScene::collectCategories(const SceneState& state) {
     }
 }
 
+void RasterScene::collectMeshLights(const SceneState& state, const RenderSettings& settings) {
+    _meshLights.clear();
+    for (const auto& item : state.lights)
+        if (item.second->type == LightType::Mesh && item.second->visible &&
+            settings.enableSceneLights)
+            _meshLights[item.second->geometry] = item.second;
+}
+
 void RasterScene::maskOf(const std::vector<std::string>& categories, int mask[2]) const {
     for (const std::string& name : categories) {
         const auto found = _categories.find(name);
         if (found != _categories.end()) mask[found->second / 32] |= int(1u << (found->second % 32));
     }
+}
+
+void RasterScene::GpuInstance::place(const mat4& toWorld) {
+    objectToWorld = toWorld;
+    const mat3 linear(toWorld);
+    normalToWorld = mat4(glm::transpose(glm::inverse(linear)));
+    normalToWorld[3].w = std::cbrt(std::fabs(glm::determinant(linear)));
+}
+
+void RasterScene::addCaster(const std::shared_ptr<const Geometry>& prim, const TriangleMesh& mesh,
+                            const std::vector<const RasterMaterial*>& materials,
+                            const RasterDraw& draw) {
+    if (!prim->visibility.shadow) return;
+    RasterCaster caster;
+    caster.prim = prim;
+    caster.firstIndex = int(_indices.size());
+    caster.baseVertex = int(_positions.size());
+    caster.firstInstance = draw.firstInstance;
+    caster.instanceCount = draw.instanceCount;
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const size_t subset = t < mesh.triangleSubset.size() ? mesh.triangleSubset[t] : 0;
+        const RasterMaterial* material = materials[subset < materials.size() ? subset : 0];
+        if (material->program->isVolumeOnly() || (material->programs && material->programs->shadow))
+            continue;
+        for (int k = 0; k < 3; ++k)
+            _indices.push_back(mesh.triangles[t][k]);
+    }
+    caster.indexCount = int(_indices.size()) - caster.firstIndex;
+    if (caster.indexCount == 0) return;
+    _positions.insert(_positions.end(), mesh.positions[0].begin(), mesh.positions[0].end());
+    _casters.push_back(caster);
 }
 
 void RasterScene::addTriangles(const std::shared_ptr<const Geometry>& prim,
@@ -88,7 +138,7 @@ void RasterScene::addTriangles(const std::shared_ptr<const Geometry>& prim,
     }
     const MeshAttribute* st = mesh.attribute("st");
     draw.prim = prim;
-    draw.floatsPerCorner = 14 + 4 * int(primvars.size());
+    draw.floatsPerCorner = 17 + 4 * int(primvars.size());
     draw.firstFloat = int(_vertices.size());
     draw.boundsMin = mesh.boundsMin;
     draw.boundsMax = mesh.boundsMax;
@@ -113,13 +163,14 @@ void RasterScene::addTriangles(const std::shared_ptr<const Geometry>& prim,
                 uvPerLength = std::sqrt(std::abs(determinant) / std::max(area2, 1e-30f));
             }
         }
+        const vec3 ng = glm::cross(p[1] - p[0], p[2] - p[0]);
         const int element = t < mesh.triangleFace.size() ? mesh.triangleFace[t] : int(t);
         for (int c = 0; c < 3; ++c) {
             const float u = c == 1 ? 1.0f : 0.0f, v = c == 2 ? 1.0f : 0.0f;
             const vec3 n = mesh.normals.empty() ? vec3(0.0f) : evalNormal(mesh, t, u, v);
-            const float record[] = {p[c].x,      p[c].y,          p[c].z, n.x,    n.y,    n.z,
-                                    dPdu.x,      dPdu.y,          dPdu.z, dPdv.x, dPdv.y, dPdv.z,
-                                    uvPerLength, intBits(element)};
+            const float record[] = {p[c].x,      p[c].y,           p[c].z, n.x,    n.y,    n.z,
+                                    dPdu.x,      dPdu.y,           dPdu.z, dPdv.x, dPdv.y, dPdv.z,
+                                    uvPerLength, intBits(element), ng.x,   ng.y,   ng.z};
             _vertices.insert(_vertices.end(), std::begin(record), std::end(record));
             for (const MeshAttribute* attribute : attributes) {
                 float value[4] = {0, 0, 0, 0};
@@ -169,7 +220,7 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     draw.primId = prim->id >= 0 ? prim->id : rank;
     for (const RasterPlace& place : where) {
         GpuInstance instance;
-        instance.objectToWorld = place.groupToWorld * toGroup;
+        instance.place(place.groupToWorld * toGroup);
         instance.ids[0] = place.id;
         maskOf(prim->categories, instance.ids + 1);
         maskOf(place.categories, instance.ids + 1);
@@ -185,9 +236,29 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     }
     draw.instanceCount = int(where.size());
     _moves |= prim->transform.moves();
+    addCaster(prim, mesh, materials, draw);
+    int lit = -1;
+    const auto meshLight = _meshLights.find(prim->path);
+    if (meshLight != _meshLights.end()) {
+        const Light& light = *meshLight->second;
+        draw.meshLight.radiance = glm::max(lightBaseRadiance(light), vec3(0.0f));
+        draw.meshLight.mode =
+            light.materialSyncMode == "noMaterialResponse"       ? RasterMeshLight::Alone
+            : light.materialSyncMode == "materialGlowTintsLight" ? RasterMeshLight::Tints
+                                                                 : RasterMeshLight::Adds;
+        if (light.normalize)
+            draw.meshLight.radiance /=
+                std::max(areaOf(mesh, where[0].groupToWorld * toGroup), 1e-30f);
+        const auto category = _categories.find(light.lightLink);
+        if (!light.lightLink.empty()) lit = category == _categories.end() ? 63 : category->second;
+    }
     for (size_t subset = 0; subset < materials.size(); ++subset) {
         draw.material = materials[subset];
         if (!draw.material->programs || draw.material->program->isVolumeOnly()) continue;
+        if (settings.enableSceneLights)
+            for (const RasterPlace& place : where)
+                _emitters.add(mesh, subset, *draw.material->program, draw.meshLight,
+                              place.groupToWorld * toGroup, lit);
         addTriangles(prim, mesh, subset, draw);
     }
 }
@@ -195,6 +266,9 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
 void RasterScene::update(const SceneState& state, const RasterCamera& camera,
                          const RenderSettings& settings, const std::atomic<bool>& stop) {
     _draws.clear();
+    _casters.clear();
+    _positions.clear();
+    _indices.clear();
     _vertices.clear();
     _instances.clear();
     _triangles = 0;
@@ -203,6 +277,8 @@ void RasterScene::update(const SceneState& state, const RasterCamera& camera,
     _boundsMax = vec3(-INFINITY);
     _materials.update(state, settings);
     collectCategories(state);
+    collectMeshLights(state, settings);
+    _emitters.clear();
     RasterInstances places(state, settings, camera.timeCode(0.5f));
     for (const auto& item : state.instancers)
         for (const MotionTransform& transform : item.second->transforms)
@@ -221,6 +297,8 @@ void RasterScene::update(const SceneState& state, const RasterCamera& camera,
     if (_draws.empty()) _boundsMin = _boundsMax = vec3(0.0f);
     _vertexBuffer = GlBuffer(_vertices);
     _instanceBuffer = GlBuffer(_instances);
+    _positionBuffer = GlBuffer(_positions);
+    _indexBuffer = GlBuffer(_indices);
     std::vector<float>().swap(_vertices);
 }
 
@@ -234,16 +312,18 @@ bool RasterScene::moveTo(const SceneState& state, const RenderSettings& settings
         const auto& where = places.places(draw.prim->group);
         const mat4 toGroup = transformAt(draw.prim->transform, timeCode);
         for (int i = 0; i < draw.instanceCount && size_t(i) < where.size(); ++i)
-            _instances[size_t(draw.firstInstance + i)].objectToWorld =
-                where[size_t(i)].groupToWorld * toGroup;
+            _instances[size_t(draw.firstInstance + i)].place(where[size_t(i)].groupToWorld *
+                                                             toGroup);
     }
     _instanceBuffer.write(_instances.data(), _instances.size() * sizeof(GpuInstance));
     return true;
 }
 
-void RasterScene::bind() const {
+void RasterScene::bind(GLuint vertexArray) const {
     _vertexBuffer.bindStorage(2);
     _instanceBuffer.bindStorage(3);
+    _positionBuffer.bindStorage(6);
+    gl.VertexArrayElementBuffer(vertexArray, _indexBuffer.id());
 }
 
 } // namespace patina

@@ -29,13 +29,12 @@ mat4 looking(const vec3& from, const vec3& direction, float turn) {
 
 } // namespace
 
-void RasterLights::castShadow(const Source& s, GpuLight& light, float turn,
-                              const ShadowBounds& bounds, int mapSize,
+void RasterLights::castShadow(GpuLight& light, float turn, const ShadowBounds& bounds, int mapSize,
                               std::vector<ShadowView>& shadows) const {
     const auto full = [&](int more) { return shadows.size() + size_t(more) > size_t(maxMaps); };
     const auto receivers = corners(bounds.receiverMin, bounds.receiverMax);
     const auto casters = corners(bounds.sceneMin, bounds.sceneMax);
-    if (s.kind >= Distant) {
+    if (light.sampled.w == 0.0f) {
         if (full(1)) return;
         const mat4 view = looking(vec3(0.0f), -vec3(light.sampled), turn);
         vec3 low(INFINITY), high(-INFINITY);
@@ -52,7 +51,8 @@ void RasterLights::castShadow(const Source& s, GpuLight& light, float turn,
         light.shadow = vec4(float(shadows.size()), 1.0f, side / float(mapSize), 0.0f);
         const float h = 0.5f * side;
         shadows.push_back(
-            {glm::ortho(c.x - h, c.x + h, c.y - h, c.y + h, -high.z - pad, -low.z + pad) * view});
+            {glm::ortho(c.x - h, c.x + h, c.y - h, c.y + h, -high.z - pad, -low.z + pad) * view,
+             light.sampled});
         return;
     }
     const vec3 from = vec3(light.sampled);
@@ -67,7 +67,8 @@ void RasterLights::castShadow(const Source& s, GpuLight& light, float turn,
         const float n = nearest * tangent;
         light.shadow = vec4(float(shadows.size()), 1.0f, 2.0f * tangent / float(mapSize), 1.0f);
         shadows.push_back({glm::frustum(-n, n, -n, n, nearest, reach * 1.01f) *
-                           looking(from, (center - from) / distance, turn)});
+                               looking(from, (center - from) / distance, turn),
+                           light.sampled});
         return;
     }
     if (full(6)) return;
@@ -77,7 +78,8 @@ void RasterLights::castShadow(const Source& s, GpuLight& light, float turn,
     const float n = nearest * 1.02f;
     for (const vec3& d : directions)
         shadows.push_back(
-            {glm::frustum(-n, n, -n, n, nearest, reach * 1.01f) * looking(from, d, 0.0f)});
+            {glm::frustum(-n, n, -n, n, nearest, reach * 1.01f) * looking(from, d, 0.0f),
+             light.sampled});
 }
 
 } // namespace patina

@@ -3,6 +3,7 @@
 #include "materialNetwork/nodeTable.h"
 
 #include <cctype>
+#include <map>
 #include <unordered_map>
 
 namespace patina {
@@ -43,8 +44,8 @@ const Row rows[] = {
     {"ND_sin_float", "sin($0)"},
     {"ND_cos_float", "cos($0)"},
     {"ND_tan_float", "tan($0)"},
-    {"ND_asin_float", "asin(clamp($0, -1.0, 1.0))"},
-    {"ND_acos_float", "acos(clamp($0, -1.0, 1.0))"},
+    {"ND_asin_float", "nodeAsin($0)"},
+    {"ND_acos_float", "nodeAcos($0)"},
     {"ND_atan2_float", "atan($0, $1)"},
     {"ND_trianglewave_float", "0.5 - abs(abs($0) - floor(abs($0)) - 0.5)"},
     {"ND_smoothstep_float", "nodeSmoothstep($0, $1, $2)"},
@@ -121,6 +122,37 @@ const Row rows[] = {
     {"ND_image_color3", "$t($2.xy, point.uvFootprint)"},
     {"ND_tiledimage_float", "vec4($t(nodeTiledUv($2, $3, $4, $5, $6), nodeTiledFootprint($3)).x)"},
     {"ND_tiledimage_color3", "$t(nodeTiledUv($2, $3, $4, $5, $6), nodeTiledFootprint($3))"},
+
+    {"ND_noise2d_float", "vec4(noisePerlin2($2.xy, 0) * $0.x + $1.x)"},
+    {"ND_noise2d_color3", "nodeNoise2($2.xy) * $0 + $1.x"},
+    {"ND_noise3d_float", "vec4(noisePerlin3($2.xyz, 0) * $0.x + $1.x)"},
+    {"ND_noise3d_color3", "nodeNoise3($2.xyz) * $0 + $1.x"},
+    {"ND_fractal2d_float", "vec4(noiseFractal2($4.xy, int($1.x), $2.x, $3.x, 0) * $0.x)"},
+    {"ND_fractal3d_float", "vec4(noiseFractal3($4.xyz, int($1.x), $2.x, $3.x, 0) * $0.x)"},
+    {"ND_fractal2d_color3", "nodeFractal2($4.xy, int($1.x), $2.x, $3.x) * $0"},
+    {"ND_fractal3d_color3", "nodeFractal3($4.xyz, int($1.x), $2.x, $3.x) * $0"},
+    {"ND_cellnoise2d_float", "vec4(noiseCell2($0.xy))"},
+    {"ND_cellnoise3d_float", "vec4(noiseCell3($0.xyz))"},
+    {"ND_worleynoise2d_float", "vec4(worleyScalar2($0.xy, $1.x, int($2.x)))"},
+    {"ND_worleynoise2d_vector3", "vec4(worleyNoise2($0.xy, $1.x, int($2.x)), 0.0)"},
+    {"ND_worleynoise3d_float", "vec4(worleyScalar3($0.xyz, $1.x, int($2.x)))"},
+    {"ND_worleynoise3d_vector3", "vec4(worleyNoise3($0.xyz, $1.x, int($2.x)), 0.0)"},
+    {"ND_checkerboard_color3", "$1 + ($0 - $1) * patternChecker(patternTile($4.xy, $2.xy, $3.xy))"},
+    {"ND_circle_float", "vec4(patternShape(0, $0.xy - $1.xy, $2.x))"},
+    {"ND_cloverleaf_float", "vec4(patternShape(1, $0.xy - $1.xy, $2.x))"},
+    {"ND_hexagon_float", "vec4(patternShape(2, $0.xy - $1.xy, $2.x))"},
+    {"ND_tiledcircles_color3", "nodeTiledShape(0, 0.866025, $0, $1, $2, $3, $4)"},
+    {"ND_tiledcloverleafs_color3", "nodeTiledShape(1, 0.5, $0, $1, $2, $3, $4)"},
+    {"ND_tiledhexagons_color3", "nodeTiledShape(2, 0.866025, $0, $1, $2, $3, $4)"},
+    {"ND_line_float", "vec4(patternLine($0.xy - $1.xy, $3.xy, $4.xy, $2.x))"},
+    {"ND_grid_color3", "vec4(patternGrid(patternTile($0.xy, $1.xy, $2.xy), $3.x, $4.x != 0.0))"},
+    {"ND_crosshatch_color3",
+     "vec4(patternCrosshatch(patternTile($0.xy, $1.xy, $2.xy), $3.x, $4.x != 0.0))"},
+    {"ND_ramplr_float", "$0 + ($1 - $0) * clamp($2.x, 0.0, 1.0)"},
+    {"ND_ramptb_float", "$1 + ($0 - $1) * clamp($2.y, 0.0, 1.0)"},
+    {"ND_ramp4_float", "nodeRamp4($0, $1, $2, $3, $4.xy)"},
+    {"ND_splitlr_float", "$3.x >= $2.x ? $1 : $0"},
+    {"ND_splittb_float", "$3.y >= $2.x ? $0 : $1"},
 };
 
 const std::unordered_map<void*, const char*>& table() {
@@ -155,8 +187,14 @@ std::vector<std::string> split(const std::string& text) {
 } // namespace
 
 std::vector<std::string> glslPattern(const Instruction& instruction,
-                                     const std::function<std::string(int)>& input,
+                                     const std::function<std::string(int)>& inputText,
                                      const std::function<std::string(int)>& sampler) {
+    // An input that is read twice is one and the same constant.
+    std::map<int, std::string> known;
+    const auto input = [&](int i) {
+        const auto found = known.find(i);
+        return found != known.end() ? found->second : known[i] = inputText(i);
+    };
     const PatternData& data = instruction.data;
     static const PatternFunction uvTexture = functionOf("UsdUVTexture");
     if (instruction.function == uvTexture) {

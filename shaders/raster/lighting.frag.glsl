@@ -2,6 +2,7 @@
 // would miss. Both find the same light, so their shares follow the power heuristic (Veach 1997).
 // The BSDF's samples are not shadowed, hence the lights' weigh more than their density says.
 layout(location = 0) out vec4 outColor;
+layout(location = 7) uniform vec4 meshLight; // w: modes of RasterMeshLight
 
 const float lightTrust = 8.0;
 
@@ -55,7 +56,7 @@ vec3 fromLight(Light l) {
             radiance /= d2;
         } else {
             float c = -dot(l.normal.xyz, wi);
-            if (kind == LIGHT_TRIANGLE) c = abs(c);
+            if (kind == LIGHT_TRIANGLE && l.cone.z != 0.0) c = abs(c);
             if (c <= 0.0) return vec3(0.0);
             density *= d2 / c;
         }
@@ -88,7 +89,7 @@ vec3 along(MaterialSample s) {
         if (kind == LIGHT_DOME) {
             density = float(domeInfo.x) * domePdf(s.wi);
             float texel = 4.0 * PI / max(extra.x, 1.0);
-            float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(pdf * float(counts.z + 1) * texel, 1e-20));
+            float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(pdf * extra.z * texel, 1e-20));
             radiance = domeRadiance(s.wi, clamp(lod, 0.0, float(domeInfo.z)));
         } else if (kind == LIGHT_DISTANT) {
             if (dot(s.wi, l.origin.xyz) < 1.0 - l.cone.z) continue;
@@ -106,12 +107,25 @@ vec3 along(MaterialSample s) {
     return sum;
 }
 
+// What the surface gives off: its material's glow, and what a mesh light makes of it.
+vec3 glow() {
+    vec3 own = materialEmission(point.view);
+    if (meshLight.w == 0.0) return own;
+    vec3 light = dot(point.geometricNormal, point.view) > 0.0 ? meshLight.rgb : vec3(0.0);
+    if (meshLight.w == 3.0) return light;
+    return meshLight.w == 1.0 && MATERIAL_GLOWS ? light * own : light + own;
+}
+
 void main() {
     setPointFromCamera();
 #ifdef PRESENCE
     if (!isPresent()) discard;
 #endif
-    vec3 color = materialEmission(point.view);
+    vec3 color = glow();
+    if (meshLight.w == 3.0) {
+        outColor = vec4(color * extra.y, 1.0);
+        return;
+    }
     materialSetup();
     for (int i = 0; i < counts.x; ++i) {
         Light l = lights[i];

@@ -260,6 +260,15 @@ vec4 nodePower(vec4 a, vec4 b) {
 vec4 nodeRound(vec4 a) {
     return sign(a) * floor(abs(a) + 0.5);
 }
+// Drivers' own asin and acos are off by 3e-4.
+vec4 nodeAsin(vec4 a) {
+    vec4 x = clamp(a, -1.0, 1.0);
+    return atan(x, sqrt((1.0 - x) * (1.0 + x)));
+}
+vec4 nodeAcos(vec4 a) {
+    vec4 x = clamp(a, -1.0, 1.0);
+    return atan(sqrt((1.0 - x) * (1.0 + x)), x);
+}
 vec4 nodeSmoothstep(vec4 x, vec4 low, vec4 high) {
     vec4 t = mix(vec4(greaterThanEqual(x, high)), clamp((x - low) / (high - low), 0.0, 1.0),
                  greaterThan(high, low));
@@ -294,6 +303,30 @@ vec2 nodeTiledUv(vec4 uv, vec4 tiling, vec4 offset, vec4 image, vec4 tile) {
 }
 float nodeTiledFootprint(vec4 tiling) {
     return point.uvFootprint * max(abs(tiling.x), abs(tiling.y));
+}
+vec4 nodeNoise2(vec2 p) {
+    return vec4(noisePerlin2(p, 0), noisePerlin2(p, 8), noisePerlin2(p, 16), 0.0);
+}
+vec4 nodeNoise3(vec3 p) {
+    return vec4(noisePerlin3(p, 0), noisePerlin3(p, 8), noisePerlin3(p, 16), 0.0);
+}
+vec4 nodeFractal2(vec2 p, int octaves, float lacunarity, float diminish) {
+    return vec4(noiseFractal2(p, octaves, lacunarity, diminish, 0),
+                noiseFractal2(p, octaves, lacunarity, diminish, 8),
+                noiseFractal2(p, octaves, lacunarity, diminish, 16), 0.0);
+}
+vec4 nodeFractal3(vec3 p, int octaves, float lacunarity, float diminish) {
+    return vec4(noiseFractal3(p, octaves, lacunarity, diminish, 0),
+                noiseFractal3(p, octaves, lacunarity, diminish, 8),
+                noiseFractal3(p, octaves, lacunarity, diminish, 16), 0.0);
+}
+vec4 nodeTiledShape(int shape, float row, vec4 uv, vec4 tiling, vec4 offset, vec4 size, vec4 staggered) {
+    return vec4(patternTiledShape(shape, patternTile(uv.xy, tiling.xy, offset.xy), size.x,
+                                  staggered.x != 0.0, row));
+}
+vec4 nodeRamp4(vec4 tl, vec4 tr, vec4 bl, vec4 br, vec2 uv) {
+    vec2 t = clamp(uv, 0.0, 1.0);
+    return mix(mix(bl, br, t.x), mix(tl, tr, t.x), t.y);
 }
 // mode 0 is world space.
 vec4 nodePosition(int mode) {

@@ -7,7 +7,7 @@ layout(std140, binding = 0) uniform Pass {
     vec4 eye;       // w: 1 perspective, 0 orthographic
     vec4 forward;   // view direction of the camera; w: angle or width of a pixel
     ivec4 counts;   // lights, BSDF samples, index of the pass, shadow map size
-    vec4 extra;    // x: texels of the dome's image, y: exposure factor
+    vec4 extra;    // x: texels of the dome's image, y: exposure factor, z: passes that will have been taken
     mat4 domeToWorld; // rotation
     vec4 dome;      // radiance factor; w: 1 there is a dome
     ivec4 domeInfo; // x: samples of the dome, y: seen by the camera, z: levels, w: textured

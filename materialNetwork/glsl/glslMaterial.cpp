@@ -152,6 +152,7 @@ private:
         const std::string prefix = glslLobePrefix(t.prebuilt.kind);
         const auto registers = [&](Register r) { return reg(r); };
         line("    " + lobe + " = " + glslLobeSetup(t, registers) + ";");
+        if (t.facets != 0) line("    " + lobe + ".facets = " + number(t.facets) + ";");
         line("    float kept" + n + " = unit(" + prefix + "Fix(" + lobe + ", " + frameOf(i) +
              ".wo, lobeAlbedo[" + n + "]));");
         if (!t.straight) return;

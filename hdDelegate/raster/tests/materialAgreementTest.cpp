@@ -84,6 +84,13 @@ std::vector<NamedNetwork> networks() {
                        {{"fg", {"metal", ""}}, {"bg", {"diffuse", ""}}, {"mix", {"amount", ""}}}),
               makeNode("bsdf", "ND_layer_bsdf", {},
                        {{"top", {"coat", ""}}, {"base", {"mix", ""}}})})},
+        {"beckmannMetal", bsdfNetwork({makeNode("bsdf", "ND_conductor_bsdf",
+                                                {{"roughness", Value::makeVec2(0.2f, 0.6f)},
+                                                 {"distribution", text("beckmann")}})})},
+        {"beckmannGlass", bsdfNetwork({makeNode("bsdf", "ND_dielectric_bsdf",
+                                                {{"roughness", pair(0.4f)},
+                                                 {"scatter_mode", text("RT")},
+                                                 {"distribution", text("beckmann")}})})},
         {"arithmetic",
          bsdfNetwork(
              {makeNode("uv", "ND_texcoord_vector2"),

@@ -46,9 +46,10 @@ vec2 passNumbers(uint32_t pass, uint32_t dimension) {
 } // namespace
 
 RasterLights::RasterLights(const SceneState& state, const RenderSettings& settings,
-                           RasterInstances& places, float timeCode, LightImages& images,
-                           const std::map<std::string, int>& categories, Diagnostics& diagnostics)
-    : _shadows(settings.enableShadows) {
+                           RasterInstances& places, float timeCode, int domeSamples,
+                           LightImages& images, const std::map<std::string, int>& categories,
+                           Diagnostics& diagnostics)
+    : _domeSamples(domeSamples), _shadows(settings.enableShadows) {
     if (!settings.enableSceneLights) return;
     for (const auto& item : state.lights) {
         const Light& light = *item.second;
@@ -280,7 +281,7 @@ std::vector<GpuLight> RasterLights::sample(uint32_t pass, const RasterEmitters& 
         const size_t i = (first + k) % count;
         const Source& s = _sources[i];
         dimension = 100 + 16 * uint32_t(i);
-        const int samples = s.kind == Dome || s.kind == OtherDome ? domeSamples : 1;
+        const int samples = s.kind == Dome || s.kind == OtherDome ? _domeSamples : 1;
         for (int n = 0; n < samples; ++n) {
             const uint32_t index = samples > 1 ? pass * uint32_t(samples) + uint32_t(n) : pass;
             GpuLight g = draw(s, passNumbers(index, dimension));

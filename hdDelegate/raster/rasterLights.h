@@ -34,14 +34,14 @@ struct ShadowBounds {
 /// up to soft shadows.
 class RasterLights {
 public:
-    static constexpr int domeSamples = 4;    ///< per pass
     static constexpr int emitterSamples = 2; ///< of all glowing triangles together, per pass
     static constexpr int maxMaps = 32;   ///< shadow maps per pass; lights beyond are not shadowed
     static constexpr int maxLights = 64; ///< per pass; of more lights each pass takes a choice
 
+    /// @param domeSamples per pass
     RasterLights(const SceneState& state, const RenderSettings& settings, RasterInstances& places,
-                 float timeCode, LightImages& images, const std::map<std::string, int>& categories,
-                 Diagnostics& diagnostics);
+                 float timeCode, int domeSamples, LightImages& images,
+                 const std::map<std::string, int>& categories, Diagnostics& diagnostics);
 
     /// Samples of a pass.
     /// @param shadows receives the views; they have the order of the layers of the shadow maps
@@ -49,6 +49,7 @@ public:
                                  const ShadowBounds& bounds, int mapSize,
                                  std::vector<ShadowView>& shadows) const;
 
+    int domeSamples() const { return _domeSamples; }
     bool hasDome() const { return _dome >= 0; }
     vec3 domeRadiance() const;
     mat4 domeToWorld() const;
@@ -78,7 +79,7 @@ private:
                     std::vector<ShadowView>& shadows) const;
 
     std::vector<Source> _sources;
-    int _dome = -1;
+    int _dome = -1, _domeSamples = 1;
     bool _shadows = true;
     GlTexture _domeMap, _domeDensity;
 };

@@ -230,7 +230,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     b.counts[2] = int(pass);
     b.domeToWorld = lights.domeToWorld();
     b.dome = vec4(lights.domeRadiance(), lights.hasDome() ? 1.0f : 0.0f);
-    b.domeInfo[0] = RasterLights::domeSamples;
+    b.domeInfo[0] = lights.domeSamples();
     b.domeInfo[1] = lights.domeVisible();
     b.extra = vec4(1.0f, camera.camera().exposureScale, float(taken), 0.0f);
     if (const GlTexture& map = lights.domeMap()) {

@@ -152,10 +152,12 @@ private:
         }
         _raster->update(state, camera, _settings, _stop);
         if (_stop) return;
+        // Every sample of a dome costs a shadow map: few of them where that takes long.
+        const int domeSamples = _raster->trianglesDrawn() > 1000000 ? 1 : 4;
         RasterInstances places(state, _settings, camera.timeCode(0.5f));
-        _lights =
-            std::make_unique<RasterLights>(state, _settings, places, camera.timeCode(0.5f),
-                                           *_images, _raster->categories(), _scene->diagnostics());
+        _lights = std::make_unique<RasterLights>(state, _settings, places, camera.timeCode(0.5f),
+                                                 domeSamples, *_images, _raster->categories(),
+                                                 _scene->diagnostics());
     }
 
     void render(const SceneState& state, const Camera& cameraPrim) {

@@ -319,6 +319,13 @@ bool RasterScene::moveTo(const SceneState& state, const RenderSettings& settings
     return true;
 }
 
+size_t RasterScene::trianglesDrawn() const {
+    size_t sum = 0;
+    for (const RasterDraw& d : _draws)
+        sum += size_t(d.cornerCount) / 3 * size_t(d.instanceCount);
+    return sum;
+}
+
 void RasterScene::bind(GLuint vertexArray) const {
     _vertexBuffer.bindStorage(2);
     _instanceBuffer.bindStorage(3);

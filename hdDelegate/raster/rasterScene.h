@@ -48,6 +48,7 @@ public:
     const vec3& boundsMin() const { return _boundsMin; }
     const vec3& boundsMax() const { return _boundsMax; }
     size_t triangles() const { return _triangles; }
+    size_t trianglesDrawn() const; ///< those of every instance counted
     size_t programsBuilt() const { return _materials.programsBuilt(); }
     size_t instanceCount() const { return _instances.size(); }
     void bind(GLuint vertexArray) const; ///< buffers of vertices, indices and instances

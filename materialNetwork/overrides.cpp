@@ -16,6 +16,14 @@ const NodeDef* definition(const std::string& id) {
     return NodeTable::get().find(id);
 }
 
+/// Through a surfacematerial to the surface of its front.
+std::string surfaceOf(const Network& network, const std::string& path) {
+    const NetworkNode* node = network.find(path);
+    if (!node || node->id != "ND_surfacematerial") return path;
+    const auto front = node->connections.find("surfaceshader");
+    return front == node->connections.end() ? path : front->second.node;
+}
+
 /// Finds the node and input of "path.input" or "input".
 /// @returns index into network.nodes, -1 when there is none
 int findTarget(const Network& network, const std::string& target, std::string& input) {
@@ -27,7 +35,7 @@ int findTarget(const Network& network, const std::string& target, std::string& i
         input = target.substr(point + 1);
     } else {
         const auto surface = network.terminals.find("surface");
-        if (surface != network.terminals.end()) node = surface->second.node;
+        if (surface != network.terminals.end()) node = surfaceOf(network, surface->second.node);
         input = target;
     }
     // USD writes inputs with their namespace.

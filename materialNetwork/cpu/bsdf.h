@@ -109,7 +109,7 @@ struct BsdfFrame {
 /// through a surface because of an interpolated or mapped normal.
 class Bsdf {
 public:
-    static constexpr int maxLobes = 16; ///< more are dropped, with a warning at compile time
+    static constexpr int maxLobes = 32; ///< two of the largest models; more are dropped, with a warning at compile time
     static constexpr int maxFrames = 8;
 
     Bsdf() {} // NOLINT: members are left uninitialised on purpose; evaluate() fills what is used

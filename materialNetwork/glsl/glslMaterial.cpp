@@ -49,6 +49,9 @@ public:
                     ", uv, footprint); }\n";
         }
         _out.text = head + _text;
+        if (_code.layerTransmittance != LayerTransmittance::Largest)
+            _out.leftOut.push_back("layers let through 1 - the largest channel, whatever "
+                                   "layerTransmittance says");
         if (_out.parameters.empty()) _out.parameters.emplace_back(0.0f);
         _out.presence = !_program.isOpaque();
         _out.emission = _program.hasEmission();
@@ -158,7 +161,8 @@ private:
         if (!t.straight) return;
         line("    vec3 wallPassed" + n + ", wallReflected" + n + ";");
         line("    " + prefix + "Wall(" + lobe + ", " + frameOf(i) + ".wo, lobeAlbedo[" + n +
-             "], wallPassed" + n + ", wallReflected" + n + ");");
+             "], wallPassed" + n + ", wallReflected" + n + ", " +
+             (_code.wallsHaveTwoFaces ? "true" : "false") + ");");
     }
 
     /// As BsdfBuilder::setWeights(), unrolled.

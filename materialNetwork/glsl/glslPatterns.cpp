@@ -112,6 +112,7 @@ const Row rows[] = {
     {"ND_tangent_vector3", "nodeTangent($m, point.tangent)"},
     {"ND_bitangent_vector3", "nodeTangent($m, point.bitangent)"},
     {"ND_viewdirection_vector3", "nodeTangent($m, point.view)"},
+    {"PatinaBackSide", "vec4(dot(point.view, point.geometricNormal) < 0.0 ? 1.0 : 0.0)"},
     {"ND_texcoord_vector2", "vec4(primvar($p, vec4(0.0)).xyz, 0.0)"},
     {"ND_geomcolor_color3", "primvar($p, vec4(0.0, 0.0, 0.0, 1.0))"},
     {"ND_geomcolor_float", "vec4(primvar($p, vec4(0.0)).x)"},

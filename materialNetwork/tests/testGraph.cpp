@@ -121,7 +121,7 @@ TEST(Graph, ManyLobesAreCutWithAWarning) {
                                   {"in2", {"lobe" + k, ""}}}));
     }
     Compiled c(bsdfNetwork(nodes));
-    EXPECT_NE(warnings(c.diagnostics).find("more than 16 lobes"), std::string::npos);
+    EXPECT_NE(warnings(c.diagnostics).find("more than 32 lobes"), std::string::npos);
     ShadingPoint point;
     Bsdf bsdf;
     c.program->evaluate(point, bsdf);

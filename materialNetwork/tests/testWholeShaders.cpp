@@ -236,6 +236,30 @@ TEST(WholeShaders, MediaOfMixedSurfacesAreMixed) {
     EXPECT_NEAR(c.program->interior(ShadingPoint()).absorption.x, 1.75f, 1e-5f);
 }
 
+// Everything that the models have at once, front and back, fits.
+TEST(WholeShaders, LargeModelsFit) {
+    const auto everything = [](const std::string& name, float metalness) {
+        return makeNode(name, "ND_standard_surface_surfaceshader",
+                        {{"metalness", number(metalness)},
+                         {"transmission", number(0.3f)},
+                         {"subsurface", number(0.3f)},
+                         {"sheen", number(0.3f)},
+                         {"coat", number(0.3f)},
+                         {"thin_film_thickness", number(300.0f)}});
+    };
+    Compiled c(makeNetwork(
+        {everything("a", 0.3f), everything("b", 0.4f), everything("c", 0.5f),
+         makeNode("front", "ND_mix_surfaceshader", {{"mix", number(0.5f)}},
+                  {{"fg", {"a", ""}}, {"bg", {"b", ""}}}),
+         makeNode("surface", "ND_surfacematerial", {},
+                  {{"surfaceshader", {"front", ""}}, {"backsurfaceshader", {"c", ""}}})}));
+    EXPECT_EQ(warnings(c.diagnostics), "");
+    Bsdf bsdf;
+    c.program->evaluate(seenFrom(direction(40.0f)), bsdf);
+    EXPECT_GT(bsdf.lobeCount(), 5);
+    EXPECT_LE(albedo(c).y, 1.01f);
+}
+
 TEST(WholeShaders, WhatIsNoSurfaceIsReportedOnce) {
     Compiled c(
         makeNetwork({lambert("red", color(0.8f, 0.0f, 0.0f)), surfaceOf("a", "red"),
@@ -245,6 +269,19 @@ TEST(WholeShaders, WhatIsNoSurfaceIsReportedOnce) {
                               {{"fg", {"a", ""}}, {"bg", {"wave", ""}}})}));
     EXPECT_EQ(c.diagnostics.count(), 1) << warnings(c.diagnostics);
     expectColor(albedo(c), 0.4f, 0.0f, 0.0f);
+}
+
+TEST(WholeShaders, OverridesReachTheFront) {
+    const Network network = makeNetwork(
+        {makeNode("front", "ND_surface_unlit"), makeNode("behind", "ND_surface_unlit"),
+         makeNode("surface", "ND_surfacematerial", {},
+                  {{"surfaceshader", {"front", ""}}, {"backsurfaceshader", {"behind", ""}}})});
+    Diagnostics diagnostics;
+    const Network changed = applyOverrides(network, {{"emission", number(3.0f)}}, diagnostics);
+    EXPECT_EQ(warnings(diagnostics), "");
+    Compiled c(changed);
+    EXPECT_EQ(c.program->emission(seenFrom({0, 0, 1}), {0, 0, 1}).x, 3.0f);
+    EXPECT_EQ(c.program->emission(seenFrom(back), back).x, 1.0f);
 }
 
 TEST(WholeShaders, DocumentsHaveThem) {

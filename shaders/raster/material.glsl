@@ -175,25 +175,27 @@ float chiangHairFix(inout ChiangHairLobe l, vec3 wo, out vec3 albedo) {
     return 1.0;
 }
 
-// The two faces of a thin wall, as BsdfBuilder::wallOf().
+// One or two faces of a thin wall, as BsdfBuilder::wallOf().
 void dielectricWall(inout DielectricLobe l, vec3 wo, inout vec3 albedo, out vec3 passed,
-                    out vec3 reflected) {
+                    out vec3 reflected, bool twoFaces) {
     float once = l.fused ? 0.0 : dielectricEnergy(l, wo).r;
-    passed = l.tint * (1.0 - once) / (1.0 + once);
+    float bounces = twoFaces ? once : 0.0;
+    passed = l.tint * (1.0 - once) / (1.0 + bounces);
     reflected = vec3(0.0);
     if (l.mode == SCATTER_RT) {
-        reflected = vec3(2.0 / (1.0 + once));
+        reflected = vec3((twoFaces ? 2.0 : 1.0) / (1.0 + bounces));
         l.mode = SCATTER_R;
         albedo = l.tint * once;
     }
 }
 void schlickWall(inout SchlickLobe l, vec3 wo, inout vec3 albedo, out vec3 passed,
-                 out vec3 reflected) {
+                 out vec3 reflected, bool twoFaces) {
     vec3 once = l.fused ? vec3(0.0) : schlickEnergy(l, wo).r;
-    passed = (1.0 - once) / (1.0 + once);
+    vec3 bounces = twoFaces ? once : vec3(0.0);
+    passed = (1.0 - once) / (1.0 + bounces);
     reflected = vec3(0.0);
     if (l.mode == SCATTER_RT) {
-        reflected = 2.0 / (1.0 + once);
+        reflected = (twoFaces ? 2.0 : 1.0) / (1.0 + bounces);
         l.mode = SCATTER_R;
         albedo = once;
     }

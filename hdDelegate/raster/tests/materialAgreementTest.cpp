@@ -91,6 +91,15 @@ std::vector<NamedNetwork> networks() {
                                                 {{"roughness", pair(0.4f)},
                                                  {"scatter_mode", text("RT")},
                                                  {"distribution", text("beckmann")}})})},
+        {"mixedShaders",
+         makeNetwork(
+             {makeNode("paint", "standard_surface", {{"opacity", grey(0.75f)}}),
+              makeNode("lamp", "ND_surface_unlit", {{"emission_color", color(0, 0.5f, 1)}}),
+              makeNode("both", "ND_mix_surfaceshader", {{"mix", number(0.25f)}},
+                       {{"fg", {"lamp", ""}}, {"bg", {"paint", ""}}}),
+              makeNode("behind", "ND_surface_unlit", {{"emission", number(3.0f)}}),
+              makeNode("surface", "ND_surfacematerial", {},
+                       {{"surfaceshader", {"both", ""}}, {"backsurfaceshader", {"behind", ""}}})})},
         {"arithmetic",
          bsdfNetwork(
              {makeNode("uv", "ND_texcoord_vector2"),

@@ -1,7 +1,7 @@
 """Renders every stage under a folder and pastes the images into one sheet.
 
     python testenv/contactSheet.py FOLDER SHEET.png [--width 240] [--samples 32] [--record FLAGS...]
-    python testenv/contactSheet.py FOLDER SHEET.png --host usdrecord [--sceneIndex]
+    python testenv/contactSheet.py FOLDER SHEET.png --host usdrecord [--sceneIndex] [--gl]
 
 With usdrecord as host the images come through Hydra, with as many samples as the delegate takes.
 Prints a table: stage, seconds, warnings. Stages that fail are black tiles with a line that says why.
@@ -19,6 +19,7 @@ import time
 import numpy as np
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "hydra"))
+HYDRA_TIMEOUT = 120
 STAGES = (".usd", ".usda", ".usdc", ".usdz")
 
 
@@ -29,7 +30,7 @@ def find(folder):
                   if name.lower().endswith(STAGES))
 
 
-def render_hydra(stage, folder, width, scene_index):
+def render_hydra(stage, folder, width, scene_index, gl):
     """:returns: as render()"""
     import hydraBuild
 
@@ -37,8 +38,11 @@ def render_hydra(stage, folder, width, scene_index):
     if os.path.exists(image):
         os.remove(image)
     start = time.perf_counter()
-    process = hydraBuild.run_usdrecord(stage, image, "--imageWidth", width, "--purposes", "render",
-                                       scene_index=scene_index, check=False)
+    try:
+        process = hydraBuild.run_usdrecord(stage, image, "--imageWidth", width, "--purposes", "render",
+                                           scene_index=scene_index, check=False, gl=gl, timeout=HYDRA_TIMEOUT)
+    except subprocess.TimeoutExpired:
+        return None, time.perf_counter() - start, [], [f"no end after {HYDRA_TIMEOUT} s"]
     seconds = time.perf_counter() - start
     if process.returncode != 0 or not os.path.exists(image):
         return None, seconds, [], process.stderr.strip().splitlines()[-1:] or ["no message"]
@@ -90,13 +94,14 @@ def main():
     parser.add_argument("--columns", type=int, default=8)
     parser.add_argument("--host", choices=("patina", "usdrecord"), default="patina")
     parser.add_argument("--sceneIndex", action="store_true", help="scene indices, with usdrecord")
+    parser.add_argument("--gl", action="store_true", help="with a GL context, with usdrecord")
     parser.add_argument("--record", nargs=argparse.REMAINDER, default=[])
     arguments = parser.parse_args()
     images = []
     with tempfile.TemporaryDirectory() as folder:
         for stage in find(arguments.folder):
             if arguments.host == "usdrecord":
-                found = render_hydra(stage, folder, arguments.width, arguments.sceneIndex)
+                found = render_hydra(stage, folder, arguments.width, arguments.sceneIndex, arguments.gl)
             else:
                 found = render(stage, folder, arguments.width, arguments.samples, arguments.record)
             pixels, seconds, warnings, error = found

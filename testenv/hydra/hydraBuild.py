@@ -50,7 +50,7 @@ def run_host(stage, *arguments, scene_index=False, check=True):
     return _run(command, environment(scene_index), check)
 
 
-def run_usdrecord(stage, image, *arguments, scene_index=False, check=True, gl=False, **more):
+def run_usdrecord(stage, image, *arguments, scene_index=False, check=True, gl=False, timeout=TIMEOUT, **more):
     """Runs usdrecord with our renderer. :param gl: with a GL context, on a screen that no one sees
     :returns: the finished process"""
     build = _read()
@@ -60,7 +60,7 @@ def run_usdrecord(stage, image, *arguments, scene_index=False, check=True, gl=Fa
         command = xvfb() + command
     else:
         command.insert(2, "--disableGpu")
-    return _run(command, environment(scene_index, **more), check)
+    return _run(command, environment(scene_index, **more), check, timeout)
 
 
 def xvfb():
@@ -80,8 +80,8 @@ def has_qt():
                           capture_output=True, check=False).returncode == 0
 
 
-def _run(command, values, check):
-    process = subprocess.run(command, env=values, capture_output=True, text=True, errors="replace", timeout=TIMEOUT,
+def _run(command, values, check, timeout=TIMEOUT):
+    process = subprocess.run(command, env=values, capture_output=True, text=True, errors="replace", timeout=timeout,
                              check=False)
     if check and process.returncode != 0:
         reason = f"killed by signal {-process.returncode}\n" if process.returncode < 0 else ""

@@ -76,9 +76,10 @@ def test_motion_samples_inside_the_shutter(read, numbers):
     moved = reading.prim("/x/moved")
     assert numbers(moved["transform@-0.25"])[12] == 0.75 and numbers(moved["transform@0.25"])[12] == 1.25
     samples = reading.prim("/samples")
-    assert numbers(samples["points@-0.25"])[0] == 0.75
-    assert numbers(samples["points@0"])[0] == 1.0  # the authored sample inside
-    assert numbers(samples["points@0.25"])[0] == 0.75
+    assert numbers(samples["points@-1"])[0] == 0.0  # the authored sample before the shutter opens
+    assert numbers(samples["points@0"])[0] == 1.0
+    assert numbers(samples["points@1"])[0] == 0.0
+    assert "points@-0.25" not in samples
     velocity = reading.prim("/velocity")
     assert numbers(velocity["points@-0.25"])[0] == -0.25 and numbers(velocity["points@0.25"])[0] == 0.25
     assert "transform" not in reading.prim("/still")

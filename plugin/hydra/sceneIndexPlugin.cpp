@@ -3,9 +3,11 @@
 #include "plugin/hydra/meshLightSceneIndex.h"
 #include "plugin/hydra/relinkedLightSceneIndex.h"
 
+#include <pxr/imaging/hd/retainedDataSource.h>
 #include <pxr/imaging/hd/sceneIndexPlugin.h>
 #include <pxr/imaging/hd/sceneIndexPluginRegistry.h>
 #include <pxr/imaging/hdsi/nurbsApproximatingSceneIndex.h>
+#include <pxr/imaging/hdsi/renderSettingsFilteringSceneIndex.h>
 #if PATINA_HAS_LIGHT_LINKING
 #include <pxr/imaging/hdsi/lightLinkingSceneIndex.h>
 #endif
@@ -27,6 +29,12 @@ protected:
         scene = HdsiTetMeshConversionSceneIndex::New(scene);
 #endif
         scene = HdPatinaMeshLightSceneIndex::New(scene);
+        // Without it no settings prim is ever active, and no product would be written.
+        scene = HdsiRenderSettingsFilteringSceneIndex::New(
+            scene, HdRetainedContainerDataSource::New(
+                       HdsiRenderSettingsFilteringSceneIndexTokens->namespacePrefixes,
+                       HdRetainedTypedSampledDataSource<VtArray<TfToken>>::New(
+                           VtArray<TfToken>{TfToken("patina:")})));
 #if PATINA_HAS_LIGHT_LINKING
         scene = HdPatinaRelinkedLightSceneIndex::New(scene);
         scene = HdsiLightLinkingSceneIndex::New(scene, nullptr);

@@ -60,7 +60,13 @@ def run_usdrecord(stage, image, *arguments, scene_index=False, check=True, gl=Fa
         command = xvfb() + command
     else:
         command.insert(2, "--disableGpu")
-    return _run(command, environment(scene_index, **more), check, timeout)
+    for _ in range(3):
+        process = _run(command, environment(scene_index, **more), False, timeout)
+        # OpenUSD clears its caches in the background. When the interpreter ends meanwhile, the thread that wants
+        # its lock is ended in a place where C++ allows no such thing. The image is long written then.
+        if process.returncode != -6 or "terminate called without an active exception" not in process.stderr:
+            break
+    return _checked(process, command, check)
 
 
 def xvfb():
@@ -83,6 +89,10 @@ def has_qt():
 def _run(command, values, check, timeout=TIMEOUT):
     process = subprocess.run(command, env=values, capture_output=True, text=True, errors="replace", timeout=timeout,
                              check=False)
+    return _checked(process, command, check)
+
+
+def _checked(process, command, check):
     if check and process.returncode != 0:
         reason = f"killed by signal {-process.returncode}\n" if process.returncode < 0 else ""
         raise AssertionError(f"{' '.join(command)}\n{reason}{process.stdout[-2000:]}\n{process.stderr[-4000:]}")

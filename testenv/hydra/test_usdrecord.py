@@ -16,7 +16,7 @@ WIDTH = 48
 EMPTY = {
     "StandardShaderBall/layers/camera.usda": "a camera alone",
     "StandardShaderBall/layers/example_materials.usda": "materials alone",
-    "StandardShaderBall/material_surface_geo/subdiv.usda": "overs of a shape that another layer has",
+    "StandardShaderBall/material_surface_geo/subdiv.usda": "a shape below a prim that only overs speak of",
     "SubdivisionSurfaces/Pyramid/mtl.usda": "materials alone",
     "test_assets/schemaTests/usdGeom/extent/inverse_extent.usda": "usdrecord frames by an extent that is inside out",
     "test_assets/schemaTests/usdGeom/meshes/empty_mesh/empty.usda": "a mesh without faces",

@@ -114,7 +114,7 @@ const Allowance allowances[] = {
     {"sheen", PartWeight, 0.003, "exponents up to 200 multiply the rounding of exp2"},
     {"phaseHenyeyGreenstein", PartSamplePdf, 0.15,
      "1 - g of a peak has few digits without fused products"},
-    {"film conductor", PartAlbedo, 0.003, "amplitudes of the two faces cancel"},
+    {"film conductor", PartAlbedo, 0.003, "the driver's rounding, below 2e-5; float C++ has none"},
     {"edf schlick", PartEval, 0.025, "the rounding of pow; float C++ calls an exact one"},
 };
 

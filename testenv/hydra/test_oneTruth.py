@@ -149,3 +149,13 @@ def test_purpose_of_bindings(tmp_path, scene_index):
     path.write_text(BOUND_TWICE)
     _, text = render_with_hydra(stages.Shot(str(path), tmp_path), tmp_path, scene_index)
     assert 'material = "/full"' in text
+
+
+@MODES
+def test_mixed_shaders_and_back_shaders(tmp_path, scene_index):
+    """One card mixes two surfaces; the other shows its back, which is green."""
+    shot = stages.Shot(os.path.join(os.path.dirname(__file__), "wholeShaders.usda"), tmp_path, width=32)
+    image, text = render_with_hydra(shot, tmp_path, scene_index)
+    assert sceneText.difference(text, shot.scene.dump(), native_shapes=scene_index) == ""
+    compare(shot, image, scene_index)
+    assert (np.abs(image - (0.0, 1.0, 0.0)) < 0.01).all(axis=2).sum() > 20

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hdDelegate/embree/embreeScene.h"
-#include "hdDelegate/embree/lights/lightSet.h"
+#include "hdDelegate/lights/lightSet.h"
 
 #include <map>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "hdDelegate/embree/lights/areaShape.h"
-#include "hdDelegate/embree/lights/environmentMap.h"
-#include "hdDelegate/embree/lights/lightImages.h"
+#include "hdDelegate/lights/areaShape.h"
+#include "hdDelegate/lights/environmentMap.h"
+#include "hdDelegate/lights/lightImages.h"
 #include "hdDelegate/raster/glResources.h"
 #include "hdDelegate/raster/rasterEmitters.h"
 #include "hdDelegate/raster/rasterInstances.h"

@@ -1,4 +1,4 @@
-#include "hdDelegate/embree/lights/distribution2d.h"
+#include "hdDelegate/lights/distribution2d.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "hdDelegate/embree/lights/environmentMap.h"
+#include "hdDelegate/lights/environmentMap.h"
 
 #include <algorithm>
 #include <cmath>

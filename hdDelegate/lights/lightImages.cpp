@@ -1,4 +1,4 @@
-#include "hdDelegate/embree/lights/lightImages.h"
+#include "hdDelegate/lights/lightImages.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "hdDelegate/embree/lights/lightEmitter.h"
-#include "hdDelegate/embree/lights/lightImages.h"
-#include "hdDelegate/embree/lights/lightTree.h"
+#include "hdDelegate/lights/lightEmitter.h"
+#include "hdDelegate/lights/lightImages.h"
+#include "hdDelegate/lights/lightTree.h"
 #include "hdDelegate/scene/light.h"
 #include "materialNetwork/diagnostics.h"
 

@@ -1,6 +1,6 @@
 // Each light type against the closed form of the irradiance that it gives, by samples and by rays.
 
-#include "hdDelegate/embree/lights/tests/lightTools.h"
+#include "hdDelegate/lights/tests/lightTools.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Spheres and cylinders, seen from outside.
 
-#include "hdDelegate/embree/lights/areaShapeParts.h"
+#include "hdDelegate/lights/areaShapeParts.h"
 
 #include <algorithm>
 #include <cmath>

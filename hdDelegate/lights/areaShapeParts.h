@@ -2,7 +2,7 @@
 
 // What the files of areaShape.h share.
 
-#include "hdDelegate/embree/lights/areaShape.h"
+#include "hdDelegate/lights/areaShape.h"
 
 #include <cmath>
 

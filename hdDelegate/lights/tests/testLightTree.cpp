@@ -1,6 +1,6 @@
 // Choosing among many lights.
 
-#include "hdDelegate/embree/lights/tests/lightTools.h"
+#include "hdDelegate/lights/tests/lightTools.h"
 
 #include <gtest/gtest.h>
 

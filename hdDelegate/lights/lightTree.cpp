@@ -1,4 +1,4 @@
-#include "hdDelegate/embree/lights/lightTree.h"
+#include "hdDelegate/lights/lightTree.h"
 
 #include <algorithm>
 

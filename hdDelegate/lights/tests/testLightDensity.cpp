@@ -1,7 +1,7 @@
 // Densities: what sample() reports, what the pdf functions say of the same direction, and that they
 // integrate to 1.
 
-#include "hdDelegate/embree/lights/tests/lightTools.h"
+#include "hdDelegate/lights/tests/lightTools.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hdDelegate/embree/lights/distribution2d.h"
+#include "hdDelegate/lights/distribution2d.h"
 #include "hdDelegate/scene/imageTextureLoad.h"
 #include "hdDelegate/scene/types.h"
 

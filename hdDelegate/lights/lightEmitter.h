@@ -1,8 +1,8 @@
 #pragma once
 
-#include "hdDelegate/embree/lights/areaShape.h"
-#include "hdDelegate/embree/lights/environmentMap.h"
-#include "hdDelegate/embree/lights/lightTree.h"
+#include "hdDelegate/lights/areaShape.h"
+#include "hdDelegate/lights/environmentMap.h"
+#include "hdDelegate/lights/lightTree.h"
 #include "hdDelegate/scene/lightShaping.h"
 
 #include <memory>

@@ -1,8 +1,8 @@
 // What a light becomes, and the reasons why it gives no light.
 
-#include "hdDelegate/embree/lights/areaShapeParts.h"
-#include "hdDelegate/embree/lights/lightEmitter.h"
-#include "hdDelegate/embree/lights/lightImages.h"
+#include "hdDelegate/lights/areaShapeParts.h"
+#include "hdDelegate/lights/lightEmitter.h"
+#include "hdDelegate/lights/lightImages.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "materialNetwork/diagnostics.h"
 

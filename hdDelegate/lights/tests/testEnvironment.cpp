@@ -1,6 +1,6 @@
 // Domes with images: orientation, formats, importance sampling.
 
-#include "hdDelegate/embree/lights/tests/lightTools.h"
+#include "hdDelegate/lights/tests/lightTools.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hdDelegate/embree/lights/environmentMap.h"
+#include "hdDelegate/lights/environmentMap.h"
 #include "hdDelegate/scene/imageTextureLoad.h"
 
 #include <functional>

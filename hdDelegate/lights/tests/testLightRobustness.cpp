@@ -1,6 +1,6 @@
 // Lights that are broken: no NaN, no crash, a warning that names the light where it is a mistake.
 
-#include "hdDelegate/embree/lights/tests/lightTools.h"
+#include "hdDelegate/lights/tests/lightTools.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 // Small scenes of lights, and Monte Carlo estimates with their confidence.
 
-#include "hdDelegate/embree/lights/lightSet.h"
+#include "hdDelegate/lights/lightSet.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,4 +1,4 @@
-#include "hdDelegate/embree/lights/sphericalTriangle.h"
+#include "hdDelegate/lights/sphericalTriangle.h"
 
 #include <algorithm>
 #include <cmath>

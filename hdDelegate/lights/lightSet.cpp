@@ -1,6 +1,6 @@
-#include "hdDelegate/embree/lights/lightSet.h"
+#include "hdDelegate/lights/lightSet.h"
 
-#include "hdDelegate/embree/lights/sphericalTriangle.h"
+#include "hdDelegate/lights/sphericalTriangle.h"
 
 #include <algorithm>
 #include <cmath>

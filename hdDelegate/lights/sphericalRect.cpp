@@ -1,4 +1,4 @@
-#include "hdDelegate/embree/lights/sphericalRect.h"
+#include "hdDelegate/lights/sphericalRect.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "hdDelegate/embree/lights/areaShape.h"
+#include "hdDelegate/lights/areaShape.h"
 
-#include "hdDelegate/embree/lights/areaShapeParts.h"
-#include "hdDelegate/embree/lights/sphericalRect.h"
+#include "hdDelegate/lights/areaShapeParts.h"
+#include "hdDelegate/lights/sphericalRect.h"
 #include "hdDelegate/scene/lightUnits.h"
 
 #include <algorithm>

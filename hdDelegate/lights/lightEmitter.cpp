@@ -1,6 +1,6 @@
-#include "hdDelegate/embree/lights/lightEmitter.h"
+#include "hdDelegate/lights/lightEmitter.h"
 
-#include "hdDelegate/embree/lights/areaShapeParts.h"
+#include "hdDelegate/lights/areaShapeParts.h"
 #include "hdDelegate/scene/lightUnits.h"
 
 #include <algorithm>

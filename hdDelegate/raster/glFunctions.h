@@ -25,6 +25,7 @@ namespace patina {
     X(CreateBuffers, CREATEBUFFERS)                                                                \
     X(CreateFramebuffers, CREATEFRAMEBUFFERS)                                                      \
     X(CreateProgram, CREATEPROGRAM)                                                                \
+    X(CreateQueries, CREATEQUERIES)                                                                \
     X(CreateShader, CREATESHADER)                                                                  \
     X(CreateTextures, CREATETEXTURES)                                                              \
     X(CreateVertexArrays, CREATEVERTEXARRAYS)                                                      \
@@ -32,6 +33,7 @@ namespace patina {
     X(DeleteBuffers, DELETEBUFFERS)                                                                \
     X(DeleteFramebuffers, DELETEFRAMEBUFFERS)                                                      \
     X(DeleteProgram, DELETEPROGRAM)                                                                \
+    X(DeleteQueries, DELETEQUERIES)                                                                \
     X(DeleteShader, DELETESHADER)                                                                  \
     X(DeleteTextures, DELETETEXTURES)                                                              \
     X(DeleteVertexArrays, DELETEVERTEXARRAYS)                                                      \
@@ -54,6 +56,7 @@ namespace patina {
     X(GetProgramBinary, GETPROGRAMBINARY)                                                          \
     X(GetProgramInfoLog, GETPROGRAMINFOLOG)                                                        \
     X(GetProgramiv, GETPROGRAMIV)                                                                  \
+    X(GetQueryObjectui64v, GETQUERYOBJECTUI64V)                                                    \
     X(GetShaderInfoLog, GETSHADERINFOLOG)                                                          \
     X(GetShaderiv, GETSHADERIV)                                                                    \
     X(GetString, GETSTRING)                                                                        \
@@ -71,6 +74,7 @@ namespace patina {
     X(PolygonOffset, POLYGONOFFSET)                                                                \
     X(ProgramBinary, PROGRAMBINARY)                                                                \
     X(ProgramParameteri, PROGRAMPARAMETERI)                                                        \
+    X(QueryCounter, QUERYCOUNTER)                                                                  \
     X(ReadPixels, READPIXELS)                                                                      \
     X(ShaderSource, SHADERSOURCE)                                                                  \
     X(TextureBuffer, TEXTUREBUFFER)                                                                \
@@ -86,11 +90,11 @@ namespace patina {
     X(Uniform1ui, UNIFORM1UI)                                                                      \
     X(Uniform2f, UNIFORM2F)                                                                        \
     X(Uniform3f, UNIFORM3F)                                                                        \
-    X(Uniform4i, UNIFORM4I)                                                                        \
     X(Uniform4f, UNIFORM4F)                                                                        \
+    X(Uniform4i, UNIFORM4I)                                                                        \
     X(UniformMatrix4fv, UNIFORMMATRIX4FV)                                                          \
-    X(VertexArrayElementBuffer, VERTEXARRAYELEMENTBUFFER)                                          \
     X(UseProgram, USEPROGRAM)                                                                      \
+    X(VertexArrayElementBuffer, VERTEXARRAYELEMENTBUFFER)                                          \
     X(Viewport, VIEWPORT)
 
 struct GlFunctions {

@@ -108,6 +108,7 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
     const RasterView view =
         camera.view(vec2(0.0f), vec2(0.0f), 0.5f, scene.boundsMin(), scene.boundsMax());
     const PassBlock b = block(view);
+    _timer.mark(Aovs);
     _passBuffer.write(&b, sizeof b);
     _passBuffer.bindUniform(0);
     _albedoTable.bindStorage(7);
@@ -125,6 +126,7 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
     gl.BindVertexArray(_vertexArray);
     drawSurfaces(scene, true);
 
+    _timer.mark(ReadBack);
     const size_t pixels = size_t(_width) * size_t(_height);
     std::vector<vec4> positions(pixels), normals(pixels);
     std::vector<int> ids(pixels * 4);
@@ -134,6 +136,7 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
                        normals.data());
     gl.GetTextureImage(_ids.id(), 0, GL_RGBA_INTEGER, GL_INT, GLsizei(pixels * 4 * sizeof(int)),
                        ids.data());
+    _timer.collect(_seconds);
     measureReceivers(positions, scene);
     const RasterAovs target{camera, aovs, _width, _height, _window};
     target.write(positions, normals, ids, film);
@@ -247,7 +250,9 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     gl.DepthFunc(GL_LESS);
     gl.DepthMask(GL_TRUE);
     _albedoTable.bindStorage(7);
+    _timer.mark(Shadows);
     drawShadows(scene, views);
+    _timer.mark(Surfaces);
     lightBuffer.bindStorage(4);
     matrixBuffer.bindStorage(5);
     _shadowMaps.bind(18);
@@ -263,9 +268,11 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     gl.DepthFunc(GL_LESS);
     drawSurfaces(scene, false);
 
+    _timer.mark(ReadBack);
     std::vector<vec4> pixels(size_t(_width) * size_t(_height));
     gl.GetTextureImage(_color.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels.size() * sizeof(vec4)),
                        pixels.data());
+    _timer.collect(_seconds);
     for (int y = _window[1]; y <= _window[3]; ++y) {
         const vec4* row = &pixels[size_t(_height - 1 - y) * size_t(_width)];
         for (int x = _window[0]; x <= _window[2]; ++x)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hdDelegate/film/film.h"
+#include "hdDelegate/raster/glTimer.h"
 #include "hdDelegate/raster/rasterLights.h"
 #include "hdDelegate/raster/rasterScene.h"
 
@@ -31,6 +32,11 @@ public:
     void draw(const RasterScene& scene, const RasterLights& lights, const RasterCamera& camera,
               uint32_t pass, uint32_t taken, vec2 offset, vec2 lens, float time, Film& film);
 
+    /// What the driver's seconds go into, of all that was drawn since clearSeconds().
+    enum Share { Aovs, Shadows, Surfaces, ReadBack, ShareCount };
+    double seconds(Share share) const { return _seconds[share]; }
+    void clearSeconds() { _seconds.assign(ShareCount, 0.0); }
+
     static constexpr int shadowMapSize = 1024;
     static constexpr int bsdfSamples = 2; ///< per pixel and pass
 
@@ -51,6 +57,8 @@ private:
     GLuint _shadowTarget = 0;
     int _shadowLayers = 0;
     ShadowBounds _bounds;
+    GlTimer _timer;
+    std::vector<double> _seconds = std::vector<double>(ShareCount, 0.0);
 
 public:
     ~RasterPasses();

@@ -178,6 +178,7 @@ private:
             _progress.statistics["instances"] = double(_raster->instanceCount());
             _progress.statistics["programsBuilt"] = double(_raster->programsBuilt());
         }
+        _passes->clearSeconds();
         _passes->drawAovs(*_raster, camera, aovs, *_film);
         const auto sampling = Clock::now();
         const int* window = _passes->window();
@@ -199,6 +200,7 @@ private:
             {
                 const std::lock_guard<std::mutex> lock(_mutex);
                 _progress.samplesDone = int(i) + 1;
+                tellSeconds();
                 _progress.fraction = double(i + 1) / std::max(1, _settings.samples);
                 _progress.secondsRendering = secondsSince(sampling);
                 _progress.secondsLeft =
@@ -217,6 +219,15 @@ private:
             if (!waitWhilePaused()) return;
             if (_settings.seconds > 0.0 && secondsSince(_started) > _settings.seconds) break;
         }
+    }
+
+    /// With _mutex held.
+    void tellSeconds() {
+        auto& to = _progress.statistics;
+        to["secondsAovs"] = _passes->seconds(RasterPasses::Aovs);
+        to["secondsShadows"] = _passes->seconds(RasterPasses::Shadows);
+        to["secondsSurfaces"] = _passes->seconds(RasterPasses::Surfaces);
+        to["secondsRead"] = _passes->seconds(RasterPasses::ReadBack);
     }
 
     bool waitWhilePaused() {

@@ -1,6 +1,6 @@
-"""Times the rasterizer: python rasterTimes.py STAGE WIDTHxHEIGHT NODE.INPUT=NUMBERS [REPEATS [BACKEND]]. A process that has
-drawn nothing yet; prints one line of JSON: seconds of a first frame, after an edit of a material and after a camera move, each
-of one sample per pixel, where their time goes, and peak memory."""
+"""Times the rasterizer: python rasterTimes.py STAGE WIDTHxHEIGHT PRIM.INPUT=NUMBERS [REPEATS [BACKEND]]. A process that has
+drawn nothing yet; prints one line of JSON: seconds of a first frame, after an edit of a shader's or light's input and after
+a camera move, each of one sample per pixel, where their time goes, and peak memory."""
 import json
 import resource
 import statistics
@@ -17,10 +17,10 @@ SHARES = ("secondsBuild", "secondsAovs", "secondsShadows", "secondsSurfaces", "s
 
 
 class Noted:
-    """An edit that keeps what materials and cameras were set to, so that a single one can be set again."""
+    """An edit that keeps what materials, cameras and lights were set to, so that a single one can be set again."""
 
     def __init__(self, edit):
-        self._edit, self.materials, self.cameras = edit, {}, {}
+        self._edit, self.materials, self.cameras, self.lights = edit, {}, {}, {}
 
     def __getattr__(self, name):
         return getattr(self._edit, name)
@@ -32,6 +32,10 @@ class Noted:
     def set_camera(self, path, **values):
         self.cameras[path] = values
         self._edit.set_camera(path, **values)
+
+    def set_light(self, path, **values):
+        self.lights[path] = values
+        self._edit.set_light(path, **values)
 
 
 class Frames:
@@ -58,6 +62,10 @@ class Frames:
         return seconds, shares, float(np.mean(pixels))
 
     def edit(self, path, name, numbers):
+        if path in self.noted.lights:
+            with self.scene.edit() as edit:
+                edit.set_light(path, **dict(self.noted.lights[path], **{name: numbers}))
+            return
         for material, network in self.noted.materials.items():
             for node in network.nodes():
                 if node["path"] == path:
@@ -65,7 +73,7 @@ class Frames:
                     with self.scene.edit() as edit:
                         edit.set_material(material, network)
                     return
-        sys.exit(f"there is no shader {path} with {name}")
+        sys.exit(f"there is no shader or light {path} with {name}")
 
     def move(self, step):
         values = dict(self.noted.cameras[self.info.camera])

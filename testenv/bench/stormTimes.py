@@ -1,5 +1,6 @@
-"""Times Storm in usdrecord's frame recorder: python stormTimes.py STAGE WIDTH, in the Python of OpenUSD and
-with a screen. Prints one line of JSON: seconds until the first image and after a camera move, peak memory."""
+"""Times Storm in usdrecord's frame recorder: python stormTimes.py STAGE WIDTH [CAMERA [PRIM.INPUT=NUMBERS]], in the
+Python of OpenUSD and with a screen. Prints one line of JSON: seconds until the first image, after a camera move and after
+an edit of the input where one is given, and peak memory."""
 import json
 import os
 import resource
@@ -28,17 +29,39 @@ def context():
     return application, surface, made, frame
 
 
-def main(path, width):
+def editor(stage, text):
+    """:returns: a function of the step's number that changes an input, None without one"""
+    if not text:
+        return None
+    target, numbers = text.split("=")
+    path, name = target.rsplit(".", 1)
+    attribute = stage.GetPrimAtPath(path).GetAttribute("inputs:" + name)
+    numbers = [float(x) for x in numbers.split(",")]
+
+    def change(step):
+        values = [x * (0.5 + 0.5 * step / MOVES) for x in numbers]
+        attribute.Set(type(attribute.Get())(*values))
+    return change
+
+
+def main(path, width, camera="/camera", edit=""):
     alive = context()
     stage = Usd.Stage.Open(path)
-    camera = UsdGeom.Camera(stage.GetPrimAtPath("/camera"))
+    camera = UsdGeom.Camera(stage.GetPrimAtPath(camera))
+    change = editor(stage, edit)
     move = UsdGeom.Xformable(camera).GetOrderedXformOps()[0]
     place = move.Get()
     with tempfile.TemporaryDirectory() as folder:
         image = os.path.join(folder, "image.png")
-        seconds = []
+        seconds, edited = [], []
         recorder = None
         for step in range(MOVES + 1):
+            if step and change:
+                change(step)
+                start = time.perf_counter()
+                recorder.Record(stage, camera, Usd.TimeCode.Default(), image)
+                edited.append(time.perf_counter() - start)
+                move.Set(place + type(place)(0.01 * step, 0, 0))
             start = time.perf_counter()
             if recorder is None:
                 recorder = UsdAppUtils.FrameRecorder("HdStormRendererPlugin", True)
@@ -48,10 +71,13 @@ def main(path, width):
             seconds.append(time.perf_counter() - start)
             move.Set(place + type(place)(0.01 * (step + 1), 0, 0))
         recorder = None
-    print(json.dumps({"first": seconds[0], "moved": statistics.median(seconds[1:]),
-                      "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024}), flush=True)
+    found = {"first": seconds[0], "moved": statistics.median(seconds[1:]),
+             "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024}
+    if edited:
+        found["edited"] = statistics.median(edited)
+    print(json.dumps(found), flush=True)
     del alive
     os._exit(0)  # some releases of PySide abort when the interpreter ends
 
 
-main(sys.argv[1], int(sys.argv[2]))
+main(sys.argv[1], int(sys.argv[2]), *sys.argv[3:])

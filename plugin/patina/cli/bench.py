@@ -17,6 +17,8 @@ PASSES_ON = True
 BENCHMARKS = {
     "hydra": ("hydraBench.py", "frames in Hydra: first, after a camera move, rays per second, memory; beside "
                                "hdEmbree and Storm"),
+    "raster": ("rasterBench.py", "frames of the rasterizer: first, after an edit, after a camera move, and where their time "
+                                 "goes; beside Storm"),
 }
 
 

@@ -1,0 +1,106 @@
+"""Frames of the rasterizer, beside Storm in the same host where OpenUSD is found, each in a process of its own.
+
+Seconds until the first image (reading the stage and building shaders are in it), after an edit of a material (of a light
+where a stage has no material) and after a camera move, each of one pass; then where they go: translating the stage, building
+buffers and shaders, ids and depths, shadow maps, shading, reading back. What a driver keeps on disk of shaders is warm, unless
+--cold. Storm draws through usdrecord's frame recorder, which also writes an image, and casts no shadows unless lights ask
+for them: its times are for orientation.
+"""
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.append(os.path.join(HERE, "..", "hydra"))
+
+import hydraBuild  # noqa: E402
+
+SCENES = os.path.normpath(os.path.join(HERE, "..", "scenes"))
+CAMERA = "/World/camera"
+# Stage of testenv/scenes: what is edited, up to these numbers.
+STAGES = {
+    "shaderball": "/World/materials/coat/surface.diffuseColor=0.55,0.1,0.1",
+    "instances": "/World/materials/green/diffuse.color=0.1,0.3,0.1",
+    "texturedMesh": "/World/materials/checker/surface.roughness=0.4",
+    "manyLights": "/World/light0.intensity=200",
+    "diffuseBox": "/World/materials/red/diffuse.color=0.65,0.05,0.05",
+}
+FRAMES = {"first": "first image", "edited": "after an edit", "moved": "after a camera move"}
+
+
+def _run(command, **options):
+    process = subprocess.run(command, capture_output=True, text=True, check=False, **options)
+    if process.returncode != 0:
+        return None, (process.stderr.strip().splitlines() or ["no message"])[-1]
+    return json.loads(process.stdout.strip().splitlines()[-1]), ""
+
+
+def measure(stage, size, edit, repeats, cold, backend):
+    """:returns: what rasterTimes.py tells
+    :raises SystemExit: with its reason when it cannot"""
+    with tempfile.TemporaryDirectory() as folder:
+        fresh = {"PATINA_CACHE": folder, "MESA_SHADER_CACHE_DIR": folder} if cold else {}
+        found, why = _run([sys.executable, os.path.join(HERE, "rasterTimes.py"), stage, f"{size[0]}x{size[1]}", edit,
+                           str(repeats), backend], env=dict(os.environ, **fresh))
+    if not found:
+        sys.exit(f"{stage}: {why}")
+    return found
+
+
+def measure_storm(stage, size, edit):
+    """:returns: the same of Storm, None where it does not run"""
+    if hydraBuild.missing() or not hydraBuild.xvfb() or not hydraBuild.has_qt():
+        return None
+    command = hydraBuild.xvfb() + [hydraBuild.folder("python"), os.path.join(HERE, "stormTimes.py"), stage, str(size[0]),
+                                   CAMERA, edit]
+    found, why = _run(command, env=hydraBuild.environment())
+    if not found:
+        print("Storm does not run here: " + why, file=sys.stderr)
+    return found
+
+
+def show(name, found):
+    """Prints a table of one stage; a ratio below 1 means that Patina needs less."""
+    print(name)
+    for key, label in FRAMES.items():
+        shares = found["Patina"]["shares"][key]
+        line = f"  {label:<22}{found['Patina'][key]:8.3f} s"
+        storm = (found.get("Storm") or {}).get(key)
+        if storm:
+            line += f"   Storm {storm:.3f} s, x{found['Patina'][key] / storm:.2f}"
+        print(line + "   " + ", ".join(f"{share} {seconds:.3f}" for share, seconds in shares.items() if seconds >= 0.0005))
+    print(f"  {'peak memory':<22}{found['Patina']['memory'] / 1e6:8.0f} MB")
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="patina bench raster", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("stages", nargs="*", choices=[[], *STAGES], help="of testenv/scenes (default: all five)")
+    parser.add_argument("--size", default="1280x720")
+    parser.add_argument("--repeats", type=int, default=5, help="edits and moves, of which medians are shown")
+    parser.add_argument("--cold", action="store_true", help="begin with empty caches of shaders")
+    parser.add_argument("--backend", default="raster", choices=["raster", "embree"])
+    parser.add_argument("--noStorm", action="store_true")
+    parser.add_argument("--json", help="writes the figures to this file")
+    options = parser.parse_args(arguments)
+    size = tuple(map(int, options.size.split("x")))
+    results = {}
+    for name in options.stages or STAGES:
+        stage = os.path.join(SCENES, name + ".usda")
+        found = {"Patina": measure(stage, size, STAGES[name], max(1, options.repeats), options.cold, options.backend)}
+        storm = None if options.noStorm else measure_storm(stage, size, STAGES[name])
+        if storm:
+            found["Storm"] = storm
+        results[name] = found
+        show(name, found)
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump({"size": size, "repeats": options.repeats, "stages": results}, file, indent=1)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -9,7 +9,7 @@ import sys
 import tempfile
 import time
 
-from pxr import Usd, UsdAppUtils, UsdGeom
+from pxr import Gf, Usd, UsdAppUtils, UsdGeom
 from PySide6 import QtCore, QtOpenGL, QtWidgets
 from PySide6.QtGui import QOffscreenSurface, QOpenGLContext
 
@@ -49,8 +49,8 @@ def main(path, width, camera="/camera", edit=""):
     stage = Usd.Stage.Open(path)
     camera = UsdGeom.Camera(stage.GetPrimAtPath(camera))
     change = editor(stage, edit)
-    move = UsdGeom.Xformable(camera).GetOrderedXformOps()[0]
-    place = move.Get()
+    move = UsdGeom.Xformable(camera).AddTranslateOp(opSuffix="move")
+    move.Set(Gf.Vec3d(0.0))
     with tempfile.TemporaryDirectory() as folder:
         image = os.path.join(folder, "image.png")
         seconds, edited = [], []
@@ -61,7 +61,7 @@ def main(path, width, camera="/camera", edit=""):
                 start = time.perf_counter()
                 recorder.Record(stage, camera, Usd.TimeCode.Default(), image)
                 edited.append(time.perf_counter() - start)
-                move.Set(place + type(place)(0.01 * step, 0, 0))
+            move.Set(Gf.Vec3d(0.01 * step, 0, 0))
             start = time.perf_counter()
             if recorder is None:
                 recorder = UsdAppUtils.FrameRecorder("HdStormRendererPlugin", True)
@@ -69,7 +69,6 @@ def main(path, width, camera="/camera", edit=""):
             if not recorder.Record(stage, camera, Usd.TimeCode.Default(), image):
                 sys.exit("Storm makes no image")
             seconds.append(time.perf_counter() - start)
-            move.Set(place + type(place)(0.01 * (step + 1), 0, 0))
         recorder = None
     found = {"first": seconds[0], "moved": statistics.median(seconds[1:]),
              "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024}

@@ -2,7 +2,7 @@
 
 #include "hdDelegate/embree/cameraRays.h"
 #include "hdDelegate/embree/drawnPrims.h"
-#include "hdDelegate/embree/primCompare.h"
+#include "hdDelegate/scene/primCompare.h"
 #include "hdDelegate/embree/surfaceSpace.h"
 #include "hdDelegate/parallel.h"
 #include "hdDelegate/scene/displace.h"

@@ -11,6 +11,7 @@ namespace patina {
     X(ActiveTexture, ACTIVETEXTURE)                                                                \
     X(AttachShader, ATTACHSHADER)                                                                  \
     X(BindBufferBase, BINDBUFFERBASE)                                                              \
+    X(BindBufferRange, BINDBUFFERRANGE)                                                            \
     X(BindFramebuffer, BINDFRAMEBUFFER)                                                            \
     X(BindImageTexture, BINDIMAGETEXTURE)                                                          \
     X(BindTextureUnit, BINDTEXTUREUNIT)                                                            \
@@ -44,13 +45,15 @@ namespace patina {
     X(DispatchCompute, DISPATCHCOMPUTE)                                                            \
     X(DrawArrays, DRAWARRAYS)                                                                      \
     X(DrawArraysInstanced, DRAWARRAYSINSTANCED)                                                    \
-    X(DrawElementsInstancedBaseVertex, DRAWELEMENTSINSTANCEDBASEVERTEX)                            \
+    X(DrawElementsInstancedBaseInstance, DRAWELEMENTSINSTANCEDBASEINSTANCE)                        \
     X(Enable, ENABLE)                                                                              \
+    X(EnableVertexArrayAttrib, ENABLEVERTEXARRAYATTRIB)                                            \
     X(Finish, FINISH)                                                                              \
     X(Flush, FLUSH)                                                                                \
     X(GenerateTextureMipmap, GENERATETEXTUREMIPMAP)                                                \
     X(GetError, GETERROR)                                                                          \
     X(GetGraphicsResetStatus, GETGRAPHICSRESETSTATUS)                                              \
+    X(GetInteger64v, GETINTEGER64V)                                                                \
     X(GetIntegerv, GETINTEGERV)                                                                    \
     X(GetNamedBufferSubData, GETNAMEDBUFFERSUBDATA)                                                \
     X(GetProgramBinary, GETPROGRAMBINARY)                                                          \
@@ -94,7 +97,12 @@ namespace patina {
     X(Uniform4i, UNIFORM4I)                                                                        \
     X(UniformMatrix4fv, UNIFORMMATRIX4FV)                                                          \
     X(UseProgram, USEPROGRAM)                                                                      \
+    X(VertexArrayAttribBinding, VERTEXARRAYATTRIBBINDING)                                          \
+    X(VertexArrayAttribFormat, VERTEXARRAYATTRIBFORMAT)                                            \
+    X(VertexArrayAttribIFormat, VERTEXARRAYATTRIBIFORMAT)                                          \
+    X(VertexArrayBindingDivisor, VERTEXARRAYBINDINGDIVISOR)                                        \
     X(VertexArrayElementBuffer, VERTEXARRAYELEMENTBUFFER)                                          \
+    X(VertexArrayVertexBuffer, VERTEXARRAYVERTEXBUFFER)                                            \
     X(Viewport, VIEWPORT)
 
 struct GlFunctions {

@@ -32,6 +32,11 @@ public:
     void bindStorage(GLuint binding) const {
         gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, _id);
     }
+    /// @param offset,size in bytes; the offset a multiple of 256
+    void bindStorage(GLuint binding, size_t offset, size_t size) const {
+        gl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, _id, GLintptr(offset),
+                           GLsizeiptr(size));
+    }
     void bindUniform(GLuint binding) const { gl.BindBufferBase(GL_UNIFORM_BUFFER, binding, _id); }
 
 private:

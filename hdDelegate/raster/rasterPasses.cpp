@@ -24,6 +24,7 @@ RasterPasses::RasterPasses(std::string& error)
     : _passBuffer(sizeof(PassBlock), nullptr),
       _albedoTable(sh::ALBEDO_TABLE_SIZE * sizeof(float), patinaAlbedoTable) {
     gl.CreateVertexArrays(1, &_vertexArray);
+    RasterScene::describe(_vertexArray);
     gl.CreateFramebuffers(1, &_shadowTarget);
     _background = GlProgram::make(
         {{GL_VERTEX_SHADER, "background", "#include \"shaders/raster/background.vert.glsl\"\n"},
@@ -78,7 +79,20 @@ RasterPasses::PassBlock RasterPasses::block(const RasterView& view) const {
     return b;
 }
 
-void RasterPasses::drawSurfaces(const RasterScene& scene, bool aovs) const {
+void RasterPasses::drawRuns(const RasterDraw& draw, const RasterVisible& visible) const {
+    const auto [begin, end] = visible.group[size_t(draw.group)];
+    if (begin == end) return;
+    for (const RasterChunk& chunk : draw.surface->chunks) {
+        chunk.bind(_vertexArray);
+        for (size_t r = begin; r < end; ++r)
+            gl.DrawElementsInstancedBaseInstance(GL_TRIANGLES, chunk.indexCount(), GL_UNSIGNED_INT,
+                                                 chunk.firstIndex(), visible.runs[r].count,
+                                                 GLuint(visible.runs[r].first));
+    }
+}
+
+void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& visible,
+                                bool aovs) const {
     scene.bind(_vertexArray);
     const GlProgram* last = nullptr;
     const RasterMaterial* lastMaterial = nullptr;
@@ -93,13 +107,12 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, bool aovs) const {
                 d.material->textures[i]->bind(GLuint(i));
         }
         lastMaterial = d.material;
-        gl.Uniform4i(0, d.firstFloat, d.floatsPerCorner, d.firstInstance, d.flags);
-        gl.Uniform4i(1, d.primvarBits, d.primId, d.flags, 0);
+        gl.Uniform4i(1, d.surface->primvarBits, d.primId, d.flags, 0);
         if (!aovs) {
             const vec3& l = d.meshLight.radiance;
             gl.Uniform4f(7, l.x, l.y, l.z, float(d.meshLight.mode));
         }
-        gl.DrawArraysInstanced(GL_TRIANGLES, 0, d.cornerCount, d.instanceCount);
+        drawRuns(d, visible);
     }
 }
 
@@ -124,7 +137,7 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
     gl.DepthFunc(GL_LESS);
     gl.DepthMask(GL_TRUE);
     gl.BindVertexArray(_vertexArray);
-    drawSurfaces(scene, true);
+    drawSurfaces(scene, scene.visible(view.worldToClip), true);
 
     _timer.mark(ReadBack);
     const size_t pixels = size_t(_width) * size_t(_height);
@@ -188,31 +201,33 @@ void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<Shado
         gl.NamedFramebufferTextureLayer(_shadowTarget, GL_DEPTH_ATTACHMENT, _shadowMaps.id(), 0,
                                         GLint(i));
         gl.ClearNamedFramebufferfv(_shadowTarget, GL_DEPTH, 0, &far);
-        _shadow->use();
-        gl.UniformMatrix4fv(2, 1, GL_FALSE, &views[i].worldToMap[0][0]);
-        for (const RasterCaster& c : scene.casters()) {
-            gl.Uniform1i(0, c.firstInstance);
-            gl.DrawElementsInstancedBaseVertex(
-                GL_TRIANGLES, c.indexCount, GL_UNSIGNED_INT,
-                reinterpret_cast<const void*>(size_t(c.firstIndex) * sizeof(uint32_t)),
-                c.instanceCount, c.baseVertex);
-        }
-        for (const RasterDraw& d : scene.draws()) {
-            const GlProgram* program = d.material->programs->shadow.get();
-            if (!program || !d.prim->visibility.shadow) continue;
+        drawShadowMap(scene, views[i]);
+    }
+    gl.Disable(GL_POLYGON_OFFSET_FILL);
+}
+
+void RasterPasses::drawShadowMap(const RasterScene& scene, const ShadowView& view) const {
+    const RasterVisible visible = scene.visible(view.worldToMap);
+    const GlProgram* last = nullptr;
+    for (const RasterDraw& d : scene.draws()) {
+        if (!d.prim->visibility.shadow) continue;
+        const GlProgram* own = d.material->programs->shadow.get();
+        const GlProgram* program = own ? own : _shadow.get();
+        if (program != last) {
             program->use();
+            gl.UniformMatrix4fv(2, 1, GL_FALSE, &view.worldToMap[0][0]);
+        }
+        last = program;
+        if (own) {
             d.material->parameters.bindUniform(1);
             for (size_t t = 0; t < d.material->textures.size(); ++t)
                 d.material->textures[t]->bind(GLuint(t));
-            const vec4& to = views[i].towards;
-            gl.Uniform4i(0, d.firstFloat, d.floatsPerCorner, d.firstInstance, d.flags);
-            gl.Uniform4i(1, d.primvarBits, d.primId, d.flags, 0);
-            gl.UniformMatrix4fv(2, 1, GL_FALSE, &views[i].worldToMap[0][0]);
+            const vec4& to = view.towards;
+            gl.Uniform4i(1, d.surface->primvarBits, d.primId, d.flags, 0);
             gl.Uniform4f(6, to.x, to.y, to.z, to.w);
-            gl.DrawArraysInstanced(GL_TRIANGLES, 0, d.cornerCount, d.instanceCount);
         }
+        drawRuns(d, visible);
     }
-    gl.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
 void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
@@ -266,7 +281,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     _background->use();
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     gl.DepthFunc(GL_LESS);
-    drawSurfaces(scene, false);
+    drawSurfaces(scene, scene.visible(view.worldToClip), false);
 
     _timer.mark(ReadBack);
     std::vector<vec4> pixels(size_t(_width) * size_t(_height));

@@ -44,7 +44,9 @@ private:
     struct PassBlock;
     PassBlock block(const RasterView& view) const;
     void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views);
-    void drawSurfaces(const RasterScene& scene, bool aovs) const;
+    void drawSurfaces(const RasterScene& scene, const RasterVisible& visible, bool aovs) const;
+    void drawShadowMap(const RasterScene& scene, const ShadowView& view) const;
+    void drawRuns(const RasterDraw& draw, const RasterVisible& visible) const;
     void measureReceivers(const std::vector<vec4>& positions, const RasterScene& scene);
 
     std::unique_ptr<GlProgram> _background, _shadow;

@@ -1,30 +1,16 @@
 #include "hdDelegate/raster/rasterScene.h"
 
-#include "hdDelegate/raster/rasterShapes.h"
-#include "hdDelegate/scene/displace.h"
+#include "hdDelegate/raster/rasterDetail.h"
 #include "hdDelegate/scene/lightUnits.h"
-#include "hdDelegate/scene/primvarEval.h"
-#include "hdDelegate/scene/splitTriangles.h"
-#include "hdDelegate/scene/tessellate.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
-#include <set>
 
 namespace patina {
 
 namespace {
-
-float maxScale(const mat4& m) {
-    return std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
-}
-
-float intBits(int value) {
-    float bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
 
 float areaOf(const TriangleMesh& mesh, const mat4& toWorld) {
     double area = 0.0;
@@ -37,33 +23,13 @@ float areaOf(const TriangleMesh& mesh, const mat4& toWorld) {
     return float(area);
 }
 
-/// The longest edge, in object units, that looks `pixels` long from the camera.
-float wantedEdge(const Geometry& prim, const RasterCamera& camera, const RenderSettings& settings,
-                 const std::vector<RasterPlace>& places) {
-    if (prim.kind != GeometryKind::Mesh || !(settings.edgeLength > 0.0f)) return 0.0f;
-    const Mesh& mesh = static_cast<const Mesh&>(prim);
-    if (mesh.scheme == SubdivisionScheme::None || mesh.points.empty()) return 0.0f;
-    vec3 low(INFINITY), high(-INFINITY);
-    for (const vec3& p : mesh.points.first())
-        if (std::isfinite(p.x + p.y + p.z)) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
-    const RasterView view = camera.view(vec2(0.0f), vec2(0.0f), 0.5f, low, high);
-    float edge = 0.0f;
-    for (const RasterPlace& place : places) {
-        const mat4 m = place.groupToWorld * transformAt(prim.transform, camera.timeCode(0.0f));
-        const float scale = maxScale(m);
-        const vec3 center = vec3(m * vec4(0.5f * (low + high), 1.0f));
-        const float radius = 0.5f * glm::length(high - low) * scale;
-        const float distance = view.perspective ? std::max(camera.camera().clipNear,
-                                                           glm::length(center - view.eye) - radius)
-                                                : 1.0f;
-        const float wanted = settings.edgeLength * view.pixelSpread * distance / scale;
-        if (std::isfinite(wanted) && wanted > 0.0f)
-            edge = edge > 0.0f ? std::min(edge, wanted) : wanted;
-    }
-    return edge > 0.0f ? std::exp2(std::floor(std::log2(edge))) : 0.0f;
+constexpr size_t fewPlaces = 32; // are drawn in the order that they have
+
+std::vector<std::string> namesOf(const std::vector<MaterialPrimvar>& primvars) {
+    std::vector<std::string> names;
+    for (const MaterialPrimvar& p : primvars)
+        names.push_back(p.name);
+    return names;
 }
 
 } // namespace
@@ -98,91 +64,41 @@ void RasterScene::maskOf(const std::vector<std::string>& categories, int mask[2]
 }
 
 void RasterScene::GpuInstance::place(const mat4& toWorld) {
-    objectToWorld = toWorld;
-    const mat3 linear(toWorld);
-    normalToWorld = mat4(glm::transpose(glm::inverse(linear)));
-    normalToWorld[3].w = std::cbrt(std::fabs(glm::determinant(linear)));
+    const mat3 linear(toWorld), forNormals = glm::transpose(glm::inverse(linear));
+    for (int i = 0; i < 4; ++i)
+        columns[i] = vec4(vec3(toWorld[i]), 0.0f);
+    for (int i = 0; i < 3; ++i)
+        normals[i] = vec4(forNormals[i], 0.0f);
+    columns[0].w = std::cbrt(std::fabs(glm::determinant(linear)));
 }
 
-void RasterScene::addCaster(const std::shared_ptr<const Geometry>& prim, const TriangleMesh& mesh,
-                            const std::vector<const RasterMaterial*>& materials,
-                            const RasterDraw& draw) {
-    if (!prim->visibility.shadow) return;
-    RasterCaster caster;
-    caster.prim = prim;
-    caster.firstIndex = int(_indices.size());
-    caster.baseVertex = int(_positions.size());
-    caster.firstInstance = draw.firstInstance;
-    caster.instanceCount = draw.instanceCount;
-    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const size_t subset = t < mesh.triangleSubset.size() ? mesh.triangleSubset[t] : 0;
-        const RasterMaterial* material = materials[subset < materials.size() ? subset : 0];
-        if (material->program->isVolumeOnly() || (material->programs && material->programs->shadow))
-            continue;
-        for (int k = 0; k < 3; ++k)
-            _indices.push_back(mesh.triangles[t][k]);
+void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& places,
+                           const mat4& toGroup) {
+    if (group.places.size() > fewPlaces) {
+        std::vector<vec3> centers;
+        for (const uint32_t i : group.places)
+            centers.emplace_back(places[i].groupToWorld[3]);
+        std::vector<uint32_t> ordered;
+        for (const uint32_t i : mortonOrder(centers))
+            ordered.push_back(group.places[i]);
+        group.places = std::move(ordered);
     }
-    caster.indexCount = int(_indices.size()) - caster.firstIndex;
-    if (caster.indexCount == 0) return;
-    _positions.insert(_positions.end(), mesh.positions[0].begin(), mesh.positions[0].end());
-    _casters.push_back(caster);
-}
-
-void RasterScene::addTriangles(const std::shared_ptr<const Geometry>& prim,
-                               const TriangleMesh& mesh, size_t subset, RasterDraw draw) {
-    const auto& primvars = draw.material->program->primvars();
-    std::vector<const MeshAttribute*> attributes;
-    for (const MaterialPrimvar& p : primvars) {
-        attributes.push_back(mesh.attribute(p.name));
-        if (attributes.back()) draw.primvarBits |= 1 << (attributes.size() - 1);
+    group.firstInstance = int(_instances.size());
+    for (const uint32_t i : group.places) {
+        GpuInstance instance;
+        const mat4 toWorld = places[i].groupToWorld * toGroup;
+        instance.place(toWorld);
+        instance.ids[0] = places[i].id;
+        maskOf(group.prim->categories, instance.ids + 1);
+        maskOf(places[i].categories, instance.ids + 1);
+        _instances.push_back(instance);
+        const RasterBox box =
+            RasterBox::around(group.shape->boundsMin, group.shape->boundsMax, toWorld);
+        _boundsMin = glm::min(_boundsMin, box.center - box.half);
+        _boundsMax = glm::max(_boundsMax, box.center + box.half);
+        _boxes.push_back(box);
     }
-    const MeshAttribute* st = mesh.attribute("st");
-    draw.prim = prim;
-    draw.floatsPerCorner = 17 + 4 * int(primvars.size());
-    draw.firstFloat = int(_vertices.size());
-    draw.boundsMin = mesh.boundsMin;
-    draw.boundsMax = mesh.boundsMax;
-    if (mesh.normals.empty()) draw.flags |= 2;
-    const auto& positions = mesh.positions[0];
-    for (unsigned t = 0; t < mesh.triangles.size(); ++t) {
-        const size_t own = t < mesh.triangleSubset.size() ? mesh.triangleSubset[t] : 0;
-        if (own != subset) continue;
-        const uvec3 tri = mesh.triangles[t];
-        const vec3 p[3] = {positions[tri.x], positions[tri.y], positions[tri.z]};
-        vec3 dPdu(0.0f), dPdv(0.0f);
-        float uvPerLength = 0.0f, uv[3][4];
-        if (st && evalAttribute(mesh, *st, t, 0, 0, uv[0]) &&
-            evalAttribute(mesh, *st, t, 1, 0, uv[1]) && evalAttribute(mesh, *st, t, 0, 1, uv[2])) {
-            const float du1 = uv[1][0] - uv[0][0], dv1 = uv[1][1] - uv[0][1];
-            const float du2 = uv[2][0] - uv[0][0], dv2 = uv[2][1] - uv[0][1];
-            const float determinant = du1 * dv2 - du2 * dv1;
-            if (determinant != 0.0f && std::isfinite(determinant)) {
-                dPdu = ((p[1] - p[0]) * dv2 - (p[2] - p[0]) * dv1) / determinant;
-                dPdv = ((p[2] - p[0]) * du1 - (p[1] - p[0]) * du2) / determinant;
-                const float area2 = glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
-                uvPerLength = std::sqrt(std::abs(determinant) / std::max(area2, 1e-30f));
-            }
-        }
-        const vec3 ng = glm::cross(p[1] - p[0], p[2] - p[0]);
-        const int element = t < mesh.triangleFace.size() ? mesh.triangleFace[t] : int(t);
-        for (int c = 0; c < 3; ++c) {
-            const float u = c == 1 ? 1.0f : 0.0f, v = c == 2 ? 1.0f : 0.0f;
-            const vec3 n = mesh.normals.empty() ? vec3(0.0f) : evalNormal(mesh, t, u, v);
-            const float record[] = {p[c].x,      p[c].y,           p[c].z, n.x,    n.y,    n.z,
-                                    dPdu.x,      dPdu.y,           dPdu.z, dPdv.x, dPdv.y, dPdv.z,
-                                    uvPerLength, intBits(element), ng.x,   ng.y,   ng.z};
-            _vertices.insert(_vertices.end(), std::begin(record), std::end(record));
-            for (const MeshAttribute* attribute : attributes) {
-                float value[4] = {0, 0, 0, 0};
-                if (attribute) evalAttribute(mesh, *attribute, t, u, v, value);
-                _vertices.insert(_vertices.end(), value, value + 4);
-            }
-        }
-        draw.cornerCount += 3;
-    }
-    if (draw.cornerCount == 0) return;
-    _triangles += size_t(draw.cornerCount) / 3;
-    _draws.push_back(draw);
+    _groups.push_back(std::move(group));
 }
 
 void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
@@ -192,51 +108,48 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     if (where.empty()) return;
     std::vector<const RasterMaterial*> materials = {
         &_materials.get(prim->material, prim->path, state, settings)};
-    std::vector<std::shared_ptr<const MaterialProgram>> displacers = {materials[0]->program};
-    for (const GeomSubset& subset : prim->subsets) {
+    for (const GeomSubset& subset : prim->subsets)
         materials.push_back(
             &_materials.get(subset.material.empty() ? prim->material : subset.material, prim->path,
                             state, settings));
-        displacers.push_back(materials.back()->program);
-    }
-    bool displaced = false;
-    for (auto& program : displacers) {
-        if (!program->hasDisplacement()) program = nullptr;
-        displaced |= program != nullptr;
-    }
-    TessellationOptions options;
-    options.shutterOpen = options.shutterClose = camera.timeCode(0.5f);
-    options.targetEdge = wantedEdge(*prim, camera, settings, where);
-    TriangleMesh mesh = rasterTriangles(*prim, options, _diagnostics);
-    if (mesh.positions.empty() || mesh.triangles.empty()) return;
     const mat4 toGroup = transformAt(prim->transform, camera.timeCode(0.5f));
-    if (displaced) {
-        if (options.targetEdge > 0.0f)
-            splitTriangles(mesh, options.targetEdge, options.triangleBudget);
-        displace(mesh, displacers, where[0].groupToWorld * toGroup);
+    RasterShapeCache::Wish wish;
+    wish.prim = prim;
+    wish.timeCode = camera.timeCode(0.5f);
+    wish.toWorld = where[0].groupToWorld * toGroup;
+    wish.needsMesh = _meshLights.count(prim->path) != 0;
+    for (const RasterMaterial* material : materials) {
+        const MaterialProgram& program = *material->program;
+        wish.primvars.push_back(namesOf(program.primvars()));
+        wish.displacers.push_back(program.hasDisplacement() ? material->program : nullptr);
+        wish.needsMesh |= settings.enableSceneLights && program.hasEmission();
     }
-    RasterDraw draw;
-    draw.firstInstance = int(_instances.size());
-    draw.primId = prim->id >= 0 ? prim->id : rank;
-    for (const RasterPlace& place : where) {
-        GpuInstance instance;
-        instance.place(place.groupToWorld * toGroup);
-        instance.ids[0] = place.id;
-        maskOf(prim->categories, instance.ids + 1);
-        maskOf(place.categories, instance.ids + 1);
-        for (int i = 0; i < 8; ++i) {
-            const vec3 corner(i & 1 ? mesh.boundsMax.x : mesh.boundsMin.x,
-                              i & 2 ? mesh.boundsMax.y : mesh.boundsMin.y,
-                              i & 4 ? mesh.boundsMax.z : mesh.boundsMin.z);
-            const vec3 p = vec3(instance.objectToWorld * vec4(corner, 1.0f));
-            _boundsMin = glm::min(_boundsMin, p);
-            _boundsMax = glm::max(_boundsMax, p);
-        }
-        _instances.push_back(instance);
+    // Places that are equally far away share a tessellation.
+    const RasterDetail detail(*prim, camera, settings);
+    std::map<float, std::vector<uint32_t>> byEdge;
+    for (size_t i = 0; i < where.size(); ++i)
+        byEdge[detail.edgeAt(where[i])].push_back(uint32_t(i));
+    const size_t firstGroup = _groups.size();
+    for (auto& [edge, list] : byEdge) {
+        wish.edge = edge;
+        RasterGroup group;
+        group.prim = prim;
+        group.shape = _shapes.get(wish);
+        group.places = std::move(list);
+        if (group.shape->triangles > 0) addGroup(std::move(group), where, toGroup);
     }
-    draw.instanceCount = int(where.size());
     _moves |= prim->transform.moves();
-    addCaster(prim, mesh, materials, draw);
+    addDraws(prim, rank, materials, firstGroup, where, toGroup, settings);
+}
+
+void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank,
+                           const std::vector<const RasterMaterial*>& materials, size_t firstGroup,
+                           const std::vector<RasterPlace>& places, const mat4& toGroup,
+                           const RenderSettings& settings) {
+    if (firstGroup == _groups.size()) return;
+    RasterDraw draw;
+    draw.prim = prim;
+    draw.primId = prim->id >= 0 ? prim->id : rank;
     int lit = -1;
     const auto meshLight = _meshLights.find(prim->path);
     if (meshLight != _meshLights.end()) {
@@ -247,30 +160,36 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
             : light.materialSyncMode == "materialGlowTintsLight" ? RasterMeshLight::Tints
                                                                  : RasterMeshLight::Adds;
         if (light.normalize)
-            draw.meshLight.radiance /=
-                std::max(areaOf(mesh, where[0].groupToWorld * toGroup), 1e-30f);
+            draw.meshLight.radiance /= std::max(
+                areaOf(*_groups[firstGroup].shape->mesh, places[0].groupToWorld * toGroup), 1e-30f);
         const auto category = _categories.find(light.lightLink);
         if (!light.lightLink.empty()) lit = category == _categories.end() ? 63 : category->second;
     }
-    for (size_t subset = 0; subset < materials.size(); ++subset) {
-        draw.material = materials[subset];
-        if (!draw.material->programs || draw.material->program->isVolumeOnly()) continue;
-        if (settings.enableSceneLights)
-            for (const RasterPlace& place : where)
-                _emitters.add(mesh, subset, *draw.material->program, draw.meshLight,
-                              place.groupToWorld * toGroup, lit);
-        addTriangles(prim, mesh, subset, draw);
+    for (size_t g = firstGroup; g < _groups.size(); ++g) {
+        const RasterGroup& group = _groups[g];
+        draw.group = int(g);
+        draw.flags = group.shape->faceted ? 2 : 0;
+        for (size_t subset = 0; subset < materials.size(); ++subset) {
+            draw.material = materials[subset];
+            if (!draw.material->programs || draw.material->program->isVolumeOnly()) continue;
+            if (settings.enableSceneLights && group.shape->mesh)
+                for (const uint32_t i : group.places)
+                    _emitters.add(*group.shape->mesh, subset, *draw.material->program,
+                                  draw.meshLight, places[i].groupToWorld * toGroup, lit);
+            draw.surface = &group.shape->surfaces[subset];
+            if (draw.surface->triangles == 0) continue;
+            _triangles += draw.surface->triangles;
+            _draws.push_back(draw);
+        }
     }
 }
 
 void RasterScene::update(const SceneState& state, const RasterCamera& camera,
                          const RenderSettings& settings, const std::atomic<bool>& stop) {
     _draws.clear();
-    _casters.clear();
-    _positions.clear();
-    _indices.clear();
-    _vertices.clear();
+    _groups.clear();
     _instances.clear();
+    _boxes.clear();
     _triangles = 0;
     _moves = false;
     _boundsMin = vec3(INFINITY);
@@ -294,43 +213,82 @@ void RasterScene::update(const SceneState& state, const RasterCamera& camera,
         }
         addPrim(item.second, own, state, camera, settings, places);
     }
+    _shapes.forgetUnused();
     if (_draws.empty()) _boundsMin = _boundsMax = vec3(0.0f);
-    _vertexBuffer = GlBuffer(_vertices);
-    _instanceBuffer = GlBuffer(_instances);
-    _positionBuffer = GlBuffer(_positions);
-    _indexBuffer = GlBuffer(_indices);
-    std::vector<float>().swap(_vertices);
+    upload();
+}
+
+/// Writes the instances unless the buffer holds them.
+void RasterScene::upload() {
+    const size_t size = _instances.size() * sizeof(GpuInstance);
+    if (_instances.size() == _written.size() && _instanceBuffer.id() &&
+        (size == 0 || std::memcmp(_instances.data(), _written.data(), size) == 0))
+        return;
+    if (_instanceBuffer.size() < size || !_instanceBuffer.id())
+        _instanceBuffer = GlBuffer(_instances);
+    else
+        _instanceBuffer.write(_instances.data(), size);
+    _written = _instances;
+    ++_instancesWritten;
 }
 
 bool RasterScene::moveTo(const SceneState& state, const RenderSettings& settings, float timeCode) {
     if (!_moves) return false;
     RasterInstances places(state, settings, timeCode);
-    const Geometry* last = nullptr;
-    for (const RasterDraw& draw : _draws) {
-        if (draw.prim.get() == last) continue; // subsets share their instances
-        last = draw.prim.get();
-        const auto& where = places.places(draw.prim->group);
-        const mat4 toGroup = transformAt(draw.prim->transform, timeCode);
-        for (int i = 0; i < draw.instanceCount && size_t(i) < where.size(); ++i)
-            _instances[size_t(draw.firstInstance + i)].place(where[size_t(i)].groupToWorld *
-                                                             toGroup);
+    for (const RasterGroup& group : _groups) {
+        const auto& where = places.places(group.prim->group);
+        const mat4 toGroup = transformAt(group.prim->transform, timeCode);
+        for (size_t i = 0; i < group.places.size(); ++i) {
+            if (group.places[i] >= where.size()) continue;
+            const mat4 toWorld = where[group.places[i]].groupToWorld * toGroup;
+            const size_t at = size_t(group.firstInstance) + i;
+            _instances[at].place(toWorld);
+            _boxes[at] = RasterBox::around(group.shape->boundsMin, group.shape->boundsMax, toWorld);
+        }
     }
-    _instanceBuffer.write(_instances.data(), _instances.size() * sizeof(GpuInstance));
+    upload();
     return true;
+}
+
+RasterVisible RasterScene::visible(const mat4& worldToClip) const {
+    const RasterFrustum frustum(worldToClip);
+    RasterVisible found;
+    for (const RasterGroup& group : _groups) {
+        const size_t before = found.runs.size();
+        // A call costs about as much as so many triangles.
+        const int gap = int(64 / std::max<size_t>(1, group.shape->triangles));
+        visibleRuns(frustum, _boxes, group.firstInstance, int(group.places.size()), gap,
+                    found.runs);
+        found.group.emplace_back(before, found.runs.size());
+    }
+    return found;
 }
 
 size_t RasterScene::trianglesDrawn() const {
     size_t sum = 0;
     for (const RasterDraw& d : _draws)
-        sum += size_t(d.cornerCount) / 3 * size_t(d.instanceCount);
+        sum += d.surface->triangles * _groups[size_t(d.group)].places.size();
     return sum;
 }
 
 void RasterScene::bind(GLuint vertexArray) const {
-    _vertexBuffer.bindStorage(2);
-    _instanceBuffer.bindStorage(3);
-    _positionBuffer.bindStorage(6);
-    gl.VertexArrayElementBuffer(vertexArray, _indexBuffer.id());
+    gl.VertexArrayVertexBuffer(vertexArray, 1, _instanceBuffer.id(), 0, sizeof(GpuInstance));
+}
+
+void RasterScene::describe(GLuint vertexArray) {
+    const auto attribute = [&](GLuint i, GLint components, GLuint offset, GLuint binding) {
+        gl.EnableVertexArrayAttrib(vertexArray, i);
+        gl.VertexArrayAttribFormat(vertexArray, i, components, GL_FLOAT, GL_FALSE, offset);
+        gl.VertexArrayAttribBinding(vertexArray, i, binding);
+    };
+    attribute(0, 3, offsetof(RasterChunk::Vertex, position), 0);
+    attribute(1, 3, offsetof(RasterChunk::Vertex, normal), 0);
+    for (GLuint i = 0; i < 7; ++i) // columns and normals
+        attribute(2 + i, 4, i * GLuint(sizeof(vec4)), 1);
+    gl.EnableVertexArrayAttrib(vertexArray, 9);
+    gl.VertexArrayAttribIFormat(vertexArray, 9, 4, GL_INT, 7 * sizeof(vec4));
+    gl.VertexArrayAttribBinding(vertexArray, 9, 1);
+    gl.VertexArrayBindingDivisor(vertexArray, 1, 1);
 }
 
 } // namespace patina

@@ -1,31 +1,38 @@
 #pragma once
 
 #include "hdDelegate/raster/rasterCamera.h"
+#include "hdDelegate/raster/rasterCulling.h"
 #include "hdDelegate/raster/rasterEmitters.h"
 #include "hdDelegate/raster/rasterInstances.h"
 #include "hdDelegate/raster/rasterMaterials.h"
-#include "hdDelegate/scene/triangleMesh.h"
+#include "hdDelegate/raster/rasterShapeCache.h"
 
 #include <atomic>
 
 namespace patina {
 
-/// Triangles of one prim with one material, drawn as often as the prim is instanced.
+/// Places of one prim that share a tessellation.
+struct RasterGroup {
+    std::shared_ptr<const Geometry> prim;
+    std::shared_ptr<const RasterShape> shape;
+    std::vector<uint32_t> places; ///< of the prim's RasterInstances::places(), one per instance
+    int firstInstance = 0;
+};
+
+/// Triangles of one prim with one material, drawn at every place of a group.
 struct RasterDraw {
     const RasterMaterial* material = nullptr;
     std::shared_ptr<const Geometry> prim;
-    int firstFloat = 0, floatsPerCorner = 0, cornerCount = 0;
-    int firstInstance = 0, instanceCount = 0;
-    int primId = 0, primvarBits = 0, flags = 0; ///< flags of vertices.glsl
-    vec3 boundsMin{0.0f}, boundsMax{0.0f};      ///< object space
+    const RasterSurface* surface = nullptr;
+    int group = 0;
+    int primId = 0, flags = 0; ///< flags: 2 has no normals
     RasterMeshLight meshLight;
 };
 
-/// Opaque triangles of one prim, for shadow maps.
-struct RasterCaster {
-    std::shared_ptr<const Geometry> prim;
-    int firstIndex = 0, indexCount = 0, baseVertex = 0;
-    int firstInstance = 0, instanceCount = 0;
+/// What of a scene a view may show.
+struct RasterVisible {
+    std::vector<RasterRun> runs;                  ///< of instances
+    std::vector<std::pair<size_t, size_t>> group; ///< first run and the one after the last
 };
 
 /// The geometry of a scene in buffers, at one time of the shutter.
@@ -34,7 +41,7 @@ public:
     static constexpr int maxCategories = 63; ///< of light linking; bit 63 is never set
 
     explicit RasterScene(Diagnostics& diagnostics)
-        : _diagnostics(diagnostics), _materials(diagnostics) {}
+        : _diagnostics(diagnostics), _materials(diagnostics), _shapes(diagnostics) {}
 
     void update(const SceneState& state, const RasterCamera& camera, const RenderSettings& settings,
                 const std::atomic<bool>& stop);
@@ -43,19 +50,26 @@ public:
 
     const std::vector<RasterDraw>& draws() const { return _draws; }
     const RasterEmitters& emitters() const { return _emitters; }
-    const std::vector<RasterCaster>& casters() const { return _casters; }
+    RasterVisible visible(const mat4& worldToClip) const;
     const std::map<std::string, int>& categories() const { return _categories; }
     const vec3& boundsMin() const { return _boundsMin; }
     const vec3& boundsMax() const { return _boundsMax; }
     size_t triangles() const { return _triangles; }
+    size_t bytes() const { return _shapes.bytes(); }              ///< of shapes in buffers
+    size_t shapesBuilt() const { return _shapes.built(); }        ///< since this was made
+    size_t instancesWritten() const { return _instancesWritten; } ///< since this was made
     size_t trianglesDrawn() const; ///< those of every instance counted
     size_t programsBuilt() const { return _materials.programsBuilt(); }
     size_t instanceCount() const { return _instances.size(); }
-    void bind(GLuint vertexArray) const; ///< buffers of vertices, indices and instances
+    /// Binds the instances to a vertex array (binding 1).
+    void bind(GLuint vertexArray) const;
+    /// Tells a vertex array the attributes of instance.glsl.
+    static void describe(GLuint vertexArray);
 
 private:
+    /// As shaders/raster/instance.glsl has it.
     struct GpuInstance {
-        mat4 objectToWorld{1.0f}, normalToWorld{1.0f};
+        vec4 columns[4], normals[3];
         int ids[4] = {-1, 0, 0, 0};
         void place(const mat4& toWorld);
     };
@@ -63,10 +77,12 @@ private:
     void addPrim(const std::shared_ptr<const Geometry>& prim, int rank, const SceneState& state,
                  const RasterCamera& camera, const RenderSettings& settings,
                  RasterInstances& places);
-    void addTriangles(const std::shared_ptr<const Geometry>& prim, const TriangleMesh& mesh,
-                      size_t subset, RasterDraw draw);
-    void addCaster(const std::shared_ptr<const Geometry>& prim, const TriangleMesh& mesh,
-                   const std::vector<const RasterMaterial*>& materials, const RasterDraw& draw);
+    void addGroup(RasterGroup group, const std::vector<RasterPlace>& places, const mat4& toGroup);
+    void addDraws(const std::shared_ptr<const Geometry>& prim, int rank,
+                  const std::vector<const RasterMaterial*>& materials, size_t firstGroup,
+                  const std::vector<RasterPlace>& places, const mat4& toGroup,
+                  const RenderSettings& settings);
+    void upload();
     void collectCategories(const SceneState& state);
     void collectMeshLights(const SceneState& state, const RenderSettings& settings);
     void maskOf(const std::vector<std::string>& categories, int mask[2]) const;
@@ -74,17 +90,16 @@ private:
     Diagnostics& _diagnostics;
     RasterMaterials _materials;
     std::vector<RasterDraw> _draws;
-    std::vector<RasterCaster> _casters;
+    RasterShapeCache _shapes;
+    std::vector<RasterGroup> _groups;
     RasterEmitters _emitters;
     std::map<std::string, std::shared_ptr<const Light>> _meshLights; ///< by the mesh's path
-    std::vector<float> _vertices;
-    std::vector<vec3> _positions;
-    std::vector<uint32_t> _indices;
-    std::vector<GpuInstance> _instances;
+    std::vector<GpuInstance> _instances, _written;
+    std::vector<RasterBox> _boxes; ///< of instances, world space
     std::map<std::string, int> _categories;
-    GlBuffer _vertexBuffer, _instanceBuffer, _positionBuffer, _indexBuffer;
+    GlBuffer _instanceBuffer;
     vec3 _boundsMin{0.0f}, _boundsMax{0.0f};
-    size_t _triangles = 0;
+    size_t _triangles = 0, _instancesWritten = 0;
     bool _moves = false;
 };
 

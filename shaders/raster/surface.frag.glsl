@@ -1,16 +1,20 @@
 // Begins the fragment stage of everything that evaluates a material: the shading point.
+#include "shaders/raster/triangles.glsl"
 in vec3 vPosition;
 in vec3 vObjectPosition;
 in vec3 vNormal;
-flat in vec3 vTangent;
-flat in vec3 vBitangent;
-flat in vec3 vGeometricNormal;
-flat in float vUvPerLength;
 flat in mat3 vNormalMatrix;
-flat in ivec4 vIds;
+flat in float vScale;
+flat in ivec3 vInstance; // id, categories
 #if PRIMVARS > 0
 in vec4 vPrimvars[PRIMVARS];
 #endif
+// Of the triangle; world space.
+vec3 vTangent;
+vec3 vBitangent;
+vec3 vGeometricNormal;
+float vUvPerLength;
+ivec4 vIds; // element, instance, categories
 layout(location = 1) uniform ivec4 drawInfo; // bits of primvars that there are, prim id, flags
 
 vec4 primvar(int slot, vec4 fallback) {
@@ -20,7 +24,24 @@ vec4 primvar(int slot, vec4 fallback) {
     return fallback;
 }
 
+void loadTriangle() {
+    Triangle t = triangles[gl_PrimitiveID];
+    mat3 n = vNormalMatrix;
+    vec3 ng = n * t.normal.xyz;
+    vGeometricNormal = ng / max(length(ng), 1e-30);
+    // Directions go by the inverse transpose of what normals go by.
+    vec3 c0 = cross(n[1], n[2]);
+    float determinant = dot(c0, n[0]);
+    mat3 linear = mat3(c0, cross(n[2], n[0]), cross(n[0], n[1]));
+    float scale = 1.0 / (abs(determinant) > 1e-37 ? determinant : 1e-37);
+    vTangent = linear * t.dPdu.xyz * scale;
+    vBitangent = linear * t.dPdv.xyz * scale;
+    vUvPerLength = t.dPdu.w / max(vScale, 1e-20);
+    vIds = ivec4(floatBitsToInt(t.dPdv.w), vInstance);
+}
+
 void setPoint(vec3 view, float coneWidth) {
+    loadTriangle();
     point.position = vPosition;
     point.objectPosition = vObjectPosition;
     point.geometricNormal = vGeometricNormal;

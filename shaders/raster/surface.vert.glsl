@@ -1,42 +1,33 @@
 #include "shaders/raster/passBlock.glsl"
-#include "shaders/raster/vertices.glsl"
+#include "shaders/raster/instance.glsl"
 
 #ifdef SHADOW
 layout(location = 2) uniform mat4 worldToMap;
+#endif
+#if PRIMVARS > 0
+layout(std430, binding = 6) readonly buffer Primvars { vec4 primvars[]; };
 #endif
 
 out vec3 vPosition;
 out vec3 vObjectPosition;
 out vec3 vNormal;
-flat out vec3 vTangent;
-flat out vec3 vBitangent;
-flat out vec3 vGeometricNormal;
-flat out float vUvPerLength;
 flat out mat3 vNormalMatrix;
-flat out ivec4 vIds; // element, instance, categories
+flat out float vScale;
+flat out ivec3 vInstance; // id, categories
 #if PRIMVARS > 0
 out vec4 vPrimvars[PRIMVARS];
 #endif
 
 void main() {
-    Instance instance = instances[drawVertices.z + gl_InstanceID];
-    int corner = cornerAt(gl_VertexID);
-    vec3 p = vector3At(corner);
-    mat3 linear = mat3(instance.objectToWorld);
-    mat3 normalMatrix = mat3(instance.normalToWorld);
-    vNormalMatrix = normalMatrix;
-    vObjectPosition = p;
-    vPosition = (instance.objectToWorld * vec4(p, 1.0)).xyz;
-    vec3 ng = normalMatrix * vector3At(corner + 14);
-    vGeometricNormal = ng / max(length(ng), 1e-30);
-    vNormal = normalMatrix * vector3At(corner + 3);
-    vTangent = linear * vector3At(corner + 6);
-    vBitangent = linear * vector3At(corner + 9);
-    vUvPerLength = vertices[corner + 12] / max(instance.normalToWorld[3].w, 1e-20);
-    vIds = ivec4(floatBitsToInt(vertices[corner + 13]), instance.ids.x, instance.ids.yz);
+    vNormalMatrix = mat3(inNormal0.xyz, inNormal1.xyz, inNormal2.xyz);
+    vScale = inColumn0.w;
+    vObjectPosition = inPosition;
+    vPosition = worldPosition();
+    vNormal = vNormalMatrix * inNormal;
+    vInstance = inIds.xyz;
 #if PRIMVARS > 0
     for (int i = 0; i < PRIMVARS; ++i)
-        vPrimvars[i] = vec4(vector3At(corner + 17 + 4 * i), vertices[corner + 20 + 4 * i]);
+        vPrimvars[i] = primvars[gl_VertexID * PRIMVARS + i];
 #endif
 #ifdef SHADOW
     gl_Position = worldToMap * vec4(vPosition, 1.0);

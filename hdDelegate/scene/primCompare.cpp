@@ -1,4 +1,4 @@
-#include "hdDelegate/embree/primCompare.h"
+#include "hdDelegate/scene/primCompare.h"
 
 #include <algorithm>
 

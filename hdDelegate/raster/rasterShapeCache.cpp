@@ -1,0 +1,90 @@
+#include "hdDelegate/raster/rasterShapeCache.h"
+
+#include "hdDelegate/raster/rasterShapes.h"
+#include "hdDelegate/scene/displace.h"
+#include "hdDelegate/scene/primCompare.h"
+#include "hdDelegate/scene/splitTriangles.h"
+
+#include <algorithm>
+
+namespace patina {
+
+namespace {
+
+bool displaces(const RasterShapeCache::Wish& wish) {
+    return std::any_of(wish.displacers.begin(), wish.displacers.end(),
+                       [](const auto& program) { return program != nullptr; });
+}
+
+/// Whether a shape made for `old` serves `wish`.
+bool serves(const RasterShapeCache::Wish& old, const RasterShapeCache::Wish& wish) {
+    return (old.needsMesh || !wish.needsMesh) && old.timeCode == wish.timeCode &&
+           old.primvars == wish.primvars && old.displacers == wish.displacers &&
+           (!displaces(wish) || old.toWorld == wish.toWorld) && sameShape(*old.prim, *wish.prim);
+}
+
+size_t storageLimit() {
+    GLint64 limit = 0;
+    gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+    // Draws of more triangles would gain nothing.
+    return std::clamp<size_t>(size_t(std::max<GLint64>(limit, 0)), 1 << 24, 1 << 27);
+}
+
+} // namespace
+
+std::shared_ptr<const RasterShape> RasterShapeCache::get(const Wish& wish) {
+    Entry& entry = _entries[{wish.prim->path, wish.edge}];
+    entry.used = true;
+    if (!entry.shape || !serves(entry.wish, wish)) {
+        entry.shape = nullptr; // the old buffers make room for the new ones
+        entry.shape = build(wish);
+        entry.wish = wish;
+    }
+    entry.wish.prim = wish.prim; // comparing the same object is quick
+    return entry.shape;
+}
+
+void RasterShapeCache::forgetUnused() {
+    for (auto it = _entries.begin(); it != _entries.end();) {
+        if (it->second.used) {
+            it->second.used = false;
+            ++it;
+        } else {
+            it = _entries.erase(it);
+        }
+    }
+}
+
+size_t RasterShapeCache::bytes() const {
+    size_t sum = 0;
+    for (const auto& item : _entries)
+        for (const RasterSurface& surface : item.second.shape->surfaces)
+            for (const RasterChunk& chunk : surface.chunks)
+                sum += chunk.bytes();
+    return sum;
+}
+
+std::shared_ptr<const RasterShape> RasterShapeCache::build(const Wish& wish) {
+    ++_built;
+    auto shape = std::make_shared<RasterShape>();
+    TessellationOptions options;
+    options.shutterOpen = options.shutterClose = wish.timeCode;
+    options.targetEdge = wish.edge;
+    TriangleMesh mesh = rasterTriangles(*wish.prim, options, _diagnostics);
+    if (mesh.positions.empty() || mesh.triangles.empty()) return shape;
+    if (displaces(wish)) {
+        if (wish.edge > 0.0f) splitTriangles(mesh, wish.edge, options.triangleBudget);
+        displace(mesh, wish.displacers, wish.toWorld);
+    }
+    shape->boundsMin = mesh.boundsMin;
+    shape->boundsMax = mesh.boundsMax;
+    shape->faceted = mesh.normals.empty();
+    shape->triangles = mesh.triangles.size();
+    RasterSurfaceBuilder builder(mesh, storageLimit());
+    for (size_t subset = 0; subset < wish.primvars.size(); ++subset)
+        shape->surfaces.push_back(builder.make(subset, wish.primvars[subset]));
+    if (wish.needsMesh) shape->mesh = std::make_shared<TriangleMesh>(std::move(mesh));
+    return shape;
+}
+
+} // namespace patina

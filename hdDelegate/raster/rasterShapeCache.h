@@ -1,0 +1,60 @@
+#pragma once
+
+#include "hdDelegate/raster/rasterSurface.h"
+#include "hdDelegate/scene/geometry.h"
+#include "materialNetwork/cpu/materialProgram.h"
+#include "materialNetwork/diagnostics.h"
+
+#include <map>
+#include <memory>
+
+namespace patina {
+
+/// A prim tessellated, in buffers.
+struct RasterShape {
+    vec3 boundsMin{0.0f}, boundsMax{0.0f};    ///< object space
+    std::vector<RasterSurface> surfaces;      ///< [0] the prim's material, [i + 1] that of subset i
+    std::shared_ptr<const TriangleMesh> mesh; ///< only where it was asked for
+    size_t triangles = 0;
+    bool faceted = false; ///< has no normals
+};
+
+/// Shapes, for as long as nothing changes that they are made of.
+class RasterShapeCache {
+public:
+    /// What a shape is made of.
+    struct Wish {
+        std::shared_ptr<const Geometry> prim;
+        float edge = 0.0f;     ///< longest edge, object units; 0: as authored
+        float timeCode = 0.0f; ///< of points that move
+        std::vector<std::vector<std::string>> primvars; ///< that materials read, per surface
+        /// Null where nothing displaces.
+        std::vector<std::shared_ptr<const MaterialProgram>> displacers;
+        mat4 toWorld{1.0f}; ///< that displacement sees
+        bool needsMesh = false;
+    };
+
+    explicit RasterShapeCache(Diagnostics& diagnostics) : _diagnostics(diagnostics) {}
+
+    /// @returns a shape, which is empty when the prim shows nothing
+    std::shared_ptr<const RasterShape> get(const Wish& wish);
+    /// Forgets the shapes that nobody has asked for since the last call.
+    void forgetUnused();
+
+    size_t built() const { return _built; } ///< shapes, since this was made
+    size_t bytes() const;                   ///< of all buffers
+
+private:
+    struct Entry {
+        Wish wish;
+        std::shared_ptr<const RasterShape> shape;
+        bool used = false;
+    };
+    std::shared_ptr<const RasterShape> build(const Wish& wish);
+
+    Diagnostics& _diagnostics;
+    std::map<std::pair<std::string, float>, Entry> _entries; ///< by path and edge
+    size_t _built = 0;
+};
+
+} // namespace patina

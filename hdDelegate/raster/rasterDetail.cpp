@@ -7,24 +7,41 @@
 
 namespace patina {
 
-RasterDetail::RasterDetail(const Geometry& prim, const RasterCamera& camera,
-                           const RenderSettings& settings) {
-    if (prim.kind != GeometryKind::Mesh || !(settings.edgeLength > 0.0f)) return;
+namespace {
+
+/// The extent of prims that can be drawn more or less finely. @returns false for others
+bool extentOf(const Geometry& prim, vec3& low, vec3& high) {
+    if (prim.kind == GeometryKind::Implicit) {
+        const Implicit& p = static_cast<const Implicit&>(prim);
+        high = vec3(std::max({p.radius, p.radiusTop, 0.5f * p.height + p.radius}));
+        low = -high;
+        return p.shape != ImplicitShape::Cube && p.shape != ImplicitShape::Plane;
+    }
+    if (prim.kind != GeometryKind::Mesh) return false;
     const Mesh& mesh = static_cast<const Mesh&>(prim);
-    if (mesh.scheme == SubdivisionScheme::None || mesh.points.empty()) return;
-    vec3 low(INFINITY), high(-INFINITY);
+    if (mesh.scheme == SubdivisionScheme::None || mesh.points.empty()) return false;
+    low = vec3(INFINITY);
+    high = vec3(-INFINITY);
     for (const vec3& p : mesh.points.first())
         if (std::isfinite(p.x + p.y + p.z)) {
             low = glm::min(low, p);
             high = glm::max(high, p);
         }
-    if (!(low.x <= high.x)) return;
+    return low.x <= high.x;
+}
+
+} // namespace
+
+RasterDetail::RasterDetail(const Geometry& prim, const RasterCamera& camera,
+                           const RenderSettings& settings, bool displaced) {
+    vec3 low(0.0f), high(0.0f);
+    if (!(settings.edgeLength > 0.0f) || !extentOf(prim, low, high)) return;
     _view = camera.view(vec2(0.0f), vec2(0.0f), 0.5f, low, high);
     _toGroup = transformAt(prim.transform, camera.timeCode(0.5f));
     _center = 0.5f * (low + high);
     _radius = 0.5f * glm::length(high - low);
     _nearest = camera.camera().clipNear;
-    _edge = settings.edgeLength * _view.pixelSpread;
+    _edge = (displaced ? 1.0f : 2.0f) * settings.edgeLength * _view.pixelSpread;
 }
 
 float RasterDetail::edgeAt(const RasterPlace& place) const {

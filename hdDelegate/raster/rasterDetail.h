@@ -9,7 +9,11 @@ namespace patina {
 /// How finely a prim is drawn, by its size on screen.
 class RasterDetail {
 public:
-    RasterDetail(const Geometry& prim, const RasterCamera& camera, const RenderSettings& settings);
+    /// Edges may be twice as long as the settings ask for unless the prim is displaced: normals
+    /// are smooth, and a chord of e pixels leaves a circle of R pixels by e^2 / 8R, less than a
+    /// tenth where R is above 80 (e = 8).
+    RasterDetail(const Geometry& prim, const RasterCamera& camera, const RenderSettings& settings,
+                 bool displaced);
 
     /// The longest edge, in object units, that looks as long from the camera as the settings ask
     /// for: a power of two, so that few of them differ. 0: the prim is not refined.

@@ -125,7 +125,10 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
         wish.needsMesh |= settings.enableSceneLights && program.hasEmission();
     }
     // Places that are equally far away share a tessellation.
-    const RasterDetail detail(*prim, camera, settings);
+    const bool displaced =
+        std::any_of(wish.displacers.begin(), wish.displacers.end(),
+                    [](const std::shared_ptr<const MaterialProgram>& p) { return p != nullptr; });
+    const RasterDetail detail(*prim, camera, settings, displaced);
     std::map<float, std::vector<uint32_t>> byEdge;
     for (size_t i = 0; i < where.size(); ++i)
         byEdge[detail.edgeAt(where[i])].push_back(uint32_t(i));

@@ -69,7 +69,7 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Wish& wish) {
     auto shape = std::make_shared<RasterShape>();
     TessellationOptions options;
     options.shutterOpen = options.shutterClose = wish.timeCode;
-    options.targetEdge = wish.edge;
+    options.targetEdge = options.roundEdge = wish.edge;
     TriangleMesh mesh = rasterTriangles(*wish.prim, options, _diagnostics);
     if (mesh.positions.empty() || mesh.triangles.empty()) return shape;
     if (displaces(wish)) {

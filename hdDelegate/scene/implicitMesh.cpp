@@ -2,6 +2,7 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace patina {
@@ -23,7 +24,8 @@ vec2 turn(float s) {
 /// shared, so one normal and st per vertex is enough.
 class ShapeBuilder {
 public:
-    explicit ShapeBuilder(TriangleMesh& out) : _out(out) {
+    /// @param coarser divides the numbers of segments: 1, 2, 4 or 8. Faces keep their numbers.
+    ShapeBuilder(TriangleMesh& out, int coarser) : _out(out), _coarser(coarser) {
         _out.positions.resize(1);
         _out.normals.resize(1);
         _st.name = "st";
@@ -37,21 +39,23 @@ public:
     template <class F>
     void grid(int columns, int rows, const F& surface, vec2 tRange = vec2(0.0f, 1.0f)) {
         const uint32_t first = uint32_t(_out.positions[0].size());
-        for (int j = 0; j <= rows; ++j)
-            for (int i = 0; i <= columns; ++i) {
+        const int across = columns % _coarser ? 1 : _coarser, up = rows % _coarser ? 1 : _coarser;
+        const uint32_t step = uint32_t(columns / across + 1);
+        for (int j = 0; j <= rows; j += up)
+            for (int i = 0; i <= columns; i += across) {
                 const vec2 st(float(i) / float(columns), float(j) / float(rows));
                 vec3 position, normal;
                 surface(st, position, normal);
                 vertex(position, normal, vec2(st.x, glm::mix(tRange.x, tRange.y, st.y)));
             }
-        for (int j = 0; j < rows; ++j)
-            for (int i = 0; i < columns; ++i) {
-                const uint32_t a = first + uint32_t(j * (columns + 1) + i);
-                const uint32_t c = a + uint32_t(columns + 1);
-                triangle(a, a + 1, c + 1);
-                triangle(a, c + 1, c);
-                ++_faces;
+        for (int j = 0; j < rows; j += up)
+            for (int i = 0; i < columns; i += across) {
+                const uint32_t a = first + uint32_t(j / up) * step + uint32_t(i / across);
+                const uint32_t c = a + step;
+                triangle(a, a + 1, c + 1, j * columns + i);
+                triangle(a, c + 1, c, j * columns + i);
             }
+        _faces += columns * rows;
     }
 
     /// A flat disc across the axis, whose rim has exactly the points of the sides that it closes.
@@ -61,13 +65,14 @@ public:
         const uint32_t centre = uint32_t(_out.positions[0].size());
         const vec3 normal(0, 0, side);
         vertex(vec3(0, 0, z), normal, vec2(0.5f));
-        for (int i = 0; i < aroundSegments; ++i) {
+        for (int i = 0; i < aroundSegments; i += _coarser) {
             const vec2 rim = turn(float(i) / float(aroundSegments));
             vertex(vec3(radius * rim, z), normal, 0.5f + 0.5f * vec2(side * rim.x, rim.y));
         }
-        for (uint32_t i = 0; i < uint32_t(aroundSegments); ++i) {
-            const uint32_t a = centre + 1 + i, b = centre + 1 + (i + 1) % aroundSegments;
-            triangle(centre, side > 0.0f ? a : b, side > 0.0f ? b : a);
+        const uint32_t segments = uint32_t(aroundSegments / _coarser);
+        for (uint32_t i = 0; i < segments; ++i) {
+            const uint32_t a = centre + 1 + i, b = centre + 1 + (i + 1) % segments;
+            triangle(centre, side > 0.0f ? a : b, side > 0.0f ? b : a, 0);
         }
         ++_faces;
     }
@@ -99,16 +104,16 @@ private:
         _st.data.push_back(st.x);
         _st.data.push_back(st.y);
     }
-    void triangle(uint32_t a, uint32_t b, uint32_t c) {
+    void triangle(uint32_t a, uint32_t b, uint32_t c, int face) {
         const auto& p = _out.positions[0];
         if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) return; // at a pole
         _out.triangles.push_back(uvec3(a, b, c));
-        _out.triangleFace.push_back(_faces);
+        _out.triangleFace.push_back(_faces + face);
     }
 
     TriangleMesh& _out;
     MeshAttribute _st;
-    int _faces = 0;
+    int _faces = 0, _coarser;
 };
 
 /// Part of a sphere between two latitudes (radians).
@@ -168,6 +173,17 @@ void cube(ShapeBuilder& shape, float size) {
         }
 }
 
+/// How many times longer segments can be without being longer than asked for.
+int coarserBy(const Implicit& prim, float roundEdge) {
+    if (!(roundEdge > 0.0f) || !prim.subsets.empty()) return 1;
+    const float radius = std::max(prim.radius, prim.radiusTop);
+    const float segment = glm::two_pi<float>() * radius / float(aroundSegments);
+    int coarser = 1;
+    while (coarser < 8 && segment * float(2 * coarser) <= roundEdge)
+        coarser *= 2;
+    return coarser;
+}
+
 float checked(float value, const char* input, const Implicit& prim, Diagnostics& diagnostics) {
     if (std::isfinite(value) && value >= 0.0f) return value;
     diagnostics.warn(prim.path, input, "is negative or not finite; 0 is used");
@@ -176,10 +192,10 @@ float checked(float value, const char* input, const Implicit& prim, Diagnostics&
 
 } // namespace
 
-TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions&,
+TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& options,
                         Diagnostics& diagnostics) {
     TriangleMesh out;
-    ShapeBuilder shape(out);
+    ShapeBuilder shape(out, coarserBy(implicit, options.roundEdge));
     const auto size = [&](float value, const char* input) {
         return checked(value, input, implicit, diagnostics);
     };

@@ -10,6 +10,8 @@ struct TessellationOptions {
     float shutterOpen = 0.0f, shutterClose = 0.0f; ///< time codes relative to the frame
     float targetEdge =
         0.0f; ///< object units: subdivide until no edge is longer; 0: refineLevel only
+    float roundEdge = 0.0f; ///< object units: implicit prims take fewer segments, while none is
+                            ///< longer; 0: all 128 around
     int maxRefineLevel = 6;          ///< 0..6
     size_t triangleBudget = 1000000; ///< a prim is not refined to more triangles than this
 };

@@ -6,6 +6,7 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -280,6 +281,57 @@ TEST(TangentFrames, basisIsOrthonormalAroundTheSphere) {
             EXPECT_NEAR(glm::length(t), 1.0f, 2e-6f);
             EXPECT_LT(glm::length(glm::cross(t, b) - n), 2e-6f);
         }
+}
+
+vec3 centre(const TriangleMesh& mesh, size_t t) {
+    vec3 sum(0.0f);
+    for (int k = 0; k < 3; ++k)
+        sum += mesh.positions[0][mesh.triangles[t][k]];
+    return sum / 3.0f;
+}
+
+/// From a point to the nearest centre of the triangles of a face.
+float distanceToFace(const TriangleMesh& mesh, int face, const vec3& p) {
+    float nearest = 1e30f;
+    const auto& faces = mesh.triangleFace; // in order
+    for (auto it = std::lower_bound(faces.begin(), faces.end(), face);
+         it != faces.end() && *it == face; ++it)
+        nearest = std::min(nearest, glm::length(p - centre(mesh, size_t(it - faces.begin()))));
+    return nearest;
+}
+
+TEST(Implicits, FewerSegmentsKeepShapeAndFaceNumbers) {
+    Diagnostics diagnostics;
+    for (ImplicitShape shape : {ImplicitShape::Sphere, ImplicitShape::Cylinder, ImplicitShape::Cone,
+                                ImplicitShape::Capsule, ImplicitShape::Cube}) {
+        const Implicit prim = makeImplicit(shape);
+        const TriangleMesh fine = draw(prim);
+        size_t before = fine.triangles.size();
+        for (const float edge : {0.099f, 0.2f, 0.4f, 10.0f}) {
+            TessellationOptions options;
+            options.roundEdge = edge;
+            const TriangleMesh coarse = tessellate(prim, options, diagnostics);
+            expectClosed(coarse);
+            EXPECT_NEAR(volume(coarse), volume(fine), 0.04 * volume(fine));
+            EXPECT_EQ(coarse.boundsMax.z, fine.boundsMax.z);
+            const auto last = [](const TriangleMesh& m) {
+                return *std::max_element(m.triangleFace.begin(), m.triangleFace.end());
+            };
+            EXPECT_LE(last(coarse), last(fine));
+            EXPECT_LE(coarse.triangles.size(), before);
+            before = coarse.triangles.size();
+            // A face of a coarse shape is a face of the fine one at the same place.
+            for (size_t t = 0; t < coarse.triangles.size(); ++t)
+                EXPECT_LT(distanceToFace(fine, coarse.triangleFace[t], centre(coarse, t)), 0.5f);
+        }
+        if (shape != ImplicitShape::Cube) EXPECT_LT(before, fine.triangles.size() / 7);
+    }
+    Implicit parted = makeImplicit(ImplicitShape::Sphere);
+    parted.subsets.push_back({"/prim/part", "", {0, 1, 2}});
+    TessellationOptions options;
+    options.roundEdge = 1.0f;
+    EXPECT_EQ(tessellate(parted, options, diagnostics).triangles.size(),
+              draw(parted).triangles.size());
 }
 
 } // namespace

@@ -85,7 +85,7 @@ TEST(RasterCulling, TheBoxOfATransformedBoxHoldsItsCorners) {
 }
 
 TEST(RasterCulling, MortonOrderIsAnOrder) {
-    std::vector<vec3> points = {{9, 9, 9}, {0, 0, 0}, {0.1f, 0, 0}, {9, 9, 8.9f}, {NAN, 0, 0}};
+    std::vector<vec3> points = {{9, 9, 9}, {0, 0, 0}, {0.1f, 0, 0}, {9, 9, 8.9f}, {NAN, 9, 0}};
     std::vector<uint32_t> order = mortonOrder(points);
     const auto place = [&](uint32_t i) {
         return std::find(order.begin(), order.end(), i) - order.begin();

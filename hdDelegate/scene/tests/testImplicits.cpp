@@ -312,7 +312,7 @@ TEST(Implicits, FewerSegmentsKeepShapeAndFaceNumbers) {
             options.roundEdge = edge;
             const TriangleMesh coarse = tessellate(prim, options, diagnostics);
             expectClosed(coarse);
-            EXPECT_NEAR(volume(coarse), volume(fine), 0.04 * volume(fine));
+            EXPECT_NEAR(volume(coarse), volume(fine), 0.07 * volume(fine));
             EXPECT_EQ(coarse.boundsMax.z, fine.boundsMax.z);
             const auto last = [](const TriangleMesh& m) {
                 return *std::max_element(m.triangleFace.begin(), m.triangleFace.end());
@@ -322,9 +322,11 @@ TEST(Implicits, FewerSegmentsKeepShapeAndFaceNumbers) {
             before = coarse.triangles.size();
             // A face of a coarse shape is a face of the fine one at the same place.
             for (size_t t = 0; t < coarse.triangles.size(); ++t)
-                EXPECT_LT(distanceToFace(fine, coarse.triangleFace[t], centre(coarse, t)), 0.5f);
+                EXPECT_LT(distanceToFace(fine, coarse.triangleFace[t], centre(coarse, t)), 0.8f);
         }
-        if (shape != ImplicitShape::Cube) EXPECT_LT(before, fine.triangles.size() / 7);
+        if (shape != ImplicitShape::Cube) {
+            EXPECT_LT(before, fine.triangles.size() / 7);
+        }
     }
     Implicit parted = makeImplicit(ImplicitShape::Sphere);
     parted.subsets.push_back({"/prim/part", "", {0, 1, 2}});

@@ -21,6 +21,7 @@ struct RenderProgress {
     bool failed = false;
     std::string error;         ///< one line, when failed
     bool deviceFailed = false; ///< it was the device or its driver: another back end may do it
+    bool mayWait = false;      ///< a listener that is told this may wait until its image is seen
     std::string backend;       ///< what the film's samples were made by: embree, raster
     /// "rays", "paths", "secondsBuild" (of this start), "trianglesStored", "instances", "bytes" (of
     /// meshes and acceleration structures); and counts since the renderer was made, which tell what

@@ -10,7 +10,8 @@ namespace patina {
 namespace {
 
 constexpr auto patience = std::chrono::milliseconds(200); ///< of the slow one with the quick one
-constexpr auto tick = std::chrono::milliseconds(33);      ///< between steps of the change-over
+constexpr int steps = 4, lastSteps = 8; ///< at least, to an image with more samples and to the last
+constexpr auto tick = std::chrono::milliseconds(33); ///< between steps of the change-over
 
 } // namespace
 
@@ -180,6 +181,7 @@ void InteractiveRenderer::changeOver(const std::string& camera) {
     Source quick, slow;
     Picture target, shown;
     bool stepping = false;
+    int stepsLeft = 1; // at least, to the target
     while (awaitNews(camera, started, stepping, !shown.empty())) {
         bool news;
         {
@@ -203,25 +205,30 @@ void InteractiveRenderer::changeOver(const std::string& camera) {
             if (news && slow.hasImage())
                 target = slow.ended() || !quick.hasImage()
                              ? slow.picture
-                             : refine(quick.picture, slow.picture, slow.noise);
+                             : refine(quick.picture, slow.picture, slow.noise,
+                                      float(slow.progress.fraction));
             else if (news)
                 target = quick.picture;
             stepping = false;
             if (target.empty()) return;
+            if (news && slow.hasImage()) stepsLeft = slow.ended() ? lastSteps : steps;
             if (shown.empty())
                 shown = target;
             else
-                stepping = !approach(shown, target, largestChange);
+                stepping = !approach(shown, target, largestChange, 1.0f / float(stepsLeft));
+            stepsLeft = std::max(1, stepsLeft - 1);
             if (slow.ended() && !stepping) return;
             writePicture(shown, slow.hasImage() ? *slow.film : *quick.film);
         });
         if (target.empty()) continue;
         if (slow.ended() && !stepping) {
+            slow.progress.mayWait = true;
             _listener(*_film, slow.progress);
             return end(slow.progress);
         }
         RenderProgress told = slow.hasImage() ? slow.progress : quick.progress;
         told.converged = told.failed = false;
+        told.mayWait = true;
         _listener(slow.hasImage() ? *slow.film : *quick.film, told);
     }
     end(RenderProgress());

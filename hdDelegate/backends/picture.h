@@ -31,8 +31,10 @@ float fromEye(float seen);
 /// over any 16x16 block and any of the four channels; blocks begin at the top left.
 float largestStep(const Picture& a, const Picture& b);
 
-/// Moves a picture towards another one, by at most `bound` as largestStep() measures it.
+/// Moves a picture towards another one, by at most `bound` as largestStep() measures it, and at
+/// most by a share of the way, so that noise comes little by little too.
+/// @param mostOfTheWay 0..1
 /// @returns whether it is equal now, to the bit
-bool approach(Picture& shown, const Picture& target, float bound);
+bool approach(Picture& shown, const Picture& target, float bound, float mostOfTheWay = 1.0f);
 
 } // namespace patina

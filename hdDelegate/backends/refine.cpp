@@ -39,7 +39,7 @@ Picture noiseOf(const Film& traced) {
     return noise;
 }
 
-Picture refine(Picture rasterized, const Picture& traced, const Picture& noise) {
+Picture refine(Picture rasterized, const Picture& traced, const Picture& noise, float done) {
     const Picture tracedMean = boxBlur(traced, radius), mean = boxBlur(rasterized, radius);
     Picture rest = traced;
     eachPixel(rest, [&](size_t i) {
@@ -58,7 +58,8 @@ Picture refine(Picture rasterized, const Picture& traced, const Picture& noise) 
         if (traced.pixels[i].w == 0.0f) return; // nothing there: no light of neighbours leaks in
         const float l = luminance(tracedMean.pixels[i]) + 1e-4f;
         const float relative = localNoise.pixels[i].x / (l * l) + localNoise.pixels[i].y;
-        const float weight = halfAt * halfAt / (halfAt * halfAt + relative);
+        const float clear = halfAt * halfAt / (halfAt * halfAt + relative);
+        const float weight = clear + (1.0f - clear) * done * done;
         const vec3 moved = glm::max(vec3(rasterized.pixels[i] + rest.pixels[i]), vec3(0.0f));
         result.pixels[i] =
             vec4(glm::mix(moved, vec3(traced.pixels[i]), weight), traced.pixels[i].w);

@@ -2,6 +2,8 @@
 
 #include "hdDelegate/backends/backends.h"
 
+#include <chrono>
+
 namespace patina {
 
 HdPatinaSession::HdPatinaSession(std::shared_ptr<Scene> scene)
@@ -26,9 +28,23 @@ RenderProgress HdPatinaSession::progress() const {
     return current ? current->progress() : RenderProgress();
 }
 
+/// Frees a listener that waits, so that hosts do not wait for it.
+void HdPatinaSession::stopRenderer() {
+    const auto current = renderer();
+    if (!current) return;
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        _stopping = true;
+    }
+    _taken.notify_all();
+    current->stop();
+    std::lock_guard<std::mutex> lock(_mutex);
+    _stopping = false;
+}
+
 void HdPatinaSession::start(const std::string& camera, const HdPatinaSettings& settings,
                             const std::vector<std::string>& aovs) {
-    if (const auto current = renderer()) current->stop();
+    stopRenderer();
     const std::string backend = backendOf(settings);
     std::shared_ptr<Renderer> next = backend == _backend ? renderer() : makeBackend(backend);
     uint64_t serial;
@@ -63,7 +79,11 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
             frame->aovs[name] = film.resolve(name);
     }
     {
-        std::lock_guard<std::mutex> lock(_mutex);
+        std::unique_lock<std::mutex> lock(_mutex);
+        // Images that follow each other in small steps are a jump again where a host misses some.
+        if (progress.mayWait)
+            _taken.wait_for(lock, std::chrono::milliseconds(500),
+                            [&] { return !_frame || _stopping; });
         if (serial != _serial) return;
         _frame = std::move(frame);
     }
@@ -71,18 +91,27 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
 }
 
 std::shared_ptr<const HdPatinaFrame> HdPatinaSession::take() {
-    std::lock_guard<std::mutex> lock(_mutex);
-    return std::move(_frame);
+    std::shared_ptr<const HdPatinaFrame> frame;
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        frame.swap(_frame);
+    }
+    _taken.notify_all();
+    return frame;
 }
 
 std::shared_ptr<const HdPatinaFrame> HdPatinaSession::finish() {
-    std::unique_lock<std::mutex> lock(_mutex);
-    _arrived.wait(lock, [&] { return _frame && _frame->last; });
-    return std::move(_frame);
+    for (;;) {
+        {
+            std::unique_lock<std::mutex> lock(_mutex);
+            _arrived.wait(lock, [&] { return bool(_frame); });
+        }
+        if (auto frame = take(); frame && frame->last) return frame;
+    }
 }
 
 void HdPatinaSession::stop() {
-    if (const auto current = renderer()) current->stop();
+    stopRenderer();
     _stopped = true;
 }
 

@@ -51,6 +51,7 @@ public:
 
 private:
     std::shared_ptr<Renderer> renderer() const;
+    void stopRenderer();
     void present(const Film& film, const RenderProgress& progress, uint64_t serial);
 
     std::shared_ptr<Scene> _scene;
@@ -62,10 +63,10 @@ private:
     std::vector<std::string> _aovs;
 
     mutable std::mutex _mutex;
-    std::condition_variable _arrived;
+    std::condition_variable _arrived, _taken;
     uint64_t _serial = 0; ///< frames of older renders are dropped
     std::shared_ptr<const HdPatinaFrame> _frame;
-    bool _paused = false, _stopped = false;
+    bool _paused = false, _stopped = false, _stopping = false;
 };
 
 } // namespace patina

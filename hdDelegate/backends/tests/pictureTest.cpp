@@ -54,6 +54,18 @@ TEST(Picture, StepsAreAsLongAsAllowedAndEndEqual) {
     EXPECT_LE(steps, int(whole / 0.04f) + 4); // no step is wasted
 }
 
+TEST(Picture, NoiseComesLittleByLittle) {
+    Picture shown = noise(64, 64, 0.3f, 8);
+    const Picture begin = shown, target = noise(64, 64, 0.3f, 9);
+    EXPECT_FALSE(approach(shown, target, 1.0f, 0.25f)); // though the means are nearly equal
+    double way = 0.0, walked = 0.0;
+    for (size_t i = 0; i < shown.pixels.size(); ++i) {
+        way += std::abs(toEye(target.pixels[i].x) - toEye(begin.pixels[i].x));
+        walked += std::abs(toEye(shown.pixels[i].x) - toEye(begin.pixels[i].x));
+    }
+    EXPECT_NEAR(walked / way, 0.25, 1e-3);
+}
+
 TEST(Picture, RefiningKeepsTheDetailAndTakesTheLight) {
     // Rasterized: a fine pattern, too dark and of another colour. Path traced: the truth, noisy.
     const int w = 96, h = 64;
@@ -72,7 +84,7 @@ TEST(Picture, RefiningKeepsTheDetailAndTakesTheLight) {
                 traced.addColor(x, y, color * noisy(random), 1.0f);
         }
     const Picture path = pictureOf(traced);
-    const Picture shown = refine(quick, path, noiseOf(traced));
+    const Picture shown = refine(quick, path, noiseOf(traced), 0.0f);
     double before = 0.0, after = 0.0, rasterized = 0.0;
     for (size_t i = 0; i < truth.pixels.size(); ++i) {
         const auto error = [&](const Picture& p) {
@@ -93,5 +105,18 @@ TEST(Picture, WithoutNoiseThePathTracedImageIsShown) {
         for (int s = 0; s < 2; ++s)
             traced.addColor(i % 32, i / 32, glm::vec3(float(i) / 1024.0f), 1.0f);
     const Picture path = pictureOf(traced);
-    EXPECT_EQ(refine(noise(32, 32, 1.0f, 5), path, noiseOf(traced)).pixels, path.pixels);
+    EXPECT_EQ(refine(noise(32, 32, 1.0f, 5), path, noiseOf(traced), 0.0f).pixels, path.pixels);
+}
+
+TEST(Picture, AtTheEndThePathTracedImageIsShown) {
+    Film traced;
+    traced.reset(32, 32, {});
+    std::mt19937 random(6);
+    std::exponential_distribution<float> noisy(1.0f);
+    for (int i = 0; i < 32 * 32 * 4; ++i)
+        traced.addColor(i % 32, i / 32 % 32, glm::vec3(noisy(random)), 1.0f);
+    const Picture path = pictureOf(traced);
+    const Picture half = refine(noise(32, 32, 1.0f, 7), path, noiseOf(traced), 0.5f);
+    EXPECT_NE(half.pixels, path.pixels);
+    EXPECT_EQ(refine(noise(32, 32, 1.0f, 7), path, noiseOf(traced), 1.0f).pixels, path.pixels);
 }

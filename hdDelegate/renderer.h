@@ -19,7 +19,10 @@ struct RenderProgress {
     double secondsLeft = 0.0; ///< estimate
     bool converged = false;   ///< all samples taken, tolerance or time limit reached
     bool failed = false;
-    std::string error; ///< one line, when failed
+    std::string error;         ///< one line, when failed
+    bool deviceFailed = false; ///< it was the device or its driver: another back end may do it
+    bool mayWait = false;      ///< a listener that is told this may wait until its image is seen
+    std::string backend;       ///< what the film's samples were made by: embree, raster
     /// "rays", "paths", "secondsBuild" (of this start), "trianglesStored", "instances", "bytes" (of
     /// meshes and acceleration structures); and counts since the renderer was made, which tell what
     /// edits cost: "surfacesBuilt", "surfacesTessellated" (the others were only moved),
@@ -57,7 +60,7 @@ public:
     virtual void setListener(FilmListener listener) = 0;
 };
 
-/// Makes the back end "embree"; null for an unknown name.
+/// Makes the path tracer ("embree"); null for any other name. For the others see makeBackend().
 std::unique_ptr<Renderer> makeRenderer(const std::string& backend);
 
 } // namespace patina

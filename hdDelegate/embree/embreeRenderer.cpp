@@ -19,7 +19,9 @@ std::unique_ptr<Renderer> makeRenderer(const std::string& backend) {
     return nullptr;
 }
 
-EmbreeRenderer::EmbreeRenderer() = default;
+EmbreeRenderer::EmbreeRenderer() {
+    _progress.backend = "embree";
+}
 
 EmbreeRenderer::~EmbreeRenderer() {
     stop();
@@ -36,6 +38,7 @@ void EmbreeRenderer::start(std::shared_ptr<Scene> scene, const std::string& came
     {
         std::lock_guard<std::mutex> lock(_mutex);
         _progress = RenderProgress();
+        _progress.backend = "embree";
         _idle = false;
     }
     _rays = _shadowRays = _paths = 0;

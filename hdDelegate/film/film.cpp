@@ -127,6 +127,28 @@ void Film::addAov(int aov, int x, int y, const float* values, float distance) {
     }
 }
 
+void Film::setMean(int x, int y, glm::vec3 color, float alpha) {
+    Pixel& p = _pixels[index(x, y)];
+    if (!p.count) return;
+    const double n = p.count, before = luminanceOf(p.sum[0], p.sum[1], p.sum[2]);
+    // n has 32 bits and a float 24, so that sum / n is the very float again.
+    for (int i = 0; i < 3; ++i)
+        p.sum[i] = n * double(color[i]);
+    p.alpha = n * double(alpha);
+    const double after = luminanceOf(p.sum[0], p.sum[1], p.sum[2]);
+    p.luminanceSquared += (after * after - before * before) / n;
+}
+
+void Film::copyFrom(const Film& other) {
+    _width = other._width;
+    _height = other._height;
+    _aovs = other._aovs;
+    _pixels = other._pixels;
+    _planes = other._planes;
+    _dropped.store(other._dropped.load(std::memory_order_relaxed), std::memory_order_relaxed);
+    resumeToken = other.resumeToken;
+}
+
 glm::vec3 Film::color(int x, int y) const {
     const Pixel& p = pixel(x, y);
     double scale = p.count ? 1.0 / p.count : 0.0;

@@ -61,6 +61,11 @@ public:
     ///        samples the earlier one stays
     void addAov(int aov, int x, int y, const float* values, float distance);
 
+    /// Replaces the mean of a pixel that has samples; their number and the variance stay.
+    void setMean(int x, int y, glm::vec3 color, float alpha);
+    /// Becomes equal to another film, with all of its accumulators.
+    void copyFrom(const Film& other);
+
     uint32_t sampleCount(int x, int y) const { return pixel(x, y).count; }
     glm::vec3 color(int x, int y) const; ///< mean so far
     float alpha(int x, int y) const;

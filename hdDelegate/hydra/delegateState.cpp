@@ -4,9 +4,9 @@
 
 namespace patina {
 
-RenderSettings HdPatinaDelegateState::settings() const {
+HdPatinaSettings HdPatinaDelegateState::settings() const {
     std::lock_guard<std::mutex> lock(_mutex);
-    RenderSettings settings = _settings;
+    HdPatinaSettings settings = _settings;
     for (const auto& prim : _prims)
         if (prim.second.active)
             for (const auto& item : prim.second.settings) {
@@ -16,14 +16,14 @@ RenderSettings HdPatinaDelegateState::settings() const {
     return settings;
 }
 
-void HdPatinaDelegateState::setSettings(const RenderSettings& settings) {
+void HdPatinaDelegateState::setSettings(const HdPatinaSettings& settings) {
     std::lock_guard<std::mutex> lock(_mutex);
     _settings = settings;
     ++_settingsVersion;
 }
 
 void HdPatinaDelegateState::setSettingsPrim(const SdfPath& path, HdPatinaSettingsPrim prim) {
-    RenderSettings scratch;
+    HdPatinaSettings scratch;
     for (const auto& item : prim.settings) {
         const TfToken key = settingKey(TfToken(item.first));
         const std::string problem = key.IsEmpty() ? "is no render setting of Patina"

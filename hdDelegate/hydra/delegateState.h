@@ -2,7 +2,7 @@
 
 #include "hdDelegate/hydra/renderParam.h"
 #include "hdDelegate/hydra/session.h"
-#include "hdDelegate/scene/settings.h"
+#include "hdDelegate/hydra/settings.h"
 
 #include <pxr/imaging/hd/renderSettings.h>
 
@@ -28,8 +28,8 @@ public:
     HdPatinaRenderParam param;
 
     /// What the delegate's setting map says, and on top of it the active settings prim.
-    RenderSettings settings() const;
-    void setSettings(const RenderSettings& settings);
+    HdPatinaSettings settings() const;
+    void setSettings(const HdPatinaSettings& settings);
     unsigned int settingsVersion() const { return _settingsVersion; }
 
     void setSettingsPrim(const SdfPath& path, HdPatinaSettingsPrim prim);
@@ -50,7 +50,7 @@ public:
 
 private:
     mutable std::mutex _mutex;
-    RenderSettings _settings;
+    HdPatinaSettings _settings;
     std::map<SdfPath, HdPatinaSettingsPrim> _prims;
     std::atomic<unsigned int> _settingsVersion{1};
     mutable std::vector<std::weak_ptr<HdPatinaSession>> _sessions;

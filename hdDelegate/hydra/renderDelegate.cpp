@@ -52,10 +52,11 @@ bool contains(const TfTokenVector& types, const TfToken& type) {
 
 } // namespace
 
-HdPatinaRenderDelegate::HdPatinaRenderDelegate(const HdRenderSettingsMap& settings)
-    : _state(std::make_shared<HdPatinaDelegateState>()),
+HdPatinaRenderDelegate::HdPatinaRenderDelegate(const HdRenderSettingsMap& settings,
+                                               const std::string& backend)
+    : _backend(backend), _state(std::make_shared<HdPatinaDelegateState>()),
       _registry(std::make_shared<HdResourceRegistry>()) {
-    _PopulateDefaultSettings(settingDescriptors());
+    _PopulateDefaultSettings(settingDescriptors(_backend));
     for (const auto& item : settings)
         SetRenderSetting(item.first, item.second);
     applySettings();
@@ -97,7 +98,7 @@ const TfTokenVector& HdPatinaRenderDelegate::GetSupportedBprimTypes() const {
 }
 
 void HdPatinaRenderDelegate::applySettings() {
-    RenderSettings settings;
+    HdPatinaSettings settings;
     for (const auto& item : _settingsMap) {
         const TfToken key = settingKey(item.first);
         if (key.IsEmpty()) continue;
@@ -118,7 +119,7 @@ void HdPatinaRenderDelegate::SetRenderSetting(const TfToken& name, const VtValue
         return;
     }
     const VtValue converted = settingValue(key, value);
-    RenderSettings scratch;
+    HdPatinaSettings scratch;
     const std::string problem = converted.IsEmpty()
                                     ? "has a value of the wrong type; it is left as it was"
                                     : applySetting(key, converted, scratch);
@@ -137,7 +138,7 @@ VtValue HdPatinaRenderDelegate::GetRenderSetting(const TfToken& name) const {
 }
 
 HdRenderSettingDescriptorList HdPatinaRenderDelegate::GetRenderSettingDescriptors() const {
-    return settingDescriptors();
+    return settingDescriptors(_backend);
 }
 
 VtDictionary HdPatinaRenderDelegate::GetRenderStats() const {

@@ -14,7 +14,9 @@ namespace patina {
 /// render buffers; UsdRenderSettings prims. Sync only collects changes (see HdPatinaRenderParam).
 class HdPatinaRenderDelegate final : public HdRenderDelegate {
 public:
-    explicit HdPatinaRenderDelegate(const HdRenderSettingsMap& settings = {});
+    /// @param backend the default of the setting `backend`
+    explicit HdPatinaRenderDelegate(const HdRenderSettingsMap& settings = {},
+                                    const std::string& backend = "auto");
     ~HdPatinaRenderDelegate() override;
 
     const TfTokenVector& GetSupportedRprimTypes() const override;
@@ -68,6 +70,7 @@ public:
 private:
     void applySettings();
 
+    std::string _backend;
     std::shared_ptr<HdPatinaDelegateState> _state;
     HdResourceRegistrySharedPtr _registry;
 };

@@ -53,9 +53,9 @@ HdPatinaRenderPass::targetsOf(const HdRenderPassAovBindingVector& bindings) cons
     return targets;
 }
 
-RenderSettings HdPatinaRenderPass::settingsFor(const HdPatinaView& view,
-                                               const TfTokenVector& renderTags) const {
-    RenderSettings settings = _state->settings();
+HdPatinaSettings HdPatinaRenderPass::settingsFor(const HdPatinaView& view,
+                                                 const TfTokenVector& renderTags) const {
+    HdPatinaSettings settings = _state->settings();
     settings.width = view.width;
     settings.height = view.height;
     std::copy(view.dataWindow, view.dataWindow + 4, settings.dataWindow);
@@ -119,7 +119,7 @@ void HdPatinaRenderPass::_Execute(const HdRenderPassStateSharedPtr& passState,
         _settingsVersion = settingsVersion;
         _pending.reset();
         _converged = false;
-        const RenderSettings settings = settingsFor(view, renderTags);
+        const HdPatinaSettings settings = settingsFor(view, renderTags);
         if (settings.width < 1 || settings.height < 1) {
             _session->stop();
             finish(HdPatinaFrame());

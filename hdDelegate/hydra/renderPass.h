@@ -40,7 +40,7 @@ private:
     void _Execute(const HdRenderPassStateSharedPtr& passState,
                   const TfTokenVector& renderTags) override;
     std::vector<Target> targetsOf(const HdRenderPassAovBindingVector& bindings) const;
-    RenderSettings settingsFor(const HdPatinaView& view, const TfTokenVector& renderTags) const;
+    HdPatinaSettings settingsFor(const HdPatinaView& view, const TfTokenVector& renderTags) const;
     void readRenderTags();
     void show(const HdPatinaFrame& frame);
     void finish(const HdPatinaFrame& frame);

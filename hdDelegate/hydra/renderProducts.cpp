@@ -45,7 +45,7 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
     output.file = product.name.GetString();
     output.camera = product.cameraPath.GetString();
     output.settings = _state.settings();
-    RenderSettings& s = output.settings;
+    HdPatinaSettings& s = output.settings;
     if (product.type != "raster") {
         param.warn(product.productPath, "productType",
                    "'" + product.type.GetString() + "' cannot be written; only raster can");

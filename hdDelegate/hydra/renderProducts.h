@@ -32,7 +32,7 @@ private:
         SdfPath path;     ///< of the product
         std::string file; ///< to write
         std::string camera;
-        RenderSettings settings;
+        HdPatinaSettings settings;
         std::vector<std::string> order; ///< AOVs of the file
     };
 

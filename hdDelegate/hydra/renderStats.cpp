@@ -41,6 +41,7 @@ VtDictionary renderStats(const HdPatinaDelegateState& state) {
     stats["totalClockTime"] = VtValue(slowest.secondsRendering);
     stats["timeRemaining"] = VtValue(slowest.secondsLeft);
     stats["renderProgressAnnotation"] = VtValue(annotation(state, slowest));
+    stats["patina:backend"] = VtValue(slowest.backend);
     stats["peakMemory"] = VtValue(peakMemory());
     stats["warnings"] = VtValue(state.param.scene()->diagnostics().count());
     for (const auto& item : slowest.statistics)

@@ -1,18 +1,52 @@
 #include "hdDelegate/hydra/session.h"
 
+#include "hdDelegate/backends/backends.h"
+
+#include <chrono>
+
 namespace patina {
 
 HdPatinaSession::HdPatinaSession(std::shared_ptr<Scene> scene)
-    : _scene(std::move(scene)), _film(std::make_shared<Film>()), _renderer(makeRenderer("embree")) {
-}
+    : _scene(std::move(scene)), _film(std::make_shared<Film>()) {}
 
 HdPatinaSession::~HdPatinaSession() {
-    _renderer->stop();
+    stop();
 }
 
-void HdPatinaSession::start(const std::string& camera, const RenderSettings& settings,
+std::shared_ptr<Renderer> HdPatinaSession::renderer() const {
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _renderer;
+}
+
+bool HdPatinaSession::isRunning() const {
+    const auto current = renderer();
+    return current && current->isRunning();
+}
+
+RenderProgress HdPatinaSession::progress() const {
+    const auto current = renderer();
+    return current ? current->progress() : RenderProgress();
+}
+
+/// Frees a listener that waits, so that hosts do not wait for it.
+void HdPatinaSession::stopRenderer() {
+    const auto current = renderer();
+    if (!current) return;
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        _stopping = true;
+    }
+    _taken.notify_all();
+    current->stop();
+    std::lock_guard<std::mutex> lock(_mutex);
+    _stopping = false;
+}
+
+void HdPatinaSession::start(const std::string& camera, const HdPatinaSettings& settings,
                             const std::vector<std::string>& aovs) {
-    _renderer->stop();
+    stopRenderer();
+    const std::string backend = backendOf(settings);
+    std::shared_ptr<Renderer> next = backend == _backend ? renderer() : makeBackend(backend);
     uint64_t serial;
     {
         std::lock_guard<std::mutex> lock(_mutex);
@@ -22,12 +56,16 @@ void HdPatinaSession::start(const std::string& camera, const RenderSettings& set
         _settings = settings;
         _aovs = aovs;
         _stopped = false;
+        std::swap(_renderer, next);
+        _backend = backend;
     }
-    _renderer->setListener([this, serial](const Film& film, const RenderProgress& progress) {
+    next.reset(); // frees the memory of the back end before
+    const auto current = renderer();
+    current->setListener([this, serial](const Film& film, const RenderProgress& progress) {
         present(film, progress, serial);
     });
-    _renderer->start(_scene, camera, settings, _film);
-    if (_paused) _renderer->pause();
+    current->start(_scene, camera, settings, _film);
+    if (_paused) current->pause();
 }
 
 void HdPatinaSession::present(const Film& film, const RenderProgress& progress, uint64_t serial) {
@@ -41,7 +79,11 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
             frame->aovs[name] = film.resolve(name);
     }
     {
-        std::lock_guard<std::mutex> lock(_mutex);
+        std::unique_lock<std::mutex> lock(_mutex);
+        // Images that follow each other in small steps are a jump again where a host misses some.
+        if (progress.mayWait)
+            _taken.wait_for(lock, std::chrono::milliseconds(500),
+                            [&] { return !_frame || _stopping; });
         if (serial != _serial) return;
         _frame = std::move(frame);
     }
@@ -49,37 +91,46 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
 }
 
 std::shared_ptr<const HdPatinaFrame> HdPatinaSession::take() {
-    std::lock_guard<std::mutex> lock(_mutex);
-    return std::move(_frame);
+    std::shared_ptr<const HdPatinaFrame> frame;
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        frame.swap(_frame);
+    }
+    _taken.notify_all();
+    return frame;
 }
 
 std::shared_ptr<const HdPatinaFrame> HdPatinaSession::finish() {
-    std::unique_lock<std::mutex> lock(_mutex);
-    _arrived.wait(lock, [&] { return _frame && _frame->last; });
-    return std::move(_frame);
+    for (;;) {
+        {
+            std::unique_lock<std::mutex> lock(_mutex);
+            _arrived.wait(lock, [&] { return bool(_frame); });
+        }
+        if (auto frame = take(); frame && frame->last) return frame;
+    }
 }
 
 void HdPatinaSession::stop() {
-    _renderer->stop();
+    stopRenderer();
     _stopped = true;
 }
 
 void HdPatinaSession::restart() {
     if (_serial == 0) return; // nothing was started yet
     const std::vector<std::string> aovs = _aovs;
-    const RenderSettings settings = _settings;
+    const HdPatinaSettings settings = _settings;
     const std::string camera = _camera;
     start(camera, settings, aovs);
 }
 
 void HdPatinaSession::pause() {
     _paused = true;
-    _renderer->pause();
+    if (const auto current = renderer()) current->pause();
 }
 
 void HdPatinaSession::resume() {
     _paused = false;
-    _renderer->resume();
+    if (const auto current = renderer()) current->resume();
 }
 
 } // namespace patina

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hdDelegate/hydra/settings.h"
 #include "hdDelegate/renderer.h"
 
 #include <condition_variable>
@@ -19,7 +20,8 @@ struct HdPatinaFrame {
     std::string error; ///< of a render that failed
 };
 
-/// One renderer with its film, on behalf of one render pass. The renderer hands over a frame
+/// One renderer with its film, on behalf of one render pass; a change of the back end replaces the
+/// renderer and tries again what could not be started. The renderer hands over a frame
 /// whenever its film is at rest; hosts take it from there on a thread of their own.
 class HdPatinaSession {
 public:
@@ -28,7 +30,7 @@ public:
 
     /// Starts over. Frames of earlier renders are forgotten.
     /// @param aovs names of the film that frames shall hold
-    void start(const std::string& camera, const RenderSettings& settings,
+    void start(const std::string& camera, const HdPatinaSettings& settings,
                const std::vector<std::string>& aovs);
     /// The newest frame that was not taken yet, or null.
     std::shared_ptr<const HdPatinaFrame> take();
@@ -39,8 +41,8 @@ public:
     void resume();
     bool isPaused() const { return _paused; }
     bool isStopped() const { return _stopped; }
-    bool isRunning() const { return _renderer->isRunning(); }
-    RenderProgress progress() const { return _renderer->progress(); }
+    bool isRunning() const;
+    RenderProgress progress() const;
 
     /// Blocks until the last frame of the render that was started; for renders without a host that
     /// polls. @returns the frame
@@ -48,20 +50,23 @@ public:
     const std::shared_ptr<Film>& film() const { return _film; }
 
 private:
+    std::shared_ptr<Renderer> renderer() const;
+    void stopRenderer();
     void present(const Film& film, const RenderProgress& progress, uint64_t serial);
 
     std::shared_ptr<Scene> _scene;
     std::shared_ptr<Film> _film;
-    std::unique_ptr<Renderer> _renderer;
+    std::shared_ptr<Renderer> _renderer; ///< null until something is rendered
+    std::string _backend;                ///< of the renderer
     std::string _camera;
-    RenderSettings _settings;
+    HdPatinaSettings _settings;
     std::vector<std::string> _aovs;
 
     mutable std::mutex _mutex;
-    std::condition_variable _arrived;
+    std::condition_variable _arrived, _taken;
     uint64_t _serial = 0; ///< frames of older renders are dropped
     std::shared_ptr<const HdPatinaFrame> _frame;
-    bool _paused = false, _stopped = false;
+    bool _paused = false, _stopped = false, _stopping = false;
 };
 
 } // namespace patina

@@ -17,7 +17,7 @@ struct Row {
     TfToken key;
     std::string label;
     VtValue initial;
-    std::function<bool(RenderSettings&, const VtValue&)> set; ///< false: out of range
+    std::function<bool(HdPatinaSettings&, const VtValue&)> set; ///< false: out of range
 };
 
 std::optional<double> numberOf(const VtValue& value) {
@@ -43,7 +43,7 @@ std::optional<std::string> textOf(const VtValue& value) {
 }
 
 Row flag(const char* key, const char* label, bool RenderSettings::*member, bool initial) {
-    return {TfToken(key), label, VtValue(initial), [member](RenderSettings& s, const VtValue& v) {
+    return {TfToken(key), label, VtValue(initial), [member](HdPatinaSettings& s, const VtValue& v) {
                 s.*member = v.UncheckedGet<bool>();
                 return true;
             }};
@@ -55,7 +55,7 @@ Row flag(const char* key, const char* label, bool RenderSettings::*member) {
 
 Row integer(const char* key, const char* label, int RenderSettings::*member, int least, int most) {
     return {TfToken(key), label, VtValue(RenderSettings().*member),
-            [=](RenderSettings& s, const VtValue& v) {
+            [=](HdPatinaSettings& s, const VtValue& v) {
                 const int value = v.UncheckedGet<int>();
                 if (value < least || value > most) return false;
                 s.*member = value;
@@ -65,7 +65,7 @@ Row integer(const char* key, const char* label, int RenderSettings::*member, int
 
 template <class T> Row real(const char* key, const char* label, T RenderSettings::*member) {
     return {TfToken(key), label, VtValue(float(RenderSettings().*member)),
-            [=](RenderSettings& s, const VtValue& v) {
+            [=](HdPatinaSettings& s, const VtValue& v) {
                 const float value = v.UncheckedGet<float>();
                 if (!(value >= 0.0f)) return false;
                 s.*member = value;
@@ -73,10 +73,10 @@ template <class T> Row real(const char* key, const char* label, T RenderSettings
             }};
 }
 
-Row choice(const char* key, const char* label, std::string RenderSettings::*member,
+Row choice(const char* key, const char* label, std::string HdPatinaSettings::*member,
            std::vector<std::string> names) {
-    return {TfToken(key), label, VtValue(RenderSettings().*member),
-            [=](RenderSettings& s, const VtValue& v) {
+    return {TfToken(key), label, VtValue(HdPatinaSettings().*member),
+            [=](HdPatinaSettings& s, const VtValue& v) {
                 const std::string& value = v.UncheckedGet<std::string>();
                 for (const std::string& name : names)
                     if (name == value) {
@@ -88,7 +88,7 @@ Row choice(const char* key, const char* label, std::string RenderSettings::*memb
 }
 
 Row seedRow() {
-    return {TfToken("seed"), "Random seed", VtValue(0), [](RenderSettings& s, const VtValue& v) {
+    return {TfToken("seed"), "Random seed", VtValue(0), [](HdPatinaSettings& s, const VtValue& v) {
                 s.seed = uint32_t(v.UncheckedGet<int>());
                 return true;
             }};
@@ -98,6 +98,8 @@ const std::vector<Row>& rows() {
     using S = RenderSettings;
     constexpr int most = std::numeric_limits<int>::max();
     static const std::vector<Row> table = {
+        choice("backend", "Back end (auto, embree, raster, interactive)",
+               &HdPatinaSettings::backend, {"auto", "embree", "raster", "interactive"}),
         integer("samples", "Samples per pixel", &S::samples, 1, most),
         integer("minSamples", "Least samples per pixel", &S::minSamples, 1, most),
         real("tolerance", "Tolerance (mean relative error, 0: all samples)", &S::tolerance),
@@ -139,11 +141,15 @@ bool isMethod(const std::string& name) {
 
 } // namespace
 
-HdRenderSettingDescriptorList settingDescriptors() {
+HdRenderSettingDescriptorList settingDescriptors(const std::string& backend) {
     HdRenderSettingDescriptorList list;
     for (const Row& row : rows())
-        list.push_back({row.label, row.key, row.initial});
+        list.push_back({row.label, row.key, row.key == "backend" ? VtValue(backend) : row.initial});
     return list;
+}
+
+std::string backendOf(const HdPatinaSettings& settings) {
+    return settings.backend == "auto" && !settings.interactive ? "embree" : settings.backend;
 }
 
 TfToken settingKey(const TfToken& name) {
@@ -180,7 +186,7 @@ VtValue settingValue(const TfToken& key, const VtValue& value) {
     return VtValue(int(int64_t(*number)));
 }
 
-std::string applySetting(const TfToken& key, const VtValue& value, RenderSettings& settings) {
+std::string applySetting(const TfToken& key, const VtValue& value, HdPatinaSettings& settings) {
     const VtValue converted = settingValue(key, value);
     if (converted.IsEmpty()) return "has a value of the wrong type; it is left as it was";
     if (isMethod(key.GetString())) {

@@ -1,5 +1,6 @@
 #include "hdDelegate/raster/eglContext.h"
 
+#include "hdDelegate/raster/glFaults.h"
 #include "hdDelegate/raster/glFunctions.h"
 
 #include <EGL/egl.h>
@@ -25,28 +26,41 @@ template <typename Function> Function eglFunction(const char* name) {
     return reinterpret_cast<Function>(eglGetProcAddress(name));
 }
 
+bool wanted(const char* kind) {
+    const char* only = std::getenv("PATINA_EGL_PLATFORM");
+    return !only || std::strcmp(only, kind) == 0;
+}
+
+/// EGL's devices of one kind.
+std::vector<EGLDeviceEXT> devicesOf(bool software) {
+    const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    const auto queryDevices = eglFunction<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+    const auto queryDevice = eglFunction<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+    std::vector<EGLDeviceEXT> found;
+    EGLDeviceEXT devices[16];
+    EGLint count = 0;
+    if (!queryDevices || !queryDevice || !wanted("device") ||
+        !has(client, "EGL_EXT_platform_device") || !queryDevices(16, devices, &count))
+        return found;
+    for (EGLint i = 0; i < count; ++i)
+        if (has(queryDevice(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software") == software)
+            found.push_back(devices[i]);
+    return found;
+}
+
 /// Displays to try, best first.
 std::vector<EGLDisplay> candidates() {
-    const char* only = std::getenv("PATINA_EGL_PLATFORM");
-    const auto wanted = [&](const char* kind) { return !only || std::strcmp(only, kind) == 0; };
     std::vector<EGLDisplay> hardware, software, all;
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto platformDisplay =
         eglFunction<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
-    const auto queryDevices = eglFunction<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-    const auto queryDevice = eglFunction<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
-    if (platformDisplay && queryDevices && queryDevice && wanted("device") &&
-        has(client, "EGL_EXT_platform_device")) {
-        EGLDeviceEXT devices[16];
-        EGLint count = 0;
-        if (queryDevices(16, devices, &count))
-            for (EGLint i = 0; i < count; ++i) {
-                const EGLDisplay d = platformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr);
-                const bool soft =
-                    has(queryDevice(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software");
-                if (d != EGL_NO_DISPLAY) (soft ? software : hardware).push_back(d);
-            }
-    }
+    for (const bool soft : {false, true})
+        for (const EGLDeviceEXT device : devicesOf(soft)) {
+            const EGLDisplay d = platformDisplay
+                                     ? platformDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr)
+                                     : EGL_NO_DISPLAY;
+            if (d != EGL_NO_DISPLAY) (soft ? software : hardware).push_back(d);
+        }
     all = hardware;
     if (platformDisplay && wanted("surfaceless") && has(client, "EGL_MESA_platform_surfaceless"))
         all.push_back(platformDisplay(EGL_PLATFORM_SURFACELESS_MESA,
@@ -56,12 +70,28 @@ std::vector<EGLDisplay> candidates() {
     return all;
 }
 
-EGLContext createOn(EGLDisplay display, std::string& error) {
-    EGLint major = 0, minor = 0;
-    if (display == EGL_NO_DISPLAY || !eglInitialize(display, &major, &minor)) {
-        error = "EGL finds no display that it can initialize";
-        return EGL_NO_CONTEXT;
+/// " (it has ...)" for a message, where any core context can be made.
+std::string versionThere(EGLDisplay display, EGLConfig config) {
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 2,
+                                 EGL_NONE};
+    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
+    if (context == EGL_NO_CONTEXT) return std::string();
+    const EGLDisplay before = eglGetCurrentDisplay();
+    const EGLContext current = eglGetCurrentContext();
+    const EGLSurface draw = eglGetCurrentSurface(EGL_DRAW), read = eglGetCurrentSurface(EGL_READ);
+    std::string found;
+    const auto getString = eglFunction<PFNGLGETSTRINGPROC>("glGetString");
+    if (getString && eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+        const GLubyte* version = getString(GL_VERSION);
+        if (version)
+            found = std::string(" (it has ") + reinterpret_cast<const char*>(version) + ")";
+        eglMakeCurrent(current == EGL_NO_CONTEXT ? display : before, draw, read, current);
     }
+    eglDestroyContext(display, context);
+    return found;
+}
+
+EGLContext createOn(EGLDisplay display, std::string& error) {
     const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
     if (!has(extensions, "EGL_KHR_surfaceless_context")) {
         error = "EGL cannot make a context without a surface";
@@ -92,13 +122,27 @@ EGLContext createOn(EGLDisplay display, std::string& error) {
         attributes.push_back(EGL_NONE);
         context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
     }
-    if (context == EGL_NO_CONTEXT) error = "the driver has no OpenGL 4.5 core profile";
+    if (context == EGL_NO_CONTEXT)
+        error = "the driver has no OpenGL 4.5 core profile" + versionThere(display, config);
     return context;
 }
 
 std::string text(GLenum name) {
     const GLubyte* s = gl.GetString(name);
     return s ? reinterpret_cast<const char*>(s) : "";
+}
+
+/// What OpenGL 4.5 leaves open and the shaders need, with a context current.
+bool isEnough(std::string& error) {
+    constexpr GLint needed = 3;
+    GLint blocks = 0;
+    gl.GetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blocks);
+    const std::string fault = glFault("storageBlocks");
+    if (!fault.empty()) blocks = std::atoi(fault.c_str());
+    if (blocks >= needed) return true;
+    error = "the driver gives vertex shaders " + std::to_string(blocks) +
+            " storage buffers, not the " + std::to_string(needed) + " that are needed";
+    return false;
 }
 
 } // namespace
@@ -108,29 +152,38 @@ std::unique_ptr<EglContext> EglContext::create(std::string& error) {
     static std::mutex mutex;
     const std::lock_guard<std::mutex> lock(mutex);
     const EGLenum api = eglQueryAPI();
-    error = "there is no EGL display";
+    // Of what keeps the candidates from working, that of the first one with a driver is told.
+    std::string problem;
     std::unique_ptr<EglContext> result;
     for (const EGLDisplay display : candidates()) {
-        const EGLContext context = createOn(display, error);
+        EGLint major = 0, minor = 0;
+        if (display == EGL_NO_DISPLAY || !eglInitialize(display, &major, &minor)) continue;
+        std::string& why = problem.empty() ? problem : error;
+        const EGLContext context = createOn(display, why);
         if (context == EGL_NO_CONTEXT) continue;
         std::unique_ptr<EglContext> made(new EglContext);
         made->_display = display;
         made->_context = context;
         const Use use(*made);
         if (!use.ok()) {
-            error = "the driver refuses to make an OpenGL context current";
+            why = "the driver refuses to make an OpenGL context current";
             continue;
         }
         static bool loaded = false;
-        if (!loaded && !(loaded = loadGlFunctions(error))) continue;
+        if (!loaded && !(loaded = loadGlFunctions(why))) continue;
+        if (!isEnough(why)) continue;
         made->_renderer = text(GL_RENDERER);
         made->_version = text(GL_VERSION);
-        error.clear();
         result = std::move(made);
         break;
     }
+    error = result ? "" : problem.empty() ? "EGL finds no display that it can initialize" : problem;
     eglBindAPI(api);
     return result;
+}
+
+bool EglContext::hasHardware() {
+    return !devicesOf(false).empty();
 }
 
 // The display stays initialized: a host may use the same one.

@@ -14,6 +14,8 @@ class EglContext {
 public:
     /// @returns null with a one-line reason in `error`
     static std::unique_ptr<EglContext> create(std::string& error);
+    /// Whether EGL knows a device that is not software (and may use it, see PATINA_EGL_PLATFORM).
+    static bool hasHardware();
     ~EglContext(); ///< must not be current on another thread
 
     const std::string& renderer() const {

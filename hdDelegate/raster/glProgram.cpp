@@ -1,5 +1,6 @@
 #include "hdDelegate/raster/glProgram.h"
 
+#include "hdDelegate/raster/glFaults.h"
 #include "shaders/shaderText.h"
 
 namespace patina {
@@ -20,6 +21,7 @@ GLuint compile(const GlStage& stage, std::string& error) {
     ShaderText source = flattenShader(stage.name, stage.text, error);
     if (!error.empty()) return 0;
     source.text = "#version 450 core\n#line 1 0\n" + source.text;
+    if (glFault("program") == stage.name) source.text += "#error asked for by PATINA_GL_FAULT\n";
     const GLuint shader = gl.CreateShader(stage.type);
     const char* text = source.text.c_str();
     gl.ShaderSource(shader, 1, &text, nullptr);

@@ -1,6 +1,9 @@
 #include "hdDelegate/raster/glResources.h"
 
+#include "hdDelegate/raster/glFaults.h"
+
 #include <algorithm>
+#include <cstdlib>
 
 namespace patina {
 
@@ -19,6 +22,14 @@ void GlBuffer::write(const void* data, size_t size, size_t offset) {
 
 void GlBuffer::read(void* data, size_t size, size_t offset) const {
     gl.GetNamedBufferSubData(_id, GLintptr(offset), GLsizeiptr(size), data);
+}
+
+int largestTexture() {
+    const std::string fault = glFault("textureSize");
+    if (!fault.empty()) return std::max(1, std::atoi(fault.c_str()));
+    GLint largest = 0;
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    return largest;
 }
 
 GlTexture::GlTexture(GLenum target, GLenum format, int width, int height, int depth, int levels)

@@ -48,6 +48,9 @@ private:
     size_t _size = 0;
 };
 
+/// Pixels along a side of the driver's largest texture.
+int largestTexture();
+
 /// A texture with storage that does not change.
 class GlTexture {
 public:

@@ -1,5 +1,7 @@
 #include "hdDelegate/raster/rasterMaterials.h"
 
+#include "hdDelegate/raster/deviceError.h"
+#include "hdDelegate/raster/glFaults.h"
 #include "materialNetwork/material.h"
 
 #include <algorithm>
@@ -61,6 +63,14 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
     for (const std::string& line : m.glsl.leftOut)
         _diagnostics.warn(key, "", line);
     m.programs = build(m.glsl, int(m.program->primvars().size()), key);
+    if (!m.programs && key.empty())
+        throw DeviceError("the driver does not take the shader of displayColor");
+    if (!m.programs) {
+        const RasterMaterial& shown = get(std::string(), user, state, settings);
+        m.program = shown.program;
+        m.glsl = shown.glsl;
+        m.programs = shown.programs;
+    }
     m.parameters = GlBuffer(m.glsl.parameters);
     for (const int handle : m.glsl.textures)
         m.textures.push_back(texture(handle));
@@ -69,17 +79,19 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
 
 std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial& glsl, int primvars,
                                                              const std::string& user) {
+    const bool faulty = !user.empty() && glFault("material") == user;
     const std::string head = "#define PRIMVARS " + std::to_string(primvars) + "\n" +
                              (glsl.presence ? "#define PRESENCE\n" : "") +
                              "#define MATERIAL_GLOWS " + (glsl.emission ? "true\n" : "false\n");
-    auto& shared = _programs[head + glsl.text];
+    auto& shared = _programs[head + glsl.text + (faulty ? "faulty" : "")];
     if (shared) return shared;
     const GlStage vertex{GL_VERTEX_SHADER, "surface",
                          head + "#include \"shaders/raster/surface.vert.glsl\"\n"};
     const std::string surface = head +
                                 "#include \"shaders/raster/material.glsl\"\n"
                                 "#include \"shaders/raster/pass.glsl\"\n" +
-                                glsl.text + "#include \"shaders/raster/surface.frag.glsl\"\n";
+                                glsl.text + "#include \"shaders/raster/surface.frag.glsl\"\n" +
+                                (faulty ? "#error asked for by PATINA_GL_FAULT\n" : "");
     auto programs = std::make_shared<RasterPrograms>();
     std::string error;
     programs->color =
@@ -103,9 +115,9 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
     ++_built;
     if (!programs->aovs || (glsl.presence && !programs->shadow)) {
         _diagnostics.warn(user, "",
-                          "the driver does not take the material's shader, prims with it "
-                          "are not drawn: " +
-                              error);
+                          "the driver does not take the material's shader; displayColor is "
+                          "shown: " +
+                              oneLine(error));
         return nullptr;
     }
     return shared = programs;
@@ -123,18 +135,21 @@ std::shared_ptr<const GlTexture> RasterMaterials::texture(int handle) {
         gl.TextureSubImage2D(texture->id(), 0, 0, 0, 1, 1, GL_RGBA, GL_FLOAT, &magenta);
         return cached = texture;
     }
-    GLint largest = 0;
-    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    const int largest = largestTexture();
     const auto& levels = image->levels();
     size_t first = 0;
     while (first + 1 < levels.size() &&
            std::max(levels[first].width, levels[first].height) > largest)
         ++first;
     const TextureRequest& request = _textures.request(handle);
+    const auto size = [&](size_t level) {
+        return std::to_string(levels[level].width) + " x " + std::to_string(levels[level].height);
+    };
     if (first > 0)
         _diagnostics.warn(request.prim, request.input,
-                          "'" + request.file + "' is larger than the driver's textures (" +
-                              std::to_string(largest) + "); a smaller level is shown");
+                          "'" + request.file + "' has " + size(0) + " pixels, the driver takes " +
+                              std::to_string(largest) + " along a side; it is shown with " +
+                              size(first));
     *texture = GlTexture(GL_TEXTURE_2D, GL_RGBA16F, levels[first].width, levels[first].height, 1,
                          int(levels.size() - first));
     std::vector<vec4> texels;

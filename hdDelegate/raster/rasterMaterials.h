@@ -21,7 +21,7 @@ struct RasterPrograms {
 struct RasterMaterial {
     std::shared_ptr<const MaterialProgram> program;
     GlslMaterial glsl;
-    std::shared_ptr<const RasterPrograms> programs; ///< null: its text does not compile
+    std::shared_ptr<const RasterPrograms> programs; ///< displayColor's where its own do not compile
     GlBuffer parameters;
     std::vector<std::shared_ptr<const GlTexture>> textures;
 };

@@ -1,6 +1,8 @@
 #include "hdDelegate/raster/rasterRenderer.h"
 
+#include "hdDelegate/raster/deviceError.h"
 #include "hdDelegate/raster/eglContext.h"
+#include "hdDelegate/raster/glFaults.h"
 #include "hdDelegate/raster/rasterPasses.h"
 
 #include <algorithm>
@@ -8,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -40,14 +43,27 @@ vec2 filterOffset(vec2 u, float radius) {
     return {r * std::cos(phi), r * std::sin(phi)};
 }
 
+/// Runs a function on a thread of its own: where a host's thread has a context of GLX current, EGL
+/// can make none current, and OpenGL's functions would reach the host's.
+template <class Function> void onOwnThread(const Function& function) {
+    std::thread(function).join();
+}
+
 class RasterRenderer : public Renderer {
 public:
-    explicit RasterRenderer(std::unique_ptr<EglContext> context) : _context(std::move(context)) {}
+    explicit RasterRenderer(std::unique_ptr<EglContext> context) : _context(std::move(context)) {
+        _progress.backend = "raster";
+    }
 
     ~RasterRenderer() override {
         stop();
-        const EglContext::Use use(*_context);
-        release();
+        onOwnThread([this] {
+            {
+                const EglContext::Use use(*_context);
+                release();
+            }
+            _context.reset();
+        });
     }
 
     void start(std::shared_ptr<Scene> scene, const std::string& camera,
@@ -61,6 +77,7 @@ public:
         {
             const std::lock_guard<std::mutex> lock(_mutex);
             _progress = RenderProgress();
+            _progress.backend = "raster";
             _idle = false;
         }
         _running = true;
@@ -118,9 +135,11 @@ private:
 
     void run(std::shared_ptr<const SceneState> state, std::string cameraPath) {
         std::string failure;
+        bool deviceFailed = false;
         try {
             const EglContext::Use use(*_context);
-            if (!use.ok()) throw std::runtime_error("the OpenGL context cannot be used");
+            if (!use.ok()) throw DeviceError("the OpenGL context cannot be used");
+            if (!_deviceFailure.empty()) throw DeviceError(_deviceFailure);
             if (_settings.width < 1 || _settings.height < 1)
                 throw std::runtime_error("the image has no pixels");
             const auto camera = state->cameras.find(cameraPath);
@@ -132,11 +151,20 @@ private:
                     throw std::runtime_error("the camera " + cameraPath +
                                              " has a transform without an inverse");
             }
-            render(*state, *camera->second);
+            try {
+                render(*state, *camera->second);
+            } catch (const DeviceError& error) {
+                _deviceFailure = error.what();
+                release(); // another back end needs the memory
+                throw;
+            }
+        } catch (const DeviceError& error) {
+            failure = "the rasterizer has failed: " + std::string(error.what());
+            deviceFailed = true;
         } catch (const std::exception& error) {
             failure = error.what();
         }
-        finish(failure);
+        finish(failure, deviceFailed);
     }
 
     void build(const SceneState& state, const RasterCamera& camera) {
@@ -145,7 +173,7 @@ private:
             std::string error;
             _passes = std::make_unique<RasterPasses>(error);
             if (!_passes->ok())
-                throw std::runtime_error("the driver does not take the shaders: " + error);
+                throw DeviceError("the driver does not take the shaders: " + oneLine(error));
             _raster = std::make_unique<RasterScene>(_scene->diagnostics());
             _images = std::make_unique<LightImages>(_scene->diagnostics());
             _builtFor = _scene;
@@ -162,10 +190,14 @@ private:
 
     void render(const SceneState& state, const Camera& cameraPrim) {
         const RasterCamera camera(cameraPrim, _settings);
+        checkDevice(0);
         build(state, camera);
         if (_stop) return;
         if (!_passes->resize(_settings))
-            throw std::runtime_error("the driver has no room for an image of this size");
+            throw DeviceError("the driver has no room for an image of " +
+                              std::to_string(_settings.width) + " x " +
+                              std::to_string(_settings.height) + " pixels");
+        checkDevice(0);
         std::vector<AovSpec> aovs;
         for (const std::string& name : _settings.aovs)
             if (name != "color" && name != "alpha" && name != "sampleCount" && name != "variance")
@@ -194,9 +226,7 @@ private:
             const vec2 lens = evenly(index, 0.8191725133961645, 0.6710436067037893);
             _raster->moveTo(state, _settings, camera.timeCode(time));
             _passes->draw(*_raster, *_lights, camera, index, i + 1, offset, lens, time, *_film);
-            if (gl.GetError() == GL_OUT_OF_MEMORY)
-                throw std::runtime_error("the driver is out of memory");
-            if (_context->lost()) throw std::runtime_error("the driver has reset the context");
+            checkDevice(int(i) + 1);
             {
                 const std::lock_guard<std::mutex> lock(_mutex);
                 _progress.samplesDone = int(i) + 1;
@@ -230,6 +260,20 @@ private:
         to["secondsRead"] = _passes->seconds(RasterPasses::ReadBack);
     }
 
+    /// @param passes that were drawn
+    void checkDevice(int passes) const {
+        const auto asked = [&](const char* fault) {
+            const std::string after = glFault(fault);
+            return !after.empty() && passes >= std::atoi(after.c_str());
+        };
+        bool full = asked("memory");
+        for (GLenum error; !full && (error = gl.GetError()) != GL_NO_ERROR;)
+            full = error == GL_OUT_OF_MEMORY;
+        if (full) throw DeviceError("the driver is out of memory");
+        if (_context->lost() || asked("lost"))
+            throw DeviceError("the driver has reset the OpenGL context");
+    }
+
     bool waitWhilePaused() {
         std::unique_lock<std::mutex> lock(_mutex);
         if (_pause) {
@@ -241,10 +285,11 @@ private:
         return !_stop;
     }
 
-    void finish(const std::string& failure) {
+    void finish(const std::string& failure, bool deviceFailed) {
         RenderProgress seen = progress();
         if (!failure.empty()) {
             seen.failed = true;
+            seen.deviceFailed = deviceFailed;
             seen.error = failure;
         } else if (!_stop) {
             seen.converged = true;
@@ -280,13 +325,19 @@ private:
     RenderProgress _progress;
     std::atomic<bool> _running{false}, _stop{false}, _pause{false};
     bool _idle = true;
+    std::string _deviceFailure; ///< what was made with the context is gone
     Clock::time_point _started;
 };
 
 } // namespace
 
+bool hasGpu() {
+    return EglContext::hasHardware();
+}
+
 std::unique_ptr<Renderer> makeRasterRenderer(std::string& error) {
-    auto context = EglContext::create(error);
+    std::unique_ptr<EglContext> context;
+    onOwnThread([&] { context = EglContext::create(error); });
     if (!context) {
         error = "the rasterizer cannot run: " + error;
         return nullptr;

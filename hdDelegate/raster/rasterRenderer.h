@@ -17,4 +17,7 @@ namespace patina {
 /// @returns null with a one-line reason where there is no OpenGL 4.5
 std::unique_ptr<Renderer> makeRasterRenderer(std::string& error);
 
+/// Whether EGL knows a device that is not software. Quick: no driver is loaded for the answer.
+bool hasGpu();
+
 } // namespace patina

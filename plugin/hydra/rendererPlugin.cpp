@@ -12,6 +12,7 @@ PXR_NAMESPACE_OPEN_SCOPE
 
 TF_REGISTRY_FUNCTION(TfType) {
     HdRendererPluginRegistry::Define<HdPatinaRendererPlugin>();
+    HdRendererPluginRegistry::Define<HdPatinaRasterRendererPlugin>();
 }
 
 HdRenderDelegate* HdPatinaRendererPlugin::CreateRenderDelegate() {
@@ -21,7 +22,7 @@ HdRenderDelegate* HdPatinaRendererPlugin::CreateRenderDelegate() {
 HdRenderDelegate*
 HdPatinaRendererPlugin::CreateRenderDelegate(const HdRenderSettingsMap& settings) {
     try {
-        return new patina::HdPatinaRenderDelegate(settings);
+        return new patina::HdPatinaRenderDelegate(settings, _backend);
     } catch (const std::exception& error) {
         TF_RUNTIME_ERROR("Patina cannot start: %s", error.what());
         return nullptr;

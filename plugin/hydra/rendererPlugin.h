@@ -7,9 +7,12 @@
 // Names of types that plugInfo.json gives hold no namespace, so this one class lives in OpenUSD's.
 PXR_NAMESPACE_OPEN_SCOPE
 
-/// What hosts load as "Patina". It needs no GPU and touches no graphics API.
-class HdPatinaRendererPlugin final : public HdRendererPlugin {
+/// What hosts load as "Patina". It needs no GPU; where there is one, contexts of its own make the
+/// first images of interactive sessions, and never touch those of the host.
+class HdPatinaRendererPlugin : public HdRendererPlugin {
 public:
+    HdPatinaRendererPlugin() : HdPatinaRendererPlugin("auto") {}
+
     HdRenderDelegate* CreateRenderDelegate() override;
     HdRenderDelegate* CreateRenderDelegate(const HdRenderSettingsMap& settings) override;
     void DeleteRenderDelegate(HdRenderDelegate* delegate) override;
@@ -24,6 +27,20 @@ public:
 #else
     bool IsSupported(bool gpuEnabled) const override;
 #endif
+
+protected:
+    /// @param backend default of the render setting `backend`
+    explicit HdPatinaRendererPlugin(const char* backend) : _backend(backend) {}
+
+private:
+    const char* _backend;
+};
+
+/// "Patina GL": the same, rasterizing. Where it finds no OpenGL it path traces, with a warning, so
+/// that a host may always offer it.
+class HdPatinaRasterRendererPlugin final : public HdPatinaRendererPlugin {
+public:
+    HdPatinaRasterRendererPlugin() : HdPatinaRendererPlugin("raster") {}
 };
 
 PXR_NAMESPACE_CLOSE_SCOPE

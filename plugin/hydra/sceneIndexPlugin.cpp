@@ -49,9 +49,10 @@ TF_REGISTRY_FUNCTION(TfType) {
 
 TF_REGISTRY_FUNCTION(HdSceneIndexPlugin) {
     constexpr HdSceneIndexPluginRegistry::InsertionPhase phase = 0;
-    HdSceneIndexPluginRegistry::GetInstance().RegisterSceneIndexForRenderer(
-        "Patina", TfToken("HdPatinaSceneIndexPlugin"), nullptr, phase,
-        HdSceneIndexPluginRegistry::InsertionOrderAtStart);
+    for (const char* renderer : {"Patina", "Patina GL"})
+        HdSceneIndexPluginRegistry::GetInstance().RegisterSceneIndexForRenderer(
+            renderer, TfToken("HdPatinaSceneIndexPlugin"), nullptr, phase,
+            HdSceneIndexPluginRegistry::InsertionOrderAtStart);
 }
 
 PXR_NAMESPACE_CLOSE_SCOPE

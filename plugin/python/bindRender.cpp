@@ -1,9 +1,7 @@
 // The renderer of the Python module. Settings are a dict with the names of RenderSettings' fields.
 
 #include "hdDelegate/renderer.h"
-#ifdef PATINA_HAS_RASTER
-#include "hdDelegate/raster/rasterRenderer.h"
-#endif
+#include "hdDelegate/backends/backends.h"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -140,22 +138,14 @@ py::dict progress(const Renderer& renderer) {
     dict["converged"] = p.converged;
     dict["failed"] = p.failed;
     dict["error"] = p.error;
+    dict["deviceFailed"] = p.deviceFailed;
+    dict["backend"] = p.backend;
     dict["statistics"] = p.statistics;
     return dict;
 }
 
 std::unique_ptr<Renderer> make(const std::string& backend) {
-    if (backend == "raster") {
-#ifdef PATINA_HAS_RASTER
-        std::string error;
-        std::unique_ptr<Renderer> raster = makeRasterRenderer(error);
-        if (!raster) throw std::runtime_error(error);
-        return raster;
-#else
-        throw std::runtime_error("this build has no rasterizer: EGL was not found");
-#endif
-    }
-    std::unique_ptr<Renderer> renderer = makeRenderer(backend);
+    std::unique_ptr<Renderer> renderer = makeBackend(backend);
     if (!renderer) throw py::value_error("there is no back end '" + backend + "'");
     return renderer;
 }

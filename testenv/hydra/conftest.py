@@ -5,7 +5,7 @@ import sys
 
 HERE = os.path.dirname(__file__)
 sys.path.insert(0, HERE)
-sys.path.append(os.path.join(HERE, "..", "render"))
+sys.path += [os.path.join(HERE, "..", folder) for folder in ("render", "raster")]
 
 import hydraBuild  # noqa: E402
 

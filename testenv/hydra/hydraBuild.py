@@ -44,18 +44,20 @@ def environment(scene_index=False, **more):
     return values
 
 
-def run_host(stage, *arguments, scene_index=False, check=True):
-    """Runs hydraHost. :returns: the finished process"""
+def run_host(stage, *arguments, scene_index=False, check=True, **more):
+    """Runs hydraHost. :param more: environment variables
+    :returns: the finished process"""
     command = [folder("host"), str(stage), *map(str, arguments)] + (["--sceneIndex"] if scene_index else [])
-    return _run(command, environment(scene_index), check)
+    return _run(command, environment(scene_index, **more), check)
 
 
-def run_usdrecord(stage, image, *arguments, scene_index=False, check=True, gl=False, timeout=TIMEOUT, **more):
+def run_usdrecord(stage, image, *arguments, scene_index=False, check=True, gl=False, timeout=TIMEOUT,
+                  renderer="Patina", **more):
     """Runs usdrecord with our renderer. :param gl: with a GL context, on a screen that no one sees
     :returns: the finished process"""
     build = _read()
     script = os.path.join(build["root"], "bin", "usdrecord")
-    command = [build["python"], script, "--renderer", "Patina", *map(str, arguments), str(stage), str(image)]
+    command = [build["python"], script, "--renderer", renderer, *map(str, arguments), str(stage), str(image)]
     if gl:
         command = xvfb() + command
     else:

@@ -30,6 +30,18 @@ def record(stage, image, *arguments):
     return time.monotonic() - start
 
 
+def without_opengl():
+    """:returns: why the rasterizer cannot run here, or an empty text"""
+    import _patina
+
+    renderer = _patina.make_renderer("raster")
+    if renderer.progress()["backend"] == "raster":
+        return ""
+    scene = _patina.Scene()
+    renderer.start(scene, "/none", {}, _patina.Film())
+    return scene.warnings()[0]["message"]
+
+
 def pixels(image):
     """:returns: linear float array (height, width, 3)"""
     import _patina

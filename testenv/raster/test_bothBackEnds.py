@@ -3,9 +3,6 @@
 The limits are what was measured with these very settings, and a little more. Both images are made of fixed seeds, so that
 a difference is a change of the code.
 """
-import subprocess
-import sys
-
 import pytest
 
 import bothBackEnds
@@ -20,19 +17,9 @@ LIMITS = {
 }
 
 
-def _has_opengl():
-    import _patina
-
-    try:
-        _patina.make_renderer("raster")
-    except RuntimeError as error:
-        return str(error)
-    return ""
-
-
 @pytest.fixture(scope="module", autouse=True)
 def opengl():
-    reason = _has_opengl()
+    reason = bothBackEnds.without_opengl()
     if reason:
         pytest.skip(reason)
 
@@ -65,14 +52,3 @@ def test_aovs_are_the_path_tracers(tmp_path):
             continue
         same = np.isclose(values, found["embree"][channel], rtol=1e-3, atol=2e-3)
         assert same.mean() > 0.985, (channel, same.mean())  # silhouettes may fall to either side
-
-
-def test_without_opengl_the_command_says_why(tmp_path):
-    import os
-
-    process = subprocess.run([sys.executable, "-m", "patina", "record", bothBackEnds.SCENES + "/lightRect.usda",
-                              str(tmp_path / "x.png"), "--backend", "raster"], capture_output=True, text=True,
-                             env=dict(os.environ, PATINA_EGL_PLATFORM="none"))
-    assert process.returncode == 1
-    assert process.stderr.strip().count("\n") == 0 and "EGL" in process.stderr
-    assert not (tmp_path / "x.png").exists()

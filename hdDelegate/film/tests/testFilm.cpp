@@ -165,4 +165,34 @@ TEST(Film, WrongRequestsAreRefusedByName) {
     EXPECT_EQ(standardAov("primvars:displayColor").components, 3);
 }
 
+TEST(Film, MeansAreReplacedToTheBit) {
+    Film film;
+    film.reset(2, 1, {});
+    for (int i = 0; i < 7; ++i)
+        film.addColor(0, 0, glm::vec3(0.1f * float(i), 0.3f, 1.0f), 0.5f);
+    const float variance = film.varianceOfMean(0, 0);
+    const glm::vec3 mean(0.123456f, 7.654321f, 1e-7f);
+    film.setMean(0, 0, mean, 0.7f);
+    film.setMean(1, 0, mean, 0.7f); // without samples it stays as it is
+    EXPECT_EQ(film.color(0, 0), mean);
+    EXPECT_EQ(film.alpha(0, 0), 0.7f);
+    EXPECT_EQ(film.sampleCount(0, 0), 7u);
+    EXPECT_NEAR(film.varianceOfMean(0, 0), variance, 1e-4f * variance);
+    EXPECT_EQ(film.color(1, 0), glm::vec3(0.0f));
+}
+
+TEST(Film, CopiesAreEqualAndApart) {
+    Film film, copy;
+    film.reset(2, 2, {standardAov("depth")});
+    const float depth = 3.0f;
+    film.addColor(1, 1, glm::vec3(0.25f), 1.0f);
+    film.addAov(0, 1, 1, &depth, 0.1f);
+    film.addColor(0, 0, glm::vec3(NAN), 1.0f);
+    copy.copyFrom(film);
+    film.addColor(1, 1, glm::vec3(0.75f), 1.0f);
+    EXPECT_EQ(copy.color(1, 1), glm::vec3(0.25f));
+    EXPECT_EQ(copy.resolve("depth"), film.resolve("depth"));
+    EXPECT_EQ(copy.droppedSamples(), 1u);
+}
+
 } // namespace patina

@@ -9,8 +9,8 @@ using namespace patina;
 
 namespace {
 
-RenderSettings with(const char* name, const VtValue& value, std::string* problem = nullptr) {
-    RenderSettings settings;
+HdPatinaSettings with(const char* name, const VtValue& value, std::string* problem = nullptr) {
+    HdPatinaSettings settings;
     const std::string text = applySetting(settingKey(TfToken(name)), value, settings);
     if (problem) *problem = text;
     return settings;
@@ -19,12 +19,12 @@ RenderSettings with(const char* name, const VtValue& value, std::string* problem
 } // namespace
 
 TEST(SettingsTable, DescriptorsHaveTheDefaultsOfTheSettings) {
-    const RenderSettings defaults;
+    const HdPatinaSettings defaults;
     std::set<TfToken> keys;
     for (const auto& descriptor : settingDescriptors()) {
         EXPECT_TRUE(keys.insert(descriptor.key).second) << descriptor.key.GetText();
         EXPECT_FALSE(descriptor.name.empty());
-        RenderSettings settings;
+        HdPatinaSettings settings;
         EXPECT_EQ(applySetting(descriptor.key, descriptor.defaultValue, settings), "");
         const VtValue initial = descriptor.key == TfToken("samples") ? VtValue(defaults.samples)
                                 : descriptor.key == TfToken("filterRadius")
@@ -60,7 +60,7 @@ TEST(SettingsTable, NumbersOfEveryTypeAreTaken) {
 
 TEST(SettingsTable, NonsenseIsRefusedWithAReason) {
     std::string problem;
-    EXPECT_EQ(with("samples", VtValue(0), &problem).samples, RenderSettings().samples);
+    EXPECT_EQ(with("samples", VtValue(0), &problem).samples, HdPatinaSettings().samples);
     EXPECT_NE(problem, "");
     with("samples", VtValue(std::string("many")), &problem);
     EXPECT_NE(problem, "");

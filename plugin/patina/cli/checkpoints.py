@@ -11,8 +11,10 @@ def path_of(image):
     return image + ".checkpoint"
 
 
-def token(stage, settings, others):
-    """Hash of everything that the samples depend on: the stage's layers, the settings, and others.
+def token(stage, settings, others, backend):
+    """BACKEND:HASH of everything that the samples depend on: the stage's layers, the settings, and others.
+
+    A render that falls back to another back end replaces the part before the colon.
 
     Textures are not looked at: one that was painted over between the halves of a render is not
     noticed.
@@ -29,7 +31,7 @@ def token(stage, settings, others):
             layers.append([layer.identifier])
     kept = {name: value for name, value in settings.items() if name not in _FREE}
     text = json.dumps([sorted(layers, key=str), kept, others], sort_keys=True, default=str)
-    return hashlib.sha256(text.encode()).hexdigest()
+    return backend + ":" + hashlib.sha256(text.encode()).hexdigest()
 
 
 def resume(film, path, expected):
@@ -44,7 +46,7 @@ def resume(film, path, expected):
     except RuntimeError as error:
         return f"{error}; starting anew"
     if film.resume_token != expected:
-        return f"{path} is of another stage, camera or settings; starting anew"
+        return f"{path} is of another stage, camera, back end or settings; starting anew"
     return None
 
 

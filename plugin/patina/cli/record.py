@@ -64,7 +64,7 @@ class _Job:
             Progress("", self.arguments.quiet).say(note)
         self._check_warnings()
         settings = dict(self.settings, **self._size(info))
-        film, token = self._film(image, settings, info, frame)
+        film = self._film(image, settings, info, frame)
         if self.arguments.checkpointSeconds > 0.0:
             settings["checkpointFile"] = checkpoints.path_of(image)
         self._render(film, image, settings, info.camera)
@@ -100,23 +100,25 @@ class _Job:
         return {"width": width, "height": height}
 
     def _film(self, image, settings, info, frame):
-        """:returns: an empty film, or that of a checkpoint, and its token"""
+        """:returns: an empty film, or that of a checkpoint"""
         film = self.module.Film()
         token = checkpoints.token(self.stage, settings, [
-            info.camera, frame, self.purposes, self.arguments.complexity, self.arguments.mask, self.arguments.set])
+            info.camera, frame, self.purposes, self.arguments.complexity, self.arguments.mask, self.arguments.set],
+            self.renderer.progress()["backend"])
         if self.arguments.resume:
             problem = checkpoints.resume(film, checkpoints.path_of(image), token)
             if problem:
                 self.statistics.warn(image, "", problem)
                 film = self.module.Film()
         film.resume_token = token
-        return film, token
+        return film
 
     def _render(self, film, image, settings, camera):
         a = self.arguments
         progress = Progress(image, a.quiet)
         with self.statistics.phase("render"), Interrupts() as interrupts:
             self.renderer.start(self.scene, camera, settings, film)
+            self._check_warnings()  # of a back end that cannot start
             while not self.renderer.wait(0.1) and not interrupts.met:
                 progress.show(self.renderer.progress())
             self.renderer.stop()

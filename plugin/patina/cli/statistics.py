@@ -30,7 +30,7 @@ class Statistics:
 
     def __init__(self, arguments):
         self._begin = time.perf_counter()
-        self._total = {"stage": arguments.stage, "backend": arguments.backend, "version": __version__}
+        self._total = {"stage": arguments.stage, "requestedBackend": arguments.backend, "version": __version__}
         self._seconds = dict.fromkeys(PHASES, 0.0)
         self._frames = []
         self._frame = None
@@ -63,7 +63,7 @@ class Statistics:
         counts = film.resolve("sampleCount") if film.width else None
         samples = int(counts.astype("float64").sum()) if counts is not None else 0
         self._frame.update(
-            width=film.width, height=film.height, samples=samples,
+            backend=state["backend"], width=film.width, height=film.height, samples=samples,
             samplesPerPixel=samples / counts.size if samples else 0.0, converged=state["converged"],
             droppedSamples=film.dropped_samples,
             **{name: int(value) if float(value).is_integer() else value for name, value in numbers.items()
@@ -93,7 +93,7 @@ class Statistics:
         """:returns: dict of what the image's file says about its making"""
         frame = self._frame
         values = {"Software": f"Patina {__version__}", "patina:stage": arguments.stage, "patina:camera": camera,
-                  "patina:backend": arguments.backend, "patina:seed": settings["seed"],
+                  "patina:backend": frame["backend"], "patina:seed": settings["seed"],
                   "patina:samples": frame["samplesPerPixel"], "patina:maxDepth": settings["maxDepth"],
                   "patina:seconds": frame["seconds"].get("build", 0.0) + frame["seconds"].get("render", 0.0),
                   "patina:warnings": len(self.warnings())}
@@ -109,6 +109,8 @@ class Statistics:
         """:param file: a path, or - for standard output"""
         self._seconds["total"] = time.perf_counter() - self._begin
         result = dict(self._total, seconds={name: round(s, 6) for name, s in self._seconds.items()})
+        made = sorted({frame["backend"] for frame in self._frames if "backend" in frame})
+        result["backend"] = made[0] if len(made) == 1 else made or None
         for name in ("samples", "rays", "shadowRays", "paths", "droppedSamples"):
             if any(name in frame for frame in self._frames):
                 result[name] = sum(frame.get(name, 0) for frame in self._frames)

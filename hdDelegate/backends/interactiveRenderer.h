@@ -1,0 +1,85 @@
+#pragma once
+
+#include "hdDelegate/backends/picture.h"
+#include "hdDelegate/renderer.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace patina {
+
+/// A quick renderer's image at once, refined by a slow one, without a jump between them.
+///
+/// Both render at the same time: the slow one, into the host's film, from the moment that the quick
+/// one has shown something (or after a fifth of a second). The listener is given a film of its own
+/// until the end: the quick one's, then refine() of both; largestStep() between two calls is never
+/// above `largestChange`. It is called for the last time with the host's film, which is the slow
+/// renderer's alone. AOVs besides colour are the quick renderer's until the slow one has taken a
+/// sample of every pixel, and then the slow one's.
+///
+/// When the quick one loses its device, the scene's diagnostics say so and it is not asked again.
+/// Without a listener only the slow one runs.
+class InteractiveRenderer : public Renderer {
+public:
+    static constexpr float largestChange = 0.04f; ///< of what eyes see, see toEye()
+    static constexpr int quickSamples = 16;       ///< per pixel, of the quick renderer
+
+    InteractiveRenderer(std::unique_ptr<Renderer> quick, std::unique_ptr<Renderer> slow);
+    ~InteractiveRenderer() override { stop(); }
+
+    void start(std::shared_ptr<Scene> scene, const std::string& camera,
+               const RenderSettings& settings, std::shared_ptr<Film> film) override;
+    void stop() override;
+    void pause() override;
+    void resume() override;
+    bool isRunning() const override { return _running; }
+    void wait() override;
+    RenderProgress progress() const override;
+    void setListener(FilmListener listener) override { _listener = std::move(listener); }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    /// What one of the two has brought.
+    struct Source {
+        std::unique_ptr<Film> film = std::make_unique<Film>(); ///< a copy, to be overwritten
+        RenderProgress progress;                               ///< at that time
+        bool news = false;                                     ///< since it was last looked at
+        Picture picture;                                       ///< of the film
+        Picture noise; ///< of the film, when it is the slow one's
+
+        bool hasImage() const { return !picture.empty(); }
+        bool ended() const { return progress.converged || progress.failed; }
+    };
+
+    void hear(Source& source, const Film& film, const RenderProgress& progress);
+    void run(std::string camera);
+    void changeOver(const std::string& camera);
+    bool awaitNews(const std::string& camera, Clock::time_point started, bool stepping, bool shown);
+    void startSlow(const std::string& camera);
+    bool fetch(Source& from, Source& to);
+    void lookAtFailure(const RenderProgress& quick);
+    void end(const RenderProgress& last);
+
+    std::unique_ptr<Renderer> _quick, _slow;
+    FilmListener _listener;
+    std::atomic<bool> _quickLost{false};
+
+    std::shared_ptr<Scene> _scene;
+    RenderSettings _settings;
+    std::shared_ptr<Film> _film, _quickFilm;
+
+    std::thread _thread; ///< calls the listener
+    std::mutex _control; ///< start and stop exclude each other
+    mutable std::mutex _mutex;
+    std::condition_variable _changed;
+    Source _fromQuick, _fromSlow; ///< guarded by _mutex
+    RenderProgress _last;         ///< of a render that has ended
+    bool _quickEnded = false, _slowStarted = false, _pause = false, _stop = false;
+    std::atomic<bool> _running{false};
+};
+
+} // namespace patina

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "hdDelegate/scene/settings.h"
+
+#include <string>
+
+namespace patina {
+
+/// What a Hydra host chooses: how to render, and with what.
+struct HdPatinaSettings : RenderSettings {
+    /// embree, raster, interactive (the rasterizer's image, refined by path tracing), or auto:
+    /// interactive in interactive hosts where there is a GPU, else embree.
+    std::string backend = "auto";
+};
+
+/// The back end that makeBackend() shall make.
+std::string backendOf(const HdPatinaSettings& settings);
+
+} // namespace patina

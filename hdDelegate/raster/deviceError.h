@@ -1,0 +1,16 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace patina {
+
+/// The device or its driver cannot do it, while another back end may.
+struct DeviceError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The log of a driver as one line of at most 300 characters.
+std::string oneLine(const std::string& log);
+
+} // namespace patina

@@ -1,0 +1,100 @@
+"""The rasterizer in Hydra: the render setting `backend`, the renderer "Patina GL", images that change over from one to
+the other, and what is shown where OpenGL fails."""
+import json
+import os
+
+import numpy as np
+import pytest
+
+import bothBackEnds
+import hydraBuild
+import stages
+from rendering import color
+
+SCENE = os.path.join(stages.SCENES, "lightRect.usda")
+HOST = ["--size", "48x32", "--camera", "/World/camera", "--set", "samples=4"]
+
+
+def render(folder, name, *arguments, **more):
+    """:returns: pixels, statistics and warnings of what hydraHost renders"""
+    image, report = folder / (name + ".exr"), folder / (name + ".json")
+    process = hydraBuild.run_host(SCENE, image, *HOST, "--json", report, *arguments, **more)
+    with open(report, encoding="utf-8") as file:
+        statistics = json.load(file)["stats"]
+    return color(image), statistics, hydraBuild.warnings_of(process)
+
+
+@pytest.fixture(scope="module")
+def traced(tmp_path_factory):
+    pixels, statistics, warnings = render(tmp_path_factory.mktemp("traced"), "image", "--set", "backend=embree")
+    assert statistics["patina:backend"] == "embree" and not warnings
+    return pixels
+
+
+@pytest.fixture
+def opengl():
+    reason = bothBackEnds.without_opengl()
+    if reason:
+        pytest.skip(reason)
+
+
+@pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])
+@pytest.mark.parametrize("how", [["--set", "backend=raster"], ["--renderer", "HdPatinaRasterRendererPlugin"]],
+                         ids=["setting", "renderer"])
+def test_the_rasterizer_is_a_setting_and_a_renderer(opengl, traced, tmp_path, how, scene_index):
+    pixels, statistics, warnings = render(tmp_path, "image", *how, scene_index=scene_index)
+    assert statistics["patina:backend"] == "raster" and not warnings
+    assert 0.0 < abs(pixels - traced).max()  # another image, of the same scene
+    assert abs(pixels.mean() - traced.mean()) < 0.15 * traced.mean()
+
+
+def test_what_begins_rasterized_ends_path_traced(traced, tmp_path):
+    pixels, statistics, _ = render(tmp_path, "image", "--set", "backend=interactive")
+    assert statistics["patina:backend"] == "embree"
+    np.testing.assert_array_equal(pixels, traced)
+
+
+def test_without_opengl_one_warning_and_the_path_tracer(traced, tmp_path):
+    for backend in ("raster", "interactive"):
+        pixels, statistics, warnings = render(tmp_path, backend, "--set", "backend=" + backend,
+                                              PATINA_EGL_PLATFORM="none")
+        assert statistics["patina:backend"] == "embree"
+        assert len(warnings) == 1 and "EGL" in warnings[0]
+        np.testing.assert_array_equal(pixels, traced)
+
+
+@pytest.mark.parametrize("backend", ["raster", "interactive"])
+def test_a_context_that_is_lost_in_a_session_hands_over(opengl, traced, tmp_path, backend):
+    script = tmp_path / "edits.txt"
+    last = tmp_path / "last.exr"
+    script.write_text(f"set samples 3\nexecute 3\nset samples 6\nrender\nset samples 4\nrender\nwrite {last}\n",
+                      encoding="utf-8")
+    _, statistics, warnings = render(tmp_path, "image", "--set", "backend=" + backend, "--edits", script,
+                                     PATINA_GL_FAULT="lost:2")
+    assert statistics["patina:backend"] == "embree"
+    assert len(warnings) == 1 and "has reset the OpenGL context" in warnings[0]
+    np.testing.assert_array_equal(color(last), traced)
+
+
+def test_the_setting_changes_the_back_end_of_a_running_session(opengl, traced, tmp_path):
+    script = tmp_path / "edits.txt"
+    files = [tmp_path / f"{i}.exr" for i in range(3)]
+    script.write_text("".join(f"set backend {backend}\nrender\nwrite {file}\n"
+                              for backend, file in zip(("raster", "embree", "raster"), files)), encoding="utf-8")
+    _, statistics, warnings = render(tmp_path, "image", "--edits", script)
+    assert statistics["patina:backend"] == "raster" and not warnings
+    first, second, third = map(color, files)
+    np.testing.assert_array_equal(first, third)
+    np.testing.assert_array_equal(second, traced)
+    assert abs(first - second).max() > 0.0
+
+
+def test_usdrecord_with_the_second_renderer(tmp_path):
+    if not hydraBuild.has_usdrecord():
+        pytest.skip("this OpenUSD has no usdrecord")
+    image = tmp_path / "image.exr"
+    process = hydraBuild.run_usdrecord(SCENE, image, "--imageWidth", 48, "--camera", "/World/camera",
+                                       renderer="Patina GL", PATINA_EGL_PLATFORM="none")
+    warnings = hydraBuild.warnings_of(process)
+    assert len(warnings) == 1 and "EGL" in warnings[0]
+    assert color(image).mean() > 0.0

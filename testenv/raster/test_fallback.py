@@ -1,0 +1,147 @@
+"""What happens where the rasterizer cannot: one clear message, and the path tracer's image in its place; a smaller
+texture or displayColor where that is enough.
+
+Drivers are made worse by Mesa's own variables where those can, else by PATINA_GL_FAULT.
+"""
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import bothBackEnds
+
+SCENE = os.path.join(bothBackEnds.SCENES, "lightRect.usda")
+TEXTURED = os.path.join(bothBackEnds.SCENES, "texturedDiffuse.usda")
+SIZE = ["-w", "32", "--samples", "4"]
+
+
+def record(stage, image, *arguments, **environment):
+    """:returns: the finished process, and what --json says"""
+    report = str(image) + ".json"
+    command = [sys.executable, "-m", "patina", "record", stage, str(image), *SIZE, "--json=" + report, *arguments]
+    process = subprocess.run(command, capture_output=True, text=True, env=dict(os.environ, **environment), check=False)
+    with open(report, encoding="utf-8") as file:
+        return process, json.load(file)
+
+
+@pytest.fixture(scope="module")
+def traced(tmp_path_factory):
+    """:returns: the path tracer's image of SCENE"""
+    image = tmp_path_factory.mktemp("traced") / "image.exr"
+    process, statistics = record(SCENE, image)
+    assert process.returncode == 0 and statistics["backend"] == "embree"
+    return bothBackEnds.pixels(image)
+
+
+@pytest.fixture(scope="module")
+def opengl():
+    reason = bothBackEnds.without_opengl()
+    if reason:
+        pytest.skip(reason)
+
+
+# What is asked for, and a part of the message.
+NO_START = {
+    "noEgl": ({"PATINA_EGL_PLATFORM": "none"}, "EGL"),
+    "oldDriver": ({"MESA_GL_VERSION_OVERRIDE": "3.3"}, "no OpenGL 4.5 core profile"),
+}
+FAILS = {
+    "tooFewBuffers": ("storageBlocks:1", "1 storage buffers"),
+    "shaderRefused": ("program:background", "asked for by PATINA_GL_FAULT"),
+    "lostBefore": ("lost:0", "has reset the OpenGL context"),
+    "lostMidway": ("lost:2", "has reset the OpenGL context"),
+    "outOfMemory": ("memory:1", "out of memory"),
+}
+
+
+def falls_back(traced, image, words, environment):
+    process, statistics = record(SCENE, image, "--backend", "raster", **environment)
+    assert process.returncode == 0, process.stderr
+    assert statistics["requestedBackend"] == "raster"
+    assert statistics["backend"] == statistics["frames"][0]["backend"] == "embree"
+    (warning,) = statistics["warnings"]
+    assert warning["count"] == 1 and warning["prim"] == ""
+    assert words in warning["message"] and warning["message"].endswith("; the path tracer renders instead")
+    assert "\n" not in warning["message"] and len(warning["message"]) < 500
+    assert process.stderr.count("warning:") == 1
+    np.testing.assert_array_equal(bothBackEnds.pixels(image), traced)
+
+
+@pytest.mark.parametrize("name", sorted(NO_START))
+def test_without_opengl_the_path_tracer_renders(traced, tmp_path, name):
+    environment, words = NO_START[name]
+    falls_back(traced, tmp_path / "image.exr", words, environment)
+
+
+@pytest.mark.parametrize("name", sorted(FAILS))
+def test_when_the_driver_fails_the_path_tracer_renders(opengl, traced, tmp_path, name):
+    fault, words = FAILS[name]
+    falls_back(traced, tmp_path / "image.exr", words, {"PATINA_GL_FAULT": fault})
+
+
+def test_an_image_larger_than_the_drivers_textures(opengl, tmp_path):
+    image = tmp_path / "image.exr"
+    process, statistics = record(SCENE, image, "--backend", "raster", "--imageWidth", "40000", "--imageHeight", "2",
+                                 "--samples", "1")
+    assert process.returncode == 0, process.stderr
+    assert statistics["backend"] == "embree"
+    assert "no room for an image of 40000 x 2 pixels" in statistics["warnings"][0]["message"]
+
+
+def test_strict_makes_it_a_failure(tmp_path):
+    image = tmp_path / "image.exr"
+    process, _ = record(SCENE, image, "--backend", "raster", "--strict", PATINA_EGL_PLATFORM="none")
+    assert process.returncode == 1
+    assert "EGL" in process.stderr and not image.exists()
+
+
+@pytest.fixture(scope="module")
+def textured(opengl, tmp_path_factory):
+    """:returns: what the rasterizer makes of TEXTURED"""
+    image = tmp_path_factory.mktemp("textured") / "image.exr"
+    process, statistics = record(TEXTURED, image, "--backend", "raster")
+    assert process.returncode == 0 and statistics["backend"] == "raster" and not statistics["warnings"]
+    return bothBackEnds.pixels(image)
+
+
+def test_a_material_that_does_not_compile_shows_displaycolor(textured, tmp_path):
+    material = "/World/materials/checker"
+    image = tmp_path / "image.exr"
+    process, statistics = record(TEXTURED, image, "--backend", "raster", PATINA_GL_FAULT="material:" + material)
+    assert process.returncode == 0 and statistics["backend"] == "raster"
+    (warning,) = statistics["warnings"]
+    assert warning["prim"] == material and warning["count"] == 1
+    assert "displayColor is shown" in warning["message"] and "\n" not in warning["message"]
+    plain = bothBackEnds.pixels(image)
+    assert plain.mean() > 0.0 and abs(plain - textured).max() > 0.05
+
+
+def test_textures_larger_than_the_driver_takes_are_shown_smaller(textured, tmp_path):
+    image = tmp_path / "image.exr"
+    process, statistics = record(TEXTURED, image, "--backend", "raster", PATINA_GL_FAULT="textureSize:1")
+    assert process.returncode == 0 and statistics["backend"] == "raster"
+    (warning,) = statistics["warnings"]
+    assert warning["prim"] and "checker.png' has 64 x 64 pixels" in warning["message"]
+    assert "shown with 1 x 1" in warning["message"]
+    smaller = bothBackEnds.pixels(image)
+    assert abs(textured.mean() - smaller.mean()) < 0.05 * textured.mean()
+    assert (textured != smaller).any()
+
+
+def test_samples_of_two_back_ends_are_never_mixed(opengl, traced, tmp_path):
+    image = tmp_path / "image.exr"
+    process, statistics = record(SCENE, image, "--backend", "raster", "--samples", "2", "--keepCheckpoint")
+    assert process.returncode == 0 and statistics["backend"] == "raster"
+    process, statistics = record(SCENE, image, "--backend", "raster", "--resume", PATINA_EGL_PLATFORM="none")
+    assert process.returncode == 0 and statistics["backend"] == "embree"
+    assert any("starting anew" in w["message"] for w in statistics["warnings"])
+    np.testing.assert_array_equal(bothBackEnds.pixels(image), traced)
+    # What the path tracer has begun in the rasterizer's place it also continues.
+    for samples, more in (("2", "--keepCheckpoint"), ("4", "--resume")):
+        process, statistics = record(SCENE, image, "--backend", "raster", "--samples", samples, more,
+                                     PATINA_EGL_PLATFORM="none")
+        assert len(statistics["warnings"]) == 1
+    np.testing.assert_array_equal(bothBackEnds.pixels(image), traced)

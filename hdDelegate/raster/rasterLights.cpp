@@ -1,5 +1,6 @@
 #include "hdDelegate/raster/rasterLights.h"
 
+#include "hdDelegate/film/sampler.h"
 #include "hdDelegate/scene/lightShaping.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "materialNetwork/diagnostics.h"
@@ -28,19 +29,10 @@ bool isFinite(const vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-float fraction(double x) {
-    return float(x - std::floor(x));
-}
-
-/// Number `dimension` of a pass: the golden ratio's sequence of two dimensions (Roberts 2018),
-/// shifted by a hash of the dimension.
-vec2 passNumbers(uint32_t pass, uint32_t dimension) {
-    uint32_t h = dimension * 747796405u + 2891336453u;
-    h = ((h >> ((h >> 28) + 4)) ^ h) * 277803737u;
-    h = (h >> 22) ^ h;
-    const double a = double(h & 0xffff) / 65536.0, b = double(h >> 16) / 65536.0;
-    return {fraction(a + (pass + 1.0) * 0.7548776662466927),
-            fraction(b + (pass + 1.0) * 0.5698402909980532)};
+/// Pair `set` of a pass. Sets are scrambled apart from each other and from those of
+/// rasterRenderer.cpp, so that no light's samples go with the pixels' offsets.
+vec2 passNumbers(uint32_t seed, uint32_t pass, uint32_t set) {
+    return Sampler(set, 1, seed, pass).next2();
 }
 
 } // namespace
@@ -49,7 +41,7 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
                            RasterInstances& places, float timeCode, int domeSamples,
                            LightImages& images, const std::map<std::string, int>& categories,
                            Diagnostics& diagnostics)
-    : _domeSamples(domeSamples), _shadows(settings.enableShadows) {
+    : _domeSamples(domeSamples), _seed(uint32_t(settings.seed)), _shadows(settings.enableShadows) {
     if (!settings.enableSceneLights) return;
     for (const auto& item : state.lights) {
         const Light& light = *item.second;
@@ -284,19 +276,19 @@ std::vector<GpuLight> RasterLights::sample(uint32_t pass, const RasterEmitters& 
         const int samples = s.kind == Dome || s.kind == OtherDome ? _domeSamples : 1;
         for (int n = 0; n < samples; ++n) {
             const uint32_t index = samples > 1 ? pass * uint32_t(samples) + uint32_t(n) : pass;
-            GpuLight g = draw(s, passNumbers(index, dimension));
+            GpuLight g = draw(s, passNumbers(_seed, index, dimension));
             const float factor = share / float(samples);
             // The first of the dome also stands for what samples of the BSDF find.
             if (n > 0 && s.kind == Dome) g.radiance.w = float(MoreDome);
             g.radiance *= vec4(vec3(factor), 1.0f);
             if (_shadows && s.shadows)
-                castShadow(g, passNumbers(index, dimension + 1).x, bounds, mapSize, shadows);
+                castShadow(g, passNumbers(_seed, index, dimension + 1).x, bounds, mapSize, shadows);
             out.push_back(g);
         }
     }
     for (uint32_t n = 0; n < uint32_t(emitterSamples) && !emitters.empty(); ++n) {
-        const vec2 u = passNumbers(pass * emitterSamples + n, 17);
-        const vec2 turn = passNumbers(pass * emitterSamples + n, 18);
+        const vec2 u = passNumbers(_seed, pass * emitterSamples + n, 17);
+        const vec2 turn = passNumbers(_seed, pass * emitterSamples + n, 18);
         float within, chance;
         const RasterEmitter& e = emitters.choose(u.x, within, chance);
         // Uniform over the triangle (Turk 1990).

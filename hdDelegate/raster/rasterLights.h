@@ -49,6 +49,7 @@ public:
                                  const ShadowBounds& bounds, int mapSize,
                                  std::vector<ShadowView>& shadows) const;
 
+    uint32_t seed() const { return _seed; }
     int domeSamples() const { return _domeSamples; }
     bool hasDome() const { return _dome >= 0; }
     vec3 domeRadiance() const;
@@ -80,6 +81,7 @@ private:
 
     std::vector<Source> _sources;
     int _dome = -1, _domeSamples = 1;
+    uint32_t _seed = 0;
     bool _shadows = true;
     GlTexture _domeMap, _domeDensity;
 };

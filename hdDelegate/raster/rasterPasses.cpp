@@ -74,7 +74,6 @@ RasterPasses::PassBlock RasterPasses::block(const RasterView& view) const {
     b.clipToWorld = view.clipToWorld;
     b.eye = vec4(view.eye, view.perspective ? 1.0f : 0.0f);
     b.forward = vec4(view.forward, view.pixelSpread);
-    b.counts[3] = shadowMapSize;
     return b;
 }
 
@@ -228,6 +227,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     b.counts[0] = int(sampled.size());
     b.counts[1] = bsdfSamples;
     b.counts[2] = int(pass);
+    b.counts[3] = int(lights.seed());
     b.domeToWorld = lights.domeToWorld();
     b.dome = vec4(lights.domeRadiance(), lights.hasDome() ? 1.0f : 0.0f);
     b.domeInfo[0] = lights.domeSamples();

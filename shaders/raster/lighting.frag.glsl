@@ -135,9 +135,8 @@ void main() {
     for (int i = 0; i < counts.y; ++i) {
         uvec2 pixel = uvec2(gl_FragCoord.xy);
         uint index = uint(counts.z * counts.y + i);
-        vec3 u = vec3(randomAt(pixel, index, 0u), randomAt(pixel, index, 1u),
-                      randomAt(pixel, index, 2u));
-        MaterialSample s = materialSample(u, randomAt(pixel, index, 3u));
+        vec2 choice = randomAt(pixel, index, 1u);
+        MaterialSample s = materialSample(vec3(randomAt(pixel, index, 0u), choice.x), choice.y);
         if (s.event != 0) found += along(s);
     }
     color += found / float(max(counts.y, 1));

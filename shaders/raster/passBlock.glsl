@@ -6,7 +6,7 @@ layout(std140, binding = 0) uniform Pass {
     mat4 clipToWorld;
     vec4 eye;       // w: 1 perspective, 0 orthographic
     vec4 forward;   // view direction of the camera; w: angle or width of a pixel
-    ivec4 counts;   // lights, BSDF samples, index of the pass, shadow map size
+    ivec4 counts;   // lights, BSDF samples, index of the pass, seed
     vec4 extra;    // x: texels of the dome's image, y: exposure factor, z: passes that will have been taken
     mat4 domeToWorld; // rotation
     vec4 dome;      // radiance factor; w: 1 there is a dome

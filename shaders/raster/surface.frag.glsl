@@ -55,5 +55,5 @@ bool isPresent() {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     float x = materialPresence(passes);
     uint id = hash(uint(gl_PrimitiveID) + 4099u * uint(drawInfo.y));
-    return randomAt(pixel + uvec2(id & 1023u, id >> 22u), uint(counts.z), 31u) < x;
+    return randomAt(pixel + uvec2(id & 1023u, id >> 22u), uint(counts.z), 31u).x < x;
 }

@@ -3,6 +3,7 @@
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/raster/rasterLights.h"
 #include "hdDelegate/raster/rasterScene.h"
+#include "hdDelegate/raster/rasterSky.h"
 
 namespace patina {
 
@@ -37,7 +38,10 @@ public:
 private:
     struct PassBlock;
     PassBlock block(const RasterView& view) const;
-    void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views);
+    void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);
+    void drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass);
+    void drawCasters(const RasterScene& scene, const ShadowView& view, const GlTexture& maps,
+                     int layer) const;
     void drawSurfaces(const RasterScene& scene, bool aovs) const;
     void measureReceivers(const std::vector<vec4>& positions, const RasterScene& scene);
 
@@ -50,6 +54,7 @@ private:
     GlFramebuffer _colorTarget, _aovTarget;
     GLuint _shadowTarget = 0;
     int _shadowLayers = 0;
+    RasterSky _sky;
     ShadowBounds _bounds;
 
 public:

@@ -70,16 +70,11 @@ float wantedEdge(const Geometry& prim, const RasterCamera& camera, const RenderS
 
 void RasterScene::collectCategories(const SceneState& state) {
     _categories.clear();
-    for (const auto& item : state.lights) {
-        const std::string& link = item.second->lightLink;
-        if (link.empty() || _categories.count(link)) continue;
-        if (int(_categories.size()) >= maxCategories) {
-            _diagnostics.warn(item.first, "light:link",
-                              "the rasterizer knows 63 light links; this light lights nothing");
-            continue;
-        }
-        _categories.emplace(link, int(_categories.size()));
-    }
+    for (const auto& item : state.lights)
+        for (const std::string& link : {item.second->lightLink, item.second->shadowLink})
+            if (!link.empty()) _categories.emplace(link, int(_categories.size()));
+    _links = {(int(_categories.size()) + 31) / 32};
+    _linkRows.clear();
 }
 
 void RasterScene::collectMeshLights(const SceneState& state, const RenderSettings& settings) {
@@ -90,11 +85,19 @@ void RasterScene::collectMeshLights(const SceneState& state, const RenderSetting
             _meshLights[item.second->geometry] = item.second;
 }
 
-void RasterScene::maskOf(const std::vector<std::string>& categories, int mask[2]) const {
-    for (const std::string& name : categories) {
-        const auto found = _categories.find(name);
-        if (found != _categories.end()) mask[found->second / 32] |= int(1u << (found->second % 32));
-    }
+/// @returns the row of bits of a prim in a place
+int RasterScene::linksOf(const std::vector<std::string>& prim,
+                         const std::vector<std::string>& place) {
+    std::vector<int> row(size_t(_links[0]), 0);
+    for (const auto* names : {&prim, &place})
+        for (const std::string& name : *names) {
+            const auto found = _categories.find(name);
+            if (found != _categories.end())
+                row[size_t(found->second / 32)] |= int(1u << (found->second % 32));
+        }
+    const auto known = _linkRows.emplace(row, int(_linkRows.size()));
+    if (known.second) _links.insert(_links.end(), row.begin(), row.end());
+    return known.first->second;
 }
 
 void RasterScene::GpuInstance::place(const mat4& toWorld) {
@@ -222,8 +225,7 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
         GpuInstance instance;
         instance.place(place.groupToWorld * toGroup);
         instance.ids[0] = place.id;
-        maskOf(prim->categories, instance.ids + 1);
-        maskOf(place.categories, instance.ids + 1);
+        instance.ids[1] = linksOf(prim->categories, place.categories);
         for (int i = 0; i < 8; ++i) {
             const vec3 corner(i & 1 ? mesh.boundsMax.x : mesh.boundsMin.x,
                               i & 2 ? mesh.boundsMax.y : mesh.boundsMin.y,
@@ -250,7 +252,7 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
             draw.meshLight.radiance /=
                 std::max(areaOf(mesh, where[0].groupToWorld * toGroup), 1e-30f);
         const auto category = _categories.find(light.lightLink);
-        if (!light.lightLink.empty()) lit = category == _categories.end() ? 63 : category->second;
+        if (category != _categories.end()) lit = category->second;
     }
     for (size_t subset = 0; subset < materials.size(); ++subset) {
         draw.material = materials[subset];
@@ -299,6 +301,7 @@ void RasterScene::update(const SceneState& state, const RasterCamera& camera,
     _instanceBuffer = GlBuffer(_instances);
     _positionBuffer = GlBuffer(_positions);
     _indexBuffer = GlBuffer(_indices);
+    _linkBuffer = GlBuffer(_links);
     std::vector<float>().swap(_vertices);
 }
 
@@ -330,6 +333,7 @@ void RasterScene::bind(GLuint vertexArray) const {
     _vertexBuffer.bindStorage(2);
     _instanceBuffer.bindStorage(3);
     _positionBuffer.bindStorage(6);
+    _linkBuffer.bindStorage(9);
     gl.VertexArrayElementBuffer(vertexArray, _indexBuffer.id());
 }
 

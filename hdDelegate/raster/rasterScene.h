@@ -31,8 +31,6 @@ struct RasterCaster {
 /// The geometry of a scene in buffers, at one time of the shutter.
 class RasterScene {
 public:
-    static constexpr int maxCategories = 63; ///< of light linking; bit 63 is never set
-
     explicit RasterScene(Diagnostics& diagnostics)
         : _diagnostics(diagnostics), _materials(diagnostics) {}
 
@@ -69,7 +67,7 @@ private:
                    const std::vector<const RasterMaterial*>& materials, const RasterDraw& draw);
     void collectCategories(const SceneState& state);
     void collectMeshLights(const SceneState& state, const RenderSettings& settings);
-    void maskOf(const std::vector<std::string>& categories, int mask[2]) const;
+    int linksOf(const std::vector<std::string>& prim, const std::vector<std::string>& place);
 
     Diagnostics& _diagnostics;
     RasterMaterials _materials;
@@ -81,8 +79,10 @@ private:
     std::vector<vec3> _positions;
     std::vector<uint32_t> _indices;
     std::vector<GpuInstance> _instances;
-    std::map<std::string, int> _categories;
-    GlBuffer _vertexBuffer, _instanceBuffer, _positionBuffer, _indexBuffer;
+    std::map<std::string, int> _categories; ///< of light and shadow links
+    std::vector<int> _links;                ///< see shaders/raster/links.glsl
+    std::map<std::vector<int>, int> _linkRows;
+    GlBuffer _vertexBuffer, _instanceBuffer, _positionBuffer, _indexBuffer, _linkBuffer;
     vec3 _boundsMin{0.0f}, _boundsMax{0.0f};
     size_t _triangles = 0;
     bool _moves = false;

@@ -3,6 +3,8 @@
 
 #ifdef SHADOW
 layout(location = 2) uniform mat4 worldToMap;
+layout(location = 3) uniform int category; // of what casts, -1: everything
+#include "shaders/raster/links.glsl"
 #endif
 
 out vec3 vPosition;
@@ -13,7 +15,7 @@ flat out vec3 vBitangent;
 flat out vec3 vGeometricNormal;
 flat out float vUvPerLength;
 flat out mat3 vNormalMatrix;
-flat out ivec4 vIds; // element, instance, categories
+flat out ivec4 vIds; // element, instance, row of links
 #if PRIMVARS > 0
 out vec4 vPrimvars[PRIMVARS];
 #endif
@@ -40,6 +42,7 @@ void main() {
 #endif
 #ifdef SHADOW
     gl_Position = worldToMap * vec4(vPosition, 1.0);
+    if (!isLinked(instance.ids.y, category)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // clipped
 #else
     gl_Position = worldToClip * vec4(vPosition, 1.0);
 #endif

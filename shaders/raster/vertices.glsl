@@ -3,7 +3,7 @@ layout(std430, binding = 2) readonly buffer Vertices { float vertices[]; };
 struct Instance {
     mat4 objectToWorld;
     mat4 normalToWorld; // w of the last column: cube root of the determinant
-    ivec4 ids; // instance, categories (two words of bits), -
+    ivec4 ids; // instance, row of links
 };
 layout(std430, binding = 3) readonly buffer Instances { Instance instances[]; };
 layout(location = 0) uniform ivec4 drawVertices; // first float, floats per corner, first instance, flags

@@ -2,7 +2,7 @@
 
 #include "hdDelegate/embree/aovWriter.h"
 #include "hdDelegate/embree/embreeScene.h"
-#include "hdDelegate/embree/sampler.h"
+#include "hdDelegate/film/sampler.h"
 
 #include <vector>
 

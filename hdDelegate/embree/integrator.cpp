@@ -5,7 +5,7 @@
 #include "hdDelegate/embree/media/freeFlight.h"
 #include "hdDelegate/embree/media/mediaAround.h"
 #include "hdDelegate/embree/path.h"
-#include "hdDelegate/embree/pixelFilter.h"
+#include "hdDelegate/film/pixelFilter.h"
 #include "hdDelegate/embree/sceneLights.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "hdDelegate/embree/embreeScene.h"
 #include "hdDelegate/embree/media/phaseMixture.h"
 #include "hdDelegate/embree/path.h"
-#include "hdDelegate/embree/pixelFilter.h"
+#include "hdDelegate/film/pixelFilter.h"
 #include "hdDelegate/embree/sceneLights.h"
 
 namespace patina {

@@ -2,7 +2,7 @@
 
 #include "hdDelegate/embree/embreeScene.h"
 #include "hdDelegate/embree/media/mediumStack.h"
-#include "hdDelegate/embree/sampler.h"
+#include "hdDelegate/film/sampler.h"
 
 namespace patina {
 

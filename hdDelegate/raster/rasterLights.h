@@ -1,87 +1,85 @@
 #pragma once
 
 #include "hdDelegate/lights/areaShape.h"
-#include "hdDelegate/lights/environmentMap.h"
-#include "hdDelegate/lights/lightImages.h"
-#include "hdDelegate/raster/glResources.h"
 #include "hdDelegate/raster/rasterEmitters.h"
 #include "hdDelegate/raster/rasterInstances.h"
+#include "hdDelegate/raster/rasterLight.h"
+#include "hdDelegate/raster/rasterLightTables.h"
 
 #include <map>
 
 namespace patina {
 
-/// A light as shaders/raster/pass.glsl has it.
-struct GpuLight {
-    vec4 sampled, normal, radiance, origin, axis[3], inverse[3], shaping, focusTint, cone, shadow,
-        shadowColor;
-};
-
-/// A view from a light, to be drawn into one shadow map.
-struct ShadowView {
-    mat4 worldToMap{1.0f};
-    vec4 towards{0.0f}; ///< position of the light; direction to it where w is 0
-};
-
-/// Boxes that shadows are fitted to.
-struct ShadowBounds {
-    vec3 sceneMin{0.0f}, sceneMax{0.0f};       ///< all that casts
-    vec3 receiverMin{0.0f}, receiverMax{0.0f}; ///< all that the camera sees
-};
-
-/// The lights of a scene, for passes that each take one sample of every light (more of the dome).
+/// The lights of a scene, for passes that each take one sample of every light (more of domes).
 /// All pixels of a pass share the samples, so that a shadow map tells what they reach; passes add
-/// up to soft shadows.
+/// up to soft shadows. Where a pass has no room for the shadow maps of all lights, it takes some of
+/// them, which then count more, so that the mean of the passes is right.
 class RasterLights {
 public:
     static constexpr int emitterSamples = 2; ///< of all glowing triangles together, per pass
-    static constexpr int maxMaps = 32;   ///< shadow maps per pass; lights beyond are not shadowed
-    static constexpr int maxLights = 64; ///< per pass; of more lights each pass takes a choice
+    static constexpr int maxMaps = 32;       ///< shadow maps per pass in the full size
+    static constexpr int maxSmallMaps = 128; ///< in half of it, where lights need more
+    static constexpr int maxUnshadowed = 64; ///< lights without shadows per pass
 
     /// @param domeSamples per pass
+    /// @param categories of light and shadow links, see RasterScene
     RasterLights(const SceneState& state, const RenderSettings& settings, RasterInstances& places,
                  float timeCode, int domeSamples, LightImages& images,
                  const std::map<std::string, int>& categories, Diagnostics& diagnostics);
 
-    /// Samples of a pass.
-    /// @param shadows receives the views; they have the order of the layers of the shadow maps
-    std::vector<GpuLight> sample(uint32_t pass, const RasterEmitters& emitters,
-                                 const ShadowBounds& bounds, int mapSize,
-                                 std::vector<ShadowView>& shadows) const;
+    /// What a pass knows of the lights.
+    struct Sampled {
+        std::vector<GpuLight> lights; ///< taken ones first, then those that are only looked at
+        int taken = 0;
+        std::vector<ShadowView> shadows; ///< in the order of the layers of the shadow maps
+        int mapSize = 0;
+    };
+    /// @param mapSize of shadow maps, when there are not too many
+    Sampled sample(uint32_t pass, const RasterEmitters& emitters, const ShadowBounds& bounds,
+                   int mapSize) const;
 
-    int domeSamples() const { return _domeSamples; }
-    bool hasDome() const { return _dome >= 0; }
-    vec3 domeRadiance() const;
-    mat4 domeToWorld() const;
-    bool domeVisible() const;
-    const GlTexture& domeMap() const { return _domeMap; } ///< empty for a constant dome
-    const GlTexture& domeDensity() const { return _domeDensity; }
+    uint32_t seed() const { return _seed; }
+    bool hasDome() const { return _hasDome; }
+    bool shadows() const { return _shadows; }
+    const RasterLightTables& tables() const { return _tables; }
 
 private:
-    enum Kind { Rect, Disk, Sphere, Cylinder, Point, Distant, Dome, MoreDome, OtherDome, Triangle };
+    /// The numbers are those of pass.glsl.
+    enum Kind { Rect, Disk, Sphere, Cylinder, Point, Distant, Dome, MoreDome, Line, Triangle };
     struct Source {
         Kind kind = Point;
-        GpuLight fixed;
+        GpuLight fixed = GpuLight::none();
         AreaShape shape;
         vec3 radiance{0.0f}, position{0.0f}, toLight{0.0f};
-        float halfAngle = 0.0f;
+        float weight = 0.0f; ///< rough luminous power, for choosing among lights
+        float extent = 0.0f; ///< radius about `position` that samples may come from
         bool delta = false, shadows = true;
+        int shadowCategory = -1;
         mat3 domeToWorld{1.0f};
         std::shared_ptr<const EnvironmentMap> environment;
-        bool cameraVisible = true;
+        const RectImage* image = nullptr;
     };
 
-    void add(const Light& light, const mat4& toWorld, LightImages& images,
-             const std::map<std::string, int>& categories, Diagnostics& diagnostics);
-    void uploadDome();
+    void add(const Light& light, const mat4& toWorld, const RenderSettings& settings,
+             LightImages& images, const std::map<std::string, int>& categories,
+             Diagnostics& diagnostics);
+    bool addShape(Source& source, const Light& light, const mat4& toWorld, LightImages& images,
+                  Diagnostics& diagnostics);
     GpuLight draw(const Source& source, vec2 u) const;
-    void castShadow(GpuLight& light, float turn, const ShadowBounds& bounds, int mapSize,
-                    std::vector<ShadowView>& shadows) const;
+    int mapsOf(const Source& source, const ShadowBounds& bounds) const;
+    std::vector<std::pair<size_t, float>> choose(uint32_t pass, const ShadowBounds& bounds,
+                                                 int room) const;
+    void takeEmitters(uint32_t pass, const RasterEmitters& emitters, const ShadowBounds& bounds,
+                      Sampled& out) const;
+    /// @param most maps that there is room for; a light that needs more is not shadowed
+    void castShadow(GpuLight& light, int category, float turn, const ShadowBounds& bounds, int most,
+                    Sampled& out) const;
 
+    RasterLightTables _tables;
     std::vector<Source> _sources;
-    int _dome = -1, _domeSamples = 1;
-    bool _shadows = true;
-    GlTexture _domeMap, _domeDensity;
+    int _domeSamples = 1;
+    uint32_t _seed = 0;
+    bool _shadows = true, _hasDome = false;
 };
 
 } // namespace patina

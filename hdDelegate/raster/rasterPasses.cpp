@@ -15,9 +15,7 @@ struct RasterPasses::PassBlock {
     vec4 eye{0.0f}, forward{0.0f};
     int counts[4] = {0, 0, 0, 0};
     vec4 extra{0.0f};
-    mat4 domeToWorld{1.0f};
-    vec4 dome{0.0f};
-    int domeInfo[4] = {0, 0, 0, 0};
+    int lightInfo[4] = {0, 0, 0, 0};
 };
 
 RasterPasses::RasterPasses(std::string& error)
@@ -75,7 +73,6 @@ RasterPasses::PassBlock RasterPasses::block(const RasterView& view) const {
     b.clipToWorld = view.clipToWorld;
     b.eye = vec4(view.eye, view.perspective ? 1.0f : 0.0f);
     b.forward = vec4(view.forward, view.pixelSpread);
-    b.counts[3] = shadowMapSize;
     return b;
 }
 
@@ -173,13 +170,14 @@ void RasterPasses::measureReceivers(const std::vector<vec4>& positions, const Ra
     const vec3 margin = 0.02f * (high - low) + 1e-4f * glm::length(high - low);
     _bounds.receiverMin = glm::max(low - margin, _bounds.sceneMin);
     _bounds.receiverMax = glm::min(high + margin, _bounds.sceneMax);
+    _sky.reset();
 }
 
-void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views) {
+void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views,
+                               int size) {
     const int layers = std::max(1, int(views.size()));
-    if (layers > _shadowLayers) {
-        _shadowMaps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, shadowMapSize,
-                                shadowMapSize, layers);
+    if (layers > _shadowLayers || _shadowMaps.width() != size) {
+        _shadowMaps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layers);
         _shadowLayers = layers;
         _shadowMaps.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR);
         _shadowMaps.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -188,25 +186,30 @@ void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<Shado
         _shadowMaps.parameter(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
         _shadowMaps.parameter(GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     }
-    if (views.empty()) return;
+    for (size_t i = 0; i < views.size(); ++i)
+        drawCasters(scene, views[i], _shadowMaps, int(i));
+}
+
+void RasterPasses::drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass) {
+    // The first pass of a small scene draws all cells; a large one gets them by and by.
+    const size_t triangles = std::max<size_t>(1, scene.trianglesDrawn());
+    const int most = int(std::clamp<size_t>(2000000 / triangles, 4, 1000));
+    for (const RasterSky::Task& task : _sky.begin(pass, lights.seed(), _bounds, most))
+        drawCasters(scene, task.view, _sky.maps(), task.layer);
+}
+
+void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
+                               const GlTexture& maps, int layer) const {
     scene.bind(_vertexArray);
     gl.BindFramebuffer(GL_FRAMEBUFFER, _shadowTarget);
-    gl.Viewport(0, 0, shadowMapSize, shadowMapSize);
+    gl.Viewport(0, 0, maps.width(), maps.height());
     gl.Enable(GL_POLYGON_OFFSET_FILL);
     gl.PolygonOffset(1.1f, 2.0f);
     const GLenum noColor = GL_NONE;
     gl.NamedFramebufferDrawBuffers(_shadowTarget, 1, &noColor);
     const float far = 1.0f;
-    for (size_t i = 0; i < views.size(); ++i) {
-        gl.NamedFramebufferTextureLayer(_shadowTarget, GL_DEPTH_ATTACHMENT, _shadowMaps.id(), 0,
-                                        GLint(i));
-        gl.ClearNamedFramebufferfv(_shadowTarget, GL_DEPTH, 0, &far);
-        drawShadowMap(scene, views[i]);
-    }
-    gl.Disable(GL_POLYGON_OFFSET_FILL);
-}
-
-void RasterPasses::drawShadowMap(const RasterScene& scene, const ShadowView& view) const {
+    gl.NamedFramebufferTextureLayer(_shadowTarget, GL_DEPTH_ATTACHMENT, maps.id(), 0, layer);
+    gl.ClearNamedFramebufferfv(_shadowTarget, GL_DEPTH, 0, &far);
     const RasterVisible visible = scene.visible(view.worldToMap);
     const GlProgram* last = nullptr;
     for (const RasterDraw& d : scene.draws()) {
@@ -216,6 +219,7 @@ void RasterPasses::drawShadowMap(const RasterScene& scene, const ShadowView& vie
         if (program != last) {
             program->use();
             gl.UniformMatrix4fv(2, 1, GL_FALSE, &view.worldToMap[0][0]);
+            gl.Uniform1i(3, view.category);
         }
         last = program;
         if (own) {
@@ -228,36 +232,35 @@ void RasterPasses::drawShadowMap(const RasterScene& scene, const ShadowView& vie
         }
         drawRuns(d, visible);
     }
+    gl.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
 void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
                         const RasterCamera& camera, uint32_t pass, uint32_t taken, vec2 offset,
                         vec2 lens, float time, Film& film) {
-    std::vector<ShadowView> views;
-    const std::vector<GpuLight> sampled =
-        lights.sample(pass, scene.emitters(), _bounds, shadowMapSize, views);
+    const RasterLights::Sampled sampled =
+        lights.sample(pass, scene.emitters(), _bounds, shadowMapSize);
     std::vector<mat4> matrices;
-    for (const ShadowView& v : views)
+    for (const ShadowView& v : sampled.shadows)
         matrices.push_back(v.worldToMap);
-    const GlBuffer lightBuffer(sampled), matrixBuffer(matrices);
+    const GlBuffer lightBuffer(sampled.lights), matrixBuffer(matrices);
 
     const RasterView view = camera.view(offset, lens, time, scene.boundsMin(), scene.boundsMax());
     PassBlock b = block(view);
-    b.counts[0] = int(sampled.size());
+    b.counts[0] = sampled.taken;
     b.counts[1] = bsdfSamples;
     b.counts[2] = int(pass);
-    b.domeToWorld = lights.domeToWorld();
-    b.dome = vec4(lights.domeRadiance(), lights.hasDome() ? 1.0f : 0.0f);
-    b.domeInfo[0] = lights.domeSamples();
-    b.domeInfo[1] = lights.domeVisible();
+    b.counts[3] = int(lights.seed());
     b.extra = vec4(1.0f, camera.camera().exposureScale, float(taken), 0.0f);
-    if (const GlTexture& map = lights.domeMap()) {
+    b.lightInfo[0] = int(sampled.lights.size());
+    if (const GlTexture& map = lights.tables().domeMaps()) {
         map.bind(16);
-        lights.domeDensity().bind(17);
-        b.domeInfo[2] = map.levels() - 1;
-        b.domeInfo[3] = 1;
+        lights.tables().domeDensities().bind(17);
+        b.lightInfo[1] = map.levels() - 1;
         b.extra.x = float(map.width()) * float(map.height());
     }
+    const bool sky = lights.hasDome() && lights.shadows();
+    if (sky) b.lightInfo[2] = RasterSky::side;
     _passBuffer.write(&b, sizeof b);
     _passBuffer.bindUniform(0);
     gl.BindVertexArray(_vertexArray);
@@ -266,7 +269,12 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     gl.DepthMask(GL_TRUE);
     _albedoTable.bindStorage(7);
     _timer.mark(Shadows);
-    drawShadows(scene, views);
+    drawShadows(scene, sampled.shadows, sampled.mapSize);
+    if (sky) {
+        drawSky(scene, lights, pass);
+        _sky.bind(10, 19);
+    }
+    lights.tables().buffer().bindStorage(8);
     _timer.mark(Surfaces);
     lightBuffer.bindStorage(4);
     matrixBuffer.bindStorage(5);

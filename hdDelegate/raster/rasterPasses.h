@@ -4,6 +4,7 @@
 #include "hdDelegate/raster/glTimer.h"
 #include "hdDelegate/raster/rasterLights.h"
 #include "hdDelegate/raster/rasterScene.h"
+#include "hdDelegate/raster/rasterSky.h"
 
 namespace patina {
 
@@ -43,9 +44,11 @@ public:
 private:
     struct PassBlock;
     PassBlock block(const RasterView& view) const;
-    void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views);
+    void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);
+    void drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass);
+    void drawCasters(const RasterScene& scene, const ShadowView& view, const GlTexture& maps,
+                     int layer) const;
     void drawSurfaces(const RasterScene& scene, const RasterVisible& visible, bool aovs) const;
-    void drawShadowMap(const RasterScene& scene, const ShadowView& view) const;
     void drawRuns(const RasterDraw& draw, const RasterVisible& visible) const;
     void measureReceivers(const std::vector<vec4>& positions, const RasterScene& scene);
 
@@ -58,6 +61,7 @@ private:
     GlFramebuffer _colorTarget, _aovTarget;
     GLuint _shadowTarget = 0;
     int _shadowLayers = 0;
+    RasterSky _sky;
     ShadowBounds _bounds;
     GlTimer _timer;
     std::vector<double> _seconds = std::vector<double>(ShareCount, 0.0);

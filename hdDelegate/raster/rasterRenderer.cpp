@@ -1,5 +1,7 @@
 #include "hdDelegate/raster/rasterRenderer.h"
 
+#include "hdDelegate/film/pixelFilter.h"
+#include "hdDelegate/film/sampler.h"
 #include "hdDelegate/raster/deviceError.h"
 #include "hdDelegate/raster/eglContext.h"
 #include "hdDelegate/raster/glFaults.h"
@@ -23,24 +25,6 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Point `i` of a sequence that fills the unit square evenly (Roberts 2018).
-vec2 evenly(uint32_t i, double a, double b) {
-    const double x = 0.5 + a * (i + 1.0), y = 0.5 + b * (i + 1.0);
-    return {float(x - std::floor(x)), float(y - std::floor(y))};
-}
-
-/// Offset from a pixel's centre with the density of the pixel filter: a box up to radius 0.5, else
-/// a Gaussian cut off at the radius with a standard deviation of half of it.
-vec2 filterOffset(vec2 u, float radius) {
-    if (radius <= 0.5f) return (u * 2.0f - 1.0f) * std::max(radius, 0.0f);
-    // Both axes by inverting the error function's logistic neighbour would be biased; a polar
-    // Gaussian whose radius is cut at the filter's is round instead of square, which no eye sees.
-    const float cut = 1.0f - std::exp(-2.0f);
-    const float r = std::sqrt(-2.0f * std::log(1.0f - u.x * cut)) * 0.5f * radius;
-    const float phi = 6.2831853f * u.y;
-    return {r * std::cos(phi), r * std::sin(phi)};
 }
 
 /// Runs a function on a thread of its own: where a host's thread has a context of GLX current, EGL
@@ -216,16 +200,16 @@ private:
         const int* window = _passes->window();
         const bool empty = window[2] < window[0] || window[3] < window[1];
         const uint32_t taken = empty ? 0 : _film->sampleCount(window[2], window[3]);
+        const PixelFilter filter(_settings.filterRadius);
         auto saved = Clock::now();
         auto told = Clock::now() - std::chrono::seconds(1);
         for (uint32_t i = taken; i < uint32_t(std::max(1, _settings.samples)) && !_stop; ++i) {
-            const uint32_t index = i + _settings.seed * 2654435761u;
-            const float time = evenly(index, 0.6180339887498949, 0.4142135623730951).x;
-            const vec2 offset = filterOffset(evenly(index, 0.7548776662466927, 0.5698402909980532),
-                                             _settings.filterRadius);
-            const vec2 lens = evenly(index, 0.8191725133961645, 0.6710436067037893);
+            Sampler numbers(0, 0, _settings.seed, i);
+            const vec2 offset = filter.sample(numbers.next2());
+            const vec2 lens = numbers.next2();
+            const float time = numbers.next2().x;
             _raster->moveTo(state, _settings, camera.timeCode(time));
-            _passes->draw(*_raster, *_lights, camera, index, i + 1, offset, lens, time, *_film);
+            _passes->draw(*_raster, *_lights, camera, i, i + 1, offset, lens, time, *_film);
             checkDevice(int(i) + 1);
             {
                 const std::lock_guard<std::mutex> lock(_mutex);

@@ -36,16 +36,11 @@ std::vector<std::string> namesOf(const std::vector<MaterialPrimvar>& primvars) {
 
 void RasterScene::collectCategories(const SceneState& state) {
     _categories.clear();
-    for (const auto& item : state.lights) {
-        const std::string& link = item.second->lightLink;
-        if (link.empty() || _categories.count(link)) continue;
-        if (int(_categories.size()) >= maxCategories) {
-            _diagnostics.warn(item.first, "light:link",
-                              "the rasterizer knows 63 light links; this light lights nothing");
-            continue;
-        }
-        _categories.emplace(link, int(_categories.size()));
-    }
+    for (const auto& item : state.lights)
+        for (const std::string& link : {item.second->lightLink, item.second->shadowLink})
+            if (!link.empty()) _categories.emplace(link, int(_categories.size()));
+    _links = {(int(_categories.size()) + 31) / 32};
+    _linkRows.clear();
 }
 
 void RasterScene::collectMeshLights(const SceneState& state, const RenderSettings& settings) {
@@ -56,11 +51,19 @@ void RasterScene::collectMeshLights(const SceneState& state, const RenderSetting
             _meshLights[item.second->geometry] = item.second;
 }
 
-void RasterScene::maskOf(const std::vector<std::string>& categories, int mask[2]) const {
-    for (const std::string& name : categories) {
-        const auto found = _categories.find(name);
-        if (found != _categories.end()) mask[found->second / 32] |= int(1u << (found->second % 32));
-    }
+/// @returns the row of bits of a prim in a place
+int RasterScene::linksOf(const std::vector<std::string>& prim,
+                         const std::vector<std::string>& place) {
+    std::vector<int> row(size_t(_links[0]), 0);
+    for (const auto* names : {&prim, &place})
+        for (const std::string& name : *names) {
+            const auto found = _categories.find(name);
+            if (found != _categories.end())
+                row[size_t(found->second / 32)] |= int(1u << (found->second % 32));
+        }
+    const auto known = _linkRows.emplace(row, int(_linkRows.size()));
+    if (known.second) _links.insert(_links.end(), row.begin(), row.end());
+    return known.first->second;
 }
 
 void RasterScene::GpuInstance::place(const mat4& toWorld) {
@@ -89,8 +92,7 @@ void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& pl
         const mat4 toWorld = places[i].groupToWorld * toGroup;
         instance.place(toWorld);
         instance.ids[0] = places[i].id;
-        maskOf(group.prim->categories, instance.ids + 1);
-        maskOf(places[i].categories, instance.ids + 1);
+        instance.ids[1] = linksOf(group.prim->categories, places[i].categories);
         _instances.push_back(instance);
         const RasterBox box =
             RasterBox::around(group.shape->boundsMin, group.shape->boundsMax, toWorld);
@@ -166,7 +168,7 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
             draw.meshLight.radiance /= std::max(
                 areaOf(*_groups[firstGroup].shape->mesh, places[0].groupToWorld * toGroup), 1e-30f);
         const auto category = _categories.find(light.lightLink);
-        if (!light.lightLink.empty()) lit = category == _categories.end() ? 63 : category->second;
+        if (category != _categories.end()) lit = category->second;
     }
     for (size_t g = firstGroup; g < _groups.size(); ++g) {
         const RasterGroup& group = _groups[g];
@@ -218,6 +220,7 @@ void RasterScene::update(const SceneState& state, const RasterCamera& camera,
     }
     _shapes.forgetUnused();
     if (_draws.empty()) _boundsMin = _boundsMax = vec3(0.0f);
+    _linkBuffer = GlBuffer(_links);
     upload();
 }
 
@@ -275,6 +278,7 @@ size_t RasterScene::trianglesDrawn() const {
 }
 
 void RasterScene::bind(GLuint vertexArray) const {
+    _linkBuffer.bindStorage(9);
     gl.VertexArrayVertexBuffer(vertexArray, 1, _instanceBuffer.id(), 0, sizeof(GpuInstance));
 }
 

@@ -38,8 +38,6 @@ struct RasterVisible {
 /// The geometry of a scene in buffers, at one time of the shutter.
 class RasterScene {
 public:
-    static constexpr int maxCategories = 63; ///< of light linking; bit 63 is never set
-
     explicit RasterScene(Diagnostics& diagnostics)
         : _diagnostics(diagnostics), _materials(diagnostics), _shapes(diagnostics) {}
 
@@ -85,7 +83,7 @@ private:
     void upload();
     void collectCategories(const SceneState& state);
     void collectMeshLights(const SceneState& state, const RenderSettings& settings);
-    void maskOf(const std::vector<std::string>& categories, int mask[2]) const;
+    int linksOf(const std::vector<std::string>& prim, const std::vector<std::string>& place);
 
     Diagnostics& _diagnostics;
     RasterMaterials _materials;
@@ -95,9 +93,11 @@ private:
     RasterEmitters _emitters;
     std::map<std::string, std::shared_ptr<const Light>> _meshLights; ///< by the mesh's path
     std::vector<GpuInstance> _instances, _written;
-    std::vector<RasterBox> _boxes; ///< of instances, world space
-    std::map<std::string, int> _categories;
-    GlBuffer _instanceBuffer;
+    std::vector<RasterBox> _boxes;          ///< of instances, world space
+    std::map<std::string, int> _categories; ///< of light and shadow links
+    std::vector<int> _links;                ///< see shaders/raster/links.glsl
+    std::map<std::vector<int>, int> _linkRows;
+    GlBuffer _instanceBuffer, _linkBuffer;
     vec3 _boundsMin{0.0f}, _boundsMax{0.0f};
     size_t _triangles = 0, _instancesWritten = 0;
     bool _moves = false;

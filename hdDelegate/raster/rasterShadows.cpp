@@ -29,30 +29,42 @@ mat4 looking(const vec3& from, const vec3& direction, float turn) {
 
 } // namespace
 
-void RasterLights::castShadow(GpuLight& light, float turn, const ShadowBounds& bounds, int mapSize,
-                              std::vector<ShadowView>& shadows) const {
-    const auto full = [&](int more) { return shadows.size() + size_t(more) > size_t(maxMaps); };
-    const auto receivers = corners(bounds.receiverMin, bounds.receiverMax);
-    const auto casters = corners(bounds.sceneMin, bounds.sceneMax);
+ShadowView distantShadow(const vec3& toLight, float turn, const ShadowBounds& bounds, int mapSize,
+                         float& texel) {
+    const mat4 view = looking(vec3(0.0f), -toLight, turn);
+    vec3 low(INFINITY), high(-INFINITY);
+    for (const vec3& p : corners(bounds.receiverMin, bounds.receiverMax)) {
+        const vec3 q = vec3(view * vec4(p, 1.0f));
+        low = glm::min(low, q);
+        high = glm::max(high, q);
+    }
+    for (const vec3& p : corners(bounds.sceneMin, bounds.sceneMax))
+        high.z = std::max(high.z, (view * vec4(p, 1.0f)).z);
+    const float side = std::max(high.x - low.x, high.y - low.y) * 1.02f + 1e-6f;
+    const float pad = 0.01f * (high.z - low.z) + 1e-6f;
+    const vec2 c = 0.5f * vec2(low + high);
+    const float h = 0.5f * side;
+    texel = side / float(mapSize);
+    ShadowView out;
+    out.worldToMap =
+        glm::ortho(c.x - h, c.x + h, c.y - h, c.y + h, -high.z - pad, -low.z + pad) * view;
+    out.towards = vec4(toLight, 0.0f);
+    return out;
+}
+
+void RasterLights::castShadow(GpuLight& light, int category, float turn, const ShadowBounds& bounds,
+                              int most, Sampled& out) const {
+    const auto full = [&](int more) { return int(out.shadows.size()) + more > most; };
+    const auto cast = [&](const mat4& worldToMap) {
+        out.shadows.push_back({worldToMap, light.sampled, category});
+    };
+    const float first = float(out.shadows.size());
     if (light.sampled.w == 0.0f) {
         if (full(1)) return;
-        const mat4 view = looking(vec3(0.0f), -vec3(light.sampled), turn);
-        vec3 low(INFINITY), high(-INFINITY);
-        for (const vec3& p : receivers) {
-            const vec3 q = vec3(view * vec4(p, 1.0f));
-            low = glm::min(low, q);
-            high = glm::max(high, q);
-        }
-        for (const vec3& p : casters)
-            high.z = std::max(high.z, (view * vec4(p, 1.0f)).z);
-        const float side = std::max(high.x - low.x, high.y - low.y) * 1.02f + 1e-6f;
-        const float pad = 0.01f * (high.z - low.z) + 1e-6f;
-        const vec2 c = 0.5f * vec2(low + high);
-        light.shadow = vec4(float(shadows.size()), 1.0f, side / float(mapSize), 0.0f);
-        const float h = 0.5f * side;
-        shadows.push_back(
-            {glm::ortho(c.x - h, c.x + h, c.y - h, c.y + h, -high.z - pad, -low.z + pad) * view,
-             light.sampled});
+        float texel = 0.0f;
+        ShadowView view = distantShadow(vec3(light.sampled), turn, bounds, out.mapSize, texel);
+        light.shadow = vec4(first, 1.0f, texel, 0.0f);
+        cast(view.worldToMap);
         return;
     }
     const vec3 from = vec3(light.sampled);
@@ -65,21 +77,18 @@ void RasterLights::castShadow(GpuLight& light, float turn, const ShadowBounds& b
         if (full(1)) return;
         const float tangent = 1.02f * radius / std::sqrt(distance * distance - radius * radius);
         const float n = nearest * tangent;
-        light.shadow = vec4(float(shadows.size()), 1.0f, 2.0f * tangent / float(mapSize), 1.0f);
-        shadows.push_back({glm::frustum(-n, n, -n, n, nearest, reach * 1.01f) *
-                               looking(from, (center - from) / distance, turn),
-                           light.sampled});
+        light.shadow = vec4(first, 1.0f, 2.0f * tangent / float(out.mapSize), 1.0f);
+        cast(glm::frustum(-n, n, -n, n, nearest, reach * 1.01f) *
+             looking(from, (center - from) / distance, turn));
         return;
     }
     if (full(6)) return;
-    light.shadow = vec4(float(shadows.size()), 6.0f, 2.0f / float(mapSize), 1.0f);
+    light.shadow = vec4(first, 6.0f, 2.0f / float(out.mapSize), 1.0f);
     const vec3 directions[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     // A little wider than a face of the cube, for offsets and filters at its edges.
     const float n = nearest * 1.02f;
     for (const vec3& d : directions)
-        shadows.push_back(
-            {glm::frustum(-n, n, -n, n, nearest, reach * 1.01f) * looking(from, d, 0.0f),
-             light.sampled});
+        cast(glm::frustum(-n, n, -n, n, nearest, reach * 1.01f) * looking(from, d, 0.0f));
 }
 
 } // namespace patina

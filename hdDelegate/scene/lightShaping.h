@@ -23,6 +23,8 @@ public:
     /// @param direction unit, world space, away from the light
     vec3 factor(const vec3& direction) const;
     const vec3& axis() const { return _axis; } ///< unit
+    const vec3& x() const { return _x; }       ///< local x across the axis, unit
+    const vec3& y() const { return _y; }
     /// No light leaves at more than this angle off the axis, radians.
     float cutoff() const { return _cutoff; }
     /// Rough mean of the factor inside the cutoff, for choosing among lights.

@@ -9,21 +9,22 @@ void main() {
     vec4 far = clipToWorld * vec4(vWindow, 1.0, 1.0);
     vec3 origin = near.xyz / near.w;
     vec3 direction = normalize(far.xyz / far.w - origin);
-    vec4 color = vec4(0.0);
-    if (domeInfo.y != 0 && dome.w != 0.0) color = vec4(domeRadiance(direction, 0.0), 1.0);
+    vec4 color = skyRadiance(direction, 0.0);
     float nearest = 1e30;
     float depth = 1.0;
-    for (int i = 0; i < counts.x; ++i) {
+    vec4 shape = vec4(0.0);
+    for (int i = 0; i < lightInfo.x; ++i) {
         Light l = lights[i];
+        if (l.inverse2.w == 0.0) continue;
         float t, density;
-        vec3 n;
-        if (l.inverse2.w == 0.0 || !lightHit(l, origin, direction, t, n, density) || t >= nearest)
-            continue;
+        vec3 n, image;
+        if (!lightHit(l, origin, direction, t, n, density, image) || t >= nearest) continue;
         nearest = t;
-        color = vec4(l.radiance.xyz * shapingFactor(l, -direction), 1.0);
+        shape = vec4(l.radiance.xyz * image * shapingFactor(l, -direction), 1.0);
         vec4 clip = worldToClip * vec4(origin + direction * t, 1.0);
         depth = clamp(clip.z / clip.w * 0.5 + 0.5, 0.0, 1.0);
     }
+    if (shape.a > 0.0) color = shape;
     gl_FragDepth = depth;
     outColor = vec4(color.rgb * extra.y, color.a);
 }

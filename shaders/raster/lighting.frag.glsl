@@ -1,6 +1,9 @@
 // Direct light: one sample of each light with a shadow map, and samples of the BSDF for what lights
 // would miss. Both find the same light, so their shares follow the power heuristic (Veach 1997).
-// The BSDF's samples are not shadowed, hence the lights' weigh more than their density says.
+// The shadows of the BSDF's samples are approximate, hence the lights' weigh more than their density
+// says.
+#include "shaders/raster/links.glsl"
+#include "shaders/raster/shadows.glsl"
 layout(location = 0) out vec4 outColor;
 layout(location = 7) uniform vec4 meshLight; // w: modes of RasterMeshLight
 
@@ -11,34 +14,7 @@ float heuristic(float a, float b) {
 }
 
 bool isLit(Light l) {
-    int category = int(l.axis2.w);
-    if (category < 0) return true;
-    int word = category < 32 ? vIds.z : vIds.w;
-    return (word & (1 << (category & 31))) != 0;
-}
-
-// Share of the light that arrives; the colour of shadows where it does not.
-vec3 shadowAt(Light l, vec3 wi) {
-    if (l.shadow.x < 0.0) return vec3(1.0);
-    float side = dot(point.geometricNormal, wi) < 0.0 ? -1.0 : 1.0;
-    float away = l.shadow.w != 0.0 ? length(point.position - l.sampled.xyz) : 1.0;
-    float texel = l.shadow.z * away;
-    float sine = sqrt(max(1.0 - pow(dot(point.geometricNormal, wi), 2.0), 0.0));
-    vec3 p = point.position + point.geometricNormal * (side * texel * (0.75 + 1.5 * sine));
-    int map = int(l.shadow.x);
-    if (l.shadow.y > 1.0) {
-        vec3 d = p - l.sampled.xyz;
-        vec3 a = abs(d);
-        map += a.x >= a.y && a.x >= a.z ? (d.x > 0.0 ? 0 : 1)
-               : a.y >= a.z            ? (d.y > 0.0 ? 2 : 3)
-                                       : (d.z > 0.0 ? 4 : 5);
-    }
-    vec4 clip = shadowMatrices[map] * vec4(p, 1.0);
-    if (clip.w <= 0.0) return vec3(1.0);
-    vec3 q = clip.xyz / clip.w * 0.5 + 0.5;
-    if (any(lessThan(q, vec3(0.0))) || any(greaterThan(q, vec3(1.0)))) return vec3(1.0);
-    float seen = texture(shadowMaps, vec4(q.xy, float(map), q.z));
-    return mix(l.shadowColor.rgb, vec3(1.0), seen);
+    return isLinked(vIds.z, int(l.axis2.w));
 }
 
 // Light from one light's sample.
@@ -46,14 +22,20 @@ vec3 fromLight(Light l) {
     int kind = int(l.radiance.w);
     vec3 wi = l.sampled.xyz;
     float density = l.normal.w; // by solid angle
-    vec3 radiance = l.radiance.xyz;
+    vec3 radiance = l.radiance.xyz * l.fade.w;
     if (l.sampled.w != 0.0) {
         vec3 d = l.sampled.xyz - point.position;
         float d2 = max(dot(d, d), 1e-20);
         wi = d * inversesqrt(d2);
         radiance *= shapingFactor(l, -wi);
+        if (kind == LIGHT_RECT && l.table.x >= 0.0)
+            radiance *= imageOfRect(l, toShape(l, l.sampled.xyz - l.origin.xyz).xy).rgb;
         if (l.origin.w > 0.0) {
             radiance /= d2;
+            if (kind == LIGHT_LINE) {
+                float along = dot(wi, l.axis0.xyz);
+                radiance *= sqrt(max(1.0 - along * along, 0.0)) / density;
+            }
         } else {
             float c = -dot(l.normal.xyz, wi);
             if (kind == LIGHT_TRIANGLE && l.cone.z != 0.0) c = abs(c);
@@ -68,9 +50,10 @@ vec3 fromLight(Light l) {
     if (l.origin.w <= 0.0) {
         // Weights of domes come from the density's table on both sides.
         bool sky = kind == LIGHT_DOME || kind == LIGHT_MORE_DOME;
-        float chance = sky ? float(domeInfo.x) * domePdf(wi) : density;
-        bool found = kind != LIGHT_TRIANGLE && kind != LIGHT_OTHER_DOME && counts.y > 0;
+        float chance = sky ? l.cone.y * domePdf(l, wi) : density;
+        bool found = kind != LIGHT_TRIANGLE && counts.y > 0;
         weight = (found ? heuristic(lightTrust * chance, float(counts.y) * f.pdf) : 1.0) / density;
+        if (sky) weight /= l.cone.y;
     }
     return value * radiance * weight * shadowAt(l, wi);
 }
@@ -80,29 +63,41 @@ vec3 along(MaterialSample s) {
     vec3 sum = vec3(0.0);
     bool delta = (s.event & LOBE_DELTA) != 0;
     float pdf = float(counts.y) * s.pdf;
+    float sky = -1.0;
     for (int i = 0; i < counts.x; ++i) {
         Light l = lights[i];
         int kind = int(l.radiance.w);
         if (l.origin.w > 0.0 || kind > LIGHT_DOME || !isLit(l)) continue;
         vec3 radiance = l.radiance.xyz;
-        float density;
+        float density, seen = 1.0;
         if (kind == LIGHT_DOME) {
-            density = float(domeInfo.x) * domePdf(s.wi);
+            density = l.cone.y * domePdf(l, s.wi);
             float texel = 4.0 * PI / max(extra.x, 1.0);
             float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(pdf * extra.z * texel, 1e-20));
-            radiance = domeRadiance(s.wi, clamp(lod, 0.0, float(domeInfo.z)));
+            radiance = radianceOfDome(l, s.wi, clamp(lod, 0.0, float(lightInfo.y)));
         } else if (kind == LIGHT_DISTANT) {
             if (dot(s.wi, l.origin.xyz) < 1.0 - l.cone.z) continue;
             density = 1.0 / l.cone.w;
         } else {
             float t;
-            vec3 n;
-            if (!lightHit(l, point.position, s.wi, t, n, density)) continue;
+            vec3 n, image;
+            if (!lightHit(l, point.position, s.wi, t, n, density, image)) continue;
             density *= t * t / max(-dot(n, s.wi), 1e-10);
-            radiance *= shapingFactor(l, -s.wi);
+            radiance *= image * shapingFactor(l, -s.wi);
         }
-        float weight = delta ? 1.0 : heuristic(pdf, lightTrust * density);
-        sum += (s.diffuseWeight * l.inverse0.w + s.specularWeight * l.inverse1.w) * radiance * weight;
+        vec3 shadow = vec3(1.0);
+        if (l.shadow.x >= 0.0) {
+            if (kind == LIGHT_DOME || kind == LIGHT_DISTANT) {
+                if (sky < 0.0) sky = skyReaches(s.wi);
+                shadow = mix(l.shadowColor.rgb, vec3(1.0), sky);
+            } else {
+                // The light's own sample tells how much of it the point sees.
+                shadow = shadowAt(l, normalize(l.sampled.xyz - point.position));
+            }
+        }
+        float weight = l.fade.w * (delta ? 1.0 : heuristic(pdf, lightTrust * density));
+        sum += (s.diffuseWeight * l.inverse0.w + s.specularWeight * l.inverse1.w) * radiance *
+               shadow * weight;
     }
     return sum;
 }
@@ -135,9 +130,8 @@ void main() {
     for (int i = 0; i < counts.y; ++i) {
         uvec2 pixel = uvec2(gl_FragCoord.xy);
         uint index = uint(counts.z * counts.y + i);
-        vec3 u = vec3(randomAt(pixel, index, 0u), randomAt(pixel, index, 1u),
-                      randomAt(pixel, index, 2u));
-        MaterialSample s = materialSample(u, randomAt(pixel, index, 3u));
+        vec2 choice = randomAt(pixel, index, 1u);
+        MaterialSample s = materialSample(vec3(randomAt(pixel, index, 0u), choice.x), choice.y);
         if (s.event != 0) found += along(s);
     }
     color += found / float(max(counts.y, 1));

@@ -5,7 +5,7 @@ in vec3 vObjectPosition;
 in vec3 vNormal;
 flat in mat3 vNormalMatrix;
 flat in float vScale;
-flat in ivec3 vInstance; // id, categories
+flat in ivec2 vInstance; // id, row of links
 #if PRIMVARS > 0
 in vec4 vPrimvars[PRIMVARS];
 #endif
@@ -14,7 +14,7 @@ vec3 vTangent;
 vec3 vBitangent;
 vec3 vGeometricNormal;
 float vUvPerLength;
-ivec4 vIds; // element, instance, categories
+ivec4 vIds; // element, instance, row of links
 layout(location = 1) uniform ivec4 drawInfo; // bits of primvars that there are, prim id, flags
 
 vec4 primvar(int slot, vec4 fallback) {
@@ -37,7 +37,7 @@ void loadTriangle() {
     vTangent = linear * t.dPdu.xyz * scale;
     vBitangent = linear * t.dPdv.xyz * scale;
     vUvPerLength = t.dPdu.w / max(vScale, 1e-20);
-    vIds = ivec4(floatBitsToInt(t.dPdv.w), vInstance);
+    vIds = ivec4(floatBitsToInt(t.dPdv.w), vInstance, 0);
 }
 
 void setPoint(vec3 view, float coneWidth) {
@@ -76,5 +76,5 @@ bool isPresent() {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     float x = materialPresence(passes);
     uint id = hash(uint(gl_PrimitiveID) + 4099u * uint(drawInfo.y));
-    return randomAt(pixel + uvec2(id & 1023u, id >> 22u), uint(counts.z), 31u) < x;
+    return randomAt(pixel + uvec2(id & 1023u, id >> 22u), uint(counts.z), 31u).x < x;
 }

@@ -3,6 +3,8 @@
 
 #ifdef SHADOW
 layout(location = 2) uniform mat4 worldToMap;
+layout(location = 3) uniform int category; // of what casts, -1: everything
+#include "shaders/raster/links.glsl"
 #endif
 #if PRIMVARS > 0
 layout(std430, binding = 6) readonly buffer Primvars { vec4 primvars[]; };
@@ -13,7 +15,7 @@ out vec3 vObjectPosition;
 out vec3 vNormal;
 flat out mat3 vNormalMatrix;
 flat out float vScale;
-flat out ivec3 vInstance; // id, categories
+flat out ivec2 vInstance; // id, row of links
 #if PRIMVARS > 0
 out vec4 vPrimvars[PRIMVARS];
 #endif
@@ -24,13 +26,14 @@ void main() {
     vObjectPosition = inPosition;
     vPosition = worldPosition();
     vNormal = vNormalMatrix * inNormal;
-    vInstance = inIds.xyz;
+    vInstance = inIds.xy;
 #if PRIMVARS > 0
     for (int i = 0; i < PRIMVARS; ++i)
         vPrimvars[i] = primvars[gl_VertexID * PRIMVARS + i];
 #endif
 #ifdef SHADOW
     gl_Position = worldToMap * vec4(vPosition, 1.0);
+    if (!isLinked(inIds.y, category)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // clipped
 #else
     gl_Position = worldToClip * vec4(vPosition, 1.0);
 #endif

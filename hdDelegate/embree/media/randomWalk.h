@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hdDelegate/embree/embreeScene.h"
-#include "hdDelegate/embree/sampler.h"
+#include "hdDelegate/film/sampler.h"
 
 namespace patina {
 

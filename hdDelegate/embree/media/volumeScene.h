@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hdDelegate/embree/sampler.h"
+#include "hdDelegate/film/sampler.h"
 #include "hdDelegate/scene/fieldGrid.h"
 #include "hdDelegate/scene/geometry.h"
 #include "materialNetwork/cpu/materialProgram.h"

@@ -1,5 +1,5 @@
-#include "hdDelegate/embree/pixelFilter.h"
-#include "hdDelegate/embree/sampler.h"
+#include "hdDelegate/film/pixelFilter.h"
+#include "hdDelegate/film/sampler.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace patina {
+
+/// A light with the sample of it that a pass takes, as shaders/raster/pass.glsl has it.
+struct GpuLight {
+    glm::vec4 sampled, normal, radiance, origin, axis[3], inverse[3], shaping, focusTint, cone,
+        shadow, shadowColor, fade, table, shapingX, shapingY;
+
+    /// A light with nothing in it: no shape, no shaping, no shadow, seen by all.
+    static GpuLight none() {
+        GpuLight g;
+        g.sampled = g.normal = g.radiance = g.origin = glm::vec4(0.0f);
+        for (int i = 0; i < 3; ++i)
+            g.axis[i] = g.inverse[i] = glm::vec4(0.0f, 0.0f, 0.0f, i < 2 ? 1.0f : 0.0f);
+        g.axis[2].w = -1.0f;
+        g.shaping = g.focusTint = g.cone = g.shadowColor = glm::vec4(0.0f);
+        g.shadow = glm::vec4(-1.0f, 0.0f, 0.0f, 0.0f);
+        g.fade = glm::vec4(-1.0f, -1.0f, 1.0f, 1.0f);
+        g.table = glm::vec4(-1.0f, 0.0f, 0.0f, -1.0f);
+        g.shapingX = g.shapingY = glm::vec4(0.0f);
+        return g;
+    }
+};
+
+/// A view from a light, to be drawn into one shadow map.
+struct ShadowView {
+    glm::mat4 worldToMap{1.0f};
+    glm::vec4 towards{0.0f}; ///< position of the light; direction to it where w is 0
+    int category = -1;       ///< of what casts; -1: everything
+};
+
+/// Boxes that shadows are fitted to.
+struct ShadowBounds {
+    glm::vec3 sceneMin{0.0f}, sceneMax{0.0f};       ///< all that casts
+    glm::vec3 receiverMin{0.0f}, receiverMax{0.0f}; ///< all that the camera sees
+};
+
+/// The view from infinitely far in a direction onto all receivers.
+/// @param turn of the map about its axis, in turns
+/// @param texel receives the width of a texel
+ShadowView distantShadow(const glm::vec3& toLight, float turn, const ShadowBounds& bounds,
+                         int mapSize, float& texel);
+
+} // namespace patina

@@ -1,0 +1,166 @@
+#include "hdDelegate/raster/rasterLightTables.h"
+
+#include "materialNetwork/diagnostics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+constexpr float pi = 3.14159265f;
+
+vec3 bilinear(const ImageRGB& image, const vec2& q) {
+    const int w = image.width, h = image.height;
+    const float x = std::clamp((0.5f - q.x) * float(w) - 0.5f, 0.0f, float(w - 1));
+    const float y = std::clamp((0.5f - q.y) * float(h) - 0.5f, 0.0f, float(h - 1));
+    const int x0 = int(x), y0 = int(y), x1 = std::min(x0 + 1, w - 1), y1 = std::min(y0 + 1, h - 1);
+    const auto at = [&](int i, int k) { return image.pixels[size_t(k) * size_t(w) + size_t(i)]; };
+    return glm::mix(glm::mix(at(x0, y0), at(x1, y0), x - float(x0)),
+                    glm::mix(at(x0, y1), at(x1, y1), x - float(x0)), y - float(y0));
+}
+
+vec3 latlongDirection(int x, int y, int w, int h) {
+    const float longitude = (0.5f - (float(x) + 0.5f) / float(w)) * 2.0f * pi;
+    const float theta = (float(y) + 0.5f) / float(h) * pi;
+    return vec3(std::sin(theta) * std::sin(longitude), std::cos(theta),
+                std::sin(theta) * std::cos(longitude));
+}
+
+} // namespace
+
+float RectImage::sample(const vec2& u, vec2& q) const {
+    ivec2 cell;
+    vec2 within;
+    const float chance = distribution.sample(u, cell, within);
+    q = 0.5f - (vec2(cell) + within) / vec2(float(width), float(height));
+    return chance * float(width) * float(height);
+}
+
+vec3 RectImage::radiance(const vec2& q) const {
+    return bilinear(*image, q);
+}
+
+const RectImage* RasterLightTables::rect(const Light& light, LightImages& images) {
+    if (light.type != LightType::Rect || light.textureFile.empty()) return nullptr;
+    auto made = std::make_unique<RectImage>();
+    RectImage& r = *made;
+    r.image =
+        images.image(light.textureFile, light.textureColorSpace, light.path, "inputs:texture:file");
+    r.first = int(_values.size());
+    r.width = std::min(r.image->width, largestImage);
+    r.height = std::min(r.image->height, largestImage);
+    std::vector<float> weights;
+    double mean = 0.0;
+    for (int y = 0; y < r.height; ++y)
+        for (int x = 0; x < r.width; ++x) {
+            // The mean over the cell, by as many lookups as it has texels.
+            const int nx = (r.image->width + r.width - 1) / r.width;
+            const int ny = (r.image->height + r.height - 1) / r.height;
+            vec3 sum(0.0f);
+            for (int k = 0; k < nx * ny; ++k) {
+                const vec2 at((float(x) + (float(k % nx) + 0.5f) / float(nx)) / float(r.width),
+                              (float(y) + (float(k / nx) + 0.5f) / float(ny)) / float(r.height));
+                sum += r.radiance(0.5f - at);
+            }
+            const vec3 value = glm::max(sum / float(nx * ny), vec3(0.0f));
+            _values.emplace_back(value, 0.0f);
+            weights.push_back(value.x + value.y + value.z);
+            mean += double(weights.back());
+        }
+    mean /= double(weights.size());
+    if (!(mean > 0.0) || !std::isfinite(mean)) {
+        mean = 1.0;
+        std::fill(weights.begin(), weights.end(), 1.0f);
+    }
+    // Some samples everywhere, for what interpolation spreads into dark cells.
+    for (float& w : weights)
+        w = 0.9f * w + 0.1f * float(mean);
+    for (size_t i = 0; i < weights.size(); ++i)
+        _values[size_t(r.first) + i].w = weights[i] / float(mean);
+    r.distribution = Distribution2d(r.width, r.height, weights);
+    _rects.push_back(std::move(made));
+    return _rects.back().get();
+}
+
+ProfileTable RasterLightTables::profile(const Light& light) {
+    ProfileTable out;
+    if (light.iesFile.empty() || light.type == LightType::Dome || light.type == LightType::Distant)
+        return out;
+    IesProfile profile;
+    std::string error;
+    if (!profile.load(light.iesFile, error)) {
+        _diagnostics.warn(light.path, "inputs:shaping:ies:file", error);
+        return out;
+    }
+    const float mean = profile.mean();
+    const float scale = !light.iesNormalize ? 1.0f : mean > 0.0f ? 1.0f / mean : 0.0f;
+    out.thetas = 361;
+    out.phis = 73;
+    std::vector<float> values;
+    bool round = true;
+    for (int p = 0; p < out.phis; ++p)
+        for (int t = 0; t < out.thetas; ++t) {
+            const float theta =
+                IesProfile::scaledTheta(float(t) / float(out.thetas - 1) * pi, light.iesAngleScale);
+            const float phi = float(p) / float(out.phis - 1) * 2.0f * pi;
+            values.push_back(profile.candela(theta, phi) * scale);
+            const float first = values[size_t(t)];
+            round &= std::fabs(values.back() - first) <= 1e-4f * std::fabs(first);
+        }
+    if (round) {
+        out.phis = 1;
+        values.resize(size_t(out.thetas));
+    }
+    out.first = int(_values.size());
+    for (float v : values)
+        _values.emplace_back(v, 0.0f, 0.0f, 0.0f);
+    return out;
+}
+
+int RasterLightTables::dome(std::shared_ptr<const EnvironmentMap> map) {
+    for (size_t i = 0; i < _domes.size(); ++i)
+        if (_domes[i] == map) return int(i);
+    _domes.push_back(std::move(map));
+    return int(_domes.size()) - 1;
+}
+
+void RasterLightTables::upload() {
+    _buffer = GlBuffer(_values);
+    _values = {};
+    if (_domes.empty()) return;
+    int w = 1024; // finer than the image, so that interpolating twice does not blur it
+    for (const auto& map : _domes)
+        while (w < 4 * map->width() && w < 2048)
+            w *= 2;
+    const int h = w / 2, dw = densityWidth, dh = dw / 2, layers = int(_domes.size());
+    _domeMaps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_RGBA32F, w, h, layers, 0);
+    _domeDensities = GlTexture(GL_TEXTURE_2D_ARRAY, GL_R32F, dw, dh, layers);
+    std::vector<vec4> image(size_t(w) * size_t(h));
+    std::vector<float> density(size_t(dw) * size_t(dh));
+    for (int k = 0; k < layers; ++k) {
+        const EnvironmentMap& map = *_domes[size_t(k)];
+        for (int y = 0; y < h; ++y)
+            for (int x = 0; x < w; ++x)
+                image[size_t(y) * size_t(w) + size_t(x)] =
+                    vec4(map.radiance(latlongDirection(x, y, w, h)), 1.0f);
+        for (int y = 0; y < dh; ++y)
+            for (int x = 0; x < dw; ++x)
+                density[size_t(y) * size_t(dw) + size_t(x)] =
+                    map.pdf(latlongDirection(x, y, dw, dh));
+        gl.TextureSubImage3D(_domeMaps.id(), 0, 0, 0, k, w, h, 1, GL_RGBA, GL_FLOAT, image.data());
+        gl.TextureSubImage3D(_domeDensities.id(), 0, 0, 0, k, dw, dh, 1, GL_RED, GL_FLOAT,
+                             density.data());
+    }
+    gl.GenerateTextureMipmap(_domeMaps.id());
+    _domeMaps.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    _domeMaps.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    _domeMaps.parameter(GL_TEXTURE_WRAP_S, GL_REPEAT);
+    _domeMaps.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    _domeDensities.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    _domeDensities.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    _domeDensities.parameter(GL_TEXTURE_WRAP_S, GL_REPEAT);
+}
+
+} // namespace patina

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "hdDelegate/lights/distribution2d.h"
+#include "hdDelegate/lights/lightImages.h"
+#include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/scene/iesProfile.h"
+#include "hdDelegate/scene/light.h"
+
+namespace patina {
+
+/// An image on a rect light with the density that its samples are drawn with.
+struct RectImage {
+    int first = 0, width = 0, height = 0; ///< in the buffer: rgb, w density relative to uniform
+    std::shared_ptr<const ImageRGB> image;
+    Distribution2d distribution;
+
+    /// @param q receives the position in the unit shape's coordinates
+    /// @returns the density relative to uniform
+    float sample(const vec2& u, vec2& q) const;
+    /// Radiance factor at a position of the unit shape, as LightEmitter has it.
+    vec3 radiance(const vec2& q) const;
+};
+
+/// A profile as a table over even steps of theta (0..pi) and phi (a whole turn; its last column is
+/// the first again).
+struct ProfileTable {
+    int first = -1, thetas = 0, phis = 0;
+};
+
+/// What shaders look up of lights: images of rects, profiles, and images of domes.
+class RasterLightTables {
+public:
+    static constexpr int largestImage = 512; ///< texels along a side; larger ones are averaged
+    static constexpr int densityWidth = 512;
+
+    explicit RasterLightTables(Diagnostics& diagnostics) : _diagnostics(diagnostics) {}
+
+    /// The image of a rect light. @returns null when there is none
+    const RectImage* rect(const Light& light, LightImages& images);
+    /// The IES profile of a light, scaled as the light wants it.
+    ProfileTable profile(const Light& light);
+    /// Adds the image of a dome. @returns its layer
+    int dome(std::shared_ptr<const EnvironmentMap> map);
+
+    /// Makes buffers and textures of all that was added.
+    void upload();
+    const GlBuffer& buffer() const { return _buffer; }
+    const GlTexture& domeMaps() const { return _domeMaps; } ///< empty where no dome has an image
+    const GlTexture& domeDensities() const { return _domeDensities; }
+
+private:
+    Diagnostics& _diagnostics;
+    std::vector<vec4> _values;
+    std::vector<std::unique_ptr<RectImage>> _rects;
+    std::vector<std::shared_ptr<const EnvironmentMap>> _domes;
+    GlBuffer _buffer;
+    GlTexture _domeMaps, _domeDensities;
+};
+
+} // namespace patina

@@ -1,0 +1,152 @@
+// Lights as a pass knows them, and their shapes. See hdDelegate/raster/rasterLight.h.
+
+struct Light {
+    vec4 sampled;  // xyz: position, or direction to the light; w: 1 position, 0 direction
+    vec4 normal;   // of the emitter at the sample; w: density by area, by length, or by solid angle
+    vec4 radiance; // w: kind. Of domes that of the sample
+    vec4 origin;   // of the shape, or a dome's radiance without its image; w: 1 delta
+    vec4 axis0, axis1, axis2;          // shape to world; w: -, -, category that is lit (-1 all)
+    vec4 inverse0, inverse1, inverse2; // world to shape; w: diffuse, specular, 1 seen by the camera
+    vec4 shaping;   // axis; w: focus
+    vec4 focusTint; // w: cosine cutoff is on
+    vec4 cone;      // x start, y end, radians; z 1 - cos of a distant light, w its solid angle.
+                    // Of domes: x layer of the image (-1 none), y samples. Of triangles: z 1 two-sided
+    vec4 shadow;    // x first map (-1 none), y maps, z width of a texel (per distance), w 1 perspective
+    vec4 shadowColor; // w: density by area of a rect or disk without an image
+    vec4 fade;      // of shadows: distance, falloff, gamma; w: how often the light counts
+    vec4 table;     // x first value of an image (-1 none), y width, z height; w first of a profile (-1)
+    vec4 shapingX;  // local x across the axis; w: thetas of the profile
+    vec4 shapingY;  // w: phis
+};
+layout(std430, binding = 4) readonly buffer Lights { Light lights[]; };
+layout(std430, binding = 8) readonly buffer LightTables { vec4 lightTables[]; };
+
+const int LIGHT_RECT = 0;
+const int LIGHT_DISK = 1;
+const int LIGHT_SPHERE = 2;
+const int LIGHT_CYLINDER = 3;
+const int LIGHT_POINT = 4;
+const int LIGHT_DISTANT = 5;
+const int LIGHT_DOME = 6;
+// Found by their samples only: further samples of a dome, lines, glowing triangles.
+const int LIGHT_MORE_DOME = 7;
+const int LIGHT_LINE = 8;
+const int LIGHT_TRIANGLE = 9;
+
+layout(binding = 16) uniform sampler2DArray domeMaps;
+layout(binding = 17) uniform sampler2DArray domeDensities;
+
+vec2 latlong(vec3 d) {
+    float u = 0.5 - atan(d.x, d.z) / TWO_PI;
+    return vec2(u, acos(clamp(d.y, -1.0, 1.0)) * INV_PI);
+}
+
+vec3 toDome(Light l, vec3 w) {
+    return vec3(dot(l.axis0.xyz, w), dot(l.axis1.xyz, w), dot(l.axis2.xyz, w));
+}
+// lod: of the map's mip chain.
+vec3 radianceOfDome(Light l, vec3 w, float lod) {
+    if (l.cone.x < 0.0) return l.origin.xyz;
+    return l.origin.xyz * textureLod(domeMaps, vec3(latlong(toDome(l, w)), l.cone.x), lod).rgb;
+}
+float domePdf(Light l, vec3 w) {
+    if (l.cone.x < 0.0) return 0.25 * INV_PI;
+    return textureLod(domeDensities, vec3(latlong(toDome(l, w)), l.cone.x), 0.0).x;
+}
+// All domes together, as the camera sees them.
+vec4 skyRadiance(vec3 w, float lod) {
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < lightInfo.x; ++i)
+        if (int(lights[i].radiance.w) == LIGHT_DOME && lights[i].inverse2.w != 0.0)
+            sum += vec4(radianceOfDome(lights[i], w, lod), 1.0);
+    return vec4(sum.rgb, min(sum.a, 1.0));
+}
+
+// The profile in a direction away from the light, as LightShaping::factor().
+float profileFactor(Light l, vec3 away, float theta) {
+    float phi = atan(-dot(away, l.shapingY.xyz), -dot(away, l.shapingX.xyz)) / TWO_PI;
+    float x = theta * INV_PI * (l.shapingX.w - 1.0), y = fract(phi) * (l.shapingY.w - 1.0);
+    int thetas = int(l.shapingX.w), i = int(min(x, l.shapingX.w - 2.0)), k = int(y);
+    int at = int(l.table.w) + k * thetas + i;
+    float low = mix(lightTables[at].x, lightTables[at + 1].x, x - float(i));
+    if (l.shapingY.w < 2.0) return low;
+    float high = mix(lightTables[at + thetas].x, lightTables[at + thetas + 1].x, x - float(i));
+    return mix(low, high, y - float(k));
+}
+
+vec3 shapingFactor(Light l, vec3 away) {
+    vec3 f = vec3(1.0);
+    float c = clamp(dot(away, l.shaping.xyz), -1.0, 1.0);
+    if (l.shaping.w > 0.0) {
+        float t = pow(max(abs(c), 1e-20), l.shaping.w);
+        f = mix(l.focusTint.rgb, vec3(1.0), t);
+    }
+    if (l.focusTint.w == 0.0 && l.table.w < 0.0) return f;
+    float angle = acos(c);
+    if (l.focusTint.w > 0.0)
+        f *= l.cone.y > l.cone.x ? 1.0 - smoothstep(l.cone.x, l.cone.y, angle)
+                                 : (angle > l.cone.y ? 0.0 : 1.0);
+    if (l.table.w >= 0.0) f *= profileFactor(l, away, angle);
+    return f;
+}
+
+vec3 toShape(Light l, vec3 v) {
+    return l.inverse0.xyz * v.x + l.inverse1.xyz * v.y + l.inverse2.xyz * v.z;
+}
+vec3 fromShape(Light l, vec3 v) {
+    return l.axis0.xyz * v.x + l.axis1.xyz * v.y + l.axis2.xyz * v.z;
+}
+// World normal of a normal in the shape's coordinates; its length is that of the inverse transpose.
+vec3 shapeNormal(Light l, vec3 n) {
+    return vec3(dot(l.inverse0.xyz, n), dot(l.inverse1.xyz, n), dot(l.inverse2.xyz, n));
+}
+
+// A rect's image at a position in the shape's coordinates: radiance factor, and density of samples
+// relative to uniform.
+vec4 imageOfRect(Light l, vec2 q) {
+    if (l.table.x < 0.0) return vec4(1.0);
+    vec2 size = l.table.yz, at = clamp((0.5 - q) * size - 0.5, vec2(0.0), size - 1.0);
+    ivec2 low = ivec2(at), high = min(low + 1, ivec2(size) - 1);
+    int first = int(l.table.x), w = int(size.x);
+    vec2 t = at - vec2(low);
+    vec4 value = mix(mix(lightTables[first + low.y * w + low.x], lightTables[first + low.y * w + high.x], t.x),
+                     mix(lightTables[first + high.y * w + low.x], lightTables[first + high.y * w + high.x], t.x), t.y);
+    ivec2 cell = clamp(ivec2((0.5 - q) * size), ivec2(0), ivec2(size) - 1);
+    return vec4(value.rgb, lightTables[first + cell.y * w + cell.x].w);
+}
+
+// First point of the emitting side that a ray meets; density by area of what samples draw, and the
+// factor of the radiance there that is not the shaping's.
+bool lightHit(Light l, vec3 origin, vec3 direction, out float t, out vec3 n, out float density,
+              out vec3 image) {
+    int kind = int(l.radiance.w);
+    image = vec3(1.0);
+    if (l.origin.w > 0.0 || kind > LIGHT_CYLINDER) return false;
+    vec3 o = toShape(l, origin - l.origin.xyz);
+    vec3 d = toShape(l, direction);
+    if (kind == LIGHT_RECT || kind == LIGHT_DISK) {
+        n = l.normal.xyz;
+        t = -o.z / d.z;
+        vec3 q = o + d * t;
+        bool inside = kind == LIGHT_RECT ? max(abs(q.x), abs(q.y)) <= 0.5 : dot(q.xy, q.xy) <= 1.0;
+        if (!(t > 0.0 && inside && dot(n, direction) < 0.0)) return false;
+        vec4 value = imageOfRect(l, q.xy);
+        image = value.rgb;
+        density = l.shadowColor.w * value.w;
+        return true;
+    }
+    vec3 mask = kind == LIGHT_SPHERE ? vec3(1.0) : vec3(0.0, 1.0, 1.0);
+    vec3 om = o * mask, dm = d * mask;
+    float a = dot(dm, dm), b = dot(om, dm), c = dot(om, om) - 1.0;
+    float discriminant = b * b - a * c;
+    if (discriminant <= 0.0 || a <= 0.0 || c <= 0.0) return false;
+    t = (-b - sqrt(discriminant)) / a;
+    vec3 q = o + d * t;
+    if (t <= 0.0 || (kind == LIGHT_CYLINDER && abs(q.x) > 0.5)) return false;
+    vec3 wide = shapeNormal(l, q * mask);
+    float length2 = length(wide);
+    n = wide / length2;
+    float det = abs(dot(cross(l.axis0.xyz, l.axis1.xyz), l.axis2.xyz));
+    density = (kind == LIGHT_SPHERE ? 0.25 * INV_PI : 0.5 * INV_PI) / (det * length2);
+    return true;
+}

@@ -1,0 +1,69 @@
+"""Writes one HTML page that shows materials in a browser: no server, no network, opens from a file.
+
+The page draws with WebGL2, by the very lobes of the rasterizer, and has a slider for every input of
+the materials. It needs Node and npm once, to fetch and bundle what the page is made of.
+"""
+import os
+import sys
+
+from patina.cli import materials, methods
+from patina.cli.errors import CommandError, UsageError
+
+DEMOS = {"classic": "the classic reflectance models as steel and hematite, and what each cannot show",
+         "layers": "standard_surface with its layers switched on one by one"}
+
+
+def add_arguments(parser):
+    parser.add_argument("material", metavar="MATERIAL", nargs="*", help=materials.MATERIAL_HELP.replace(
+        "the only material", "every material"))
+    parser.add_argument("--demo", choices=sorted(DEMOS), help="a page that is part of Patina: " + "; ".join(
+        f"{name}, {text}" for name, text in DEMOS.items()))
+    parser.add_argument("-o", "--output", required=True, metavar="FILE", help="the page, FILE.html")
+    parser.add_argument("--title", metavar="TEXT", help="of the page (default: the materials' names)")
+    parser.add_argument("--environment", action="append", default=[], metavar="FILE",
+                        help="latitude-longitude map to light with (repeatable; the first is shown)")
+    parser.add_argument("--stage", metavar="STAGE", help="whose lights, domes and shapes are taken (default: the first "
+                                                         "MATERIAL that is a stage)")
+    parser.add_argument("--shape", action="append", metavar="PRIM",
+                        help="a mesh or implicit prim of the stage to look at, besides sphere, shader ball and plane "
+                             "(repeatable; default: the first four that show one of the materials)")
+    parser.add_argument("--controls", metavar="FILE", help="JSON that says which sliders there are, their labels, "
+                                                           "ranges and units, and presets")
+    parser.add_argument("--writeControls", metavar="FILE", help="write that JSON as it is, to be edited")
+    parser.add_argument("--compare", action="store_true", help="embed a path-traced picture of each material, with a "
+                                                               "wipe and the FLIP figure")
+    parser.add_argument("--compareWidth", type=int, default=256, metavar="N", help="its size (default: 256)")
+    parser.add_argument("--compareSamples", type=int, default=256, metavar="N", help="its samples (default: 256)")
+    parser.add_argument("--textureSize", type=int, default=1024, metavar="N",
+                        help="largest side of textures and environments in the page (default: 1024)")
+    parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
+                        help="change an input before (repeatable)")
+    methods.add_flag(parser)
+
+
+def run(arguments):
+    from patina.view import build
+
+    if arguments.demo:
+        if arguments.material:
+            raise UsageError("patina view: --demo brings its own materials")
+        folder = os.path.join(os.path.dirname(build.__file__), "demos")
+        arguments.material = [os.path.join(folder, arguments.demo + ".usda")]
+        arguments.controls = arguments.controls or os.path.join(folder, arguments.demo + ".json")
+    if not arguments.material:
+        raise UsageError("patina view: no MATERIAL (see patina view --help)")
+    if not 1 <= arguments.textureSize <= 4096:
+        raise UsageError("patina view: --textureSize is 1 to 4096")
+    if not 16 <= arguments.compareWidth <= 2048 or not 1 <= arguments.compareSamples <= 65536:
+        raise UsageError("patina view: --compareWidth is 16 to 2048, --compareSamples 1 to 65536")
+    text, warnings = build.page_of(arguments)
+    for line in warnings:
+        print("warning: " + line, file=sys.stderr)
+    temporary = f"{arguments.output}.{os.getpid()}.tmp"
+    try:
+        with open(temporary, "w", encoding="utf-8") as file:
+            file.write(text)
+        os.replace(temporary, arguments.output)
+    except OSError as error:
+        raise CommandError(f"cannot write {arguments.output}: {error.strerror}") from error
+    print(f"{arguments.output}: {len(text) / 1e6:.2f} MB")

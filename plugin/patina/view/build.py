@@ -1,0 +1,119 @@
+"""From the arguments of `patina view` to the text of a page."""
+import json
+import os
+
+import numpy as np
+
+from patina.cli import materials as reader
+from patina.cli import methods, statistics
+from patina.cli.errors import CommandError
+from patina.view import compareImages, controls, layers, live, materials, page, stageScene, surroundings
+
+MOST_MATERIALS = 64
+
+
+class Builder:
+    """One page."""
+
+    def __init__(self, arguments):
+        self.arguments = arguments
+        self.methods = methods.parse(arguments.method)
+        self.textures = materials.Textures(arguments.textureSize)
+        self.warnings, self.materials, self.lobes, self.networks, self.paths = [], [], [], [], []
+
+    def read(self):
+        wanted = self.wanted = controls.read(self.arguments.controls) if self.arguments.controls else {}
+        for argument in self.arguments.material:
+            found, reading = reader.load(argument, self.arguments.set, every=True)
+            self.warnings += statistics.lines(reading)
+            for name, network in found:
+                if len(self.materials) == MOST_MATERIALS:
+                    raise CommandError(f"a page shows at most {MOST_MATERIALS} materials")
+                self._add(reader.split(argument)[0], name, network, wanted)
+        _share_presets(self.materials)
+
+    def _add(self, file, name, network, wanted):
+        short = name.rpartition("/")[2] or name
+        material, used, texts = materials.build(short, network, self.methods, self.textures)
+        entries, unknown = controls.merged(material["controls"], wanted, self.arguments.controls)
+        if unknown and len(self.arguments.material) == 1:
+            self.warnings.append(f"--controls: {name} has no input {unknown[0]}"
+                                 + (f", nor {len(unknown) - 1} others" if len(unknown) > 1 else ""))
+        material["presets"] = controls.presets(wanted, material["controls"], self.arguments.controls)
+        material["controls"] = entries
+        material["sentence"] = wanted.get("sentences", {}).get(short, "")
+        material["layer"] = layers.of(file, short, network, live.live_inputs(network)[0], self.arguments.output)
+        self.materials.append(material)
+        self.lobes += used
+        self.networks.append(network)
+        self.paths.append(name)
+        self.warnings += [f"{name}: {text}" for text in texts]
+
+    def surround(self):
+        """Lights, shapes, environments and the camera."""
+        a = self.arguments
+        files = [reader.split(m)[0] for m in a.material]
+        file = a.stage or next((f for f in files if not reader.is_document(f)), None)
+        scene = stageScene.StageScene(file, () if a.stage else a.set) if file else None
+        own = scene.shapes(a.shape or [], set(self.paths)) if scene else []
+        if a.shape and not scene:
+            raise CommandError("--shape names a prim of a stage: give one with --stage")
+        self.z_up = bool(scene and scene.z_up)
+        radius, target = stageScene.bounds(*own[0][1:]) if own else (1.0, np.zeros(3))
+        self.scene, self.camera_target = scene, target
+        self.camera, self.eye = surroundings.camera(radius, target, self.z_up)
+        domes = scene.domes if scene else []
+        self.environments = surroundings.environments(a.environment, domes, a.textureSize, self.z_up)
+        built_in = surroundings.built_in_shapes(radius, target, self.z_up)
+        self.shapes = built_in + [stageScene.packed(*shape) for shape in own]
+        self.lights = scene.lights if scene else []
+
+    def data(self):
+        names = [m["name"] for m in self.materials]
+        start = {"material": 0, "shape": 0, "environment": 0, "rotation": 0.0, "environmentGain": 1.0,
+                 "ambient": [0.0, 0.0, 0.0], "exposure": 0.0, "samples": 64, "backdrop": True,
+                 "backdropColor": [0.18, 0.18, 0.18], "eye": self.eye}
+        title = self.arguments.title or self.wanted.get("title") or ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
+        return {"title": title, "materials": self.materials, "textures": self.textures.entries,
+                "lights": self.lights, "camera": self.camera, "environments": self.environments,
+                "shapes": self.shapes, "start": start, "references": compareImages.made(self)}
+
+
+def _share_presets(found):
+    """Materials of the same inputs are presets of each other."""
+    kinds = [[(i["input"].rpartition("/")[2], i["kind"]) for i in m["inputs"]] for m in found]
+    for m, kind in zip(found, kinds):
+        same = [other for other, its in zip(found, kinds) if its == kind]
+        if len(same) > 1 and kind:
+            m["presets"] += [{"name": other["name"],
+                              "values": {mine["input"]: its["value"] for mine, its in zip(m["inputs"], other["inputs"])}}
+                             for other in same]
+
+
+def page_of(arguments):
+    """:returns: the page's text, and warnings as lines"""
+    if not os.path.isdir(os.path.dirname(os.path.abspath(arguments.output))):
+        raise CommandError(f"there is no folder for {arguments.output}")
+    builder = Builder(arguments)
+    builder.read()
+    builder.surround()
+    text = page.document(builder.data(), builder.lobes)
+    if arguments.writeControls:
+        _write_controls(builder.materials, arguments.writeControls)
+    return text, builder.warnings
+
+
+def _write_controls(found, path):
+    entries = {entry["input"]: entry for material in found for entry in material["controls"]}
+    presets = {preset["name"]: {} for material in found for preset in material["presets"]}
+    for material in found:
+        for preset in material["presets"]:
+            presets[preset["name"]].update(preset["values"])
+    whole = {"controls": list(entries.values()),
+             "presets": [{"name": name, "values": values} for name, values in presets.items()],
+             "sentences": {m["name"]: m["sentence"] for m in found if m["sentence"]}}
+    try:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(json.dumps(whole, indent=1) + "\n")
+    except OSError as error:
+        raise CommandError(f"--writeControls: {path} cannot be written ({error.strerror})") from error

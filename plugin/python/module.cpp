@@ -15,6 +15,9 @@ void bindRender(py::module_& m);
 #ifdef PATINA_BIND_MATERIAL
 void bindMaterial(py::module_& m);
 #endif
+#ifdef PATINA_HAS_RASTER
+void bindRasterBsdf(py::module_& m);
+#endif
 
 } // namespace patina
 
@@ -72,5 +75,8 @@ Film, images and colour; Renderer and its settings; materials: see the classes' 
 #endif
 #ifdef PATINA_BIND_MATERIAL
     patina::bindMaterial(m);
+#endif
+#ifdef PATINA_HAS_RASTER
+    patina::bindRasterBsdf(m);
 #endif
 }

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace patina {
 
@@ -21,6 +22,12 @@ struct TextureRequest {
     std::string prim, input; ///< for messages
 };
 
+/// How a texture lies in the plane, for back ends with samplers of their own.
+struct TextureTiling {
+    std::vector<int> tiles; ///< UDIM numbers of those that exist, ascending; empty: no UDIM texture
+    TextureWrap wrapS = TextureWrap::Repeat, wrapT = TextureWrap::Repeat;
+};
+
 /// Gives filtered texels in linear Rec.709. Implemented where images are read; thread safe after
 /// open().
 class TextureSource {
@@ -34,6 +41,7 @@ public:
     /// @param footprint width of the filter in uv units, 0 for the finest level
     virtual glm::vec4 sample(int handle, glm::vec2 uv, float footprint) const = 0;
     virtual int channels(int handle) const = 0; ///< of the file: 1..4
+    virtual TextureTiling tiling(int /*handle*/) const { return {}; }
 
     /// Reads an IES file; file, prim and input of the request count.
     /// @returns null after a warning when it cannot be read, or where none are read

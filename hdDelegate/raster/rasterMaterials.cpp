@@ -4,26 +4,10 @@
 #include "hdDelegate/raster/glFaults.h"
 #include "materialNetwork/material.h"
 
-#include <algorithm>
-
 namespace patina {
 
-namespace {
-
-GLint wrapOf(TextureWrap wrap) {
-    switch (wrap) {
-    case TextureWrap::Black: return GL_CLAMP_TO_BORDER;
-    case TextureWrap::Clamp: return GL_CLAMP_TO_EDGE;
-    case TextureWrap::Mirror: return GL_MIRRORED_REPEAT;
-    case TextureWrap::Repeat: break;
-    }
-    return GL_REPEAT;
-}
-
-} // namespace
-
 RasterMaterials::RasterMaterials(Diagnostics& diagnostics)
-    : _diagnostics(diagnostics), _textures(diagnostics) {}
+    : _diagnostics(diagnostics), _textures(diagnostics), _uploaded(_textures, diagnostics) {}
 
 void RasterMaterials::update(const SceneState& state, const RenderSettings& settings) {
     for (auto it = _materials.begin(); it != _materials.end();) {
@@ -72,8 +56,7 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
         m.programs = shown.programs;
     }
     m.parameters = GlBuffer(m.glsl.parameters);
-    for (const int handle : m.glsl.textures)
-        m.textures.push_back(texture(handle));
+    m.textures = _uploaded.units(m.glsl.textures);
     return m;
 }
 
@@ -121,53 +104,6 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
         return nullptr;
     }
     return shared = programs;
-}
-
-/// The texels with the driver's own sampler; larger textures start at a smaller level.
-std::shared_ptr<const GlTexture> RasterMaterials::texture(int handle) {
-    auto& cached = _uploaded[handle];
-    if (cached) return cached;
-    auto texture = std::make_shared<GlTexture>();
-    const std::shared_ptr<const ImageTexture> image = _textures.image(handle);
-    const vec4 magenta(1.0f, 0.0f, 1.0f, 1.0f);
-    if (!image) {
-        *texture = GlTexture(GL_TEXTURE_2D, GL_RGBA16F, 1, 1);
-        gl.TextureSubImage2D(texture->id(), 0, 0, 0, 1, 1, GL_RGBA, GL_FLOAT, &magenta);
-        return cached = texture;
-    }
-    const int largest = largestTexture();
-    const auto& levels = image->levels();
-    size_t first = 0;
-    while (first + 1 < levels.size() &&
-           std::max(levels[first].width, levels[first].height) > largest)
-        ++first;
-    const TextureRequest& request = _textures.request(handle);
-    const auto size = [&](size_t level) {
-        return std::to_string(levels[level].width) + " x " + std::to_string(levels[level].height);
-    };
-    if (first > 0)
-        _diagnostics.warn(request.prim, request.input,
-                          "'" + request.file + "' has " + size(0) + " pixels, the driver takes " +
-                              std::to_string(largest) + " along a side; it is shown with " +
-                              size(first));
-    *texture = GlTexture(GL_TEXTURE_2D, GL_RGBA16F, levels[first].width, levels[first].height, 1,
-                         int(levels.size() - first));
-    std::vector<vec4> texels;
-    for (size_t l = first; l < levels.size(); ++l) {
-        const int w = levels[l].width, h = levels[l].height;
-        texels.resize(size_t(w) * size_t(h));
-        for (int y = 0; y < h; ++y)
-            for (int x = 0; x < w; ++x)
-                texels[size_t(h - 1 - y) * size_t(w) + size_t(x)] = image->texel(int(l), x, y);
-        gl.TextureSubImage2D(texture->id(), GLint(l - first), 0, 0, w, h, GL_RGBA, GL_FLOAT,
-                             texels.data());
-    }
-    texture->parameter(GL_TEXTURE_MIN_FILTER,
-                       request.nearest ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
-    texture->parameter(GL_TEXTURE_MAG_FILTER, request.nearest ? GL_NEAREST : GL_LINEAR);
-    texture->parameter(GL_TEXTURE_WRAP_S, wrapOf(request.wrapS));
-    texture->parameter(GL_TEXTURE_WRAP_T, wrapOf(request.wrapT));
-    return cached = texture;
 }
 
 } // namespace patina

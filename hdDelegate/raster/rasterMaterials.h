@@ -2,6 +2,7 @@
 
 #include "hdDelegate/raster/glProgram.h"
 #include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/rasterTextures.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
 #include "hdDelegate/scene/textureSystem.h"
@@ -50,13 +51,12 @@ private:
 
     std::shared_ptr<const RasterPrograms> build(const GlslMaterial& glsl, int primvars,
                                                 const std::string& user);
-    std::shared_ptr<const GlTexture> texture(int handle);
 
     Diagnostics& _diagnostics;
     TextureSystem _textures;
     std::map<std::string, Cached> _materials;
     std::map<std::string, std::shared_ptr<const RasterPrograms>> _programs; ///< by text
-    std::map<int, std::shared_ptr<const GlTexture>> _uploaded;              ///< by handle
+    RasterTextures _uploaded;
     size_t _built = 0;
 };
 

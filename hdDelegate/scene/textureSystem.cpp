@@ -183,6 +183,18 @@ int TextureSystem::channels(int handle) const {
     return image ? channelCount(image->layout) : 4;
 }
 
+TextureTiling TextureSystem::tiling(int handle) const {
+    TextureTiling out;
+    if (!valid(handle)) return out;
+    const Entry& entry = *_entries[size_t(handle)];
+    out.wrapS = entry.request.wrapS;
+    out.wrapT = entry.request.wrapT;
+    for (size_t i = 0; entry.udim && i < entry.tiles.size(); ++i)
+        if (entry.tiles[i] && entry.tiles[i]->problem.empty())
+            out.tiles.push_back(firstTile + int(i));
+    return out;
+}
+
 const TextureSystem::Image* TextureSystem::tileAt(const Entry& entry, glm::vec2& uv) const {
     if (!entry.udim) return entry.tiles[0].get();
     if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = glm::vec2(0);

@@ -25,6 +25,7 @@ public:
     /// tiles the wrap modes are without meaning: filters stop at the edge of a tile.
     glm::vec4 sample(int handle, glm::vec2 uv, float footprint) const override;
     int channels(int handle) const override;
+    TextureTiling tiling(int handle) const override;
     std::shared_ptr<const EmissionProfile> openProfile(const TextureRequest& request) override;
 
     /// Reads what was opened and not yet read, with all threads.

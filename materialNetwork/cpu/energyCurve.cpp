@@ -9,7 +9,6 @@ namespace {
 // Linear interpolation is then within 1.5e-3 of the tables (tests/testEnergyCurve.cpp). Nodes are
 // dense at grazing angles, where albedos change over a width like alpha; below narrowest that is
 // not dense enough.
-constexpr int nodeCount = 64;
 constexpr float narrowest = 0.01f;
 
 } // namespace

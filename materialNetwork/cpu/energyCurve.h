@@ -11,6 +11,8 @@ namespace patina {
 /// logarithms and powers per look-up; most materials are constant, and this costs two roots.
 class EnergyCurve {
 public:
+    static constexpr int nodeCount = 64;
+
     /// Measures the lobe. Stays empty for lobes that it does not suit: mirrors and lobes
     /// nearly as narrow, anisotropic ones, interfaces that are denser on the outside (total
     /// reflection has a kink).
@@ -23,9 +25,11 @@ public:
     };
     /// @param z cosine of wo, not negative
     Energy at(float z) const;
+    /// nodeCount of them, evenly spaced in the fourth root of the cosine; none when empty.
+    const std::vector<Energy>& nodes() const { return _nodes; }
 
 private:
-    std::vector<Energy> _nodes; ///< evenly spaced in the fourth root of the cosine
+    std::vector<Energy> _nodes;
 };
 
 /// The same, directly from the baked tables. For dielectric and Schlick lobes.

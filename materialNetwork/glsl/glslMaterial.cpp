@@ -15,6 +15,9 @@ std::string number(int i) {
     return std::to_string(i);
 }
 
+/// OpenGL promises uniform blocks of 1024 vectors, and all drivers have room for four times that.
+constexpr size_t maxWithCurves = 2048;
+
 /// Writes the text of one material. Every use of a constant gets a parameter of its own, so that
 /// equal constants do not change the text.
 class Writer {
@@ -39,19 +42,14 @@ public:
         emissionFunction();
         evalFunction();
         sampleFunction();
-        std::string head = "layout(std140, binding = 1) uniform Parameters { vec4 parameters[" +
-                           number(std::max(1, int(_out.parameters.size()))) + "]; };\n";
-        for (size_t i = 0; i < _out.textures.size(); ++i) {
-            const std::string t = "texture" + number(int(i));
-            head += "layout(binding = " + number(int(i)) + ") uniform sampler2D sampler" +
-                    number(int(i)) + ";\nvec4 " + t +
-                    "(vec2 uv, float footprint) { return nodeTexture(sampler" + number(int(i)) +
-                    ", uv, footprint); }\n";
-        }
+        const std::string textures = glslTextureText(_textures, _code.textures, _out.textures,
+                                                     _out.parameters, _out.leftOut);
+        std::string head = _rare ? "#include \"shaders/raster/moreNodes.glsl\"\n" : "";
+        head += "layout(std140, binding = 1) uniform Parameters { vec4 parameters[" +
+                number(std::max(1, int(_out.parameters.size()))) +
+                "]; };\nvec4 materialParameter(int i) { return parameters[i]; }\n" + textures;
         _out.text = head + _text;
-        if (_code.layerTransmittance != LayerTransmittance::Largest)
-            _out.leftOut.push_back("layers let through 1 - the largest channel, whatever "
-                                   "layerTransmittance says");
+        _out.albedoText = albedoFunction();
         if (_out.parameters.empty()) _out.parameters.emplace_back(0.0f);
         _out.presence = !_program.isOpaque();
         _out.emission = _program.hasEmission();
@@ -68,24 +66,28 @@ private:
     std::string reg(int r) { return reg(Register(r)); }
 
     std::string sampler(int handle) {
-        auto& list = _out.textures;
+        auto& list = _textures;
         const auto found = std::find(list.begin(), list.end(), handle);
         const int i = int(found - list.begin());
         if (found == list.end()) list.push_back(handle);
         return "texture" + number(i);
     }
 
-    std::vector<std::string> expressions(const Instruction& instruction) {
-        return glslPattern(
+    GlslPattern pattern(const Instruction& instruction) {
+        const GlslPattern p = glslPattern(
             instruction,
-            [&](int i) { return reg(_code.inputPool[instruction.firstInput + uint32_t(i)]); },
-            [&](int handle) { return sampler(handle); });
+            {[&](int i, int row) {
+                 return reg(_code.inputPool[instruction.firstInput + uint32_t(i)] + row);
+             },
+             [&](int handle) { return sampler(handle); }});
+        _rare |= p.rare;
+        return p;
     }
 
     void declareRegisters(const std::vector<Instruction>& code) {
         const size_t parameters = _out.parameters.size();
         for (const Instruction& i : code) {
-            const size_t outputs = std::max<size_t>(1, expressions(i).size());
+            const size_t outputs = std::max<size_t>(1, pattern(i).outputs.size());
             for (size_t k = 0; k < outputs; ++k)
                 if (_declared.insert(i.output + int(k)).second)
                     line("vec4 r" + number(i.output + int(k)) + ";");
@@ -97,7 +99,7 @@ private:
     void instructions(const std::vector<Instruction>& code) {
         for (const Instruction& i : code) {
             const size_t parameters = _out.parameters.size();
-            std::vector<std::string> values = expressions(i);
+            std::vector<std::string> values = pattern(i).outputs;
             if (values.empty()) {
                 _out.parameters.resize(parameters);
                 _out.leftOut.push_back("a pattern without GLSL shows one value everywhere");
@@ -149,6 +151,37 @@ private:
         line("}");
     }
 
+    /// Where the parameters hold the curve that the program reads albedos of a constant interface
+    /// from. Whether there is one is a parameter too: it hangs on roughness and ior.
+    std::string curve(const LobeTemplate& t) {
+        const bool schlick = t.prebuilt.kind == LobeKind::Schlick;
+        if (!t.constant || (!schlick && t.prebuilt.kind != LobeKind::Dielectric)) return "-1";
+        const size_t first = _out.parameters.size(), width = schlick ? 4 : 1;
+        const size_t size = 1 + EnergyCurve::nodeCount * width;
+        if (first + size > maxWithCurves) return "-1";
+        _out.parameters.resize(first + size, glm::vec4(0.0f));
+        glm::vec4* out = &_out.parameters[first];
+        *out++ = glm::vec4(t.energy.empty() ? 0.0f : 1.0f);
+        for (const EnergyCurve::Energy& e : t.energy.nodes()) {
+            if (schlick) {
+                for (const glm::vec3& v : {e.kr, e.kt, e.r, e.t})
+                    *out++ = glm::vec4(v, 0.0f);
+            } else {
+                *out++ = {e.kr.x, e.kt.x, e.r.x, e.t.x};
+            }
+        }
+        return number(int(first));
+    }
+
+    std::string share(const std::string& color) const {
+        switch (_code.layerTransmittance) {
+        case LayerTransmittance::Largest: return "shareLargest(" + color + ")";
+        case LayerTransmittance::Average: return "shareAverage(" + color + ")";
+        case LayerTransmittance::Tinted: break;
+        }
+        return "shareTinted(" + color + ")";
+    }
+
     void placeLobe(size_t i) {
         const LobeTemplate& t = _code.lobes[i];
         const std::string n = number(int(i)), lobe = "lobe" + n;
@@ -156,8 +189,15 @@ private:
         const auto registers = [&](Register r) { return reg(r); };
         line("    " + lobe + " = " + glslLobeSetup(t, registers) + ";");
         if (t.facets != 0) line("    " + lobe + ".facets = " + number(t.facets) + ";");
-        line("    float kept" + n + " = unit(" + prefix + "Fix(" + lobe + ", " + frameOf(i) +
-             ".wo, lobeAlbedo[" + n + "]));");
+        const std::string fixed = prefix + "Fix(" + lobe + ", " + frameOf(i) + ".wo, " + curve(t) +
+                                  ", lobeAlbedo[" + n + "])";
+        const LobeKind kind = t.prebuilt.kind;
+        const bool reflects =
+            (kind == LobeKind::Dielectric || kind == LobeKind::Schlick) && t.mode == sh::SCATTER_R;
+        const bool tinted = _code.layerTransmittance == LayerTransmittance::Tinted &&
+                            (reflects || kind == LobeKind::Sheen);
+        line("    vec3 kept" + n + " = " + fixed + ";");
+        line("    kept" + n + " = " + share(tinted ? "lobeAlbedo[" + n + "]" : "kept" + n) + ";");
         if (!t.straight) return;
         line("    vec3 wallPassed" + n + ", wallReflected" + n + ";");
         line("    " + prefix + "Wall(" + lobe + ", " + frameOf(i) + ".wo, lobeAlbedo[" + n +
@@ -168,7 +208,7 @@ private:
     /// As BsdfBuilder::setWeights(), unrolled.
     void weights() {
         const int count = int(_code.bsdf.size());
-        const auto passed = [&](int i) { return i < 0 ? "1.0" : "passed" + number(i); };
+        const auto passed = [&](int i) { return i < 0 ? "vec3(1.0)" : "passed" + number(i); };
         std::vector<std::string> factor(size_t(count) + 1);
         for (int i = 0; i < count; ++i) {
             const ClosureOp& op = _code.bsdf[size_t(i)];
@@ -181,22 +221,22 @@ private:
             const ClosureOp& op = _code.bsdf[size_t(i)];
             if (!op.needsPassed) continue;
             const std::string& f = factor[size_t(i)];
-            std::string value = "1.0";
+            std::string value = "vec3(1.0)";
             switch (op.kind) {
             case ClosureKind::Layer: value = passed(op.a) + " * " + passed(op.b); break;
             case ClosureKind::Mix:
                 value = "mix(" + passed(op.b) + ", " + passed(op.a) + ", " + f + ")";
                 break;
             case ClosureKind::Add:
-                value = "max(" + passed(op.a) + " + " + passed(op.b) + " - 1.0, 0.0)";
+                value = "max(" + passed(op.a) + " + " + passed(op.b) + " - 1.0, vec3(0.0))";
                 break;
             case ClosureKind::Multiply:
-                value = "1.0 - unit(largest(" + f + ")) * (1.0 - " + passed(op.a) + ")";
+                value = "1.0 - " + share(f) + " * (1.0 - " + passed(op.a) + ")";
                 break;
             default:
                 if (op.lobe >= 0) value = "1.0 - " + f + " * kept" + number(op.lobe);
             }
-            line("    float passed" + number(i) + " = " + value + ";");
+            line("    vec3 passed" + number(i) + " = " + value + ";");
         }
         for (int i = 0; i < count; ++i)
             line("    vec3 w" + number(i) + " = vec3(" + (i == count - 1 ? "1.0" : "0.0") + ");");
@@ -228,18 +268,29 @@ private:
         }
     }
 
+    /// As BsdfBuilder::choose(): a lone lobe needs no share.
     void setupFunction() {
         line("void materialSetup() {");
         line("    place();");
         line("    float sum = 0.0;");
+        line("    int present = 0;");
         for (size_t i = 0; i < _code.lobes.size(); ++i) {
             const std::string n = "[" + number(int(i)) + "]";
-            line("    lobeChance" + n + " = max(luminance(lobeWeight" + n + " * lobeAlbedo" + n +
-                 "), luminance(lobeWeight" + n + ") > 0.0 ? 1e-6 : 0.0);");
+            line("    bool has" + number(int(i)) + " = luminance(lobeWeight" + n + ") > 0.0;");
+            line("    present += has" + number(int(i)) + " ? 1 : 0;");
+        }
+        for (size_t i = 0; i < _code.lobes.size(); ++i) {
+            const std::string n = "[" + number(int(i)) + "]";
+            line("    lobeChance" + n + " = !has" + number(int(i)) +
+                 " ? 0.0 : present == 1 ? 1.0 : luminance(lobeWeight" + n + " * lobeAlbedo" + n +
+                 ");");
             line("    sum += lobeChance" + n + ";");
         }
-        for (size_t i = 0; i < _code.lobes.size(); ++i)
-            line("    lobeChance[" + number(int(i)) + "] /= max(sum, 1e-20);");
+        for (size_t i = 0; i < _code.lobes.size(); ++i) {
+            const std::string n = "[" + number(int(i)) + "]";
+            line("    lobeChance" + n + " /= sum > 0.0 ? sum : 1.0;");
+            line("    if (!(sum > 0.0)) lobeWeight" + n + " = vec3(0.0);");
+        }
         line("}");
     }
 
@@ -299,41 +350,61 @@ private:
     }
 
     void evalFunction() {
-        line("MaterialEval materialEval(vec3 wi) {");
+        line("MaterialEval materialEvalBut(vec3 wi, int without) {");
         line("    MaterialEval sum = materialEvalNone();");
         line("    bool reflects = (dot(wi, point.geometricNormal) > 0.0) == woOutside();");
         for (size_t i = 0; i < _code.lobes.size(); ++i) {
             const LobeTemplate& t = _code.lobes[i];
             const std::string n = number(int(i));
-            line("    addLobe(sum, " + std::string(t.prebuilt.diffuse ? "true" : "false") +
-                 ", lobeWeight[" + n + "], lobeChance[" + n + "], reflects, " + frameOf(i) +
-                 ", wi, " + glslLobePrefix(t.prebuilt.kind) + "Eval(lobe" + n + ", " + frameOf(i) +
+            line("    if (without != " + n + ") addLobe(sum, " +
+                 std::string(t.prebuilt.diffuse ? "true" : "false") + ", lobeWeight[" + n +
+                 "], lobeChance[" + n + "], reflects, " + frameOf(i) + ", wi, " +
+                 glslLobePrefix(t.prebuilt.kind) + "Eval(lobe" + n + ", " + frameOf(i) +
                  ".wo, toLocal(" + frameOf(i) + ", wi)));");
         }
         line("    return sum;");
         line("}");
+        line("MaterialEval materialEval(vec3 wi) { return materialEvalBut(wi, -1); }");
     }
 
     void sampleFunction() {
         line("MaterialSample materialSample(vec3 u, float uLobe) {");
         line("    MaterialSample s = materialSampleNone();");
         line("    LobeSample l = lobeSampleNone();");
-        line("    float below = 0.0;");
+        line("    float below = 0.0, chance = 0.0;");
+        line("    vec3 weight = vec3(0.0);");
+        line("    int drawn = -1;");
         for (size_t i = 0; i < _code.lobes.size(); ++i) {
             const LobeTemplate& t = _code.lobes[i];
-            const std::string n = number(int(i));
-            line("    if (uLobe >= below && uLobe < below + lobeChance[" + n + "]) {");
+            const std::string n = number(int(i)), own = "lobeChance[" + n + "]";
+            // Rounding must not leave the last without its share.
+            const bool last = i + 1 == _code.lobes.size();
+            line("    if (drawn < 0 && " + own + " > 0.0" +
+                 (last ? std::string() : " && uLobe < below + " + own) + ") {");
             line("        l = " + glslLobePrefix(t.prebuilt.kind) + "Sample(lobe" + n + ", " +
                  frameOf(i) + ".wo, u);");
             line("        s.wi = toWorld(" + frameOf(i) + ", l.wi);");
             line("        s.diffuse = " + std::string(t.prebuilt.diffuse ? "true" : "false") + ";");
-            line("        s.weight = lobeWeight[" + n + "] * l.weight / lobeChance[" + n + "];");
-            line("        s.pdf = l.pdf * lobeChance[" + n + "];");
+            line("        drawn = " + n + ";");
+            line("        weight = lobeWeight[" + n + "];");
+            line("        chance = " + own + ";");
             line("    }");
-            line("    below += lobeChance[" + n + "];");
+            line("    below += " + own + ";");
         }
-        line("    return finishSample(s, l);");
+        line("    return finishSample(s, l, drawn, weight, chance);");
         line("}");
+    }
+
+    /// As Bsdf::albedo(). Only who asks for it takes this text in.
+    std::string albedoFunction() const {
+        std::string text = "vec3 materialAlbedo() {\n    vec3 sum = vec3(0.0);\n";
+        for (size_t i = 0; i < _code.lobes.size(); ++i) {
+            const std::string n = number(int(i));
+            text += "    if (luminance(lobeWeight[" + n + "]) > 0.0) sum += lobeWeight[" + n +
+                    "] * " + glslLobePrefix(_code.lobes[i].prebuilt.kind) + "Albedo(lobe" + n +
+                    ", " + frameOf(i) + ".wo);\n";
+        }
+        return text + "    return sum;\n}\n";
     }
 
     const MaterialProgram& _program;
@@ -341,6 +412,8 @@ private:
     GlslMaterial& _out;
     std::string _text;
     std::set<int> _declared;
+    std::vector<int> _textures; ///< handles in the order of `texture0`...
+    bool _rare = false;         ///< a pattern needs moreNodes.glsl
 };
 
 } // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "materialNetwork/cpu/materialProgram.h"
+#include "materialNetwork/glsl/glslTextures.h"
 
 #include <glm/glm.hpp>
 
@@ -22,8 +23,9 @@ namespace patina {
 /// program: every other is in `parameters`, so that equal graphs have equal text.
 struct GlslMaterial {
     std::string text;
+    std::string albedoText;            ///< may follow: vec3 materialAlbedo(), as Bsdf::albedo()
     std::vector<glm::vec4> parameters; ///< `vec4 parameters[]` of the text
-    std::vector<int> textures;         ///< TextureSource handle of each sampler `texture0`...
+    std::vector<GlslTexture> textures; ///< those of `texture0`...
     std::vector<std::string> leftOut;  ///< patterns that have no GLSL: their value at one point
     bool presence = false;             ///< materialPresence() may be less than 1
     bool emission = false;

@@ -8,12 +8,19 @@
 
 namespace patina {
 
-/// GLSL expressions of a pattern's outputs, one per output register.
-/// @param input text of input i, a vec4
-/// @param sampler name of the sampler of a texture handle
-/// @returns empty when the pattern has no GLSL
-std::vector<std::string> glslPattern(const Instruction& instruction,
-                                     const std::function<std::string(int)>& input,
-                                     const std::function<std::string(int)>& sampler);
+/// What the text of a pattern is made of.
+struct GlslPatternNames {
+    /// Text of a row of input i, a vec4; only matrices have more than row 0.
+    std::function<std::string(int input, int row)> input;
+    /// Name of the function that reads the texture of a handle.
+    std::function<std::string(int handle)> texture;
+};
+
+struct GlslPattern {
+    std::vector<std::string> outputs; ///< an expression per register; empty where there is no GLSL
+    bool rare = false;                ///< needs shaders/raster/moreNodes.glsl
+};
+
+GlslPattern glslPattern(const Instruction& instruction, const GlslPatternNames& names);
 
 } // namespace patina

@@ -123,6 +123,10 @@ void prepareVarname(PatternSetup& setup, PatternData& data) {
 void fallbackOnly(Call c) {
     c.out() = c.in(1);
 }
+void fallbackMatrix(Call c) {
+    for (int i = 0; i < 4; ++i)
+        c.out(i) = c.registers[c.inputs[1] + i];
+}
 void prepareFallback(PatternSetup& setup, PatternData&) {
     setup.warn("varname", "primvars of this type are not read; the fallback is used");
 }
@@ -174,7 +178,7 @@ const NodeRow rows[] = {
     {"UsdPrimvarReader_string", "UsdPrimvarReader", "string varname=, string fallback=",
      "string result", fallbackOnly, Algebra::None, nullptr, prepareFallback, true},
     {"UsdPrimvarReader_matrix", "UsdPrimvarReader", "string varname=, matrix44 fallback=0",
-     "matrix44 result", fallbackOnly, Algebra::None, nullptr, prepareFallback, true},
+     "matrix44 result", fallbackMatrix, Algebra::None, nullptr, prepareFallback, true},
 };
 
 } // namespace

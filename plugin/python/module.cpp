@@ -19,6 +19,9 @@ void bindMaterial(py::module_& m);
 void bindWeb(py::module_& m);
 void bindWebScene(py::module_& m);
 #endif
+#ifdef PATINA_HAS_RASTER
+void bindRasterBsdf(py::module_& m);
+#endif
 
 } // namespace patina
 
@@ -80,5 +83,8 @@ Film, images and colour; Renderer and its settings; materials: see the classes' 
 #ifdef PATINA_BIND_WEB
     patina::bindWeb(m);
     patina::bindWebScene(m);
+#endif
+#ifdef PATINA_HAS_RASTER
+    patina::bindRasterBsdf(m);
 #endif
 }

@@ -4,6 +4,8 @@
 #include "shaders/lobes.glsl"
 #include "shaders/patterns.glsl"
 
+const int ENERGY_CURVE_NODES = 64; // EnergyCurve::nodeCount
+
 // World space, unit vectors; see materialNetwork/cpu/shadingPoint.h.
 struct SurfacePoint {
     vec3 position;
@@ -14,6 +16,7 @@ struct SurfacePoint {
     vec3 bitangent;
     vec3 view;
     mat3 objectToWorldNormal;
+    float lengthPerUv;
     float uvFootprint;
 };
 SurfacePoint point;
@@ -44,7 +47,7 @@ struct MaterialSample {
     bool diffuse;
 };
 
-MaterialEval materialEval(vec3 wi);
+MaterialEval materialEvalBut(vec3 wi, int without);
 
 float largest(vec3 c) {
     return max(c.x, max(c.y, c.z));
@@ -54,6 +57,19 @@ float luminance(vec3 c) {
 }
 float unit(float x) {
     return x > 0.0 ? min(x, 1.0) : 0.0;
+}
+vec3 unit(vec3 c) {
+    return vec3(unit(c.x), unit(c.y), unit(c.z));
+}
+// What a coloured share takes from a base: the methods of layerTransmittance.
+vec3 shareLargest(vec3 c) {
+    return vec3(unit(largest(c)));
+}
+vec3 shareAverage(vec3 c) {
+    return vec3(unit((c.x + c.y + c.z) / 3.0));
+}
+vec3 shareTinted(vec3 c) {
+    return unit(c);
 }
 vec3 unitOr(vec3 v, vec3 fallback) {
     float l = length(v);
@@ -111,68 +127,100 @@ Frame makeFrame(vec3 normal, vec3 tangent, bool flips) {
     return f;
 }
 
+// Defined by the text of a material.
+vec4 materialParameter(int i);
+
+// Places on the curve of an EnergyCurve: the node before z, and how far z is from it to the next.
+int energyCurveNode(float z, out float share) {
+    float t = sqrt(sqrt(min(z, 1.0))) * float(ENERGY_CURVE_NODES - 1);
+    int i = min(int(t), ENERGY_CURVE_NODES - 2);
+    share = t - float(i);
+    return i;
+}
+vec4 alongCurve(int i, int stride, float share) {
+    vec4 a = materialParameter(i);
+    return a + (materialParameter(i + stride) - a) * share;
+}
+// curve: of the parameters, where x says whether the curve is there and its nodes follow; -1 none.
+bool hasCurve(int curve, vec3 wo) {
+    return curve >= 0 && wo.z >= 0.0 && materialParameter(max(curve, 0)).x != 0.0;
+}
+DielectricEnergy dielectricEnergyBy(DielectricLobe l, vec3 wo, int curve) {
+    if (!hasCurve(curve, wo)) return dielectricEnergy(l, wo);
+    float share;
+    vec4 v = alongCurve(curve + 1 + energyCurveNode(wo.z, share), 1, share);
+    return DielectricEnergy(v.x, v.y, v.z, v.w);
+}
+SchlickEnergy schlickEnergyBy(SchlickLobe l, vec3 wo, int curve) {
+    if (!hasCurve(curve, wo)) return schlickEnergy(l, wo);
+    float share;
+    int i = curve + 1 + 4 * energyCurveNode(wo.z, share);
+    return SchlickEnergy(alongCurve(i, 4, share).xyz, alongCurve(i + 1, 4, share).xyz,
+                         alongCurve(i + 2, 4, share).xyz, alongCurve(i + 3, 4, share).xyz);
+}
+
 // lobeFixWo() of materialNetwork/cpu/lobeOps.h: looks up what depends on wo alone, and returns the
 // share that the lobe keeps from the base of a layer.
-float orenNayarFix(inout OrenNayarLobe l, vec3 wo, out vec3 albedo) {
+vec3 orenNayarFix(inout OrenNayarLobe l, vec3 wo, int curve, out vec3 albedo) {
     albedo = l.color;
-    return 1.0;
+    return vec3(1.0);
 }
-float burleyFix(inout BurleyLobe l, vec3 wo, out vec3 albedo) {
+vec3 burleyFix(inout BurleyLobe l, vec3 wo, int curve, out vec3 albedo) {
     albedo = l.color;
-    return 1.0;
+    return vec3(1.0);
 }
-float translucentFix(inout TranslucentLobe l, vec3 wo, out vec3 albedo) {
+vec3 translucentFix(inout TranslucentLobe l, vec3 wo, int curve, out vec3 albedo) {
     albedo = l.color;
-    return 1.0;
+    return vec3(1.0);
 }
-float conductorFix(inout ConductorLobe l, vec3 wo, out vec3 albedo) {
+vec3 conductorFix(inout ConductorLobe l, vec3 wo, int curve, out vec3 albedo) {
     l = conductorAt(l, wo);
     albedo = conductorReflectance(l, clamp(wo.z, 0.0, 1.0));
-    return 1.0;
+    return vec3(1.0);
 }
-float dielectricFix(inout DielectricLobe l, vec3 wo, out vec3 albedo) {
-    DielectricEnergy e = dielectricEnergy(l, wo);
+vec3 dielectricFix(inout DielectricLobe l, vec3 wo, int curve, out vec3 albedo) {
+    DielectricEnergy e = dielectricEnergyBy(l, wo, curve);
     l.known = true;
     l.kr = e.kr;
     l.kt = e.kt;
     float kept = ((l.mode & SCATTER_R) != 0 ? e.r : 0.0) + ((l.mode & SCATTER_T) != 0 ? e.t : 0.0);
     albedo = l.tint * kept;
-    return l.mode == SCATTER_T ? 1.0 : kept;
+    return vec3(l.mode == SCATTER_T ? 1.0 : kept);
 }
-float schlickFix(inout SchlickLobe l, vec3 wo, out vec3 albedo) {
-    SchlickEnergy e = schlickEnergy(l, wo);
+vec3 schlickFix(inout SchlickLobe l, vec3 wo, int curve, out vec3 albedo) {
+    SchlickEnergy e = schlickEnergyBy(l, wo, curve);
     l.known = true;
     l.kr = e.kr;
     l.kt = e.kt;
     vec3 kept = ((l.mode & SCATTER_R) != 0 ? e.r : vec3(0.0)) +
                 ((l.mode & SCATTER_T) != 0 ? e.t : vec3(0.0));
     albedo = l.tint * kept;
-    return l.mode == SCATTER_T ? 1.0 : largest(kept);
+    return l.mode == SCATTER_T ? vec3(1.0) : kept;
 }
-float sheenFix(inout SheenLobe l, vec3 wo, out vec3 albedo) {
+vec3 sheenFix(inout SheenLobe l, vec3 wo, int curve, out vec3 albedo) {
     float kept = wo.z >= 0.0 ? sheenWhiteAlbedo(l, wo.z) : 0.0;
     albedo = l.color * kept;
-    return kept;
+    return vec3(kept);
 }
-float phongFix(inout PhongLobe l, vec3 wo, out vec3 albedo) {
+vec3 phongFix(inout PhongLobe l, vec3 wo, int curve, out vec3 albedo) {
     albedo = phongAlbedo(l, wo);
-    return 1.0;
+    return vec3(1.0);
 }
-float blinnPhongFix(inout BlinnPhongLobe l, vec3 wo, out vec3 albedo) {
+vec3 blinnPhongFix(inout BlinnPhongLobe l, vec3 wo, int curve, out vec3 albedo) {
     albedo = blinnPhongAlbedo(l, wo);
-    return 1.0;
+    return vec3(1.0);
 }
-float wardFix(inout WardLobe l, vec3 wo, out vec3 albedo) {
+vec3 wardFix(inout WardLobe l, vec3 wo, int curve, out vec3 albedo) {
     albedo = wardAlbedo(l, wo);
-    return 1.0;
+    return vec3(1.0);
 }
-float cookTorranceFix(inout CookTorranceLobe l, vec3 wo, out vec3 albedo) {
+vec3 cookTorranceFix(inout CookTorranceLobe l, vec3 wo, int curve, out vec3 albedo) {
     albedo = cookTorranceAlbedo(l, wo);
-    return 1.0;
+    return vec3(1.0);
 }
-float chiangHairFix(inout ChiangHairLobe l, vec3 wo, out vec3 albedo) {
+vec3 chiangHairFix(inout ChiangHairLobe l, vec3 wo, int curve, out vec3 albedo) {
     albedo = chiangHairAlbedo(l, wo);
-    return 1.0;
+    return vec3(1.0);
 }
 
 // One or two faces of a thin wall, as BsdfBuilder::wallOf().
@@ -214,7 +262,7 @@ MaterialSample materialSampleNone() {
 void addLobe(inout MaterialEval sum, bool diffuse, vec3 weight, float chance, bool reflects,
              Frame f, vec3 wi, LobeEval e) {
     bool above = (dot(wi, f.normal) > 0.0) == (f.wo.z >= 0.0);
-    if (above != reflects || !(chance > 0.0)) return;
+    if (above != reflects || !(luminance(weight) > 0.0)) return;
     if (diffuse)
         sum.diffuse += weight * e.value;
     else
@@ -222,19 +270,24 @@ void addLobe(inout MaterialEval sum, bool diffuse, vec3 weight, float chance, bo
     sum.pdf += chance * e.pdf;
 }
 
-MaterialSample finishSample(MaterialSample s, LobeSample l) {
+// The lobe that was drawn counts by its own sample, the others by their values there.
+MaterialSample finishSample(MaterialSample s, LobeSample l, int drawn, vec3 weight, float chance) {
     bool reflects = (l.event & LOBE_REFLECT) != 0;
-    if (l.event == 0 || ((dot(s.wi, point.geometricNormal) > 0.0) == woOutside()) != reflects)
+    if (drawn < 0 || l.event == 0 ||
+        ((dot(s.wi, point.geometricNormal) > 0.0) == woOutside()) != reflects)
         return materialSampleNone();
     s.event = l.event;
-    if ((l.event & LOBE_DELTA) != 0) {
-        s.diffuseWeight = s.diffuse ? s.weight : vec3(0.0);
-        s.specularWeight = s.diffuse ? vec3(0.0) : s.weight;
-        return s;
-    }
-    MaterialEval e = materialEval(s.wi);
-    s.pdf = e.pdf;
-    float inverse = e.pdf > 0.0 ? 1.0 / e.pdf : 0.0;
+    MaterialEval e = materialEvalNone();
+    float scale = l.pdf;
+    if ((l.event & LOBE_DELTA) != 0)
+        scale = 1.0 / chance;
+    else
+        e = materialEvalBut(s.wi, drawn);
+    vec3 own = weight * l.weight * scale;
+    e.diffuse += s.diffuse ? own : vec3(0.0);
+    e.specular += s.diffuse ? vec3(0.0) : own;
+    s.pdf = e.pdf + chance * l.pdf;
+    float inverse = (l.event & LOBE_DELTA) != 0 ? 1.0 : s.pdf > 0.0 ? 1.0 / s.pdf : 0.0;
     s.diffuseWeight = e.diffuse * inverse;
     s.specularWeight = e.specular * inverse;
     s.weight = s.diffuseWeight + s.specularWeight;
@@ -306,21 +359,30 @@ vec2 nodeTiledUv(vec4 uv, vec4 tiling, vec4 offset, vec4 image, vec4 tile) {
 float nodeTiledFootprint(vec4 tiling) {
     return point.uvFootprint * max(abs(tiling.x), abs(tiling.y));
 }
+// Loops, so that drivers read each kind of noise once.
 vec4 nodeNoise2(vec2 p) {
-    return vec4(noisePerlin2(p, 0), noisePerlin2(p, 8), noisePerlin2(p, 16), 0.0);
+    vec4 v = vec4(0.0);
+    for (int i = 0; i < 3; ++i)
+        v[i] = noisePerlin2(p, 8 * i);
+    return v;
 }
 vec4 nodeNoise3(vec3 p) {
-    return vec4(noisePerlin3(p, 0), noisePerlin3(p, 8), noisePerlin3(p, 16), 0.0);
+    vec4 v = vec4(0.0);
+    for (int i = 0; i < 3; ++i)
+        v[i] = noisePerlin3(p, 8 * i);
+    return v;
 }
 vec4 nodeFractal2(vec2 p, int octaves, float lacunarity, float diminish) {
-    return vec4(noiseFractal2(p, octaves, lacunarity, diminish, 0),
-                noiseFractal2(p, octaves, lacunarity, diminish, 8),
-                noiseFractal2(p, octaves, lacunarity, diminish, 16), 0.0);
+    vec4 v = vec4(0.0);
+    for (int i = 0; i < 3; ++i)
+        v[i] = noiseFractal2(p, octaves, lacunarity, diminish, 8 * i);
+    return v;
 }
 vec4 nodeFractal3(vec3 p, int octaves, float lacunarity, float diminish) {
-    return vec4(noiseFractal3(p, octaves, lacunarity, diminish, 0),
-                noiseFractal3(p, octaves, lacunarity, diminish, 8),
-                noiseFractal3(p, octaves, lacunarity, diminish, 16), 0.0);
+    vec4 v = vec4(0.0);
+    for (int i = 0; i < 3; ++i)
+        v[i] = noiseFractal3(p, octaves, lacunarity, diminish, 8 * i);
+    return v;
 }
 vec4 nodeTiledShape(int shape, float row, vec4 uv, vec4 tiling, vec4 offset, vec4 size, vec4 staggered) {
     return vec4(patternTiledShape(shape, patternTile(uv.xy, tiling.xy, offset.xy), size.x,

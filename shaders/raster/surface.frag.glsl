@@ -60,6 +60,7 @@ void setPoint(vec3 view, float coneWidth) {
     }
     point.objectToWorldNormal = vNormalMatrix;
     float cosine = max(0.1, abs(dot(point.geometricNormal, view)));
+    point.lengthPerUv = 1.0 / max(vUvPerLength, 1e-20);
     point.uvFootprint = vUvPerLength * coneWidth / sqrt(cosine);
 }
 

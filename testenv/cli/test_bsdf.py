@@ -2,6 +2,7 @@
 import io
 import json
 import math
+import os
 import sys
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 _patina = pytest.importorskip("_patina")
 
-from patina.cli import main  # noqa: E402
+from patina.cli import main, materials  # noqa: E402
 
 DIFFUSE = """<?xml version="1.0"?>
 <materialx version="1.39">
@@ -154,3 +155,131 @@ def test_open_meanings_are_methods(capsys, tmp_path):
     (solid,) = lines(capsys, "albedo", str(path), "--method", "thinWalled=solid")
     assert solid["albedo"][0] > 0.9  # reflected and refracted; the slab's light goes straight on
     assert slab["albedo"] != solid["albedo"]
+
+
+def _raster_probe(network):
+    try:
+        return _patina.RasterProbe(network)
+    except AttributeError:
+        pytest.skip("this build has no rasterizer")
+    except RuntimeError as error:
+        if "OpenGL" in str(error) or "EGL" in str(error):
+            pytest.skip(str(error))
+        raise
+
+
+@pytest.mark.parametrize("scene", ["plastic", "roughGlass", "shaderball", "texturedDiffuse", "media"])
+def test_both_back_ends_agree(scene, capsys):
+    """Fixed directions and random numbers. Floats cancel near the peaks of narrow lobes, whoever computes: there one value
+    in a hundred may be off by more than 1e-4, but none by 1e-3."""
+    stage = os.path.join(os.path.dirname(__file__), "..", "scenes", scene + ".usda")
+    found, _ = materials.load(stage, every=True)
+    generator = np.random.default_rng(5)
+    wo, wi = (_unit(generator.normal(size=(64, 3))) for _ in range(2))
+    u = generator.random((64, 4), dtype=np.float32)
+    for name, network in found[-1:]:  # a compilation takes the driver seconds
+        embree, raster = _patina.MaterialProbe(network), _raster_probe(network)
+        for probe in (embree, raster):
+            probe.move_to(0.3, 0.6)
+        (f, pdf), (g, density) = embree.eval(wo, wi), raster.eval(wo, wi)
+        a, b = embree.sample(wo, u), raster.sample(wo, u)
+        same = a["event"] == b["event"]
+        assert same.all(), name
+        np.testing.assert_allclose(b["wi"], a["wi"], atol=1e-4, err_msg=name)
+        pairs = {"f": (g, f), "pdf": (density, pdf), "albedo": (raster.albedo(wo), embree.albedo(wo)),
+                 "weight": (b["weight"], a["weight"])}
+        for what, (got, wanted) in pairs.items():
+            off = np.abs(got - wanted) / (np.abs(wanted) + 1e-3)
+            assert off.max() < 1e-3, (name, what)
+            assert np.mean(off > 1e-4) <= 0.01, (name, what)
+
+
+def _unit(vectors):
+    return (vectors / np.linalg.norm(vectors, axis=1)[:, None]).astype(np.float32)
+
+
+def test_raster_prints_as_embree_does(document, capsys, monkeypatch):
+    _raster_probe(_patina.display_color_network())
+    printed = []
+    for backend in ("embree", "raster"):
+        monkeypatch.setattr(sys, "stdin", io.StringIO("0 0 1 0.6 0 0.8\n0.6 0 0.8 0 0.6 0.8\n"))
+        assert main.main(["bsdf", "eval", document, "--wo", "-", "--wi", "-", "--backend", backend]) == 0
+        printed.append(capsys.readouterr().out.splitlines())
+    assert len(printed[0]) == len(printed[1]) == 2
+    for a, b in zip(*printed):
+        assert a.split()[0] == b.split()[0] == "f"
+        np.testing.assert_allclose([float(x) for x in b.split()[1:4]], [float(x) for x in a.split()[1:4]], rtol=1e-5)
+
+
+IMAGES = """<?xml version="1.0"?>
+<materialx version="1.39">
+  <texcoord name="uv" type="vector2"/>
+  {images}
+  <oren_nayar_diffuse_bsdf name="diffuse" type="BSDF">
+    <input name="color" type="color3" nodename="{last}"/>
+  </oren_nayar_diffuse_bsdf>
+  <surface name="surface" type="surfaceshader">
+    <input name="bsdf" type="BSDF" nodename="diffuse"/>
+  </surface>
+  <surfacematerial name="matte" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="surface"/>
+  </surfacematerial>
+</materialx>
+"""
+IMAGE = """<image name="{name}" type="color3">
+    <input name="file" type="filename" value="{file}"/>
+    <input name="texcoord" type="vector2" nodename="uv"/>
+    <input name="uaddressmode" type="string" value="{wrap}"/>
+    <input name="vaddressmode" type="string" value="{wrap}"/>
+  </image>
+  """
+
+
+def _albedos(path, places):
+    (_, network), = materials.load(str(path))[0]
+    up = np.array([[0, 0, 1]], dtype=np.float32)
+    probes = _patina.MaterialProbe(network), _raster_probe(network)
+    found = []
+    for probe in probes:
+        for u, v in places:
+            probe.move_to(u, v)
+            found.append(probe.albedo(up)[0])
+    return np.array(found[:len(places)]), np.array(found[len(places):]), probes[1].warnings
+
+
+def test_tiles_of_textures_on_the_driver(tmp_path):
+    colors = {1001: (1, 0, 0), 1002: (0, 1, 0), 1011: (0, 0, 1), 1012: (0.5, 0.25, 0.75)}
+    for tile, color in colors.items():
+        size = 8 if tile == 1001 else 4  # tiles need not be alike
+        _patina.write_image(str(tmp_path / f"t.{tile}.exr"), np.full((size, size, 3), color, dtype=np.float32))
+    path = tmp_path / "tiles.mtlx"
+    path.write_text(IMAGES.format(images=IMAGE.format(name="a", file="t.<UDIM>.exr", wrap="periodic"), last="a"))
+    places = [(0.5, 0.5), (1.5, 0.5), (0.5, 1.5), (1.5, 1.25), (2.0, 0.5), (2.5, 0.5), (-0.5, 0.5)]
+    embree, raster, _ = _albedos(path, places)
+    np.testing.assert_allclose(embree[:4], list(colors.values()), atol=1e-3)
+    np.testing.assert_allclose(raster, embree, atol=1e-4)
+
+
+def test_more_textures_than_units_on_the_driver(tmp_path):
+    wraps = ["periodic", "clamp", "mirror", "constant"]
+    nodes, last = "", ""
+    for i in range(19):
+        size = 16 if i < 15 else 8
+        y, x = np.mgrid[0:size, 0:size] / size
+        _patina.write_image(str(tmp_path / f"t{i}.exr"),
+                            np.stack([x, y, np.full_like(x, i / 19)], axis=-1).astype(np.float32) / 19)
+        nodes += IMAGE.format(name=f"a{i}", file=f"t{i}.exr", wrap=wraps[i % 4])
+        if i:
+            nodes += f"""<add name="s{i}" type="color3">
+    <input name="in1" type="color3" nodename="{last}"/>
+    <input name="in2" type="color3" nodename="a{i}"/>
+  </add>
+  """
+        last = f"s{i}" if i else "a0"
+    path = tmp_path / "many.mtlx"
+    path.write_text(IMAGES.format(images=nodes, last=last))
+    # Texel centres of all sizes: where a filter would reach over an edge, the shared array has none.
+    places = [(0.4375, 0.5625), (1.3125, 0.3125), (-0.6875, 1.6875)]
+    embree, raster, warnings = _albedos(path, places)
+    np.testing.assert_allclose(raster, embree, rtol=2e-2, atol=1e-3)
+    assert any("more than 16 textures" in w["message"] for w in warnings)

@@ -1,4 +1,4 @@
-// Every pattern node that has GLSL, as the driver runs it, against its C++ function.
+// Every pattern node, as the driver runs its GLSL, against its C++ function.
 
 #include "hdDelegate/raster/glProgram.h"
 #include "hdDelegate/raster/glResources.h"
@@ -20,63 +20,142 @@ constexpr int trials = 8;
 struct Case {
     const NodeDef* def;
     Instruction instruction;
-    std::vector<std::vector<glm::vec4>> inputs; ///< per trial
+    std::vector<int> firstRow;                  ///< of each input among `inputs`
+    std::vector<std::vector<glm::vec4>> inputs; ///< rows of all inputs, per trial
     int outputs = 1;
-    std::vector<int> components; ///< per output
+    std::vector<int> components; ///< per output row
 };
 
-/// Nodes with a function of numbers alone; those that read textures or the surface are in whole
-/// materials.
-std::vector<Case> cases(int& known) {
+int rowsOf(ValueType type) {
+    return type == ValueType::Matrix33 ? 3 : type == ValueType::Matrix44 ? 4 : 1;
+}
+
+void addRows(const InputDef& input, Random& random, std::vector<glm::vec4>& values) {
+    const int rows = rowsOf(input.type);
+    const int n = rows > 1 ? rows : valueTypeComponents(input.type);
+    for (int row = 0; row < rows; ++row) {
+        glm::vec4 v(0.0f);
+        for (int k = 0; k < 4; ++k)
+            v[k] = k < n ? 0.1f + 0.8f * random.next() : 0.0f;
+        if (rows > 1) v[row] += 2.0f; // well conditioned
+        if (input.type == ValueType::Int) v = glm::vec4(std::floor(3.0f * random.next()));
+        if (input.type == ValueType::Bool) v = glm::vec4(random.next() > 0.5f ? 1.0f : 0.0f);
+        if (n == 1) v = glm::vec4(v.x); // a scalar fills its register
+        values.push_back(v);
+    }
+}
+
+bool hasSpaces(const NodeDef& def) {
+    for (const InputDef& input : def.inputs)
+        if (input.name == "space" || input.name == "fromspace") return true;
+    return false;
+}
+
+/// Every node with a function, once for all that share it, and once for each space.
+std::vector<Case> cases(std::vector<std::string>& without) {
     std::vector<Case> out;
     std::set<void*> seen;
     Random random(5);
-    known = 0;
     for (const auto& def : NodeTable::get().all()) {
-        if (!def->function || def->varying || def->inputs.empty()) continue;
-        Case c;
-        c.def = def.get();
-        c.instruction.function = def->function;
-        c.instruction.output = 0;
-        c.instruction.firstInput = 0;
-        c.instruction.data.size = std::max(1, valueTypeComponents(def->inputs[0].type));
-        if (!seen.insert(reinterpret_cast<void*>(def->function)).second) continue;
-        ++known;
-        const auto name = [](int i) { return std::to_string(i); };
-        const auto text = glslPattern(c.instruction, name, name);
-        if (text.empty()) continue;
-        c.outputs = int(text.size());
-        for (const OutputDef& o : def->outputs)
-            c.components.push_back(valueTypeComponents(o.type));
-        for (int t = 0; t < trials; ++t) {
-            std::vector<glm::vec4> values;
-            for (const InputDef& input : def->inputs) {
-                glm::vec4 v(0.0f);
-                const int n = valueTypeComponents(input.type);
-                for (int k = 0; k < 4; ++k)
-                    v[k] = k < n ? 0.1f + 0.8f * random.next() : 0.0f;
-                if (input.type == ValueType::Int) v = glm::vec4(std::floor(3.0f * random.next()));
-                if (input.type == ValueType::Bool)
-                    v = glm::vec4(random.next() > 0.5f ? 1.0f : 0.0f);
-                if (n == 1) v = glm::vec4(v.x); // a scalar fills its register
-                values.push_back(v);
+        if (!def->function || !seen.insert(reinterpret_cast<void*>(def->function)).second) continue;
+        if (def->outputs.empty() || def->outputs[0].type == ValueType::String ||
+            def->outputs[0].type == ValueType::Filename)
+            continue; // strings have no register
+        for (int mode = 0; mode < (hasSpaces(*def) ? 3 : 1); ++mode) {
+            Case c;
+            c.def = def.get();
+            c.instruction.function = def->function;
+            c.instruction.output = 0;
+            c.instruction.firstInput = 0;
+            c.instruction.data.mode = mode;
+            c.instruction.data.handle = c.instruction.data.slot = 0; // and so are all of `value`
+            if (!def->inputs.empty())
+                c.instruction.data.size = std::max(1, valueTypeComponents(def->inputs[0].type));
+            const GlslPattern pattern =
+                glslPattern(c.instruction, {[](int, int) { return std::string(); },
+                                            [](int) { return std::string(); }});
+            if (pattern.outputs.empty()) {
+                without.push_back(def->id);
+                continue;
             }
-            c.inputs.push_back(std::move(values));
+            c.outputs = int(pattern.outputs.size());
+            for (const OutputDef& o : def->outputs)
+                for (int row = 0; row < rowsOf(o.type); ++row)
+                    c.components.push_back(rowsOf(o.type) > 1 ? rowsOf(o.type)
+                                                              : valueTypeComponents(o.type));
+            int rows = 0;
+            for (const InputDef& input : def->inputs) {
+                c.firstRow.push_back(rows);
+                rows += rowsOf(input.type);
+            }
+            for (int t = 0; t < trials; ++t) {
+                std::vector<glm::vec4> values;
+                for (const InputDef& input : def->inputs)
+                    addRows(input, random, values);
+                if (values.empty()) values.emplace_back(0.0f);
+                c.inputs.push_back(std::move(values));
+            }
+            out.push_back(std::move(c));
         }
-        out.push_back(std::move(c));
     }
     return out;
 }
 
+/// The same primvar for every slot.
+class OnePrimvar : public PrimvarReader {
+public:
+    bool read(int, float out[4]) const override {
+        const float v[4] = {0.4f, 0.6f, 0.1f, 0.2f};
+        std::copy(v, v + 4, out);
+        return true;
+    }
+};
+
+ShadingPoint somewhere(const PrimvarReader& primvars) {
+    ShadingPoint p;
+    p.position = {0.3f, -0.2f, 0.5f};
+    p.objectPosition = {0.1f, 0.7f, -0.4f};
+    p.normal = p.geometricNormal = {0.0f, 0.6f, 0.8f};
+    p.tangent = {1, 0, 0};
+    p.bitangent = {0.0f, 0.8f, -0.6f};
+    p.viewDirection = {0.6f, 0.0f, 0.8f};
+    p.objectToWorldNormal = glm::mat3(1.5f, 0.2f, 0.0f, -0.1f, 0.7f, 0.3f, 0.0f, 0.1f, 1.2f);
+    p.lengthPerUv = 2.0f;
+    p.uvFootprint = 0.01f;
+    p.primvars = &primvars;
+    return p;
+}
+
+const char* const somewhereInGlsl = R"(
+vec4 materialParameter(int i) { return vec4(0.0); }
+MaterialEval materialEvalBut(vec3 wi, int without) { return materialEvalNone(); }
+vec4 primvar(int slot, vec4 fallback) { return vec4(0.4, 0.6, 0.1, 0.2); }
+vec4 probe(vec2 uv, float footprint) { return vec4(uv, 0.5, 1.0); } // as FakeTextures
+void somewhere() {
+    point.position = vec3(0.3, -0.2, 0.5);
+    point.objectPosition = vec3(0.1, 0.7, -0.4);
+    point.normal = point.geometricNormal = vec3(0.0, 0.6, 0.8);
+    point.tangent = vec3(1.0, 0.0, 0.0);
+    point.bitangent = vec3(0.0, 0.8, -0.6);
+    point.view = vec3(0.6, 0.0, 0.8);
+    point.objectToWorldNormal = mat3(1.5, 0.2, 0.0, -0.1, 0.7, 0.3, 0.0, 0.1, 1.2);
+    point.lengthPerUv = 2.0;
+    point.uvFootprint = 0.01;
+}
+)";
+
 std::vector<glm::vec4> reference(const Case& c, int trial) {
     std::vector<glm::vec4> registers(24, glm::vec4(0.0f));
     std::vector<uint16_t> pool;
-    for (size_t i = 0; i < c.inputs[size_t(trial)].size(); ++i) {
-        registers.push_back(c.inputs[size_t(trial)][i]);
-        pool.push_back(uint16_t(24 + i));
-    }
-    const ShadingPoint point;
-    const PatternContext context{&point, nullptr};
+    for (const int row : c.firstRow)
+        pool.push_back(uint16_t(24 + row));
+    const auto& rows = c.inputs[size_t(trial)];
+    registers.insert(registers.end(), rows.begin(), rows.end());
+    FakeTextures textures;
+    textures.open({});
+    const OnePrimvar primvars;
+    const ShadingPoint point = somewhere(primvars);
+    const PatternContext context{&point, &textures};
     c.def->function({registers.data(), pool.data(), 0, c.instruction.data, context});
     registers.resize(24);
     return registers;
@@ -87,16 +166,15 @@ std::vector<glm::vec4> reference(const Case& c, int trial) {
 class PatternAgreement : public ::testing::TestWithParam<size_t> {};
 
 constexpr size_t chunk = 24; ///< nodes per shader: drivers take long over large ones
-constexpr size_t chunks = 7;
+constexpr size_t chunks = 11;
 
 TEST_P(PatternAgreement, OfNodesWithTheirFunctions) {
     PATINA_NEED_CONTEXT();
-    int known = 0;
-    const std::vector<Case> every = cases(known);
-    if (GetParam() == 0)
-        std::printf("  %zu of %d pattern functions of numbers have GLSL\n", every.size(), known);
+    std::vector<std::string> without;
+    const std::vector<Case> every = cases(without);
+    EXPECT_EQ(without, std::vector<std::string>());
     ASSERT_LE(every.size(), chunk * chunks) << "more chunks are needed";
-    EXPECT_GT(every.size(), 90u);
+    EXPECT_GT(every.size(), 180u);
     const size_t first = std::min(GetParam() * chunk, every.size());
     const std::vector<Case> all(every.begin() + long(first),
                                 every.begin() + long(std::min(first + chunk, every.size())));
@@ -108,14 +186,14 @@ TEST_P(PatternAgreement, OfNodesWithTheirFunctions) {
         const size_t base = inputs.size(), stride = c.inputs[0].size();
         for (const auto& values : c.inputs)
             inputs.insert(inputs.end(), values.begin(), values.end());
-        const auto text = glslPattern(
-            c.instruction,
-            [&](int i) {
-                return "inputs[" + std::to_string(base + size_t(i)) + " + t * " +
-                       std::to_string(stride) + "]";
-            },
-            [](int) { return std::string("none"); });
-        for (const std::string& expression : text)
+        const GlslPattern pattern = glslPattern(
+            c.instruction, {[&](int i, int row) {
+                                return "inputs[" +
+                                       std::to_string(base + size_t(c.firstRow[size_t(i)] + row)) +
+                                       " + t * " + std::to_string(stride) + "]";
+                            },
+                            [](int) { return std::string("probe"); }});
+        for (const std::string& expression : pattern.outputs)
             body +=
                 "    answers[" + std::to_string(slot++) + " * TRIALS + t] = " + expression + ";\n";
     }
@@ -123,14 +201,14 @@ TEST_P(PatternAgreement, OfNodesWithTheirFunctions) {
     const auto program = GlProgram::make(
         {{GL_COMPUTE_SHADER, "patterns",
           "#include \"shaders/raster/material.glsl\"\n"
+          "#include \"shaders/raster/moreNodes.glsl\"\n"
           "#define TRIALS " +
               std::to_string(trials) +
               "\nlayout(local_size_x = 1) in;\n"
               "layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };\n"
-              "layout(std430, binding = 6) writeonly buffer Answers { vec4 answers[]; };\n"
-              "vec4 primvar(int slot, vec4 fallback) { return fallback; }\n"
-              "MaterialEval materialEval(vec3 wi) { return materialEvalNone(); }\n"
-              "void main() {\n    int t = int(gl_GlobalInvocationID.x);\n" +
+              "layout(std430, binding = 6) writeonly buffer Answers { vec4 answers[]; };\n" +
+              somewhereInGlsl +
+              "void main() {\n    somewhere();\n    int t = int(gl_GlobalInvocationID.x);\n" +
               body + "}\n"}},
         error);
     ASSERT_TRUE(program) << error;

@@ -29,7 +29,8 @@ def add_arguments(parser):
     parser.add_argument("--wi", metavar="X,Y,Z", help="incoming direction, for eval")
     parser.add_argument("--count", type=int, default=1, metavar="N", help="samples for each wo (default: 1)")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of sample's random numbers (default: 0)")
-    parser.add_argument("--backend", default="embree", choices=["embree"], help="whose code runs (default: embree)")
+    parser.add_argument("--backend", default="embree", choices=["embree", "raster"],
+                        help="whose code runs: raster is the GLSL on the driver (default: embree)")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
     methods.add_flag(parser)
@@ -46,7 +47,7 @@ def run(arguments):
     wi = _direction(arguments.wi, "--wi") if arguments.action == "eval" else None
     chosen = methods.parse(arguments.method)
     found, warnings = materials.load(arguments.material, arguments.set)
-    probe = compiled.load().MaterialProbe(found[0][1], chosen)
+    probe = _probe(arguments.backend, found[0][1], chosen)
     for line in statistics.lines(warnings + probe.warnings):
         print("warning: " + line, file=sys.stderr)
     out = sys.stdout
@@ -59,6 +60,18 @@ def run(arguments):
     finally:
         if out is not sys.stdout:
             out.close()
+
+
+def _probe(backend, network, chosen):
+    module = compiled.load()
+    if backend == "embree":
+        return module.MaterialProbe(network, chosen)
+    if not hasattr(module, "RasterProbe"):
+        raise CommandError("this build has no rasterizer")
+    try:
+        return module.RasterProbe(network, chosen)
+    except RuntimeError as error:
+        raise CommandError(f"--backend raster: {error}") from error
 
 
 def _direction(text, flag):

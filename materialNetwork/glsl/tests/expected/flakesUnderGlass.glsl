@@ -1,0 +1,103 @@
+#include "shaders/raster/moreNodes.glsl"
+layout(std140, binding = 1) uniform Parameters { vec4 parameters[77]; };
+vec4 materialParameter(int i) { return parameters[i]; }
+vec4 r11;
+vec4 r12;
+vec4 r13;
+vec4 r14;
+vec4 r15;
+vec4 r16;
+vec4 r17;
+vec4 r18;
+DielectricLobe lobe0;
+ConductorLobe lobe1;
+vec3 lobeWeight[2];
+vec3 lobeAlbedo[2];
+float lobeChance[2];
+Frame frames[2];
+vec3 straight;
+void place() {
+    r11 = nodeNormal(0, point.normal);
+    r12 = nodeTangent(0, point.tangent);
+    r13 = nodePosition(1);
+    r14 = nodeTangent(0, point.bitangent);
+    r15 = nodeFlake(parameters[0].x, parameters[1].x, parameters[2].x, r13.xyz, r11.xyz, r12.xyz, r14.xyz);
+    r16 = vec4(nodeFlakeHit.random);;
+    r17 = vec4(nodeFlakeHit.presence);;
+    r18 = vec4(nodeFlakeHit.normal, 0.0);
+    frames[0] = makeFrame(vec3(0.0), vec3(0.0), false);
+    frames[1] = makeFrame(r18.xyz, vec3(0.0), true);
+    lobe0 = dielectricSetup(parameters[3].xyz, parameters[4].x, parameters[5].xy, false, 3, false, 1);
+    vec3 kept0 = dielectricFix(lobe0, frames[0].wo, 6, lobeAlbedo[0]);
+    kept0 = shareLargest(kept0);
+    lobe1 = conductorSetup(parameters[71].xyz, parameters[72].xyz, parameters[73].xy, false, 1);
+    vec3 kept1 = conductorFix(lobe1, frames[1].wo, -1, lobeAlbedo[1]);
+    kept1 = shareLargest(kept1);
+    vec3 w0 = vec3(0.0);
+    vec3 w1 = vec3(0.0);
+    vec3 w2 = vec3(1.0);
+    w0 += w2 * unit(r17.x);
+    w1 += w2 * (1.0 - unit(r17.x));
+    lobeWeight[1] = w1 * unit(parameters[75].x);
+    lobeWeight[0] = w0 * unit(parameters[74].x);
+    straight = vec3(0.0);
+}
+void materialSetup() {
+    place();
+    float sum = 0.0;
+    int present = 0;
+    bool has0 = luminance(lobeWeight[0]) > 0.0;
+    present += has0 ? 1 : 0;
+    bool has1 = luminance(lobeWeight[1]) > 0.0;
+    present += has1 ? 1 : 0;
+    lobeChance[0] = !has0 ? 0.0 : present == 1 ? 1.0 : luminance(lobeWeight[0] * lobeAlbedo[0]);
+    sum += lobeChance[0];
+    lobeChance[1] = !has1 ? 0.0 : present == 1 ? 1.0 : luminance(lobeWeight[1] * lobeAlbedo[1]);
+    sum += lobeChance[1];
+    lobeChance[0] /= sum > 0.0 ? sum : 1.0;
+    if (!(sum > 0.0)) lobeWeight[0] = vec3(0.0);
+    lobeChance[1] /= sum > 0.0 ? sum : 1.0;
+    if (!(sum > 0.0)) lobeWeight[1] = vec3(0.0);
+}
+float materialPresence(out vec3 passes) {
+    passes = vec3(1.0);
+    float x = unit(parameters[76].x);
+    return x;
+}
+vec3 materialEmission(vec3 wo) {
+    return vec3(0.0);
+}
+MaterialEval materialEvalBut(vec3 wi, int without) {
+    MaterialEval sum = materialEvalNone();
+    bool reflects = (dot(wi, point.geometricNormal) > 0.0) == woOutside();
+    if (without != 0) addLobe(sum, false, lobeWeight[0], lobeChance[0], reflects, frames[0], wi, dielectricEval(lobe0, frames[0].wo, toLocal(frames[0], wi)));
+    if (without != 1) addLobe(sum, false, lobeWeight[1], lobeChance[1], reflects, frames[1], wi, conductorEval(lobe1, frames[1].wo, toLocal(frames[1], wi)));
+    return sum;
+}
+MaterialEval materialEval(vec3 wi) { return materialEvalBut(wi, -1); }
+MaterialSample materialSample(vec3 u, float uLobe) {
+    MaterialSample s = materialSampleNone();
+    LobeSample l = lobeSampleNone();
+    float below = 0.0, chance = 0.0;
+    vec3 weight = vec3(0.0);
+    int drawn = -1;
+    if (drawn < 0 && lobeChance[0] > 0.0 && uLobe < below + lobeChance[0]) {
+        l = dielectricSample(lobe0, frames[0].wo, u);
+        s.wi = toWorld(frames[0], l.wi);
+        s.diffuse = false;
+        drawn = 0;
+        weight = lobeWeight[0];
+        chance = lobeChance[0];
+    }
+    below += lobeChance[0];
+    if (drawn < 0 && lobeChance[1] > 0.0) {
+        l = conductorSample(lobe1, frames[1].wo, u);
+        s.wi = toWorld(frames[1], l.wi);
+        s.diffuse = false;
+        drawn = 1;
+        weight = lobeWeight[1];
+        chance = lobeChance[1];
+    }
+    below += lobeChance[1];
+    return finishSample(s, l, drawn, weight, chance);
+}

@@ -1,0 +1,93 @@
+#include "shaders/raster/moreNodes.glsl"
+layout(std140, binding = 1) uniform Parameters { vec4 parameters[22]; };
+vec4 materialParameter(int i) { return parameters[i]; }
+layout(binding = 0) uniform sampler2D sampler0;
+vec4 texture0(vec2 uv, float footprint) { return nodeTexture(sampler0, uv, footprint); }
+vec4 r5;
+vec4 r6;
+vec4 r7;
+vec4 r8;
+vec4 r9;
+vec4 r10;
+vec4 r11;
+vec4 r12;
+vec4 r13;
+vec4 r14;
+vec4 r15;
+vec4 r16;
+vec4 r17;
+vec4 r18;
+vec4 r19;
+BurleyLobe lobe0;
+vec3 lobeWeight[1];
+vec3 lobeAlbedo[1];
+float lobeChance[1];
+Frame frames[1];
+vec3 straight;
+void place() {
+    r5 = primvar(0, parameters[0]);
+    r6 = texture0(r5.xy, point.uvFootprint);
+    r7 = vec4(noiseFractal2(r5.xy, int(parameters[1].x), parameters[2].x, parameters[3].x, 0) * parameters[4].x);
+    r8 = vec4(primvar(1, vec4(0.0)).xyz, 0.0);
+    r9 = nodeShiftTexcoord(r5, parameters[5].x);
+    r10 = vec4(noiseFractal2(r9.xy, int(parameters[6].x), parameters[7].x, parameters[8].x, 0) * parameters[9].x);
+    r11 = nodeShiftTexcoord(r5, parameters[10].x);
+    r12 = vec4(noiseFractal2(r11.xy, int(parameters[11].x), parameters[12].x, parameters[13].x, 0) * parameters[14].x);
+    r13 = nodeShiftTexcoord(r8, parameters[15].x);
+    r14 = nodeShiftTexcoord(r8, parameters[16].x);
+    r15 = nodeSlope(r7.x, r10.x, r12.x, parameters[17].x, r8.xy, r13.xy, r14.xy);
+    r16 = nodeNormal(0, point.normal);
+    r17 = nodeTangent(0, point.tangent);
+    r18 = nodeTangent(0, point.bitangent);
+    r19 = vec4(patternNormalMap(r15.xyz, parameters[18].xy, r16.xyz, r17.xyz, r18.xyz), 0.0);
+    frames[0] = makeFrame(r19.xyz, vec3(0.0), true);
+    lobe0 = burleySetup(r6.xyz, parameters[19].x);
+    vec3 kept0 = burleyFix(lobe0, frames[0].wo, -1, lobeAlbedo[0]);
+    kept0 = shareLargest(kept0);
+    vec3 w0 = vec3(1.0);
+    lobeWeight[0] = w0 * unit(parameters[20].x);
+    straight = vec3(0.0);
+}
+void materialSetup() {
+    place();
+    float sum = 0.0;
+    int present = 0;
+    bool has0 = luminance(lobeWeight[0]) > 0.0;
+    present += has0 ? 1 : 0;
+    lobeChance[0] = !has0 ? 0.0 : present == 1 ? 1.0 : luminance(lobeWeight[0] * lobeAlbedo[0]);
+    sum += lobeChance[0];
+    lobeChance[0] /= sum > 0.0 ? sum : 1.0;
+    if (!(sum > 0.0)) lobeWeight[0] = vec3(0.0);
+}
+float materialPresence(out vec3 passes) {
+    passes = vec3(1.0);
+    float x = unit(parameters[21].x);
+    return x;
+}
+vec3 materialEmission(vec3 wo) {
+    return vec3(0.0);
+}
+MaterialEval materialEvalBut(vec3 wi, int without) {
+    MaterialEval sum = materialEvalNone();
+    bool reflects = (dot(wi, point.geometricNormal) > 0.0) == woOutside();
+    if (without != 0) addLobe(sum, true, lobeWeight[0], lobeChance[0], reflects, frames[0], wi, burleyEval(lobe0, frames[0].wo, toLocal(frames[0], wi)));
+    return sum;
+}
+MaterialEval materialEval(vec3 wi) { return materialEvalBut(wi, -1); }
+MaterialSample materialSample(vec3 u, float uLobe) {
+    MaterialSample s = materialSampleNone();
+    LobeSample l = lobeSampleNone();
+    float below = 0.0, chance = 0.0;
+    vec3 weight = vec3(0.0);
+    int drawn = -1;
+    if (drawn < 0 && lobeChance[0] > 0.0) {
+        l = burleySample(lobe0, frames[0].wo, u);
+        s.wi = toWorld(frames[0], l.wi);
+        s.diffuse = true;
+        drawn = 0;
+        weight = lobeWeight[0];
+        chance = lobeChance[0];
+    }
+    below += lobeChance[0];
+    return finishSample(s, l, drawn, weight, chance);
+}

@@ -1,0 +1,141 @@
+// Generated texts compared with reviewed files, and read by the reference compiler. After a wanted
+// change run with PATINA_UPDATE_EXPECTED=1, and review the difference.
+#include "materialNetwork/glsl/glslMaterial.h"
+#include "materialNetwork/tests/materialTest.h"
+#include "shaders/shaderText.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace patina {
+
+namespace {
+
+Network coatedPlastic() {
+    return bsdfNetwork(
+        {makeNode("diffuse", "ND_oren_nayar_diffuse_bsdf", {{"color", color(0.5f, 0.25f, 0.1f)}}),
+         makeNode("coat", "ND_dielectric_bsdf", {{"roughness", pair(0.2f)}}),
+         makeNode("bsdf", "ND_layer_bsdf", {},
+                  {{"top", {"coat", ""}}, {"base", {"diffuse", ""}}})});
+}
+
+/// Strings that would end a statement, a comment or the text, had they a way into it.
+const char* const hostile = "x\"; } discard; /* \\\n#error\n*/ // ../../etc";
+
+Network texturedBumps(const std::string& word) {
+    const auto file = Value::makeFilename(word);
+    return bsdfNetwork(
+        {makeNode("uv", "ND_geompropvalue_vector2", {{"geomprop", text(word)}}),
+         makeNode("albedo", "ND_image_color3", {{"file", file}}, {{"texcoord", {"uv", ""}}}),
+         makeNode("height", "ND_fractal2d_float", {}, {{"texcoord", {"uv", ""}}}),
+         makeNode("slope", "ND_heighttonormal_vector3", {}, {{"in", {"height", ""}}}),
+         makeNode("bump", "ND_normalmap_float", {}, {{"in", {"slope", ""}}}),
+         makeNode("bsdf", "ND_burley_diffuse_bsdf", {},
+                  {{"color", {"albedo", ""}}, {"normal", {"bump", ""}}})});
+}
+
+Network flakesUnderGlass() {
+    return bsdfNetwork(
+        {makeNode("flake", "ND_flake3d", {{"size", number(0.05f)}}),
+         makeNode("metal", "ND_conductor_bsdf", {}, {{"normal", {"flake", "flakenormal"}}}),
+         makeNode("glass", "ND_dielectric_bsdf",
+                  {{"scatter_mode", text("RT")}, {"roughness", pair(0.1f)}}),
+         makeNode("bsdf", "ND_mix_bsdf", {},
+                  {{"fg", {"glass", ""}}, {"bg", {"metal", ""}}, {"mix", {"flake", "presence"}}})});
+}
+
+std::string whole(const GlslMaterial& glsl) {
+    const std::string around = "vec4 primvar(int slot, vec4 fallback) { return fallback; }\n"
+                               "layout(location = 0) out vec4 outColor;\n"
+                               "void main() {\n    materialSetup();\n    vec3 passes;\n"
+                               "    outColor = vec4(materialEval(point.view).diffuse, "
+                               "materialPresence(passes));\n}\n";
+    std::string error;
+    const std::string text =
+        flattenShader("material",
+                      "#include \"shaders/raster/material.glsl\"\n" + glsl.text + around, error)
+            .text;
+    EXPECT_EQ(error, "");
+    return "#version 450 core\n" + text;
+}
+
+} // namespace
+
+class GlslText : public ::testing::TestWithParam<const char*> {
+protected:
+    GlslMaterial made() const {
+        const std::string name = GetParam();
+        const Network network = name == "coatedPlastic"   ? coatedPlastic()
+                                : name == "texturedBumps" ? texturedBumps("wood")
+                                                          : flakesUnderGlass();
+        const Compiled c(network);
+        EXPECT_EQ(warnings(c.diagnostics), "");
+        const GlslMaterial glsl = makeGlslMaterial(*c.program);
+        EXPECT_TRUE(glsl.leftOut.empty());
+        return glsl;
+    }
+};
+
+TEST_P(GlslText, IsAsReviewed) {
+    const GlslMaterial glsl = made();
+    const std::string path = std::string(PATINA_EXPECTED_DIR) + "/" + GetParam() + ".glsl";
+    if (std::getenv("PATINA_UPDATE_EXPECTED")) {
+        std::ofstream(path) << glsl.text;
+        return;
+    }
+    std::ifstream file(path);
+    ASSERT_TRUE(file) << path << " is missing";
+    std::ostringstream expected;
+    expected << file.rdbuf();
+    EXPECT_EQ(expected.str(), glsl.text);
+}
+
+TEST_P(GlslText, IsTakenByTheReferenceCompiler) {
+    if (std::system("command -v glslangValidator >/dev/null 2>&1") != 0)
+        GTEST_SKIP() << "glslangValidator is not installed";
+    const std::string path = ::testing::TempDir() + "patina_" + GetParam() + ".frag";
+    std::ofstream(path) << whole(made());
+    EXPECT_EQ(std::system(("glslangValidator " + path).c_str()), 0);
+    std::remove(path.c_str());
+}
+
+INSTANTIATE_TEST_SUITE_P(Materials, GlslText,
+                         ::testing::Values("coatedPlastic", "texturedBumps", "flakesUnderGlass"));
+
+TEST(GlslTextStrings, NeverReachTheText) {
+    const auto textOf = [](const std::string& word) {
+        return makeGlslMaterial(*Compiled(texturedBumps(word)).program).text;
+    };
+    EXPECT_EQ(textOf("wood"), textOf(hostile));
+}
+
+// A material of many textures has no more samplers than OpenGL promises.
+TEST(GlslTextTextures, ShareUnitsWhereThereAreTooMany) {
+    std::vector<NetworkNode> nodes;
+    const int count = 20;
+    for (int i = 0; i < count; ++i) {
+        const std::string n = std::to_string(i), before = std::to_string(i - 1);
+        nodes.push_back(makeNode("image" + n, "ND_image_color3",
+                                 {{"file", Value::makeFilename("file" + n + ".png")}}));
+        if (i > 0)
+            nodes.push_back(makeNode(
+                "sum" + n, "ND_add_color3", {},
+                {{"in1", {(i > 1 ? "sum" : "image") + before, ""}}, {"in2", {"image" + n, ""}}}));
+    }
+    nodes.push_back(makeNode("bsdf", "ND_burley_diffuse_bsdf", {},
+                             {{"color", {"sum" + std::to_string(count - 1), ""}}}));
+    const Compiled c(bsdfNetwork(nodes));
+    const GlslMaterial glsl = makeGlslMaterial(*c.program);
+    ASSERT_EQ(glsl.textures.size(), size_t(count));
+    for (int i = 0; i < count; ++i) {
+        EXPECT_EQ(glsl.textures[size_t(i)].unit, std::min(i, glslTextureUnits - 1));
+        EXPECT_EQ(glsl.textures[size_t(i)].shared, i >= glslTextureUnits - 1);
+    }
+    EXPECT_EQ(glsl.textures.back().firstLayer, count - glslTextureUnits);
+    ASSERT_EQ(glsl.leftOut.size(), 1u);
+    EXPECT_NE(glsl.leftOut[0].find("more than 16 textures"), std::string::npos);
+    EXPECT_EQ(glsl.text.find("sampler16"), std::string::npos);
+}
+
+} // namespace patina

@@ -1,0 +1,29 @@
+// Numbers of a material at one point, one query per invocation; see hdDelegate/raster/rasterBsdf.h.
+layout(local_size_x = 1) in;
+layout(std430, binding = 0) readonly buffer Queries { vec4 queries[]; };
+layout(std430, binding = 6) writeonly buffer Answers { vec4 answers[]; };
+
+void main() {
+    int i = 3 * int(gl_GlobalInvocationID.x);
+    point.position = point.objectPosition = vec3(probeUv.z != 0.0 ? probeUv.xy : vec2(0.0), 0.0);
+    point.geometricNormal = point.normal = vec3(0.0, 0.0, 1.0);
+    point.tangent = vec3(1.0, 0.0, 0.0);
+    point.bitangent = vec3(0.0, 1.0, 0.0);
+    point.view = queries[i].xyz;
+    point.objectToWorldNormal = mat3(1.0);
+    point.lengthPerUv = 1.0;
+    point.uvFootprint = 0.0;
+    vec3 passes;
+    float presence = materialPresence(passes);
+    materialSetup();
+    MaterialEval e = materialEval(queries[i + 1].xyz);
+    MaterialSample s = materialSample(queries[i + 2].xyz, queries[i + 2].w);
+    int o = 7 * int(gl_GlobalInvocationID.x);
+    answers[o] = vec4(e.diffuse, e.pdf);
+    answers[o + 1] = vec4(e.specular, presence);
+    answers[o + 2] = vec4(s.wi, float(s.event));
+    answers[o + 3] = vec4(s.weight, s.pdf);
+    answers[o + 4] = vec4(materialAlbedo(), 0.0);
+    answers[o + 5] = vec4(materialEmission(point.view), 0.0);
+    answers[o + 6] = vec4(passes, 0.0);
+}

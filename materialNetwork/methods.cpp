@@ -8,7 +8,38 @@ const std::vector<ChoicePoint>& choicePoints() {
          {{"turquin", "rough microfacet lobes are scaled by what single scattering loses (Turquin "
                       "2019); white ones keep all energy; not reciprocal"},
           {"none", "single scattering only, as most renderers have it; a white metal of alpha 1 "
-                   "loses about half of the light"}}},
+                   "loses about half of the light"},
+          {"kullaConty", "a second lobe, shaped like diffuse, holds what is lost (Kulla and Conty "
+                         "2017); reciprocal; lobes that reflect only, others as turquin"}}},
+        {"directionalAlbedo",
+         {{"table", "looked up in baked tables: any roughness, ior, anisotropy and side"},
+          {"fit", "three facets that stand in for all, from a small network: more exact than the "
+                  "tables, and any Fresnel curve; isotropic GGX from the thinner side, else table"},
+          {"karis", "Karis 2014: four constants and an exponential; too dark where smooth, and "
+                    "every curve rises to white; from the thinner side, else table"},
+          {"mirror", "the reflectance at the view's own cosine, as if the lobe were smooth"},
+          {"monteCarlo16", "the mean over 16 visible facets, stratified"},
+          {"monteCarlo64", "the mean over 64 visible facets, stratified"},
+          {"quadrature", "the mean over 2304 facets: the truth, slow"}}},
+        {"sampling",
+         {{"vndf", "facets are drawn that the view sees (Heitz 2018, Dupuy and Benyoub 2023)"},
+          {"boundedVndf", "of those, what can reflect upwards (Eto and Tokuyoshi 2023): fewer "
+                          "samples lost where rough; GGX that reflects only, else vndf"},
+          {"fullNdf",
+           "all facets by their density (Walter et al. 2007): noisy at grazing angles"}}},
+        {"fresnel",
+         {{"exact", "the equations of dielectrics and conductors"},
+          {"schlick", "Schlick's curve from the reflectance at normal incidence (1994): too bright "
+                      "near ior 1 and above 2, too bright for metals near 80 degrees"},
+          {"f82", "Schlick's curve with a dip that meets the exact reflectance at 82 degrees (Kutz "
+                  "et al. 2021)"}}},
+        {"diffuse",
+         {{"authored", "as energy_compensation of the node says: eon or qualitative"},
+          {"lambert", "roughness is ignored"},
+          {"qualitative", "Oren and Nayar 1994, the qualitative model: loses energy, and has a "
+                          "ring where its minimum switches"},
+          {"fujii", "Fujii's improved model: no ring, loses energy"},
+          {"eon", "Portsmouth, Kutz and Hill 2025: white loses nothing"}}},
         {"layerTransmittance",
          {{"largest", "a layer lets through 1 - E in all channels, E the largest channel of its "
                       "top's directional albedo without tint; no channel gains energy, and a tint "
@@ -37,6 +68,15 @@ std::string chosenMethod(const MethodChoices& choices, const std::string& point)
     for (const ChoicePoint& choice : choicePoints())
         if (choice.name == point) return choice.methods.front().name;
     return "";
+}
+
+int chosenIndex(const MethodChoices& choices, const std::string& point) {
+    const std::string chosen = chosenMethod(choices, point);
+    for (const ChoicePoint& choice : choicePoints())
+        if (choice.name == point)
+            for (size_t i = 0; i < choice.methods.size(); ++i)
+                if (choice.methods[i].name == chosen) return int(i);
+    return 0;
 }
 
 std::string checkMethods(const MethodChoices& choices) {

@@ -27,6 +27,10 @@ const std::vector<ChoicePoint>& choicePoints();
 /// @returns the method in force at a choice point
 std::string chosenMethod(const MethodChoices& choices, const std::string& point);
 
+/// @returns its place among the point's methods; for directionalAlbedo, sampling and fresnel these
+/// are the constants of shaders/lib/methods
+int chosenIndex(const MethodChoices& choices, const std::string& point);
+
 /// @returns empty when every point and method exists, else a sentence that names what does not
 std::string checkMethods(const MethodChoices& choices);
 

@@ -314,7 +314,11 @@ std::vector<std::string> choicesThatMatter(const Plan& plan) {
     std::set<std::string> matter;
     for (const PlanClosure& c : plan.closures) {
         const bool interface = c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Schlick;
-        if (interface || c.kind == ClosureKind::Conductor) matter.insert("energyCompensation");
+        if (interface || c.kind == ClosureKind::Conductor)
+            matter.insert({"energyCompensation", "directionalAlbedo", "sampling"});
+        if (c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Conductor)
+            matter.insert("fresnel");
+        if (c.kind == ClosureKind::OrenNayar) matter.insert("diffuse");
         if (c.kind == ClosureKind::Layer) matter.insert("layerTransmittance");
         if (c.underReflection && interface && scatterMode(plan, c) == sh::SCATTER_T)
             matter.insert("reflectionOverTransmission");

@@ -64,13 +64,24 @@ LobeKind lobeKind(ClosureKind kind) {
     }
 }
 
+namespace {
+
+/// What the lobes on microfacets have in common.
+template <typename Lobe> void setMethods(const LobeTemplate& t, Lobe& lobe) {
+    lobe.facets = t.facets;
+    lobe.albedo = t.albedo;
+    lobe.sampling = t.sampling;
+}
+
+} // namespace
+
 void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
     const auto color = [&](int i) { return glm::vec3(r[t.parameters[i]]); };
     const auto pair = [&](int i) { return glm::vec2(r[t.parameters[i]]); };
     const auto number = [&](int i) { return r[t.parameters[i]].x; };
     switch (t.prebuilt.kind) {
     case LobeKind::OrenNayar:
-        out.orenNayar = sh::orenNayarSetup(color(0), number(1), t.flagA);
+        out.orenNayar = sh::orenNayarModel(color(0), number(1), t.flagA, int(t.diffuse));
         return;
     case LobeKind::Subsurface:
         out.subsurface.diffuse = sh::orenNayarSetup(color(0), 0.0f, false);
@@ -82,11 +93,13 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
     case LobeKind::Dielectric:
         out.dielectric = sh::dielectricSetup(color(0), number(1), pair(2), t.flagA, t.mode, t.fused,
                                              t.compensate);
-        out.dielectric.facets = t.facets;
+        setMethods(t, out.dielectric);
+        out.dielectric.fresnel = t.fresnel;
         return;
     case LobeKind::Conductor:
         out.conductor = sh::conductorSetup(color(0), color(1), pair(2), t.flagA, t.compensate);
-        out.conductor.facets = t.facets;
+        setMethods(t, out.conductor);
+        out.conductor = sh::conductorFresnel(out.conductor, t.fresnel);
         if (t.film) out.conductor = sh::conductorFilm(out.conductor, number(3), number(4));
         return;
     case LobeKind::Schlick:
@@ -94,12 +107,12 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
             out.schlick =
                 sh::filmDielectricSetup(color(0), number(1), pair(2), number(3), number(4), t.flagA,
                                         t.mode, t.fused, t.compensate);
-            out.schlick.facets = t.facets;
+            setMethods(t, out.schlick);
             return;
         }
         out.schlick = sh::schlickSetup(color(0), color(1), color(2), number(3), pair(4), t.flagA,
                                        t.mode, t.fused, t.compensate);
-        out.schlick.facets = t.facets;
+        setMethods(t, out.schlick);
         if (t.film) out.schlick = sh::schlickFilm(out.schlick, number(5), number(6));
         return;
     case LobeKind::Sheen: out.sheen = sh::sheenSetup(color(0), number(1), t.variant); return;

@@ -289,7 +289,14 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     const bool interface =
         closure.kind == ClosureKind::Dielectric || closure.kind == ClosureKind::Schlick;
     t.fused = closure.fused;
-    t.compensate = chosenMethod(_plan.methods, "energyCompensation") == "none" ? 0 : 1;
+    const std::string compensation = chosenMethod(_plan.methods, "energyCompensation");
+    t.compensate = compensation == "none"         ? sh::COMPENSATE_NONE
+                   : compensation == "kullaConty" ? sh::COMPENSATE_ADD
+                                                  : sh::COMPENSATE_SCALE;
+    t.albedo = chosenIndex(_plan.methods, "directionalAlbedo");
+    t.sampling = chosenIndex(_plan.methods, "sampling");
+    t.fresnel = chosenIndex(_plan.methods, "fresnel");
+    t.diffuse = DiffuseModel(chosenIndex(_plan.methods, "diffuse"));
     const auto flag = [&](const char* input) {
         float x = 0.0f;
         return node.def->findInput(input) >= 0 &&

@@ -22,6 +22,9 @@ struct Instruction {
 
 /// Parameters of a lobe: registers in the order of lobeParameters(), and what is known at compile
 /// time.
+/// Methods of the choice point diffuse, in its order.
+enum class DiffuseModel : uint8_t { Authored, Lambert, Qualitative, Fujii, Eon };
+
 struct LobeTemplate {
     static constexpr int maxParameters = 10;
 
@@ -36,8 +39,12 @@ struct LobeTemplate {
     int mode = 0;                ///< SCATTER_*
     int variant = 0;             ///< lobeVariant()
     int facets = 0;              ///< facetDistribution()
-    int compensate = 1;
-    EnergyCurve energy; ///< of constant interfaces
+    int compensate = 1;          ///< COMPENSATE_*
+    int albedo = 0;              ///< ALBEDO_*
+    int sampling = 0;            ///< FACETS_VISIBLE and others
+    int fresnel = 0;             ///< FRESNEL_*
+    DiffuseModel diffuse = DiffuseModel::Authored; ///< of an Oren-Nayar lobe
+    EnergyCurve energy;                            ///< of constant interfaces
     Register weight = 0;
     Register parameters[maxParameters] = {};
 };

@@ -48,7 +48,8 @@ std::string glslLobeSetup(const LobeTemplate& t,
         ", " + retro + ", " + mode + ", " + flag(t.fused) + ", " + std::to_string(t.compensate);
     switch (t.prebuilt.kind) {
     case LobeKind::OrenNayar:
-        return "orenNayarSetup(" + color(0) + ", " + number(1) + ", " + retro + ")";
+        return "orenNayarModel(" + color(0) + ", " + number(1) + ", " + retro + ", " +
+               std::to_string(int(t.diffuse)) + ")";
     case LobeKind::Subsurface: return "orenNayarSetup(" + color(0) + ", 0.0, false)";
     case LobeKind::Burley: return "burleySetup(" + color(0) + ", " + number(1) + ")";
     case LobeKind::Translucent: return "translucentSetup(" + color(0) + ")";

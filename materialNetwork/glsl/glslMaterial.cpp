@@ -182,13 +182,29 @@ private:
         return "shareTinted(" + color + ")";
     }
 
+    /// What lobeSetup.cpp sets after the lobe's own inputs.
+    void methodLines(const LobeTemplate& t, const std::string& lobe) {
+        const LobeKind kind = t.prebuilt.kind;
+        if (t.facets != 0) line("    " + lobe + ".facets = " + number(t.facets) + ";");
+        if (kind != LobeKind::Dielectric && kind != LobeKind::Conductor &&
+            kind != LobeKind::Schlick)
+            return;
+        if (t.albedo != 0) line("    " + lobe + ".albedo = " + number(t.albedo) + ";");
+        if (t.sampling != 0) line("    " + lobe + ".sampling = " + number(t.sampling) + ";");
+        if (t.fresnel == 0 || kind == LobeKind::Schlick) return;
+        const std::string model = number(t.fresnel);
+        line(kind == LobeKind::Dielectric
+                 ? "    " + lobe + ".fresnel = " + model + ";"
+                 : "    " + lobe + " = conductorFresnel(" + lobe + ", " + model + ");");
+    }
+
     void placeLobe(size_t i) {
         const LobeTemplate& t = _code.lobes[i];
         const std::string n = number(int(i)), lobe = "lobe" + n;
         const std::string prefix = glslLobePrefix(t.prebuilt.kind);
         const auto registers = [&](Register r) { return reg(r); };
         line("    " + lobe + " = " + glslLobeSetup(t, registers) + ";");
-        if (t.facets != 0) line("    " + lobe + ".facets = " + number(t.facets) + ";");
+        methodLines(t, lobe);
         const std::string fixed = prefix + "Fix(" + lobe + ", " + frameOf(i) + ".wo, " + curve(t) +
                                   ", lobeAlbedo[" + n + "])";
         const LobeKind kind = t.prebuilt.kind;

@@ -1,5 +1,6 @@
 #include "shaders/bake/albedoQuadrature.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace patina::bake {
@@ -92,6 +93,18 @@ void InterfaceQuadrature::moments(const double* exponents, int count, double* re
         for (int k = 0; k < count; ++k)
             result[k] += n.reflected * std::exp(exponents[k] * ln);
     }
+}
+
+void InterfaceQuadrature::spread(int bins, double* light, double* cosine) const {
+    std::fill(light, light + bins, 0.0);
+    std::fill(cosine, cosine + bins, 0.0);
+    for (const Normal& n : _normals) {
+        const int bin = std::min(int(std::sqrt(n.c) * bins), bins - 1);
+        light[bin] += n.reflected;
+        cosine[bin] += n.reflected * n.c;
+    }
+    for (int i = 0; i < bins; ++i)
+        if (light[i] > 0.0) cosine[i] /= light[i];
 }
 
 vec2 InterfaceQuadrature::dielectric(double eta) const {

@@ -32,6 +32,10 @@ public:
     /// E[p] for `count` exponents at once.
     void moments(const double* exponents, int count, double* result) const;
 
+    /// How the light that a mirror reflects is spread over wo.m, in `bins` even in the root of the
+    /// cosine: the light and the mean cosine of each (0 where there is no light).
+    void spread(int bins, double* light, double* cosine) const;
+
     /// (reflected, transmitted) of a dielectric of relative ior `eta`.
     sh64::vec2 dielectric(double eta) const;
 

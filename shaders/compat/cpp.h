@@ -81,6 +81,9 @@ inline float mix(float a, float b, float t) {
 inline vec3 sqrt(vec3 v) {
     return vec3(sqrt(v.x), sqrt(v.y), sqrt(v.z));
 }
+inline vec4 sqrt(vec4 v) {
+    return vec4(sqrt(v.x), sqrt(v.y), sqrt(v.z), sqrt(v.w));
+}
 inline vec3 abs(vec3 v) {
     return vec3(abs(v.x), abs(v.y), abs(v.z));
 }

@@ -29,6 +29,10 @@ const float ALBEDO_MIN = 1e-3f;
 // Smallest z of a sampled facet normal before it is scaled by alpha; guards rounding only.
 const float NORMAL_Z_MIN = 1e-7f;
 
+// Light that single scattering loses on average, below which no second lobe can hold it exactly:
+// albedos are known within 1e-4.
+const float MULTI_LOSS_MIN = 1e-3f;
+
 // Guards a division whose numerator vanishes together with the denominator.
 const float TINY = 1e-20f;
 

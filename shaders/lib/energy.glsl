@@ -1,6 +1,16 @@
 // Multiple scattering between microfacets, as a factor on the single scattering lobe. A method
-// choice: `compensate` 0 leaves the lobe bare, 1 scales it. Not reciprocal (the factor hangs on wo
-// only), keeps the lobe's shape.
+// choice: `compensate` is one of COMPENSATE_*. Scaling is not reciprocal (the factor hangs on wo
+// only) and keeps the lobe's shape; methods/kullaConty.glsl adds a lobe instead.
+
+const int COMPENSATE_NONE = 0;
+const int COMPENSATE_SCALE = 1;
+const int COMPENSATE_ADD = 2;
+
+// Whether a lobe takes the second lobe; where it would not do, COMPENSATE_ADD scales too. thinner:
+// wo is on the thinner side.
+PATINA_FN bool energyAdds(int compensate, bool rough, bool thinner, int mode) {
+    return compensate == COMPENSATE_ADD && rough && thinner && mode == SCATTER_R;
+}
 
 // Turquin 2019, "Practical multiple scattering compensation for microfacet models": 1 + favg (1 -
 // ess) / ess, with the average Fresnel of the interface in place of F0. Never lifts an albedo above

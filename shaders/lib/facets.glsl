@@ -1,5 +1,5 @@
-// What the lobes on microfacets share, for both distributions of facet normals. With the length l(w)
-// of either, Smith's masking is the same:
+// What the lobes on microfacets share, for both distributions of facet normals. With the length
+// l(w) of either, Smith's masking is the same:
 //   G1(o) / o.z          = 2 / (o.z + l(o))
 //   G2(o, i) / (o.z i.z) = 2 / (l(o) i.z + l(i) o.z)
 // Reflection and refraction use the same G2.
@@ -42,6 +42,7 @@ struct FacetPair {
     float value;
     float pdf;
     float c;
+    float z; // of the facet
 };
 
 // eta: ior of i's side over that of o's for refraction, 1 for reflection. The Jacobian eta^2 |i.h|
@@ -78,7 +79,9 @@ PATINA_FN FacetPair facetPair(vec3 o, vec3 i, vec2 alpha, float eta, int facets)
     FacetPair p;
     p.value = shape * iz * facetG2Ratio(oz, lo, iz, li);
     p.pdf = shape * 2.0f / max(oz + lo, TINY);
-    p.c = clamp(oh / sqrt(max(dot(h, h), TINY)), 0.0f, 1.0f);
+    float len = sqrt(max(dot(h, h), TINY));
+    p.c = clamp(oh / len, 0.0f, 1.0f);
+    p.z = min(h.z / len, 1.0f);
     return p;
 }
 
@@ -105,7 +108,8 @@ struct FacetBounce {
 };
 
 // c: o.m in [0, 1]. eta as in facetPair; it is not used for reflection.
-PATINA_FN FacetBounce facetBounce(vec3 o, vec3 m, float c, vec2 alpha, float eta, bool reflects, int facets) {
+PATINA_FN FacetBounce facetBounce(vec3 o, vec3 m, float c, vec2 alpha, float eta, bool reflects,
+                                  int facets) {
     bool mirror = alpha.x == 0.0f;
     vec2 a = max(alpha, vec2(ALPHA_MIRROR));
     float ct = cosRefracted(c, eta);

@@ -10,7 +10,11 @@ struct ConductorLobe {
     Film film;
     float retro; // -1 sends the lobe back to where it came from, else 1
     int compensate;
-    int facets; // FACETS_*, FACETS_GGX unless the caller sets another
+    int facets;   // FACETS_GGX, FACETS_BECKMANN
+    int albedo;   // ALBEDO_*; this and the next as facets: 0 unless the caller sets another
+    int sampling; // FACETS_VISIBLE and others
+    int fresnel;  // FRESNEL_*, by conductorFresnel
+    SchlickFresnel curve;
     bool known; // k is that of the wo at hand (conductorAt)
     vec3 k;     // factor for multiple scattering
 };
@@ -28,12 +32,26 @@ PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness
     l.retro = select(-1.0f, 1.0f, retroreflective);
     l.compensate = compensate;
     l.facets = FACETS_GGX;
+    l.albedo = ALBEDO_TABLE;
+    l.sampling = FACETS_VISIBLE;
+    l.fresnel = FRESNEL_EXACT;
+    l.curve = schlickFresnel(vec3(1.0f), vec3(1.0f), vec3(1.0f), 5.0f);
     l.known = false;
     l.k = vec3(1.0f);
     return l;
 }
 
-// The lobe under a film (makeFilm).
+// The lobe with a curve in place of the exact reflectance.
+PATINA_FN ConductorLobe conductorFresnel(ConductorLobe l, int model) {
+    l.fresnel = model;
+    if (model == FRESNEL_EXACT || l.film.thickness > 0.0f) return l;
+    l.curve = fresnelCurve(model, fresnelConductor(1.0f, l.ior, l.extinction),
+                           fresnelConductor(1.0f / 7.0f, l.ior, l.extinction));
+    l.favg = fresnelSchlickAverage(l.curve);
+    return l;
+}
+
+// The lobe under a film (makeFilm), whose reflectance is exact whatever the model.
 PATINA_FN ConductorLobe conductorFilm(ConductorLobe l, float thickness, float ior) {
     l.film = makeFilm(thickness, ior);
     if (l.film.thickness > 0.0f) l.favg = filmAverage(l.film, l.ior, l.extinction);
@@ -42,42 +60,76 @@ PATINA_FN ConductorLobe conductorFilm(ConductorLobe l, float thickness, float io
 
 PATINA_FN vec3 conductorReflectance(ConductorLobe l, float c) {
     if (l.film.thickness > 0.0f) return filmReflectance(l.film, c, l.ior, l.extinction);
+    if (l.fresnel != FRESNEL_EXACT) return min(fresnelSchlick(c, l.curve), vec3(1.0f));
     return fresnelConductor(c, l.ior, l.extinction);
+}
+
+PATINA_FN bool conductorAdds(ConductorLobe l) {
+    return energyAdds(l.compensate, l.alpha.x > 0.0f, true, SCATTER_R);
 }
 
 // The lobe with its energy factor for one wo. Optional: a caller that evaluates and samples several
 // times at the same wo saves the table look-up.
 PATINA_FN ConductorLobe conductorAt(ConductorLobe l, vec3 wo) {
     l.known = true;
-    if (l.compensate == 0 || l.alpha.x == 0.0f) return l;
-    float ess = facetAlbedo0(facetPlace(wo, l.alpha, l.facets));
+    if (l.compensate == COMPENSATE_NONE || l.alpha.x == 0.0f || conductorAdds(l)) return l;
+    float ess = albedoWhite(wo, l.alpha, l.facets, l.albedo);
     l.k = vec3(1.0f) + l.favg * ((1.0f - ess) / max(ess, ALBEDO_MIN));
     return l;
 }
 
 PATINA_FN LobeEval conductorEval(ConductorLobe l, vec3 wo, vec3 wi) {
     if (l.alpha.x == 0.0f || wo.z < 0.0f || wi.z <= 0.0f) return lobeEvalNone();
-    FacetPair p = facetPair(wo, vec3(wi.x * l.retro, wi.y * l.retro, wi.z), l.alpha, 1.0f, l.facets);
+    vec3 i = vec3(wi.x * l.retro, wi.y * l.retro, wi.z);
+    FacetPair p = facetPair(wo, i, l.alpha, 1.0f, l.facets);
     if (!l.known) l = conductorAt(l, wo);
     LobeEval e;
     e.value = conductorReflectance(l, p.c) * l.k * p.value;
-    e.pdf = p.pdf;
-    return e;
+    int sampling = facetSampling(l.sampling, l.facets, SCATTER_R);
+    e.pdf = p.pdf * facetDensity(wo, l.alpha, p.z, p.c, l.facets, sampling);
+    if (!conductorAdds(l)) return e;
+    float ess = albedoWhite(wo, l.alpha, l.facets, l.albedo);
+    return multiAdd(multiLobe(l.favg, ess, l.alpha, l.facets), e, i.z,
+                    albedoWhite(i, l.alpha, l.facets, l.albedo));
+}
+
+// Draws from both lobes where a second one holds the energy: the choice is u.z's.
+PATINA_FN LobeSample conductorSampleBoth(ConductorLobe l, vec3 wo, vec3 u) {
+    float ess = albedoWhite(wo, l.alpha, l.facets, l.albedo);
+    bool second = u.z < multiLobe(l.favg, ess, l.alpha, l.facets).chance;
+    int sampling = facetSampling(l.sampling, l.facets, SCATTER_R);
+    vec3 m = facetSample(wo, l.alpha, vec2(u.x, u.y), l.facets, sampling);
+    vec3 wi = m * (2.0f * max(dot(wo, m), 0.0f)) - wo;
+    wi = select(sampleCosineHemisphere(vec2(u.x, u.y)), wi, second);
+    LobeSample s;
+    s.wi = vec3(wi.x * l.retro, wi.y * l.retro, wi.z);
+    LobeEval e = conductorEval(l, wo, s.wi);
+    if (e.pdf <= 0.0f) return lobeSampleNone();
+    s.weight = e.value / e.pdf;
+    s.pdf = e.pdf;
+    s.event = LOBE_REFLECT;
+    s.eta = 1.0f;
+    return s;
 }
 
 PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
     if (wo.z < 0.0f) return lobeSampleNone();
+    if (conductorAdds(l)) return conductorSampleBoth(l, wo, u);
     bool mirror = l.alpha.x == 0.0f;
+    int sampling = facetSampling(l.sampling, l.facets, SCATTER_R);
     vec3 m = vec3(0.0f, 0.0f, 1.0f);
-    if (!mirror) m = facetSampleVisible(wo, l.alpha, vec2(u.x, u.y), l.facets);
+    if (!mirror) m = facetSample(wo, l.alpha, vec2(u.x, u.y), l.facets, sampling);
     float c = clamp(dot(wo, m), 0.0f, 1.0f);
     FacetBounce b = facetBounce(wo, m, c, l.alpha, 1.0f, true, l.facets);
     if (!b.valid) return lobeSampleNone();
     if (!l.known) l = conductorAt(l, wo);
     LobeSample s;
     s.wi = vec3(b.wi.x * l.retro, b.wi.y * l.retro, b.wi.z);
-    s.weight = conductorReflectance(l, c) * l.k * b.ratio;
-    s.pdf = b.pdf;
+    if (sampling == FACETS_ALL && c <= 0.0f) return lobeSampleNone();
+    float density = 1.0f;
+    if (!mirror) density = facetDensity(wo, l.alpha, m.z, c, l.facets, sampling);
+    s.weight = conductorReflectance(l, c) * l.k * (b.ratio / density);
+    s.pdf = b.pdf * density;
     s.event = select(LOBE_REFLECT + LOBE_DELTA, LOBE_REFLECT, mirror);
     s.eta = 1.0f;
     return s;
@@ -85,9 +137,32 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
 
 PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
-    if (l.alpha.x == 0.0f) return conductorReflectance(l, min(wo.z, 1.0f));
+    if (l.alpha.x == 0.0f || l.albedo == ALBEDO_MIRROR)
+        return conductorReflectance(l, min(wo.z, 1.0f));
+    int method = albedoMethod(l.albedo, l.alpha, l.facets, 1.0f);
+    float ess = albedoWhite(wo, l.alpha, l.facets, l.albedo);
+    vec3 k = conductorAt(l, wo).k;
+    vec3 extra = vec3(0.0f);
+    if (conductorAdds(l)) extra = multiLobe(l.favg, ess, l.alpha, l.facets).color;
+    if (method == ALBEDO_KARIS) {
+        vec2 ab = karisScaleBias(min(wo.z, 1.0f), facetAlphaSeen(wo, l.alpha));
+        vec3 er = conductorReflectance(l, 1.0f) * ab.x + vec3(ab.y);
+        return min(er, vec3(ess)) * k + extra;
+    }
+    if (albedoHasFacets(method)) {
+        AlbedoFacets a = albedoFacets(wo, l.alpha, l.facets, method);
+        vec3 er = vec3(0.0f);
+        for (int j = 0; j < a.count; ++j) {
+            vec2 facet = albedoFacet(a, j);
+            er += conductorReflectance(l, facet.x) * facet.y;
+        }
+        return er * k + extra;
+    }
     FacetPlace p = facetPlace(wo, l.alpha, l.facets);
     vec3 mean = conductorMean(p, l.ior, l.extinction);
-    if (l.film.thickness > 0.0f) mean = filmMean(p, l.film, l.ior, l.extinction);
-    return mean * conductorAt(l, wo).k * facetAlbedo0(p);
+    if (l.film.thickness > 0.0f)
+        mean = filmMean(p, l.film, l.ior, l.extinction);
+    else if (l.fresnel != FRESNEL_EXACT)
+        mean = schlickMean(p, l.curve);
+    return mean * ess * k + extra;
 }

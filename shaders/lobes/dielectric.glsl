@@ -1,5 +1,5 @@
-// Rough or smooth interface between two dielectrics: microfacet reflection (R), refraction (T) or both
-// (RT) with the exact Fresnel equations. MaterialX dielectric_bsdf, without thin film.
+// Rough or smooth interface between two dielectrics: microfacet reflection (R), refraction (T) or
+// both (RT) with the exact Fresnel equations. MaterialX dielectric_bsdf, without thin film.
 //
 // Sides: wo.z >= 0 is outside, wo.z < 0 inside; ior is inside over outside. wi lies on either side.
 // Refraction is in flux form: radiance is not scaled by 1 / eta^2, so that R + T of clear glass is
@@ -17,7 +17,10 @@ struct DielectricLobe {
     float retro; // -1 sends reflection back to where it came from, else 1
     int mode;
     int compensate;
-    int facets; // FACETS_*, FACETS_GGX unless the caller sets another
+    int facets;   // FACETS_GGX, FACETS_BECKMANN
+    int albedo;   // ALBEDO_*; this and the next two as facets: 0 unless the caller sets another
+    int sampling; // FACETS_VISIBLE and others
+    int fresnel;  // FRESNEL_*
     bool fused;
     bool full;    // Fresnel off, reflects everything
     bool matched; // no interface
@@ -46,6 +49,9 @@ PATINA_FN DielectricLobe dielectricSetup(vec3 tint, float ior, vec2 roughness, b
     l.mode = select(SCATTER_R, scatterMode, l.full);
     l.compensate = compensate;
     l.facets = FACETS_GGX;
+    l.albedo = ALBEDO_TABLE;
+    l.sampling = FACETS_VISIBLE;
+    l.fresnel = FRESNEL_EXACT;
     l.fused = fused && scatterMode == SCATTER_T;
     l.deltaT = min(l.alpha.x, l.alpha.y) * abs(l.ior - 1.0f) < REFRACTION_DELTA * max(l.ior, 1.0f);
     l.known = false;
@@ -59,7 +65,31 @@ PATINA_FN float dielectricEta(DielectricLobe l, float z) {
 }
 
 PATINA_FN float dielectricFresnel(DielectricLobe l, float c, float eta) {
-    return select(1.0f, fresnelDielectric(c, eta), l.full);
+    return select(1.0f, fresnelModelled(l.fresnel, c, eta), l.full);
+}
+
+PATINA_FN bool dielectricAdds(DielectricLobe l, float z) {
+    bool thinner = l.full || dielectricEta(l, z) >= 1.0f;
+    return energyAdds(l.compensate, l.alpha.x > 0.0f && !l.matched, thinner, l.mode);
+}
+
+// (E of a white mirror, E of the reflection), single scattering, by methods other than the tables.
+PATINA_FN vec2 dielectricChosen(DielectricLobe l, vec3 wo, float eta, int method) {
+    float mu = min(abs(wo.z), 1.0f);
+    vec2 e = vec2(0.0f);
+    if (albedoHasFacets(method)) {
+        AlbedoFacets a = albedoFacets(wo, l.alpha, l.facets, method);
+        for (int j = 0; j < a.count; ++j) {
+            vec2 facet = albedoFacet(a, j);
+            e += vec2(facet.y, facet.y * dielectricFresnel(l, facet.x, eta));
+        }
+    } else {
+        vec2 ab = karisScaleBias(mu, facetAlphaSeen(wo, l.alpha));
+        e.y = dielectricFresnel(l, 1.0f, eta) * ab.x + ab.y;
+    }
+    if (method == ALBEDO_KARIS) e.x = facetAlbedo0(facetPlace(wo, l.alpha, l.facets));
+    e.x = clamp(e.x, ALBEDO_MIN, 1.0f);
+    return vec2(e.x, min(e.x, e.y));
 }
 
 struct DielectricEnergy {
@@ -69,25 +99,42 @@ struct DielectricEnergy {
     float t;
 };
 
-PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, vec3 wo) {
+PATINA_FN DielectricEnergy dielectricRough(DielectricLobe l, vec3 wo) {
     DielectricEnergy e;
     float z = wo.z;
     float mu = abs(z);
     float eta = dielectricEta(l, z);
-    float f = dielectricFresnel(l, mu, eta);
+    float f = dielectricFresnel(l, min(mu, 1.0f), eta);
     e.kr = 1.0f;
     e.kt = energyFused(f, l.fused);
     e.r = f;
     e.t = (1.0f - f) * e.kt;
     if (l.alpha.x == 0.0f || l.matched) return e;
-    FacetPlace p = facetPlace(wo, l.alpha, l.facets);
-    float ess = facetAlbedo0(p);
-    vec2 a = facetInterface(p, eta);
-    float er = ess * select(1.0f, a.x, l.full);
-    float et = ess * select(0.0f, a.y, l.full);
+    int method = albedoMethod(l.albedo, l.alpha, l.facets, eta);
+    vec2 chosen = vec2(0.0f);
+    if (method != ALBEDO_TABLE) chosen = dielectricChosen(l, wo, eta, method);
+    float ess = chosen.x;
+    float er = chosen.y;
+    float et = 0.0f;
+    // Transmission is the tables' alone.
+    if (method == ALBEDO_TABLE || l.mode != SCATTER_R || eta < 1.0f) {
+        FacetPlace p = facetPlace(wo, l.alpha, l.facets);
+        vec2 a = facetInterface(p, eta);
+        float white = facetAlbedo0(p);
+        et = white * select(0.0f, a.y, l.full);
+        ess = select(white, ess, method == ALBEDO_TABLE);
+        if (l.fresnel != FRESNEL_EXACT && eta >= 1.0f)
+            a.x = schlickMean(p, fresnelDielectricCurve(l.fresnel, eta)).x;
+        er = select(white * select(1.0f, a.x, l.full), er, method == ALBEDO_TABLE);
+    }
+    if (dielectricAdds(l, z)) {
+        e.r = er + multiLobe(vec3(l.favg), ess, l.alpha, l.facets).color.x;
+        e.t = 0.0f;
+        return e;
+    }
     e.kr = energyReflect(ess, l.favg, l.compensate);
     e.kt = 1.0f;
-    if (l.compensate != 0 && !l.full) {
+    if (l.compensate != COMPENSATE_NONE && !l.full) {
         float both = energyBoth(er, et);
         e.kr = select(e.kr, both, eta >= 1.0f);
         e.kt = select(energyTransmit(er, et, e.kr), both, eta >= 1.0f);
@@ -98,14 +145,25 @@ PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, vec3 wo) {
     return e;
 }
 
+PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, vec3 wo) {
+    DielectricEnergy e = dielectricRough(l, wo);
+    if (l.albedo != ALBEDO_MIRROR) return e;
+    float f = dielectricFresnel(l, min(abs(wo.z), 1.0f), dielectricEta(l, wo.z));
+    float fused = energyFused(f, l.fused);
+    e.kt *= fused / energyFused(e.r, l.fused);
+    e.r = f;
+    e.t = (1.0f - f) * fused;
+    return e;
+}
+
 // The lobe with its energy factors for one wo. Optional: a caller that evaluates and samples
 // several times at the same wo saves the table look-ups.
 PATINA_FN DielectricLobe dielectricAt(DielectricLobe l, vec3 wo) {
     l.known = true;
-    bool plain = (l.compensate == 0 || l.alpha.x == 0.0f) && !l.fused;
-    if (plain || l.matched) return l;
+    bool plain = (l.compensate == COMPENSATE_NONE || l.alpha.x == 0.0f) && !l.fused;
+    if (plain || l.matched || dielectricAdds(l, wo.z)) return l;
     if (l.mode == SCATTER_R && (l.full || dielectricEta(l, wo.z) >= 1.0f)) {
-        float ess = facetAlbedo0(facetPlace(wo, l.alpha, l.facets));
+        float ess = albedoWhite(wo, l.alpha, l.facets, l.albedo);
         l.kr = energyReflect(ess, l.favg, l.compensate);
         return l;
     }
@@ -131,33 +189,64 @@ PATINA_FN LobeEval dielectricEval(DielectricLobe l, vec3 wo, vec3 wi) {
     if (!l.known) l = dielectricAt(l, wo);
     LobeEval e;
     e.value = l.tint * (p.value * share * select(l.kr, l.kt, reflects));
-    e.pdf = p.pdf * select(share, 1.0f, l.mode == SCATTER_RT);
-    return e;
+    int sampling = facetSampling(l.sampling, l.facets, l.mode);
+    e.pdf = p.pdf * select(share, 1.0f, l.mode == SCATTER_RT) *
+            facetDensity(o, l.alpha, p.z, p.c, l.facets, sampling);
+    if (!dielectricAdds(l, wo.z)) return e;
+    float ess = albedoWhite(o, l.alpha, l.facets, l.albedo);
+    MultiLobe second = multiLobe(vec3(l.favg), ess, l.alpha, l.facets);
+    second.color *= l.tint;
+    return multiAdd(second, e, i.z, albedoWhite(i, l.alpha, l.facets, l.albedo));
+}
+
+// Draws from both lobes where a second one holds the energy: the choice is u.z's.
+PATINA_FN LobeSample dielectricSampleBoth(DielectricLobe l, vec3 wo, vec3 u) {
+    float side = select(1.0f, -1.0f, wo.z >= 0.0f);
+    vec3 o = vec3(wo.x, wo.y, wo.z * side);
+    float ess = albedoWhite(o, l.alpha, l.facets, l.albedo);
+    bool second = u.z < multiLobe(vec3(l.favg), ess, l.alpha, l.facets).chance;
+    int sampling = facetSampling(l.sampling, l.facets, l.mode);
+    vec3 m = facetSample(o, l.alpha, vec2(u.x, u.y), l.facets, sampling);
+    vec3 wi = m * (2.0f * max(dot(o, m), 0.0f)) - o;
+    wi = select(sampleCosineHemisphere(vec2(u.x, u.y)), wi, second);
+    LobeSample s;
+    s.wi = vec3(wi.x * l.retro, wi.y * l.retro, wi.z * side);
+    LobeEval e = dielectricEval(l, wo, s.wi);
+    if (e.pdf <= 0.0f) return lobeSampleNone();
+    s.weight = e.value / e.pdf;
+    s.pdf = e.pdf;
+    s.event = LOBE_REFLECT;
+    s.eta = 1.0f;
+    return s;
 }
 
 PATINA_FN LobeSample dielectricSample(DielectricLobe l, vec3 wo, vec3 u) {
+    if (dielectricAdds(l, wo.z)) return dielectricSampleBoth(l, wo, u);
     float side = select(1.0f, -1.0f, wo.z >= 0.0f);
     float eta = dielectricEta(l, wo.z);
     bool mirror = l.alpha.x == 0.0f;
+    int sampling = select(FACETS_VISIBLE, facetSampling(l.sampling, l.facets, l.mode), l.matched);
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
     vec3 m = vec3(0.0f, 0.0f, 1.0f);
-    if (!mirror) m = facetSampleVisible(o, l.alpha, vec2(u.x, u.y), l.facets);
+    if (!mirror) m = facetSample(o, l.alpha, vec2(u.x, u.y), l.facets, sampling);
     float c = clamp(dot(o, m), 0.0f, 1.0f);
     float f = dielectricFresnel(l, c, eta);
     float chance = select(f, select(1.0f, 0.0f, l.mode == SCATTER_R), l.mode == SCATTER_RT);
     bool reflects = u.z < chance;
     FacetBounce b = facetBounce(o, m, c, l.alpha, eta, reflects, l.facets);
     float share = select(f, 1.0f - f, reflects);
-    if (!b.valid || share <= 0.0f) return lobeSampleNone();
+    float density = 1.0f;
+    if (!mirror) density = facetDensity(o, l.alpha, m.z, c, l.facets, sampling);
+    if (!b.valid || share <= 0.0f || (sampling == FACETS_ALL && c <= 0.0f)) return lobeSampleNone();
     if (!l.known) l = dielectricAt(l, wo);
     bool isDelta = mirror || (!reflects && l.deltaT);
     bool both = l.mode == SCATTER_RT;
-    float ratio = select(1.0f, b.ratio, l.matched);
+    float ratio = select(1.0f, b.ratio / density, l.matched);
     float turn = select(l.retro, 1.0f, reflects);
     LobeSample s;
     s.wi = vec3(b.wi.x * turn, b.wi.y * turn, b.wi.z * side);
     s.weight = l.tint * (ratio * select(l.kr, l.kt, reflects) * select(1.0f, share, both));
-    s.pdf = select(1.0f, b.pdf, isDelta) * select(share, 1.0f, both);
+    s.pdf = select(1.0f, b.pdf * density, isDelta) * select(share, 1.0f, both);
     s.event = select(LOBE_REFLECT, LOBE_TRANSMIT, reflects) + select(LOBE_DELTA, 0, isDelta);
     s.eta = select(1.0f, 1.0f / eta, reflects);
     return s;

@@ -1,5 +1,5 @@
-// Microfacet interface with a generalized Schlick reflectance: MaterialX generalized_schlick_bsdf. Also
-// the coloured reflectance of dielectric_bsdf under a thin film, since dielectric.glsl has one
+// Microfacet interface with a generalized Schlick reflectance: MaterialX generalized_schlick_bsdf.
+// Also the coloured reflectance of dielectric_bsdf under a thin film, since dielectric.glsl has one
 // number.
 //
 // Sides and flux form as in dielectric.glsl. The ior that bends T follows from the mean of color0.
@@ -18,8 +18,10 @@ struct SchlickLobe {
     float retro; // -1 sends reflection back to where it came from, else 1
     int mode;
     int compensate;
-    int facets; // FACETS_*, FACETS_GGX unless the caller sets another
-    bool exact; // a dielectric under a film, not Schlick's curve
+    int facets;   // FACETS_GGX, FACETS_BECKMANN
+    int albedo;   // ALBEDO_*; this and the next as facets: 0 unless the caller sets another
+    int sampling; // FACETS_VISIBLE and others
+    bool exact;   // a dielectric under a film, not Schlick's curve
     bool fused;
     bool deltaT; // refraction too narrow to evaluate
     bool known;  // kr and kt are those of the wo at hand (schlickAt)
@@ -45,6 +47,8 @@ PATINA_FN SchlickLobe schlickSetup(vec3 color0, vec3 color82, vec3 color90, floa
     l.mode = scatterMode;
     l.compensate = compensate;
     l.facets = FACETS_GGX;
+    l.albedo = ALBEDO_TABLE;
+    l.sampling = FACETS_VISIBLE;
     l.fused = fused && scatterMode == SCATTER_T;
     l.deltaT = min(l.alpha.x, l.alpha.y) * (l.ior - 1.0f) < REFRACTION_DELTA * l.ior;
     l.known = false;
@@ -131,10 +135,54 @@ PATINA_FN vec3 schlickFused(vec3 r, bool fused) {
     return vec3(energyFused(r.x, fused), energyFused(r.y, fused), energyFused(r.z, fused));
 }
 
+// Reflectance at normal incidence.
+PATINA_FN vec3 schlickNormal(SchlickLobe l) {
+    if (l.exact || l.film.thickness > 0.0f) return schlickOutside(l, 1.0f);
+    return l.fresnel.f0;
+}
+
+// Mean reflectance over the facets seen, from the tables.
+PATINA_FN vec3 schlickTabled(SchlickLobe l, FacetPlace p, float eta) {
+    if (l.exact || l.film.thickness > 0.0f)
+        return curveMean(p, schlickReflectance(l, 0.0f, eta),
+                         schlickReflectance(l, CONDUCTOR_COS.x, eta),
+                         schlickReflectance(l, CONDUCTOR_COS.y, eta),
+                         schlickReflectance(l, CONDUCTOR_COS.z, eta),
+                         schlickReflectance(l, CONDUCTOR_COS3, eta), schlickOutside(l, 1.0f));
+    return schlickMean(p, l.fresnel);
+}
+
+PATINA_FN bool schlickAdds(SchlickLobe l, float z) {
+    return energyAdds(l.compensate, l.alpha.x > 0.0f, schlickEta(l, z) >= 1.0f, l.mode);
+}
+
+// E of the reflection and, last, E of a white mirror, single scattering, by methods other than the
+// tables.
+PATINA_FN vec4 schlickChosen(SchlickLobe l, vec3 wo, float eta, int method) {
+    float mu = min(abs(wo.z), 1.0f);
+    vec3 er = vec3(0.0f);
+    float ess = 0.0f;
+    if (albedoHasFacets(method)) {
+        AlbedoFacets a = albedoFacets(wo, l.alpha, l.facets, method);
+        for (int j = 0; j < a.count; ++j) {
+            vec2 facet = albedoFacet(a, j);
+            er += schlickReflectance(l, facet.x, eta) * facet.y;
+            ess += facet.y;
+        }
+    } else {
+        vec2 ab = karisScaleBias(mu, facetAlphaSeen(wo, l.alpha));
+        er = schlickNormal(l) * ab.x + l.fresnel.f90 * ab.y;
+    }
+    if (method == ALBEDO_KARIS) ess = facetAlbedo0(facetPlace(wo, l.alpha, l.facets));
+    ess = clamp(ess, ALBEDO_MIN, 1.0f);
+    er = min(er, vec3(ess));
+    return vec4(er.x, er.y, er.z, ess);
+}
+
 // How T's albedo follows from the dielectric tables: the kernel of T is that of the dielectric with
 // the same ior, and its mean reflectance is taken as that of R. From the inside so is R's, with the
 // dielectric's mean rise from F0 to 1 in place of the curve's.
-PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
+PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
     SchlickEnergy e;
     float z = wo.z;
     float mu = abs(z);
@@ -144,31 +192,37 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
     e.kt = schlickFused(e.r, l.fused);
     e.t = (vec3(1.0f) - e.r) * e.kt;
     if (l.alpha.x == 0.0f) return e;
-    FacetPlace p = facetPlace(wo, l.alpha, l.facets);
-    float ess = facetAlbedo0(p);
-    bool compensates = l.compensate != 0;
+    bool thinner = eta >= 1.0f;
+    bool reflectsOnly = l.mode == SCATTER_R && thinner;
+    int method = albedoMethod(l.albedo, l.alpha, l.facets, eta);
+    bool tabled = method == ALBEDO_TABLE;
+    vec4 chosen = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    if (!tabled) chosen = schlickChosen(l, wo, eta, method);
+    float ess = chosen.w;
+    float white = ess;
+    vec3 mean = vec3(chosen.x, chosen.y, chosen.z) / ess;
+    vec2 a = vec2(0.0f, 1.0f);
+    if (tabled || !reflectsOnly) {
+        FacetPlace p = facetPlace(wo, l.alpha, l.facets);
+        white = facetAlbedo0(p);
+        ess = select(white, ess, tabled);
+        if (tabled) mean = schlickTabled(l, p, eta);
+        if (!reflectsOnly) a = facetInterface(p, eta);
+    }
+    if (schlickAdds(l, z)) {
+        e.r = mean * ess + multiLobe(l.favg, ess, l.alpha, l.facets).color;
+        return e;
+    }
+    bool compensates = l.compensate != COMPENSATE_NONE;
     vec3 gain = select(l.favg, vec3(0.0f), compensates);
     e.kr = vec3(1.0f) + gain * ((1.0f - ess) / max(ess, ALBEDO_MIN));
-    bool thinner = eta >= 1.0f;
-    vec3 f5 = l.fresnel.f0;
-    vec3 mean = vec3(0.0f);
-    if (l.exact || l.film.thickness > 0.0f) {
-        f5 = schlickOutside(l, 1.0f);
-        mean = curveMean(p, schlickReflectance(l, 0.0f, eta),
-                         schlickReflectance(l, CONDUCTOR_COS.x, eta),
-                         schlickReflectance(l, CONDUCTOR_COS.y, eta),
-                         schlickReflectance(l, CONDUCTOR_COS.z, eta),
-                         schlickReflectance(l, CONDUCTOR_COS3, eta), f5);
-    } else
-        mean = schlickMean(p, l.fresnel);
     e.r = mean * e.kr * ess;
-    if (l.mode == SCATTER_R && thinner) return e;
-    vec2 a = facetInterface(p, eta);
+    if (reflectsOnly) return e;
     float f0 = sqr((l.ior - 1.0f) / (l.ior + 1.0f));
     float rise = clamp((a.x - f0) / (1.0f - f0), 0.0f, 1.0f);
-    mean = select(mean, mix(f5, vec3(1.0f), rise), thinner);
+    if (tabled && !thinner) mean = mix(schlickNormal(l), vec3(1.0f), rise);
     vec3 er = mean * ess;
-    vec3 et = (vec3(1.0f) - mean) * min(ess * a.y / max(1.0f - a.x, ALBEDO_MIN), 1.0f);
+    vec3 et = (vec3(1.0f) - mean) * min(white * a.y / max(1.0f - a.x, ALBEDO_MIN), 1.0f);
     if (compensates) {
         vec3 both = vec3(1.0f) / max(er + et, vec3(ALBEDO_MIN));
         vec3 rest = max(vec3(1.0f) - er * e.kr, vec3(0.0f)) / max(et, vec3(ALBEDO_MIN));
@@ -182,11 +236,22 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
     return e;
 }
 
+PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
+    SchlickEnergy e = schlickRough(l, wo);
+    if (l.albedo != ALBEDO_MIRROR) return e;
+    vec3 f = schlickReflectance(l, min(abs(wo.z), 1.0f), schlickEta(l, wo.z));
+    vec3 fused = schlickFused(f, l.fused);
+    e.kt *= fused / schlickFused(e.r, l.fused);
+    e.r = f;
+    e.t = (vec3(1.0f) - f) * fused;
+    return e;
+}
+
 // The lobe with its energy factors for one wo, as dielectricAt.
 PATINA_FN SchlickLobe schlickAt(SchlickLobe l, vec3 wo) {
     l.known = true;
-    bool plain = (l.compensate == 0 || l.alpha.x == 0.0f) && !l.fused;
-    if (plain) return l;
+    bool plain = (l.compensate == COMPENSATE_NONE || l.alpha.x == 0.0f) && !l.fused;
+    if (plain || schlickAdds(l, wo.z)) return l;
     SchlickEnergy e = schlickEnergy(l, wo);
     l.kr = e.kr;
     l.kt = e.kt;
@@ -214,31 +279,63 @@ PATINA_FN LobeEval schlickEval(SchlickLobe l, vec3 wo, vec3 wi) {
     if (!l.known) l = schlickAt(l, wo);
     LobeEval e;
     e.value = l.tint * select(f * l.kr, (vec3(1.0f) - f) * l.kt, reflects) * p.value;
-    e.pdf = p.pdf * select(chance, 1.0f - chance, reflects);
-    return e;
+    int sampling = facetSampling(l.sampling, l.facets, l.mode);
+    e.pdf = p.pdf * select(chance, 1.0f - chance, reflects) *
+            facetDensity(o, l.alpha, p.z, p.c, l.facets, sampling);
+    if (!schlickAdds(l, wo.z)) return e;
+    float ess = albedoWhite(o, l.alpha, l.facets, l.albedo);
+    MultiLobe second = multiLobe(l.favg, ess, l.alpha, l.facets);
+    second.color *= l.tint;
+    return multiAdd(second, e, i.z, albedoWhite(i, l.alpha, l.facets, l.albedo));
+}
+
+// Draws from both lobes where a second one holds the energy: the choice is u.z's.
+PATINA_FN LobeSample schlickSampleBoth(SchlickLobe l, vec3 wo, vec3 u) {
+    float side = select(1.0f, -1.0f, wo.z >= 0.0f);
+    vec3 o = vec3(wo.x, wo.y, wo.z * side);
+    float ess = albedoWhite(o, l.alpha, l.facets, l.albedo);
+    bool second = u.z < multiLobe(l.favg, ess, l.alpha, l.facets).chance;
+    int sampling = facetSampling(l.sampling, l.facets, l.mode);
+    vec3 m = facetSample(o, l.alpha, vec2(u.x, u.y), l.facets, sampling);
+    vec3 wi = m * (2.0f * max(dot(o, m), 0.0f)) - o;
+    wi = select(sampleCosineHemisphere(vec2(u.x, u.y)), wi, second);
+    LobeSample s;
+    s.wi = vec3(wi.x * l.retro, wi.y * l.retro, wi.z * side);
+    LobeEval e = schlickEval(l, wo, s.wi);
+    if (e.pdf <= 0.0f) return lobeSampleNone();
+    s.weight = e.value / e.pdf;
+    s.pdf = e.pdf;
+    s.event = LOBE_REFLECT;
+    s.eta = 1.0f;
+    return s;
 }
 
 PATINA_FN LobeSample schlickSample(SchlickLobe l, vec3 wo, vec3 u) {
+    if (schlickAdds(l, wo.z)) return schlickSampleBoth(l, wo, u);
     float side = select(1.0f, -1.0f, wo.z >= 0.0f);
     float eta = schlickEta(l, wo.z);
     bool mirror = l.alpha.x == 0.0f;
+    int sampling = facetSampling(l.sampling, l.facets, l.mode);
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
     vec3 m = vec3(0.0f, 0.0f, 1.0f);
-    if (!mirror) m = facetSampleVisible(o, l.alpha, vec2(u.x, u.y), l.facets);
+    if (!mirror) m = facetSample(o, l.alpha, vec2(u.x, u.y), l.facets, sampling);
     float c = clamp(dot(o, m), 0.0f, 1.0f);
     vec3 f = schlickReflectance(l, c, eta);
     float chance = schlickChance(l, f);
     bool reflects = u.z < chance;
     FacetBounce b = facetBounce(o, m, c, l.alpha, eta, reflects, l.facets);
     float p = select(chance, 1.0f - chance, reflects);
-    if (!b.valid || p <= 0.0f) return lobeSampleNone();
+    if (!b.valid || p <= 0.0f || (sampling == FACETS_ALL && c <= 0.0f)) return lobeSampleNone();
+    float density = 1.0f;
+    if (!mirror) density = facetDensity(o, l.alpha, m.z, c, l.facets, sampling);
     if (!l.known) l = schlickAt(l, wo);
     bool isDelta = mirror || (!reflects && l.deltaT);
     float turn = select(l.retro, 1.0f, reflects);
     LobeSample s;
     s.wi = vec3(b.wi.x * turn, b.wi.y * turn, b.wi.z * side);
-    s.weight = l.tint * select(f * l.kr, (vec3(1.0f) - f) * l.kt, reflects) * (b.ratio / p);
-    s.pdf = select(1.0f, b.pdf, isDelta) * p;
+    s.weight =
+        l.tint * select(f * l.kr, (vec3(1.0f) - f) * l.kt, reflects) * (b.ratio / (p * density));
+    s.pdf = select(1.0f, b.pdf * density, isDelta) * p;
     s.event = select(LOBE_REFLECT, LOBE_TRANSMIT, reflects) + select(LOBE_DELTA, 0, isDelta);
     s.eta = select(1.0f, 1.0f / eta, reflects);
     return s;

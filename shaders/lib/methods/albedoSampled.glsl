@@ -1,0 +1,35 @@
+// Directional albedo by adding up facets: visible normals over a stratified square, shifted by a
+// hash of view and roughness, so that neighbours err independently; or, as truth, a lattice that
+// crowds where facets of GGX lean far, since that tail decides what is lost at small roughness.
+
+const int ALBEDO_QUADRATURE_ROWS = 48;
+const int ALBEDO_QUADRATURE_FACETS = ALBEDO_QUADRATURE_ROWS * ALBEDO_QUADRATURE_ROWS;
+
+PATINA_FN float albedoFract(float x) {
+    return x - floor(x);
+}
+
+// Facet j of `count` (a square number, or ALBEDO_QUADRATURE_FACETS): (cosine between view and
+// facet, its share of the reflected light).
+PATINA_FN vec2 sampledFacet(vec3 wo, vec2 alpha, int facets, int count, int j) {
+    bool lattice = count == ALBEDO_QUADRATURE_FACETS;
+    int n = select(ALBEDO_QUADRATURE_ROWS, select(8, 4, count == 64), lattice);
+    int row = j / n;
+    int column = j - row * n;
+    float seed = wo.z * 91.3458f + alpha.x * 47.9898f + alpha.y * 13.7f;
+    float x = albedoFract(sin(seed) * 437.585f);
+    float y = albedoFract(sin(seed + 1.7f) * 437.585f);
+    float turn = albedoFract((float(column) + 0.5f) * 0.618033989f);
+    x = select(0.5f, x, lattice);
+    y = select(turn, y, lattice);
+    float v = (float(row) + y) / float(n);
+    bool crowds = lattice && facets == FACETS_GGX;
+    vec2 u = vec2((float(column) + x) / float(n), select(1.0f - v * v * v, v, crowds));
+    vec3 m = facetSampleVisible(wo, alpha, u, facets);
+    float c = clamp(dot(wo, m), 0.0f, 1.0f);
+    vec3 wi = m * (2.0f * c) - wo;
+    float left = facetG2OverG1(wo.z, facetLength(wo, alpha, facets), max(wi.z, 0.0f),
+                               facetLength(wi, alpha, facets));
+    float weight = select(3.0f * v * v, 1.0f, crowds) / float(count);
+    return vec2(c, select(weight * left, 0.0f, wi.z > 0.0f));
+}

@@ -1,0 +1,43 @@
+// The choice point energyCompensation, method kullaConty (Kulla and Conty 2017, "Revisiting
+// Physically Based Shading at Imageworks"): a second lobe holds what single scattering loses,
+//   (1 - E(o)) (1 - E(i)) / (PI (1 - mean E)) times a colour,
+// with E the albedo of a white lobe. Reciprocal and shaped like diffuse. For lobes that reflect
+// only, from the thinner side; others are scaled (energy.glsl).
+
+// 1 - mean E of isotropic facets: polynomials fitted to quadrature, within 1e-3.
+PATINA_FN float multiLoss(float alpha, int facets) {
+    float g =
+        alpha * (0.0899281f +
+                 alpha * (2.25982f + alpha * (-3.55654f + alpha * (2.51304f - alpha * 0.715887f))));
+    float b =
+        alpha *
+        (0.0021705f +
+         alpha * (0.463756f + alpha * (-0.021915f + alpha * (-0.155818f + alpha * 0.0480315f))));
+    return select(b, g, facets == FACETS_BECKMANN);
+}
+
+struct MultiLobe {
+    vec3 color;   // albedo of the second lobe at the wo at hand
+    float rate;   // color times this times 1 - E(i) is the value, without the cosine
+    float chance; // of drawing it
+};
+
+// favg: mean reflectance. ess: E(wo). Below MULTI_LOSS_MIN the loss is noise of the tables.
+PATINA_FN MultiLobe multiLobe(vec3 favg, float ess, vec2 alpha, int facets) {
+    MultiLobe l;
+    float loss = max(multiLoss(sqrt(0.5f * dot(alpha, alpha)), facets), MULTI_LOSS_MIN);
+    float kept = max(1.0f - loss, ALBEDO_MIN);
+    vec3 white = favg * favg * kept / max(vec3(1.0f) - favg * loss, vec3(ALBEDO_MIN));
+    l.color = white * (1.0f - ess);
+    l.rate = INV_PI / loss;
+    float second = lobeMean(l.color);
+    l.chance = second / max(second + lobeMean(favg) * ess, TINY);
+    return l;
+}
+
+// What the second lobe adds to a lobe's value and density. essIn: E(wi).
+PATINA_FN LobeEval multiAdd(MultiLobe l, LobeEval e, float iz, float essIn) {
+    e.value += l.color * (l.rate * (1.0f - essIn) * iz);
+    e.pdf = mix(e.pdf, INV_PI * iz, l.chance);
+    return e;
+}

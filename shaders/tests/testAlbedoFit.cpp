@@ -1,0 +1,167 @@
+// The methods for directional albedos against quadrature, over the 32 x 32 cell centres of (cosine,
+// root of alpha): RMSE times 65535, single scattering. Everything here is deterministic.
+
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "shaders/bake/albedoQuadrature.h"
+#include "shaders/tests/lobeCase.h"
+
+using namespace patina;
+using sh64::vec2;
+using sh64::vec3;
+
+namespace {
+
+constexpr int kSide = 32;
+constexpr double kBound = 12.4; // of the reference curve that the fit had to beat
+
+/// A reflectance: exact, and the lobe's albedo in float by a method.
+struct Curve {
+    std::string name;
+    std::function<double(double c)> exact;
+    std::function<double(vec3 wo, double alpha, int method)> lobe;
+};
+
+Curve dielectric(double ior) {
+    return {"ior " + std::to_string(ior), [=](double c) { return sh64::fresnelDielectric(c, ior); },
+            [=](vec3 wo, double alpha, int method) {
+                sh::DielectricLobe l =
+                    sh::dielectricSetup(sh::vec3(1.0f), float(ior), sh::vec2(float(alpha)), false,
+                                        sh::SCATTER_R, false, sh::COMPENSATE_NONE);
+                l.albedo = method;
+                return double(sh::dielectricAlbedo(l, sh::vec3(wo)).x);
+            }};
+}
+
+Curve conductor(double n, double k) {
+    return {"n " + std::to_string(n) + " k " + std::to_string(k),
+            [=](double c) { return sh64::fresnelConductorChannel(c, n, k); },
+            [=](vec3 wo, double alpha, int method) {
+                sh::ConductorLobe l = sh::conductorSetup(sh::vec3(float(n)), sh::vec3(float(k)),
+                                                         sh::vec2(float(alpha)), false, 0);
+                l.albedo = method;
+                return double(sh::conductorAlbedo(l, sh::vec3(wo)).x);
+            }};
+}
+
+Curve schlick(double f0, double f82, double f90, double exponent) {
+    return {"f0 " + std::to_string(f0) + " exponent " + std::to_string(exponent),
+            [=](double c) {
+                return sh64::fresnelSchlick(
+                           c, sh64::schlickFresnel(vec3(f0), vec3(f82), vec3(f90), exponent))
+                    .x;
+            },
+            [=](vec3 wo, double alpha, int method) {
+                sh::SchlickLobe l = sh::schlickSetup(
+                    sh::vec3(float(f0)), sh::vec3(float(f82)), sh::vec3(float(f90)),
+                    float(exponent), sh::vec2(float(alpha)), false, sh::SCATTER_R, false, 0);
+                l.albedo = method;
+                return double(sh::schlickAlbedo(l, sh::vec3(wo)).x);
+            }};
+}
+
+/// For every place of the grid once: the spread of cosines, from which the truth of every curve is
+/// a sum. A mirror below the threshold of the lobes has a single cosine in both.
+class Grid {
+public:
+    static const Grid& shared() {
+        static const Grid grid;
+        return grid;
+    }
+
+    double rms(const Curve& curve, int method, double* largest = nullptr) const {
+        double square = 0.0;
+        for (const Place& p : _places) {
+            double truth = 0.0;
+            for (int i = 0; i < kBins; ++i)
+                if (p.light[i] > 0.0) truth += p.light[i] * curve.exact(p.cosine[i]);
+            const double e = curve.lobe(p.wo, p.alpha, method) - truth;
+            square += e * e;
+            if (largest) *largest = std::max(*largest, std::fabs(e));
+        }
+        return std::sqrt(square / double(_places.size())) * 65535.0;
+    }
+
+private:
+    static constexpr int kBins = 300;
+    struct Place {
+        vec3 wo;
+        double alpha;
+        std::vector<double> light, cosine;
+    };
+
+    Grid() {
+        bake::InterfaceQuadrature quadrature(96, sh::FACETS_GGX);
+        for (int a = 0; a < kSide; ++a)
+            for (int m = 0; m < kSide; ++m) {
+                Place p;
+                p.wo = bake::slanted((m + 0.5) / kSide);
+                p.alpha = std::pow((a + 0.5) / kSide, 2.0);
+                p.light.resize(kBins);
+                p.cosine.resize(kBins);
+                quadrature.look(p.wo, vec2(p.alpha));
+                quadrature.spread(kBins, p.light.data(), p.cosine.data());
+                _places.push_back(p);
+            }
+    }
+
+    std::vector<Place> _places;
+};
+
+double rms(const Curve& curve, int method) {
+    return Grid::shared().rms(curve, method);
+}
+
+} // namespace
+
+TEST(AlbedoFit, DielectricsFromNearlyMatchedToDiamond) {
+    for (int i = 0; i <= 26; ++i) {
+        const double ior = 1.05 + 1.95 * std::pow(i / 26.0, 1.5);
+        EXPECT_LE(rms(dielectric(ior), sh::ALBEDO_FIT), kBound) << ior;
+    }
+    double largest = 0.0;
+    EXPECT_LE(Grid::shared().rms(dielectric(1.5), sh::ALBEDO_FIT, &largest), 2.5);
+    EXPECT_LE(largest, 1e-3);
+}
+
+// Silver to carbon, none of them among those that were fitted to but the last.
+TEST(AlbedoFit, Conductors) {
+    for (const Curve& c :
+         {conductor(0.15, 2.5), conductor(0.27, 3.6), conductor(1.4, 1.9), conductor(1.9, 3.9),
+          conductor(2.4, 0.9), conductor(4.2, 5.1), conductor(1.0, 8.0), conductor(0.05, 2.1)})
+        EXPECT_LE(rms(c, sh::ALBEDO_FIT), kBound) << c.name;
+}
+
+TEST(AlbedoFit, GeneralizedSchlick) {
+    for (const Curve& c :
+         {schlick(0.04, 1.0, 1.0, 5.0), schlick(0.6, 0.8, 1.0, 5.0), schlick(0.04, 1.0, 1.0, 4.0),
+          schlick(0.04, 1.0, 0.5, 3.0), schlick(0.0, 1.0, 1.0, 6.0)})
+        EXPECT_LE(rms(c, sh::ALBEDO_FIT), kBound) << c.name;
+}
+
+// Known figures of others, so that the scale is the same as theirs; 3 % for reading them off.
+TEST(AlbedoFit, MirrorAndKarisErrAsKnown) {
+    EXPECT_NEAR(rms(dielectric(1.5), sh::ALBEDO_MIRROR), 12981.0, 0.03 * 12981.0);
+    EXPECT_NEAR(rms(dielectric(1.5), sh::ALBEDO_KARIS), 1545.0, 0.03 * 1545.0);
+}
+
+TEST(AlbedoMethods, MoreWorkIsLessError) {
+    for (const Curve& c : {dielectric(1.5), conductor(0.2, 3.9), schlick(0.04, 1.0, 1.0, 5.0)}) {
+        const double mirror = rms(c, sh::ALBEDO_MIRROR);
+        const double few = rms(c, sh::ALBEDO_SAMPLES_16);
+        const double many = rms(c, sh::ALBEDO_SAMPLES_64);
+        const double truth = rms(c, sh::ALBEDO_QUADRATURE);
+        EXPECT_LT(few, mirror) << c.name;
+        EXPECT_LT(many, 0.7 * few) << c.name;
+        EXPECT_LT(truth, 5.0) << c.name;
+        EXPECT_LT(rms(c, sh::ALBEDO_TABLE), 150.0) << c.name;
+        std::printf(
+            "%s: mirror %.0f, karis %.0f, 16 samples %.0f, 64 samples %.0f, table %.1f, fit "
+            "%.1f, quadrature %.2f\n",
+            c.name.c_str(), mirror, rms(c, sh::ALBEDO_KARIS), few, many, rms(c, sh::ALBEDO_TABLE),
+            rms(c, sh::ALBEDO_FIT), truth);
+    }
+}

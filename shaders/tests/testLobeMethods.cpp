@@ -1,0 +1,165 @@
+// What the choice points do to a lobe: samplers draw from what they state, the second lobe of Kulla
+// and Conty is reciprocal and keeps a white furnace, and no method leaves what is physical.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "shaders/tests/chiSquared.h"
+#include "shaders/tests/lobeCase.h"
+
+using namespace patina;
+using namespace patina::test;
+
+namespace {
+
+constexpr int kCount = 100000;
+constexpr std::uint64_t kSeeds[] = {17, 171};
+
+double largest(vec3 v) {
+    return std::max(std::fabs(v.x), std::max(std::fabs(v.y), std::fabs(v.z)));
+}
+
+/// The three microfacet lobes after CHANGE to the lobe `l`.
+#define PATINA_CHANGED_CASES(CHANGE, ALPHA, FACETS, COMPENSATE)                                    \
+    {                                                                                              \
+        PATINA_LOBE_CASE_WITH("conductor", conductor, conductor, (l.facets = FACETS, CHANGE),      \
+                              vec3(0.2, 0.9, 1.4), vec3(3.9, 2.4, 1.8), ALPHA, false, COMPENSATE), \
+            PATINA_LOBE_CASE_WITH("dielectricR", dielectric, dielectric,                           \
+                                  (l.facets = FACETS, CHANGE), vec3(1.0), 1.5, ALPHA, false, 1,    \
+                                  false, COMPENSATE),                                              \
+            PATINA_LOBE_CASE_WITH("schlickR", schlick, schlick, (l.facets = FACETS, CHANGE),       \
+                                  vec3(0.9, 0.5, 0.1), vec3(1.0), vec3(1.0), 5.0, ALPHA, false, 1, \
+                                  false, COMPENSATE),                                              \
+            PATINA_LOBE_CASE_WITH("dielectricRT", dielectric, dielectric,                          \
+                                  (l.facets = FACETS, CHANGE), vec3(1.0), 1.5, ALPHA, false, 3,    \
+                                  false, COMPENSATE)                                               \
+    }
+
+void expectConsistent(const LobeCase& c, double z) {
+    const vec3 wo = direction(z, 0.4);
+    for (int i = 0; i < 300; ++i) {
+        const sh64::LobeSample s = c.f64.sample(wo, quasiRandom(i));
+        if (s.event == 0) continue;
+        const sh64::LobeEval e = c.f64.eval(wo, s.wi);
+        ASSERT_GT(s.pdf, 0.0) << c.name;
+        const double tol = 1e-8 / std::max(std::fabs(s.wi.z), 1e-6);
+        ASSERT_NEAR(e.pdf / s.pdf, 1.0, tol) << c.name << " " << z;
+        ASSERT_LT(largest(e.value / e.pdf - s.weight), tol * std::max(largest(s.weight), 1e-3))
+            << c.name << " " << z;
+    }
+}
+
+void expectDrawsFromItsPdf(const LobeCase& c, double z, double significance) {
+    const vec3 wo = direction(z, 0.4);
+    const DensityGrid grid(c.f64, wo);
+    int rejected = 0;
+    double worst = 1.0;
+    for (std::uint64_t seed : kSeeds) {
+        const ChiSquared t = grid.test(c.f32, wo, kCount, seed);
+        EXPECT_FALSE(t.stray) << c.name << " wo.z " << z;
+        rejected += t.pValue < significance;
+        worst = std::min(worst, t.pValue);
+    }
+    EXPECT_LT(rejected, 2) << c.name << " wo.z " << z << " p " << worst;
+}
+
+} // namespace
+
+TEST(FacetSampling, WeightIsValueOverPdf) {
+    for (int sampling : {sh::FACETS_BOUNDED, sh::FACETS_ALL})
+        for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN})
+            for (const LobeCase& c : std::vector<LobeCase> PATINA_CHANGED_CASES(
+                     l.sampling = sampling, vec2(0.3, 0.7), facets, 1))
+                for (double z : {1.0, 0.5, 0.08, -0.6})
+                    if (z > 0.0 || c.name == "dielectricRT") expectConsistent(c, z);
+}
+
+// Significance 0.01 over all runs (Sidak); a case fails when both seeds reject.
+TEST(FacetSampling, DrawsFromItsPdf) {
+    const double significance = 1.0 - std::pow(1.0 - 0.01, 1.0 / 16.0);
+    for (int sampling : {sh::FACETS_BOUNDED, sh::FACETS_ALL})
+        for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN}) {
+            const LobeCase c = PATINA_LOBE_CASE_WITH(
+                "conductor", conductor, conductor, (l.facets = facets, l.sampling = sampling),
+                vec3(1.0), vec3(1.0), vec2(0.4, 0.9), false, 0);
+            for (double z : {0.9, 0.2})
+                expectDrawsFromItsPdf(c, z, significance);
+        }
+}
+
+// That is what they are for: of a rough lobe at grazing angles fewer samples go below the surface.
+TEST(FacetSampling, BoundsLoseFewerSamples) {
+    double found[2];
+    for (int sampling : {sh::FACETS_VISIBLE, sh::FACETS_BOUNDED}) {
+        const LobeCase c = PATINA_LOBE_CASE_WITH("c", conductor, conductor, l.sampling = sampling,
+                                                 vec3(1.0), vec3(1.0), vec2(0.9), false, 0);
+        int count = 0;
+        for (int i = 0; i < 4000; ++i)
+            count += c.f64.sample(direction(0.2, 0.0), quasiRandom(i)).event != 0;
+        found[sampling] = count / 4000.0;
+    }
+    EXPECT_GT(found[1], found[0] + 0.05);
+}
+
+TEST(KullaConty, SamplesWhatItEvaluates) {
+    const double significance = 1.0 - std::pow(1.0 - 0.01, 1.0 / 12.0);
+    for (const LobeCase& c : std::vector<LobeCase> PATINA_CHANGED_CASES(
+             (void)l, vec2(0.8), sh::FACETS_GGX, sh::COMPENSATE_ADD)) {
+        for (double z : {1.0, 0.5, 0.08})
+            expectConsistent(c, z);
+        if (c.name != "dielectricRT") expectDrawsFromItsPdf(c, 0.5, significance);
+    }
+}
+
+TEST(KullaConty, IsReciprocal) {
+    for (const LobeCase& c : std::vector<LobeCase> PATINA_CHANGED_CASES(
+             (void)l, vec2(0.8), sh::FACETS_GGX, sh::COMPENSATE_ADD)) {
+        if (c.name == "dielectricRT") continue;
+        for (int i = 0; i < 100; ++i) {
+            const vec3 u = quasiRandom(i);
+            const vec3 o = direction(0.02 + 0.97 * u.x, 0.3);
+            const vec3 w = direction(0.02 + 0.97 * u.y, 6.0 * u.z);
+            const vec3 there = c.f64.eval(o, w).value / w.z;
+            const vec3 back = c.f64.eval(w, o).value / o.z;
+            ASSERT_LT(largest(there - back), 1e-6 * (largest(there) + 1e-3)) << c.name;
+        }
+    }
+}
+
+// A white mirror keeps all light; what the lobe states as its albedo is what it reflects.
+TEST(KullaConty, KeepsAWhiteFurnace) {
+    for (double alpha : {0.1, 0.3, 0.6, 1.0})
+        for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN})
+            for (double z : {1.0, 0.5, 0.1}) {
+                const LobeCase white = PATINA_LOBE_CASE_WITH(
+                    "white", schlick, schlick, l.facets = facets, vec3(1.0), vec3(1.0), vec3(1.0),
+                    5.0, vec2(alpha), false, 1, false, sh::COMPENSATE_ADD);
+                const vec3 wo = direction(z, 0.0);
+                EXPECT_NEAR(sampledAlbedo(white.f64, wo, 20000).x, 1.0, 1.2e-2)
+                    << alpha << " " << facets << " " << z;
+                EXPECT_NEAR(white.f64.albedo(wo).x, 1.0, 1.2e-2) << alpha << " " << z;
+                const LobeCase metal = PATINA_LOBE_CASE_WITH(
+                    "metal", conductor, conductor, l.facets = facets, vec3(0.2, 0.9, 1.4),
+                    vec3(3.9, 2.4, 1.8), vec2(alpha), false, sh::COMPENSATE_ADD);
+                EXPECT_LT(largest(sampledAlbedo(metal.f64, wo, 20000) - metal.f64.albedo(wo)), 1.5e-2)
+                    << alpha << " " << facets << " " << z;
+            }
+}
+
+// Whatever method and whatever side: finite, not negative, at most 1.
+TEST(AlbedoMethods, StayPhysicalEverywhere) {
+    for (int method = sh::ALBEDO_TABLE; method <= sh::ALBEDO_QUADRATURE; ++method)
+        for (int compensate : {0, 1, 2})
+            for (double alpha : {0.0, 1e-3, 0.02, 1.0})
+                for (const LobeCase& c : std::vector<LobeCase> PATINA_CHANGED_CASES(
+                         l.albedo = method, vec2(alpha, alpha * (method % 2 ? 1.0 : 0.3)),
+    (compensate == 0 ? sh::FACETS_BECKMANN : sh::FACETS_GGX), compensate))
+                    for (double z : {1.0, 0.3, 1e-3, 0.0, -0.3}) {
+                        const vec3 e = c.f32.albedo(direction(z, 0.7));
+                        for (int k = 0; k < 3; ++k)
+                            EXPECT_TRUE(e[k] >= 0.0 && e[k] <= 1.02)
+                                << c.name << " method " << method << " compensate " << compensate
+                                << " alpha " << alpha << " wo.z " << z << ": " << e[k];
+                    }
+}

@@ -15,6 +15,10 @@ void bindRender(py::module_& m);
 #ifdef PATINA_BIND_MATERIAL
 void bindMaterial(py::module_& m);
 #endif
+#ifdef PATINA_BIND_WEB
+void bindWeb(py::module_& m);
+void bindWebScene(py::module_& m);
+#endif
 
 } // namespace patina
 
@@ -72,5 +76,9 @@ Film, images and colour; Renderer and its settings; materials: see the classes' 
 #endif
 #ifdef PATINA_BIND_MATERIAL
     patina::bindMaterial(m);
+#endif
+#ifdef PATINA_BIND_WEB
+    patina::bindWeb(m);
+    patina::bindWebScene(m);
 #endif
 }

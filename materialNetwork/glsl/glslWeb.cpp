@@ -1,0 +1,86 @@
+#include "materialNetwork/glsl/glslWeb.h"
+
+#include "materialNetwork/glsl/glslMaterial.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+
+namespace patina {
+
+namespace {
+
+/// As a GLSL literal; what is not finite has none.
+std::string literal(float x) {
+    if (std::isnan(x)) x = 0.0f;
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.9g", double(std::clamp(x, -3e38f, 3e38f)));
+    std::string text = buffer;
+    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    return text;
+}
+
+std::string literal(const glm::vec4& v) {
+    return "vec4(" + literal(v.x) + ", " + literal(v.y) + ", " + literal(v.z) + ", " +
+           literal(v.w) + ")";
+}
+
+bool isWord(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
+
+/// Whether `word` begins at i; not in the middle of another.
+bool wordAt(const std::string& text, size_t i, const std::string& word) {
+    return text.compare(i, word.size(), word) == 0 && (i == 0 || !isWord(text[i - 1]));
+}
+
+size_t digitsFrom(const std::string& text, size_t i) {
+    while (i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])))
+        ++i;
+    return i;
+}
+
+/// One line in the words of ES: parameters[3] -> vec4(...), primvar(2, x) -> primvar2(x).
+std::string rewritten(const std::string& line, const std::vector<glm::vec4>& parameters) {
+    static const std::string parameter = "parameters[", primvar = "primvar(";
+    std::string out;
+    for (size_t i = 0; i < line.size();) {
+        if (wordAt(line, i, parameter)) {
+            const size_t from = i + parameter.size(), to = digitsFrom(line, from);
+            out += literal(parameters[std::stoul(line.substr(from, to - from))]);
+            i = to + 1;
+        } else if (wordAt(line, i, primvar)) {
+            const size_t from = i + primvar.size(), to = digitsFrom(line, from);
+            out += "primvar" + line.substr(from, to - from) + "(";
+            i = to + 2;
+        } else
+            out += line[i++];
+    }
+    return out;
+}
+
+} // namespace
+
+GlslWebMaterial makeGlslWebMaterial(const MaterialProgram& program) {
+    const GlslMaterial desktop = makeGlslMaterial(program);
+    GlslWebMaterial out;
+    out.textures = desktop.textures;
+    out.leftOut = desktop.leftOut;
+    out.presence = desktop.presence;
+    out.emission = desktop.emission;
+    for (size_t from = 0; from < desktop.text.size();) {
+        size_t to = desktop.text.find('\n', from);
+        if (to == std::string::npos) to = desktop.text.size();
+        std::string line = desktop.text.substr(from, to - from);
+        from = to + 1;
+        if (line.compare(0, 7, "layout(") == 0) {
+            if (line.find(" uniform Parameters ") != std::string::npos) continue;
+            line = line.substr(line.find(") ") + 2);
+        }
+        out.text += rewritten(line, desktop.parameters) + "\n";
+    }
+    return out;
+}
+
+} // namespace patina

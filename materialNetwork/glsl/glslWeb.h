@@ -1,0 +1,25 @@
+#pragma once
+
+#include "materialNetwork/cpu/materialProgram.h"
+
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// A material in GLSL ES 3.00, for WebGL2, which has neither storage buffers nor bindings.
+///
+/// The text is that of makeGlslMaterial() with every parameter written as a number, samplers
+/// without bindings, and primvar `i` read by `vec4 primvar<i>(vec4 fallback)`, which the host
+/// defines before the text. No string of a scene is part of it.
+struct GlslWebMaterial {
+    std::string text;
+    std::vector<int> textures;        ///< TextureSource handle of each `sampler<i>`
+    std::vector<std::string> leftOut; ///< as GlslMaterial::leftOut
+    bool presence = false;
+    bool emission = false;
+};
+
+GlslWebMaterial makeGlslWebMaterial(const MaterialProgram& program);
+
+} // namespace patina

@@ -1,0 +1,1 @@
+"""The material page: any material in a browser, with sliders."""

@@ -1,0 +1,26 @@
+"""The albedo tables as a texture of half floats, with zeros for what no lobe of the page reads."""
+import numpy as np
+
+from patina.cli import compiled
+from patina.view import blobs
+
+WIDTH = 1024
+MICROFACETS = ("conductor", "dielectric", "schlick")
+
+
+def texture(lobes):
+    """
+    :param lobes: the `lobes` of every material of the page
+    :returns: dict of height and data
+    """
+    module = compiled.load()
+    table = np.array(module.albedo_table())
+    used = {(words[0], words[3]) for words in (lobe.split() for lobe in lobes)}
+    size = module.ALBEDO_FACET_SIZE
+    for facets in (0, 1):
+        if not any(kind in MICROFACETS and distribution == str(facets) for kind, distribution in used):
+            table[facets * size:(facets + 1) * size] = 0.0
+    height = -(-len(table) // WIDTH)
+    padded = np.zeros(height * WIDTH, dtype=np.float32)
+    padded[:len(table)] = table
+    return {"width": WIDTH, "height": height, "data": blobs.pack(blobs.half(padded))}

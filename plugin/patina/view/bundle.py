@@ -1,0 +1,98 @@
+"""The page's script: fetched from npm and bundled on first use, then kept.
+
+Versions are pinned by web/package.json and web/package-lock.json. What is fetched and made lies in
+PATINA_VIEW_CACHE, or patina/view in the user's cache folder, under a name made of both files.
+"""
+import hashlib
+import os
+import shutil
+import subprocess
+import tempfile
+
+from patina.cli.errors import CommandError
+
+WEB = os.path.join(os.path.dirname(os.path.abspath(__file__)), "web")
+
+
+def _digest(*files):
+    digest = hashlib.sha256()
+    for file in files:
+        with open(file, "rb") as stream:
+            digest.update(stream.read())
+    return digest.hexdigest()[:16]
+
+
+def cache_folder():
+    chosen = os.environ.get("PATINA_VIEW_CACHE")
+    base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    lock = _digest(os.path.join(WEB, "package.json"), os.path.join(WEB, "package-lock.json"))
+    return os.path.join(chosen or os.path.join(base, "patina", "view"), lock)
+
+
+def node():
+    """:returns: the path of Node"""
+    found = shutil.which("node")
+    if not found:
+        raise CommandError("patina view needs Node 18 or later to build its page, once: install node and npm "
+                           "(Debian: apt install nodejs npm); nothing else of Patina needs them")
+    return found
+
+
+def packages():
+    """Fetches the npm packages unless they are there.
+
+    :returns: the folder that holds node_modules
+    """
+    folder = cache_folder()
+    if os.path.isdir(os.path.join(folder, "node_modules")):
+        return folder
+    node()
+    npm = shutil.which("npm")
+    if not npm:
+        raise CommandError("patina view needs npm to fetch what its page is made of, once (Debian: apt install npm)")
+    os.makedirs(os.path.dirname(folder), exist_ok=True)
+    made = tempfile.mkdtemp(prefix="npm-", dir=os.path.dirname(folder))
+    try:
+        for name in ("package.json", "package-lock.json"):
+            shutil.copy(os.path.join(WEB, name), made)
+        done = subprocess.run([npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"],
+                              cwd=made, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            lines = [line for line in done.stderr.split("\n") if line.strip()] or ["no reason was given"]
+            raise CommandError("npm could not fetch the packages of the page: " + lines[0])
+        _take(made, folder)
+    finally:
+        shutil.rmtree(made, ignore_errors=True)
+    return folder
+
+
+def _take(made, folder):
+    try:
+        os.rename(made, folder)
+    except OSError:  # another process was faster
+        if not os.path.isdir(folder):
+            raise
+
+
+def _sources():
+    src = os.path.join(WEB, "src")
+    return sorted(os.path.join(src, name) for name in os.listdir(src) if name.endswith(".js"))
+
+
+def script():
+    """:returns: the text of the page's script"""
+    folder = packages()
+    out = os.path.join(folder, f"page-{_digest(*_sources())}.js")
+    if not os.path.exists(out):
+        esbuild = os.path.join(folder, "node_modules", "esbuild", "bin", "esbuild")
+        temporary = f"{out}.{os.getpid()}.tmp"
+        done = subprocess.run([node(), esbuild, os.path.join(WEB, "src", "main.js"), "--bundle", "--minify",
+                               "--format=iife", "--target=es2022", "--legal-comments=inline", "--log-level=error",
+                               f"--outfile={temporary}"],
+                              env={**os.environ, "NODE_PATH": os.path.join(folder, "node_modules")},
+                              capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise CommandError("esbuild could not make the page's script: " + " ".join(done.stderr.split())[:400])
+        os.replace(temporary, out)
+    with open(out, encoding="utf-8") as file:
+        return file.read()

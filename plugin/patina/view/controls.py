@@ -1,0 +1,119 @@
+"""What the sliders of a page are: one entry per live input, as JSON that a user may replace.
+
+  {"controls": [{"input": "NODE.NAME", "label": TEXT, "folder": TEXT, "kind": "color" | "number",
+                 "min": N, "max": N, "step": N, "default": [N...], "unit": TEXT}],
+   "presets": [{"name": TEXT, "values": {"NODE.NAME": [N...]}}]}
+"""
+import json
+import math
+
+from patina.cli.errors import CommandError
+
+# Beginnings and ends of names, with the range that a slider has at least, and a unit.
+_RANGES = (
+    (("thin_film_thickness", "thinfilm_thickness"), (0.0, 1500.0), "nm"),
+    (("film_thickness",), (0.0, 1500.0), "nm"),
+    (("ior", "IOR", "thin_film_ior"), (1.0, 3.0), ""),
+    (("exponent",), (1.0, 500.0), ""),
+    (("anisotropy",), (-1.0, 1.0), ""),
+    (("temperature",), (1000.0, 10000.0), "K"),
+    (("rotation", "rotate"), (0.0, 1.0), ""),
+    (("extinction",), (0.0, 8.0), ""),
+    (("octaves",), (1.0, 8.0), ""),
+    (("luminance", "intensity"), (0.0, 10.0), ""),
+)
+_NO_COLORS = ("ior", "extinction", "radius", "scale", "depth", "exponent")
+
+
+def _range(name, values):
+    low, high, unit = 0.0, 1.0, ""
+    for names, (least, most), its_unit in _RANGES:
+        if any(name.endswith(word) for word in names):
+            low, high, unit = least, most, its_unit
+            break
+    for value in values:
+        if value < low:
+            low = 2.0 * value if value < 0.0 else 0.0
+        if value > high:
+            high = 10.0 ** math.ceil(math.log10(2.0 * value))
+    return low, high, unit
+
+
+def entry(live):
+    """:param live: a live.LiveInput"""
+    values = [v if math.isfinite(v) else 0.0 for v in live.value]
+    is_color = (live.kind.startswith("color") and min(values) >= 0.0 and max(values) <= 1.0
+                and not any(word in live.name.lower() for word in _NO_COLORS))
+    low, high, unit = _range(live.name, values)
+    folder = live.node.rstrip("/").rpartition("/")[2].rpartition(":")[2]
+    return {"input": f"{live.node}.{live.name}", "label": live.name.replace("_", " "), "folder": folder,
+            "kind": "color" if is_color and len(values) == 3 else "number", "min": low, "max": high,
+            "step": 0.0, "default": values, "unit": unit}
+
+
+def _number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _numbers(value, count):
+    return isinstance(value, list) and len(value) == count and all(_number(v) for v in value)
+
+
+def read(path):
+    """:returns: the JSON of a --controls file, not yet matched with a material"""
+    try:
+        with open(path, encoding="utf-8") as file:
+            found = json.load(file)
+    except (OSError, UnicodeDecodeError) as error:
+        raise CommandError(f"--controls: {path} cannot be read ({error})") from error
+    except (json.JSONDecodeError, RecursionError) as error:
+        raise CommandError(f"--controls: {path} is no JSON ({error})") from error
+    if not isinstance(found, dict) or not all(isinstance(found.get(key, []), list) for key in ("controls", "presets")):
+        raise CommandError(f"--controls: {path} needs lists `controls` and `presets`")
+    return found
+
+
+def merged(entries, wanted, path):
+    """The entries that a file names, in its order and with what it says; all of them where it has no list.
+
+    :param wanted: what read() gave
+    :returns: the entries, and inputs of the file that the materials at hand do not have
+    """
+    if "controls" not in wanted:
+        return entries, []
+    known = {entry["input"]: entry for entry in entries}
+    result, unknown = [], []
+    for item in wanted["controls"]:
+        if not isinstance(item, dict) or not isinstance(item.get("input"), str):
+            raise CommandError(f"--controls: {path}: each control needs a text `input`")
+        if item["input"] not in known:
+            unknown.append(item["input"])
+            continue
+        made = dict(known[item["input"]])
+        for key, test in (("label", lambda v: isinstance(v, str)), ("folder", lambda v: isinstance(v, str)),
+                          ("unit", lambda v: isinstance(v, str)), ("kind", lambda v: v in ("color", "number")),
+                          ("min", _number), ("max", _number), ("step", _number)):
+            if key in item:
+                if not test(item[key]):
+                    raise CommandError(f"--controls: {path}: `{key}` of {item['input']} is not what it should be")
+                made[key] = item[key]
+        if not made["min"] < made["max"]:
+            raise CommandError(f"--controls: {path}: `min` of {item['input']} is not below `max`")
+        result.append(made)
+    return result, unknown
+
+
+def presets(wanted, entries, path):
+    """The named sets of values of a file that fit a material."""
+    sizes = {entry["input"]: len(entry["default"]) for entry in entries}
+    found = []
+    for item in wanted.get("presets", []):
+        if not isinstance(item, dict) or not isinstance(item.get("name"), str) or not isinstance(item.get("values"), dict):
+            raise CommandError(f"--controls: {path}: each preset needs a text `name` and an object `values`")
+        values = {key: value for key, value in item["values"].items() if key in sizes}
+        for key, value in values.items():
+            if not _numbers(value, sizes[key]):
+                raise CommandError(f"--controls: {path}: preset {item['name']}: {key} needs a list of {sizes[key]} numbers")
+        if values:
+            found.append({"name": item["name"], "values": values})
+    return found

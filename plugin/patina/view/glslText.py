@@ -1,0 +1,44 @@
+"""The texts of the page's shaders."""
+import re
+
+from patina.cli import compiled
+from patina.view import live
+
+
+def lean(text):
+    """Without comments, blank lines and #line: nobody reads the page's text, but everybody loads it."""
+    text = re.sub(r"//[^\n]*", "", text)
+    lines = (line.strip() for line in text.split("\n"))
+    return "\n".join(line for line in lines if line and not line.startswith("#line")) + "\n"
+
+
+def library():
+    """What all pages share."""
+    load = compiled.load().shader_text
+    return {name: lean(load(f"shaders/web/{file}.glsl")) for name, file in (
+        ("head", "head"), ("page", "page.frag"), ("surface", "surface.vert"),
+        ("backdrop", "backdrop.frag"), ("backdropVertex", "backdrop.vert"))}
+
+
+def primvar_functions(primvars, count):
+    """One function for each primvar of a material: a live input, or what a shape has.
+
+    :param count: live inputs of the material
+    """
+    text = f"uniform vec4 live[{max(count, 1)}];\n"
+    for slot, (name, kind) in enumerate(primvars):
+        if re.fullmatch(live.PREFIX + r"\d+", name) and int(name[len(live.PREFIX):]) < count:
+            value = f"live[{int(name[len(live.PREFIX):])}]"
+        elif kind == "vector2":
+            value = "vec4(vUv, 0.0, 1.0)"
+        elif name == "displayColor":
+            value = "vec4(vColor, 1.0)"
+        else:
+            value = "fallback"
+        text += f"vec4 primvar{slot}(vec4 fallback) {{ return {value}; }}\n"
+    return text
+
+
+def material_text(material, count):
+    """Between the head and the end of the page's fragment shader."""
+    return primvar_functions(material["primvars"], count) + material["text"]

@@ -1,0 +1,97 @@
+"""Makes the inputs of a network live: each becomes a primvar of its own whose fallback is the
+authored value. So the text of the material keeps them open, the page hands in what its sliders say,
+and every other host, which has no such primvars, shows the material as authored."""
+from patina.cli import compiled
+
+PREFIX = "patinaLive"
+COMPONENTS = {"float": 1, "vector2": 2, "vector3": 3, "vector4": 4, "color3": 3, "color4": 4}
+LIMIT = 160  # WebGL2 promises 224 uniform vectors
+
+
+class LiveInput:
+    """An input of a node that a slider moves."""
+
+    def __init__(self, node, node_id, name, kind, value, authored):
+        self.node, self.node_id, self.name, self.kind = node, node_id, name, kind
+        self.value, self.authored = value, authored
+
+
+def _numbers(value):
+    return [float(value)] if isinstance(value, (int, float)) else [float(x) for x in value]
+
+
+def _reachable(network):
+    """Nodes that the surface is made of, the surface first."""
+    nodes = {node["path"]: node for node in network.nodes()}
+    terminal = network.terminals().get("surface")
+    found, queue = [], [terminal[0]] if terminal else []
+    while queue:
+        path = queue.pop(0)
+        if path not in nodes or nodes[path] in found:
+            continue
+        found.append(nodes[path])
+        queue += [source for source, _ in nodes[path]["connections"].values()]
+    return found
+
+
+def live_inputs(network):
+    """:returns: list of LiveInput of the nodes below the surface, and how many there were beyond LIMIT"""
+    module = compiled.load()
+    found = []
+    for node in _reachable(network):
+        types, defaults = module.node_inputs(node["id"]), module.node_defaults(node["id"])
+        for name, kind in types.items():
+            if kind not in COMPONENTS or name in node["connections"]:
+                continue
+            authored = node["inputs"].get(name)
+            if authored is None and name not in defaults:
+                continue
+            value = _numbers(authored["value"] if authored else defaults[name])
+            if len(value) == COMPONENTS[kind]:
+                found.append(LiveInput(node["path"], node["id"], name, kind, value, authored is not None))
+    # What an author has set comes before what is left at its default.
+    ranked = sorted(range(len(found)), key=lambda i: (not found[i].authored, i))
+    kept = sorted(ranked[:LIMIT])
+    return [found[i] for i in kept], len(found) - len(kept)
+
+
+def with_live(network, inputs, chosen):
+    """A copy of the network with inputs[i] live for i in chosen; primvar PREFIX<i>."""
+    module = compiled.load()
+    opened = {(inputs[i].node, inputs[i].name): i for i in chosen}
+    copy = module.Network(network.path)
+    for node in network.nodes():
+        copy.add_node(node["path"], node["id"])
+        for name, value in node["inputs"].items():
+            if (node["path"], name) not in opened:
+                copy.set_input(node["path"], name, value["type"], value["value"], value["color_space"])
+        for name, (source, output) in node["connections"].items():
+            copy.connect(node["path"], name, source, output)
+    for (node, name), i in opened.items():
+        source = f"<{PREFIX}{i}>"
+        copy.add_node(source, f"ND_geompropvalue_{inputs[i].kind}")
+        copy.set_input(source, "geomprop", "string", f"{PREFIX}{i}")
+        value = inputs[i].value
+        copy.set_input(source, "default", inputs[i].kind, value[0] if len(value) == 1 else value)
+        copy.connect(node, name, source, "")
+    for name, (node, output) in network.terminals().items():
+        copy.set_terminal(name, node, output)
+    return copy
+
+
+def shape_of(material):
+    """What a driver's work depends on: the lobes, and whether the surface may be absent."""
+    return material["lobes"], material["presence"], material["emission"]
+
+
+def lean_choice(network, inputs, methods, compile_one):
+    """The inputs that may be live without a lobe more than the material as authored has."""
+    wanted = shape_of(compile_one(network))
+    chosen = [i for i in range(len(inputs)) if shape_of(compile_one(with_live(network, inputs, [i]))) == wanted]
+    if shape_of(compile_one(with_live(network, inputs, chosen))) == wanted:
+        return chosen
+    together = []  # some are only harmless alone
+    for i in chosen:
+        if shape_of(compile_one(with_live(network, inputs, together + [i]))) == wanted:
+            together.append(i)
+    return together

@@ -1,0 +1,33 @@
+"""Puts a page together."""
+import html
+import json
+import os
+
+from patina.cli.errors import CommandError
+from patina.view import albedo, bundle, glslText
+
+
+def _web(name):
+    with open(os.path.join(bundle.WEB, name), encoding="utf-8") as file:
+        return file.read()
+
+
+def as_json(data):
+    """JSON that a script element holds safely: no `<` is left in it."""
+    text = json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":"))
+    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+
+
+def document(data, lobes):
+    """:param data: what web/src reads, without what all pages share
+    :returns: the text of the page"""
+    whole = {**data, "library": glslText.library(), "albedo": albedo.texture(lobes)}
+    script = bundle.script()
+    if "</script" in script.lower():
+        raise CommandError("the page's script cannot stand in a page")
+    text = _web("page.html")
+    for mark, part in (("PATINA_TITLE", html.escape(data["title"])), ("PATINA_STYLE", _web("page.css")),
+                       ("PATINA_DATA", as_json(whole)), ("PATINA_SCRIPT", script)):
+        before, _, after = text.partition(mark)
+        text = before + part + after
+    return text

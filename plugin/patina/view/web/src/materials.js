@@ -1,0 +1,28 @@
+// The program of a material: the page's head, the generated text, the page's end.
+import * as THREE from "three";
+
+export function fragmentText(data, material, variant) {
+    const flags = variant.presence ? "#define PRESENCE\n" : "";
+    return flags + data.library.head + variant.text + data.library.page;
+}
+
+export function makeMaterial(data, index, needsAll, shared, textures) {
+    const material = data.materials[index];
+    const variant = needsAll && material.whole ? material.whole : material.lean;
+    const live = new Float32Array(4 * Math.max(material.inputs.length, 1));
+    const uniforms = { ...shared, live: { value: live } };
+    variant.textures.forEach((t, i) => { uniforms["sampler" + i] = { value: textures[t] }; });
+    const made = new THREE.RawShaderMaterial({
+        glslVersion: THREE.GLSL3, uniforms, side: THREE.DoubleSide,
+        vertexShader: data.library.surface, fragmentShader: fragmentText(data, material, variant)
+    });
+    made.forceSinglePass = true;
+    return { made, live };
+}
+
+// Values of the inputs, as vec4 rows.
+export function fillLive(live, values) {
+    values.forEach((value, i) => {
+        for (let c = 0; c < 4; ++c) live[4 * i + c] = value.length === 1 ? value[0] : value[c] ?? 0;
+    });
+}

@@ -1,0 +1,78 @@
+// What a user can change, and how it becomes a link. Values of inputs are arrays of numbers.
+
+const copy = x => JSON.parse(JSON.stringify(x));
+
+export class State {
+    constructor(data) {
+        this.data = data;
+        this.reset();
+    }
+
+    reset() {
+        const { data } = this, start = data.start;
+        Object.assign(this, copy(start));
+        this.values = data.materials.map(m => m.inputs.map(i => i.value.slice()));
+        this.lights = data.lights.map(() => ({ on: true, gain: 1, color: [1, 1, 1] }));
+        this.wedge = null;
+        this.wipe = 1;
+    }
+
+    get current() { return this.data.materials[this.material]; }
+
+    // Whether some value has left the authored one that only the whole program can follow.
+    needsAll() {
+        const m = this.current;
+        const changed = this.values[this.material].some((v, i) =>
+            !m.lean.live.includes(i) && String(v) !== String(m.inputs[i].value));
+        return changed || Boolean(this.wedge && !m.lean.live.includes(this.wedge.input));
+    }
+
+    // A narrow picture keeps the width in view.
+    fieldOfView(aspect) {
+        const half = Math.tan(this.data.camera.fov * Math.PI / 360);
+        return 2 * Math.atan(aspect < 1 ? half / aspect : half) * 180 / Math.PI;
+    }
+
+    comparison() { return `${this.material}`; }
+
+    // Only what differs from the start.
+    toText() {
+        const fresh = new State(this.data), out = {};
+        const values = {};
+        this.values.forEach((list, m) => list.forEach((v, i) => {
+            if (String(v) !== String(fresh.values[m][i])) (values[m] ??= {})[i] = v;
+        }));
+        if (Object.keys(values).length) out.values = values;
+        for (const key of [...Object.keys(this.data.start), "lights", "wedge"])
+            if (JSON.stringify(this[key]) !== JSON.stringify(fresh[key])) out[key] = this[key];
+        return Object.keys(out).length ? encodeURIComponent(JSON.stringify(out)) : "";
+    }
+
+    // @returns whether the text was one of this page's links; what does not fit is left out
+    fromText(text) {
+        let read;
+        try { read = JSON.parse(decodeURIComponent(text)); } catch { return false; }
+        if (typeof read !== "object" || read === null) return false;
+        const fits = (a, b) => typeof a === typeof b && Array.isArray(a) === Array.isArray(b) &&
+            (!Array.isArray(a) || a.length === b.length && a.every(x => Number.isFinite(x)));
+        for (const [m, list] of Object.entries(read.values ?? {}))
+            for (const [i, v] of Object.entries(list ?? {}))
+                if (this.values[m]?.[i] && fits(v, this.values[m][i])) this.values[m][i] = v;
+        for (const key of Object.keys(this.data.start))
+            if (key in read && fits(read[key], this[key])) this[key] = read[key];
+        const clamped = (x, n) => Number.isInteger(x) && x >= 0 && x < n ? x : 0;
+        this.material = clamped(this.material, this.data.materials.length);
+        this.shape = clamped(this.shape, this.data.shapes.length);
+        this.environment = clamped(this.environment, this.data.environments.length);
+        this.samples = Math.min(1024, Math.max(4, Math.round(this.samples) || 64));
+        const w = read.wedge;
+        if (w && this.current.inputs[w.input] && [w.from, w.to].every(Number.isFinite) &&
+            Number.isInteger(w.count) && w.count >= 1 && w.count <= 9)
+            this.wedge = { input: w.input, component: w.component | 0, from: w.from, to: w.to, count: w.count };
+        (Array.isArray(read.lights) ? read.lights : []).forEach((l, i) => {
+            if (this.lights[i] && Number.isFinite(l?.gain) && fits(l.color, [1, 1, 1]))
+                this.lights[i] = { on: Boolean(l.on), gain: l.gain, color: l.color };
+        });
+        return true;
+    }
+}

@@ -9,6 +9,17 @@ float albedoTableFetch(int index) {
 }
 #include "shaders/raster/material.glsl"
 
+// The page evaluates samples where it evaluates light: a second copy of all lobes would cost drivers
+// as much again to compile.
+MaterialSample pendingSample(MaterialSample s, LobeSample l) {
+    bool reflects = (l.event & LOBE_REFLECT) != 0;
+    if (l.event == 0 || ((dot(s.wi, point.geometricNormal) > 0.0) == woOutside()) != reflects)
+        return materialSampleNone();
+    s.event = l.event;
+    return s;
+}
+#define finishSample pendingSample
+
 in vec3 vPosition;
 in vec3 vObjectPosition;
 in vec3 vNormal;

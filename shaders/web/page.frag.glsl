@@ -48,32 +48,20 @@ bool isBlocked(vec3 wi) {
     return behind && (passInfo.w & PAGE_CLOSED) != 0;
 }
 
-vec3 fromLight(int i, vec2 u) {
-    PageLight l = lightAt(i);
-    vec3 wi;
-    float density;
-    vec3 radiance = sampleLight(l, point.position, u, wi, density);
-    if (radiance == vec3(0.0) || isBlocked(wi)) return vec3(0.0);
-    MaterialEval f = materialEval(wi);
-    vec3 value = f.diffuse * l.shares.x + f.specular * l.shares.y;
-    if (density == 0.0) return value * radiance;
-    float found = l.kind == LIGHT_CYLINDER ? 0.0 : float(passInfo.y) * f.pdf;
-    return value * radiance * heuristic(density, found) / density;
-}
-
-vec3 along(MaterialSample s) {
-    bool delta = (s.event & LOBE_DELTA) != 0;
-    float apart = float(passInfo.z) * s.pdf * 4.0 * PI / environmentInfo.x;
+// What a sample of the BSDF finds: the environment, and the lights that it meets. Diffuse and
+// specular shares of the value, each over the density.
+vec3 along(vec3 wi, vec3 diffuse, vec3 specular, float pdf, bool delta) {
+    float apart = float(passInfo.z) * pdf * 4.0 * PI / environmentInfo.x;
     float lod = delta ? 0.0 : clamp(-0.5 * log2(max(apart, 1e-20)), 0.0, environmentInfo.y);
-    vec3 sum = s.weight * environmentAt(s.wi, lod);
-    if (isBlocked(s.wi)) return sum;
+    vec3 sum = (diffuse + specular) * environmentAt(wi, lod);
+    if (isBlocked(wi)) return sum;
     for (int i = 0; i < lightCount; ++i) {
         PageLight l = lightAt(i);
         float density;
-        vec3 radiance = lightAlong(l, point.position, s.wi, density);
+        vec3 radiance = lightAlong(l, point.position, wi, density);
         if (density == 0.0) continue;
-        float weight = delta ? 1.0 : heuristic(float(passInfo.y) * s.pdf, density);
-        sum += (s.diffuseWeight * l.shares.x + s.specularWeight * l.shares.y) * radiance * weight;
+        float weight = delta ? 1.0 : heuristic(float(passInfo.y) * pdf, density);
+        sum += (diffuse * l.shares.x + specular * l.shares.y) * radiance * weight;
     }
     return sum;
 }
@@ -87,20 +75,42 @@ void main() {
 #endif
     vec3 color = materialEmission(point.view);
     materialSetup();
-    for (int i = 0; i < lightCount; ++i) {
-        uint d = 64u + 2u * uint(i);
-        color += fromLight(i, vec2(randomAt(pixel, uint(passInfo.x), d),
-                                   randomAt(pixel, uint(passInfo.x), d + 1u)));
+    float share = 1.0 / float(passInfo.y);
+    // One loop over samples of lights and of the BSDF, so that the lobes stand in the text once.
+    for (int i = 0; i < lightCount + passInfo.y; ++i) {
+        bool ofLight = i < lightCount;
+        MaterialSample s = materialSampleNone();
+        PageLight l;
+        vec3 radiance = vec3(0.0);
+        float density = 0.0;
+        if (ofLight) {
+            uint d = 64u + 2u * uint(i);
+            vec2 u = vec2(randomAt(pixel, uint(passInfo.x), d), randomAt(pixel, uint(passInfo.x), d + 1u));
+            l = lightAt(i);
+            radiance = sampleLight(l, point.position, u, s.wi, density);
+            if (radiance == vec3(0.0) || isBlocked(s.wi)) continue;
+        } else {
+            uint index = uint(passInfo.x * passInfo.y + i - lightCount);
+            vec3 u = vec3(randomAt(pixel, index, 0u), randomAt(pixel, index, 1u),
+                          randomAt(pixel, index, 2u));
+            s = materialSample(u, randomAt(pixel, index, 3u));
+            if (s.event == 0) continue;
+            if ((s.event & LOBE_DELTA) != 0) {
+                color += along(s.wi, s.diffuse ? s.weight : vec3(0.0),
+                               s.diffuse ? vec3(0.0) : s.weight, s.pdf, true) * share;
+                continue;
+            }
+        }
+        MaterialEval f = materialEval(s.wi);
+        if (!ofLight) {
+            float inverse = f.pdf > 0.0 ? share / f.pdf : 0.0;
+            color += along(s.wi, f.diffuse * inverse, f.specular * inverse, f.pdf, false);
+            continue;
+        }
+        float found = l.kind == LIGHT_CYLINDER ? 0.0 : float(passInfo.y) * f.pdf;
+        float weight = density == 0.0 ? 1.0 : heuristic(density, found) / density;
+        color += (f.diffuse * l.shares.x + f.specular * l.shares.y) * radiance * weight;
     }
-    vec3 found = vec3(0.0);
-    for (int i = 0; i < passInfo.y; ++i) {
-        uint index = uint(passInfo.x * passInfo.y + i);
-        vec3 u = vec3(randomAt(pixel, index, 0u), randomAt(pixel, index, 1u),
-                      randomAt(pixel, index, 2u));
-        MaterialSample s = materialSample(u, randomAt(pixel, index, 3u));
-        if (s.event != 0) found += along(s);
-    }
-    color += found / float(max(passInfo.y, 1));
     // A value that is no number would stay in the mean for ever.
     if (any(isnan(color)) || any(isinf(color))) color = vec3(0.0);
     outColor = vec4(color, 1.0);

@@ -68,10 +68,10 @@ vec3 along(vec3 wi, vec3 diffuse, vec3 specular, float pdf, bool delta) {
 
 void main() {
     setPagePoint();
-    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    vec2 pixel = floor(gl_FragCoord.xy);
 #ifdef PRESENCE
     vec3 passes;
-    if (randomAt(pixel, uint(passInfo.x), 31u) >= materialPresence(passes)) discard;
+    if (randomAt(pixel, uint(passInfo.x), 7u) >= materialPresence(passes)) discard;
 #endif
     vec3 color = materialEmission(point.view);
     materialSetup();
@@ -84,7 +84,7 @@ void main() {
         vec3 radiance = vec3(0.0);
         float density = 0.0;
         if (ofLight) {
-            uint d = 64u + 2u * uint(i);
+            uint d = 8u + 4u * uint(i);
             vec2 u = vec2(randomAt(pixel, uint(passInfo.x), d), randomAt(pixel, uint(passInfo.x), d + 1u));
             l = lightAt(i);
             radiance = sampleLight(l, point.position, u, s.wi, density);

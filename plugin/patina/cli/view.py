@@ -6,10 +6,8 @@ the materials. It needs Node and npm once, to fetch and bundle what the page is 
 import os
 import sys
 
-from patina.cli import materials, methods, statistics
+from patina.cli import materials, methods
 from patina.cli.errors import CommandError, UsageError
-
-LARGEST_PAGE_MATERIALS = 64
 
 
 def add_arguments(parser):
@@ -19,6 +17,18 @@ def add_arguments(parser):
     parser.add_argument("--title", metavar="TEXT", help="of the page (default: the materials' names)")
     parser.add_argument("--environment", action="append", default=[], metavar="FILE",
                         help="latitude-longitude map to light with (repeatable; the first is shown)")
+    parser.add_argument("--stage", metavar="STAGE", help="whose lights, domes and shapes are taken (default: the first "
+                                                         "MATERIAL that is a stage)")
+    parser.add_argument("--shape", action="append", metavar="PRIM",
+                        help="a mesh or implicit prim of the stage to look at, besides sphere, shader ball and plane "
+                             "(repeatable; default: the first four that show one of the materials)")
+    parser.add_argument("--controls", metavar="FILE", help="JSON that says which sliders there are, their labels, "
+                                                           "ranges and units, and presets")
+    parser.add_argument("--writeControls", metavar="FILE", help="write that JSON as it is, to be edited")
+    parser.add_argument("--compare", action="store_true", help="embed a path-traced picture of each material, with a "
+                                                               "wipe and the FLIP figure")
+    parser.add_argument("--compareWidth", type=int, default=256, metavar="N", help="its size (default: 256)")
+    parser.add_argument("--compareSamples", type=int, default=256, metavar="N", help="its samples (default: 256)")
     parser.add_argument("--textureSize", type=int, default=1024, metavar="N",
                         help="largest side of textures and environments in the page (default: 1024)")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
@@ -31,6 +41,8 @@ def run(arguments):
 
     if not 1 <= arguments.textureSize <= 4096:
         raise UsageError("patina view: --textureSize is 1 to 4096")
+    if not 16 <= arguments.compareWidth <= 2048 or not 1 <= arguments.compareSamples <= 65536:
+        raise UsageError("patina view: --compareWidth is 16 to 2048, --compareSamples 1 to 65536")
     text, warnings = build.page_of(arguments)
     for line in warnings:
         print("warning: " + line, file=sys.stderr)

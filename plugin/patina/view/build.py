@@ -1,38 +1,98 @@
 """From the arguments of `patina view` to the text of a page."""
+import os
+
+import numpy as np
+
 from patina.cli import materials as reader
 from patina.cli import methods, statistics
 from patina.cli.errors import CommandError
-from patina.view import materials, page, surroundings
+from patina.view import compareImages, controls, layers, live, materials, page, stageScene, surroundings
 
 MOST_MATERIALS = 64
 
 
+class Builder:
+    """One page."""
+
+    def __init__(self, arguments):
+        self.arguments = arguments
+        self.methods = methods.parse(arguments.method)
+        self.textures = materials.Textures(arguments.textureSize)
+        self.warnings, self.materials, self.lobes, self.networks, self.paths = [], [], [], [], []
+
+    def read(self):
+        wanted = controls.read(self.arguments.controls) if self.arguments.controls else {}
+        for argument in self.arguments.material:
+            found, reading = reader.load(argument, self.arguments.set, every=True)
+            self.warnings += statistics.lines(reading)
+            for name, network in found:
+                if len(self.materials) == MOST_MATERIALS:
+                    raise CommandError(f"a page shows at most {MOST_MATERIALS} materials")
+                self._add(reader.split(argument)[0], name, network, wanted)
+        _share_presets(self.materials)
+
+    def _add(self, file, name, network, wanted):
+        short = name.rpartition("/")[2] or name
+        material, used, texts = materials.build(short, network, self.methods, self.textures)
+        entries, unknown = controls.merged(material["controls"], wanted, self.arguments.controls)
+        if unknown and len(self.arguments.material) == 1:
+            self.warnings.append(f"--controls: {name} has no input {unknown[0]}"
+                                 + (f", nor {len(unknown) - 1} others" if len(unknown) > 1 else ""))
+        material["presets"] = controls.presets(wanted, material["controls"], self.arguments.controls)
+        material["controls"] = entries
+        material["layer"] = layers.of(file, short, network, live.live_inputs(network)[0], self.arguments.output)
+        self.materials.append(material)
+        self.lobes += used
+        self.networks.append(network)
+        self.paths.append(name)
+        self.warnings += [f"{name}: {text}" for text in texts]
+
+    def surround(self):
+        """Lights, shapes, environments and the camera."""
+        a = self.arguments
+        files = [reader.split(m)[0] for m in a.material]
+        file = a.stage or next((f for f in files if not reader.is_document(f)), None)
+        scene = stageScene.StageScene(file, () if a.stage else a.set) if file else None
+        own = scene.shapes(a.shape or [], set(self.paths)) if scene else []
+        if a.shape and not scene:
+            raise CommandError("--shape names a prim of a stage: give one with --stage")
+        self.z_up = bool(scene and scene.z_up)
+        radius, target = stageScene.bounds(*own[0][1:]) if own else (1.0, np.zeros(3))
+        self.scene, self.camera_target = scene, target
+        self.camera, self.eye = surroundings.camera(radius, target, self.z_up)
+        domes = scene.domes if scene else []
+        self.environments = surroundings.environments(a.environment, domes, a.textureSize, self.z_up)
+        built_in = surroundings.built_in_shapes(radius, target, self.z_up)
+        self.shapes = built_in + [stageScene.packed(*shape) for shape in own]
+        self.lights = scene.lights if scene else []
+
+    def data(self):
+        names = [m["name"] for m in self.materials]
+        start = {"material": 0, "shape": 0, "environment": 0, "rotation": 0.0, "environmentGain": 1.0,
+                 "ambient": [0.0, 0.0, 0.0], "exposure": 0.0, "samples": 64, "backdrop": True,
+                 "backdropColor": [0.18, 0.18, 0.18], "eye": self.eye}
+        title = self.arguments.title or ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
+        return {"title": title, "materials": self.materials, "textures": self.textures.entries,
+                "lights": self.lights, "camera": self.camera, "environments": self.environments,
+                "shapes": self.shapes, "start": start, "references": compareImages.made(self)}
+
+
+def _share_presets(found):
+    """Materials of the same inputs are presets of each other."""
+    kinds = [[(i["input"].rpartition("/")[2], i["kind"]) for i in m["inputs"]] for m in found]
+    for m, kind in zip(found, kinds):
+        same = [other for other, its in zip(found, kinds) if its == kind]
+        if len(same) > 1 and kind:
+            m["presets"] += [{"name": other["name"],
+                              "values": {mine["input"]: its["value"] for mine, its in zip(m["inputs"], other["inputs"])}}
+                             for other in same]
+
+
 def page_of(arguments):
     """:returns: the page's text, and warnings as lines"""
-    chosen = methods.parse(arguments.method)
-    warnings, built, lobes = [], [], []
-    textures = materials.Textures(arguments.textureSize)
-    for argument in arguments.material:
-        found, reading = reader.load(argument, arguments.set, every=True)
-        warnings += statistics.lines(reading)
-        for name, network in found:
-            if len(built) == MOST_MATERIALS:
-                raise CommandError(f"a page shows at most {MOST_MATERIALS} materials")
-            material, used, texts = materials.build(_short(name), network, chosen, textures)
-            built.append(material)
-            lobes += used
-            warnings += [f"{name}: {text}" for text in texts]
-    radius, target, z_up = 1.0, (0.0, 0.0, 0.0), False
-    camera, eye = surroundings.camera(radius, target, z_up)
-    data = {"title": arguments.title or ", ".join(m["name"] for m in built[:4]), "materials": built,
-            "textures": textures.entries, "lights": [], "camera": camera,
-            "environments": surroundings.environments(arguments.environment, [], arguments.textureSize, z_up),
-            "shapes": surroundings.built_in_shapes(radius, target, z_up),
-            "start": {"material": 0, "shape": 0, "environment": 0, "rotation": 0.0, "environmentGain": 1.0,
-                      "ambient": [0.0, 0.0, 0.0], "exposure": 0.0, "samples": 64, "backdrop": True,
-                      "backdropColor": [0.18, 0.18, 0.18], "eye": eye}}
-    return page.document(data, lobes), warnings
-
-
-def _short(name):
-    return name.rpartition("/")[2] or name
+    if not os.path.isdir(os.path.dirname(os.path.abspath(arguments.output))):
+        raise CommandError(f"there is no folder for {arguments.output}")
+    builder = Builder(arguments)
+    builder.read()
+    builder.surround()
+    return page.document(builder.data(), builder.lobes), builder.warnings

@@ -1,4 +1,7 @@
 """Images of a page: environments and textures, made small enough."""
+import base64
+import gzip
+
 import numpy as np
 
 from patina.cli import compiled
@@ -41,3 +44,9 @@ def texture(found):
         coded[..., :3] = _encoded(texels[..., :3])
         return {**entry, "format": "srgb8", "data": blobs.pack(np.round(coded * 255.0).astype(np.uint8))}
     return {**entry, "format": "rgba16", "data": blobs.pack(blobs.half(texels))}
+
+
+def unpacked(entry):
+    """The pixels that the page has of an environment, linear floats."""
+    data = np.frombuffer(gzip.decompress(base64.b64decode(entry["data"])), "<f2").astype(np.float32)
+    return data.reshape(entry["height"], entry["width"], 3)

@@ -42,7 +42,7 @@ def build(name, network, methods, textures):
     lean = compile_one(live.with_live(network, inputs, chosen), textures.largest)
     material = {"name": name, "lean": _variant(lean, chosen, len(inputs), textures), "whole": None,
                 "inputs": [{"input": f"{i.node}.{i.name}", "kind": i.kind, "value": list(i.value)} for i in inputs],
-                "controls": [controls.entry(i) for i in inputs], "presets": []}
+                "controls": [controls.entry(i) for i in inputs], "presets": [], "sentence": ""}
     lobes = list(lean["lobes"])
     if len(chosen) < len(inputs):
         whole = compile_one(live.with_live(network, inputs, range(len(inputs))), textures.largest)

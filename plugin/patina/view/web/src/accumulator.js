@@ -14,7 +14,9 @@ uniform vec2 size; in vec2 at; out vec4 color;
 vec3 encode(vec3 c) { c = clamp(c, 0.0, 1.0);
     return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c)); }
 void main() { vec3 c = texelFetch(mean, ivec2(gl_FragCoord.xy), 0).rgb;
-    if (at.x > wipe) c = texture(reference, vec2(at.x, 1.0 - at.y)).rgb;
+    // The reference is square, and as wide or high as the picture's shorter side.
+    vec2 q = (at - 0.5) * max(size / size.yx, 1.0) + 0.5;
+    if (at.x > wipe && all(lessThanEqual(abs(q - 0.5), vec2(0.5)))) c = texture(reference, vec2(q.x, 1.0 - q.y)).rgb;
     if (wipe < 1.0 && abs(at.x - wipe) * size.x < 1.0) color = vec4(1.0);
     else color = vec4(encode(c * scale), 1.0); }`;
 

@@ -1,6 +1,8 @@
 // The parts of the interface, and what they do to the state.
 import { TrackballControls } from "three/examples/jsm/controls/TrackballControls.js";
-import { buildPanel } from "./panel.js";
+import { loadReferences } from "./compare.js";
+import { listen } from "./keyboard.js";
+import { Panel } from "./panel.js";
 
 // The size of the canvas in pixels: what its box shows, or what the address asks for (?width=256).
 function sizeOf(canvas) {
@@ -10,31 +12,77 @@ function sizeOf(canvas) {
     return [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
 }
 
-export async function buildInterface(viewer, data, state, refuse) {
-    const { canvas, camera } = viewer;
-    const page = { viewer, data, state, paused: false, firstPicture: 0, refuse };
-    camera.position.fromArray(state.eye);
-    camera.up.fromArray(data.camera.up);
-    const controls = new TrackballControls(camera, canvas);
-    Object.assign(controls, { noPan: true, rotateSpeed: 2.5, dynamicDampingFactor: 0.3, staticMoving: true });
-    controls.target.fromArray(data.camera.target);
-    camera.near = data.camera.radius * 0.01;
-    camera.far = data.camera.radius * 100;
-    controls.addEventListener("change", () => viewer.invalidate());
-    controls.update();
-    page.controls = controls;
-    page.fit = () => {
-        const [w, h] = sizeOf(canvas);
-        if (w !== viewer.width || h !== viewer.height) viewer.resize(w, h);
-        controls.handleResize();
-        viewer.invalidate();
-    };
-    window.addEventListener("resize", page.fit);
-    page.fit();
-    page.beforeStep = () => {
-        controls.update();
-        state.eye = camera.position.toArray();
-    };
-    page.panel = buildPanel(page);
-    return page;
+export class Page {
+    constructor(viewer, data, state) {
+        Object.assign(this, { viewer, data, state, paused: false, firstPicture: 0 });
+        this.controls = new TrackballControls(viewer.camera, viewer.canvas);
+        Object.assign(this.controls, { noPan: true, rotateSpeed: 2.5, staticMoving: true, keys: ["", "", ""] });
+        viewer.camera.near = data.camera.radius * 0.01;
+        viewer.camera.far = data.camera.radius * 100;
+        this.placeCamera();
+        this.controls.addEventListener("change", () => viewer.invalidate());
+        window.addEventListener("resize", () => this.fit());
+        this.fit();
+        this.panel = new Panel(this);
+        listen(this);
+    }
+
+    placeCamera() {
+        const { camera } = this.viewer;
+        camera.position.fromArray(this.state.eye);
+        camera.up.fromArray(this.data.camera.up);
+        this.controls.target.fromArray(this.data.camera.target);
+        this.controls.update();
+    }
+
+    fit() {
+        const [w, h] = sizeOf(this.viewer.canvas);
+        if (w !== this.viewer.width || h !== this.viewer.height) this.viewer.resize(w, h);
+        this.controls.handleResize();
+        this.viewer.invalidate();
+    }
+
+    beforeStep() {
+        this.controls.update();
+        this.state.eye = this.viewer.camera.position.toArray();
+    }
+
+    refresh() {
+        this.viewer.invalidate();
+        this.panel.rebuild();
+    }
+
+    choose(i) {
+        this.state.material = i;
+        this.state.wedge = null;
+        this.refresh();
+    }
+
+    usePreset(preset) {
+        const { current, values, material } = this.state;
+        current.inputs.forEach((input, i) => {
+            if (preset.values[input.input]) values[material][i] = preset.values[input.input].slice();
+        });
+        this.refresh();
+    }
+
+    reset() {
+        const { material } = this.state;
+        this.state.reset();
+        this.state.material = material;
+        history.replaceState(null, "", location.pathname + location.search);
+        this.placeCamera();
+        this.refresh();
+    }
+
+    say(text) { document.getElementById("note").textContent = text; }
+    showNote() {
+        const { sentence, notes } = this.state.current;
+        this.say([sentence, ...notes.map(n => n[0].toUpperCase() + n.slice(1) + ".")].filter(Boolean).join(" "));
+    }
+}
+
+export async function buildInterface(viewer, data, state) {
+    await loadReferences(viewer, data);
+    return new Page(viewer, data, state);
 }

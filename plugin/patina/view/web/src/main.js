@@ -40,7 +40,7 @@ async function start() {
     const state = new State(data);
     if (location.hash.length > 1) state.fromText(location.hash.slice(1));
     const viewer = new Viewer(canvas, data, await makeParts(data), state);
-    const page = await buildInterface(viewer, data, state, refuse);
+    const page = await buildInterface(viewer, data, state);
     const loop = () => {
         if (page.paused) return requestAnimationFrame(loop);
         page.beforeStep();

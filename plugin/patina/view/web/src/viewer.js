@@ -112,12 +112,14 @@ export class Viewer {
         const adds = this.accumulator.count < this.passes;
         if (!adds && this.drawn) return false;
         if (adds) this.accumulator.add(target => this._draw(target));
-        const reference = this.references.get(this.state.comparison());
-        this.accumulator.show(2 ** this.state.exposure, reference, this.state.wipe);
+        this.accumulator.show(2 ** this.state.exposure, this.reference()?.texture, this.state.wipe);
         this.drawn = true;
         for (const listener of this.listeners) listener(this);
         return true;
     }
+
+    // The path-traced picture of what is seen, if there is one.
+    reference() { return this.state.isAtStart() ? this.references.get(this.state.material) : undefined; }
 
     // For what changes the display alone.
     redraw() { this.drawn = false; }

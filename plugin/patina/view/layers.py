@@ -1,0 +1,81 @@
+"""What the page needs to save its values as a layer of USD."""
+import os
+import re
+
+from patina.cli.materials import is_document
+
+_TYPES = {"boolean": "bool", "integer": "int", "float": "float", "vector2": "float2", "vector3": "float3",
+          "vector4": "float4", "color3": "color3f", "color4": "color4f", "string": "string", "filename": "asset",
+          "matrix33": "matrix3d", "matrix44": "matrix4d"}
+_NAME = re.compile(r"[A-Za-z_]\w*(:[A-Za-z_]\w*)*")
+
+
+def asset(path):
+    """:returns: an asset path as .usda writes it, or '' where it cannot be"""
+    if any(ord(c) < 32 for c in path) or "@@@" in path:
+        return ""
+    return f"@@@{path}@@@" if "@" in path else f"@{path}@"
+
+
+def _quoted(text):
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return '"' + "".join(c if ord(c) >= 32 else " " for c in escaped) + '"'
+
+
+def _value(kind, value, folder):
+    if kind == "filename":
+        return asset(os.path.relpath(value, folder) if value else "") or "@@"
+    if kind == "string":
+        return _quoted(value)
+    if kind in ("boolean", "integer"):
+        return str(int(value))
+    numbers = [value] if isinstance(value, float) else list(value)
+    texts = [f"{x:.9g}" for x in numbers]
+    if kind.startswith("matrix"):
+        side = 3 if kind == "matrix33" else 4
+        return "(" + ", ".join("(" + ", ".join(texts[i * side:(i + 1) * side]) + ")" for i in range(side)) + ")"
+    return texts[0] if len(texts) == 1 else "(" + ", ".join(texts) + ")"
+
+
+def over_stage(file, folder):
+    """Values are opinions over the stage itself.
+
+    :param folder: where the page is written to, and layers are expected
+    """
+    return {"asset": asset(os.path.relpath(os.path.abspath(file), folder)), "prims": [], "paths": {}, "defaultPrim": ""}
+
+
+def whole_material(name, network, live_inputs, folder):
+    """The material written out, for those that are no part of a stage."""
+    safe = re.sub(r"\W", "_", name)
+    safe = safe if safe and not safe[0].isdigit() else "m_" + safe
+    root, nodes = f"/{safe}", network.nodes()
+    paths = {node["path"]: f"{root}/n{i}" for i, node in enumerate(nodes)}
+    open_inputs = {(i.node, i.name) for i in live_inputs}
+    terminal = network.terminals().get("surface")
+    lines = []
+    if terminal and terminal[0] in paths:
+        lines.append(f"token outputs:mtlx:surface.connect = <{paths[terminal[0]]}.outputs:{terminal[1] or 'out'}>")
+    prims = [{"path": root, "spec": "def Material", "lines": lines}]
+    for node in nodes:
+        own = [f"uniform token info:id = {_quoted(node['id'])}"]
+        for key, value in node["inputs"].items():
+            if (node["path"], key) in open_inputs or value["type"] not in _TYPES or not _NAME.fullmatch(key):
+                continue
+            own.append(f"{_TYPES[value['type']]} inputs:{key} = {_value(value['type'], value['value'], folder)}")
+        for key, (source, output) in node["connections"].items():
+            if source in paths and _NAME.fullmatch(key) and _NAME.fullmatch(output or "out"):
+                own.append(f"token inputs:{key}.connect = <{paths[source]}.outputs:{output or 'out'}>")
+        used = {o or "out" for n in nodes for s, o in n["connections"].values() if s == node["path"]}
+        if terminal and terminal[0] == node["path"]:
+            used.add(terminal[1] or "out")
+        own += [f"token outputs:{output}" for output in sorted(used) if _NAME.fullmatch(output)]
+        prims.append({"path": paths[node["path"]], "spec": "def Shader", "lines": own})
+    return {"asset": "", "prims": prims, "paths": paths, "defaultPrim": safe}
+
+
+def of(argument_file, name, network, live_inputs, output):
+    folder = os.path.dirname(os.path.abspath(output))
+    if is_document(argument_file):
+        return whole_material(name, network, live_inputs, folder)
+    return over_stage(argument_file, folder)

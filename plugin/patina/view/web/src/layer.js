@@ -1,0 +1,48 @@
+// Changed values as a layer of USD, over the file that holds the material or, where that is no
+// stage, with the whole material in it. Names come from the file and are checked again here.
+
+const types = { float: "float", vector2: "float2", vector3: "float3", vector4: "float4", color3: "color3f",
+                color4: "color4f" };
+const number = x => Number.isFinite(x) ? String(Number(x.toPrecision(9))) : "0";
+const valueText = v => v.length === 1 ? number(v[0]) : `(${v.map(number).join(", ")})`;
+const isPath = path => /^(\/[A-Za-z_]\w*)+$/.test(path);
+const isName = name => /^[A-Za-z_]\w*(:[A-Za-z_]\w*)*$/.test(name);
+
+function print(tree, indent) {
+    let text = "";
+    for (const [name, node] of Object.entries(tree)) {
+        text += `${indent}${node.spec ?? "over"} "${name}"\n${indent}{\n`;
+        for (const line of node.lines) text += `${indent}    ${line}\n`;
+        text += print(node.children, indent + "    ") + `${indent}}\n`;
+    }
+    return text;
+}
+
+function nodeAt(tree, path) {
+    let children = tree, node = null;
+    for (const name of path.slice(1).split("/")) {
+        node = children[name] ??= { lines: [], children: {} };
+        children = node.children;
+    }
+    return node;
+}
+
+export function layerText(state) {
+    const { current: material, material: m } = state, { layer } = material, tree = {};
+    const whole = layer.prims.length > 0;
+    for (const prim of layer.prims)
+        if (isPath(prim.path)) Object.assign(nodeAt(tree, prim.path), { spec: prim.spec, lines: prim.lines.slice() });
+    material.inputs.forEach((input, i) => {
+        const dot = input.input.lastIndexOf(".");
+        const path = (layer.paths[input.input.slice(0, dot)] ?? input.input.slice(0, dot));
+        const name = input.input.slice(dot + 1), value = state.values[m][i];
+        if (!isPath(path) || !isName(name)) return;
+        if (!whole && String(value) === String(input.value)) return;
+        const node = nodeAt(tree, path), declared = `${types[input.kind]} inputs:${name}`;
+        node.lines.push(`${declared} = ${valueText(value)}`);
+        if (!whole) node.lines.push(`${declared}.connect = None`);
+    });
+    const sub = layer.asset ? `    subLayers = [\n        ${layer.asset}\n    ]\n` : "";
+    const lead = layer.defaultPrim && isName(layer.defaultPrim) ? `    defaultPrim = "${layer.defaultPrim}"\n` : "";
+    return `#usda 1.0\n(\n${lead}${sub})\n\n${print(tree, "")}`;
+}

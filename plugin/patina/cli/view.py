@@ -9,10 +9,15 @@ import sys
 from patina.cli import materials, methods
 from patina.cli.errors import CommandError, UsageError
 
+DEMOS = {"classic": "the classic reflectance models as steel and hematite, and what each cannot show",
+         "layers": "standard_surface with its layers switched on one by one"}
+
 
 def add_arguments(parser):
-    parser.add_argument("material", metavar="MATERIAL", nargs="+", help=materials.MATERIAL_HELP.replace(
+    parser.add_argument("material", metavar="MATERIAL", nargs="*", help=materials.MATERIAL_HELP.replace(
         "the only material", "every material"))
+    parser.add_argument("--demo", choices=sorted(DEMOS), help="a page that is part of Patina: " + "; ".join(
+        f"{name}, {text}" for name, text in DEMOS.items()))
     parser.add_argument("-o", "--output", required=True, metavar="FILE", help="the page, FILE.html")
     parser.add_argument("--title", metavar="TEXT", help="of the page (default: the materials' names)")
     parser.add_argument("--environment", action="append", default=[], metavar="FILE",
@@ -39,6 +44,14 @@ def add_arguments(parser):
 def run(arguments):
     from patina.view import build
 
+    if arguments.demo:
+        if arguments.material:
+            raise UsageError("patina view: --demo brings its own materials")
+        folder = os.path.join(os.path.dirname(build.__file__), "demos")
+        arguments.material = [os.path.join(folder, arguments.demo + ".usda")]
+        arguments.controls = arguments.controls or os.path.join(folder, arguments.demo + ".json")
+    if not arguments.material:
+        raise UsageError("patina view: no MATERIAL (see patina view --help)")
     if not 1 <= arguments.textureSize <= 4096:
         raise UsageError("patina view: --textureSize is 1 to 4096")
     if not 16 <= arguments.compareWidth <= 2048 or not 1 <= arguments.compareSamples <= 65536:

@@ -1,4 +1,5 @@
 """From the arguments of `patina view` to the text of a page."""
+import json
 import os
 
 import numpy as np
@@ -21,7 +22,7 @@ class Builder:
         self.warnings, self.materials, self.lobes, self.networks, self.paths = [], [], [], [], []
 
     def read(self):
-        wanted = controls.read(self.arguments.controls) if self.arguments.controls else {}
+        wanted = self.wanted = controls.read(self.arguments.controls) if self.arguments.controls else {}
         for argument in self.arguments.material:
             found, reading = reader.load(argument, self.arguments.set, every=True)
             self.warnings += statistics.lines(reading)
@@ -40,6 +41,7 @@ class Builder:
                                  + (f", nor {len(unknown) - 1} others" if len(unknown) > 1 else ""))
         material["presets"] = controls.presets(wanted, material["controls"], self.arguments.controls)
         material["controls"] = entries
+        material["sentence"] = wanted.get("sentences", {}).get(short, "")
         material["layer"] = layers.of(file, short, network, live.live_inputs(network)[0], self.arguments.output)
         self.materials.append(material)
         self.lobes += used
@@ -71,7 +73,7 @@ class Builder:
         start = {"material": 0, "shape": 0, "environment": 0, "rotation": 0.0, "environmentGain": 1.0,
                  "ambient": [0.0, 0.0, 0.0], "exposure": 0.0, "samples": 64, "backdrop": True,
                  "backdropColor": [0.18, 0.18, 0.18], "eye": self.eye}
-        title = self.arguments.title or ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
+        title = self.arguments.title or self.wanted.get("title") or ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
         return {"title": title, "materials": self.materials, "textures": self.textures.entries,
                 "lights": self.lights, "camera": self.camera, "environments": self.environments,
                 "shapes": self.shapes, "start": start, "references": compareImages.made(self)}
@@ -95,4 +97,23 @@ def page_of(arguments):
     builder = Builder(arguments)
     builder.read()
     builder.surround()
-    return page.document(builder.data(), builder.lobes), builder.warnings
+    text = page.document(builder.data(), builder.lobes)
+    if arguments.writeControls:
+        _write_controls(builder.materials, arguments.writeControls)
+    return text, builder.warnings
+
+
+def _write_controls(found, path):
+    entries = {entry["input"]: entry for material in found for entry in material["controls"]}
+    presets = {preset["name"]: {} for material in found for preset in material["presets"]}
+    for material in found:
+        for preset in material["presets"]:
+            presets[preset["name"]].update(preset["values"])
+    whole = {"controls": list(entries.values()),
+             "presets": [{"name": name, "values": values} for name, values in presets.items()],
+             "sentences": {m["name"]: m["sentence"] for m in found if m["sentence"]}}
+    try:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(json.dumps(whole, indent=1) + "\n")
+    except OSError as error:
+        raise CommandError(f"--writeControls: {path} cannot be written ({error.strerror})") from error

@@ -2,7 +2,8 @@
 
   {"controls": [{"input": "NODE.NAME", "label": TEXT, "folder": TEXT, "kind": "color" | "number",
                  "min": N, "max": N, "step": N, "default": [N...], "unit": TEXT}],
-   "presets": [{"name": TEXT, "values": {"NODE.NAME": [N...]}}]}
+   "presets": [{"name": TEXT, "values": {"NODE.NAME": [N...]}}],
+   "sentences": {MATERIAL: TEXT}, "title": TEXT}
 """
 import json
 import math
@@ -70,6 +71,9 @@ def read(path):
         raise CommandError(f"--controls: {path} is no JSON ({error})") from error
     if not isinstance(found, dict) or not all(isinstance(found.get(key, []), list) for key in ("controls", "presets")):
         raise CommandError(f"--controls: {path} needs lists `controls` and `presets`")
+    texts = found.get("sentences", {})
+    if not isinstance(texts, dict) or not all(isinstance(t, str) for t in [*texts.values(), found.get("title", "")]):
+        raise CommandError(f"--controls: {path}: `sentences` holds texts by material, `title` is a text")
     return found
 
 

@@ -17,7 +17,9 @@ class LiveInput:
 
 
 def _numbers(value):
-    return [float(value)] if isinstance(value, (int, float)) else [float(x) for x in value]
+    """Floats of single precision in as few digits as tell them."""
+    numbers = [value] if isinstance(value, (int, float)) else value
+    return [float(f"{float(x):.7g}") for x in numbers]
 
 
 def _reachable(network):

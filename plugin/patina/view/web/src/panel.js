@@ -7,7 +7,7 @@ import { addActions } from "./actions.js";
 import { addWedge } from "./wedge.js";
 
 export const decode = x => x <= 0.04045 ? x / 12.92 : Math.pow((x + 0.055) / 1.055, 2.4);
-export const encode = x => x <= 0.0031308 ? 12.92 * x : 1.055 * Math.pow(x, 1 / 2.4) - 0.055;
+export const encode = x => x <= 0.0031308 ? 12.92 * x : x >= 1 ? 1 : 1.055 * Math.pow(x, 1 / 2.4) - 0.055;
 
 // A colour picker shows display values of a linear colour.
 export function addColor(folder, name, get, set) {

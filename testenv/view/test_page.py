@@ -1,0 +1,158 @@
+"""One page of one material, in a browser: nothing is complained about, and every part does its work."""
+import json
+import os
+
+import numpy as np
+import pytest
+
+MATERIAL = """#usda 1.0
+def Scope "look"
+{
+    def SphereLight "lamp"
+    {
+        float inputs:intensity = 40
+        float inputs:radius = 0.3
+        double3 xformOp:translate = (3, 2, 3)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+    def Material "red"
+    {
+        token outputs:mtlx:surface.connect = </look/red/surface.outputs:out>
+        def Shader "bsdf"
+        {
+            uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
+            color3f inputs:color = (0.8, 0.1, 0.05)
+            token outputs:out
+        }
+        def Shader "surface"
+        {
+            uniform token info:id = "ND_surface"
+            token inputs:bsdf.connect = </look/red/bsdf.outputs:out>
+            token outputs:out
+        }
+    }
+}
+"""
+CONTROLS = {"presets": [{"name": "blue", "values": {"/look/red/bsdf.color": [0.05, 0.1, 0.8]}}],
+            "sentences": {"red": "A sentence."}}
+COLOR = "page.state.values[0][page.state.current.inputs.findIndex(i => i.input.endsWith('bsdf.color'))]"
+SMALL = "?width=96"
+
+
+@pytest.fixture(scope="module")
+def page(make, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("material")
+    (folder / "red.usda").write_text(MATERIAL)
+    (folder / "controls.json").write_text(json.dumps(CONTROLS))
+    return make("red.html", folder / "red.usda", "--controls", folder / "controls.json", "--compare",
+                "--compareWidth", 48, "--compareSamples", 64)
+
+
+@pytest.fixture
+def shown(page, chromium):
+    chromium.open(page, SMALL)
+    chromium.evaluate("page.state.samples = 16; viewer.invalidate(); viewer.settle();")
+    yield chromium
+    assert chromium.messages() == []
+
+
+def middle(picture):
+    h, w = picture.shape[:2]
+    return picture[h * 3 // 8:h * 5 // 8, w * 3 // 8:w * 5 // 8].mean(axis=(0, 1))
+
+
+def test_a_page_of_one_material_is_small(page):
+    assert os.path.getsize(page) < 3e6
+
+
+def test_sliders_change_the_picture(shown):
+    before = middle(shown.picture())
+    assert before[0] > 3.0 * before[2]
+    control = """const set = page.panel.gui.controllersRecursive().find(c => c._name === "color");
+                 set.setValue([0, 0, 1]);"""
+    after = middle(shown.picture(control))
+    assert after[2] > 3.0 * after[0]
+
+
+def test_presets_and_reset(shown):
+    click = "page.panel.gui.controllersRecursive().find(c => c._name === 'blue').$button.click()"
+    blue = middle(shown.picture(click))
+    assert blue[2] > 3.0 * blue[0]
+    red = middle(shown.picture("page.reset(); page.state.samples = 16"))
+    assert red[0] > 3.0 * red[2]
+
+
+def test_the_exported_picture_is_the_canvas(shown, tmp_path):
+    path = str(tmp_path / "out.png")
+    assert shown.call("download", selector="[data-action=png] button", path=path) == "red.png"
+    import _patina
+
+    saved = np.asarray(_patina.read_image(path).pixels)[..., :3]
+    canvas = shown.evaluate("""viewer.redraw(); viewer.step();
+        const copy = document.createElement("canvas"); copy.width = viewer.width; copy.height = viewer.height;
+        const context = copy.getContext("2d"); context.drawImage(viewer.canvas, 0, 0);
+        return Array.from(context.getImageData(0, 0, copy.width, copy.height).data);""")
+    canvas = np.array(canvas).reshape(96, 96, 4)[..., :3]
+    assert np.array_equal(np.round(saved * 255.0), canvas) and canvas.std() > 10.0
+
+
+def test_a_wedge_goes_along_an_input(shown):
+    picture = shown.picture("""
+        const input = page.state.current.inputs.findIndex(i => i.input.endsWith("bsdf.weight"));
+        page.state.wedge = { input, component: 0, from: 0, to: 1, count: 4 }; page.state.backdrop = false""")
+    steps = [picture[40:56, 24 * i + 8:24 * i + 16, 0].mean() for i in range(4)]
+    assert steps[0] < 1e-3 and np.all(np.diff(steps) > 0.3 * np.diff(steps).mean())
+
+
+def test_the_wipe_shows_the_path_traced_picture(shown):
+    halves = shown.evaluate("""page.state.wipe = 0; viewer.redraw(); viewer.step();
+        const copy = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
+        copy.drawImage(viewer.canvas, 0, 0); const traced = Array.from(copy.getImageData(0, 0, 96, 96).data);
+        page.state.wipe = 1; viewer.redraw(); viewer.step();
+        copy.drawImage(viewer.canvas, 0, 0); return [traced, Array.from(copy.getImageData(0, 0, 96, 96).data)];""")
+    traced, own = (np.array(x, float).reshape(96, 96, 4)[..., :3] for x in halves)
+    assert not np.array_equal(traced, own)
+    assert np.abs(traced.mean(axis=(0, 1)) - own.mean(axis=(0, 1))).max() < 6.0
+
+
+def test_a_saved_layer_opens_again(shown, page, tmp_path, capsys):
+    from patina.cli import main
+
+    shown.evaluate(f"{COLOR}[0] = 0.25; {COLOR}[1] = 0.5; viewer.invalidate();")
+    path = os.path.join(os.path.dirname(page), "saved.usda")
+    assert shown.call("download", selector="[data-action=layer] button", path=path) == "red.usda"
+    assert main.main(["explain", path + ":/look/red"]) == 0
+    told = capsys.readouterr().out
+    assert "0.25" in told and "0.5" in told and "ND_oren_nayar_diffuse_bsdf" in told
+
+
+def test_a_link_holds_the_values(shown, page, chromium):
+    link = shown.evaluate(f"{COLOR}[0] = 0.125; page.state.exposure = 1.5; return page.state.toText()")
+    chromium.open(page, SMALL + "#" + link)
+    assert chromium.evaluate(f"return [{COLOR}[0], page.state.exposure]") == [0.125, 1.5]
+    chromium.open(page, SMALL + "#%7B%22material%22%3A1e9%2C%22values%22%3A%22x%22%2C%22eye%22%3A%5B%22a%22%5D%7D")
+    assert chromium.evaluate("return page.state.material") == 0
+
+
+def test_keys_turn_the_shape_and_change_exposure(shown):
+    before = shown.evaluate("return page.state.eye")
+    shown.evaluate("viewer.canvas.focus()")
+    shown.call("press", key="ArrowLeft")
+    shown.call("press", key="]")
+    eye, exposure = shown.evaluate("page.beforeStep(); return [page.state.eye, page.state.exposure]")
+    assert np.linalg.norm(np.subtract(eye, before)) > 0.1 and exposure == 0.5
+    assert abs(np.linalg.norm(eye) - np.linalg.norm(before)) < 1e-3
+
+
+def test_a_phone_has_the_panel_below(page, chromium):
+    chromium.open(page, width=360, height=640, touch=True)
+    boxes = chromium.evaluate("""const box = id => document.getElementById(id).getBoundingClientRect();
+        return [box("view").width, box("view").bottom, box("panel").top, document.documentElement.scrollWidth]""")
+    assert boxes[0] == 360 and boxes[1] <= boxes[2] and boxes[3] == 360
+    assert chromium.messages() == []
+
+
+def test_without_webgl2_the_page_says_so(page, chromium):
+    chromium.open(page, gl=False)
+    assert "WebGL 2" in chromium.evaluate("return document.getElementById('problem').textContent")
+    assert chromium.messages() == []

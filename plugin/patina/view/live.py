@@ -26,14 +26,12 @@ def _reachable(network):
     """Nodes that the surface is made of, the surface first."""
     nodes = {node["path"]: node for node in network.nodes()}
     terminal = network.terminals().get("surface")
-    found, queue = [], [terminal[0]] if terminal else []
-    while queue:
-        path = queue.pop(0)
-        if path not in nodes or nodes[path] in found:
-            continue
-        found.append(nodes[path])
-        queue += [source for source, _ in nodes[path]["connections"].values()]
-    return found
+    queue, seen = [terminal[0]] if terminal else [], set()
+    for path in queue:  # grows as it goes
+        if path in nodes and path not in seen:
+            seen.add(path)
+            queue += [source for source, _ in nodes[path]["connections"].values()]
+    return [nodes[path] for path in dict.fromkeys(queue) if path in nodes]
 
 
 def live_inputs(network):
@@ -86,14 +84,17 @@ def shape_of(material):
     return material["lobes"], material["presence"], material["emission"]
 
 
-def lean_choice(network, inputs, methods, compile_one):
+def lean_choice(network, inputs, compile_one):
     """The inputs that may be live without a lobe more than the material as authored has."""
     wanted = shape_of(compile_one(network))
-    chosen = [i for i in range(len(inputs)) if shape_of(compile_one(with_live(network, inputs, [i]))) == wanted]
-    if shape_of(compile_one(with_live(network, inputs, chosen))) == wanted:
-        return chosen
-    together = []  # some are only harmless alone
-    for i in chosen:
-        if shape_of(compile_one(with_live(network, inputs, together + [i]))) == wanted:
-            together.append(i)
-    return together
+
+    def harmless(group, kept):
+        if not group or shape_of(compile_one(with_live(network, inputs, kept + group))) == wanted:
+            return group
+        half = len(group) // 2
+        if not half:
+            return []
+        left = harmless(group[:half], kept)
+        return left + harmless(group[half:], kept + left)
+
+    return harmless(list(range(len(inputs))), [])

@@ -1,7 +1,9 @@
 """A material as the page has it: two texts, its inputs, their controls."""
 from patina.cli import compiled
+from patina.cli.errors import CommandError
 from patina.view import controls, glslText, images, live
 
+LONGEST_TEXT = 200000
 _NOTES = (("subsurface", "subsurface scattering shows as diffuse reflection"),
           ("interior", "what light loses inside the object is not shown"),
           ("displacement", "displacement is not shown"))
@@ -22,7 +24,10 @@ class Textures:
         return self._known[key]
 
 
-def _variant(made, chosen, count, textures):
+def _variant(name, made, chosen, count, textures):
+    if len(made["text"]) > LONGEST_TEXT:
+        raise CommandError(f"{name} is too large for a page: its shader has {len(made['text']) // 1000} thousand "
+                           f"characters, and browsers give up on more than {LONGEST_TEXT // 1000} thousand")
     return {"text": glslText.material_text(made, count), "presence": made["presence"],
             "live": sorted(chosen), "textures": [textures.add(found) for found in made["textures"]]}
 
@@ -38,15 +43,15 @@ def build(name, network, methods, textures):
         return module.web_material(changed, methods, largest)
 
     inputs, beyond = live.live_inputs(network)
-    chosen = live.lean_choice(network, inputs, methods, compile_one)
+    chosen = live.lean_choice(network, inputs, compile_one)
     lean = compile_one(live.with_live(network, inputs, chosen), textures.largest)
-    material = {"name": name, "lean": _variant(lean, chosen, len(inputs), textures), "whole": None,
+    material = {"name": name, "lean": _variant(name, lean, chosen, len(inputs), textures), "whole": None,
                 "inputs": [{"input": f"{i.node}.{i.name}", "kind": i.kind, "value": list(i.value)} for i in inputs],
                 "controls": [controls.entry(i) for i in inputs], "presets": [], "sentence": ""}
     lobes = list(lean["lobes"])
     if len(chosen) < len(inputs):
         whole = compile_one(live.with_live(network, inputs, range(len(inputs))), textures.largest)
-        material["whole"] = _variant(whole, range(len(inputs)), len(inputs), textures)
+        material["whole"] = _variant(name, whole, range(len(inputs)), len(inputs), textures)
         lobes += whole["lobes"]
     notes = [text for key, text in _NOTES if lean[key]] + list(dict.fromkeys(lean["leftOut"]))
     if lean["volumeOnly"]:

@@ -1,0 +1,128 @@
+"""Materials that mean harm, or too much: the page stays safe and opens, or there is a clear refusal."""
+import json
+
+import numpy as np
+import pytest
+
+EVIL = "&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;&quot;];alert(2);//*/ }"
+DOCUMENT = """<?xml version="1.0"?>
+<materialx version="1.39">
+  <oren_nayar_diffuse_bsdf name="{evil}" type="BSDF">
+    <input name="color" type="color3" value="0.1, 0.7, 0.2"/>
+  </oren_nayar_diffuse_bsdf>
+  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="{evil}"/></surface>
+  <surfacematerial name="{evil}" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="s"/>
+  </surfacematerial>
+</materialx>
+"""
+MANY = """<?xml version="1.0"?>
+<materialx version="1.39">
+{nodes}
+  <oren_nayar_diffuse_bsdf name="b" type="BSDF"><input name="color" type="color3" nodename="n0"/>
+  </oren_nayar_diffuse_bsdf>
+  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="b"/></surface>
+  <surfacematerial name="many" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>
+  </surfacematerial>
+</materialx>
+"""
+TEXTURED = """<?xml version="1.0"?>
+<materialx version="1.39">
+  <image name="picture" type="color3"><input name="file" type="filename" value="{file}"/></image>
+  <oren_nayar_diffuse_bsdf name="b" type="BSDF"><input name="color" type="color3" nodename="picture"/>
+  </oren_nayar_diffuse_bsdf>
+  <surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="b"/></surface>
+  <surfacematerial name="textured" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>
+  </surfacematerial>
+</materialx>
+"""
+
+
+def middle(picture):
+    h, w = picture.shape[:2]
+    return picture[h * 3 // 8:h * 5 // 8, w * 3 // 8:w * 5 // 8].mean(axis=(0, 1))
+
+
+def shown(chromium, page):
+    chromium.open(page, "?width=48")
+    picture = chromium.picture("page.state.samples = 8; page.state.environment = "
+                               "page.data.environments.findIndex(e => e.name === 'even')")
+    assert chromium.messages() == []
+    return middle(picture)
+
+
+def test_script_in_names_stays_text(make, chromium, tmp_path):
+    file = tmp_path / "evil.mtlx"
+    file.write_text(DOCUMENT.format(evil=EVIL))
+    controls = tmp_path / "controls.json"
+    evil = "</script><script>alert(3)</script><!--"
+    controls.write_text(json.dumps({"title": evil, "presets": [{"name": evil, "values": {}}]}))
+    page = make("evil.html", file, "--title", evil, "--controls", controls)
+    text = open(page, encoding="utf-8").read()
+    assert text.count("</script") == 2 and "onerror=alert" not in text.replace("\\u003c", "<").split("patina-data")[0]
+    color = shown(chromium, page)
+    assert color[1] > 2.0 * color[0]
+    assert chromium.evaluate("return [document.images.length, document.title.length > 5]") == [0, True]
+    layer = chromium.evaluate("""const name = page.data.materials[0].layer.defaultPrim; return name;""")
+    assert layer.replace("_", "a").isalnum()
+
+
+def many(file, count, varies):
+    """A tree of `count` sums of two inputs each; where it varies, nothing of it can be done beforehand."""
+    add = '  <add name="n{0}" type="color3"><input name="in1" type="color3" {1}/><input name="in2" type="color3" {2}/></add>'
+    nodes = ['  <constant name="c" type="color3"/>' if not varies else
+             '  <position name="p" type="vector3"/><convert name="c" type="color3">'
+             '<input name="in" type="vector3" nodename="p"/></convert>']
+    for i in range(count):
+        parts = [f'nodename="n{k}"' if k < count else
+                 'nodename="c"' if varies and k % 2 else f'value="{0.001 + k * 1e-8:.8f}, 0.0005, 0.0005"'
+                 for k in (2 * i + 1, 2 * i + 2)]
+        nodes.append(add.format(i, *parts))
+    file.write_text(MANY.format(nodes="\n".join(nodes)))
+
+
+def test_ten_thousand_inputs(make, chromium, tmp_path):
+    many(tmp_path / "many.mtlx", 5000, False)
+    color = shown(chromium, make("many.html", tmp_path / "many.mtlx"))
+    assert color[0] > 1.5 * color[1] > 0.0
+    count, note = chromium.evaluate("return [page.data.materials[0].inputs.length, page.state.current.notes.join()]")
+    assert count == 160 and "more inputs have no slider" in note
+
+
+def test_a_shader_that_no_browser_takes_is_refused(tmp_path, capsys):
+    from patina.cli import main
+
+    many(tmp_path / "many.mtlx", 4000, True)
+    assert main.main(["view", str(tmp_path / "many.mtlx"), "-o", str(tmp_path / "x.html")]) == 1
+    error = capsys.readouterr().err
+    assert "too large for a page" in error and error.count("\n") == 1
+
+
+def test_a_huge_texture_is_made_smaller(make, chromium, tmp_path):
+    import _patina
+
+    wide = np.zeros((64, 8192, 3), np.float32)
+    wide[...] = (0.6, 0.05, 0.05)
+    _patina.write_image(str(tmp_path / "wide.exr"), wide)
+    file = tmp_path / "textured.mtlx"
+    file.write_text(TEXTURED.format(file="wide.exr"))
+    page = make("textured.html", file, "--textureSize", 256)
+    color = shown(chromium, page)
+    assert color[0] > 3.0 * color[1]
+    width, note = chromium.evaluate("return [page.data.textures[0].width, page.state.current.notes.join()]")
+    assert width <= 256 and "8192" in note
+
+
+@pytest.mark.parametrize("text, reason", [
+    ("{", "is no JSON"), ("[]", "needs lists"), ('{"controls": [1]}', "needs a text `input`"),
+    ('{"presets": [{"name": 1}]}', "each preset"), ('{"sentences": 3}', "holds texts")])
+def test_bad_controls_are_refused(tmp_path, capsys, text, reason):
+    from patina.cli import main
+
+    file, controls = tmp_path / "plain.mtlx", tmp_path / "controls.json"
+    file.write_text(DOCUMENT.format(evil="plain"))
+    controls.write_text(text)
+    assert main.main(["view", str(file), "--controls", str(controls), "-o", str(tmp_path / "x.html")]) == 1
+    error = capsys.readouterr().err
+    assert reason in error and error.count("\n") == 1
+    assert not (tmp_path / "x.html").exists()

@@ -8,7 +8,8 @@ namespace patina {
 /// PATINA_GL_FAULT holds some of them, separated by commas.
 /// - `lost:N`        the context is lost once N passes are drawn (0: before the first)
 /// - `memory:N`      the driver is out of memory then
-/// - `program:NAME`  a program whose first stage has that name does not compile (background, shadow)
+/// - `program:NAME`  a program whose first stage has that name does not compile (background,
+/// shadow)
 /// - `material:PATH` that of a material does not
 /// - `storageBlocks:N` vertex shaders may read N buffers
 /// - `textureSize:N` textures of materials may have N x N pixels

@@ -22,8 +22,8 @@ constexpr size_t maxWithCurves = 2048;
 /// equal constants do not change the text.
 class Writer {
 public:
-    Writer(const MaterialProgram& program, GlslMaterial& out)
-        : _program(program), _code(program.code()), _out(out) {}
+    Writer(const MaterialProgram& program, const GlslFeatures& features, GlslMaterial& out)
+        : _program(program), _features(features), _code(program.code()), _out(out) {}
 
     void write() {
         for (const auto* list : {&_code.surfaceCode, &_code.emissionCode, &_code.opacityCode})
@@ -42,8 +42,9 @@ public:
         emissionFunction();
         evalFunction();
         sampleFunction();
-        const std::string textures = glslTextureText(_textures, _code.textures, _out.textures,
-                                                     _out.parameters, _out.leftOut);
+        const std::string textures =
+            glslTextureText(_textures, _code.textures, _features.textureArrays, _out.textures,
+                            _out.parameters, _out.leftOut);
         std::string head = _rare ? "#include \"shaders/raster/moreNodes.glsl\"\n" : "";
         head += "layout(std140, binding = 1) uniform Parameters { vec4 parameters[" +
                 number(std::max(1, int(_out.parameters.size()))) +
@@ -155,7 +156,9 @@ private:
     /// from. Whether there is one is a parameter too: it hangs on roughness and ior.
     std::string curve(const LobeTemplate& t) {
         const bool schlick = t.prebuilt.kind == LobeKind::Schlick;
-        if (!t.constant || (!schlick && t.prebuilt.kind != LobeKind::Dielectric)) return "-1";
+        if (!_features.energyCurves || !t.constant ||
+            (!schlick && t.prebuilt.kind != LobeKind::Dielectric))
+            return "-1";
         const size_t first = _out.parameters.size(), width = schlick ? 4 : 1;
         const size_t size = 1 + EnergyCurve::nodeCount * width;
         if (first + size > maxWithCurves) return "-1";
@@ -424,6 +427,7 @@ private:
     }
 
     const MaterialProgram& _program;
+    const GlslFeatures& _features;
     const ProgramCode& _code;
     GlslMaterial& _out;
     std::string _text;
@@ -434,9 +438,9 @@ private:
 
 } // namespace
 
-GlslMaterial makeGlslMaterial(const MaterialProgram& program) {
+GlslMaterial makeGlslMaterial(const MaterialProgram& program, const GlslFeatures& features) {
     GlslMaterial out;
-    Writer(program, out).write();
+    Writer(program, features, out).write();
     return out;
 }
 

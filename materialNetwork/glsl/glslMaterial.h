@@ -31,6 +31,12 @@ struct GlslMaterial {
     bool emission = false;
 };
 
-GlslMaterial makeGlslMaterial(const MaterialProgram& program);
+/// What the text may use.
+struct GlslFeatures {
+    bool textureArrays = true; ///< else UDIM shows its first tile, and every texture has a unit
+    bool energyCurves = true;  ///< albedos of constant interfaces from curves in the parameters
+};
+
+GlslMaterial makeGlslMaterial(const MaterialProgram& program, const GlslFeatures& features = {});
 
 } // namespace patina

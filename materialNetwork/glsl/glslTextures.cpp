@@ -26,9 +26,9 @@ int addTable(const GlslTexture& texture, std::vector<glm::vec4>& parameters) {
 } // namespace
 
 std::string glslTextureText(const std::vector<int>& handles, const TextureSource* source,
-                            std::vector<GlslTexture>& textures, std::vector<glm::vec4>& parameters,
-                            std::vector<std::string>& leftOut) {
-    const bool many = int(handles.size()) > glslTextureUnits;
+                            bool arrays, std::vector<GlslTexture>& textures,
+                            std::vector<glm::vec4>& parameters, std::vector<std::string>& leftOut) {
+    const bool many = arrays && int(handles.size()) > glslTextureUnits;
     const int last = glslTextureUnits - 1;
     if (many)
         leftOut.push_back("more than " + std::to_string(glslTextureUnits) +
@@ -36,9 +36,13 @@ std::string glslTextureText(const std::vector<int>& handles, const TextureSource
                           "th are shown at one common size");
     std::string samplers, functions;
     int layers = 0;
-    bool arrays = false;
+    bool used = false;
     for (size_t i = 0; i < handles.size(); ++i) {
         TextureTiling tiling = source ? source->tiling(handles[i]) : TextureTiling();
+        if (!arrays && !tiling.tiles.empty()) {
+            leftOut.push_back("UDIM tiles: the first is shown everywhere");
+            tiling.tiles.clear();
+        }
         GlslTexture t;
         t.handle = handles[i];
         t.shared = many && int(i) >= last;
@@ -49,7 +53,7 @@ std::string glslTextureText(const std::vector<int>& handles, const TextureSource
             tiling.tiles.pop_back();
         t.tiles = tiling.tiles;
         if (t.shared) layers += std::max<int>(1, int(t.tiles.size()));
-        arrays |= t.array;
+        used |= t.array;
         const std::string sampler = "sampler" + std::to_string(t.unit);
         if (!t.shared || int(i) == last)
             samplers += "layout(binding = " + std::to_string(t.unit) + ") uniform " +
@@ -66,8 +70,7 @@ std::string glslTextureText(const std::vector<int>& handles, const TextureSource
                      call + "; }\n";
         textures.push_back(std::move(t));
     }
-    return (arrays ? "#include \"shaders/raster/textureArrays.glsl\"\n" : "") + samplers +
-           functions;
+    return (used ? "#include \"shaders/raster/textureArrays.glsl\"\n" : "") + samplers + functions;
 }
 
 } // namespace patina

@@ -26,8 +26,10 @@ constexpr int glslTextureUnits = 16;
 /// the units share the last one.
 /// @param parameters gets tables of the tiles
 /// @param leftOut gets what cannot be shown as it should
+/// @param arrays whether there may be arrays; else UDIM shows its first tile, and there may be more
+///        units than OpenGL promises
 std::string glslTextureText(const std::vector<int>& handles, const TextureSource* source,
-                            std::vector<GlslTexture>& textures, std::vector<glm::vec4>& parameters,
-                            std::vector<std::string>& leftOut);
+                            bool arrays, std::vector<GlslTexture>& textures,
+                            std::vector<glm::vec4>& parameters, std::vector<std::string>& leftOut);
 
 } // namespace patina

@@ -41,21 +41,33 @@ size_t digitsFrom(const std::string& text, size_t i) {
     return i;
 }
 
-/// One line in the words of ES: parameters[3] -> vec4(...), primvar(2, x) -> primvar2(x).
-std::string rewritten(const std::string& line, const std::vector<glm::vec4>& parameters) {
+/// One line in the words of ES: parameters[3] -> vec4(...), parameters[i] -> parameterAt(i),
+/// primvar(2, x) -> primvar2(x).
+std::string rewritten(const std::string& line, const std::vector<glm::vec4>& parameters,
+                      bool& looksUp) {
     static const std::string parameter = "parameters[", primvar = "primvar(";
     std::string out;
     for (size_t i = 0; i < line.size();) {
-        if (wordAt(line, i, parameter)) {
-            const size_t from = i + parameter.size(), to = digitsFrom(line, from);
-            out += literal(parameters[std::stoul(line.substr(from, to - from))]);
-            i = to + 1;
-        } else if (wordAt(line, i, primvar)) {
-            const size_t from = i + primvar.size(), to = digitsFrom(line, from);
-            out += "primvar" + line.substr(from, to - from) + "(";
-            i = to + 2;
-        } else
+        const bool isParameter = wordAt(line, i, parameter);
+        if (!isParameter && !wordAt(line, i, primvar)) {
             out += line[i++];
+            continue;
+        }
+        const size_t from = i + (isParameter ? parameter : primvar).size();
+        const size_t to = digitsFrom(line, from);
+        const std::string digits = line.substr(from, to - from);
+        if (!isParameter) {
+            out += "primvar" + digits + "(";
+            i = to + 2;
+        } else if (to > from && line[to] == ']') {
+            out += literal(parameters[std::stoul(digits)]);
+            i = to + 1;
+        } else {
+            const size_t end = line.find(']', from);
+            out += "parameterAt(" + line.substr(from, end - from) + ")";
+            i = end + 1;
+            looksUp = true;
+        }
     }
     return out;
 }
@@ -63,12 +75,14 @@ std::string rewritten(const std::string& line, const std::vector<glm::vec4>& par
 } // namespace
 
 GlslWebMaterial makeGlslWebMaterial(const MaterialProgram& program) {
-    const GlslMaterial desktop = makeGlslMaterial(program);
+    const GlslMaterial desktop = makeGlslMaterial(program, {false, false});
     GlslWebMaterial out;
-    out.textures = desktop.textures;
+    for (const GlslTexture& t : desktop.textures)
+        out.textures.push_back(t.handle);
     out.leftOut = desktop.leftOut;
     out.presence = desktop.presence;
     out.emission = desktop.emission;
+    bool looksUp = false;
     for (size_t from = 0; from < desktop.text.size();) {
         size_t to = desktop.text.find('\n', from);
         if (to == std::string::npos) to = desktop.text.size();
@@ -78,7 +92,14 @@ GlslWebMaterial makeGlslWebMaterial(const MaterialProgram& program) {
             if (line.find(" uniform Parameters ") != std::string::npos) continue;
             line = line.substr(line.find(") ") + 2);
         }
-        out.text += rewritten(line, desktop.parameters) + "\n";
+        out.text += rewritten(line, desktop.parameters, looksUp) + "\n";
+    }
+    if (looksUp) {
+        out.parameters = desktop.parameters;
+        out.text =
+            "uniform sampler2D parameterTable;\n"
+            "vec4 parameterAt(int i) { return texelFetch(parameterTable, ivec2(i, 0), 0); }\n" +
+            out.text;
     }
     return out;
 }

@@ -2,6 +2,8 @@
 
 #include "materialNetwork/cpu/materialProgram.h"
 
+#include <glm/glm.hpp>
+
 #include <string>
 #include <vector>
 
@@ -16,6 +18,9 @@ struct GlslWebMaterial {
     std::string text;
     std::vector<int> textures;        ///< TextureSource handle of each `sampler<i>`
     std::vector<std::string> leftOut; ///< as GlslMaterial::leftOut
+    /// Texels of a row `parameterTable`, where the text finds parameters by a number that it works
+    /// out; else empty.
+    std::vector<glm::vec4> parameters;
     bool presence = false;
     bool emission = false;
 };

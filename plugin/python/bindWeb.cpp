@@ -83,7 +83,14 @@ py::dict webMaterial(const Network& network, const MethodChoices& methods, int l
         glsl = makeGlslWebMaterial(*program);
     }
     py::dict dict;
-    dict["text"] = glsl.text;
+    std::string error;
+    dict["text"] = flattenShader("material", glsl.text, error).text;
+    if (!error.empty()) throw std::runtime_error(error);
+    py::list parameters;
+    for (const glm::vec4& p : glsl.parameters)
+        for (int c = 0; c < 4; ++c)
+            parameters.append(p[c]);
+    dict["parameters"] = parameters;
     dict["leftOut"] = glsl.leftOut;
     dict["presence"] = glsl.presence;
     dict["emission"] = glsl.emission;

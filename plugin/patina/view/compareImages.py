@@ -5,20 +5,20 @@ from patina.cli import compiled
 from patina.view import images, reference, shapes
 
 
-def _lit_scene(builder):
-    """A scene with the stage's direct lights and nothing else."""
+def lit_scene(file, set_texts=()):
+    """:returns: a scene with the direct lights of a stage and nothing else; an empty one without a stage"""
     module = compiled.load()
-    if not builder.scene:
-        return module.Scene()
+    scene = module.Scene()
+    if not file:
+        return scene
     from patina import stage as reader
     from patina.cli import openStage, overrides
 
-    stage = openStage.open_stage(builder.scene.file)
-    overrides.apply(stage, () if builder.arguments.stage else builder.arguments.set)
-    scene = module.Scene()
-    kept = {path for path, _ in module.web_lights(builder.scene.scene)["lights"]}
+    stage = openStage.open_stage(file)
+    overrides.apply(stage, set_texts)
     with scene.edit() as edit:
         reader.read_stage(stage, edit, reader.StageOptions(headlight=False))
+    kept = {path for path, _ in module.web_lights(scene)["lights"]}
     with scene.edit() as edit:
         for kind in ("geometry", "instancers", "lights", "cameras", "materials"):
             for path in scene.paths(kind):
@@ -33,11 +33,13 @@ def made(builder):
         return []
     width, samples = builder.arguments.compareWidth, builder.arguments.compareSamples
     environment = builder.environments[0]
+    file = builder.scene.file if builder.scene else None
+    set_texts = () if builder.arguments.stage else builder.arguments.set
     found = []
     for i, network in enumerate(builder.networks):
         picture = reference.render(network, shapes.sphere(), builder.shapes[0]["toWorld"],
                                    {**environment, "pixels": images.unpacked(environment)}, builder.camera, builder.eye,
-                                   width, samples, "embree", _lit_scene(builder), builder.methods)
+                                   width, samples, "embree", lit_scene(file, set_texts), builder.methods)
         image = {**images.half_rgb(np.nan_to_num(picture)), "wrap": ["clamp", "clamp"]}
         found.append({"material": i, "image": image})
     return found

@@ -41,4 +41,4 @@ def primvar_functions(primvars, count):
 
 def material_text(material, count):
     """Between the head and the end of the page's fragment shader."""
-    return primvar_functions(material["primvars"], count) + material["text"]
+    return primvar_functions(material["primvars"], count) + lean(material["text"])

@@ -29,7 +29,8 @@ def half_rgb(image):
             "nearest": False, "data": blobs.pack(blobs.half(image))}
 
 
-def _encoded(linear):
+def display_values(linear):
+    """Linear colours as a display takes them, 0 to 1."""
     x = np.clip(linear, 0.0, 1.0)
     return np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1.0 / 2.4) - 0.055)
 
@@ -41,7 +42,7 @@ def texture(found):
              "nearest": bool(found["nearest"])}
     if texels.size and float(texels.min()) >= 0.0 and float(texels.max()) <= 1.0:
         coded = texels.copy()
-        coded[..., :3] = _encoded(texels[..., :3])
+        coded[..., :3] = display_values(texels[..., :3])
         return {**entry, "format": "srgb8", "data": blobs.pack(np.round(coded * 255.0).astype(np.uint8))}
     return {**entry, "format": "rgba16", "data": blobs.pack(blobs.half(texels))}
 

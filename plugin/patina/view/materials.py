@@ -29,7 +29,7 @@ def _variant(name, made, chosen, count, textures):
         raise CommandError(f"{name} is too large for a page: its shader has {len(made['text']) // 1000} thousand "
                            f"characters, and browsers give up on more than {LONGEST_TEXT // 1000} thousand")
     return {"text": glslText.material_text(made, count), "presence": made["presence"],
-            "live": sorted(chosen), "textures": [textures.add(found) for found in made["textures"]]}
+            "parameters": [float(f"{x:.7g}") for x in made["parameters"]], "live": sorted(chosen), "textures": [textures.add(found) for found in made["textures"]]}
 
 
 def build(name, network, methods, textures):

@@ -1,5 +1,6 @@
 // The program of a material: the page's head, the generated text, the page's end.
 import * as THREE from "three";
+import { makeRows } from "./textures.js";
 
 export function fragmentText(data, material, variant) {
     const flags = variant.presence ? "#define PRESENCE\n" : "";
@@ -12,6 +13,8 @@ export function makeMaterial(data, index, needsAll, shared, textures) {
     const live = new Float32Array(4 * Math.max(material.inputs.length, 1));
     const uniforms = { ...shared, live: { value: live } };
     variant.textures.forEach((t, i) => { uniforms["sampler" + i] = { value: textures[t] }; });
+    if (variant.parameters.length)
+        uniforms.parameterTable = { value: makeRows([variant.parameters], variant.parameters.length / 4) };
     const made = new THREE.RawShaderMaterial({
         glslVersion: THREE.GLSL3, uniforms, side: THREE.DoubleSide,
         vertexShader: data.library.surface, fragmentShader: fragmentText(data, material, variant)

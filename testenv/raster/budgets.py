@@ -1,0 +1,59 @@
+"""How far the rasterizer may be from the path tracer, per scene: budgets.json beside this file. Budgets only go down,
+unless somebody writes down why one had to rise.
+
+budgets.json: `quick` and `full` are settings (samples, width); `scenes` maps a name to
+  same    true where both back ends have the same answer to direct light
+  why     what the rasterizer leaves out, where they differ by design
+  checks  what else stands for the scene: tests against other renderers or closed forms
+  quick   worst 8x8 block and bias of the mean that the test allows, from fixed seeds
+  full    what was measured: FLIP against direct light and against all light, RMSE, bias, seconds
+  raised  reasons of the budgets that rose
+"""
+import json
+import os
+
+FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "budgets.json")
+SLACK, LEAST = 1.1, 0.004  # between a measurement and the budget that it sets
+LARGEST_FLIP = 0.01        # where both have the same answer
+
+
+def load():
+    with open(FILE, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def save(budgets):
+    with open(FILE, "w", encoding="utf-8") as file:
+        json.dump(budgets, file, indent=1)
+        file.write("\n")
+
+
+def settle(entry, kind, found, reason=None):
+    """Sets budgets of one scene from a measurement.
+
+    :param entry: of the scene, changed in place
+    :param kind: "quick" (with slack) or "full" (as measured)
+    :param found: dict of measured numbers; bias counts by its size
+    :param reason: why a budget may rise
+    :returns: names of budgets that would have to rise and were left as they are"""
+    held = entry.setdefault(kind, {})
+    refused = []
+    for key, value in found.items():
+        if value is None:
+            continue
+        wanted = abs(value) * SLACK + LEAST if kind == "quick" else value
+        if key.startswith("seconds"):
+            held[key] = round(wanted, 1)
+        elif key not in held or abs(wanted) <= abs(held[key]):
+            held[key] = _rounded(wanted)
+        elif abs(wanted) > abs(held[key]) * 1.0001:
+            if reason is None:
+                refused.append(f"{kind} {key}: {_rounded(wanted)} above {held[key]}")
+            else:
+                entry.setdefault("raised", []).append(f"{kind} {key} {held[key]} -> {_rounded(wanted)}: {reason}")
+                held[key] = _rounded(wanted)
+    return refused
+
+
+def _rounded(value):
+    return float(f"{value:.3g}")

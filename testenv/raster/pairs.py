@@ -1,0 +1,96 @@
+"""One scene through both back ends, and the numbers of the pair."""
+import os
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+from patina.cli import imageMetrics
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+SCENES = os.path.join(ROOT, "testenv", "scenes")
+DIRECT, WHOLE = 1, 16  # longest paths of the path tracer: what the rasterizer draws, and what there is
+TRACED_SEED = 7        # the back ends share no random numbers
+
+
+def names():
+    """:returns: every test scene, as paths below testenv/scenes without suffix"""
+    found = []
+    for folder, _, files in os.walk(SCENES):
+        for file in files:
+            if file.endswith(".usda") and os.path.exists(os.path.join(folder, file)):
+                found.append(os.path.relpath(os.path.join(folder, file[:-5]), SCENES).replace(os.sep, "/"))
+    return sorted(found)
+
+
+def record(stage, image, *arguments):
+    """:returns: seconds that the command took
+    :raises RuntimeError: with the command's own words"""
+    start = time.monotonic()
+    process = subprocess.run([sys.executable, "-m", "patina", "record", stage, image, "--quiet", *arguments],
+                             capture_output=True, text=True)
+    if process.returncode != 0:
+        raise RuntimeError(process.stderr.strip())
+    return time.monotonic() - start
+
+
+def without_opengl():
+    """:returns: why the rasterizer cannot run here, or an empty text"""
+    import _patina
+
+    renderer = _patina.make_renderer("raster")
+    if renderer.progress()["backend"] == "raster":
+        return ""
+    scene = _patina.Scene()
+    renderer.start(scene, "/none", {}, _patina.Film())
+    return scene.warnings()[0]["message"]
+
+
+def pixels(image):
+    """:returns: linear float array (height, width, 3)"""
+    import _patina
+
+    found = _patina.read_image(str(image))
+    return np.array(found.pixels)[..., [found.channels.index(c) for c in "RGB"]]
+
+
+def numbers(raster, traced):
+    """:returns: a dict: `bias` of the mean, `rmse`, `relMSE`, `flip` (None where it cannot be measured), and `worst`, the
+    largest relative difference of a block of 8x8 pixels, which noise hardly reaches"""
+    found = imageMetrics.differences(raster, traced)
+    h, w = (n // 8 * 8 for n in raster.shape[:2])
+
+    def blocks(image):
+        return image[:h, :w].reshape(h // 8, 8, w // 8, 8, 3).mean(axis=(1, 3, 4))
+
+    a, b = blocks(raster), blocks(traced)
+    return {"bias": found["relativeMeanError"] or 0.0, "rmse": found["rmse"], "relMSE": found["relMSE"],
+            "flip": imageMetrics.mean_flip(raster, traced, True),
+            "worst": float(np.max(np.abs(a - b) / (b + 0.05 * max(traced.mean(), 1e-9))))}
+
+
+def command(name, samples, width):
+    return f"python testenv/raster/bothBackEnds.py OUTPUT {name} --samples {samples} --width {width}"
+
+
+def pair(name, folder, samples, width, depths=(DIRECT, WHOLE)):
+    """Renders one scene by the rasterizer once, and by the path tracer once per length of paths.
+
+    :returns: a dict: `name`, `command`, `raster` (array), `rasterSeconds`, and `traced`: depth -> dict of `image`,
+        `seconds` and numbers()
+    :raises RuntimeError: with the words of the command that failed"""
+    stage = os.path.join(SCENES, *name.split("/")) + ".usda"
+    flat = name.replace("/", "-")
+
+    def render(backend, *extra):
+        image = os.path.join(folder, f"{flat}.{backend}{''.join(extra[1::2])}.exr")
+        seconds = record(stage, image, "--backend", backend, "--samples", str(samples), "-w", str(width), *extra)
+        return pixels(image), seconds
+
+    row = {"name": name, "command": command(name, samples, width), "traced": {}}
+    row["raster"], row["rasterSeconds"] = render("raster")
+    for depth in depths:
+        image, seconds = render("embree", "--maxDepth", str(depth), "--seed", str(TRACED_SEED))
+        row["traced"][depth] = {"image": image, "seconds": seconds, **numbers(row["raster"], image)}
+    return row

@@ -1,0 +1,68 @@
+"""One HTML page of scenes by both back ends: a table of numbers, then the images and their difference."""
+import base64
+import html
+import os
+import struct
+import zlib
+
+import numpy as np
+
+from pairs import DIRECT, WHOLE
+
+STYLE = """body{font:14px sans-serif;margin:20px}td,th{padding:4px 10px;text-align:left;vertical-align:top}
+td.n{text-align:right}img{image-rendering:pixelated;width:288px}tr:nth-child(even){background:#f4f4f4}.bad{color:#b00}"""
+
+
+def png(array):
+    """:returns: an <img> of linear values, shown as sRGB"""
+    v = np.clip(np.nan_to_num(array), 0, 1)
+    v = np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055)
+    data = (v * 255 + 0.5).astype(np.uint8)
+    h, w = data.shape[:2]
+    raw = b"".join(b"\0" + data[y].tobytes() for y in range(h))
+
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    file = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", w, h, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
+    return f'<img alt="" src="data:image/png;base64,{base64.b64encode(file).decode()}">'
+
+
+def _flip(value):
+    return "-" if value is None else f"{value:.4f}"
+
+
+def _table(rows, remarks):
+    lines = ["<table><tr><th>scene<th>raster s<th>direct light: s<th>RMSE<th>FLIP<th>bias<th>all light: s<th>RMSE<th>FLIP"
+             "<th>bias<th>remark"]
+    for row in rows:
+        if "error" in row:
+            lines.append(f"<tr><td>{html.escape(row['name'])}<td colspan=10 class=bad>{html.escape(row['error'])}")
+            continue
+        cells = [f"<td>{html.escape(row['name'])}<td class=n>{row['rasterSeconds']:.1f}"]
+        for depth in (DIRECT, WHOLE):
+            t = row["traced"].get(depth)
+            cells.append("<td><td><td><td>" if t is None else
+                         f"<td class=n>{t['seconds']:.1f}<td class=n>{t['rmse']:.4f}<td class=n>{_flip(t['flip'])}"
+                         f"<td class=n>{100 * t['bias']:+.2f} %")
+        lines.append("<tr>" + "".join(cells) + f"<td>{html.escape(remarks.get(row['name'], ''))}")
+    return "\n".join(lines) + "</table>"
+
+
+def write(rows, folder, title, remarks=None):
+    """Writes index.html into the folder. :returns: its path"""
+    lines = [f"<!doctype html><meta charset=utf-8><title>Both back ends</title><style>{STYLE}</style>",
+             f"<h1>{html.escape(title)}</h1>", _table(rows, remarks or {}),
+             "<h2>Rasterizer; path tracer, direct light; all light; difference from direct light x 4</h2><table>"]
+    for row in rows:
+        if "error" in row:
+            continue
+        images = [t["image"] for t in row["traced"].values()]
+        lines.append(f"<tr><td><b>{html.escape(row['name'])}</b><br><code>{html.escape(row['command'])}</code><td>"
+                     + "<td>".join(png(i) for i in [row["raster"], *images, 4 * np.abs(row["raster"] - images[0])]))
+    lines.append("</table>")
+    path = os.path.join(folder, "index.html")
+    with open(path, "w", encoding="utf-8") as out:
+        out.write("\n".join(lines))
+    return path

@@ -1,0 +1,52 @@
+"""Energy, in every test scene and by both back ends: under a white sky, with no other light, nothing is brighter than the
+sky, and where nothing stands in the way the sky shows.
+
+Fixed seeds; a block's mean of 16 samples of a white sky scatters by less than the allowance, since no sample is far above 1.
+"""
+import numpy as np
+import pytest
+from pxr import Sdf, Usd, UsdLux
+
+import pairs
+from test_bothBackEnds import opengl  # noqa: F401  (skips where there is no OpenGL)
+
+BLOCK = 1.02   # brightest 8x8 block
+IMAGE = 1.002  # mean of the image
+WIDTH, SAMPLES = 32, 16
+
+
+def under_a_white_sky(name, path):
+    """Writes a stage over the scene whose only light is a dome of radiance 1."""
+    scene = f"{pairs.SCENES}/{name}.usda"
+    layer = Sdf.Layer.CreateNew(str(path))
+    layer.subLayerPaths.append(scene)
+    stage = Usd.Stage.Open(layer)
+    source = Usd.Stage.Open(scene)
+    for key in ("defaultPrim", "upAxis", "metersPerUnit", "timeCodesPerSecond", "startTimeCode", "endTimeCode"):
+        if source.HasAuthoredMetadata(key):
+            stage.SetMetadata(key, source.GetMetadata(key))
+    for prim in list(stage.Traverse()):
+        if prim.HasAPI(UsdLux.MeshLightAPI):
+            UsdLux.LightAPI(prim).CreateIntensityAttr(0.0)
+        elif prim.HasAPI(UsdLux.LightAPI):
+            prim.SetActive(False)
+    dome = UsdLux.DomeLight.Define(stage, "/WhiteSky")
+    dome.CreateIntensityAttr(1.0)
+    stage.GetRootLayer().Save()
+    return str(path)
+
+
+@pytest.mark.parametrize("backend", ["raster", "embree"])
+@pytest.mark.parametrize("name", pairs.names())
+def test_nothing_outshines_a_white_sky(name, backend, tmp_path):
+    if name.startswith("classic/"):
+        pytest.skip("Phong, Ward and the like do not keep energy; testenv/render/test_classicScenes.py holds their numbers")
+    if name == "lightMesh":
+        pytest.skip("its materials glow")
+    stage, image = under_a_white_sky(name, tmp_path / "white.usda"), str(tmp_path / "white.exr")
+    pairs.record(stage, image, "--backend", backend, "--samples", str(SAMPLES), "-w", str(WIDTH))
+    found = pairs.pixels(image)
+    assert np.isfinite(found).all() and found.max() > 0.05
+    h, w = (n // 8 * 8 for n in found.shape[:2])
+    blocks = found[:h, :w].reshape(h // 8, 8, w // 8, 8, 3).mean(axis=(1, 3))
+    assert blocks.max() <= BLOCK and found.mean() <= IMAGE, (blocks.max(), found.mean())

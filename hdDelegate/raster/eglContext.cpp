@@ -134,15 +134,25 @@ std::string text(GLenum name) {
 
 /// What OpenGL 4.5 leaves open and the shaders need, with a context current.
 bool isEnough(std::string& error) {
-    constexpr GLint needed = 3;
-    GLint blocks = 0;
-    gl.GetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blocks);
-    const std::string fault = glFault("storageBlocks");
-    if (!fault.empty()) blocks = std::atoi(fault.c_str());
-    if (blocks >= needed) return true;
-    error = "the driver gives vertex shaders " + std::to_string(blocks) +
-            " storage buffers, not the " + std::to_string(needed) + " that are needed";
-    return false;
+    struct Limit {
+        GLenum name;
+        GLint needed;
+        const char* what;
+    };
+    for (const Limit& limit :
+         {Limit{GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 3, "storage buffers in vertex shaders"},
+          Limit{GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS, 8, "storage buffers in fragment shaders"},
+          Limit{GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, 12, "bindings of storage buffers"}}) {
+        GLint there = 0;
+        gl.GetIntegerv(limit.name, &there);
+        const std::string fault = glFault("storageBlocks");
+        if (!fault.empty()) there = std::atoi(fault.c_str());
+        if (there >= limit.needed) continue;
+        error = "the driver has " + std::to_string(there) + " " + limit.what + ", not the " +
+                std::to_string(limit.needed) + " that are needed";
+        return false;
+    }
+    return true;
 }
 
 } // namespace

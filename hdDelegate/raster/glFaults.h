@@ -11,7 +11,7 @@ namespace patina {
 /// - `program:NAME`  a program whose first stage has that name does not compile (background,
 /// shadow)
 /// - `material:PATH` that of a material does not
-/// - `storageBlocks:N` vertex shaders may read N buffers
+/// - `storageBlocks:N` shaders may read N buffers
 /// - `textureSize:N` textures of materials may have N x N pixels
 /// @returns what stands behind the colon; empty without such a fault
 std::string glFault(const std::string& kind);

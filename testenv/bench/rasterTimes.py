@@ -41,7 +41,7 @@ class Noted:
 class Frames:
     def __init__(self, stage, size, backend):
         self.start = time.perf_counter()
-        self.renderer = _patina.make_renderer(backend)
+        self.backend, self.renderer = backend, _patina.make_renderer(backend)
         self.scene, self.film = _patina.Scene(), _patina.Film()
         with self.scene.edit() as edit:
             self.noted = Noted(edit)
@@ -58,6 +58,8 @@ class Frames:
         found = self.renderer.progress()
         if found["failed"]:
             sys.exit(found["error"])
+        if found["backend"] != self.backend:
+            sys.exit(self.scene.warnings()[0]["message"])
         shares = {name[len("seconds"):].lower(): found["statistics"].get(name, 0.0) for name in SHARES}
         return seconds, shares, float(np.mean(pixels))
 

@@ -54,6 +54,28 @@ def test_what_begins_rasterized_ends_path_traced(traced, tmp_path):
     np.testing.assert_array_equal(pixels, traced)
 
 
+def steps(images):
+    """:returns: the largest change of a 16x16 block's mean from image to image, as the change-over measures it"""
+    seen = [np.where(x <= 1.0, np.sqrt(np.maximum(x, 0.0)), 1.5 - 0.5 / np.maximum(x, 1.0)) for x in images]
+    height, width = seen[0].shape[:2]
+    blocks = [x.reshape(height // 16, 16, width // 16, 16, 3).mean(axis=(1, 3)) for x in seen]
+    return [float(abs(b - a).max()) for a, b in zip(blocks, blocks[1:])]
+
+
+def test_a_host_sees_no_jump_from_the_first_image_to_the_last(opengl, tmp_path):
+    script = tmp_path / "edits.txt"
+    script.write_text(f"set backend interactive\nframes {tmp_path}/first\nset samples 3\nframes {tmp_path}/edited\n"
+                      f"set backend embree\nrender\nwrite {tmp_path}/traced.exr\n", encoding="utf-8")
+    box = os.path.join(stages.SCENES, "diffuseBox.usda")  # half of its light is that between surfaces
+    hydraBuild.run_host(box, tmp_path / "image.exr", *HOST, "--edits", script)
+    first, edited = ([color(file) for file in sorted(tmp_path.glob(name + "*.exr"))] for name in ("first", "edited"))
+    # At the beginning is what the buffers held before: nothing, and the image before the edit.
+    for images in (first[1:], edited[1:]):
+        assert len(images) > 4
+        assert max(steps(images)) <= 0.041
+    np.testing.assert_array_equal(edited[-1], color(tmp_path / "traced.exr"))
+
+
 def test_without_opengl_one_warning_and_the_path_tracer(traced, tmp_path):
     for backend in ("raster", "interactive"):
         pixels, statistics, warnings = render(tmp_path, backend, "--set", "backend=" + backend,

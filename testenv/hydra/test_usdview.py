@@ -13,22 +13,27 @@ PICKED = "/World/tall"  # what the stage shows in the middle of its frame
 DRIVER = os.path.join(os.path.dirname(__file__), "usdview", "drive.py")
 
 
-@pytest.mark.parametrize("scene_index", [False, True], ids=["delegate", "sceneIndex"])
-def test_turn_pick_edit(tmp_path, scene_index):
+# "Patina GL" draws with a context of its own beside those of usdview's view and of Storm's parts of it.
+@pytest.mark.parametrize("renderer, plugin, size, scene_index", [
+    ("Patina", "HdPatinaRendererPlugin", "480x360", False),
+    ("Patina", "HdPatinaRendererPlugin", "480x360", True),
+    ("Patina GL", "HdPatinaRasterRendererPlugin", "160x120", False),
+], ids=["delegate", "sceneIndex", "raster"])
+def test_turn_pick_edit(tmp_path, renderer, plugin, size, scene_index):
     if not hydraBuild.xvfb() or not hydraBuild.has_qt():
         pytest.skip("Xvfb or PySide not found: usdview needs both")
     stage = os.path.join(stages.SCENES, "diffuseBox.usda")
     environment = hydraBuild.environment(
         scene_index, PATINA_DRIVE_SHADER="/World/materials/white/diffuse", PATINA_DRIVE_INPUT="color",
-        QT_QPA_PLATFORM="xcb", LIBGL_ALWAYS_SOFTWARE="1")
-    command = hydraBuild.xvfb() + [hydraBuild.folder("python"), DRIVER, str(tmp_path), stage, "--renderer", "Patina",
+        PATINA_DRIVE_SIZE=size, QT_QPA_PLATFORM="xcb", LIBGL_ALWAYS_SOFTWARE="1")
+    command = hydraBuild.xvfb() + [hydraBuild.folder("python"), DRIVER, str(tmp_path), stage, "--renderer", renderer,
                                    "--defaultsettings"]
     process = subprocess.run(command, env=environment, capture_output=True, text=True, errors="replace",
                              timeout=hydraBuild.TIMEOUT, check=False)
     assert process.returncode == 0, process.stdout[-2000:] + process.stderr[-4000:]
     with open(tmp_path / "result.json", encoding="utf-8") as file:
         result = json.load(file)
-    assert result["renderer"] == "HdPatinaRendererPlugin"
+    assert result["renderer"] == plugin
     assert all(shot["converged"] for shot in result["shots"])
     assert result["picked"] == result["selected"] == PICKED
     start, turned, edited = (color(tmp_path / f"{shot['name']}.png") for shot in result["shots"])

@@ -45,7 +45,8 @@ def _add_stage_flags(group):
 
 
 def _add_render_flags(group):
-    group.add_argument("--backend", default="embree", choices=["embree", "raster"], help="what renders (default: embree)")
+    group.add_argument("--backend", default="embree", choices=["embree", "raster"],
+                       help="what renders (default: embree, which also takes over where raster finds no OpenGL)")
     group.add_argument("--samples", type=_count, metavar="N",
                        help=f"samples per pixel, the most that are taken (default: {DEFAULT_SAMPLES}; with "
                             f"--tolerance or --seconds: {MOST_SAMPLES})")

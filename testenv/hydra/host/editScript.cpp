@@ -3,11 +3,13 @@
 #include <pxr/base/tf/stringUtils.h>
 #include <pxr/usd/sdf/layer.h>
 
+#include <chrono>
 #include <fstream>
 #include <functional>
 #include <map>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 namespace patina {
 
@@ -44,6 +46,24 @@ void repaint(const Step& step) {
         step.host.execute();
 }
 
+void writeFrames(const Step& step) {
+    using Clock = std::chrono::steady_clock;
+    const std::string prefix = step.next<std::string>();
+    const auto end = Clock::now() + std::chrono::minutes(10);
+    std::vector<float> before;
+    int count = 0;
+    for (bool whole = false; !whole;) {
+        if (Clock::now() > end) throw std::runtime_error("the image does not converge");
+        step.host.execute();
+        whole = step.host.isConverged();
+        HostImage image = step.host.read("color");
+        if (image.values != before)
+            writeExr(prefix + TfStringPrintf("%04d.exr", count++), step.host.readAll());
+        before.swap(image.values);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
 const std::map<std::string, std::function<void(const Step&)>>& steps() {
     static const std::map<std::string, std::function<void(const Step&)>> table = {
         {"session", replaceSession},
@@ -72,6 +92,7 @@ const std::map<std::string, std::function<void(const Step&)>>& steps() {
          [](const Step& s) {
              if (!s.host.render()) throw std::runtime_error("the image does not converge");
          }},
+        {"frames", writeFrames},
         {"write", [](const Step& s) { writeExr(s.next<std::string>(), s.host.readAll()); }},
     };
     return table;

@@ -19,6 +19,7 @@ namespace patina {
 ///     pause | resume | stop | restart
 ///     execute COUNT      repaints
 ///     render             repaints until converged
+///     frames PREFIX      the same; every image that is seen becomes PREFIX0000.exr, ...
 ///     write FILE.exr
 ///
 /// @throws std::runtime_error naming file and line

@@ -1,8 +1,9 @@
 #include "hdDelegate/embree/tileSchedule.h"
 
+#include "hdDelegate/film/relativeError.h"
+
 #include <algorithm>
 #include <climits>
-#include <cmath>
 
 namespace patina {
 
@@ -23,8 +24,7 @@ TileSchedule::TileSchedule(const Film& film, const RenderSettings& settings)
 }
 
 int TileSchedule::nextStep(int samples, int most) {
-    const int next = samples == 0 ? 1 : samples < 16 ? samples * 2 : (samples / 16 + 1) * 16;
-    return std::min(next, most);
+    return nextErrorStep(samples, most);
 }
 
 int TileSchedule::count(int tile) const {
@@ -68,20 +68,7 @@ int TileSchedule::samplesDone() const {
 }
 
 double TileSchedule::relativeError(const Tile& tile) const {
-    constexpr double meanOfHalfNormal = 0.79788456080286536; // sqrt(2 / pi)
-    // The variance of a pixel is known badly after few samples: the tile's pixels share theirs.
-    double variance = 0.0, luminance = 0.0, relative = 0.0;
-    int pixels = 0;
-    for (int y = tile.y0; y < tile.y1; ++y)
-        for (int x = tile.x0; x < tile.x1; ++x) {
-            const double v = _film.varianceOfMean(x, y), l = _film.luminance(x, y);
-            variance += v;
-            luminance += l;
-            relative += std::sqrt(v) / (l + 0.01);
-            ++pixels;
-        }
-    const double pooled = std::sqrt(variance / pixels) / (luminance / pixels + 0.01);
-    return meanOfHalfNormal * std::max(pooled * 0.5, relative / pixels);
+    return patina::relativeError(_film, tile.x0, tile.y0, tile.x1, tile.y1);
 }
 
 } // namespace patina

@@ -32,8 +32,7 @@ public:
     double fraction() const;
     int samplesDone() const; ///< of the tile with the fewest
 
-    /// Mean relative error (one standard deviation of the mean times sqrt(2/pi), over luminance
-    /// + 0.01) of a tile's pixels, as the tolerance is measured.
+    /// Of a tile's pixels, as of film/relativeError.h.
     double relativeError(const Tile& tile) const;
 
     static int nextStep(int samples, int most);

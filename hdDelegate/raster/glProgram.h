@@ -18,12 +18,14 @@ struct GlStage {
 /// A linked program. Made, used and destroyed with the same context current.
 class GlProgram {
 public:
+    /// Takes it from the ProgramCache where it is in there.
     /// @returns null with the driver's messages, files named, in `error`
     static std::unique_ptr<GlProgram> make(const std::vector<GlStage>& stages, std::string& error);
     ~GlProgram() { gl.DeleteProgram(_id); }
 
     void use() const { gl.UseProgram(_id); }
     GLuint id() const { return _id; }
+    bool isFromCache() const { return _fromCache; }
     /// -1, which OpenGL ignores, when the program has no such uniform.
     GLint uniform(const char* name) const { return gl.GetUniformLocation(_id, name); }
 
@@ -33,6 +35,7 @@ public:
 private:
     explicit GlProgram(GLuint id) : _id(id) {}
     GLuint _id;
+    bool _fromCache = false;
 };
 
 } // namespace patina

@@ -4,40 +4,58 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace patina {
 
-namespace {
-
-/// The extent of prims that can be drawn more or less finely. @returns false for others
-bool extentOf(const Geometry& prim, vec3& low, vec3& high) {
+RasterExtent::RasterExtent(const Geometry& prim) {
     if (prim.kind == GeometryKind::Implicit) {
         const Implicit& p = static_cast<const Implicit&>(prim);
         high = vec3(std::max({p.radius, p.radiusTop, 0.5f * p.height + p.radius}));
         low = -high;
-        return p.shape != ImplicitShape::Cube && p.shape != ImplicitShape::Plane;
+        refines = p.shape != ImplicitShape::Cube && p.shape != ImplicitShape::Plane;
     }
-    if (prim.kind != GeometryKind::Mesh) return false;
+    if (prim.kind != GeometryKind::Mesh) return;
     const Mesh& mesh = static_cast<const Mesh&>(prim);
-    if (mesh.scheme == SubdivisionScheme::None || mesh.points.empty()) return false;
+    if (mesh.scheme == SubdivisionScheme::None || mesh.points.empty()) return;
+    const std::vector<vec3>& points = mesh.points.first();
     low = vec3(INFINITY);
     high = vec3(-INFINITY);
-    for (const vec3& p : mesh.points.first())
+    for (const vec3& p : points)
         if (std::isfinite(p.x + p.y + p.z)) {
             low = glm::min(low, p);
             high = glm::max(high, p);
         }
-    return low.x <= high.x;
+    refines = low.x <= high.x;
+    double sum = 0.0;
+    const auto point = [&](size_t corner) {
+        const int i = mesh.faceVertexIndices[corner];
+        return i >= 0 && size_t(i) < points.size() ? points[size_t(i)] : vec3(0.0f);
+    };
+    size_t first = 0;
+    for (const int count : mesh.faceVertexCounts) {
+        if (count < 0 || first + size_t(count) > mesh.faceVertexIndices.size()) break;
+        for (size_t k = 2; k < size_t(count); ++k)
+            sum += 0.5 * glm::length(glm::cross(point(first + k - 1) - point(first),
+                                                point(first + k) - point(first)));
+        first += size_t(count);
+    }
+    area = std::isfinite(sum) ? float(sum) : 0.0f;
 }
 
-} // namespace
+size_t RasterExtent::trianglesFor(float edge) const {
+    if (!(area > 0.0f) || !(edge > 0.0f)) return SIZE_MAX;
+    // An equilateral triangle has sqrt(3) / 4 of the square of its edge.
+    return size_t(std::clamp(double(area) / (0.433 * double(edge) * double(edge)), 64.0, 1e9));
+}
 
-RasterDetail::RasterDetail(const Geometry& prim, const RasterCamera& camera,
-                           const RenderSettings& settings, bool displaced) {
-    vec3 low(0.0f), high(0.0f);
-    if (!(settings.edgeLength > 0.0f) || !extentOf(prim, low, high)) return;
+RasterDetail::RasterDetail(const RasterExtent& extent, const MotionTransform& transform,
+                           const RasterCamera& camera, const RenderSettings& settings,
+                           bool displaced) {
+    if (!(settings.edgeLength > 0.0f) || !extent.refines) return;
+    const vec3 &low = extent.low, &high = extent.high;
     _view = camera.view(vec2(0.0f), vec2(0.0f), 0.5f, low, high);
-    _toGroup = transformAt(prim.transform, camera.timeCode(0.5f));
+    _toGroup = transformAt(transform, camera.timeCode(0.5f));
     _center = 0.5f * (low + high);
     _radius = 0.5f * glm::length(high - low);
     _nearest = camera.camera().clipNear;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace patina {
@@ -190,12 +191,41 @@ void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<Shado
         drawCasters(scene, views[i], _shadowMaps, int(i));
 }
 
-void RasterPasses::drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass) {
-    // The first pass of a small scene draws all cells; a large one gets them by and by.
+/// The first pass of a small scene draws all cells; a large one gets them by and by.
+int RasterPasses::skyCells(const RasterScene& scene) {
     const size_t triangles = std::max<size_t>(1, scene.trianglesDrawn());
-    const int most = int(std::clamp<size_t>(2000000 / triangles, 4, 1000));
-    for (const RasterSky::Task& task : _sky.begin(pass, lights.seed(), _bounds, most))
+    return int(std::clamp<size_t>(2000000 / triangles, 4, 1000));
+}
+
+void RasterPasses::drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass) {
+    for (const RasterSky::Task& task : _sky.begin(pass, lights.seed(), _bounds, skyCells(scene)))
         drawCasters(scene, task.view, _sky.maps(), task.layer);
+}
+
+void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights, uint32_t taken,
+                            const std::function<void(uint32_t)>& moveTo) {
+    if (!lights.hasDome() || !lights.shadows()) return;
+    std::map<int, std::pair<uint32_t, RasterSky::Task>> last; // by cell
+    for (uint32_t pass = 0; pass < taken; ++pass)
+        for (const RasterSky::Task& task :
+             _sky.begin(pass, lights.seed(), _bounds, skyCells(scene)))
+            last[task.layer] = {pass, task};
+    std::multimap<uint32_t, RasterSky::Task> byPass;
+    for (const auto& item : last)
+        byPass.insert(item.second);
+    gl.BindVertexArray(_vertexArray);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    gl.DepthMask(GL_TRUE);
+    for (const auto& [pass, task] : byPass) {
+        moveTo(pass);
+        PassBlock b;
+        b.counts[2] = int(pass);
+        b.counts[3] = int(lights.seed());
+        _passBuffer.write(&b, sizeof b);
+        _passBuffer.bindUniform(0);
+        drawCasters(scene, task.view, _sky.maps(), task.layer);
+    }
 }
 
 void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,

@@ -6,6 +6,8 @@
 #include "hdDelegate/raster/rasterScene.h"
 #include "hdDelegate/raster/rasterSky.h"
 
+#include <functional>
+
 namespace patina {
 
 /// Draws passes over a scene and hands their pixels to a film. Lives with one context.
@@ -33,6 +35,11 @@ public:
     void draw(const RasterScene& scene, const RasterLights& lights, const RasterCamera& camera,
               uint32_t pass, uint32_t taken, vec2 offset, vec2 lens, float time, Film& film);
 
+    /// Draws what earlier passes have left for later ones, for a film that holds `taken` of them.
+    /// @param moveTo brings the scene to the shutter time of a pass
+    void resumeAt(const RasterScene& scene, const RasterLights& lights, uint32_t taken,
+                  const std::function<void(uint32_t)>& moveTo);
+
     /// What the driver's seconds go into, of all that was drawn since clearSeconds().
     enum Share { Aovs, Shadows, Surfaces, ReadBack, ShareCount };
     double seconds(Share share) const { return _seconds[share]; }
@@ -45,6 +52,7 @@ private:
     struct PassBlock;
     PassBlock block(const RasterView& view) const;
     void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);
+    static int skyCells(const RasterScene& scene);
     void drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass);
     void drawCasters(const RasterScene& scene, const ShadowView& view, const GlTexture& maps,
                      int layer) const;

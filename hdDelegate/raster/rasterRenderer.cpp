@@ -3,6 +3,7 @@
 #include "hdDelegate/film/pixelFilter.h"
 #include "hdDelegate/film/sampler.h"
 #include "hdDelegate/raster/deviceError.h"
+#include "hdDelegate/film/relativeError.h"
 #include "hdDelegate/raster/eglContext.h"
 #include "hdDelegate/raster/glFaults.h"
 #include "hdDelegate/raster/rasterPasses.h"
@@ -191,6 +192,9 @@ private:
             const std::lock_guard<std::mutex> lock(_mutex);
             _progress.statistics["secondsBuild"] = secondsSince(_started);
             _progress.statistics["trianglesStored"] = double(_raster->triangles());
+            _progress.statistics["bytes"] = double(_raster->bytes());
+            _progress.statistics["surfacesBuilt"] = double(_raster->shapesBuilt());
+            _progress.statistics["instancesWritten"] = double(_raster->instancesWritten());
             _progress.statistics["instances"] = double(_raster->instanceCount());
             _progress.statistics["programsBuilt"] = double(_raster->programsBuilt());
         }
@@ -201,13 +205,14 @@ private:
         const bool empty = window[2] < window[0] || window[3] < window[1];
         const uint32_t taken = empty ? 0 : _film->sampleCount(window[2], window[3]);
         const PixelFilter filter(_settings.filterRadius);
+        _passes->resumeAt(*_raster, *_lights, taken, [&](uint32_t pass) {
+            _raster->moveTo(state, _settings, camera.timeCode(numbersOf(pass, filter).time));
+        });
         auto saved = Clock::now();
         auto told = Clock::now() - std::chrono::seconds(1);
         for (uint32_t i = taken; i < uint32_t(std::max(1, _settings.samples)) && !_stop; ++i) {
-            Sampler numbers(0, 0, _settings.seed, i);
-            const vec2 offset = filter.sample(numbers.next2());
-            const vec2 lens = numbers.next2();
-            const float time = numbers.next2().x;
+            if (isGoodEnough(int(i))) break;
+            const auto [offset, lens, time] = numbersOf(i, filter);
             _raster->moveTo(state, _settings, camera.timeCode(time));
             _passes->draw(*_raster, *_lights, camera, i, i + 1, offset, lens, time, *_film);
             checkDevice(int(i) + 1);
@@ -233,6 +238,26 @@ private:
             if (!waitWhilePaused()) return;
             if (_settings.seconds > 0.0 && secondsSince(_started) > _settings.seconds) break;
         }
+    }
+
+    struct PassNumbers {
+        vec2 offset, lens;
+        float time;
+    };
+    PassNumbers numbersOf(uint32_t pass, const PixelFilter& filter) const {
+        Sampler numbers(0, 0, _settings.seed, pass);
+        const vec2 offset = filter.sample(numbers.next2());
+        const vec2 lens = numbers.next2();
+        return {offset, lens, numbers.next2().x};
+    }
+
+    /// Whether the image of so many passes meets the tolerance.
+    bool isGoodEnough(int passes) const {
+        if (!(_settings.tolerance > 0.0) || passes < std::max(2, _settings.minSamples) ||
+            !isErrorStep(passes))
+            return false;
+        const int* w = _passes->window();
+        return relativeError(*_film, w[0], w[1], w[2] + 1, w[3] + 1) <= _settings.tolerance;
     }
 
     /// With _mutex held.

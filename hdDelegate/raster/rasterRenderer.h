@@ -12,7 +12,7 @@ namespace patina {
 ///
 /// Approximations: light between surfaces is left out; what refracts shows the environment, not the
 /// scene behind; highlights found by sampling the BSDF are shadowed approximately; subsurface
-/// scattering shows as diffuse; adaptive sampling (tolerance) is not done; coloured transparency
+/// scattering shows as diffuse; coloured transparency
 /// does not colour what lies behind; media are not shown (which warns).
 /// @returns null with a one-line reason where there is no OpenGL 4.5
 std::unique_ptr<Renderer> makeRasterRenderer(std::string& error);

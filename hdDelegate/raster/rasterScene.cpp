@@ -1,6 +1,5 @@
 #include "hdDelegate/raster/rasterScene.h"
 
-#include "hdDelegate/raster/rasterDetail.h"
 #include "hdDelegate/scene/lightUnits.h"
 
 #include <algorithm>
@@ -130,13 +129,19 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     const bool displaced =
         std::any_of(wish.displacers.begin(), wish.displacers.end(),
                     [](const std::shared_ptr<const MaterialProgram>& p) { return p != nullptr; });
-    const RasterDetail detail(*prim, camera, settings, displaced);
+    auto& [measured, extent] = _extents[prim->path];
+    if (measured != prim) {
+        measured = prim;
+        extent = RasterExtent(*prim);
+    }
+    const RasterDetail detail(extent, prim->transform, camera, settings, displaced);
     std::map<float, std::vector<uint32_t>> byEdge;
     for (size_t i = 0; i < where.size(); ++i)
         byEdge[detail.edgeAt(where[i])].push_back(uint32_t(i));
     const size_t firstGroup = _groups.size();
     for (auto& [edge, list] : byEdge) {
         wish.edge = edge;
+        wish.edgeBudget = displaced ? SIZE_MAX : extent.trianglesFor(edge);
         RasterGroup group;
         group.prim = prim;
         group.shape = _shapes.get(wish);
@@ -219,6 +224,8 @@ void RasterScene::update(const SceneState& state, const RasterCamera& camera,
         addPrim(item.second, own, state, camera, settings, places);
     }
     _shapes.forgetUnused();
+    for (auto it = _extents.begin(); it != _extents.end();)
+        it = state.geometry.count(it->first) ? std::next(it) : _extents.erase(it);
     if (_draws.empty()) _boundsMin = _boundsMax = vec3(0.0f);
     _linkBuffer = GlBuffer(_links);
     upload();

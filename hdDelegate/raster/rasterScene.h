@@ -2,6 +2,7 @@
 
 #include "hdDelegate/raster/rasterCamera.h"
 #include "hdDelegate/raster/rasterCulling.h"
+#include "hdDelegate/raster/rasterDetail.h"
 #include "hdDelegate/raster/rasterEmitters.h"
 #include "hdDelegate/raster/rasterInstances.h"
 #include "hdDelegate/raster/rasterMaterials.h"
@@ -89,6 +90,7 @@ private:
     RasterMaterials _materials;
     std::vector<RasterDraw> _draws;
     RasterShapeCache _shapes;
+    std::map<std::string, std::pair<std::shared_ptr<const Geometry>, RasterExtent>> _extents;
     std::vector<RasterGroup> _groups;
     RasterEmitters _emitters;
     std::map<std::string, std::shared_ptr<const Light>> _meshLights; ///< by the mesh's path

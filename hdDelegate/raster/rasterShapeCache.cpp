@@ -26,8 +26,8 @@ bool serves(const RasterShapeCache::Wish& old, const RasterShapeCache::Wish& wis
 size_t storageLimit() {
     GLint64 limit = 0;
     gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-    // Draws of more triangles would gain nothing.
-    return std::clamp<size_t>(size_t(std::max<GLint64>(limit, 0)), 1 << 24, 1 << 27);
+    // Larger pieces would gain nothing, and take memory while they are made.
+    return std::clamp<size_t>(size_t(std::max<GLint64>(limit, 0)), 1 << 24, 1 << 26);
 }
 
 } // namespace
@@ -70,6 +70,7 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Wish& wish) {
     TessellationOptions options;
     options.shutterOpen = options.shutterClose = wish.timeCode;
     options.targetEdge = options.roundEdge = wish.edge;
+    options.edgeBudget = wish.edgeBudget;
     TriangleMesh mesh = rasterTriangles(*wish.prim, options, _diagnostics);
     if (mesh.positions.empty() || mesh.triangles.empty()) return shape;
     if (displaces(wish)) {

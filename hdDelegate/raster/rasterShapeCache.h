@@ -5,6 +5,7 @@
 #include "materialNetwork/cpu/materialProgram.h"
 #include "materialNetwork/diagnostics.h"
 
+#include <cstdint>
 #include <map>
 #include <memory>
 
@@ -25,8 +26,9 @@ public:
     /// What a shape is made of.
     struct Wish {
         std::shared_ptr<const Geometry> prim;
-        float edge = 0.0f;     ///< longest edge, object units; 0: as authored
-        float timeCode = 0.0f; ///< of points that move
+        float edge = 0.0f;            ///< longest edge, object units; 0: as authored
+        size_t edgeBudget = SIZE_MAX; ///< triangles that edges alone ask for; follows from both
+        float timeCode = 0.0f;        ///< of points that move
         std::vector<std::vector<std::string>> primvars; ///< that materials read, per surface
         /// Null where nothing displaces.
         std::vector<std::shared_ptr<const MaterialProgram>> displacers;

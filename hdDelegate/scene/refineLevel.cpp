@@ -61,6 +61,8 @@ int chooseRefineLevel(const Mesh& mesh, const PointSteps& points, const CageFace
         if (ratio > 1.0f) level = std::max(level, int(std::ceil(std::log2(std::min(ratio, 1e9f)))));
     }
     level = std::min(level, most);
+    while (level > floor && trianglesAt(mesh, faces, level) > double(options.edgeBudget))
+        --level;
     while (level > 0 && trianglesAt(mesh, faces, level) > double(options.triangleBudget))
         --level;
     if (level < floor)

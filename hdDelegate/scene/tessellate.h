@@ -3,6 +3,8 @@
 #include "hdDelegate/scene/triangleMesh.h"
 #include "materialNetwork/diagnostics.h"
 
+#include <cstdint>
+
 namespace patina {
 
 /// How finely, and when, shapes are drawn.
@@ -12,6 +14,7 @@ struct TessellationOptions {
         0.0f; ///< object units: subdivide until no edge is longer; 0: refineLevel only
     float roundEdge = 0.0f; ///< object units: implicit prims take fewer segments, while none is
                             ///< longer; 0: all 128 around
+    size_t edgeBudget = SIZE_MAX;    ///< targetEdge alone refines to no more triangles than this
     int maxRefineLevel = 6;          ///< 0..6
     size_t triangleBudget = 1000000; ///< a prim is not refined to more triangles than this
 };

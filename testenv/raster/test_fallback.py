@@ -49,7 +49,7 @@ NO_START = {
     "oldDriver": ({"MESA_GL_VERSION_OVERRIDE": "3.3"}, "no OpenGL 4.5 core profile"),
 }
 FAILS = {
-    "tooFewBuffers": ("storageBlocks:1", "1 storage buffers"),
+    "tooFewBuffers": ("storageBlocks:0", "0 storage buffers"),
     "shaderRefused": ("program:background", "asked for by PATINA_GL_FAULT"),
     "lostBefore": ("lost:0", "has reset the OpenGL context"),
     "lostMidway": ("lost:2", "has reset the OpenGL context"),

@@ -302,6 +302,18 @@ TEST(Subdivision, levelFollowsTheTargetEdge) {
     EXPECT_EQ(diagnostics.count(), 0);
 }
 
+TEST(Subdivision, edgesRefineWithinTheirBudgetAndLevelsBeyondIt) {
+    Diagnostics diagnostics;
+    Mesh cube = cubeMesh(SubdivisionScheme::CatmullClark);
+    TessellationOptions options;
+    options.targetEdge = 1e-6f;
+    options.edgeBudget = 1000; // 768 at level 3
+    EXPECT_EQ(tessellate(cube, options, diagnostics).refineLevel, 3);
+    cube.refineLevel = 4;
+    EXPECT_EQ(tessellate(cube, options, diagnostics).refineLevel, 4);
+    EXPECT_EQ(diagnostics.count(), 0);
+}
+
 TEST(Subdivision, flatBilinearMeshesAreNotRefinedByEdgeLength) {
     Diagnostics diagnostics;
     TessellationOptions options;

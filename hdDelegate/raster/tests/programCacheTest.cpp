@@ -1,0 +1,164 @@
+// Programs come back from disk as they went there; what is damaged is made anew.
+
+#include "hdDelegate/raster/programCache.h"
+#include "hdDelegate/raster/glProgram.h"
+#include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/tests/rasterTest.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+using namespace patina;
+namespace fs = std::filesystem;
+
+namespace {
+
+class ProgramCacheTest : public testing::Test {
+protected:
+    void SetUp() override {
+        char name[] = "/tmp/programCacheXXXXXX";
+        ASSERT_TRUE(mkdtemp(name));
+        _root = name;
+        setenv("PATINA_CACHE", name, 1);
+    }
+    void TearDown() override {
+        unsetenv("PATINA_CACHE");
+        fs::remove_all(_root);
+    }
+    std::vector<fs::path> files() const {
+        std::vector<fs::path> found;
+        std::error_code error;
+        for (const auto& entry : fs::recursive_directory_iterator(_root, error))
+            if (entry.is_regular_file()) found.push_back(entry.path());
+        return found;
+    }
+    fs::path _root;
+};
+
+std::unique_ptr<GlProgram> make(int value) {
+    std::string error;
+    auto program = GlProgram::make({{GL_COMPUTE_SHADER, "test",
+                                     "layout(local_size_x = 1) in;\n"
+                                     "layout(std430, binding = 0) buffer Result { int result; };\n"
+                                     "void main() { result = " +
+                                         std::to_string(value) + " + int(gl_WorkGroupID.y); }\n"}},
+                                   error);
+    EXPECT_TRUE(program) << error;
+    return program;
+}
+
+int run(const GlProgram& program) {
+    const GlBuffer result(16, nullptr);
+    result.bindStorage(0);
+    program.use();
+    gl.DispatchCompute(1, 1, 1);
+    gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    int value = 0;
+    result.read(&value, sizeof value);
+    return value;
+}
+
+#define PATINA_NEED_BINARIES()                                                                     \
+    GLint formats = 0;                                                                             \
+    gl.GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);                                       \
+    if (formats < 1) GTEST_SKIP() << "the driver gives no program binaries"
+
+} // namespace
+
+TEST_F(ProgramCacheTest, ComesBackFromDisk) {
+    PATINA_NEED_CONTEXT();
+    PATINA_NEED_BINARIES();
+    const auto first = make(41);
+    EXPECT_FALSE(first->isFromCache());
+    ASSERT_EQ(files().size(), 1u);
+    const auto second = make(41), other = make(42);
+    EXPECT_TRUE(second->isFromCache());
+    EXPECT_FALSE(other->isFromCache());
+    EXPECT_EQ(run(*first), 41);
+    EXPECT_EQ(run(*second), 41);
+    EXPECT_EQ(run(*other), 42);
+    EXPECT_EQ(files().size(), 2u);
+}
+
+TEST_F(ProgramCacheTest, DamagedFilesAreMadeAnew) {
+    PATINA_NEED_CONTEXT();
+    PATINA_NEED_BINARIES();
+    make(7);
+    ASSERT_EQ(files().size(), 1u);
+    const fs::path file = files()[0];
+    const auto size = fs::file_size(file);
+    for (const size_t at : {size_t(0), size_t(12), size_t(25), size_t(33), size_t(size / 2)}) {
+        std::fstream out(file, std::ios::in | std::ios::out | std::ios::binary);
+        out.seekg(std::streamoff(at));
+        const char byte = char(out.get() ^ 0x5a);
+        out.seekp(std::streamoff(at));
+        out.put(byte);
+        out.close();
+        const auto program = make(7);
+        EXPECT_FALSE(program->isFromCache()) << "byte " << at;
+        EXPECT_EQ(run(*program), 7);
+        EXPECT_TRUE(make(7)->isFromCache()) << "it is written again";
+    }
+    for (const size_t left : {size_t(0), size_t(20), size_t(size - 1)}) {
+        fs::resize_file(file, left);
+        EXPECT_FALSE(make(7)->isFromCache()) << left << " bytes";
+    }
+    EXPECT_EQ(gl.GetError(), GLenum(GL_NO_ERROR));
+}
+
+TEST_F(ProgramCacheTest, CanBeOffAndUnwritable) {
+    PATINA_NEED_CONTEXT();
+    for (const char* folder : {"", "/proc/no/such/folder", "/dev/null/x"}) {
+        setenv("PATINA_CACHE", folder, 1);
+        make(3);
+        const auto program = make(3);
+        EXPECT_FALSE(program->isFromCache());
+        EXPECT_EQ(run(*program), 3);
+    }
+    EXPECT_TRUE(files().empty());
+}
+
+TEST_F(ProgramCacheTest, ManyWritersAtOnce) {
+    {
+        PATINA_NEED_CONTEXT();
+        PATINA_NEED_BINARIES();
+    }
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 3; ++t)
+        threads.emplace_back([] {
+            std::string error;
+            const auto context = EglContext::create(error);
+            ASSERT_TRUE(context) << error;
+            const EglContext::Use use(*context);
+            for (int i = 0; i < 12; ++i) {
+                const auto program = make(100 + i % 4);
+                EXPECT_EQ(run(*program), 100 + i % 4);
+            }
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    EXPECT_EQ(files().size(), 4u) << "no temporary stays";
+}
+
+TEST_F(ProgramCacheTest, TheFolderStaysBounded) {
+    const fs::path folder = _root / "programs";
+    fs::create_directories(folder);
+    const auto now = fs::file_time_type::clock::now();
+    for (int i = 0; i < 10; ++i) {
+        const fs::path file = folder / (std::to_string(i) + ".glprogram");
+        std::ofstream(file) << std::string(1000, 'x');
+        fs::last_write_time(file, now - std::chrono::hours(10 - i));
+    }
+    std::ofstream(folder / "someone's notes.txt") << std::string(5000, 'x');
+    ProgramCache::trim(folder.string(), 10000);
+    EXPECT_EQ(files().size(), 11u) << "the limit is met";
+    ProgramCache::trim(folder.string(), 8000);
+    EXPECT_EQ(files().size(), 7u) << "three quarters are left";
+    EXPECT_FALSE(fs::exists(folder / "3.glprogram"));
+    EXPECT_TRUE(fs::exists(folder / "4.glprogram"));
+    EXPECT_TRUE(fs::exists(folder / "someone's notes.txt"));
+    ProgramCache::trim((_root / "none").string(), 1);
+}

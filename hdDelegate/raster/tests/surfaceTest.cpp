@@ -1,0 +1,96 @@
+// Meshes become buffers: corners that agree share a vertex, those that do not are kept apart.
+
+#include "hdDelegate/raster/rasterSurface.h"
+#include "hdDelegate/raster/tests/rasterTest.h"
+
+using namespace patina;
+
+namespace {
+
+/// Two triangles of a square that share an edge.
+TriangleMesh square() {
+    TriangleMesh mesh;
+    mesh.positions = {{vec3(0, 0, 0), vec3(1, 0, 0), vec3(1, 1, 0), vec3(0, 1, 0)}};
+    mesh.triangles = {uvec3(0, 1, 2), uvec3(0, 2, 3)};
+    mesh.triangleFace = {5, 9};
+    mesh.normals = {std::vector<vec3>(4, vec3(0, 0, 1))};
+    return mesh;
+}
+
+MeshAttribute attribute(const char* name, MeshAttribute::Rate rate, int components,
+                        std::vector<float> data) {
+    MeshAttribute a;
+    a.name = name;
+    a.rate = rate;
+    a.components = components;
+    a.data = std::move(data);
+    return a;
+}
+
+/// What the buffer of a chunk holds: bytes for so many vertices, primvars, triangles and indices.
+size_t bytesOf(size_t vertices, size_t primvars, size_t triangles) {
+    const auto up = [](size_t n) { return (n + 255) / 256 * 256; };
+    return up(vertices * 24) + up(std::max<size_t>(16, primvars * 16)) + up(triangles * 48) +
+           triangles * 12;
+}
+
+} // namespace
+
+TEST(RasterSurface, SmoothCornersShareVertices) {
+    PATINA_NEED_CONTEXT();
+    TriangleMesh mesh = square();
+    mesh.attributes.push_back(
+        attribute("st", MeshAttribute::Rate::PerVertex, 2, {0, 0, 1, 0, 1, 1, 0, 1}));
+    RasterSurfaceBuilder builder(mesh, 1 << 24);
+    const RasterSurface surface = builder.make(0, {"st", "missing"});
+    ASSERT_EQ(surface.chunks.size(), 1u);
+    EXPECT_EQ(surface.triangles, 2u);
+    EXPECT_EQ(surface.primvarBits, 1);
+    EXPECT_EQ(surface.chunks[0].indexCount(), 6);
+    EXPECT_EQ(surface.chunks[0].bytes(), bytesOf(4, 8, 2));
+}
+
+TEST(RasterSurface, SeamsKeepTheirCorners) {
+    PATINA_NEED_CONTEXT();
+    TriangleMesh mesh = square();
+    // The second triangle's corner at vertex 2 has another value.
+    mesh.attributes.push_back(
+        attribute("a", MeshAttribute::Rate::PerCorner, 1, {0, 1, 2, 0, 7, 3}));
+    mesh.attributes.push_back(attribute("face", MeshAttribute::Rate::Constant, 1, {4}));
+    RasterSurfaceBuilder builder(mesh, 1 << 24);
+    EXPECT_EQ(builder.make(0, {"a"}).chunks[0].bytes(), bytesOf(5, 5, 2));
+    EXPECT_EQ(builder.make(0, {"face"}).chunks[0].bytes(), bytesOf(4, 4, 2));
+    // Normals that differ keep corners apart, too.
+    mesh.normalRate = MeshAttribute::Rate::PerCorner;
+    mesh.normals = {
+        {vec3(0, 0, 1), vec3(0, 0, 1), vec3(0, 0, 1), vec3(1, 0, 0), vec3(1, 0, 0), vec3(1, 0, 0)}};
+    RasterSurfaceBuilder hard(mesh, 1 << 24);
+    EXPECT_EQ(hard.make(0, {}).chunks[0].bytes(), bytesOf(6, 0, 2));
+}
+
+TEST(RasterSurface, SubsetsAndPiecesHoldEveryTriangleOnce) {
+    PATINA_NEED_CONTEXT();
+    TriangleMesh mesh = square();
+    mesh.triangles.clear();
+    mesh.triangleFace.clear();
+    for (int i = 0; i < 1000; ++i) {
+        mesh.triangles.push_back(i % 2 ? uvec3(0, 1, 2) : uvec3(0, 2, 3));
+        mesh.triangleFace.push_back(i);
+        mesh.triangleSubset.push_back(uint16_t(i % 3 == 0));
+    }
+    RasterSurfaceBuilder builder(mesh, 48 * 100); // a hundred triangles in one storage binding
+    const RasterSurface rest = builder.make(0, {}), part = builder.make(1, {});
+    EXPECT_EQ(rest.triangles, 666u);
+    EXPECT_EQ(part.triangles, 334u);
+    EXPECT_EQ(rest.chunks.size(), 7u);
+    EXPECT_EQ(part.chunks.size(), 4u);
+    size_t indices = 0;
+    for (const RasterSurface* surface : {&rest, &part})
+        for (const RasterChunk& chunk : surface->chunks) {
+            EXPECT_LE(chunk.indexCount(), 300);
+            indices += size_t(chunk.indexCount());
+        }
+    EXPECT_EQ(indices, 3000u);
+    EXPECT_TRUE(builder.make(2, {}).chunks.empty());
+    EXPECT_EQ(gl.GetError(), GLenum(GL_NO_ERROR));
+}

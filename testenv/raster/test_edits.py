@@ -1,0 +1,164 @@
+"""Edits rebuild what they touch, and the image is that of a renderer which has drawn nothing before."""
+import os
+import sys
+
+import numpy as np
+import pytest
+
+import bothBackEnds
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "bench"))
+
+import rasterTimes  # noqa: E402
+
+SIZE = (64, 36)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def opengl():
+    reason = bothBackEnds.without_opengl()
+    if reason:
+        pytest.skip(reason)
+
+
+def frames_of(name):
+    return rasterTimes.Frames(os.path.join(bothBackEnds.SCENES, name + ".usda"), SIZE, "raster")
+
+
+def draw(frames):
+    """:returns: the image, and counts of what was built since the renderer was made"""
+    frames.draw(0.0)
+    counts = frames.renderer.progress()["statistics"]
+    return frames.film.resolve("color"), {k: counts[k] for k in ("surfacesBuilt", "instancesWritten", "programsBuilt")}
+
+
+EDITS = {  # what an edit may build: shapes, buffers of instances, programs
+    "camera": (lambda f: f.move(3), (0, 0, 0)),
+    "material": (lambda f: f.edit("/World/materials/green/diffuse", "color", [0.5, 0.1, 0.1]), (0, 0, 0)),
+    "light": (lambda f: f.edit("/World/key", "intensity", 3.0), (0, 0, 0)),
+    "nothing": (lambda f: None, (0, 0, 0)),
+}
+
+
+@pytest.mark.parametrize("name", sorted(EDITS))
+def test_edits_build_only_what_they_touch(name):
+    edit, allowed = EDITS[name]
+    frames, fresh = frames_of("instances"), frames_of("instances")
+    before, first = draw(frames)
+    edit(frames)
+    after, second = draw(frames)
+    edit(fresh)
+    expected, _ = draw(fresh)
+    np.testing.assert_array_equal(after, expected)
+    assert np.array_equal(before, after) == (name == "nothing")
+    assert tuple(second[k] - first[k] for k in ("surfacesBuilt", "instancesWritten", "programsBuilt")) == allowed
+
+
+def test_a_prim_that_changes_is_built_anew():
+    """Alone; the others keep their buffers."""
+    import _patina
+
+    points = np.array([[-1, 0, -1], [1, 0, -1], [1, 0, 1], [-1, 0, 1]], dtype=np.float32)
+
+    def mesh(edit, path, y, lift=0.0, transform=None):
+        values = {"points": points + np.float32([0, y, 0]) + np.float32([0, lift, 0]) * points[:, :1],
+                  "face_vertex_counts": [4], "face_vertex_indices": [0, 3, 2, 1]}
+        edit.set_mesh(path, **values, **({} if transform is None else {"transform": transform}))
+
+    def scene_with(changes):
+        scene = _patina.Scene()
+        with scene.edit() as edit:
+            mesh(edit, "/a", 0.0)
+            mesh(edit, "/b", 0.5)
+            edit.set_light("/sky", type="dome")
+            matrix = np.eye(4, dtype=np.float32)
+            matrix[3, :3] = 0.0, 0.3, 6.0
+            edit.set_camera("/camera", transform=matrix)
+        drawn = run(scene)
+        for change in changes:
+            with scene.edit() as edit:
+                change(edit)
+        return scene, drawn
+
+    renderer = _patina.make_renderer("raster")
+
+    def run(scene, by=None):
+        by, film = by or renderer, _patina.Film()
+        by.start(scene, "/camera", {"width": 48, "height": 32, "samples": 2}, film)
+        by.wait()
+        found = by.progress()
+        assert not found["failed"], found["error"]
+        return film.resolve("color"), found["statistics"]["surfacesBuilt"]
+
+    shift = np.eye(4, dtype=np.float32)
+    shift[3, 0] = 0.5
+    for change, built in ((lambda e: mesh(e, "/b", 0.5, lift=0.2), 1), (lambda e: mesh(e, "/b", 0.5), 0),
+                          (lambda e: mesh(e, "/b", 0.5, transform=shift), 0), (lambda e: mesh(e, "/c", 0.2), 1)):
+        scene, (before, first) = scene_with([change])
+        after, second = run(scene)
+        assert second - first == built
+        np.testing.assert_array_equal(after, run(scene, _patina.make_renderer("raster"))[0])
+
+
+@pytest.mark.parametrize("name", ["lightRect", "lightDome", "motionBlur"])
+def test_resuming_equals_one_render(tmp_path, name):
+    """Also where passes leave something to later ones, as the maps of the sky are."""
+    import _patina
+
+    frames = frames_of(name)
+
+    def render(samples, film, **settings):
+        frames.renderer.start(frames.scene, frames.info.camera,
+                              dict(frames.settings, samples=samples, aovs=["depth", "normal"], **settings), film)
+        frames.renderer.wait()
+        return {name: film.resolve(name) for name in ("color", "alpha", "variance", "depth", "normal", "sampleCount")}
+
+    whole = render(7, _patina.Film())
+    half = _patina.Film()
+    half.resume_token = "same"
+    render(3, half)
+    half.save_checkpoint(str(tmp_path / "half"))
+    loaded = _patina.Film()
+    loaded.load_checkpoint(str(tmp_path / "half"))
+    loaded.resume_token = "same"
+    for name, values in render(7, loaded).items():
+        np.testing.assert_array_equal(values, whole[name], err_msg=name)
+
+
+def test_tolerance_ends_a_render():
+    import _patina
+
+    frames = frames_of("lightRect")
+
+    def render(film=None, **settings):
+        film = film or _patina.Film()
+        frames.renderer.start(frames.scene, frames.info.camera, dict(frames.settings, **settings), film)
+        frames.renderer.wait()
+        count = np.unique(film.resolve("sampleCount"))
+        assert len(count) == 1
+        return int(count[0]), film
+
+    def error(film):
+        """As film/relativeError.h has it."""
+        v, c = (np.array(film.resolve(n), dtype=float) for n in ("variance", "color"))
+        c = c.reshape(v.shape + (-1,))[..., :3] @ [0.2126, 0.7152, 0.0722]
+        pooled = np.sqrt(v.mean()) / (c.mean() + 0.01)
+        return np.sqrt(2 / np.pi) * max(0.5 * pooled, (np.sqrt(v) / (c + 0.01)).mean())
+
+    few, film = render(samples=4, minSamples=4)
+    assert few == 4
+    tolerance = 0.5 * error(film)
+    taken, film = render(samples=512, minSamples=4, tolerance=tolerance)
+    assert 4 < taken < 512 and (taken % 16 == 0 or taken in (8, 16))
+    assert error(film) <= tolerance * 1.0001
+    fewer = {16: 8, 8: 4}.get(taken, taken - 16)
+    _, before = render(samples=fewer, minSamples=4)
+    assert error(before) > tolerance * 0.9999
+    # The most samples, the fewest, and a render that continues: it ends where the whole one did.
+    assert render(samples=5, minSamples=2, tolerance=tolerance * 1e-3)[0] == 5
+    assert render(samples=64, minSamples=32, tolerance=10.0)[0] == 32
+    part = _patina.Film()
+    part.resume_token = "same"
+    render(part, samples=max(3, taken - 2), minSamples=4)
+    assert render(part, samples=512, minSamples=4, tolerance=tolerance)[0] == taken
+    np.testing.assert_array_equal(part.resolve("color"), film.resolve("color"))

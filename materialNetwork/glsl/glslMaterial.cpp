@@ -384,8 +384,8 @@ private:
         line("MaterialEval materialEval(vec3 wi) { return materialEvalBut(wi, -1); }");
     }
 
-    /// What lights that go through lobes one by one have to know; LOBE_* of material.glsl. Only who
-    /// asks for it takes this text in.
+    /// What lights that go through lobes one by one have to know; only who asks for it takes this
+    /// text in.
     std::string traitsFunctions() const {
         std::string kinds = "int lobeKind(int i) {\n", alphas = "float lobeAlpha(int i) {\n",
                     places = "Frame lobeFrame(int i) {\n";
@@ -413,9 +413,11 @@ private:
             alphas += at + alpha + ";\n";
             places += at + frameOf(i) + ";\n";
         }
-        return "const int LOBES = " + number(int(_code.lobes.size())) + ";\n" + kinds +
-               "    return LOBE_OTHER;\n}\n" + alphas + "    return 0.0;\n}\n" + places +
-               "    return frames[0];\n}\n";
+        return "const int LOBE_DIFFUSE = 0, LOBE_SHEEN = 1, LOBE_OTHER = 3;\n"
+               "const int LOBE_MIRROR = 2; // reflects, by facets\n"
+               "const int LOBES = " +
+               number(int(_code.lobes.size())) + ";\n" + kinds + "    return LOBE_OTHER;\n}\n" +
+               alphas + "    return 0.0;\n}\n" + places + "    return frames[0];\n}\n";
     }
 
     void sampleFunction() {

@@ -49,12 +49,6 @@ struct MaterialSample {
 
 MaterialEval materialEvalBut(vec3 wi, int without);
 
-// Kinds of lobes, to lights that do not sample them.
-const int LOBE_DIFFUSE = 0;
-const int LOBE_SHEEN = 1;
-const int LOBE_MIRROR = 2; // reflects, by facets
-const int LOBE_OTHER = 3;
-
 float largest(vec3 c) {
     return max(c.x, max(c.y, c.z));
 }

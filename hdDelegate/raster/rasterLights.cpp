@@ -104,8 +104,8 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
         if (!isFinite(s.toLight)) s.toLight = vec3(0.0f, 0.0f, 1.0f);
         const float halfAngle = 0.5f * std::clamp(light.angle, 0.0f, 360.0f) * pi / 180.0f;
         const float sine = std::sin(0.5f * halfAngle);
-        g.cone.z = 2.0f * sine * sine;
-        g.cone.w = 2.0f * pi * g.cone.z;
+        const float gap = 2.0f * sine * sine;
+        g.cone = vec4(0.0f, 0.0f, gap, 2.0f * pi * gap);
         s.delta = !(g.cone.z > 0.0f);
         g.origin = vec4(s.toLight, 0.0f);
         s.weight = luminance(s.radiance) * (s.delta ? 1.0f : std::min(g.cone.w, pi));

@@ -117,6 +117,7 @@ CASES = {
                           "        color3f inputs:shadow:color = (0.5, 0.1, 0.1)", api="ShadowAPI"), 0.02, 0.1),
     "line": (light("CylinderLight", "        float inputs:intensity = 40\n        float inputs:length = 2\n"
                    "        float inputs:radius = 0.02\n        bool treatAsLine = 1"), 0.02, 0.1),
+    "sun": (light("DistantLight", "        float inputs:intensity = 2\n        float inputs:angle = 0"), 0.02, 0.1),
     "twoDomes": (light("DomeLight", "        color3f inputs:color = (0.2, 0.3, 0.6)", "sky", place="")
                  + light("DomeLight", "        asset inputs:texture:file = @./image.exr@\n"
                          "        float inputs:intensity = 0.5", "dome", place=""), 0.03, 0.15),

@@ -58,7 +58,21 @@ const std::vector<ChoicePoint>& choicePoints() {
                    "r), passes (1 - r) / (1 + r) straight on, and absorbs nothing"},
           {"sheet", "a single face: it reflects r and passes 1 - r straight on"},
           {"solid", "thin_walled is ignored, as in MaterialX's shaders: the surface refracts and "
-                    "bounds a medium"}}}};
+                    "bounds a medium"}}},
+        {"domeLight",
+         {{"sampled",
+           "rasterizer: a few directions per pass with a shadow map each, and samples of "
+           "the material; passes converge to the path tracer's direct light"},
+          {"filtered",
+           "rasterizer: each pass is free of noise: samples of the material look into "
+           "smaller versions of the image (Krivanek and Colbert 2008); blurs highlights "
+           "by the angle between samples"},
+          {"prefiltered", "rasterizer: rough mirrors look into images made at load for five "
+                          "roughnesses (split sum), diffuse surfaces into harmonics; cheapest, and "
+                          "without the stretch of highlights at grazing angles"},
+          {"harmonics", "rasterizer: diffuse and sheen by spherical harmonics of order 2 with the "
+                        "dominant light apart, all else filtered; hides sharp changes of the sky's "
+                        "light over the normal"}}}};
     return points;
 }
 

@@ -124,6 +124,8 @@ const std::vector<Row>& rows() {
                {"path", "ambientOcclusion"}),
         integer("ambientOcclusionSamples", "Ambient occlusion rays per hit",
                 &S::ambientOcclusionSamples, 1, 65536),
+        integer("environmentSamples", "Rasterizer: samples of domes", &S::environmentSamples, 4,
+                1024),
         flag("interactive", "Interactive (quick starts before speed)", &S::interactive, true),
     };
     return table;

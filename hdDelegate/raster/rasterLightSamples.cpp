@@ -147,10 +147,15 @@ RasterLights::choose(uint32_t pass, const ShadowBounds& bounds, int room) const 
 RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& emitters,
                                            const ShadowBounds& bounds, int mapSize) const {
     Sampled out;
-    int wanted = emitters.empty() || !_shadows ? 0 : 6 * emitterSamples;
-    const int forEmitters = wanted;
+    int wanted = 0;
     for (const Source& s : _sources)
         wanted += mapsOf(s, bounds);
+    const int emitterSamples =
+        emitters.empty()
+            ? 0
+            : std::clamp((maxMaps - wanted) / 6, leastEmitterSamples, mostEmitterSamples);
+    const int forEmitters = _shadows ? 6 * emitterSamples : 0;
+    wanted += forEmitters;
     const bool small = wanted > maxMaps;
     out.mapSize = small ? mapSize / 2 : mapSize;
     int room = (small ? maxSmallMaps : maxMaps) - forEmitters;
@@ -159,20 +164,22 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
         const Source& s = _sources[choice.first];
         taken[choice.first] = true;
         const uint32_t set = 100 + 16 * uint32_t(choice.first);
-        const int samples = s.kind == Dome ? _domeSamples : 1;
+        const int samples = s.kind == Dome ? std::max(_domeSamples, 1) : 1;
         for (int n = 0; n < samples; ++n) {
             const uint32_t index = pass * uint32_t(samples) + uint32_t(n);
             GpuLight g = draw(s, passNumbers(_seed, index, set));
             g.fade.w = choice.second;
             // The first of a dome also stands for what samples of the BSDF find.
             if (n > 0) g.radiance.w = float(MoreDome);
-            if (_shadows && s.shadows)
+            if (_shadows && s.shadows && s.kind == Dome && _domeSamples == 0)
+                g.shadow.x = 0.0f; // has no map of its own, but shadows
+            else if (_shadows && s.shadows)
                 castShadow(g, s.shadowCategory, passNumbers(_seed, index, set + 1).x, bounds, room,
                            out);
             out.lights.push_back(g);
         }
     }
-    takeEmitters(pass, emitters, bounds, out);
+    takeEmitters(pass, emitterSamples, emitters, bounds, out);
     out.taken = int(out.lights.size());
     for (size_t i = 0; i < _sources.size(); ++i)
         if (!taken[i] && _sources[i].fixed.inverse[2].w != 0.0f)
@@ -180,11 +187,11 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
     return out;
 }
 
-void RasterLights::takeEmitters(uint32_t pass, const RasterEmitters& emitters,
+void RasterLights::takeEmitters(uint32_t pass, int samples, const RasterEmitters& emitters,
                                 const ShadowBounds& bounds, Sampled& out) const {
-    for (uint32_t n = 0; n < uint32_t(emitterSamples) && !emitters.empty(); ++n) {
-        const vec2 u = passNumbers(_seed, pass * emitterSamples + n, 17);
-        const vec2 turn = passNumbers(_seed, pass * emitterSamples + n, 18);
+    for (uint32_t n = 0; n < uint32_t(samples); ++n) {
+        const vec2 u = passNumbers(_seed, pass * uint32_t(samples) + n, 17);
+        const vec2 turn = passNumbers(_seed, pass * uint32_t(samples) + n, 18);
         float within, chance;
         const RasterEmitter& e = emitters.choose(u.x, within, chance);
         // Uniform over the triangle (Turk 1990).
@@ -194,7 +201,7 @@ void RasterLights::takeEmitters(uint32_t pass, const RasterEmitters& emitters,
         g.normal = vec4(glm::normalize(glm::cross(e.edge1, e.edge2)), chance / e.area);
         g.radiance = vec4(e.radiance, float(Triangle));
         g.cone = vec4(0.0f, 0.0f, e.twoSided ? 1.0f : 0.0f, 0.0f);
-        g.fade.w = 1.0f / float(emitterSamples);
+        g.fade.w = 1.0f / float(samples);
         g.axis[2].w = float(e.category);
         if (_shadows) castShadow(g, -1, turn.x, bounds, maxSmallMaps, out);
         out.lights.push_back(g);

@@ -21,13 +21,6 @@ vec3 bilinear(const ImageRGB& image, const vec2& q) {
                     glm::mix(at(x0, y1), at(x1, y1), x - float(x0)), y - float(y0));
 }
 
-vec3 latlongDirection(int x, int y, int w, int h) {
-    const float longitude = (0.5f - (float(x) + 0.5f) / float(w)) * 2.0f * pi;
-    const float theta = (float(y) + 0.5f) / float(h) * pi;
-    return vec3(std::sin(theta) * std::sin(longitude), std::cos(theta),
-                std::sin(theta) * std::cos(longitude));
-}
-
 } // namespace
 
 float RectImage::sample(const vec2& u, vec2& q) const {
@@ -55,18 +48,23 @@ const RectImage* RasterLightTables::rect(const Light& light, LightImages& images
     double mean = 0.0;
     for (int y = 0; y < r.height; ++y)
         for (int x = 0; x < r.width; ++x) {
-            // The mean over the cell, by as many lookups as it has texels.
+            // Means over the cell: of its texels what is shown, and of what lies between them,
+            // which interpolation spreads from neighbours, the density.
             const int nx = (r.image->width + r.width - 1) / r.width;
             const int ny = (r.image->height + r.height - 1) / r.height;
-            vec3 sum(0.0f);
-            for (int k = 0; k < nx * ny; ++k) {
-                const vec2 at((float(x) + (float(k % nx) + 0.5f) / float(nx)) / float(r.width),
-                              (float(y) + (float(k / nx) + 0.5f) / float(ny)) / float(r.height));
-                sum += r.radiance(0.5f - at);
-            }
-            const vec3 value = glm::max(sum / float(nx * ny), vec3(0.0f));
-            _values.emplace_back(value, 0.0f);
-            weights.push_back(value.x + value.y + value.z);
+            const auto meanOf = [&](int across, int down) {
+                vec3 sum(0.0f);
+                for (int k = 0; k < across * down; ++k) {
+                    const vec2 in((float(k % across) + 0.5f) / float(across),
+                                  (float(k / across) + 0.5f) / float(down));
+                    const vec2 size = vec2(float(r.width), float(r.height));
+                    sum += r.radiance(0.5f - (vec2(float(x), float(y)) + in) / size);
+                }
+                return glm::max(sum / float(across * down), vec3(0.0f));
+            };
+            _values.emplace_back(meanOf(nx, ny), 0.0f);
+            const vec3 dense = meanOf(std::max(nx, 4), std::max(ny, 4));
+            weights.push_back(dense.x + dense.y + dense.z);
             mean += double(weights.back());
         }
     mean /= double(weights.size());
@@ -119,48 +117,15 @@ ProfileTable RasterLightTables::profile(const Light& light) {
     return out;
 }
 
-int RasterLightTables::dome(std::shared_ptr<const EnvironmentMap> map) {
-    for (size_t i = 0; i < _domes.size(); ++i)
-        if (_domes[i] == map) return int(i);
-    _domes.push_back(std::move(map));
-    return int(_domes.size()) - 1;
+int RasterLightTables::add(const std::vector<vec4>& values) {
+    const int first = int(_values.size());
+    _values.insert(_values.end(), values.begin(), values.end());
+    return first;
 }
 
 void RasterLightTables::upload() {
     _buffer = GlBuffer(_values);
     _values = {};
-    if (_domes.empty()) return;
-    int w = 1024; // finer than the image, so that interpolating twice does not blur it
-    for (const auto& map : _domes)
-        while (w < 4 * map->width() && w < 2048)
-            w *= 2;
-    const int h = w / 2, dw = densityWidth, dh = dw / 2, layers = int(_domes.size());
-    _domeMaps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_RGBA32F, w, h, layers, 0);
-    _domeDensities = GlTexture(GL_TEXTURE_2D_ARRAY, GL_R32F, dw, dh, layers);
-    std::vector<vec4> image(size_t(w) * size_t(h));
-    std::vector<float> density(size_t(dw) * size_t(dh));
-    for (int k = 0; k < layers; ++k) {
-        const EnvironmentMap& map = *_domes[size_t(k)];
-        for (int y = 0; y < h; ++y)
-            for (int x = 0; x < w; ++x)
-                image[size_t(y) * size_t(w) + size_t(x)] =
-                    vec4(map.radiance(latlongDirection(x, y, w, h)), 1.0f);
-        for (int y = 0; y < dh; ++y)
-            for (int x = 0; x < dw; ++x)
-                density[size_t(y) * size_t(dw) + size_t(x)] =
-                    map.pdf(latlongDirection(x, y, dw, dh));
-        gl.TextureSubImage3D(_domeMaps.id(), 0, 0, 0, k, w, h, 1, GL_RGBA, GL_FLOAT, image.data());
-        gl.TextureSubImage3D(_domeDensities.id(), 0, 0, 0, k, dw, dh, 1, GL_RED, GL_FLOAT,
-                             density.data());
-    }
-    gl.GenerateTextureMipmap(_domeMaps.id());
-    _domeMaps.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    _domeMaps.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    _domeMaps.parameter(GL_TEXTURE_WRAP_S, GL_REPEAT);
-    _domeMaps.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    _domeDensities.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    _domeDensities.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    _domeDensities.parameter(GL_TEXTURE_WRAP_S, GL_REPEAT);
 }
 
 } // namespace patina

@@ -27,11 +27,10 @@ struct ProfileTable {
     int first = -1, thetas = 0, phis = 0;
 };
 
-/// What shaders look up of lights: images of rects, profiles, and images of domes.
+/// What shaders look up of lights in one buffer: images of rects, profiles, harmonics of domes.
 class RasterLightTables {
 public:
     static constexpr int largestImage = 512; ///< texels along a side; larger ones are averaged
-    static constexpr int densityWidth = 512;
 
     explicit RasterLightTables(Diagnostics& diagnostics) : _diagnostics(diagnostics) {}
 
@@ -39,22 +38,18 @@ public:
     const RectImage* rect(const Light& light, LightImages& images);
     /// The IES profile of a light, scaled as the light wants it.
     ProfileTable profile(const Light& light);
-    /// Adds the image of a dome. @returns its layer
-    int dome(std::shared_ptr<const EnvironmentMap> map);
+    /// Values of any kind. @returns the place of the first
+    int add(const std::vector<vec4>& values);
 
-    /// Makes buffers and textures of all that was added.
+    /// Makes the buffer of all that was added.
     void upload();
     const GlBuffer& buffer() const { return _buffer; }
-    const GlTexture& domeMaps() const { return _domeMaps; } ///< empty where no dome has an image
-    const GlTexture& domeDensities() const { return _domeDensities; }
 
 private:
     Diagnostics& _diagnostics;
     std::vector<vec4> _values;
     std::vector<std::unique_ptr<RectImage>> _rects;
-    std::vector<std::shared_ptr<const EnvironmentMap>> _domes;
     GlBuffer _buffer;
-    GlTexture _domeMaps, _domeDensities;
 };
 
 } // namespace patina

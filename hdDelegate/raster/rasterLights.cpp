@@ -3,6 +3,7 @@
 #include "hdDelegate/scene/lightShaping.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "materialNetwork/diagnostics.h"
+#include "materialNetwork/methods.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,10 +44,17 @@ int categoryOf(const std::string& link, const std::map<std::string, int>& catego
 
 RasterLights::RasterLights(const SceneState& state, const RenderSettings& settings,
                            RasterInstances& places, float timeCode, int domeSamples,
-                           LightImages& images, const std::map<std::string, int>& categories,
-                           Diagnostics& diagnostics)
+                           LightImages& images, RasterDomes& domes,
+                           const std::map<std::string, int>& categories, Diagnostics& diagnostics)
     : _tables(diagnostics), _domeSamples(domeSamples), _seed(uint32_t(settings.seed)),
       _shadows(settings.enableShadows) {
+    const std::string method = chosenMethod(settings.methods, "domeLight");
+    _domeMethod = method == "filtered"      ? DomeMethod::Filtered
+                  : method == "prefiltered" ? DomeMethod::Prefiltered
+                  : method == "harmonics"   ? DomeMethod::Harmonics
+                                            : DomeMethod::Sampled;
+    if (_domeMethod != DomeMethod::Sampled) _domeSamples = 0;
+    domes.begin();
     if (settings.enableSceneLights)
         for (const auto& item : state.lights) {
             const Light& light = *item.second;
@@ -54,14 +62,15 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
             if (light.type == LightType::Mesh) continue; // see RasterEmitters
             for (const RasterPlace& place : places.places(light.group))
                 add(light, place.groupToWorld * transformAt(light.transform, timeCode), settings,
-                    images, categories, diagnostics);
+                    images, domes, categories, diagnostics);
         }
     _tables.upload();
+    domes.upload(_domeMethod == DomeMethod::Prefiltered);
 }
 
 void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSettings& settings,
-                       LightImages& images, const std::map<std::string, int>& categories,
-                       Diagnostics& diagnostics) {
+                       LightImages& images, RasterDomes& domes,
+                       const std::map<std::string, int>& categories, Diagnostics& diagnostics) {
     Source s;
     s.radiance = glm::max(lightRadiance(light, toWorld), vec3(0.0f));
     if (!isFinite(s.radiance) && light.normalize) s.radiance = vec3(0.0f);
@@ -95,31 +104,18 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
         if (!isFinite(s.toLight)) s.toLight = vec3(0.0f, 0.0f, 1.0f);
         const float halfAngle = 0.5f * std::clamp(light.angle, 0.0f, 360.0f) * pi / 180.0f;
         const float sine = std::sin(0.5f * halfAngle);
-        g.cone.z = 2.0f * sine * sine;
-        g.cone.w = 2.0f * pi * g.cone.z;
+        const float gap = 2.0f * sine * sine;
+        g.cone = vec4(0.0f, 0.0f, gap, 2.0f * pi * gap);
         s.delta = !(g.cone.z > 0.0f);
         g.origin = vec4(s.toLight, 0.0f);
         s.weight = luminance(s.radiance) * (s.delta ? 1.0f : std::min(g.cone.w, pi));
         break;
     }
-    case LightType::Dome: {
-        s.kind = Dome;
-        s.domeToWorld = rotationOf(toWorld);
-        int layer = -1;
-        if (!light.textureFile.empty()) {
-            s.environment = images.environment(light.textureFile, light.textureColorSpace,
-                                               environmentFormat(light.textureFormat), light.path,
-                                               "inputs:texture:file");
-            layer = _tables.dome(s.environment);
-        }
-        for (int i = 0; i < 3; ++i)
-            g.axis[i] = vec4(s.domeToWorld[i], 0.0f);
-        g.cone = vec4(float(layer), float(_domeSamples), 0.0f, 0.0f);
-        g.origin = vec4(s.radiance, 0.0f);
+    case LightType::Dome:
+        addDome(s, light, toWorld, images, domes);
         cameraVisible &= settings.domeLightCameraVisibility;
         _hasDome |= s.radiance != vec3(0.0f);
         break;
-    }
     default:
         if (!addShape(s, light, toWorld, images, diagnostics)) return;
     }
@@ -128,7 +124,49 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
     g.inverse[1].w = light.specular;
     g.inverse[2].w = cameraVisible && !s.delta ? 1.0f : 0.0f;
     if (s.delta) g.origin.w = 1.0f;
-    if (s.radiance != vec3(0.0f)) _sources.push_back(std::move(s));
+    if (s.radiance == vec3(0.0f)) return;
+    _sources.push_back(s);
+    if (light.type == LightType::Dome && s.sunIrradiance != vec3(0.0f)) {
+        Source sun = s;
+        sun.kind = Distant;
+        sun.delta = true;
+        sun.toLight = s.domeToWorld * s.sunDirection;
+        sun.radiance = s.radiance * s.sunIrradiance;
+        sun.weight = luminance(sun.radiance);
+        sun.environment = nullptr;
+        sun.fixed.origin = vec4(sun.toLight, 1.0f);
+        sun.fixed.cone = vec4(1.0f, 0.0f, 0.0f, 0.0f);
+        sun.fixed.inverse[2].w = 0.0f;
+        _sources.push_back(sun);
+    }
+}
+
+/// The image, and where the harmonics light surfaces also those and the dominant light.
+void RasterLights::addDome(Source& s, const Light& light, const mat4& toWorld, LightImages& images,
+                           RasterDomes& domes) {
+    s.kind = Dome;
+    s.domeToWorld = rotationOf(toWorld);
+    GpuLight& g = s.fixed;
+    int layer = -1, first = -1;
+    if (!light.textureFile.empty()) {
+        s.environment = images.environment(light.textureFile, light.textureColorSpace,
+                                           environmentFormat(light.textureFormat), light.path,
+                                           "inputs:texture:file");
+        layer = domes.layer(s.environment);
+        if (_domeMethod == DomeMethod::Harmonics || _domeMethod == DomeMethod::Prefiltered) {
+            const SkyHarmonics& sky = domes.harmonics(s.environment);
+            std::vector<vec4> values;
+            for (const vec3& c : sky.irradiance)
+                values.emplace_back(c, 0.0f);
+            first = _tables.add(values);
+            s.sunDirection = sky.sunDirection;
+            s.sunIrradiance = sky.sunIrradiance;
+        }
+    }
+    for (int i = 0; i < 3; ++i)
+        g.axis[i] = vec4(s.domeToWorld[i], 0.0f);
+    g.cone = vec4(float(layer), float(_domeSamples), float(first), 0.0f);
+    g.origin = vec4(s.radiance, 0.0f);
 }
 
 /// The shapes, and the points and lines that stand for them, by the rules of LightEmitter.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hdDelegate/lights/areaShape.h"
+#include "hdDelegate/raster/rasterDomes.h"
 #include "hdDelegate/raster/rasterEmitters.h"
 #include "hdDelegate/raster/rasterInstances.h"
 #include "hdDelegate/raster/rasterLight.h"
@@ -16,15 +17,16 @@ namespace patina {
 /// them, which then count more, so that the mean of the passes is right.
 class RasterLights {
 public:
-    static constexpr int emitterSamples = 2; ///< of all glowing triangles together, per pass
-    static constexpr int maxMaps = 32;       ///< shadow maps per pass in the full size
-    static constexpr int maxSmallMaps = 128; ///< in half of it, where lights need more
-    static constexpr int maxUnshadowed = 64; ///< lights without shadows per pass
+    static constexpr int leastEmitterSamples = 2; ///< of all glowing triangles together, per pass
+    static constexpr int mostEmitterSamples = 5;  ///< where lights leave room for their shadows
+    static constexpr int maxMaps = 32;            ///< shadow maps per pass in the full size
+    static constexpr int maxSmallMaps = 128;      ///< in half of it, where lights need more
+    static constexpr int maxUnshadowed = 64;      ///< lights without shadows per pass
 
-    /// @param domeSamples per pass
+    /// @param domeSamples per pass, where domes are sampled
     /// @param categories of light and shadow links, see RasterScene
     RasterLights(const SceneState& state, const RenderSettings& settings, RasterInstances& places,
-                 float timeCode, int domeSamples, LightImages& images,
+                 float timeCode, int domeSamples, LightImages& images, RasterDomes& domes,
                  const std::map<std::string, int>& categories, Diagnostics& diagnostics);
 
     /// What a pass knows of the lights.
@@ -44,7 +46,9 @@ public:
     const RasterLightTables& tables() const { return _tables; }
 
 private:
-    /// The numbers are those of pass.glsl.
+    /// How domes light; see the choice point `domeLight`.
+    enum class DomeMethod { Sampled, Filtered, Prefiltered, Harmonics };
+    /// The numbers are those of lights.glsl.
     enum Kind { Rect, Disk, Sphere, Cylinder, Point, Distant, Dome, MoreDome, Line, Triangle };
     struct Source {
         Kind kind = Point;
@@ -56,27 +60,31 @@ private:
         bool delta = false, shadows = true;
         int shadowCategory = -1;
         mat3 domeToWorld{1.0f};
+        vec3 sunDirection{0.0f}, sunIrradiance{0.0f}; ///< of a dome, in its frame
         std::shared_ptr<const EnvironmentMap> environment;
         const RectImage* image = nullptr;
     };
 
     void add(const Light& light, const mat4& toWorld, const RenderSettings& settings,
-             LightImages& images, const std::map<std::string, int>& categories,
+             LightImages& images, RasterDomes& domes, const std::map<std::string, int>& categories,
              Diagnostics& diagnostics);
+    void addDome(Source& source, const Light& light, const mat4& toWorld, LightImages& images,
+                 RasterDomes& domes);
     bool addShape(Source& source, const Light& light, const mat4& toWorld, LightImages& images,
                   Diagnostics& diagnostics);
     GpuLight draw(const Source& source, vec2 u) const;
     int mapsOf(const Source& source, const ShadowBounds& bounds) const;
     std::vector<std::pair<size_t, float>> choose(uint32_t pass, const ShadowBounds& bounds,
                                                  int room) const;
-    void takeEmitters(uint32_t pass, const RasterEmitters& emitters, const ShadowBounds& bounds,
-                      Sampled& out) const;
+    void takeEmitters(uint32_t pass, int samples, const RasterEmitters& emitters,
+                      const ShadowBounds& bounds, Sampled& out) const;
     /// @param most maps that there is room for; a light that needs more is not shadowed
     void castShadow(GpuLight& light, int category, float turn, const ShadowBounds& bounds, int most,
                     Sampled& out) const;
 
     RasterLightTables _tables;
     std::vector<Source> _sources;
+    DomeMethod _domeMethod = DomeMethod::Sampled;
     int _domeSamples = 1;
     uint32_t _seed = 0;
     bool _shadows = true, _hasDome = false;

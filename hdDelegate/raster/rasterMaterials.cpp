@@ -10,6 +10,12 @@ RasterMaterials::RasterMaterials(Diagnostics& diagnostics)
     : _diagnostics(diagnostics), _textures(diagnostics), _uploaded(_textures, diagnostics) {}
 
 void RasterMaterials::update(const SceneState& state, const RenderSettings& settings) {
+    // Text that the default method does not need is kept from the driver: compiling it takes long.
+    const std::string method = chosenMethod(settings.methods, "domeLight");
+    _lighting = method == "filtered"      ? "#define DOME_METHOD DOME_FILTERED\n"
+                : method == "prefiltered" ? "#define DOME_METHOD DOME_PREFILTERED\n"
+                : method == "harmonics"   ? "#define DOME_METHOD DOME_HARMONICS\n"
+                                          : "";
     for (auto it = _materials.begin(); it != _materials.end();) {
         const auto found = state.materials.find(it->first);
         const auto now = found != state.materials.end() && settings.enableSceneMaterials
@@ -66,7 +72,7 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
     const std::string head = "#define PRIMVARS " + std::to_string(primvars) + "\n" +
                              (glsl.presence ? "#define PRESENCE\n" : "") +
                              "#define MATERIAL_GLOWS " + (glsl.emission ? "true\n" : "false\n");
-    auto& shared = _programs[head + glsl.text + (faulty ? "faulty" : "")];
+    auto& shared = _programs[head + _lighting + glsl.text + (faulty ? "faulty" : "")];
     if (shared) return shared;
     const GlStage vertex{GL_VERTEX_SHADER, "surface",
                          head + "#include \"shaders/raster/surface.vert.glsl\"\n"};
@@ -80,7 +86,8 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
     programs->color =
         GlProgram::make({vertex,
                          {GL_FRAGMENT_SHADER, "material",
-                          surface + "#include \"shaders/raster/lighting.frag.glsl\"\n"}},
+                          surface + _lighting + (_lighting.empty() ? "" : glsl.traitsText) +
+                              "#include \"shaders/raster/lighting.frag.glsl\"\n"}},
                         error);
     if (programs->color)
         programs->aovs =

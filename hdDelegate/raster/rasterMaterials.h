@@ -52,6 +52,7 @@ private:
     std::shared_ptr<const RasterPrograms> build(const GlslMaterial& glsl, int primvars,
                                                 const std::string& user);
 
+    std::string _lighting; ///< text in front of the lighting: methods in force
     Diagnostics& _diagnostics;
     TextureSystem _textures;
     std::map<std::string, Cached> _materials;

@@ -266,6 +266,7 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
 }
 
 void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
+                        const RasterDomes& domes, int environmentSamples,
                         const RasterCamera& camera, uint32_t pass, uint32_t taken, vec2 offset,
                         vec2 lens, float time, Film& film) {
     const RasterLights::Sampled sampled =
@@ -283,14 +284,16 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     b.counts[3] = int(lights.seed());
     b.extra = vec4(1.0f, camera.camera().exposureScale, float(taken), 0.0f);
     b.lightInfo[0] = int(sampled.lights.size());
-    if (const GlTexture& map = lights.tables().domeMaps()) {
+    if (const GlTexture& map = domes.maps()) {
         map.bind(16);
-        lights.tables().domeDensities().bind(17);
+        domes.densities().bind(17);
+        if (domes.prefiltered()) domes.prefiltered().bind(20);
         b.lightInfo[1] = map.levels() - 1;
         b.extra.x = float(map.width()) * float(map.height());
     }
     const bool sky = lights.hasDome() && lights.shadows();
     if (sky) b.lightInfo[2] = RasterSky::side;
+    b.lightInfo[3] = std::clamp(environmentSamples, 4, 1024);
     _passBuffer.write(&b, sizeof b);
     _passBuffer.bindUniform(0);
     gl.BindVertexArray(_vertexArray);

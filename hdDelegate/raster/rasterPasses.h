@@ -32,8 +32,10 @@ public:
     /// One sample of every pixel.
     /// @param pass number of its samples; @param taken how many passes there are with this one
     /// @param offset of the sample from the pixels' centres; lens, time as of RasterCamera::view()
-    void draw(const RasterScene& scene, const RasterLights& lights, const RasterCamera& camera,
-              uint32_t pass, uint32_t taken, vec2 offset, vec2 lens, float time, Film& film);
+    /// @param environmentSamples of domes per pixel, where they are filtered
+    void draw(const RasterScene& scene, const RasterLights& lights, const RasterDomes& domes,
+              int environmentSamples, const RasterCamera& camera, uint32_t pass, uint32_t taken,
+              vec2 offset, vec2 lens, float time, Film& film);
 
     /// Draws what earlier passes have left for later ones, for a film that holds `taken` of them.
     /// @param moveTo brings the scene to the shutter time of a pass

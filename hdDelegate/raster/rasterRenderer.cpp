@@ -115,6 +115,7 @@ private:
         _passes.reset();
         _raster.reset();
         _images.reset();
+        _domes.reset();
         _builtFor.reset();
     }
 
@@ -161,6 +162,7 @@ private:
                 throw DeviceError("the driver does not take the shaders: " + oneLine(error));
             _raster = std::make_unique<RasterScene>(_scene->diagnostics());
             _images = std::make_unique<LightImages>(_scene->diagnostics());
+            _domes = std::make_unique<RasterDomes>();
             _builtFor = _scene;
         }
         _raster->update(state, camera, _settings, _stop);
@@ -169,8 +171,8 @@ private:
         const int domeSamples = _raster->trianglesDrawn() > 1000000 ? 1 : 4;
         RasterInstances places(state, _settings, camera.timeCode(0.5f));
         _lights = std::make_unique<RasterLights>(state, _settings, places, camera.timeCode(0.5f),
-                                                 domeSamples, *_images, _raster->categories(),
-                                                 _scene->diagnostics());
+                                                 domeSamples, *_images, *_domes,
+                                                 _raster->categories(), _scene->diagnostics());
     }
 
     void render(const SceneState& state, const Camera& cameraPrim) {
@@ -214,7 +216,8 @@ private:
             if (isGoodEnough(int(i))) break;
             const auto [offset, lens, time] = numbersOf(i, filter);
             _raster->moveTo(state, _settings, camera.timeCode(time));
-            _passes->draw(*_raster, *_lights, camera, i, i + 1, offset, lens, time, *_film);
+            _passes->draw(*_raster, *_lights, *_domes, _settings.environmentSamples, camera, i,
+                          i + 1, offset, lens, time, *_film);
             checkDevice(int(i) + 1);
             {
                 const std::lock_guard<std::mutex> lock(_mutex);
@@ -326,6 +329,7 @@ private:
     std::unique_ptr<RasterScene> _raster;
     std::unique_ptr<RasterLights> _lights;
     std::unique_ptr<LightImages> _images;
+    std::unique_ptr<RasterDomes> _domes;
 
     std::thread _thread;
     std::mutex _control;

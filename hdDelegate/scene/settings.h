@@ -48,6 +48,9 @@ struct RenderSettings {
     std::string integrator = "path";  ///< path, ambientOcclusion
     int ambientOcclusionSamples = 16; ///< rays per camera hit, with ambientOcclusion
 
+    int environmentSamples = 16; ///< of domes per pixel and pass in the rasterizer, 4 to 1024, where
+                                 ///< its method `domeLight` filters them
+
     std::vector<std::string> aovs; ///< besides color and alpha: names of standardAov()
 
     std::string checkpointFile; ///< the renderer saves the film here now and then; empty: never

@@ -51,6 +51,7 @@ public:
                 "]; };\nvec4 materialParameter(int i) { return parameters[i]; }\n" + textures;
         _out.text = head + _text;
         _out.albedoText = albedoFunction();
+        _out.traitsText = traitsFunctions();
         if (_out.parameters.empty()) _out.parameters.emplace_back(0.0f);
         _out.presence = !_program.isOpaque();
         _out.emission = _program.hasEmission();
@@ -384,6 +385,42 @@ private:
         line("    return sum;");
         line("}");
         line("MaterialEval materialEval(vec3 wi) { return materialEvalBut(wi, -1); }");
+    }
+
+    /// What lights that go through lobes one by one have to know; only who asks for it takes this
+    /// text in.
+    std::string traitsFunctions() const {
+        std::string kinds = "int lobeKind(int i) {\n", alphas = "float lobeAlpha(int i) {\n",
+                    places = "Frame lobeFrame(int i) {\n";
+        for (size_t i = 0; i < _code.lobes.size(); ++i) {
+            const std::string at = "    if (i == " + number(int(i)) + ") return ";
+            const std::string lobe = "lobe" + number(int(i));
+            std::string kind = "LOBE_OTHER", alpha = "0.0";
+            switch (_code.lobes[i].prebuilt.kind) {
+            case LobeKind::OrenNayar:
+            case LobeKind::Burley:
+            case LobeKind::Subsurface: kind = "LOBE_DIFFUSE"; break;
+            case LobeKind::Sheen: kind = "LOBE_SHEEN"; break;
+            case LobeKind::Dielectric:
+            case LobeKind::Schlick:
+                kind = lobe + ".mode == SCATTER_R ? LOBE_MIRROR : LOBE_OTHER";
+                alpha = "sqrt(" + lobe + ".alpha.x * " + lobe + ".alpha.y)";
+                break;
+            case LobeKind::Conductor:
+                kind = lobe + ".retro < 0.0 ? LOBE_OTHER : LOBE_MIRROR";
+                alpha = "sqrt(" + lobe + ".alpha.x * " + lobe + ".alpha.y)";
+                break;
+            default: break;
+            }
+            kinds += at + kind + ";\n";
+            alphas += at + alpha + ";\n";
+            places += at + frameOf(i) + ";\n";
+        }
+        return "const int LOBE_DIFFUSE = 0, LOBE_SHEEN = 1, LOBE_OTHER = 3;\n"
+               "const int LOBE_MIRROR = 2; // reflects, by facets\n"
+               "const int LOBES = " +
+               number(int(_code.lobes.size())) + ";\n" + kinds + "    return LOBE_OTHER;\n}\n" +
+               alphas + "    return 0.0;\n}\n" + places + "    return frames[0];\n}\n";
     }
 
     void sampleFunction() {

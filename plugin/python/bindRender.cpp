@@ -69,6 +69,7 @@ const std::map<std::string, Field>& fields() {
         {"excludePaths", field(&RenderSettings::excludePaths)},
         {"integrator", field(&RenderSettings::integrator)},
         {"ambientOcclusionSamples", field(&RenderSettings::ambientOcclusionSamples)},
+        {"environmentSamples", field(&RenderSettings::environmentSamples)},
         {"aovs", field(&RenderSettings::aovs)},
         {"checkpointFile", field(&RenderSettings::checkpointFile)},
         {"checkpointSeconds", field(&RenderSettings::checkpointSeconds)},

@@ -17,12 +17,18 @@ bool isLit(Light l) {
     return isLinked(vIds.z, int(l.axis2.w));
 }
 
+// The dominant light of a dome, which is apart from its harmonics only.
+bool isSunOfDome(Light l) {
+    return int(l.radiance.w) == LIGHT_DISTANT && l.origin.w > 0.0 && l.cone.x != 0.0;
+}
+
 // Light from one light's sample.
 vec3 fromLight(Light l) {
     int kind = int(l.radiance.w);
     vec3 wi = l.sampled.xyz;
     float density = l.normal.w; // by solid angle
     vec3 radiance = l.radiance.xyz * l.fade.w;
+    if (kind == LIGHT_DOME && l.cone.y == 0.0) return vec3(0.0); // see skyLight()
     if (l.sampled.w != 0.0) {
         vec3 d = l.sampled.xyz - point.position;
         float d2 = max(dot(d, d), 1e-20);
@@ -71,6 +77,7 @@ vec3 along(MaterialSample s) {
         vec3 radiance = l.radiance.xyz;
         float density, seen = 1.0;
         if (kind == LIGHT_DOME) {
+            if (l.cone.y == 0.0) continue;
             density = l.cone.y * domePdf(l, s.wi);
             float texel = 4.0 * PI / max(extra.x, 1.0);
             float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(pdf * extra.z * texel, 1e-20));
@@ -102,6 +109,10 @@ vec3 along(MaterialSample s) {
     return sum;
 }
 
+#ifdef DOME_METHOD
+#include "shaders/raster/sky.glsl"
+#endif
+
 // What the surface gives off: its material's glow, and what a mesh light makes of it.
 vec3 glow() {
     vec3 own = materialEmission(point.view);
@@ -124,7 +135,7 @@ void main() {
     materialSetup();
     for (int i = 0; i < counts.x; ++i) {
         Light l = lights[i];
-        if (isLit(l)) color += fromLight(l);
+        if (isLit(l) && !isSunOfDome(l)) color += fromLight(l);
     }
     vec3 found = vec3(0.0);
     for (int i = 0; i < counts.y; ++i) {
@@ -135,5 +146,8 @@ void main() {
         if (s.event != 0) found += along(s);
     }
     color += found / float(max(counts.y, 1));
+#ifdef DOME_METHOD
+    color += skyLight();
+#endif
     outColor = vec4(color * extra.y, 1.0);
 }

@@ -13,7 +13,7 @@ layout(binding = 19) uniform sampler2DArrayShadow skyMaps;
 vec3 offSurface(vec3 wi, float texel) {
     float side = dot(point.geometricNormal, wi) < 0.0 ? -1.0 : 1.0;
     float sine = sqrt(max(1.0 - pow(dot(point.geometricNormal, wi), 2.0), 0.0));
-    return point.position + point.geometricNormal * (side * texel * (0.75 + 1.5 * sine));
+    return point.position + point.geometricNormal * (side * texel * (0.3 + 0.6 * sine));
 }
 
 // Whether a light's sample reaches a point, as far as its maps tell.

@@ -67,6 +67,9 @@ def _add_render_flags(group):
                        help="radius of the pixel filter in pixels; 0.5 is a box (default: 1)")
     group.add_argument("--edgeLength", type=_positive, default=4.0, metavar="PIXELS",
                        help="subdivision surfaces are refined until edges are this short (default: 4)")
+    group.add_argument("--environmentSamples", type=_environment_samples, default=16, metavar="N",
+                       help="rasterizer: samples of domes per pixel and pass, 4 to 1024, where --method domeLight is not "
+                            "sampled (default: 16)")
     methods.add_flag(group)
     group.add_argument("--cullStyle", default="nothing", metavar="STYLE",
                        choices=["nothing", "back", "front", "backUnlessDoubleSided", "frontUnlessDoubleSided"],
@@ -137,7 +140,7 @@ def settings_of(arguments):
         "checkpointSeconds": arguments.checkpointSeconds,
     }
     for name in ("tolerance", "seconds", "threads", "seed", "maxDepth", "rouletteDepth", "indirectClamp",
-                 "filterRadius", "edgeLength", "cullStyle"):
+                 "filterRadius", "edgeLength", "environmentSamples", "cullStyle"):
         settings[name] = getattr(arguments, name)
     if arguments.minSamples is not None:
         settings["minSamples"] = arguments.minSamples
@@ -192,6 +195,10 @@ def _integer(text, least, most):
 
 def _count(text):
     return _integer(text, 1, 2**31 - 1)
+
+
+def _environment_samples(text):
+    return _integer(text, 4, 1024)
 
 
 def _size(text):

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "hdDelegate/lights/environmentMap.h"
+#include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/skyHarmonics.h"
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace patina {
+
+/// The images of domes as textures, one layer each. Kept from one build of the lights to the next;
+/// what stays the same is not made again.
+class RasterDomes {
+public:
+    static constexpr int densityWidth = 512;
+
+    void begin() { _wanted.clear(); }
+    /// @returns the layer of an image
+    int layer(const std::shared_ptr<const EnvironmentMap>& map);
+    const SkyHarmonics& harmonics(const std::shared_ptr<const EnvironmentMap>& map);
+    /// Makes the textures of all layers since begin().
+    /// @param prefiltered those of PrefilteredSky too
+    void upload(bool prefiltered);
+
+    const GlTexture& maps() const { return _maps; } ///< empty where no dome has an image
+    const GlTexture& densities() const { return _densities; }
+    const GlTexture& prefiltered() const { return _prefiltered; } ///< levels of a dome in a row
+
+private:
+    void uploadPrefiltered();
+
+    using Maps = std::vector<std::shared_ptr<const EnvironmentMap>>;
+    Maps _wanted, _uploaded, _filtered;
+    std::map<std::shared_ptr<const EnvironmentMap>, SkyHarmonics> _harmonics;
+    GlTexture _maps, _densities, _prefiltered;
+};
+
+} // namespace patina

@@ -70,7 +70,7 @@ def test_a_prim_that_changes_is_built_anew():
         with scene.edit() as edit:
             mesh(edit, "/a", 0.0)
             mesh(edit, "/b", 0.5)
-            edit.set_light("/sky", type="dome")
+            edit.set_light("/sun", type="distant", intensity=3.0, angle=1.0)
             matrix = np.eye(4, dtype=np.float32)
             matrix[3, :3] = 0.0, 0.3, 6.0
             edit.set_camera("/camera", transform=matrix)

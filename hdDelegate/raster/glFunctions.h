@@ -50,6 +50,7 @@ namespace patina {
     X(EnableVertexArrayAttrib, ENABLEVERTEXARRAYATTRIB)                                            \
     X(Finish, FINISH)                                                                              \
     X(Flush, FLUSH)                                                                                \
+    X(CopyImageSubData, COPYIMAGESUBDATA)                                                          \
     X(GenerateTextureMipmap, GENERATETEXTUREMIPMAP)                                                \
     X(GetError, GETERROR)                                                                          \
     X(GetGraphicsResetStatus, GETGRAPHICSRESETSTATUS)                                              \

@@ -71,7 +71,11 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
     const bool faulty = !user.empty() && glFault("material") == user;
     const std::string head = "#define PRIMVARS " + std::to_string(primvars) + "\n" +
                              (glsl.presence ? "#define PRESENCE\n" : "") +
-                             "#define MATERIAL_GLOWS " + (glsl.emission ? "true\n" : "false\n");
+                             "#define MATERIAL_GLOWS " + (glsl.emission ? "true\n" : "false\n") +
+                             (glsl.transmits ? "#define MATERIAL_TRANSMITS\n" : "") +
+                             (glsl.holds ? "#define MATERIAL_HOLDS\n" : "") +
+                             (glsl.volumeOnly ? "#define MATERIAL_IS_VOLUME\n" : "") +
+                             "#define MATERIAL_IS_THIN " + (glsl.thin ? "true\n" : "false\n");
     auto& shared = _programs[head + _lighting + glsl.text + (faulty ? "faulty" : "")];
     if (shared) return shared;
     const GlStage vertex{GL_VERTEX_SHADER, "surface",
@@ -102,8 +106,15 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
              {GL_FRAGMENT_SHADER, "material",
               surface + "#include \"shaders/raster/presence.frag.glsl\"\n"}},
             error);
+    if (programs->shadow && glsl.tints)
+        programs->tint =
+            GlProgram::make({vertex,
+                             {GL_FRAGMENT_SHADER, "material",
+                              surface + "#include \"shaders/raster/tint.frag.glsl\"\n"}},
+                            error);
     ++_built;
-    if (!programs->aovs || (glsl.presence && !programs->shadow)) {
+    if (!programs->aovs || (glsl.presence && !programs->shadow) ||
+        (glsl.tints && glsl.presence && !programs->tint)) {
         _diagnostics.warn(user, "",
                           "the driver does not take the material's shader; displayColor is "
                           "shown: " +

@@ -16,6 +16,7 @@ namespace patina {
 struct RasterPrograms {
     std::unique_ptr<GlProgram> color, aovs;
     std::unique_ptr<GlProgram> shadow; ///< only of what light may pass
+    std::unique_ptr<GlProgram> tint;   ///< only of what colours the light that passes
 };
 
 /// A material on the GPU.

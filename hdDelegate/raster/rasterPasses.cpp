@@ -1,5 +1,6 @@
 #include "hdDelegate/raster/rasterPasses.h"
 
+#include "hdDelegate/raster/deviceError.h"
 #include "hdDelegate/raster/rasterAovs.h"
 #include "shaders/shaders.h"
 
@@ -90,13 +91,22 @@ void RasterPasses::drawRuns(const RasterDraw& draw, const RasterVisible& visible
 }
 
 void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& visible,
-                                bool aovs) const {
+                                Which which) const {
+    const bool aovs = which == AllForAovs;
     scene.bind(_vertexArray);
     const GlProgram* last = nullptr;
     const RasterMaterial* lastMaterial = nullptr;
     for (const RasterDraw& d : scene.draws()) {
-        const GlProgram* program =
-            aovs ? d.material->programs->aovs.get() : d.material->programs->color.get();
+        const GlslMaterial& glsl = d.material->glsl;
+        const RasterPrograms& programs = *d.material->programs;
+        if (which == Tints ? !programs.tint
+            : aovs         ? glsl.volumeOnly
+                           : glsl.transmits != (which == Transmitting))
+            continue;
+        const GlProgram* program = (which == Tints ? programs.tint
+                                    : aovs         ? programs.aovs
+                                                   : programs.color)
+                                       .get();
         if (program != last) program->use();
         last = program;
         if (d.material != lastMaterial) {
@@ -106,7 +116,7 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
         }
         lastMaterial = d.material;
         gl.Uniform4i(1, d.surface->primvarBits, d.primId, d.flags, 0);
-        if (!aovs) {
+        if (!aovs && which != Tints) {
             const vec3& l = d.meshLight.radiance;
             gl.Uniform4f(7, l.x, l.y, l.z, float(d.meshLight.mode));
         }
@@ -135,7 +145,7 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
     gl.DepthFunc(GL_LESS);
     gl.DepthMask(GL_TRUE);
     gl.BindVertexArray(_vertexArray);
-    drawSurfaces(scene, scene.visible(view.worldToClip), true);
+    drawSurfaces(scene, scene.visible(view.worldToClip), AllForAovs);
 
     _timer.mark(ReadBack);
     const size_t pixels = size_t(_width) * size_t(_height);
@@ -243,7 +253,7 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
     const RasterVisible visible = scene.visible(view.worldToMap);
     const GlProgram* last = nullptr;
     for (const RasterDraw& d : scene.draws()) {
-        if (!d.prim->visibility.shadow) continue;
+        if (!d.prim->visibility.shadow || d.material->glsl.volumeOnly) continue;
         const GlProgram* own = d.material->programs->shadow.get();
         const GlProgram* program = own ? own : _shadow.get();
         if (program != last) {
@@ -265,6 +275,46 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
     gl.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
+void RasterPasses::needBehind() {
+    if (!_behind) {
+        std::string error;
+        _behind = std::make_unique<RasterBehind>(error);
+        if (!_behind->ok()) throw DeviceError("the driver does not take the shaders: " + error);
+    }
+    if (!_behind->resize(_width, _height))
+        throw DeviceError("the driver has no room for an image of this size");
+}
+
+void RasterPasses::drawVolumes(const RasterScene& scene) {
+    if (scene.volumes().empty()) return;
+    needBehind();
+    gl.Disable(GL_DEPTH_TEST);
+    int index = 0;
+    for (const RasterVolume* volume : scene.volumes()) {
+        _behind->keep(_color, _depth);
+        _behind->bind();
+        _behind->drawVolume(*volume, index++);
+    }
+    gl.Enable(GL_DEPTH_TEST);
+}
+
+/// Over what is drawn already.
+void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisible& visible) {
+    const auto transmits = [](const RasterDraw& d) { return d.material->glsl.transmits; };
+    if (std::none_of(scene.draws().begin(), scene.draws().end(), transmits)) return;
+    needBehind();
+    _behind->keep(_color, _depth);
+    _behind->beginBacks();
+    for (const RasterDraw& d : scene.draws()) {
+        if (!transmits(d)) continue;
+        gl.Uniform4i(1, 0, d.primId, d.flags, 0);
+        drawRuns(d, visible);
+    }
+    _colorTarget.bind();
+    _behind->bind();
+    drawSurfaces(scene, visible, Transmitting);
+}
+
 void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
                         const RasterDomes& domes, int environmentSamples,
                         const RasterCamera& camera, uint32_t pass, uint32_t taken, vec2 offset,
@@ -282,7 +332,8 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     b.counts[1] = bsdfSamples;
     b.counts[2] = int(pass);
     b.counts[3] = int(lights.seed());
-    b.extra = vec4(1.0f, camera.camera().exposureScale, float(taken), 0.0f);
+    b.extra = vec4(1.0f, camera.camera().exposureScale, float(taken),
+                   glm::length(scene.boundsMax() - scene.boundsMin()));
     b.lightInfo[0] = int(sampled.lights.size());
     if (const GlTexture& map = domes.maps()) {
         map.bind(16);
@@ -322,7 +373,16 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     _background->use();
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     gl.DepthFunc(GL_LESS);
-    drawSurfaces(scene, scene.visible(view.worldToClip), false);
+    const RasterVisible visible = scene.visible(view.worldToClip);
+    drawSurfaces(scene, visible, Solid);
+    drawTransmitting(scene, visible);
+    gl.DepthMask(GL_FALSE);
+    gl.Enable(GL_BLEND);
+    gl.BlendFunc(GL_ZERO, GL_SRC_COLOR);
+    drawSurfaces(scene, visible, Tints);
+    gl.Disable(GL_BLEND);
+    drawVolumes(scene);
+    gl.DepthMask(GL_TRUE);
 
     _timer.mark(ReadBack);
     std::vector<vec4> pixels(size_t(_width) * size_t(_height));

@@ -2,6 +2,7 @@
 
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/raster/glTimer.h"
+#include "hdDelegate/raster/rasterBehind.h"
 #include "hdDelegate/raster/rasterLights.h"
 #include "hdDelegate/raster/rasterScene.h"
 #include "hdDelegate/raster/rasterSky.h"
@@ -58,11 +59,16 @@ private:
     void drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass);
     void drawCasters(const RasterScene& scene, const ShadowView& view, const GlTexture& maps,
                      int layer) const;
-    void drawSurfaces(const RasterScene& scene, const RasterVisible& visible, bool aovs) const;
+    enum Which { AllForAovs, Solid, Transmitting, Tints };
+    void drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which) const;
+    void drawTransmitting(const RasterScene& scene, const RasterVisible& visible);
+    void drawVolumes(const RasterScene& scene);
+    void needBehind();
     void drawRuns(const RasterDraw& draw, const RasterVisible& visible) const;
     void measureReceivers(const std::vector<vec4>& positions, const RasterScene& scene);
 
     std::unique_ptr<GlProgram> _background, _shadow;
+    std::unique_ptr<RasterBehind> _behind; ///< made when something transmits
     GlBuffer _passBuffer, _albedoTable;
     GLuint _vertexArray = 0;
     int _width = 0, _height = 0;

@@ -31,6 +31,15 @@ std::vector<std::string> namesOf(const std::vector<MaterialPrimvar>& primvars) {
     return names;
 }
 
+bool deforms(const Geometry& prim) {
+    switch (prim.kind) {
+    case GeometryKind::Mesh: return static_cast<const Mesh&>(prim).points.moves();
+    case GeometryKind::Curves: return static_cast<const Curves&>(prim).points.moves();
+    case GeometryKind::Points: return static_cast<const Points&>(prim).points.moves();
+    default: return false;
+    }
+}
+
 } // namespace
 
 void RasterScene::collectCategories(const SceneState& state) {
@@ -145,6 +154,12 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
         RasterGroup group;
         group.prim = prim;
         group.shape = _shapes.get(wish);
+        if (deforms(*prim) && _shutterClose > _shutterOpen) {
+            auto still = std::make_shared<RasterShapeCache::Wish>(wish);
+            still->needsMesh = false; // lights stay where they are in the middle of the shutter
+            group.deforms = std::move(still);
+            _moves = true;
+        }
         group.places = std::move(list);
         if (group.shape->triangles > 0) addGroup(std::move(group), where, toGroup);
     }
@@ -181,12 +196,13 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
         draw.flags = group.shape->faceted ? 2 : 0;
         for (size_t subset = 0; subset < materials.size(); ++subset) {
             draw.material = materials[subset];
-            if (!draw.material->programs || draw.material->program->isVolumeOnly()) continue;
+            if (!draw.material->programs) continue;
             if (settings.enableSceneLights && group.shape->mesh)
                 for (const uint32_t i : group.places)
                     _emitters.add(*group.shape->mesh, subset, *draw.material->program,
                                   draw.meshLight, places[i].groupToWorld * toGroup, lit);
             draw.surface = &group.shape->surfaces[subset];
+            draw.subset = int(subset);
             if (draw.surface->triangles == 0) continue;
             _triangles += draw.surface->triangles;
             _draws.push_back(draw);
@@ -202,12 +218,15 @@ void RasterScene::update(const SceneState& state, const RasterCamera& camera,
     _boxes.clear();
     _triangles = 0;
     _moves = false;
+    _shutterOpen = camera.timeCode(0.0f);
+    _shutterClose = camera.timeCode(1.0f);
     _boundsMin = vec3(INFINITY);
     _boundsMax = vec3(-INFINITY);
     _materials.update(state, settings);
     collectCategories(state);
     collectMeshLights(state, settings);
     _emitters.clear();
+    _volumes.begin();
     RasterInstances places(state, settings, camera.timeCode(0.5f));
     for (const auto& item : state.instancers)
         for (const MotionTransform& transform : item.second->transforms)
@@ -218,7 +237,12 @@ void RasterScene::update(const SceneState& state, const RasterCamera& camera,
         const int own = rank++;
         if (!isDrawnInRaster(*item.second, settings)) continue;
         if (item.second->kind == GeometryKind::Volume) {
-            _diagnostics.warn(item.first, "", "the rasterizer shows no volumes");
+            const auto volume = std::static_pointer_cast<const Volume>(item.second);
+            const mat4 toGroup = transformAt(volume->transform, camera.timeCode(0.0f));
+            std::vector<mat4> toWorld;
+            for (const RasterPlace& place : places.places(volume->group))
+                toWorld.push_back(place.groupToWorld * toGroup);
+            _volumes.add(volume, state, settings, toWorld, _boundsMin, _boundsMax);
             continue;
         }
         addPrim(item.second, own, state, camera, settings, places);
@@ -226,7 +250,8 @@ void RasterScene::update(const SceneState& state, const RasterCamera& camera,
     _shapes.forgetUnused();
     for (auto it = _extents.begin(); it != _extents.end();)
         it = state.geometry.count(it->first) ? std::next(it) : _extents.erase(it);
-    if (_draws.empty()) _boundsMin = _boundsMax = vec3(0.0f);
+    _volumes.end();
+    if (_draws.empty() && _volumes.placed().empty()) _boundsMin = _boundsMax = vec3(0.0f);
     _linkBuffer = GlBuffer(_links);
     upload();
 }
@@ -245,8 +270,29 @@ void RasterScene::upload() {
     ++_instancesWritten;
 }
 
+/// Shapes of every step are kept between passes.
+void RasterScene::deform(float timeCode) {
+    const float length = _shutterClose - _shutterOpen;
+    if (!(length > 0.0f)) return;
+    const float at = (timeCode - _shutterOpen) / length * float(deformationSteps);
+    const float step = std::clamp(std::floor(at), 0.0f, float(deformationSteps - 1));
+    const float time = _shutterOpen + (step + 0.5f) / float(deformationSteps) * length;
+    for (RasterGroup& group : _groups) {
+        if (!group.deforms) continue;
+        RasterShapeCache::Wish wish = *group.deforms;
+        wish.timeCode = time;
+        const auto shape = _shapes.get(wish);
+        if (shape->surfaces.size() == group.shape->surfaces.size()) group.shape = shape;
+    }
+    for (RasterDraw& draw : _draws) {
+        const RasterGroup& group = _groups[size_t(draw.group)];
+        if (group.deforms) draw.surface = &group.shape->surfaces[size_t(draw.subset)];
+    }
+}
+
 bool RasterScene::moveTo(const SceneState& state, const RenderSettings& settings, float timeCode) {
     if (!_moves) return false;
+    deform(timeCode);
     RasterInstances places(state, settings, timeCode);
     for (const RasterGroup& group : _groups) {
         const auto& where = places.places(group.prim->group);

@@ -7,6 +7,7 @@
 #include "hdDelegate/raster/rasterInstances.h"
 #include "hdDelegate/raster/rasterMaterials.h"
 #include "hdDelegate/raster/rasterShapeCache.h"
+#include "hdDelegate/raster/rasterVolumes.h"
 
 #include <atomic>
 
@@ -17,6 +18,8 @@ struct RasterGroup {
     std::shared_ptr<const Geometry> prim;
     std::shared_ptr<const RasterShape> shape;
     std::vector<uint32_t> places; ///< of the prim's RasterInstances::places(), one per instance
+    /// What other times of the shutter are made from; null where the points stay.
+    std::shared_ptr<const RasterShapeCache::Wish> deforms;
     int firstInstance = 0;
 };
 
@@ -25,7 +28,7 @@ struct RasterDraw {
     const RasterMaterial* material = nullptr;
     std::shared_ptr<const Geometry> prim;
     const RasterSurface* surface = nullptr;
-    int group = 0;
+    int group = 0, subset = 0;
     int primId = 0, flags = 0; ///< flags: 2 has no normals
     RasterMeshLight meshLight;
 };
@@ -39,15 +42,20 @@ struct RasterVisible {
 /// The geometry of a scene in buffers, at one time of the shutter.
 class RasterScene {
 public:
+    static constexpr int deformationSteps = 8;
+
     explicit RasterScene(Diagnostics& diagnostics)
-        : _diagnostics(diagnostics), _materials(diagnostics), _shapes(diagnostics) {}
+        : _diagnostics(diagnostics), _materials(diagnostics), _shapes(diagnostics),
+          _volumes(diagnostics) {}
 
     void update(const SceneState& state, const RasterCamera& camera, const RenderSettings& settings,
                 const std::atomic<bool>& stop);
-    /// Writes the transforms of another time of the shutter. @returns false when nothing moves
+    /// Moves to another time of the shutter: transforms exactly, points that move to the nearest of
+    /// deformationSteps times. @returns false when nothing moves
     bool moveTo(const SceneState& state, const RenderSettings& settings, float timeCode);
 
     const std::vector<RasterDraw>& draws() const { return _draws; }
+    const std::vector<const RasterVolume*>& volumes() const { return _volumes.placed(); }
     const RasterEmitters& emitters() const { return _emitters; }
     RasterVisible visible(const mat4& worldToClip) const;
     const std::map<std::string, int>& categories() const { return _categories; }
@@ -82,6 +90,7 @@ private:
                   const std::vector<RasterPlace>& places, const mat4& toGroup,
                   const RenderSettings& settings);
     void upload();
+    void deform(float timeCode);
     void collectCategories(const SceneState& state);
     void collectMeshLights(const SceneState& state, const RenderSettings& settings);
     int linksOf(const std::vector<std::string>& prim, const std::vector<std::string>& place);
@@ -91,6 +100,7 @@ private:
     std::vector<RasterDraw> _draws;
     RasterShapeCache _shapes;
     std::map<std::string, std::pair<std::shared_ptr<const Geometry>, RasterExtent>> _extents;
+    RasterVolumes _volumes;
     std::vector<RasterGroup> _groups;
     RasterEmitters _emitters;
     std::map<std::string, std::shared_ptr<const Light>> _meshLights; ///< by the mesh's path
@@ -102,6 +112,7 @@ private:
     GlBuffer _instanceBuffer, _linkBuffer;
     vec3 _boundsMin{0.0f}, _boundsMax{0.0f};
     size_t _triangles = 0, _instancesWritten = 0;
+    float _shutterOpen = 0.0f, _shutterClose = 0.0f; ///< time codes
     bool _moves = false;
 };
 

@@ -33,7 +33,7 @@ size_t storageLimit() {
 } // namespace
 
 std::shared_ptr<const RasterShape> RasterShapeCache::get(const Wish& wish) {
-    Entry& entry = _entries[{wish.prim->path, wish.edge}];
+    Entry& entry = _entries[{wish.prim->path, wish.edge, wish.timeCode}];
     entry.used = true;
     if (!entry.shape || !serves(entry.wish, wish)) {
         entry.shape = nullptr; // the old buffers make room for the new ones

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <tuple>
 
 namespace patina {
 
@@ -55,7 +56,7 @@ private:
     std::shared_ptr<const RasterShape> build(const Wish& wish);
 
     Diagnostics& _diagnostics;
-    std::map<std::pair<std::string, float>, Entry> _entries; ///< by path and edge
+    std::map<std::tuple<std::string, float, float>, Entry> _entries; ///< by path, edge and time
     size_t _built = 0;
 };
 

@@ -1,10 +1,12 @@
 #include "materialNetwork/glsl/glslMaterial.h"
 
 #include "materialNetwork/cpu/programCode.h"
+#include "materialNetwork/glsl/glslClosures.h"
 #include "materialNetwork/glsl/glslLobes.h"
 #include "materialNetwork/glsl/glslPatterns.h"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 namespace patina {
@@ -26,7 +28,8 @@ public:
         : _program(program), _features(features), _code(program.code()), _out(out) {}
 
     void write() {
-        for (const auto* list : {&_code.surfaceCode, &_code.emissionCode, &_code.opacityCode})
+        for (const auto* list :
+             {&_code.surfaceCode, &_code.emissionCode, &_code.opacityCode, &_code.interiorCode})
             declareRegisters(*list);
         for (size_t i = 0; i < _code.lobes.size(); ++i)
             line(glslLobeType(_code.lobes[i].prebuilt.kind) + " lobe" + number(int(i)) + ";");
@@ -40,6 +43,7 @@ public:
         setupFunction();
         presenceFunction();
         emissionFunction();
+        if (_program.hasInterior()) mediumFunction();
         evalFunction();
         sampleFunction();
         const std::string textures =
@@ -55,6 +59,11 @@ public:
         if (_out.parameters.empty()) _out.parameters.emplace_back(0.0f);
         _out.presence = !_program.isOpaque();
         _out.emission = _program.hasEmission();
+        _out.tints = _code.hasStraight;
+        _out.holds = _program.hasInterior();
+        _out.volumeOnly = _program.isVolumeOnly();
+        _out.thin = _program.isThinWalled();
+        _out.transmits = _out.volumeOnly || (_program.hasTransmission() && !_program.isFibre());
     }
 
 private:
@@ -66,6 +75,10 @@ private:
         return "parameters[" + number(int(_out.parameters.size()) - 1) + "]";
     }
     std::string reg(int r) { return reg(Register(r)); }
+
+    std::function<std::string(int)> registers() {
+        return [this](int r) { return reg(r); };
+    }
 
     std::string sampler(int handle) {
         auto& list = _textures;
@@ -332,40 +345,31 @@ private:
 
     /// As linearClosure().
     void emissionFunction() {
+        for (const ClosureOp& op : _code.edf)
+            if (op.profile) {
+                _out.leftOut.push_back(
+                    "the profile of a measured_edf is not shown: it emits evenly");
+                break;
+            }
         line("vec3 materialEmission(vec3 wo) {");
         instructions(_code.emissionCode);
-        const int count = int(_code.edf.size());
-        const auto of = [&](int i) { return i < 0 ? "vec3(0.0)" : "e" + number(i); };
-        for (int i = 0; i < count; ++i) {
-            const ClosureOp& op = _code.edf[size_t(i)];
-            std::string value;
-            switch (op.kind) {
-            case ClosureKind::Mix:
-                value = "mix(" + of(op.b) + ", " + of(op.a) + ", unit(" + reg(op.factor) + ".x))";
-                break;
-            case ClosureKind::Add: value = of(op.a) + " + " + of(op.b); break;
-            case ClosureKind::Multiply:
-                value = of(op.a) + " * max(" + reg(op.factor) + ".xyz, vec3(0.0))";
-                break;
-            case ClosureKind::ConicalEdf: {
-                value = "max(" + reg(op.factor) + ".xyz, vec3(0.0)) * edfConical(";
-                value += reg(op.first) + ".x, ";
-                value += reg(op.second) + ".x, abs(dot(wo, ";
-                value += op.normal >= 0 ? "unitOr(" + reg(op.normal) + ".xyz, point.normal)"
-                                        : std::string("point.normal");
-                value += ")))";
-                break;
-            }
-            case ClosureKind::SchlickEdf:
-                value = of(op.a) + " * edfSchlick(" + reg(op.factor) + ".xyz, ";
-                value += reg(op.first) + ".xyz, ";
-                value += reg(op.second) + ".x, dot(wo, point.normal))";
-                break;
-            default: value = "max(" + reg(op.factor) + ".xyz, vec3(0.0))";
-            }
-            line("    vec3 e" + number(i) + " = " + value + ";");
-        }
-        line("    return " + of(count - 1) + ";");
+        std::string result;
+        _text += glslLinearClosure(_code.edf, "e", registers(), result);
+        line("    return " + result + ";");
+        line("}");
+    }
+
+    /// As buildMedium() and linearClosure(), unrolled.
+    void mediumFunction() {
+        line("Medium materialMedium() {");
+        line("    Medium m = Medium(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);");
+        instructions(_code.interiorCode);
+        _text += glslVdf(_code.vdf, registers());
+        line("    vec3 wo = vec3(0.0);");
+        std::string result;
+        _text += glslLinearClosure(_code.volumeEdf, "g", registers(), result);
+        line("    m.emission = " + result + ";");
+        line("    return m;");
         line("}");
     }
 

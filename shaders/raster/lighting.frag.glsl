@@ -22,6 +22,8 @@ bool isSunOfDome(Light l) {
     return int(l.radiance.w) == LIGHT_DISTANT && l.origin.w > 0.0 && l.cone.x != 0.0;
 }
 
+#include "shaders/raster/behind.glsl"
+
 // Light from one light's sample.
 vec3 fromLight(Light l) {
     int kind = int(l.radiance.w);
@@ -50,6 +52,10 @@ vec3 fromLight(Light l) {
         }
     }
     MaterialEval f = materialEval(wi);
+#ifdef MATERIAL_TRANSMITS
+    // Samples of the BSDF find what comes through the object.
+    if ((dot(wi, point.geometricNormal) > 0.0) != woOutside()) f.specular = vec3(0.0);
+#endif
     vec3 value = f.diffuse * l.inverse0.w + f.specular * l.inverse1.w;
     if (value == vec3(0.0)) return vec3(0.0);
     float weight = 1.0;
@@ -66,6 +72,9 @@ vec3 fromLight(Light l) {
 
 // Light that a sample of the BSDF finds.
 vec3 along(MaterialSample s) {
+#ifdef MATERIAL_TRANSMITS
+    if ((s.event & LOBE_TRANSMIT) != 0 && !s.diffuse) return throughObject(s);
+#endif
     vec3 sum = vec3(0.0);
     bool delta = (s.event & LOBE_DELTA) != 0;
     float pdf = float(counts.y) * s.pdf;
@@ -124,6 +133,11 @@ vec3 glow() {
 
 void main() {
     setPointFromCamera();
+#ifdef MATERIAL_IS_VOLUME
+    vec4 fog = fogHere();
+    outColor = vec4(fog.rgb * extra.y, fog.a);
+    return;
+#endif
 #ifdef PRESENCE
     if (!isPresent()) discard;
 #endif

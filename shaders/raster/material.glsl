@@ -45,6 +45,15 @@ struct MaterialSample {
     float pdf;
     int event;
     bool diffuse;
+    float eta; // n(wo side) / n(wi side) of what transmits, else 1
+};
+
+// As materialNetwork/cpu/medium.h; the phase is that of the mean anisotropy.
+struct Medium {
+    vec3 absorption;
+    vec3 scattering;
+    vec3 emission;
+    float anisotropy;
 };
 
 MaterialEval materialEvalBut(vec3 wi, int without);
@@ -57,6 +66,19 @@ float luminance(vec3 c) {
 }
 float unit(float x) {
     return x > 0.0 ? min(x, 1.0) : 0.0;
+}
+// Authored coefficients of media: negative and NaN count as 0.
+vec3 coefficient(vec3 c) {
+    return vec3(c.x > 0.0 ? min(c.x, 1e15) : 0.0, c.y > 0.0 ? min(c.y, 1e15) : 0.0,
+                c.z > 0.0 ? min(c.z, 1e15) : 0.0);
+}
+void addVdf(inout Medium m, vec3 weight, vec3 absorption, vec3 scattering, float anisotropy) {
+    m.absorption += coefficient(weight * absorption);
+    vec3 s = coefficient(weight * scattering);
+    float more = s.x + s.y + s.z, sum = more + m.scattering.x + m.scattering.y + m.scattering.z;
+    float g = anisotropy == anisotropy ? clamp(anisotropy, -1.0, 1.0) : 0.0;
+    if (sum > 0.0) m.anisotropy += (g - m.anisotropy) * more / sum;
+    m.scattering += s;
 }
 vec3 unit(vec3 c) {
     return vec3(unit(c.x), unit(c.y), unit(c.z));
@@ -254,7 +276,7 @@ MaterialEval materialEvalNone() {
 }
 
 MaterialSample materialSampleNone() {
-    return MaterialSample(vec3(0.0, 0.0, 1.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0, false);
+    return MaterialSample(vec3(0.0, 0.0, 1.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0, false, 1.0);
 }
 
 // Light leaks through no surface because of an interpolated or mapped normal: both normals must
@@ -277,6 +299,7 @@ MaterialSample finishSample(MaterialSample s, LobeSample l, int drawn, vec3 weig
         ((dot(s.wi, point.geometricNormal) > 0.0) == woOutside()) != reflects)
         return materialSampleNone();
     s.event = l.event;
+    s.eta = l.eta;
     MaterialEval e = materialEvalNone();
     float scale = l.pdf;
     if ((l.event & LOBE_DELTA) != 0)

@@ -72,10 +72,14 @@ void setPointFromCamera() {
 }
 
 // Whether this pass shows the surface at all: presence as a chance (stochastic transparency).
-bool isPresent() {
-    vec3 passes;
+// passes: colour of the light that passes where it does not.
+bool isPresent(out vec3 passes) {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     float x = materialPresence(passes);
     uint id = hash(uint(gl_PrimitiveID) + 4099u * uint(drawInfo.y));
     return randomAt(pixel + uvec2(id & 1023u, id >> 22u), uint(counts.z), 31u).x < x;
+}
+bool isPresent() {
+    vec3 passes;
+    return isPresent(passes);
 }

@@ -17,22 +17,6 @@ float mean(const vec3& v) {
     return (v.x + v.y + v.z) / 3.0f;
 }
 
-/// A white scattering medium of density 1: what volumes without a material show.
-Network plainVolume() {
-    Network network;
-    network.path = "<volume>";
-    NetworkNode volume, vdf;
-    volume.path = "<volume>/volume";
-    volume.id = "ND_volume";
-    volume.connections["vdf"] = {"<volume>/vdf", ""};
-    vdf.path = "<volume>/vdf";
-    vdf.id = "ND_anisotropic_vdf";
-    vdf.inputs["scattering"] = Value::makeVec3(1, 1, 1);
-    network.terminals["volume"] = {volume.path, ""};
-    network.nodes = {volume, vdf};
-    return network;
-}
-
 } // namespace
 
 /// Where a ray may collide with one volume: a walk over the cells of its majorants.

@@ -12,7 +12,7 @@ void place() {
     lobe0 = dielectricSetup(parameters[0].xyz, parameters[1].x, parameters[2].xy, false, 1, false, 1);
     vec3 kept0 = dielectricFix(lobe0, frames[0].wo, 3, lobeAlbedo[0]);
     kept0 = shareLargest(kept0);
-    lobe1 = orenNayarSetup(parameters[68].xyz, parameters[69].x, false);
+    lobe1 = orenNayarModel(parameters[68].xyz, parameters[69].x, false, 0);
     vec3 kept1 = orenNayarFix(lobe1, frames[0].wo, -1, lobeAlbedo[1]);
     kept1 = shareLargest(kept1);
     vec3 passed0 = 1.0 - unit(parameters[70].x) * kept0;

@@ -1,4 +1,5 @@
-#include "hdDelegate/embree/media/volumeScene.h"
+#include "hdDelegate/scene/volumeMedium.h"
+
 #include "hdDelegate/parallel.h"
 
 #include <algorithm>
@@ -16,6 +17,21 @@ float largest(const vec3& v) {
 }
 
 } // namespace
+
+Network plainVolume() {
+    Network network;
+    network.path = "<volume>";
+    NetworkNode volume, vdf;
+    volume.path = "<volume>/volume";
+    volume.id = "ND_volume";
+    volume.connections["vdf"] = {"<volume>/vdf", ""};
+    vdf.path = "<volume>/vdf";
+    vdf.id = "ND_anisotropic_vdf";
+    vdf.inputs["scattering"] = Value::makeVec3(1, 1, 1);
+    network.terminals["volume"] = {volume.path, ""};
+    network.nodes = {volume, vdf};
+    return network;
+}
 
 class VolumeMedium::Reader : public PrimvarReader {
 public:

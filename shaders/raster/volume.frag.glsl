@@ -1,0 +1,154 @@
+// A volume prim over what is drawn already: one place where light scatters is drawn from each ray's
+// steps and lit. Light on its way in is weakened by what absorbs, but by little of what scatters: that
+// stands for scattering of higher orders, without which dense smoke would be black inside.
+#include "shaders/compat/glsl.glsl"
+#include "shaders/raster/pass.glsl"
+in vec2 vWindow;
+layout(location = 0) out vec4 outColor;
+layout(location = 10) uniform mat4 worldToObject;
+layout(location = 14) uniform vec3 boundsMin;
+layout(location = 15) uniform vec3 boundsMax;
+layout(location = 16) uniform int volumeIndex;
+layout(binding = 0) uniform sampler3D scatteringMap; // w: mean cosine
+layout(binding = 1) uniform sampler3D extinctionMap;
+layout(binding = 2) uniform sampler3D emissionMap;
+layout(binding = 21) uniform sampler2D behindColor;
+layout(binding = 22) uniform sampler2D behindDepth;
+
+// The shaded point, which shadows.glsl asks for.
+struct VolumePoint {
+    vec3 position;
+    vec3 geometricNormal;
+} point;
+#include "shaders/raster/shadows.glsl"
+
+const int CAMERA_STEPS = 48;
+const int LIGHT_STEPS = 10;
+const float SCATTERED_AWAY = 0.15; // share of what scatters that light on its way in loses
+
+// Where a ray is inside the box.
+bool boxAlong(vec3 origin, vec3 direction, inout float near, inout float far) {
+    vec3 o = (worldToObject * vec4(origin, 1.0)).xyz;
+    vec3 d = mat3(worldToObject) * direction;
+    vec3 inverseD = 1.0 / mix(d, vec3(1e-20), equal(d, vec3(0.0)));
+    vec3 a = (boundsMin - o) * inverseD, b = (boundsMax - o) * inverseD;
+    vec3 low = min(a, b), high = max(a, b);
+    near = max(near, max(low.x, max(low.y, low.z)));
+    far = min(far, min(high.x, min(high.y, high.z)));
+    return near < far;
+}
+vec3 inMaps(vec3 p) {
+    return ((worldToObject * vec4(p, 1.0)).xyz - boundsMin) / (boundsMax - boundsMin);
+}
+
+vec3 lightArrives(vec3 p, vec3 direction, float reach, float jitter) {
+    float near = 0.0, far = reach;
+    if (!boxAlong(p, direction, near, far)) return vec3(1.0);
+    float dt = (far - near) / float(LIGHT_STEPS);
+    vec3 depth = vec3(0.0);
+    for (int i = 0; i < LIGHT_STEPS; ++i) {
+        vec3 at = inMaps(p + direction * (near + (float(i) + jitter) * dt));
+        depth += textureLod(extinctionMap, at, 0.0).rgb - (1.0 - SCATTERED_AWAY) * textureLod(scatteringMap, at, 0.0).rgb;
+    }
+    return exp(-depth * dt);
+}
+
+vec3 evenDirection(vec2 u) {
+    float z = 1.0 - 2.0 * u.x, r = sqrt(max(1.0 - z * z, 0.0));
+    return vec3(r * cos(TWO_PI * u.y), r * sin(TWO_PI * u.y), z);
+}
+
+float henyeyGreenstein(float g, float c) {
+    float d = max(1.0 + g * g - 2.0 * g * c, 1e-6);
+    return 0.25 * INV_PI * (1.0 - g * g) / (d * sqrt(d));
+}
+
+vec3 litAt(vec3 p, vec3 direction, float g, float jitter) {
+    vec3 sum = vec3(0.0);
+    point.position = p;
+    for (int i = 0; i < counts.x; ++i) {
+        Light l = lights[i];
+        int kind = int(l.radiance.w);
+        if (kind == LIGHT_DISTANT && l.origin.w > 0.0 && l.cone.x != 0.0) continue; // a dome's
+        if (kind == LIGHT_DOME && l.cone.y == 0.0) { // nobody samples it: its mean
+            sum += radianceOfDome(l, direction, max(float(lightInfo.y) - 1.0, 0.0)) * l.fade.w *
+                   lightArrives(p, evenDirection(vec2(jitter, fract(17.0 * jitter))), 1e30, jitter) * l.inverse1.w;
+            continue;
+        }
+        vec3 wi = l.sampled.xyz, radiance = l.radiance.xyz * l.fade.w;
+        float density = l.normal.w, reach = 1e30;
+        if (l.sampled.w != 0.0) {
+            vec3 d = l.sampled.xyz - p;
+            float d2 = max(dot(d, d), 1e-20);
+            reach = sqrt(d2);
+            wi = d / reach;
+            radiance *= shapingFactor(l, -wi);
+            if (l.origin.w > 0.0) {
+                radiance /= d2;
+                density = 1.0;
+            } else {
+                float c = -dot(l.normal.xyz, wi);
+                if (kind == LIGHT_TRIANGLE && l.cone.z != 0.0) c = abs(c);
+                if (c <= 0.0) continue;
+                density *= d2 / c;
+            }
+        } else if (l.origin.w > 0.0) {
+            density = 1.0;
+        }
+        if (kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) density *= l.cone.y;
+        point.geometricNormal = wi;
+        sum += radiance / density * henyeyGreenstein(g, dot(direction, wi)) * shadowAt(l, wi) *
+               lightArrives(p, wi, reach, jitter) * l.inverse1.w;
+    }
+    return sum;
+}
+
+void main() {
+    vec4 nearPoint = clipToWorld * vec4(vWindow, -1.0, 1.0);
+    vec4 farPoint = clipToWorld * vec4(vWindow, 1.0, 1.0);
+    vec3 origin = nearPoint.xyz / nearPoint.w;
+    vec3 direction = normalize(farPoint.xyz / farPoint.w - origin);
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float near = 0.0, far = 1e30, depth = texelFetch(behindDepth, pixel, 0).x;
+    if (depth < 1.0) {
+        vec4 world = clipToWorld * vec4(vWindow, depth * 2.0 - 1.0, 1.0);
+        far = dot(world.xyz / world.w - origin, direction);
+    }
+    if (!boxAlong(origin, direction, near, far)) discard;
+    vec2 u = randomAt(uvec2(pixel), uint(counts.z), 40u + 2u * uint(volumeIndex));
+    vec2 v = randomAt(uvec2(pixel), uint(counts.z), 41u + 2u * uint(volumeIndex));
+    float dt = (far - near) / float(CAMERA_STEPS);
+    vec3 passed = vec3(1.0), emitted = vec3(0.0), scattered = vec3(0.0), drawn = vec3(0.0);
+    float total = 0.0, own = 0.0, where = near, g = 0.0, choice = u.y;
+    for (int i = 0; i < CAMERA_STEPS; ++i) {
+        float t = near + (float(i) + u.x) * dt;
+        vec3 at = inMaps(origin + direction * t);
+        vec4 s = textureLod(scatteringMap, at, 0.0);
+        vec3 sigma = textureLod(extinctionMap, at, 0.0).rgb;
+        vec3 next = passed * exp(-sigma * dt);
+        vec3 stretch = mix((passed - next) / max(sigma, vec3(1e-20)), passed * dt,
+                           lessThan(sigma * dt, vec3(1e-4)));
+        emitted += textureLod(emissionMap, at, 0.0).rgb * stretch;
+        vec3 part = s.rgb * stretch;
+        float weight = part.x + part.y + part.z;
+        total += weight;
+        if (weight > 0.0) {
+            float share = weight / total;
+            if (choice < share) {
+                choice /= share;
+                drawn = part;
+                own = weight;
+                where = t;
+                g = s.w;
+            } else {
+                choice = (choice - share) / max(1.0 - share, 1e-20);
+            }
+        }
+        passed = next;
+    }
+    if (own > 0.0)
+        scattered = drawn * (total / own) * litAt(origin + direction * where, direction, g, v.x);
+    vec4 behind = texelFetch(behindColor, pixel, 0);
+    outColor = vec4(behind.rgb * passed + (emitted + scattered) * extra.y,
+                    mix(1.0, behind.a, dot(passed, vec3(0.2126, 0.7152, 0.0722))));
+}

@@ -1,0 +1,142 @@
+"""What the rasterizer shows through surfaces that transmit: closed forms with a white sky of radiance 1."""
+import numpy as np
+import pytest
+
+import bothBackEnds
+from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
+
+STAGE = """#usda 1.0
+(
+    upAxis = "Y"
+)
+def Camera "camera"
+{
+    float focalLength = 50
+    float horizontalAperture = 20
+    float verticalAperture = 20
+    float2 clippingRange = (0.1, 1000)
+    token projection = "orthographic"
+    double3 xformOp:translate = (0, 0, 10)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def DomeLight "sky"
+{
+    float inputs:intensity = 1
+}
+def %(shape)s "object" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
+{
+    %(geometry)s
+    rel material:binding = </material>
+}
+def Mesh "wall" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
+{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-9, -9, -3), (9, -9, -3), (9, 9, -3), (-9, 9, -3)]
+    uniform token subdivisionScheme = "none"
+    token visibility = "%(wall)s"
+    rel material:binding = </red>
+}
+def Material "red"
+{
+    token outputs:surface.connect = </red/surface.outputs:out>
+    def Shader "surface"
+    {
+        uniform token info:id = "ND_surface_unlit"
+        color3f inputs:emission_color = (0.5, 0.25, 0.125)
+        token outputs:out
+    }
+}
+def Material "material"
+{
+    %(terminal)s
+    def Shader "vdf"
+    {
+        uniform token info:id = "ND_anisotropic_vdf"
+        vector3f inputs:absorption = %(absorption)s
+        vector3f inputs:scattering = %(scattering)s
+        token outputs:out
+    }
+    def Shader "glass"
+    {
+        uniform token info:id = "ND_dielectric_bsdf"
+        float inputs:ior = 1.5
+        float2 inputs:roughness = (0, 0)
+        string inputs:scatter_mode = "RT"
+        token outputs:out
+    }
+    def Shader "layer"
+    {
+        uniform token info:id = "ND_layer_vdf"
+        token inputs:top.connect = </material/glass.outputs:out>
+        token inputs:base.connect = </material/vdf.outputs:out>
+        token outputs:out
+    }
+    def Shader "surface"
+    {
+        uniform token info:id = "ND_surface"
+        token inputs:bsdf.connect = </material/layer.outputs:out>
+        token outputs:out
+    }
+    def Shader "volume"
+    {
+        uniform token info:id = "ND_volume"
+        token inputs:vdf.connect = </material/vdf.outputs:out>
+        token outputs:out
+    }
+}
+"""
+VOLUME = "token outputs:mtlx:volume.connect = </material/volume.outputs:out>"
+SURFACE = "token outputs:mtlx:surface.connect = </material/surface.outputs:out>"
+
+
+def _middle(tmp_path, samples=4, **parts):
+    """:returns: the mean of the pixels in the middle of the image"""
+    words = {"shape": "Cube", "geometry": "double size = 0.8", "terminal": VOLUME, "absorption": "(0, 0, 0)",
+             "scattering": "(0, 0, 0)", "wall": "invisible"}
+    words.update(parts)
+    stage = tmp_path / "stage.usda"
+    stage.write_text(STAGE % words)
+    image = str(tmp_path / "image.exr")
+    bothBackEnds.record(str(stage), image, "--backend", "raster", "--samples", str(samples), "-w", "24")
+    found = bothBackEnds.pixels(image)
+    h, w = found.shape[:2]
+    return found[h // 2 - 3:h // 2 + 3, w // 2 - 3:w // 2 + 3].mean(axis=(0, 1))
+
+
+def test_fog_absorbs_by_its_thickness(tmp_path):
+    sigma = np.array([0.25, 1.0, 2.0])
+    np.testing.assert_allclose(_middle(tmp_path, absorption="(0.25, 1, 2)"), np.exp(-0.8 * sigma), rtol=2e-3)
+
+
+def test_white_fog_loses_nothing(tmp_path):
+    np.testing.assert_allclose(_middle(tmp_path, samples=32, scattering="(0.5, 1, 2)"), 1.0, rtol=0.05)
+
+
+def test_fog_shows_what_is_behind(tmp_path):
+    sigma = np.array([0.25, 1.0, 2.0])
+    found = _middle(tmp_path, absorption="(0.25, 1, 2)", wall="inherited")
+    np.testing.assert_allclose(found, np.exp(-0.8 * sigma) * [0.5, 0.25, 0.125], rtol=2e-3)
+
+
+GLASS = {"terminal": SURFACE, "shape": "Sphere", "geometry": "double radius = 0.6"}
+
+
+def test_clear_glass_in_even_light_is_not_seen(tmp_path):
+    np.testing.assert_allclose(_middle(tmp_path, samples=32, **GLASS), 1.0, rtol=0.02)
+
+
+def test_glass_shows_the_wall_behind(tmp_path):
+    found = _middle(tmp_path, samples=64, wall="inherited", **GLASS)
+    # Head-on 4 % is reflected, from the white sky. Rays that leave the screen find that sky too, hence the tolerance.
+    np.testing.assert_allclose(found, 0.96 * np.array([0.5, 0.25, 0.125]) + 0.04, rtol=0.2)
+
+
+@pytest.mark.parametrize("sigma", [0.5, 2.0])
+def test_coloured_glass_absorbs_along_the_bent_path(tmp_path, sigma):
+    found = _middle(tmp_path, samples=32, absorption=f"({sigma}, {sigma}, {sigma})", terminal=SURFACE)
+    np.testing.assert_allclose(found, 0.04 + 0.96 * np.exp(-0.8 * sigma), rtol=0.05)

@@ -1,0 +1,60 @@
+"""Points that move while the shutter is open, drawn by the rasterizer, against the closed form."""
+import numpy as np
+
+import bothBackEnds
+from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
+
+STAGE = """#usda 1.0
+(
+    upAxis = "Y"
+    startTimeCode = 0
+    endTimeCode = 0
+)
+def Camera "camera"
+{
+    float horizontalAperture = 40
+    float verticalAperture = 10
+    float2 clippingRange = (0.1, 100)
+    token projection = "orthographic"
+    double shutter:open = 0
+    double shutter:close = 1
+    double3 xformOp:translate = (0.5, 0, 10)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Mesh "bar" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
+{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points.timeSamples = {
+        0: [(-0.5, -2, 0), (0.5, -2, 0), (0.5, 2, 0), (-0.5, 2, 0)],
+        1: [(0.5, -2, 0), (1.5, -2, 0), (1.5, 2, 0), (0.5, 2, 0)],
+    }
+    uniform token subdivisionScheme = "none"
+    rel material:binding = </white>
+}
+def Material "white"
+{
+    token outputs:surface.connect = </white/surface.outputs:out>
+    def Shader "surface"
+    {
+        uniform token info:id = "ND_surface_unlit"
+        token outputs:out
+    }
+}
+"""
+
+
+def test_points_move_while_the_shutter_is_open(tmp_path):
+    stage = tmp_path / "stage.usda"
+    stage.write_text(STAGE)
+    image = str(tmp_path / "image.exr")
+    bothBackEnds.record(str(stage), image, "--backend", "raster", "--samples", "64", "-w", "64", "-f", "0")
+    row = bothBackEnds.pixels(image)[8, :, 0]
+    x = 0.5 + (np.arange(64) + 0.5) / 64 * 4 - 2
+    # The bar is over x from x - 0.5 to x + 0.5 of the shutter.
+    covered = np.clip(np.minimum(x + 0.5, 1.0) - np.maximum(x - 0.5, 0.0), 0.0, 1.0)
+    # Eight steps of the shutter, each an eighth of the bar's way.
+    np.testing.assert_allclose(row, covered, atol=0.16)
+    assert abs(row.mean() - covered.mean()) < 0.02

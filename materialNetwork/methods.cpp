@@ -33,6 +33,12 @@ const std::vector<ChoicePoint>& choicePoints() {
                       "near ior 1 and above 2, too bright for metals near 80 degrees"},
           {"f82", "Schlick's curve with a dip that meets the exact reflectance at 82 degrees (Kutz "
                   "et al. 2021)"}}},
+        {"thinFilm",
+         {{"gaussian", "each order of interference through Gaussians fitted to what a channel sees "
+                       "(Belcour and Barla 2017)"},
+          {"table", "the same through tables of the transforms"},
+          {"spectral", "Airy's formula at 144 wavelengths: the truth, slow; ripples for films of "
+                       "more than 20 um"}}},
         {"diffuse",
          {{"authored", "as energy_compensation of the node says: eon or qualitative"},
           {"lambert", "roughness is ignored"},

@@ -318,6 +318,7 @@ std::vector<std::string> choicesThatMatter(const Plan& plan) {
             matter.insert({"energyCompensation", "directionalAlbedo", "sampling"});
         if (c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Conductor)
             matter.insert("fresnel");
+        if (hasFilm(plan, c)) matter.insert("thinFilm");
         if (c.kind == ClosureKind::OrenNayar) matter.insert("diffuse");
         if (c.kind == ClosureKind::Layer) matter.insert("layerTransmittance");
         if (c.underReflection && interface && scatterMode(plan, c) == sh::SCATTER_T)

@@ -64,17 +64,6 @@ LobeKind lobeKind(ClosureKind kind) {
     }
 }
 
-namespace {
-
-/// What the lobes on microfacets have in common.
-template <typename Lobe> void setMethods(const LobeTemplate& t, Lobe& lobe) {
-    lobe.facets = t.facets;
-    lobe.albedo = t.albedo;
-    lobe.sampling = t.sampling;
-}
-
-} // namespace
-
 void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
     const auto color = [&](int i) { return glm::vec3(r[t.parameters[i]]); };
     const auto pair = [&](int i) { return glm::vec2(r[t.parameters[i]]); };
@@ -93,27 +82,28 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
     case LobeKind::Dielectric:
         out.dielectric = sh::dielectricSetup(color(0), number(1), pair(2), t.flagA, t.mode, t.fused,
                                              t.compensate);
-        setMethods(t, out.dielectric);
-        out.dielectric.fresnel = t.fresnel;
+        out.dielectric.facets = t.facets;
+        out.dielectric = sh::dielectricMethods(out.dielectric, t.albedo, t.sampling, t.fresnel);
         return;
     case LobeKind::Conductor:
         out.conductor = sh::conductorSetup(color(0), color(1), pair(2), t.flagA, t.compensate);
-        setMethods(t, out.conductor);
-        out.conductor = sh::conductorFresnel(out.conductor, t.fresnel);
+        out.conductor.facets = t.facets;
         if (t.film) out.conductor = sh::conductorFilm(out.conductor, number(3), number(4));
+        out.conductor = sh::conductorMethods(out.conductor, t.albedo, t.sampling, t.filmMethod);
+        out.conductor = sh::conductorFresnel(out.conductor, t.fresnel);
         return;
     case LobeKind::Schlick:
         if (t.filmDielectric) {
             out.schlick =
                 sh::filmDielectricSetup(color(0), number(1), pair(2), number(3), number(4), t.flagA,
                                         t.mode, t.fused, t.compensate);
-            setMethods(t, out.schlick);
-            return;
+        } else {
+            out.schlick = sh::schlickSetup(color(0), color(1), color(2), number(3), pair(4),
+                                           t.flagA, t.mode, t.fused, t.compensate);
+            if (t.film) out.schlick = sh::schlickFilm(out.schlick, number(5), number(6));
         }
-        out.schlick = sh::schlickSetup(color(0), color(1), color(2), number(3), pair(4), t.flagA,
-                                       t.mode, t.fused, t.compensate);
-        setMethods(t, out.schlick);
-        if (t.film) out.schlick = sh::schlickFilm(out.schlick, number(5), number(6));
+        out.schlick.facets = t.facets;
+        out.schlick = sh::schlickMethods(out.schlick, t.albedo, t.sampling, t.filmMethod);
         return;
     case LobeKind::Sheen: out.sheen = sh::sheenSetup(color(0), number(1), t.variant); return;
     case LobeKind::Phong: out.phong = sh::phongSetup(color(0), number(1)); return;

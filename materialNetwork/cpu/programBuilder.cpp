@@ -296,6 +296,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.albedo = chosenIndex(_plan.methods, "directionalAlbedo");
     t.sampling = chosenIndex(_plan.methods, "sampling");
     t.fresnel = chosenIndex(_plan.methods, "fresnel");
+    t.filmMethod = chosenIndex(_plan.methods, "thinFilm");
     t.diffuse = DiffuseModel(chosenIndex(_plan.methods, "diffuse"));
     const auto flag = [&](const char* input) {
         float x = 0.0f;

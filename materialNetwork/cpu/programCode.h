@@ -43,6 +43,7 @@ struct LobeTemplate {
     int albedo = 0;              ///< ALBEDO_*
     int sampling = 0;            ///< FACETS_VISIBLE and others
     int fresnel = 0;             ///< FRESNEL_*
+    int filmMethod = 0;          ///< FILM_*
     DiffuseModel diffuse = DiffuseModel::Authored; ///< of an Oren-Nayar lobe
     EnergyCurve energy;                            ///< of constant interfaces
     Register weight = 0;

@@ -206,13 +206,14 @@ private:
         if (kind != LobeKind::Dielectric && kind != LobeKind::Conductor &&
             kind != LobeKind::Schlick)
             return;
-        if (t.albedo != 0) line("    " + lobe + ".albedo = " + number(t.albedo) + ";");
-        if (t.sampling != 0) line("    " + lobe + ".sampling = " + number(t.sampling) + ";");
-        if (t.fresnel == 0 || kind == LobeKind::Schlick) return;
-        const std::string model = number(t.fresnel);
-        line(kind == LobeKind::Dielectric
-                 ? "    " + lobe + ".fresnel = " + model + ";"
-                 : "    " + lobe + " = conductorFresnel(" + lobe + ", " + model + ");");
+        if (t.albedo != 0 || t.sampling != 0 || t.fresnel != 0 || t.filmMethod != 0) {
+            const bool dielectric = kind == LobeKind::Dielectric;
+            line("    " + lobe + " = " + glslLobePrefix(kind) + "Methods(" + lobe + ", " +
+                 number(t.albedo) + ", " + number(t.sampling) + ", " +
+                 number(dielectric ? t.fresnel : t.filmMethod) + ");");
+        }
+        if (t.fresnel != 0 && kind == LobeKind::Conductor)
+            line("    " + lobe + " = conductorFresnel(" + lobe + ", " + number(t.fresnel) + ");");
     }
 
     void placeLobe(size_t i) {

@@ -40,7 +40,73 @@ Network layered(const NetworkNode& top, const NetworkNode& base) {
 
 const NetworkNode white = makeNode("base", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(1.0f)}});
 
+/// A rough interface over white: the base shows 1 - E.
+Network coated(float roughness) {
+    return layered(makeNode("top", "ND_dielectric_bsdf",
+                            {{"roughness", pair(roughness)}, {"tint", grey(0.0f)}}),
+                   white);
+}
+
 } // namespace
+
+// The lobes read the place of a method as a number.
+TEST(Methods, StandWhereTheShadersExpectThem) {
+    const auto place = [](const char* point, const char* method) {
+        return chosenIndex({{point, method}}, point);
+    };
+    EXPECT_EQ(place("directionalAlbedo", "table"), sh::ALBEDO_TABLE);
+    EXPECT_EQ(place("directionalAlbedo", "fit"), sh::ALBEDO_FIT);
+    EXPECT_EQ(place("directionalAlbedo", "karis"), sh::ALBEDO_KARIS);
+    EXPECT_EQ(place("directionalAlbedo", "mirror"), sh::ALBEDO_MIRROR);
+    EXPECT_EQ(place("directionalAlbedo", "monteCarlo16"), sh::ALBEDO_SAMPLES_16);
+    EXPECT_EQ(place("directionalAlbedo", "monteCarlo64"), sh::ALBEDO_SAMPLES_64);
+    EXPECT_EQ(place("directionalAlbedo", "quadrature"), sh::ALBEDO_QUADRATURE);
+    EXPECT_EQ(place("sampling", "vndf"), sh::FACETS_VISIBLE);
+    EXPECT_EQ(place("sampling", "boundedVndf"), sh::FACETS_BOUNDED);
+    EXPECT_EQ(place("sampling", "fullNdf"), sh::FACETS_ALL);
+    EXPECT_EQ(place("fresnel", "exact"), sh::FRESNEL_EXACT);
+    EXPECT_EQ(place("fresnel", "schlick"), sh::FRESNEL_SCHLICK);
+    EXPECT_EQ(place("fresnel", "f82"), sh::FRESNEL_F82);
+    EXPECT_EQ(place("diffuse", "lambert"), sh::DIFFUSE_LAMBERT);
+    EXPECT_EQ(place("diffuse", "qualitative"), sh::DIFFUSE_QUALITATIVE);
+    EXPECT_EQ(place("diffuse", "fujii"), sh::DIFFUSE_FUJII);
+    EXPECT_EQ(place("diffuse", "eon"), sh::DIFFUSE_EON);
+}
+
+// What a layer takes from its base follows the albedo method, and the exact ones agree.
+TEST(Methods, DirectionalAlbedoDecidesWhatALayerTakes) {
+    const auto of = [](const char* method) {
+        return measure(coated(0.5f), {{"directionalAlbedo", method}}).albedo.x;
+    };
+    const float truth = of("quadrature");
+    EXPECT_NEAR(of("table"), truth, 1e-3f);
+    EXPECT_NEAR(of("fit"), truth, 1e-3f);
+    for (const char* method : {"karis", "mirror", "monteCarlo16"}) {
+        EXPECT_NEAR(of(method), truth, 3e-2f) << method;
+        EXPECT_GT(std::fabs(of(method) - truth), 1e-5f) << method;
+    }
+}
+
+TEST(Methods, FresnelAndDiffuse) {
+    const NetworkNode metal = makeNode("bsdf", "ND_conductor_bsdf",
+                                       {{"ior", color(1.1f, 1.1f, 1.1f)},
+                                        {"extinction", color(2.3f, 2.3f, 2.3f)},
+                                        {"roughness", pair(0.4f)}});
+    const auto metals = [&](const char* method) {
+        return measure(bsdfNetwork({metal}), {{"fresnel", method}}).albedo.x;
+    };
+    EXPECT_NEAR(metals("f82"), metals("exact"), 2e-3f);
+    EXPECT_GT(std::fabs(metals("schlick") - metals("exact")), 1e-4f);
+    const NetworkNode rough = makeNode("bsdf", "ND_oren_nayar_diffuse_bsdf",
+                                       {{"color", grey(1.0f)}, {"roughness", number(1.0f)}});
+    const auto diffuse = [&](const char* method) {
+        return measure(bsdfNetwork({rough}), {{"diffuse", method}}).albedo.x;
+    };
+    EXPECT_NEAR(diffuse("eon"), 1.0f, 1e-4f);
+    EXPECT_NEAR(diffuse("lambert"), 1.0f, 1e-4f);
+    EXPECT_LT(diffuse("fujii"), 0.95f);
+    EXPECT_EQ(diffuse("authored"), diffuse("qualitative"));
+}
 
 TEST(Methods, LayerTransmittance) {
     const auto of = [](const NetworkNode& top, const char* method) {

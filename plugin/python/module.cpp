@@ -14,6 +14,7 @@ void bindRender(py::module_& m);
 #endif
 #ifdef PATINA_BIND_MATERIAL
 void bindMaterial(py::module_& m);
+void bindMethods(py::module_& m);
 #endif
 #ifdef PATINA_BIND_WEB
 void bindWeb(py::module_& m);
@@ -79,6 +80,7 @@ Film, images and colour; Renderer and its settings; materials: see the classes' 
 #endif
 #ifdef PATINA_BIND_MATERIAL
     patina::bindMaterial(m);
+    patina::bindMethods(m);
 #endif
 #ifdef PATINA_BIND_WEB
     patina::bindWeb(m);

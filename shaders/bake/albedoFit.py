@@ -23,8 +23,8 @@ import reflectanceCurves
 UNITS = (8, 8)
 FACETS = 3
 SEEDS = (1, 2, 3, 4)
-FIRST_STEPS = 120
-STEPS = 700
+FIRST_STEPS = 150
+STEPS = 2400
 GRID = 4000  # places at which a curve is tabulated
 
 

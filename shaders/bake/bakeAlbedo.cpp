@@ -239,6 +239,26 @@ void bakeVCavity() {
         }
 }
 
+// Transforms of what the channels see, at even path differences.
+void bakeFilm() {
+    for (int i = 0; i < FILM_PATHS; ++i) {
+        const double path = double(FILM_PATH_MAX) * i / (FILM_PATHS - 1);
+        vec3 re(0.0), im(0.0), white(0.0);
+        for (double nm = 360.0; nm <= 830.0; nm += 1.0) {
+            const double phase = 2e3 * sh64::PI * path / nm;
+            const vec3 seen = filmChannels(nm);
+            re += seen * std::cos(phase);
+            im += seen * std::sin(phase);
+            white += seen;
+        }
+        // At the last entry nothing is left, for all paths beyond.
+        const double left = i + 1 < FILM_PATHS ? 1.0 : 0.0;
+        for (const vec3& v : {re / white, im / white})
+            for (int k = 0; k < 3; ++k)
+                push(left * v[k]);
+    }
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -254,6 +274,7 @@ int main(int argc, char** argv) {
     for (int plane = CLASSIC_PHONG; plane <= CLASSIC_WARD_EXACT; ++plane)
         bakeClassic(plane);
     bakeVCavity();
+    bakeFilm();
     if (entryCount != ALBEDO_TABLE_SIZE) {
         std::fprintf(stderr, "bakeAlbedo: %d entries, the layout has %d\n", entryCount,
                      ALBEDO_TABLE_SIZE);

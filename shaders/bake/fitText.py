@@ -1,4 +1,4 @@
-"""The text of shaders/lib/albedoFit.glsl, from the numbers that albedoFit.py finds."""
+"""GLSL of small networks, from the numbers that albedoFit.py and sheenFit.py find."""
 
 HEAD = """\
 // Three facets that stand in for all that a view sees of isotropic GGX: the directional albedo of a
@@ -39,9 +39,13 @@ def number(value):
     return f"{value:.7g}"
 
 
+def scalar(value):
+    text = number(value)
+    return (text if "." in text or "e" in text else text + ".0") + "f"
+
+
 def vector(values):
-    texts = [number(v) for v in values]
-    return f"vec{len(texts)}(" + ", ".join((t if "." in t or "e" in t else t + ".0") + "f" for t in texts) + ")"
+    return f"vec{len(values)}(" + ", ".join(scalar(v) for v in values) + ")"
 
 
 def _sum(name, kind, matrix, offsets, columns, inputs):
@@ -50,7 +54,7 @@ def _sum(name, kind, matrix, offsets, columns, inputs):
     return "\n".join(lines) + ";\n"
 
 
-def _hidden(layer, matrix, offsets, inputs):
+def hidden(layer, matrix, offsets, inputs):
     """:returns: the text of one layer of units, and the names of its outputs"""
     text, names = "", []
     for i in range(0, len(offsets), 4):
@@ -64,7 +68,7 @@ def _hidden(layer, matrix, offsets, inputs):
 def rule(layers, rms, largest):
     text, inputs = HEAD.format(rms=rms / 65535.0, largest=largest), ["x0", "x1", "x2"]
     for i, (matrix, offsets) in enumerate(layers[:-1]):
-        part, inputs = _hidden(i, matrix, offsets, inputs)
+        part, inputs = hidden(i, matrix, offsets, inputs)
         text += part
     matrix, offsets = layers[-1]
     for i, name in enumerate(("lean", "side", "w")):

@@ -9,6 +9,7 @@
 struct Film {
     float thickness; // nm, 0 = none
     float ior;
+    int method; // FILM_*, FILM_GAUSSIANS unless the caller sets another
 };
 
 // Orders of the sum; what is left out shows only where both interfaces reflect nearly all.
@@ -21,6 +22,7 @@ PATINA_FN Film makeFilm(float thickness, float ior) {
     float d = clamp(thickness, 0.0f, FILM_THICKNESS_MAX);
     f.thickness = select(d, 0.0f, d >= FILM_THICKNESS_MIN);
     f.ior = clamp(ior, 1.0f, FILM_IOR_MAX);
+    f.method = FILM_GAUSSIANS;
     return f;
 }
 
@@ -30,11 +32,6 @@ PATINA_FN vec2 filmTerm(float phase, float amplitude, float wavenumber, float wi
     float a = amplitude * exp2(-1.44269504f * w * w);
     return vec2(a * cos(wavenumber * phase), a * sin(wavenumber * phase));
 }
-
-struct FilmSensitivity {
-    vec3 re;
-    vec3 im;
-};
 
 PATINA_FN FilmSensitivity filmSensitivity(float phase) {
     vec2 r = filmTerm(phase, 1.329794f, 1.637757f, 0.050146f) +
@@ -101,6 +98,37 @@ PATINA_FN FilmSum filmSum(float r12, vec3 r, vec3 i) {
     return s;
 }
 
+PATINA_FN FilmSensitivity filmSensitivityBy(int method, float phase) {
+    if (method == FILM_TABLED) return filmTabled(phase);
+    return filmSensitivity(phase);
+}
+
+// Reflectance of one polarisation at one phase (cos, sin): all orders at once.
+PATINA_FN vec3 filmAiry(float r12, vec3 r, vec3 i, vec2 phase) {
+    vec3 re = r * phase.x - i * phase.y;
+    vec3 im = r * phase.y + i * phase.x;
+    vec3 above = (vec3(r12) + re) * (vec3(r12) + re) + im * im;
+    vec3 below = (vec3(1.0f) + re * r12) * (vec3(1.0f) + re * r12) + im * im * (r12 * r12);
+    return above / max(below, vec3(TINY));
+}
+
+// The method FILM_SPECTRAL: Airy's formula at many wavelengths. x, y, z: filmBase per channel.
+PATINA_FN_RARE vec3 filmSpectral(float path, float s12, float p12, vec4 x, vec4 y, vec4 z) {
+    vec3 sum = vec3(0.0f);
+    vec3 white = vec3(0.0f);
+    for (int j = 0; j < FILM_WAVELENGTHS; ++j) {
+        float nm = filmWavelength(j);
+        float phase = TWO_PI * path / nm;
+        vec2 turn = vec2(cos(phase), sin(phase));
+        vec3 seen = filmChannels(nm);
+        vec3 rs = filmAiry(s12, vec3(x.x, y.x, z.x), vec3(x.y, y.y, z.y), turn);
+        vec3 rp = filmAiry(p12, vec3(x.z, y.z, z.z), vec3(x.w, y.w, z.w), turn);
+        sum += seen * (rs + rp) * 0.5f;
+        white += seen;
+    }
+    return min(max(sum / white, vec3(0.0f)), vec3(1.0f));
+}
+
 // Reflectance of the coated interface from outside at cosine c, for a base of complex ior n + i k.
 PATINA_FN vec3 filmReflectance(Film film, float c, vec3 n, vec3 k) {
     float e = film.ior;
@@ -112,6 +140,8 @@ PATINA_FN vec3 filmReflectance(Film film, float c, vec3 n, vec3 k) {
     vec4 x = filmBase(ec, e * e, s2, n.x, k.x);
     vec4 y = filmBase(ec, e * e, s2, n.y, k.y);
     vec4 z = filmBase(ec, e * e, s2, n.z, k.z);
+    if (film.method == FILM_SPECTRAL)
+        return filmSpectral(2.0f * film.thickness * ec, s12, p12, x, y, z);
     FilmSum s = filmSum(s12, vec3(x.x, y.x, z.x), vec3(x.y, y.y, z.y));
     FilmSum p = filmSum(p12, vec3(x.z, y.z, z.z), vec3(x.w, y.w, z.w));
     float phase = TWO_PI * 2e-3f * film.thickness * ec;
@@ -121,7 +151,7 @@ PATINA_FN vec3 filmReflectance(Film film, float c, vec3 n, vec3 k) {
     vec3 pi = p.qi;
     vec3 sum = s.constant + p.constant;
     for (int m = 1; m <= FILM_ORDERS; ++m) {
-        FilmSensitivity f = filmSensitivity(float(m) * phase);
+        FilmSensitivity f = filmSensitivityBy(film.method, float(m) * phase);
         sum +=
             s.factor * (sr * f.re - si * f.im) * 2.0f + p.factor * (pr * f.re - pi * f.im) * 2.0f;
         vec3 nextS = sr * s.qr - si * s.qi;

@@ -11,7 +11,7 @@ struct ConductorLobe {
     float retro; // -1 sends the lobe back to where it came from, else 1
     int compensate;
     int facets;   // FACETS_GGX, FACETS_BECKMANN
-    int albedo;   // ALBEDO_*; this and the next as facets: 0 unless the caller sets another
+    int albedo;   // ALBEDO_*, by conductorMethods as the next
     int sampling; // FACETS_VISIBLE and others
     int fresnel;  // FRESNEL_*, by conductorFresnel
     SchlickFresnel curve;
@@ -38,6 +38,14 @@ PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness
     l.curve = schlickFresnel(vec3(1.0f), vec3(1.0f), vec3(1.0f), 5.0f);
     l.known = false;
     l.k = vec3(1.0f);
+    return l;
+}
+
+// The lobe with other methods (ALBEDO_*, FACETS_VISIBLE and others, FILM_*), after its film.
+PATINA_FN ConductorLobe conductorMethods(ConductorLobe l, int albedo, int sampling, int film) {
+    l.albedo = albedo;
+    l.sampling = sampling;
+    l.film.method = film;
     return l;
 }
 

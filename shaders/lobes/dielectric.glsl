@@ -18,7 +18,7 @@ struct DielectricLobe {
     int mode;
     int compensate;
     int facets;   // FACETS_GGX, FACETS_BECKMANN
-    int albedo;   // ALBEDO_*; this and the next two as facets: 0 unless the caller sets another
+    int albedo;   // ALBEDO_*, by dielectricMethods as the next two
     int sampling; // FACETS_VISIBLE and others
     int fresnel;  // FRESNEL_*
     bool fused;
@@ -57,6 +57,15 @@ PATINA_FN DielectricLobe dielectricSetup(vec3 tint, float ior, vec2 roughness, b
     l.known = false;
     l.kr = 1.0f;
     l.kt = 1.0f;
+    return l;
+}
+
+// The lobe with other methods (ALBEDO_*, FACETS_VISIBLE and others, FRESNEL_*).
+PATINA_FN DielectricLobe dielectricMethods(DielectricLobe l, int albedo, int sampling,
+                                           int fresnel) {
+    l.albedo = albedo;
+    l.sampling = sampling;
+    l.fresnel = fresnel;
     return l;
 }
 

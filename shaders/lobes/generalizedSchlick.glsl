@@ -19,7 +19,7 @@ struct SchlickLobe {
     int mode;
     int compensate;
     int facets;   // FACETS_GGX, FACETS_BECKMANN
-    int albedo;   // ALBEDO_*; this and the next as facets: 0 unless the caller sets another
+    int albedo;   // ALBEDO_*, by schlickMethods as the next
     int sampling; // FACETS_VISIBLE and others
     bool exact;   // a dielectric under a film, not Schlick's curve
     bool fused;
@@ -58,6 +58,14 @@ PATINA_FN SchlickLobe schlickSetup(vec3 color0, vec3 color82, vec3 color90, floa
     l.tint = vec3(1.0f);
     l.kr = vec3(1.0f);
     l.kt = vec3(1.0f);
+    return l;
+}
+
+// The lobe with other methods (ALBEDO_*, FACETS_VISIBLE and others, FILM_*), after its film.
+PATINA_FN SchlickLobe schlickMethods(SchlickLobe l, int albedo, int sampling, int film) {
+    l.albedo = albedo;
+    l.sampling = sampling;
+    l.film.method = film;
     return l;
 }
 

@@ -138,7 +138,7 @@ TEST(AlbedoFit, Conductors) {
 TEST(AlbedoFit, GeneralizedSchlick) {
     for (const Curve& c :
          {schlick(0.04, 1.0, 1.0, 5.0), schlick(0.6, 0.8, 1.0, 5.0), schlick(0.04, 1.0, 1.0, 4.0),
-          schlick(0.04, 1.0, 0.5, 3.0), schlick(0.0, 1.0, 1.0, 6.0)})
+          schlick(0.04, 1.0, 0.5, 3.0), schlick(0.0, 1.0, 1.0, 6.0), schlick(1.0, 1.0, 0.2, 2.0)})
         EXPECT_LE(rms(c, sh::ALBEDO_FIT), kBound) << c.name;
 }
 

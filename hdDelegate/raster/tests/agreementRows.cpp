@@ -36,6 +36,8 @@ const Options mode{1.0f, 2.0f, 3.0f};
 const Options exponent{1.0f, 8.0f, 100.0f, 2000.0f};
 const Options schlickExponent{5.0f, 1.0f, 3.0f, 5.0f};
 const Options thickness{0.0f, 100.0f, 400.0f, 1000.0f};
+const Options three{0.0f, 1.0f, 2.0f};
+const Options albedo{0.0f, 1.0f, 2.0f, 3.0f};
 const Options filmIor{1.0f, 1.3f, 1.6f, 2.0f};
 
 // The instances of a lobe: __VA_ARGS__ is one expression of three languages.
@@ -94,6 +96,32 @@ std::vector<AgreementRow> agreementRows() {
                    mixed({index, index, index, extinction, extinction, extinction, alpha, alpha,
                           flag, flag}),
                    conductorSetup(p3(0), p3(3), p2(6), pb(8), pn(9))),
+        // Methods at choice points, but for those that add up many facets.
+        PATINA_ROW("methods of conductor", conductor, conductorAlbedo,
+                   mixed({index, extinction, alpha, alpha, three, albedo, three, three}, 96),
+                   conductorFresnel(conductorMethods(conductorSetup(vec3(p1(0)), vec3(p1(1)), p2(2),
+                                                                    false, pn(4)),
+                                                     pn(5), pn(6), 0),
+                                    pn(7))),
+        PATINA_ROW("methods of dielectric", dielectric, dielectricAlbedo,
+                   mixed({color, ior, alpha, alpha, mode, three, albedo, three, three}, 160),
+                   dielectricMethods(
+                       dielectricSetup(vec3(p1(0)), p1(1), p2(2), false, pn(4), false, pn(5)),
+                       pn(6), pn(7), pn(8))),
+        PATINA_ROW("methods of schlick", schlick, schlickAlbedo,
+                   mixed({color, color, alpha, alpha, mode, three, albedo, three}, 96),
+                   schlickMethods(schlickSetup(vec3(p1(0)), vec3(1.0f), vec3(p1(1)), 5.0f, p2(2),
+                                               false, pn(4), false, pn(5)),
+                                  pn(6), pn(7), 0)),
+        PATINA_ROW("models of orenNayar", orenNayar, orenNayarAlbedo,
+                   mixed({color, roughness, flag, {0, 1, 2, 3, 4}}),
+                   orenNayarModel(vec3(p1(0)), p1(1), pb(2), pn(3))),
+        PATINA_ROW("methods of film", conductor, conductorAlbedo,
+                   mixed({index, extinction, alpha, thickness, filmIor, three}, 48),
+                   conductorMethods(conductorFilm(conductorSetup(vec3(p1(0)), vec3(p1(1)),
+                                                                 vec2(p1(2)), false, 1),
+                                                  p1(3), p1(4)),
+                                    1, 0, pn(5))),
         PATINA_ROW(
             "dielectric", dielectric, dielectricAlbedo,
             mixed({color, color, color, ior, alpha, alpha, {0, 0, 0, 1}, mode, flag, flag}, 120),

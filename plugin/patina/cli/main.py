@@ -19,6 +19,7 @@ COMMANDS = {
     "compare": "compare",
     "hydra": "hydra",
     "bench": "bench",
+    "chart": "chart",
     "test": "testRun",
 }
 
@@ -32,6 +33,7 @@ SUMMARIES = {
     "compare": "measure how two images differ",
     "hydra": "where the Hydra plugin is, and whether hosts can use it",
     "bench": "measure speed and memory, beside peers",
+    "chart": "measure what methods cost and how far they are off",
     "test": "run every test of a checkout",
 }
 

@@ -35,11 +35,21 @@ def parse(texts):
     return methods
 
 
+def _measured(figures):
+    """One line for what `patina chart --lobes` measured; the worst of all subjects."""
+    if figures is None:
+        return []
+    return [f"measured: mean {figures['errorOf']} {'' if figures['errorOf'] == 'noise' else 'error '}"
+            f"{figures['mean']:.2g}, largest {figures['largest']:.2g}, {figures['cost']:.2g} times the default's time"]
+
+
 def _listing():
     lines = []
-    for point, names in compiled.load().choice_points():
+    patina = compiled.load()
+    for point, names in patina.choice_points():
         lines.append(point)
         for i, (name, description) in enumerate(names):
             text = textwrap.wrap(("(the default) " if i == 0 else "") + description, 90)
-            lines += [f"  {name:<12}{text[0] if text else ''}"] + [" " * 14 + more for more in text[1:]]
+            text += _measured(patina.method_figures(point, name))
+            lines += [f"  {name:<14}{text[0] if text else ''}"] + [" " * 16 + more for more in text[1:]]
     return "\n".join(lines)

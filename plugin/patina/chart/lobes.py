@@ -1,0 +1,98 @@
+"""Rows of measured methods: CSV, SVG, and the table that is compiled in."""
+import csv
+import os
+from collections import defaultdict
+
+from patina.chart import svg
+
+COLUMNS = ("point", "method", "subject", "errorOf", "ns", "nsLow", "nsHigh", "cost", "mean", "largest", "rms")
+
+_TABLE_HEAD = """\
+// Written by `patina chart --lobes --table`: measure again after a change to a lobe or a method.
+#include "materialNetwork/methodTable.h"
+
+namespace patina {
+
+// clang-format off
+const std::vector<MeasuredMethod>& methodTable() {
+    static const std::vector<MeasuredMethod> rows = {
+"""
+_TABLE_TAIL = """\
+    };
+    return rows;
+}
+// clang-format on
+
+} // namespace patina
+"""
+
+
+def with_cost(rows, points):
+    """Adds `cost`, the time over that of the point's default method on the same subject, and orders rows.
+
+    :param points: choice points with their methods, as _patina.choice_points() gives them
+    """
+    order = {(point, name): (i, k) for i, (point, methods) in enumerate(points)
+             for k, (name, _) in enumerate(methods)}
+    default = {point: methods[0][0] for point, methods in points}
+    reference = {(row["point"], row["subject"]): row["ns"] for row in rows if row["method"] == default[row["point"]]}
+    for row in rows:
+        # The default of the diffuse model is the node's own choice: its cost is that of the first row.
+        first = next(r["ns"] for r in rows if r["point"] == row["point"] and r["subject"] == row["subject"])
+        base = reference.get((row["point"], row["subject"]), first)
+        row["cost"] = row["ns"] / base if base > 0.0 else 1.0
+    return sorted(rows, key=lambda row: order[row["point"], row["method"]])
+
+
+def write_csv(rows, path):
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, COLUMNS)
+        writer.writeheader()
+        for row in rows:
+            writer.writerow({name: f"{row[name]:.6g}" if isinstance(row[name], float) else row[name]
+                             for name in COLUMNS})
+
+
+def write_table(rows, path):
+    """The C++ data of materialNetwork/methodTable.h."""
+    def number(value):
+        text = f"{value:.4g}"
+        return (text if "." in text or "e" in text else text + ".0") + "f"
+
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(_TABLE_HEAD)
+        for row in rows:
+            texts = ", ".join(f'"{row[name]}"' for name in ("point", "method", "subject", "errorOf"))
+            numbers = ", ".join(number(row[name]) for name in ("ns", "cost", "mean", "largest", "rms"))
+            file.write(f"        {{{texts}, {numbers}}},\n")
+        file.write(_TABLE_TAIL)
+
+
+def write_charts(rows, folder):
+    """One SVG per choice point and subject, of time against mean error.
+
+    :returns: the paths
+    """
+    charts = defaultdict(list)
+    for row in rows:
+        charts[row["point"], row["subject"]].append(row)
+    paths = []
+    for (point, subject), group in charts.items():
+        points = [(row["ns"], row["mean"], row["method"]) for row in group]
+        name = "".join(c if c.isalnum() else "_" for c in f"{point}_{subject}") + ".svg"
+        path = os.path.join(folder, name)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(svg.scatter(f"{point}, {subject}", points, "ns per evaluation, one thread",
+                                   f"mean error ({group[0]['errorOf']})"))
+        paths.append(path)
+    return paths
+
+
+def listing(rows):
+    """The rows as text, for a terminal."""
+    lines = [f"{'choice point':<19}{'method':<14}{'subject':<14}{'ns':>9}{'cost':>8}  {'mean error':>10}"
+             f"{'largest':>10}{'RMSE*65535':>12}"]
+    for row in rows:
+        lines.append(f"{row['point']:<19}{row['method']:<14}{row['subject']:<14}{row['ns']:>9.1f}{row['cost']:>8.2f}"
+                     f"  {row['mean']:>10.2g}{row['largest']:>10.2g}{row['rms'] * 65535:>12.1f}")
+    return "\n".join(lines)

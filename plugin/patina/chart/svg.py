@@ -1,0 +1,73 @@
+"""Scatter charts with logarithmic axes as SVG text, by hand: nothing beyond Python is needed."""
+import math
+from xml.sax.saxutils import escape
+
+COLOURS = ("#1b6ca8", "#c8452b", "#3a7d44", "#8a4fa0", "#b8860b", "#45768a", "#7a4a2b")
+LEFT, TOP, RIGHT, BOTTOM = 62, 40, 16, 46
+
+
+class Axis:
+    """A logarithmic axis over the decades that hold all values."""
+
+    def __init__(self, values, start, end):
+        values = [v for v in values if v > 0.0] or [1.0]
+        self.low = math.floor(math.log10(min(values)) - 1e-9)
+        self.high = max(math.ceil(math.log10(max(values)) + 1e-9), self.low + 1)
+        self.start, self.end = start, end
+
+    def at(self, value):
+        """Place of a value; what is not above 0 stands at the lower end."""
+        t = (math.log10(value) - self.low) / (self.high - self.low) if value > 0.0 else 0.0
+        return self.start + min(max(t, 0.0), 1.0) * (self.end - self.start)
+
+    def decades(self):
+        return [10.0 ** d for d in range(self.low, self.high + 1)]
+
+
+def pareto(points):
+    """Those of (x, y, ...) that no other beats in both, by x."""
+    best, kept = math.inf, []
+    for point in sorted(points, key=lambda p: (p[0], p[1])):
+        if point[1] < best:
+            best = point[1]
+            kept.append(point)
+    return kept
+
+
+def _text(x, y, text, anchor="middle", more=""):
+    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{more}>{escape(text)}</text>'
+
+
+def _decade(value):
+    return f"{value:g}" if 1e-2 <= value <= 1e4 else f"1e{round(math.log10(value))}"
+
+
+def scatter(title, points, x_label, y_label, width=520, height=340):
+    """:param points: list of (x, y, label); the line of Pareto joins those that none beats
+    :returns: an `svg` element
+    """
+    x = Axis([p[0] for p in points], LEFT, width - RIGHT)
+    y = Axis([p[1] for p in points], height - BOTTOM, TOP)
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
+           f'viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="11">',
+           f'<rect width="{width}" height="{height}" fill="white"/>',
+           _text(width / 2, 18, title, more=' font-size="13" font-weight="bold"')]
+    for value in x.decades():
+        at = x.at(value)
+        out.append(f'<path d="M{at:.1f} {TOP}V{height - BOTTOM}" stroke="#dddddd"/>')
+        out.append(_text(at, height - BOTTOM + 15, _decade(value)))
+    for value in y.decades():
+        at = y.at(value)
+        out.append(f'<path d="M{LEFT} {at:.1f}H{width - RIGHT}" stroke="#dddddd"/>')
+        out.append(_text(LEFT - 6, at + 4, _decade(value), "end"))
+    out.append(_text((LEFT + width - RIGHT) / 2, height - 10, x_label))
+    middle = (TOP + height - BOTTOM) / 2
+    out.append(_text(14, middle, y_label, more=f' transform="rotate(-90 14 {middle:.1f})"'))
+    line = " ".join(f"{x.at(p[0]):.1f},{y.at(p[1]):.1f}" for p in pareto(points))
+    out.append(f'<polyline points="{line}" fill="none" stroke="#999999" stroke-dasharray="4 3"/>')
+    for i, (px, py, label) in enumerate(points):
+        cx, cy = x.at(px), y.at(py)
+        right = cx < width - 110
+        out.append(f'<circle cx="{cx:.1f}" cy="{cy:.1f}" r="4.5" fill="{COLOURS[i % len(COLOURS)]}"/>')
+        out.append(_text(cx + (7 if right else -7), cy - 6, label, "start" if right else "end"))
+    return "\n".join([*out, "</svg>"]) + "\n"

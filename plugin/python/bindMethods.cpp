@@ -1,0 +1,80 @@
+// Choice points as they were measured, and measuring them.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "materialNetwork/methodTable.h"
+#include "shaders/measure/measure.h"
+
+namespace py = pybind11;
+
+namespace patina {
+
+namespace {
+
+py::list table() {
+    py::list rows;
+    for (const MeasuredMethod& r : methodTable()) {
+        py::dict row;
+        row["point"] = r.point;
+        row["method"] = r.method;
+        row["subject"] = r.subject;
+        row["errorOf"] = r.errorOf;
+        row["ns"] = r.ns;
+        row["cost"] = r.cost;
+        row["mean"] = r.mean;
+        row["largest"] = r.largest;
+        row["rms"] = r.rms;
+        rows.append(row);
+    }
+    return rows;
+}
+
+py::object figures(const std::string& point, const std::string& method) {
+    const MethodFigures f = methodFigures(point, method);
+    if (!f.measured) return py::none();
+    py::dict row;
+    row["errorOf"] = f.errorOf;
+    row["cost"] = f.cost;
+    row["mean"] = f.mean;
+    row["largest"] = f.largest;
+    return row;
+}
+
+py::list measured(const std::string& point, bool timed) {
+    std::vector<measure::Row> found;
+    {
+        py::gil_scoped_release release;
+        found = measure::measureMethods(point, timed);
+    }
+    py::list rows;
+    for (const measure::Row& r : found) {
+        py::dict row;
+        row["point"] = r.point;
+        row["method"] = r.method;
+        row["subject"] = r.subject;
+        row["errorOf"] = r.error;
+        row["ns"] = r.ns;
+        row["nsLow"] = r.nsLow;
+        row["nsHigh"] = r.nsHigh;
+        row["mean"] = r.mean;
+        row["largest"] = r.largest;
+        row["rms"] = r.rms;
+        rows.append(row);
+    }
+    return rows;
+}
+
+} // namespace
+
+void bindMethods(py::module_& m) {
+    m.def("method_table", &table,
+          "The measured methods as the program was built with them: list of dicts (point, method, "
+          "subject, errorOf, ns, cost, mean, largest, rms).");
+    m.def("method_figures", &figures, py::arg("point"), py::arg("method"),
+          "dict of errorOf, cost (over the default method), mean and largest error over all "
+          "subjects; None where nothing is measured.");
+    m.def("measure_methods", &measured, py::arg("point") = "", py::arg("timed") = true,
+          "Measures the methods of a choice point, or of all, here and now, on one thread.");
+}
+
+} // namespace patina

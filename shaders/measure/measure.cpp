@@ -1,0 +1,65 @@
+#include "shaders/measure/measure.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace patina::measure {
+
+void Errors::add(double e) {
+    _sum += std::fabs(e);
+    _squares += e * e;
+    _largest = std::max(_largest, std::fabs(e));
+    ++_count;
+}
+
+void Errors::into(Row& row) const {
+    const double n = std::max(_count, 1);
+    row.mean = _sum / n;
+    row.rms = std::sqrt(_squares / n);
+    row.largest = _largest;
+}
+
+void time(const std::function<double(int)>& batch, int evaluations, Row& row) {
+    constexpr int kBatches = 31;
+    constexpr double kBatchSeconds = 3e-4;
+    using Clock = std::chrono::steady_clock;
+    volatile double kept = 0.0;
+    const auto seconds = [&](int repeats) {
+        const auto start = Clock::now();
+        double sum = 0.0;
+        for (int i = 0; i < repeats; ++i)
+            sum += batch(evaluations);
+        kept = kept + sum;
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    // Warms up, and finds how many repeats the clock can tell apart.
+    const int repeats = int(std::clamp(kBatchSeconds / std::max(seconds(1), 1e-9), 1.0, 1000.0));
+    std::vector<double> ns(kBatches);
+    for (double& t : ns)
+        t = seconds(repeats) * 1e9 / (double(repeats) * evaluations);
+    std::sort(ns.begin(), ns.end());
+    row.ns = ns[kBatches / 2];
+    row.nsLow = ns[kBatches / 4];
+    row.nsHigh = ns[3 * kBatches / 4];
+}
+
+std::vector<Row> measureMethods(const std::string& point, bool timed) {
+    const struct {
+        const char* name;
+        std::vector<Row> (*measure)(bool);
+    } points[] = {{"energyCompensation", energyCompensation},
+                  {"directionalAlbedo", directionalAlbedo},
+                  {"sampling", sampling},
+                  {"fresnel", fresnel},
+                  {"thinFilm", thinFilm},
+                  {"diffuse", diffuse}};
+    std::vector<Row> rows;
+    for (const auto& p : points)
+        if (point.empty() || point == p.name)
+            for (Row& row : p.measure(timed))
+                rows.push_back(row);
+    return rows;
+}
+
+} // namespace patina::measure

@@ -1,0 +1,50 @@
+// The random walk on the microsurface, and how far energy compensation is from it. Fixed seeds;
+// bounds are five standard errors, so that a wrong walk fails and chance does so once in a million.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "shaders/bake/albedoQuadrature.h"
+#include "shaders/measure/measure.h"
+#include "shaders/measure/microsurfaceWalk.h"
+
+using namespace patina;
+using sh64::vec2;
+
+TEST(MicrosurfaceWalk, FirstBounceIsSingleScatteringAndNothingIsLost) {
+    constexpr int kWalks = 40000;
+    for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN})
+        for (vec2 alpha : {vec2(0.1), vec2(0.5), vec2(1.0)})
+            for (double z : {1.0, 0.5, 0.1}) {
+                const auto walked = measure::walkMicrosurface(
+                    bake::slanted(z), alpha, facets, [](double) { return 1.0; }, kWalks, 7);
+                bake::InterfaceQuadrature quadrature(64, facets);
+                quadrature.look(bake::slanted(z), alpha);
+                double zero = 0.0, once = 0.0;
+                quadrature.moments(&zero, 1, &once);
+                const double sigma = std::sqrt(once * (1.0 - once) / kWalks);
+                EXPECT_NEAR(walked.once, once, 5.0 * sigma + 1e-4) << alpha.x << " " << z;
+                EXPECT_NEAR(walked.all, 1.0, 1e-4) << alpha.x << " " << z;
+            }
+}
+
+// Absorption counts once per bounce: grey facets send back less than their reflectance times what
+// white ones do.
+TEST(MicrosurfaceWalk, GreyFacetsDarkenMoreThanOnce) {
+    const auto grey = measure::walkMicrosurface(
+        bake::slanted(0.7), vec2(1.0), sh::FACETS_GGX, [](double) { return 0.5; }, 40000, 3);
+    EXPECT_LT(grey.all, 0.5 - 5.0 * grey.sigma);
+    EXPECT_GT(grey.all, 0.5 * grey.once);
+}
+
+TEST(EnergyCompensation, IsCloserToTheWalkThanNone) {
+    double none = 0.0;
+    for (const measure::Row& row : measure::energyCompensation(false))
+        if (row.method == "none") none = std::max(none, row.mean);
+    for (const measure::Row& row : measure::energyCompensation(false))
+        if (row.method != "none") {
+            EXPECT_LT(row.mean, 0.1 * none) << row.method << " " << row.subject;
+            EXPECT_LT(row.largest, 0.06) << row.method << " " << row.subject;
+        }
+}

@@ -1,0 +1,85 @@
+"""patina chart --lobes, and what --method list says of what it measured."""
+import csv
+import json
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+
+from patina.chart import lobes, svg
+from patina.cli import compiled, main
+
+MEASURED = ("energyCompensation", "directionalAlbedo", "sampling", "fresnel", "thinFilm", "diffuse")
+
+
+def test_rows_csv_and_charts(capsys, tmp_path):
+    out = tmp_path / "charts"
+    assert main.main(["chart", "--lobes", "--point", "fresnel", "--out", str(out), "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)
+    assert {row["method"] for row in rows} == {"exact", "schlick", "f82"}
+    assert all(row["nsLow"] <= row["ns"] <= row["nsHigh"] for row in rows)
+    assert all(row["cost"] == 1.0 for row in rows if row["method"] == "exact")
+    with open(out / "lobes.csv", newline="", encoding="utf-8") as file:
+        written = list(csv.DictReader(file))
+    assert [row["method"] for row in written] == [row["method"] for row in rows]
+    for row in rows:
+        assert float(written[rows.index(row)]["mean"]) == pytest.approx(row["mean"], rel=1e-5)
+    charts = sorted(out.glob("*.svg"))
+    assert len(charts) == len({row["subject"] for row in rows})
+    for chart in charts:
+        assert ElementTree.parse(chart).getroot().tag.endswith("svg")
+
+
+def test_errors_are_those_of_the_table():
+    """What is compiled in is what comes out now; times are the machine's, errors are not."""
+    patina = compiled.load()
+    table = {(r["point"], r["method"], r["subject"]): r for r in patina.method_table()}
+    rows = patina.measure_methods("", False)
+    assert {r["point"] for r in rows} == set(MEASURED)
+    assert len(rows) == len(table)
+    for row in rows:
+        known = table[row["point"], row["method"], row["subject"]]
+        for figure in ("mean", "largest", "rms"):
+            assert row[figure] == pytest.approx(known[figure], rel=0.02, abs=2e-6), row
+
+
+def test_the_fit_is_exact_and_cheap():
+    rows = {(r["method"], r["subject"]): r for r in compiled.load().method_table() if r["point"] == "directionalAlbedo"}
+    subjects = {subject for _, subject in rows}
+    assert len(subjects) >= 5
+    for subject in subjects:
+        assert rows["fit", subject]["rms"] * 65535 <= 12.4
+        assert rows["fit", subject]["ns"] < 0.5 * rows["monteCarlo16", subject]["ns"]
+
+
+def test_listing_shows_figures(capsys):
+    with pytest.raises(SystemExit) as end:
+        main.main(["bsdf", "--method", "list"])
+    assert not end.value.code
+    text = capsys.readouterr().out
+    for point, methods in compiled.load().choice_points():
+        assert point in text and all(name in text for name, _ in methods)
+    assert text.count("measured: ") == len({(r["point"], r["method"]) for r in compiled.load().method_table()})
+
+
+@pytest.mark.parametrize("arguments", [[], ["--lobes", "--point", "nothing"], ["--lobes", "--point", "thinWalled"],
+                                       ["--lobes", "--point", "fresnel", "--table", "x.cpp"],
+                                       ["--lobes", "--point", "fresnel", "--out", "/dev/null/x"]])
+def test_what_cannot_be_charted(arguments, capsys):
+    assert main.main(["chart", *arguments]) in (1, 2)
+    error = capsys.readouterr().err
+    assert "Traceback" not in error and len(error.strip().splitlines()) == 1
+
+
+def test_pareto_and_axes():
+    assert svg.pareto([(1, 5, "a"), (2, 6, "b"), (3, 1, "c"), (4, 1, "d")]) == [(1, 5, "a"), (3, 1, "c")]
+    axis = svg.Axis([0.0, 0.02, 30.0], 0.0, 100.0)
+    assert axis.decades() == [0.01, 0.1, 1.0, 10.0, 100.0]
+    assert axis.at(0.0) == 0.0 and axis.at(1.0) == pytest.approx(50.0)
+
+
+def test_table_text(tmp_path):
+    row = {"point": "p", "method": "m", "subject": "s", "errorOf": "albedo", "ns": 3.0, "cost": 1.0, "mean": 0.0,
+           "largest": 1e-5, "rms": 0.5}
+    path = tmp_path / "table.cpp"
+    lobes.write_table([row], path)
+    assert '{"p", "m", "s", "albedo", 3.0f, 1.0f, 0.0f, 1e-05f, 0.5f},' in path.read_text()

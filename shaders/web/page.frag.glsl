@@ -52,7 +52,8 @@ bool isBlocked(vec3 wi) {
 // specular shares of the value, each over the density.
 vec3 along(vec3 wi, vec3 diffuse, vec3 specular, float pdf, bool delta) {
     float apart = float(passInfo.z) * pdf * 4.0 * PI / environmentInfo.x;
-    float lod = delta ? 0.0 : clamp(-0.5 * log2(max(apart, 1e-20)), 0.0, environmentInfo.y);
+    // Half as wide as the samples are apart: a filter reaches over two texels. More would blur.
+    float lod = delta ? 0.0 : clamp(-0.5 * log2(max(apart, 1e-20)) - 1.0, 0.0, environmentInfo.y);
     vec3 sum = (diffuse + specular) * environmentAt(wi, lod);
     if (isBlocked(wi)) return sum;
     for (int i = 0; i < lightCount; ++i) {

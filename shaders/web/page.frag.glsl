@@ -97,12 +97,14 @@ void main() {
             s = materialSample(u, randomAt(pixel, index, 3u));
             if (s.event == 0) continue;
             if ((s.event & LOBE_DELTA) != 0) {
-                color += along(s.wi, s.diffuse ? s.weight : vec3(0.0),
-                               s.diffuse ? vec3(0.0) : s.weight, s.pdf, true) * share;
+                color += along(s.wi, s.diffuseWeight, s.specularWeight, s.pdf, true) * share;
                 continue;
             }
         }
-        MaterialEval f = materialEval(s.wi);
+        MaterialEval f = materialEvalBut(s.wi, ofLight ? -1 : drawnLobe);
+        f.diffuse += s.diffuseWeight;
+        f.specular += s.specularWeight;
+        f.pdf += s.pdf;
         if (!ofLight) {
             float inverse = f.pdf > 0.0 ? share / f.pdf : 0.0;
             color += along(s.wi, f.diffuse * inverse, f.specular * inverse, f.pdf, false);

@@ -82,12 +82,19 @@ GlslWebMaterial makeGlslWebMaterial(const MaterialProgram& program) {
     out.leftOut = desktop.leftOut;
     out.presence = desktop.presence;
     out.emission = desktop.emission;
+    // Every text defines it for what stands before; without curves and tiles nobody asks for a
+    // value.
+    static const std::string lookUp = "materialParameter(";
+    const bool calls =
+        desktop.text.find(lookUp, desktop.text.find(lookUp) + 1) != std::string::npos;
     bool looksUp = false;
     for (size_t from = 0; from < desktop.text.size();) {
         size_t to = desktop.text.find('\n', from);
         if (to == std::string::npos) to = desktop.text.size();
         std::string line = desktop.text.substr(from, to - from);
         from = to + 1;
+        if (!calls && line.compare(0, 5 + lookUp.size(), "vec4 " + lookUp) == 0)
+            line = "vec4 " + lookUp + "int i) { return vec4(0.0); }";
         if (line.compare(0, 7, "layout(") == 0) {
             if (line.find(" uniform Parameters ") != std::string::npos) continue;
             line = line.substr(line.find(") ") + 2);

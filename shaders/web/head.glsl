@@ -10,12 +10,20 @@ float albedoTableFetch(int index) {
 #include "shaders/raster/material.glsl"
 
 // The page evaluates samples where it evaluates light: a second copy of all lobes would cost drivers
-// as much again to compile.
-MaterialSample pendingSample(MaterialSample s, LobeSample l) {
+// as much again to compile. What the drawn lobe has by its own sample waits in the sample.
+int drawnLobe = -1;
+MaterialSample pendingSample(MaterialSample s, LobeSample l, int drawn, vec3 weight, float chance) {
     bool reflects = (l.event & LOBE_REFLECT) != 0;
-    if (l.event == 0 || ((dot(s.wi, point.geometricNormal) > 0.0) == woOutside()) != reflects)
+    drawnLobe = drawn;
+    if (drawn < 0 || l.event == 0 ||
+        ((dot(s.wi, point.geometricNormal) > 0.0) == woOutside()) != reflects)
         return materialSampleNone();
     s.event = l.event;
+    s.pdf = chance * l.pdf;
+    bool delta = (l.event & LOBE_DELTA) != 0;
+    vec3 own = weight * l.weight * (delta ? 1.0 / chance : l.pdf);
+    s.diffuseWeight = s.diffuse ? own : vec3(0.0);
+    s.specularWeight = s.diffuse ? vec3(0.0) : own;
     return s;
 }
 #define finishSample pendingSample

@@ -52,7 +52,8 @@ bool isBlocked(vec3 wi) {
 // specular shares of the value, each over the density.
 vec3 along(vec3 wi, vec3 diffuse, vec3 specular, float pdf, bool delta) {
     float apart = float(passInfo.z) * pdf * 4.0 * PI / environmentInfo.x;
-    float lod = delta ? 0.0 : clamp(-0.5 * log2(max(apart, 1e-20)), 0.0, environmentInfo.y);
+    // Half as wide as the samples are apart: a filter reaches over two texels. More would blur.
+    float lod = delta ? 0.0 : clamp(-0.5 * log2(max(apart, 1e-20)) - 1.0, 0.0, environmentInfo.y);
     vec3 sum = (diffuse + specular) * environmentAt(wi, lod);
     if (isBlocked(wi)) return sum;
     for (int i = 0; i < lightCount; ++i) {
@@ -96,12 +97,14 @@ void main() {
             s = materialSample(u, randomAt(pixel, index, 3u));
             if (s.event == 0) continue;
             if ((s.event & LOBE_DELTA) != 0) {
-                color += along(s.wi, s.diffuse ? s.weight : vec3(0.0),
-                               s.diffuse ? vec3(0.0) : s.weight, s.pdf, true) * share;
+                color += along(s.wi, s.diffuseWeight, s.specularWeight, s.pdf, true) * share;
                 continue;
             }
         }
-        MaterialEval f = materialEval(s.wi);
+        MaterialEval f = materialEvalBut(s.wi, ofLight ? -1 : drawnLobe);
+        f.diffuse += s.diffuseWeight;
+        f.specular += s.specularWeight;
+        f.pdf += s.pdf;
         if (!ofLight) {
             float inverse = f.pdf > 0.0 ? share / f.pdf : 0.0;
             color += along(s.wi, f.diffuse * inverse, f.specular * inverse, f.pdf, false);

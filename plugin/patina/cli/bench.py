@@ -19,6 +19,7 @@ BENCHMARKS = {
                                "hdEmbree and Storm"),
     "raster": ("rasterBench.py", "frames of the rasterizer: first, after an edit, after a camera move, and where their time "
                                  "goes; beside Storm"),
+    "view": ("viewBench.py", "pages of `patina view` in headless Chromium: size, seconds to the first picture and to 64 samples"),
 }
 
 

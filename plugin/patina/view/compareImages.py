@@ -39,7 +39,7 @@ def made(builder):
     for i, network in enumerate(builder.networks):
         picture = reference.render(network, shapes.sphere(), builder.shapes[0]["toWorld"],
                                    {**environment, "pixels": images.unpacked(environment)}, builder.camera, builder.eye,
-                                   width, samples, "embree", lit_scene(file, set_texts), builder.methods)
+                                   width, samples, "embree", lit_scene(file, set_texts), methods=builder.methods)
         image = {**images.half_rgb(np.nan_to_num(picture)), "wrap": ["clamp", "clamp"]}
         found.append({"material": i, "image": image})
     return found

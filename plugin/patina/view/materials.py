@@ -4,6 +4,7 @@ from patina.cli.errors import CommandError
 from patina.view import controls, glslText, images, live
 
 LONGEST_TEXT = 200000
+MOST_TEXTURES = 12  # of 16; the page itself has albedos, environment, lights and parameters
 _NOTES = (("subsurface", "subsurface scattering shows as diffuse reflection"),
           ("interior", "what light loses inside the object is not shown"),
           ("displacement", "displacement is not shown"))
@@ -28,6 +29,9 @@ def _variant(name, made, chosen, count, textures):
     if len(made["text"]) > LONGEST_TEXT:
         raise CommandError(f"{name} is too large for a page: its shader has {len(made['text']) // 1000} thousand "
                            f"characters, and browsers give up on more than {LONGEST_TEXT // 1000} thousand")
+    if len(made["textures"]) > MOST_TEXTURES:
+        raise CommandError(f"{name} reads {len(made['textures'])} textures, and browsers promise room for "
+                           f"{MOST_TEXTURES} beside those of the page")
     return {"text": glslText.material_text(made, count), "presence": made["presence"],
             "parameters": [float(f"{x:.7g}") for x in made["parameters"]], "live": sorted(chosen), "textures": [textures.add(found) for found in made["textures"]]}
 

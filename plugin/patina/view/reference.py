@@ -56,17 +56,18 @@ def _mesh(edit, mesh, to_world):
 
 
 def render(network, mesh, to_world, environment, camera, eye, width, samples, backend="embree", scene=None,
-           chosen=None):
+           **more):
     """
     :param environment: see _dome(); None for none
     :param scene: a `_patina.Scene` whose lights (but no domes) light the shape too, or None
+    :param more: further render settings
     :returns: float array (width, width, 3), top row first
     """
     module = compiled.load()
     scene = scene or module.Scene()
     film, renderer = module.Film(), module.make_renderer(backend)
     settings = dict(module.default_render_settings(), width=width, height=width, samples=samples, tolerance=0.0,
-                    filterRadius=0.5, methods=chosen or {})
+                    filterRadius=0.5, **more)
     with tempfile.TemporaryDirectory() as folder:
         with scene.edit() as edit:
             _camera(edit, camera, eye)

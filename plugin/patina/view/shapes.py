@@ -41,12 +41,12 @@ def revolved(profile, normals, around=96):
             "indices": triangles[area > 1e-12].ravel()}
 
 
-def sphere():
+def sphere(around=128):
     """Radius 1; u runs once around, v from the south pole to the north pole."""
-    angle = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 65)
+    angle = np.linspace(-0.5 * np.pi, 0.5 * np.pi, around // 2 + 1)
     profile = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     profile[[0, -1], 0] = 0.0
-    return revolved(profile, profile, 128)
+    return revolved(profile, profile, around)
 
 
 def _arc(centre, radius, start, end, steps):

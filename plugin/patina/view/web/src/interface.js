@@ -21,7 +21,7 @@ export class Page {
         viewer.camera.far = data.camera.radius * 100;
         this.placeCamera();
         this.controls.addEventListener("change", () => viewer.invalidate());
-        window.addEventListener("resize", () => this.fit());
+        new ResizeObserver(() => this.fit()).observe(viewer.canvas);
         this.fit();
         this.panel = new Panel(this);
         listen(this);
@@ -37,8 +37,9 @@ export class Page {
 
     fit() {
         const [w, h] = sizeOf(this.viewer.canvas);
-        if (w !== this.viewer.width || h !== this.viewer.height) this.viewer.resize(w, h);
         this.controls.handleResize();
+        if (w === this.viewer.width && h === this.viewer.height) return;
+        this.viewer.resize(w, h);
         this.viewer.invalidate();
     }
 

@@ -5,6 +5,12 @@ import { fillLive } from "./materials.js";
 import { PageScene } from "./scene.js";
 import { makeRows } from "./textures.js";
 
+function radicalInverse(i, base) {
+    let x = 0;
+    for (let share = 1 / base; i > 0; i = Math.floor(i / base), share /= base) x += (i % base) * share;
+    return x;
+}
+
 export class Viewer {
     constructor(canvas, data, parts, state) {
         this.canvas = canvas;
@@ -84,7 +90,8 @@ export class Viewer {
         const { renderer, content, camera, state } = this;
         const s = content.shared, columns = this.tiles(), pass = this.accumulator.count;
         s.passInfo.value.set([pass, this.samplesPerPass, state.samples, content.shape.closed ? 1 : 0]);
-        const jitter = [((pass + 1) * 0.7548776662466927) % 1 - 0.5, ((pass + 1) * 0.5698402909980532) % 1 - 0.5];
+        // Halton's points, moved so that their mean is the middle of the pixel.
+        const jitter = [2, 3].map(base => radicalInverse(pass, base) + 0.5 / this.passes - 0.5);
         const { made, live } = content.programFor(state.material, state.needsAll());
         content.mesh.material = made;
         columns.forEach((values, i) => {

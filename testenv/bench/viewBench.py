@@ -1,0 +1,67 @@
+"""Pages of `patina view`: how large they are, how long they take to make, and how long a browser takes to their first picture
+and to all 64 samples, in headless Chromium at 256 x 256 pixels. Without a GPU Chromium draws on the processor (SwiftShader);
+most of the time until the first picture is then the compiling of shaders.
+"""
+import argparse
+import json
+import os
+import sys
+import tempfile
+import time
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.append(os.path.join(HERE, "..", "view"))
+
+import browser  # noqa: E402
+
+SCENES = os.path.normpath(os.path.join(HERE, "..", "scenes"))
+# Name -> arguments of patina view.
+PAGES = {
+    "Cook-Torrance": [os.path.join(SCENES, "classic", "hematite.usda") + ":cookTorrance"],
+    "UsdPreviewSurface": [os.path.join(SCENES, "shaderball.usda") + ":coat"],
+    "classic models": ["--demo", "classic"],
+    "standard_surface": ["--demo", "layers"],
+}
+WAIT = """const begin = performance.now(); page.paused = true;
+    viewer.invalidate(); viewer.settle(); viewer.accumulator.read(); return performance.now() - begin;"""
+
+
+def _measure(chromium, name, arguments, folder):
+    from patina.cli import main
+
+    path = os.path.join(folder, name.replace(" ", "_") + ".html")
+    begin = time.monotonic()
+    if main.main(["view", *arguments, "-o", path]) != 0:
+        return None
+    made = time.monotonic() - begin
+    chromium.open(path, "?width=256")
+    # Reading back waits for what has only been asked of the driver.
+    first = chromium.evaluate("while (!page.firstPicture) await new Promise(r => setTimeout(r, 5));"
+                              "viewer.accumulator.read(); return performance.now();")
+    return {"page": name, "megabytes": os.path.getsize(path) / 1e6, "secondsToMake": made,
+            "secondsToFirstPicture": first / 1000.0, "secondsFor64Samples": chromium.evaluate(WAIT) / 1000.0}
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="patina bench view", description=__doc__)
+    parser.add_argument("--json", metavar="FILE", help="also write the figures as JSON")
+    options = parser.parse_args(arguments)
+    if browser.missing():
+        print("patina bench view: " + browser.missing(), file=sys.stderr)
+        return 1
+    chromium, rows = browser.Browser(), []
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            for name, of_page in PAGES.items():
+                rows.append(_measure(chromium, name, of_page, folder))
+    finally:
+        chromium.close()
+    rows = [row for row in rows if row]
+    print("| page | MB | made in | first picture after | 64 samples in |\n|---|---|---|---|---|")
+    for row in rows:
+        print(f"| {row['page']} | {row['megabytes']:.2f} | {row['secondsToMake']:.1f} s | {row['secondsToFirstPicture']:.1f} s "
+              f"| {row['secondsFor64Samples']:.1f} s |")
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump(rows, file, indent=2)
+    return 0

@@ -115,6 +115,20 @@ def test_the_wipe_shows_the_path_traced_picture(shown):
     assert np.abs(traced.mean(axis=(0, 1)) - own.mean(axis=(0, 1))).max() < 6.0
 
 
+def test_flip_is_that_of_its_authors(shown):
+    pytest.importorskip("flip_evaluator")
+    from patina.cli import imageMetrics
+    from patina.view import images
+
+    flip, reference = shown.evaluate("return [await page.measureFlip(), page.data.references[0].image]")
+    own = shown.picture("page.paused = true; viewer.resize(48, 48)")
+    a, b = (np.round(255.0 * images.display_values(x)).astype(np.float32) / 255.0
+            for x in (own, images.unpacked(reference)))
+    assert flip == pytest.approx(imageMetrics.mean_flip(a, b, False), abs=2e-3)
+    shown.evaluate("page.state.rotation = 1;")
+    assert shown.evaluate("return await page.measureFlip()") is None
+
+
 def test_a_saved_layer_opens_again(shown, page, tmp_path, capsys):
     from patina.cli import main
 

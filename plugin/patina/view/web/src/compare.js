@@ -50,7 +50,7 @@ export function addCompare(gui, page) {
     });
     folder.add({ run: async () => {
         page.say("Measuring ...");
-        const flip = await measure(page);
+        const flip = await page.measureFlip();
         page.say(flip === null ? "There is no path-traced picture of this view and these values."
             : `Mean FLIP against the path tracer: ${flip.toFixed(4)}`);
     } }, "run").name("measure FLIP").domElement.dataset.action = "flip";

@@ -1,6 +1,6 @@
 // The parts of the interface, and what they do to the state.
 import { TrackballControls } from "three/examples/jsm/controls/TrackballControls.js";
-import { loadReferences } from "./compare.js";
+import { loadReferences, measure } from "./compare.js";
 import { listen } from "./keyboard.js";
 import { Panel } from "./panel.js";
 
@@ -75,6 +75,9 @@ export class Page {
         this.placeCamera();
         this.refresh();
     }
+
+    // Mean FLIP against the path-traced picture; null where there is none of this view.
+    measureFlip() { return measure(this); }
 
     say(text) { document.getElementById("note").textContent = text; }
     showNote() {

@@ -40,6 +40,7 @@ def soft_sky():
             + 0.15 * across[..., None] * np.array([1.2, 1.0, 0.7])).astype(np.float32)
 
 
+@pytest.mark.slow
 def test_ten_materials_look_as_in_the_rasterizer(chromium, make, tmp_path):
     module = compiled.load()
     try:

@@ -4,7 +4,7 @@ import json
 import numpy as np
 import pytest
 
-EVIL = "&lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;&quot;];alert(2);//*/ }"
+EVIL = "PATINA_SCRIPT &lt;/script&gt;&lt;img src=x onerror=alert(1)&gt;&quot;];alert(2);//*/ }"
 DOCUMENT = """<?xml version="1.0"?>
 <materialx version="1.39">
   <oren_nayar_diffuse_bsdf name="{evil}" type="BSDF">
@@ -55,7 +55,7 @@ def test_script_in_names_stays_text(make, chromium, tmp_path):
     file = tmp_path / "evil.mtlx"
     file.write_text(DOCUMENT.format(evil=EVIL))
     controls = tmp_path / "controls.json"
-    evil = "</script><script>alert(3)</script><!--"
+    evil = "PATINA_SCRIPT PATINA_DATA </script><script>alert(3)</script><!--"
     controls.write_text(json.dumps({"title": evil, "presets": [{"name": evil, "values": {}}]}))
     page = make("evil.html", file, "--title", evil, "--controls", controls)
     text = open(page, encoding="utf-8").read()

@@ -33,7 +33,8 @@ def _variant(name, made, chosen, count, textures):
         raise CommandError(f"{name} reads {len(made['textures'])} textures, and browsers promise room for "
                            f"{MOST_TEXTURES} beside those of the page")
     return {"text": glslText.material_text(made, count), "presence": made["presence"],
-            "parameters": [float(f"{x:.7g}") for x in made["parameters"]], "live": sorted(chosen), "textures": [textures.add(found) for found in made["textures"]]}
+            "parameters": [float(f"{x:.7g}") for x in made["parameters"]], "live": sorted(chosen),
+            "textures": [textures.add(found) for found in made["textures"]]}
 
 
 def build(name, network, methods, textures):

@@ -2,6 +2,7 @@
 import html
 import json
 import os
+import re
 
 from patina.cli.errors import CommandError
 from patina.view import albedo, bundle, glslText
@@ -25,9 +26,6 @@ def document(data, lobes):
     script = bundle.script()
     if "</script" in script.lower():
         raise CommandError("the page's script cannot stand in a page")
-    text = _web("page.html")
-    for mark, part in (("PATINA_TITLE", html.escape(data["title"])), ("PATINA_STYLE", _web("page.css")),
-                       ("PATINA_DATA", as_json(whole)), ("PATINA_SCRIPT", script)):
-        before, _, after = text.partition(mark)
-        text = before + part + after
-    return text
+    parts = {"TITLE": html.escape(data["title"]), "STYLE": _web("page.css"), "DATA": as_json(whole), "SCRIPT": script}
+    # In one go: what is put in may hold the names of these places.
+    return re.sub("PATINA_(TITLE|STYLE|DATA|SCRIPT)", lambda mark: parts[mark.group(1)], _web("page.html"))

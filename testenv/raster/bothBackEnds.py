@@ -17,20 +17,19 @@ from pairs import SCENES, pixels, record, without_opengl  # noqa: F401  (for tes
 
 
 def report(row):
-    direct = row["traced"][pairs.DIRECT]
-    whole = row["traced"].get(pairs.WHOLE)
-    text = (f"{row['name']:22} direct: bias {100 * direct['bias']:+7.2f} %  RMSE {direct['rmse']:.4f}  FLIP "
-            f"{pairsPage._flip(direct['flip'])}  worst block {100 * direct['worst']:3.0f} %")
-    if whole:
-        text += f"  all: bias {100 * whole['bias']:+7.2f} %  FLIP {pairsPage._flip(whole['flip'])}"
-    return text + f"  {row['rasterSeconds']:.1f} s, {direct['seconds']:.1f} s"
+    text = f"{row['name']:22}"
+    for depth, found in row["traced"].items():
+        text += (f" {'direct' if depth == pairs.DIRECT else 'all'}: bias {100 * found['bias']:+7.2f} %  RMSE "
+                 f"{found['rmse']:.4f}  FLIP {pairsPage.flip_text(found['flip'])}  worst block {100 * found['worst']:3.0f} % ")
+    return text + f" {row['rasterSeconds']:.1f} s, {found['seconds']:.1f} s"
 
 
 def measured(row, kind):
     """:returns: what budgets.settle() takes"""
-    direct = row["traced"][pairs.DIRECT]
     if kind == "quick":
-        return {"bias": direct["bias"], "worst": direct["worst"]}
+        (found,) = row["traced"].values()
+        return {"bias": found["bias"], "worst": found["worst"]}
+    direct = row["traced"][pairs.DIRECT]
     whole = row["traced"][pairs.WHOLE]
     return {"flip": direct["flip"], "rmse": direct["rmse"], "bias": direct["bias"], "flipWhole": whole["flip"],
             "rmseWhole": whole["rmse"], "biasWhole": whole["bias"], "secondsRaster": row["rasterSeconds"],
@@ -73,7 +72,7 @@ def main():
         entry = held["scenes"].setdefault(name, {})
         remarks[name] = entry.get("why", "")
         try:
-            depths = (pairs.DIRECT,) if a.update == "quick" else (pairs.DIRECT, pairs.WHOLE)
+            depths = (pairs.depth_of(entry),) if a.update == "quick" else (pairs.DIRECT, pairs.WHOLE)
             row = pairs.pair(name, a.folder, samples, width, depths)
             print(report(row), flush=True)
             if a.update:

@@ -70,6 +70,11 @@ def numbers(raster, traced):
             "worst": float(np.max(np.abs(a - b) / (b + 0.05 * max(traced.mean(), 1e-9))))}
 
 
+def depth_of(entry):
+    """:returns: the paths that an entry of budgets.json is held against"""
+    return DIRECT if entry.get("same", True) else WHOLE
+
+
 def command(name, samples, width):
     return f"python testenv/raster/bothBackEnds.py OUTPUT {name} --samples {samples} --width {width}"
 

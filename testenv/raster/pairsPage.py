@@ -29,7 +29,7 @@ def png(array):
     return f'<img alt="" src="data:image/png;base64,{base64.b64encode(file).decode()}">'
 
 
-def _flip(value):
+def flip_text(value):
     return "-" if value is None else f"{value:.4f}"
 
 
@@ -44,7 +44,7 @@ def _table(rows, remarks):
         for depth in (DIRECT, WHOLE):
             t = row["traced"].get(depth)
             cells.append("<td><td><td><td>" if t is None else
-                         f"<td class=n>{t['seconds']:.1f}<td class=n>{t['rmse']:.4f}<td class=n>{_flip(t['flip'])}"
+                         f"<td class=n>{t['seconds']:.1f}<td class=n>{t['rmse']:.4f}<td class=n>{flip_text(t['flip'])}"
                          f"<td class=n>{100 * t['bias']:+.2f} %")
         lines.append("<tr>" + "".join(cells) + f"<td>{html.escape(remarks.get(row['name'], ''))}")
     return "\n".join(lines) + "</table>"

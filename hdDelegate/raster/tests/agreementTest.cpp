@@ -92,6 +92,10 @@ struct Reason {
 const Reason reasons[] = {
     {"dielectric", "past total reflection and under fused layers what passes is 1 minus nearly 1"},
     {"schlick", "past total reflection and under fused layers what passes is 1 minus nearly 1"},
+    {"methods of conductor",
+     "the rounding of a half vector is divided by alpha squared, 0.01 here"},
+    {"methods of dielectric", "as dielectric; the density of all facets divides by alpha squared"},
+    {"methods of schlick", "as schlick; the density of all facets divides by alpha squared"},
     {"film", "amplitudes of the two faces cancel, and what passes is 1 minus nearly 1"},
     {"phong", "the exponent multiplies the rounding of the cosine"},
     {"blinnPhong", "the exponent multiplies the rounding of the cosine"},

@@ -13,7 +13,7 @@ import os
 import budgets
 import pairs
 import pairsPage
-from pairs import SCENES, pixels, record, without_opengl  # noqa: F401  (for tests beside this)
+from pairs import SCENES, numbers, pixels, record, without_opengl  # noqa: F401  (for tests beside this)
 
 
 def report(row):

@@ -38,9 +38,9 @@ def test_each_scene_is_within_its_budget(name, tmp_path):
             _fail(row, tmp_path, f"{key} is {found[key]:+.4f}, the budget {most}")
 
 
-@pytest.mark.parametrize("name", ["furnace", "lightDistant", "lightRect"])
+@pytest.mark.parametrize("name", ["lightDistant", "texturedDiffuse"])
 def test_many_samples_look_alike(name, tmp_path):
-    row = pairs.pair(name, str(tmp_path), 1024, 48, depths=(pairs.DIRECT,))
+    row = pairs.pair(name, str(tmp_path), 1024, 64, depths=(pairs.DIRECT,))
     found = row["traced"][pairs.DIRECT]["flip"]
     if found is None:
         pytest.skip("flip-evaluator is not installed")

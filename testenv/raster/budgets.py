@@ -3,7 +3,7 @@ unless somebody writes down why one had to rise.
 
 budgets.json: `quick` and `full` are settings (samples, width); `scenes` maps a name to
   same    true where both back ends have the same answer to direct light
-  why     what the rasterizer leaves out, where they differ by design
+  why     what the rasterizer leaves out, where they differ by design; or why FLIP is not below LARGEST_FLIP yet
   checks  what else stands for the scene: tests against other renderers or closed forms
   quick   worst 8x8 block and bias of the mean that the test allows, from fixed seeds: beside direct light where both have
           the same answer, else beside all light

@@ -57,7 +57,11 @@ def pixels(image):
 
 def numbers(raster, traced):
     """:returns: a dict: `bias` of the mean, `rmse`, `relMSE`, `flip` (None where it cannot be measured), and `worst`, the
-    largest relative difference of a block of 8x8 pixels, which noise hardly reaches"""
+    largest relative difference of a block of 8x8 pixels, which noise hardly reaches
+    :raises RuntimeError: where an image holds NaN or Inf"""
+    for image, made in ((raster, "rasterizer"), (traced, "path tracer")):
+        if not np.isfinite(image).all():
+            raise RuntimeError(f"the image of the {made} has {np.sum(~np.isfinite(image))} values that are no numbers")
     found = imageMetrics.differences(raster, traced)
     h, w = (n // 8 * 8 for n in raster.shape[:2])
 

@@ -40,6 +40,7 @@ def test_each_scene_is_within_its_budget(name, tmp_path):
 
 @pytest.mark.parametrize("name", ["lightDistant", "texturedDiffuse"])
 def test_many_samples_look_alike(name, tmp_path):
+    """Two scenes that hold the bound and take little time; not all do (budgets.json)."""
     row = pairs.pair(name, str(tmp_path), 1024, 64, depths=(pairs.DIRECT,))
     found = row["traced"][pairs.DIRECT]["flip"]
     if found is None:

@@ -92,10 +92,9 @@ struct Reason {
 const Reason reasons[] = {
     {"dielectric", "past total reflection and under fused layers what passes is 1 minus nearly 1"},
     {"schlick", "past total reflection and under fused layers what passes is 1 minus nearly 1"},
-    {"methods of conductor",
-     "the rounding of a half vector is divided by alpha squared, 0.01 here"},
-    {"methods of dielectric", "as dielectric; the density of all facets divides by alpha squared"},
-    {"methods of schlick", "as schlick; the density of all facets divides by alpha squared"},
+    {"methods of conductor", "not examined; float C++ has as many, as far off"},
+    {"methods of dielectric", "not examined; float C++ has nearly as many, as far off"},
+    {"methods of schlick", "not examined; float C++ has nearly as many, as far off"},
     {"film", "amplitudes of the two faces cancel, and what passes is 1 minus nearly 1"},
     {"phong", "the exponent multiplies the rounding of the cosine"},
     {"blinnPhong", "the exponent multiplies the rounding of the cosine"},

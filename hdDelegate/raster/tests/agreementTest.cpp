@@ -92,9 +92,13 @@ struct Reason {
 const Reason reasons[] = {
     {"dielectric", "past total reflection and under fused layers what passes is 1 minus nearly 1"},
     {"schlick", "past total reflection and under fused layers what passes is 1 minus nearly 1"},
-    {"methods of conductor", "not examined; float C++ has as many, as far off"},
-    {"methods of dielectric", "not examined; float C++ has nearly as many, as far off"},
-    {"methods of schlick", "not examined; float C++ has nearly as many, as far off"},
+    {"methods of conductor",
+     "at grazing angles narrow facets multiply the rounding of their slope"},
+    {"methods of dielectric", "at grazing angles and past total reflection what passes is 1 minus "
+                              "nearly 1; narrow facets multiply the rounding of their slope"},
+    {"methods of schlick",
+     "past total reflection and from a colour of 1 what passes is the ratio of "
+     "two that are 1 minus nearly 1; narrow facets as above"},
     {"film", "amplitudes of the two faces cancel, and what passes is 1 minus nearly 1"},
     {"phong", "the exponent multiplies the rounding of the cosine"},
     {"blinnPhong", "the exponent multiplies the rounding of the cosine"},

@@ -193,8 +193,9 @@ def test_crossover():
     assert never["at"] is None and "path tracer is better at every time" in sceneMeasures.crossover_text(never)
     late = sceneMeasures.crossover(traced, [(1e3, 1e-9)])
     assert late["better"] == []
+    assert never["below"] == pytest.approx(1.0 / 3.0) and "from 0.33 s on" in sceneMeasures.crossover_text(never)
     still = sceneMeasures.crossover(traced, [(0.1, 0.001)])
-    assert still["open"] and still["until"] == 64.0
+    assert still["open"] and still["until"] == 64.0 and still["below"] is None
     expected = sceneMeasures.expected_level(traced, [(0.1, 0.001)], 1.0)
     assert expected == pytest.approx(1000.0)
     assert "1000 s" in sceneMeasures.crossover_text(still, expected)

@@ -57,6 +57,7 @@ class Plot:
     def __init__(self, title, x_label, y_label, foot=""):
         self.title, self.x_label, self.y_label, self.foot = title, x_label, y_label, foot
         self.series, self.floors, self.crossings, self.front, self.guides = [], [], [], [], []
+        self.x_ticks = None  # None: those of the axis
 
     def add(self, name, points, colour, kind="circle", filled=True, line=True, below=False):
         """:param points: list of (x, y, label)"""
@@ -101,7 +102,7 @@ class Plot:
     def _grid(self):
         bottom, right = HEIGHT - BOTTOM, WIDTH - RIGHT
         out = [f'<rect x="{LEFT}" y="{TOP}" width="{right - LEFT}" height="{bottom - TOP}" fill="none" stroke="#bbb"/>']
-        for value in self.x.ticks():
+        for value in self.x_ticks or self.x.ticks():
             at = self.x.at(value)
             out += [f'<path d="M{at:.1f} {TOP}V{bottom}" stroke="#e4e4e4"/>', text(at, bottom + 15, number(value))]
         for value in self.y.ticks():

@@ -38,18 +38,24 @@ def _over_seconds(result, measure, title, foot):
         if (backend, measure) in result.floors:
             plot.add_floor(f"floor of the {words}", result.floors[backend, measure], colour)
     plot.set_front(sceneMeasures.pareto([(r["seconds"], r[measure]) for r in result.rows if r[measure]]))
-    crossing = result.crossovers.get(measure)
-    if crossing and crossing["at"] is not None:
-        begin, end = crossing["better"][-1]
-        if not crossing["open"]:
-            plot.add_crossing(f"rasterizer better below {sceneMeasures.seconds_text(end)}", end)
-        elif crossing["expected"]:
-            at = crossing["expected"]
-            # A mark far away would press everything else into a corner.
-            near = at < 30.0 * crossing["until"]
-            plot.add_crossing(("level expected at " if near else "rasterizer better; level expected at ")
-                              + sceneMeasures.seconds_text(at), at if near else crossing["until"], sure=False)
+    if measure in result.crossovers:
+        _mark(plot, result.crossovers[measure])
     return plot
+
+
+def _mark(plot, crossing):
+    """The time at which one back end overtakes the other."""
+    say = sceneMeasures.seconds_text
+    if crossing["open"]:
+        at = crossing["expected"] or crossing["until"]
+        # A mark far away would press everything else into a corner.
+        near = at < 30.0 * crossing["until"]
+        plot.add_crossing(("level expected at " if near else "rasterizer better; level expected at ") + say(at),
+                          at if near else crossing["until"], sure=False)
+    elif crossing["at"]:
+        plot.add_crossing(f"rasterizer better below {say(crossing['at'])}", crossing["at"])
+    elif crossing["below"]:
+        plot.add_crossing(f"path tracer below the rasterizer's least error from {say(crossing['below'])}", crossing["below"])
 
 
 def _over_samples(slopes, title, foot):
@@ -58,6 +64,7 @@ def _over_samples(slopes, title, foot):
         light = ", against direct light" if found["against"] == "direct" else ""
         plot.add(f"{WORDS[backend]}{light}: slope {found['slope']:.2f}",
                  [(n, e, "") for n, e in zip(found["samples"], found["rmse"])], COLOURS[backend], KINDS[backend])
+    plot.x_ticks = sorted({n for found in slopes.values() for n in found["samples"]})
     plot.add_guide(-0.5, "slope -0.5: independent samples")
     return plot
 

@@ -73,6 +73,8 @@ def climb(path, arguments, methods, truth, folder, say):
                     raise
                 backends.remove(backend)
                 ladder.problems.append(str(error))
+        if deadline and "embree" not in backends and not arguments.reference:
+            climber.rate()
         climber.steps(backends)
         for backend in backends:
             for tolerance in arguments.tolerances:
@@ -102,12 +104,17 @@ class _Climber:
         self.ladder.first[backend] = max(0.0, first.wall - warm.seconds)
         self.per_sample[backend] = warm.seconds
 
+    def rate(self):
+        """How fast the path tracer is, which will make the reference."""
+        self.renders.render("embree", self.settings(1, 0, 0))
+        self.per_sample["embree"] = self.renders.render("embree", self.settings(1, 0, 0)).seconds
+
     def reserve(self, samples, backends):
         """Seconds that references need for so many samples."""
         if self.arguments.reference:
             return 0.0
         asked = self.arguments.referenceSamples or sceneReference.SAMPLES_FACTOR * samples
-        traced = self.per_sample.get("embree", 0.1)
+        traced = self.per_sample.get("embree", 0.0)
         return asked * traced * (2.0 if "raster" in backends else 1.0)
 
     def fits(self, seconds, samples, backends):
@@ -115,22 +122,26 @@ class _Climber:
         return left is None or seconds + self.reserve(samples, backends) < left
 
     def steps(self, backends):
+        """All counts of samples; a back end that would take too long stops, the other goes on."""
+        climbing = list(backends)
         for step, samples in enumerate(counts(self.arguments.maxSamples)):
-            wanted = {b: self.per_sample[b] * samples * (REPEATS if self.per_sample[b] * samples < SHORT else 1)
-                      for b in backends}
-            if step and not self.fits(sum(wanted.values()), samples, backends):
-                self.note(f"stopped before {samples} samples: --seconds {self.arguments.seconds:g} would not do")
-                return
-            for backend in backends:
+            for backend in list(climbing):
+                wanted = self.per_sample[backend] * samples
+                wanted *= REPEATS if wanted < SHORT else 1
+                # References are of the samples of the back end that goes on longest.
+                if step and not self.fits(wanted, samples, backends):
+                    self.note(f"{WORDS[backend]}: stopped before {samples} samples, --seconds {self.arguments.seconds:g} "
+                              "would not do")
+                    climbing.remove(backend)
+                    continue
                 try:
-                    rung = self.rung(backend, samples, step)
+                    self.per_sample[backend] = self.rung(backend, samples, step).seconds / samples
                 except OutOfTime:
                     if not step:
                         raise
-                    self.note(f"{WORDS[backend]}: {samples} samples were given up, --seconds "
-                              f"{self.arguments.seconds:g} are over")
+                    self.note(f"{WORDS[backend]}: {samples} samples were given up, --seconds {self.arguments.seconds:g} are "
+                              "over")
                     return
-                self.per_sample[backend] = rung.seconds / samples
 
     def rung(self, backend, samples, step, tolerance=0.0):
         what = f"to a tolerance of {tolerance:g}" if tolerance else f"{samples} sample" + "s" * (samples > 1)

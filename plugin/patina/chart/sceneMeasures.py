@@ -132,13 +132,14 @@ def crossover(traced, drawn, steps=2000):
     :param drawn: those of the rasterizer
     :returns: dict of `better`: the spans of seconds [from, to] in which the rasterizer is better; `until`: how long the path
         tracer was measured; `open`: whether the rasterizer is still better then; `at`: the end of its last span, None where
-        it has none
+        it has none; `below`: when the path tracer's error falls below the least one of the rasterizer, None if it does not
     """
     a, b = pareto(traced), pareto(drawn)
     until = a[-1][0]
     begin = min(a[0][0], b[0][0])
+    below = _level(a, b[-1][1])
     if b[0][0] > until:
-        return {"better": [], "until": until, "open": False, "at": None}
+        return {"better": [], "until": until, "open": False, "at": None, "below": below}
     times = sorted({begin, until, *[p[0] for p in a + b if begin <= p[0] <= until],
                     *[begin * (until / begin) ** (i / steps) for i in range(1, steps)]})
     spans, inside = [], False
@@ -151,7 +152,20 @@ def crossover(traced, drawn, steps=2000):
         elif inside:
             spans[-1][1] = math.sqrt(times[i - 1] * t)
         inside = now
-    return {"better": spans, "until": until, "open": inside, "at": spans[-1][1] if spans else None}
+    return {"better": spans, "until": until, "open": inside, "at": spans[-1][1] if spans else None,
+            "below": below}
+
+
+def _level(front, error):
+    """When a front has no more than an error: straight between its points on log axes, None if never."""
+    if front[0][1] <= error:
+        return front[0][0]
+    for (t0, e0), (t1, e1) in zip(front, front[1:]):
+        if e1 <= error:
+            if min(e1, error, t0) <= 0.0:
+                return t1
+            return t0 * (t1 / t0) ** (math.log(error / e0) / math.log(e1 / e0))
+    return None
 
 
 def expected_level(traced, drawn, order):
@@ -168,9 +182,10 @@ def seconds_text(seconds):
 
 def crossover_text(found, expected=None):
     """One sentence of crossover()."""
-    spans = found["better"]
+    spans, below = found["better"], found["below"]
     if not spans:
-        return f"the path tracer is better at every time up to {seconds_text(found['until'])}"
+        text = f"the path tracer is better at every time up to {seconds_text(found['until'])}"
+        return text + (f"; from {seconds_text(below)} on its error is below any of the rasterizer" if below else "")
     parts = []
     for i, (begin, end) in enumerate(spans):
         if found["open"] and i == len(spans) - 1:

@@ -85,7 +85,7 @@ def _pictures(result):
             if rung.backend == backend:
                 what = f"tolerance {rung.tolerance:g}, " if rung.tolerance else ""
                 flip = "" if row["flip"] is None else f", FLIP {row['flip']:.3f}"
-                lines.append(_figure(rung.renders[0].image, f"{WORDS[backend]}, {what}{rung.samples:.4g} samples, "
+                lines.append(_figure(rung.renders[0].image, f"{WORDS[backend]}, {what}{rung.samples:.4g} sample{'s' * (rung.samples != 1)}, "
                                                             f"{seconds_text(rung.seconds)}{flip}"))
         lines.append("</div>")
     return lines

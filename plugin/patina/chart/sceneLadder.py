@@ -73,7 +73,7 @@ def climb(path, arguments, methods, truth, folder, say):
                     raise
                 backends.remove(backend)
                 ladder.problems.append(str(error))
-        if deadline and "embree" not in backends and not arguments.reference:
+        if deadline and not arguments.reference:
             climber.rate()
         climber.steps(backends)
         for backend in backends:
@@ -91,8 +91,9 @@ class _Climber:
         self.arguments = self.renders.arguments
         self.methods, self.truth, self.folder, self.say = methods, truth, folder, say
         self.per_sample = {}  # back end -> seconds
+        self.of_reference = 0.0  # seconds of one of its samples; known where time is short
 
-    def settings(self, samples, step, repeat, tolerance=0.0):
+    def settings(self, samples, step, repeat, tolerance=None):
         # Every render has noise of its own, or points of a chart would err together.
         return self.renders.settings(samples, self.arguments.seed + 16 * step + repeat, tolerance, methods=self.methods)
 
@@ -105,17 +106,17 @@ class _Climber:
         self.per_sample[backend] = warm.seconds
 
     def rate(self):
-        """How fast the path tracer is, which will make the reference."""
-        self.renders.render("embree", self.settings(1, 0, 0))
-        self.per_sample["embree"] = self.renders.render("embree", self.settings(1, 0, 0)).seconds
+        """How fast the path tracer makes the reference, with the most exact methods."""
+        settings = self.renders.settings(4, 0, 0.0, methods=self.truth)
+        self.renders.render("embree", settings)
+        self.of_reference = self.renders.render("embree", settings).seconds / 4
 
     def reserve(self, samples, backends):
         """Seconds that references need for so many samples."""
         if self.arguments.reference:
             return 0.0
         asked = self.arguments.referenceSamples or sceneReference.SAMPLES_FACTOR * samples
-        traced = self.per_sample.get("embree", 0.0)
-        return asked * traced * (2.0 if "raster" in backends else 1.0)
+        return asked * self.of_reference * (2.0 if "raster" in backends else 1.0)
 
     def fits(self, seconds, samples, backends):
         left = self.renders.left()
@@ -143,7 +144,7 @@ class _Climber:
                               "over")
                     return
 
-    def rung(self, backend, samples, step, tolerance=0.0):
+    def rung(self, backend, samples, step, tolerance=None):
         what = f"to a tolerance of {tolerance:g}" if tolerance else f"{samples} sample" + "s" * (samples > 1)
         self.say(f"{WORDS[backend]}: {what}")
         made = []
@@ -156,7 +157,7 @@ class _Climber:
                 raise
         met = not tolerance or all(r.samples < samples for r in made)
         taken = statistics.mean(r.samples for r in made) if tolerance else samples
-        rung = Rung(backend, taken, tolerance, met, made)
+        rung = Rung(backend, taken, tolerance or 0.0, met, made)
         self.ladder.rungs.append(rung)
         return rung
 
@@ -167,6 +168,8 @@ class _Climber:
             return
         step = 1000 + self.arguments.tolerances.index(tolerance)
         try:
+            # Other methods are other shaders, which drivers compile in the first frame.
+            self.renders.render(backend, self.settings(1, step, 0, tolerance))
             rung = self.rung(backend, most, step, tolerance)
         except OutOfTime:
             self.note(f"{WORDS[backend]}: tolerance {tolerance:g} was given up, --seconds {self.arguments.seconds:g} are over")

@@ -48,7 +48,7 @@ def made(renders, folder, samples, depth, methods):
     :raises OutOfTime: where the stage's time is over before there is any
     """
     seed = renders.arguments.seed + SEED_STEP + (depth or 0)
-    settings = renders.settings(samples, seed, maxDepth=depth, methods=methods)
+    settings = renders.settings(samples, seed, 0.0, depth, methods)
     token = checkpoints.token(renders.stage, settings, [renders.info.camera, renders.arguments.set, _build()],
                               "embree")
     path = os.path.join(folder, hashlib.sha256(token.encode()).hexdigest()[:24] + ".exr") if folder else ""

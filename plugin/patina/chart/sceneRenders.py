@@ -61,10 +61,12 @@ class StageRenders:
         """Seconds until the deadline, None without one."""
         return None if self.deadline is None else self.deadline - time.perf_counter()
 
-    def settings(self, samples, seed, tolerance=0.0, maxDepth=None, methods=None):
+    def settings(self, samples, seed, tolerance=None, maxDepth=None, methods=None):
+        """:param tolerance: None: that of no flag; 0: the most exact methods, all samples"""
         settings = {"width": self.width, "height": self.height, "samples": samples, "seed": seed % 2**32,
-                    "threads": self.arguments.threads, "tolerance": tolerance, "methods": methods or {},
-                    "checkpointSeconds": 0.0}
+                    "threads": self.arguments.threads, "methods": methods or {}, "checkpointSeconds": 0.0}
+        if tolerance is not None:
+            settings["tolerance"] = tolerance
         if maxDepth is not None:
             settings["maxDepth"] = maxDepth
         return settings

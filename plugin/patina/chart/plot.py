@@ -5,18 +5,22 @@ from xml.sax.saxutils import escape
 WIDTH, HEIGHT = 640, 420
 LEFT, TOP, RIGHT, BOTTOM = 64, 46, 20, 96
 GREY = "#8a8f98"
+HALO = {"paint_order": "stroke", "stroke": "white", "stroke_width": 3, "stroke_linejoin": "round"}  # text over lines
 
 
 class Axis:
-    """A logarithmic axis that holds all values with a margin, ticks at 1, 2, 5 or at decades."""
+    """A logarithmic axis that holds all values with a margin, ticks at 1, 2, 5 or at decades.
 
-    def __init__(self, values, start, end, margin=0.06):
+    :param above: more room at the upper end
+    """
+
+    def __init__(self, values, start, end, margin=0.06, above=0.0):
         values = [v for v in values if v and v > 0.0 and math.isfinite(v)] or [1.0]
         low, high = math.log10(min(values)), math.log10(max(values))
         if high - low < 0.6:
             low, high = (low + high) / 2 - 0.3, (low + high) / 2 + 0.3
         pad = margin * (high - low)
-        self.low, self.high, self.start, self.end = low - pad, high + pad, start, end
+        self.low, self.high, self.start, self.end = low - pad, high + pad + above * (high - low), start, end
 
     def at(self, value):
         """Place of a value; what lies outside stands at the nearer end."""
@@ -82,7 +86,7 @@ class Plot:
         xs = [p[0] for s in self.series for p in s[1]] + [c[1] for c in self.crossings]
         ys = [p[1] for s in self.series for p in s[1]] + [f[1] for f in self.floors]
         self.x = Axis(xs, LEFT, WIDTH - RIGHT)
-        self.y = Axis(ys, HEIGHT - BOTTOM, TOP)
+        self.y = Axis(ys, HEIGHT - BOTTOM, TOP, above=0.08 if self.crossings else 0.0)
         out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT}" '
                f'viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" font-size="11" fill="#222">',
                f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>',
@@ -124,20 +128,20 @@ class Plot:
             right = x < WIDTH - RIGHT - 40
             if label:
                 out.append(text(x + (7 if right else -7), y + (13 if below else -6), label, "start" if right else "end",
-                                fill=colour, font_size=10))
+                                fill=colour, font_size=10, **HALO))
         return out
 
     def _floor(self, name, value, colour):
         at = self.y.at(value)
         return [f'<path d="M{LEFT} {at:.1f}H{WIDTH - RIGHT}" stroke="{colour}" stroke-dasharray="2 3"/>',
-                text(WIDTH - RIGHT - 4, at - 4, name, "end", fill=colour, font_size=10)]
+                text(WIDTH - RIGHT - 4, at - 4, name, "end", fill=colour, font_size=10, **HALO)]
 
     def _crossing(self, name, value, sure):
         at = self.x.at(value)
         dash = "" if sure else ' stroke-dasharray="4 4"'
         left = at > WIDTH / 2
         return [f'<path d="M{at:.1f} {TOP}V{HEIGHT - BOTTOM}" stroke="#222" stroke-width="1.2"{dash}/>',
-                text(at + (-5 if left else 5), TOP + 14, name, "end" if left else "start", font_weight="bold")]
+                text(at + (-5 if left else 5), TOP + 14, name, "end" if left else "start", font_weight="bold", **HALO)]
 
     def _guide(self, slope, name):
         (x0, y0, _) = self.series[0][1][0]
@@ -148,7 +152,7 @@ class Plot:
             x1, y1 = x0 * (low / y0) ** (1.0 / slope), low
         a, b, c, d = self.x.at(x0), self.y.at(y0), self.x.at(x1), self.y.at(y1)
         return [f'<path d="M{a:.1f} {b:.1f}L{c:.1f} {d:.1f}" stroke="{GREY}" stroke-dasharray="1 3" stroke-width="1.5"/>',
-                text(c - 6, d - 8, name, "end", fill=GREY, font_size=10)]
+                text(c - 6, d - 8, name, "end", fill=GREY, font_size=10, **HALO)]
 
     def _legend(self):
         out, x, y = [], LEFT, HEIGHT - 44

@@ -2,6 +2,7 @@
 import csv
 import json
 import math
+import os
 import re
 import xml.etree.ElementTree as ElementTree
 
@@ -40,7 +41,7 @@ def SphereLight "light"
     uniform token[] xformOpOrder = ["xformOp:translate"]
 }
 """
-HOSTILE = 'a<b>"&\'<script>alert(1)<_script>.usda'  # a / cannot be in a name
+HOSTILE = 'a<b>"&\'\x01<script>alert(1)<_script>.usda'  # no / can be in a name
 
 
 @pytest.fixture(scope="module")
@@ -50,15 +51,17 @@ def charted(tmp_path_factory):
     good, bad = folder / HOSTILE, folder / "broken.usda"
     good.write_text(STAGE)
     bad.write_text("#usda 1.0\ndef {")
+    open(os.fsencode(folder) + b"/\xff.usda", "w").close()
     out = folder / "out"
-    status = main.main(["chart", str(bad), str(good), str(folder / "missing.usda"), "--out", str(out), "--imageWidth", "32",
+    status = main.main(["chart", str(bad), str(good), str(folder / "missing.usda"),
+                        str(folder / "\udcff.usda"), "--out", str(out), "--imageWidth", "32",
                         "--maxSamples", "16", "--tolerances", "0.5", "--quiet", f"--json={folder / 'rows.json'}"])
     return out, status, json.loads((folder / "rows.json").read_text())
 
 
 def test_rows(charted):
     out, status, found = charted
-    assert status == 1  # one stage is broken, one is not there
+    assert status == 1  # one stage is broken, one is not there, one has a name that USD cannot open
     with open(out / "scenes.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert tuple(rows[0]) == sceneResults.COLUMNS
@@ -69,7 +72,7 @@ def test_rows(charted):
     assert float(traced[2]["seconds"]) > float(traced[0]["seconds"])
     assert float(traced[2]["relMSE"]) < 0.5 * float(traced[0]["relMSE"])
     assert [r["tolerance"] for r in rows if r["tolerance"]][:1] == ["0.5"]
-    assert [bool(s["problem"]) for s in found["stages"]] == [True, False, True]
+    assert [bool(s["problem"]) for s in found["stages"]] == [True, False, True, True]
     reference = found["stages"][1]["references"]["all"]
     assert reference["samples"] == 16 * 16 and 0.0 < reference["noise"] < float(traced[2]["relMSE"])
 
@@ -117,6 +120,29 @@ def test_wrong_usage(arguments, words, capsys):
     assert main.main(["chart", *arguments]) in (1, 2)
     error = capsys.readouterr().err
     assert words in error and "Traceback" not in error and len(error.strip().splitlines()) == 1
+
+
+def test_without_a_rasterizer(charted, monkeypatch, capsys):
+    """It is said, the path tracer is charted all the same, and the exit status tells."""
+    monkeypatch.setenv("PATINA_EGL_PLATFORM", "none")
+    stage = charted[0].parent / "plain.usda"
+    stage.write_text(STAGE)
+    arguments = ["chart", str(stage), "--imageWidth", "16", "--maxSamples", "4", "--tolerances", "none", "--quiet"]
+    assert main.main([*arguments, f"--json={stage}.json"]) == 1
+    assert "no rasterizer here" in capsys.readouterr().err
+    found = json.loads((stage.parent / "plain.usda.json").read_text())["stages"][0]
+    assert [r["backend"] for r in found["rows"]] == ["embree", "embree"] and not found["crossovers"]
+    assert main.main([*arguments, "--backend", "raster"]) == 1
+    output = capsys.readouterr()
+    assert "no rasterizer here" in output.err and not output.out.strip()
+
+
+def test_a_black_stage(charted, capsys):
+    stage = charted[0].parent / "black.usda"
+    stage.write_text("#usda 1.0\n")
+    assert main.main(["chart", str(stage), "--imageWidth", "16", "--maxSamples", "4", "--quiet",
+                      "--out", str(charted[0].parent / "black")]) == 0
+    assert "the reference is black" in capsys.readouterr().out
 
 
 def test_counts():
@@ -205,18 +231,18 @@ def test_crossover():
 
 
 def test_time_is_kept(tmp_path, capsys):
-    """A limit that a thousand samples would exceed many times over: fewer are taken, or the stage says that it was too short."""
+    """A limit that so many samples would exceed many times over: fewer are taken, or the stage says that it was too short."""
     stage = tmp_path / "stage.usda"
     stage.write_text(STAGE)
-    status = main.main(["chart", str(stage), "--imageWidth", "64", "--maxSamples", "16384", "--tolerances", "none", "--backend",
-                        "embree", "--seconds", "1.5", "--json"])
+    status = main.main(["chart", str(stage), "--imageWidth", "24", "--maxSamples", "65536", "--tolerances", "none", "--backend",
+                        "embree", "--seconds", "1", "--json"])
     output = capsys.readouterr()
     if status == 1:
         assert "too short" in output.err
         return
     found = json.loads(output.out)["stages"][0]
-    assert any("--seconds 1.5" in note for note in found["notes"])
-    assert max(r["samples"] for r in found["rows"]) < 16384
+    assert any("--seconds 1 " in note for note in found["notes"])
+    assert max(r["samples"] for r in found["rows"]) < 65536
 
 
 def test_methods_of_the_reference():

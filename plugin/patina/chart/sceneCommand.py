@@ -54,7 +54,7 @@ def run(arguments):
     chosen = methods.parse(a.method)
     overrides.parse(a.set)
     _make_folder(a.out)
-    command = shlex.join(["patina", *sys.argv[1:]])
+    command = shown(shlex.join(["patina", *sys.argv[1:]]))
     here = machine.describe()
     progress = Progress("", a.quiet)
     results = []
@@ -65,13 +65,15 @@ def run(arguments):
     if a.json:
         _write_json(json.dumps(sceneResults.as_json(results, here, command), indent=1), a.json)
     if a.json != "-":
-        print("\n\n".join(listing(result) for result in results if not result.problem))
+        texts = [listing(result) for result in results if not result.problem]
         if a.out:
-            print(f"\n{os.path.join(a.out, 'index.html')}")
+            texts.append(os.path.join(a.out, "index.html"))
+        if texts:
+            print(shown("\n\n".join(texts), keep="\n"))
     problems = [f"{r.stage}: {r.problem}" for r in results if r.problem]
     problems += [f"{r.stage}: {p}" for r in results if r.ladder for p in r.ladder.problems]
     for problem in problems:
-        print("patina: " + " ".join(problem.split()), file=sys.stderr)
+        print("patina: " + shown(" ".join(problem.split())), file=sys.stderr)
     return 1 if problems else 0
 
 
@@ -79,14 +81,19 @@ def _chart(stage, arguments, chosen, progress):
     """:returns: a StageResult; with its problem, where there is one"""
     from patina.stage import StageError
 
-    name = os.path.basename(stage)
+    name = shown(os.path.basename(stage))
     try:
         ladder = sceneLadder.climb(stage, arguments, chosen, truth(chosen),
                                    os.path.join(arguments.out, "references") if arguments.out else "",
                                    lambda text: progress.say(f"{name}: {text}"))
-        return sceneResults.of(stage, ladder, arguments.seed)
+        return sceneResults.of(shown(stage), ladder, arguments.seed)
     except (CommandError, StageError, UsageError, RuntimeError, OSError, MemoryError) as error:
-        return sceneResults.StageResult(stage, problem=str(error) or type(error).__name__)
+        return sceneResults.StageResult(shown(stage), problem=shown(str(error)) or type(error).__name__)
+
+
+def shown(text, keep=""):
+    """Text that every file may hold: names of files can have any bytes."""
+    return "".join(c if c.isprintable() or c in keep else "?" for c in text)
 
 
 def truth(chosen):

@@ -109,7 +109,8 @@ class StageRenders:
 
     def _lost(self, backend):
         reasons = [w["message"] for w in self.scene.warnings() if "OpenGL" in w["message"] or "raster" in w["message"]]
-        self.missing[backend] = f"the {WORDS[backend]} is not there: " + (reasons[-1] if reasons else "no reason is known")
+        reason = reasons[-1].partition("; the path tracer")[0] if reasons else "no reason is known"
+        self.missing[backend] = f"no {WORDS[backend]} here: {reason}"
         raise CommandError(self.missing[backend])
 
 

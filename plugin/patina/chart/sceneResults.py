@@ -29,6 +29,8 @@ def of(name, ladder, seed):
     """:param name: the stage as the user called it
     :param seed: the first one of the command"""
     result = StageResult(name, ladder=ladder)
+    if not ladder.references["all"].image.any():
+        ladder.notes.append("the reference is black: there is nothing to compare")
     for rung in ladder.rungs:
         result.rows.append(_row(name, ladder, rung, seed))
     for backend in ladder.first:

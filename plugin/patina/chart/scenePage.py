@@ -64,7 +64,7 @@ def _stage(result):
     lines.append('<div class="charts">')
     lines += [plot.svg() for plot in sceneCharts.plots(result).values()]
     lines.append("</div>")
-    return lines + _pictures(result) + _slopes(result) + _costs(ladder) + _table(result) + [
+    return lines + _pictures(result) + _tolerances(result) + _slopes(result) + _costs(ladder) + _table(result) + [
         "<h3>Notes</h3><ul>" + "".join(f"<li>{escape(n)}</li>" for n in ladder.notes) + "</ul>" if ladder.notes else ""]
 
 
@@ -89,6 +89,22 @@ def _pictures(result):
                                                             f"{seconds_text(rung.seconds)}{flip}"))
         lines.append("</div>")
     return lines
+
+
+def _tolerances(result):
+    rows = [row for row in result.rows if row["tolerance"]]
+    if not rows:
+        return []
+    lines = ["<h3>Tolerances, asked for and measured</h3><p>The error is what a tolerance is about: the mean over the pixels of "
+             "|error| / (luminance + 0.01), against all light. A tolerance that the most samples of this chart do not reach is "
+             "not met.</p>",
+             '<table><tr><th class="t">back end</th><th>tolerance</th><th>measured error</th><th class="t">met</th>'
+             "<th>samples</th><th>seconds</th></tr>"]
+    for row in rows:
+        lines.append(f'<tr><td class="t">{WORDS[row["backend"]]}</td><td>{100 * row["tolerance"]:g} %</td>'
+                     f'<td>{100 * row["relative"]:.2f} %</td><td class="t">{row["toleranceMet"]}</td>'
+                     f'<td>{row["samples"]:.4g}</td><td>{row["seconds"]:.3g}</td></tr>')
+    return lines + ["</table>"]
 
 
 def _slopes(result):

@@ -134,7 +134,7 @@ class Plot:
     def _floor(self, name, value, colour):
         at = self.y.at(value)
         return [f'<path d="M{LEFT} {at:.1f}H{WIDTH - RIGHT}" stroke="{colour}" stroke-dasharray="2 3"/>',
-                text(WIDTH - RIGHT - 4, at - 4, name, "end", fill=colour, font_size=10, **HALO)]
+                text(LEFT + 4, at - 4, name, "start", fill=colour, font_size=10, **HALO)]
 
     def _crossing(self, name, value, sure):
         at = self.x.at(value)

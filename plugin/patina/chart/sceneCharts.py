@@ -55,7 +55,7 @@ def _mark(plot, crossing):
     elif crossing["at"]:
         plot.add_crossing(f"rasterizer better below {say(crossing['at'])}", crossing["at"])
     elif crossing["below"]:
-        plot.add_crossing(f"path tracer below the rasterizer's least error from {say(crossing['below'])}", crossing["below"])
+        plot.add_crossing(f"path tracer below the rasterizer from {say(crossing['below'])}", crossing["below"])
 
 
 def _over_samples(slopes, title, foot):

@@ -3,7 +3,7 @@ import statistics
 import time
 from dataclasses import dataclass, field
 
-from patina.chart import sceneReference
+from patina.chart import machine, sceneReference
 from patina.chart.sceneRenders import BACKENDS, WORDS, OutOfTime, StageRenders
 from patina.cli.errors import CommandError
 
@@ -23,6 +23,10 @@ class Rung:
     @property
     def seconds(self):
         return statistics.median(r.seconds for r in self.renders)
+
+    @property
+    def busy(self):
+        return statistics.median(r.busy for r in self.renders)
 
 
 @dataclass
@@ -80,6 +84,7 @@ def climb(path, arguments, methods, truth, folder, say):
             for tolerance in arguments.tolerances:
                 climber.tolerance(backend, tolerance)
         climber.references(backends)
+        climber.look_for_other_work()
     except OutOfTime:
         raise CommandError(f"--seconds {arguments.seconds:g} is too short for one sample and a reference") from None
     return ladder
@@ -202,6 +207,15 @@ class _Climber:
                 self.note(f"the reference ({name} light) has {found.samples:.0f} samples, fewer than "
                           f"{sceneReference.SAMPLES_FACTOR} times the {most} of the finest render: its own noise is part of "
                           "the errors")
+
+    def look_for_other_work(self):
+        """Times of a machine that did something else as well say little: notes it."""
+        cores = self.arguments.threads or machine.cores()
+        slow = [r for r in self.ladder.of("embree") if r.seconds > 0.3 and r.busy < 0.7 * cores]
+        if slow:
+            worst = min(r.busy for r in slow)
+            self.note(f"other work has slowed some renders: the path tracer had as little as {worst:.1f} of {cores} cores "
+                      "(column cores)")
 
     def note(self, text):
         self.ladder.notes.append(text)

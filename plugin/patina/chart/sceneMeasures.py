@@ -85,21 +85,24 @@ def tile_slopes(counts, by_count):
 
 
 def floor(counts, values, power):
-    """The error that stays with any number of samples: f of value = f + v / count^power, fitted to relative errors with
-    f and v at least 0.
+    """The error that stays with any number of samples: f of value = f + v / count^power, of the last two counts, since noise
+    of stratified samples falls faster than the formula says.
 
     :param power: 1 for mean squared errors, 0.5 for errors that add like noise itself
-    :returns: f, or None where noise still rules: fewer than three counts, or f below half of the last value
+    :returns: f, or None where noise still rules: fewer than three counts, f below half of the last value, or below a quarter
+        of it in a fit of all counts, which single bright paths do not sway
     """
-    usable = [(n, v) for n, v in zip(counts, values) if v is not None and v > 0.0]
+    usable = sorted((n, v) for n, v in zip(counts, values) if v is not None and v > 0.0)
     if len(usable) < 3:
         return None
-    rows = np.array([[1.0 / v, n ** -power / v] for n, v in usable])
-    found = np.linalg.lstsq(rows, np.ones(len(rows)), rcond=None)[0]
-    if found[1] < 0.0:  # no noise at all: the mean of the values, by relative errors
-        found[0] = rows[:, 0].sum() / (rows[:, 0] ** 2).sum()
-    last = max(usable)[1]
-    return float(found[0]) if found[0] > 0.5 * last else None
+    rows = np.array([[1.0 / v, n ** -power / v] for n, v in usable])  # relative errors
+    fitted, noise = np.linalg.lstsq(rows, np.ones(len(rows)), rcond=None)[0]
+    (n0, before), (n1, last) = usable[-2:]
+    ratio = (n1 / n0) ** power
+    found = min((ratio * last - before) / (ratio - 1.0), last)
+    if found < 0.5 * last or (noise > 0.0 and fitted < 0.25 * last):
+        return None
+    return float(found)
 
 
 def pareto(points):

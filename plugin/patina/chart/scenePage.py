@@ -136,13 +136,14 @@ def _costs(ladder):
 
 
 def _table(result):
-    lines = ['<h3>All renders</h3><div class="wide"><table><tr><th class="t" colspan="6"></th>'
+    lines = ['<h3>All renders</h3><div class="wide"><table><tr><th class="t" colspan="7"></th>'
              '<th colspan="5">against the reference</th><th colspan="3">against direct light</th><th></th></tr>'
-             '<tr><th class="t">back end</th><th>samples</th><th>tolerance</th><th>repeats</th><th>seconds</th><th>in all</th>'
+             '<tr><th class="t">back end</th><th>samples</th><th>tolerance</th><th>repeats</th><th>seconds</th><th>in all</th><th>cores</th>'
              + "".join(f"<th>{words}</th>" for _, words in ROW) + "<th>1 / (relMSE s)</th></tr>"]
     for row in result.rows:
         tolerance = f"{row['tolerance']:g}" + ("" if row["toleranceMet"] == "yes" else " not met") if row["tolerance"] else ""
-        cells = [f"{row['samples']:.4g}", tolerance, str(row["repeats"]), f"{row['seconds']:.3g}", f"{row['secondsInAll']:.3g}"]
+        cells = [f"{row['samples']:.4g}", tolerance, str(row["repeats"]), f"{row['seconds']:.3g}", f"{row['secondsInAll']:.3g}",
+                 f"{row['cores']:.1f}"]
         for name, _ in ROW:
             value = row[name]
             cells.append("" if value is None else f"{100 * value:+.2f} %" if name in SHARES and name != "relative"

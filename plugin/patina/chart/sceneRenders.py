@@ -23,6 +23,7 @@ class Render:
     image: np.ndarray    # (height, width, 3), linear
     seconds: float       # of sampling: scene and shaders are built
     wall: float          # all of it, from the start of the render on
+    busy: float          # cores that it had, mean over its wall time
     samples: float       # per pixel, mean
     met: bool            # ended by itself: all samples taken or the tolerance met
     noise: float         # relMSE of its own noise, by the variance of its pixels' luminance
@@ -77,12 +78,12 @@ class StageRenders:
         :raises CommandError: where the back end is not there or the render fails"""
         renderer = self._renderer(backend)
         film = self.module.Film()
-        begin = time.perf_counter()
+        begin, used = time.perf_counter(), time.process_time()
         renderer.start(self.scene, self.info.camera, settings, film)
         ended = renderer.wait(-1.0 if self.deadline is None else max(0.0, self.left()))
         if not ended:
             renderer.stop()
-        wall = time.perf_counter() - begin
+        wall, used = time.perf_counter() - begin, time.process_time() - used
         state = renderer.progress()
         if state["failed"]:
             raise CommandError(f"{WORDS[backend]}: {state['error']}")
@@ -92,7 +93,7 @@ class StageRenders:
             raise OutOfTime
         counts = film.resolve("sampleCount")
         image = np.array(film.resolve("color"), dtype=np.float32)
-        return Render(image, state["secondsRendering"] if ended else wall, wall, float(counts.mean()),
+        return Render(image, state["secondsRendering"] if ended else wall, wall, used / max(wall, 1e-9), float(counts.mean()),
                       ended, _noise(film, image))
 
     def _renderer(self, backend):

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from patina.chart import sceneMeasures
 from patina.chart.sceneRenders import WORDS
 
-COLUMNS = ("stage", "backend", "samples", "tolerance", "toleranceMet", "repeats", "seed", "seconds", "secondsInAll", "relMSE",
-           "rmse", "flip", "meanError", "relative", "relMSEDirect", "rmseDirect", "flipDirect", "meanErrorDirect")
+COLUMNS = ("stage", "backend", "samples", "tolerance", "toleranceMet", "repeats", "seed", "seconds", "secondsInAll", "cores",
+           "relMSE", "rmse", "flip", "meanError", "relative", "relMSEDirect", "rmseDirect", "flipDirect", "meanErrorDirect")
 DIRECT = ("relMSE", "rmse", "flip", "meanError")  # also measured against direct light, for the rasterizer
 # error measure -> how its noise falls with samples: as samples to the power of minus this
 ORDERS = {"relMSE": 1.0, "flip": 0.5, "rmse": 0.5}
@@ -50,7 +50,8 @@ def of(name, ladder, seed):
 def _row(name, ladder, rung, seed):
     row = {"stage": name, "backend": rung.backend, "samples": rung.samples, "tolerance": rung.tolerance or "",
            "toleranceMet": ("yes" if rung.met else "no") if rung.tolerance else "", "repeats": len(rung.renders),
-           "seed": seed, "seconds": rung.seconds, "secondsInAll": ladder.seconds_in_all(rung)}
+           "seed": seed, "seconds": rung.seconds, "secondsInAll": ladder.seconds_in_all(rung),
+           "cores": rung.busy}
 
     def against(reference):
         return sceneMeasures.averaged([sceneMeasures.errors(r.image, reference.image) for r in rung.renders])

@@ -4,6 +4,7 @@ namespace py = pybind11;
 
 namespace patina {
 
+void bindMachine(py::module_& m);
 void bindNetwork(py::module_& m);
 void bindScene(py::module_& m);
 #ifdef PATINA_BIND_FILM
@@ -70,6 +71,7 @@ Network(path)
 
 Film, images and colour; Renderer and its settings; materials: see the classes' own help.)";
 
+    patina::bindMachine(m);
     patina::bindNetwork(m);
     patina::bindScene(m);
 #ifdef PATINA_BIND_FILM

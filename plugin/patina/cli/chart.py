@@ -1,57 +1,35 @@
-"""Measures what methods cost and how far they are off, on this machine, and draws it.
+"""Measures what methods and renderers cost and how far they are off, on this machine, and draws it.
 
+  patina chart STAGE... --out FOLDER                seconds against error of both back ends: CSV, SVG and an HTML page
   patina chart --lobes                              all choice points of lobes: rows, CSV and SVG
   patina chart --lobes --point directionalAlbedo    one of them
   patina chart --lobes --table materialNetwork/methodTableData.cpp
                                                     also writes the table that --method list shows
 
-Times are medians of 31 batches on one thread; a busy machine shows in the quartiles (nsLow, nsHigh). Errors do not
+Scenes: every back end renders with 1, 4, 16, ... samples and to each of --tolerances; errors are those against a path traced
+reference of another seed and 16 times the samples. Times are of warm renders, medians of three where these are short.
+Lobes: times are medians of 31 batches on one thread; a busy machine shows in the quartiles (nsLow, nsHigh). Errors do not
 depend on the machine.
 """
-import json
-import os
+from patina.chart import lobesCommand, sceneCommand
+from patina.cli.errors import UsageError
 
-from patina.chart import lobes
-from patina.cli import compiled
-from patina.cli.errors import CommandError, UsageError
+# flag -> module that has add_arguments(parser) and run(arguments); without a flag stages are charted
+CHARTS = {"lobes": lobesCommand}
 
 
 def add_arguments(parser):
-    parser.add_argument("--lobes", action="store_true", help="ns per evaluation against error, per method")
-    parser.add_argument("--point", default="", metavar="NAME", help="only this choice point")
-    parser.add_argument("--out", default="", metavar="FOLDER", help="where lobes.csv and the SVG files go (made if missing)")
-    parser.add_argument("--table", default="", metavar="FILE",
-                        help="writes the C++ table of measured methods (all choice points only)")
+    parser.add_argument("stages", metavar="STAGE", nargs="*", help="chart these .usd, .usda, .usdc or .usdz files")
+    parser.add_argument("--out", default="", metavar="FOLDER", help="where CSV, SVG and HTML files go (made if missing)")
     parser.add_argument("--json", metavar="FILE", help="write the rows as JSON: --json to standard output, "
                                                        "--json=FILE to a file")
+    for module in (*CHARTS.values(), sceneCommand):
+        module.add_arguments(parser)
 
 
 def run(arguments):
-    if not arguments.lobes:
-        raise UsageError("patina chart: say what to chart: --lobes")
-    if arguments.table and arguments.point:
-        raise UsageError("patina chart: --table needs all choice points, so no --point")
-    patina = compiled.load()
-    points = patina.choice_points()
-    names = [point for point, _ in points]
-    if arguments.point and arguments.point not in names:
-        raise UsageError(f"patina chart: there is no choice point '{arguments.point}' (there are: {', '.join(names)})")
-    rows = patina.measure_methods(arguments.point, True)
-    if not rows:
-        raise CommandError(f"nothing is measured at '{arguments.point}': its methods differ in meaning, not in accuracy")
-    rows = lobes.with_cost(rows, points)
-    try:
-        if arguments.table:
-            lobes.write_table(rows, arguments.table)
-        if arguments.out:
-            os.makedirs(arguments.out, exist_ok=True)
-            lobes.write_csv(rows, os.path.join(arguments.out, "lobes.csv"))
-            lobes.write_charts(rows, arguments.out)
-        text = json.dumps(rows, indent=1) if arguments.json else ""
-        if arguments.json and arguments.json != "-":
-            with open(arguments.json, "w", encoding="utf-8") as file:
-                file.write(text + "\n")
-    except OSError as error:
-        raise CommandError(f"cannot write {error.filename}: {error.strerror}") from error
-    print(text if arguments.json == "-" else lobes.listing(rows))
-    return 0
+    chosen = [name for name in CHARTS if getattr(arguments, name)]
+    if len(chosen) + bool(arguments.stages) != 1:
+        raise UsageError("patina chart: say what to chart: stages, or one of " +
+                         ", ".join("--" + name for name in CHARTS))
+    return CHARTS[chosen[0]].run(arguments) if chosen else sceneCommand.run(arguments)

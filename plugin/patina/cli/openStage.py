@@ -13,6 +13,10 @@ def open_stage(path, mask=None, session_layer=None):
 
     if not os.path.exists(path):
         raise CommandError(f"there is no file {path}")
+    try:
+        path.encode()
+    except UnicodeEncodeError:
+        raise CommandError(f"{path.encode(errors='replace').decode()}: USD opens no file whose name is not UTF-8") from None
     if os.path.isdir(path):
         raise CommandError(f"{path} is a folder")
     with compat.QuietDiagnostics() as quiet:

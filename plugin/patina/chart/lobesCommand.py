@@ -1,0 +1,44 @@
+"""patina chart --lobes: ns per evaluation against error of every method."""
+import json
+import os
+
+from patina.chart import lobes
+from patina.cli import compiled
+from patina.cli.errors import CommandError, UsageError
+
+
+def add_arguments(parser):
+    group = parser.add_argument_group("methods of lobes")
+    group.add_argument("--lobes", action="store_true", help="ns per evaluation against error, per method")
+    group.add_argument("--point", default="", metavar="NAME", help="only this choice point")
+    group.add_argument("--table", default="", metavar="FILE",
+                       help="writes the C++ table of measured methods (all choice points only)")
+
+
+def run(arguments):
+    if arguments.table and arguments.point:
+        raise UsageError("patina chart: --table needs all choice points, so no --point")
+    patina = compiled.load()
+    points = patina.choice_points()
+    names = [point for point, _ in points]
+    if arguments.point and arguments.point not in names:
+        raise UsageError(f"patina chart: there is no choice point '{arguments.point}' (there are: {', '.join(names)})")
+    rows = patina.measure_methods(arguments.point, True)
+    if not rows:
+        raise CommandError(f"nothing is measured at '{arguments.point}': its methods differ in meaning, not in accuracy")
+    rows = lobes.with_cost(rows, points)
+    try:
+        if arguments.table:
+            lobes.write_table(rows, arguments.table)
+        if arguments.out:
+            os.makedirs(arguments.out, exist_ok=True)
+            lobes.write_csv(rows, os.path.join(arguments.out, "lobes.csv"))
+            lobes.write_charts(rows, arguments.out)
+        text = json.dumps(rows, indent=1) if arguments.json else ""
+        if arguments.json and arguments.json != "-":
+            with open(arguments.json, "w", encoding="utf-8") as file:
+                file.write(text + "\n")
+    except OSError as error:
+        raise CommandError(f"cannot write {error.filename}: {error.strerror}") from error
+    print(text if arguments.json == "-" else lobes.listing(rows))
+    return 0

@@ -1,0 +1,170 @@
+"""A chart of lines and points on logarithmic axes as SVG text."""
+import math
+from xml.sax.saxutils import escape
+
+WIDTH, HEIGHT = 640, 420
+LEFT, TOP, RIGHT, BOTTOM = 64, 46, 20, 96
+GREY = "#8a8f98"
+HALO = {"paint_order": "stroke", "stroke": "white", "stroke_width": 3, "stroke_linejoin": "round"}  # text over lines
+
+
+class Axis:
+    """A logarithmic axis that holds all values with a margin, ticks at 1, 2, 5 or at decades.
+
+    :param above: more room at the upper end
+    """
+
+    def __init__(self, values, start, end, margin=0.06, above=0.0):
+        values = [v for v in values if v and v > 0.0 and math.isfinite(v)] or [1.0]
+        low, high = math.log10(min(values)), math.log10(max(values))
+        if high - low < 0.6:
+            low, high = (low + high) / 2 - 0.3, (low + high) / 2 + 0.3
+        pad = margin * (high - low)
+        self.low, self.high, self.start, self.end = low - pad, high + pad + above * (high - low), start, end
+
+    def at(self, value):
+        """Place of a value; what lies outside stands at the nearer end."""
+        t = (math.log10(value) - self.low) / (self.high - self.low) if value > 0.0 else 0.0
+        return self.start + min(max(t, 0.0), 1.0) * (self.end - self.start)
+
+    def ticks(self):
+        steps = (1,) if self.high - self.low > 2.2 else (1, 2, 5)
+        found = [m * 10.0**d for d in range(math.floor(self.low), math.ceil(self.high) + 1) for m in steps]
+        return [v for v in found if self.low <= math.log10(v) <= self.high]
+
+
+def number(value):
+    return f"{value:g}" if 1e-3 <= value < 1e5 else f"{value:.0e}".replace("e-0", "e-").replace("e+0", "e")
+
+
+def text(x, y, words, anchor="middle", **attributes):
+    more = "".join(f' {name.replace("_", "-")}="{value}"' for name, value in attributes.items())
+    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{more}>{escape(words)}</text>'
+
+
+def mark(kind, x, y, colour, filled=True):
+    paint = f'fill="{colour if filled else "white"}" stroke="{colour}" stroke-width="1.6"'
+    if kind == "circle":
+        return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" {paint}/>'
+    r = 4.0 if kind == "square" else 5.2
+    ways = {"square": f"M{x - r:.1f} {y - r:.1f}h{2 * r}v{2 * r}h{-2 * r}z",
+            "diamond": f"M{x:.1f} {y - r:.1f}l{r} {r}l{-r} {r}l{-r} {-r}z"}
+    return f'<path d="{ways[kind]}" {paint}/>'
+
+
+class Plot:
+    """Collects marks first, since the axes must hold all of them.
+
+    :param foot: a line below the chart
+    """
+
+    def __init__(self, title, x_label, y_label, foot=""):
+        self.title, self.x_label, self.y_label, self.foot = title, x_label, y_label, foot
+        self.series, self.floors, self.crossings, self.front, self.guides = [], [], [], [], []
+        self.x_ticks = None  # None: those of the axis
+
+    def add(self, name, points, colour, kind="circle", filled=True, line=True, below=False):
+        """:param points: list of (x, y, label)"""
+        points = [p for p in points if p[0] and p[1] and p[0] > 0.0 and p[1] > 0.0]
+        if points:
+            self.series.append((name, points, colour, kind, filled, line, below))
+
+    def add_floor(self, name, value, colour):
+        self.floors.append((name, value, colour))
+
+    def add_crossing(self, name, x, sure=True):
+        self.crossings.append((name, x, sure))
+
+    def set_front(self, points):
+        self.front = [p for p in points if p[0] > 0.0 and p[1] > 0.0]
+
+    def add_guide(self, slope, name):
+        """A line of this slope through the first point of the first series."""
+        self.guides.append((slope, name))
+
+    def svg(self):
+        xs = [p[0] for s in self.series for p in s[1]] + [c[1] for c in self.crossings]
+        ys = [p[1] for s in self.series for p in s[1]] + [f[1] for f in self.floors]
+        self.x = Axis(xs, LEFT, WIDTH - RIGHT)
+        self.y = Axis(ys, HEIGHT - BOTTOM, TOP, above=0.08 if self.crossings else 0.0)
+        out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT}" '
+               f'viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" font-size="11" fill="#222">',
+               f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>',
+               text(WIDTH / 2, 20, self.title, font_size=14, font_weight="bold")]
+        out += self._grid()
+        if len(self.front) > 1:
+            way = " ".join(f"{self.x.at(p[0]):.1f},{self.y.at(p[1]):.1f}" for p in self.front)
+            out.append(f'<polyline points="{way}" fill="none" stroke="#f2c94c" stroke-width="9" stroke-opacity="0.45" '
+                       'stroke-linejoin="round" stroke-linecap="round"/>')
+        out += [line for guide in self.guides for line in self._guide(*guide)]
+        out += [line for name, value, colour in self.floors for line in self._floor(name, value, colour)]
+        out += [line for crossing in self.crossings for line in self._crossing(*crossing)]
+        out += [line for series in self.series for line in self._series(*series)]
+        out += self._legend()
+        return "\n".join([*out, "</svg>"]) + "\n"
+
+    def _grid(self):
+        bottom, right = HEIGHT - BOTTOM, WIDTH - RIGHT
+        out = [f'<rect x="{LEFT}" y="{TOP}" width="{right - LEFT}" height="{bottom - TOP}" fill="none" stroke="#bbb"/>']
+        for value in self.x_ticks or self.x.ticks():
+            at = self.x.at(value)
+            out += [f'<path d="M{at:.1f} {TOP}V{bottom}" stroke="#e4e4e4"/>', text(at, bottom + 15, number(value))]
+        for value in self.y.ticks():
+            at = self.y.at(value)
+            out += [f'<path d="M{LEFT} {at:.1f}H{right}" stroke="#e4e4e4"/>', text(LEFT - 6, at + 4, number(value), "end")]
+        middle = (TOP + bottom) / 2
+        return out + [text((LEFT + right) / 2, bottom + 31, self.x_label),
+                      text(16, middle, self.y_label, transform=f"rotate(-90 16 {middle:.1f})")]
+
+    def _series(self, name, points, colour, kind, filled, line, below):
+        out = []
+        places = [(self.x.at(x), self.y.at(y), label) for x, y, label in points]
+        if line and len(places) > 1:
+            way = " ".join(f"{x:.1f},{y:.1f}" for x, y, _ in places)
+            dash = "" if filled else ' stroke-dasharray="5 3"'
+            out.append(f'<polyline points="{way}" fill="none" stroke="{colour}" stroke-width="1.6"{dash}/>')
+        for x, y, label in places:
+            out.append(mark(kind, x, y, colour, filled))
+            right = x < WIDTH - RIGHT - 40
+            if label:
+                out.append(text(x + (7 if right else -7), y + (13 if below else -6), label, "start" if right else "end",
+                                fill=colour, font_size=10, **HALO))
+        return out
+
+    def _floor(self, name, value, colour):
+        at = self.y.at(value)
+        return [f'<path d="M{LEFT} {at:.1f}H{WIDTH - RIGHT}" stroke="{colour}" stroke-dasharray="2 3"/>',
+                text(LEFT + 4, at - 4, name, "start", fill=colour, font_size=10, **HALO)]
+
+    def _crossing(self, name, value, sure):
+        at = self.x.at(value)
+        dash = "" if sure else ' stroke-dasharray="4 4"'
+        left = at > WIDTH / 2
+        return [f'<path d="M{at:.1f} {TOP}V{HEIGHT - BOTTOM}" stroke="#222" stroke-width="1.2"{dash}/>',
+                text(at + (-5 if left else 5), TOP + 14, name, "end" if left else "start", font_weight="bold", **HALO)]
+
+    def _guide(self, slope, name):
+        (x0, y0, _) = self.series[0][1][0]
+        x1 = max(p[0] for s in self.series for p in s[1])
+        y1 = y0 * (x1 / x0) ** slope
+        low = 10.0**self.y.low
+        if y1 < low:
+            x1, y1 = x0 * (low / y0) ** (1.0 / slope), low
+        a, b, c, d = self.x.at(x0), self.y.at(y0), self.x.at(x1), self.y.at(y1)
+        return [f'<path d="M{a:.1f} {b:.1f}L{c:.1f} {d:.1f}" stroke="{GREY}" stroke-dasharray="1 3" stroke-width="1.5"/>',
+                text(c - 6, d - 8, name, "end", fill=GREY, font_size=10, **HALO)]
+
+    def _legend(self):
+        out, x, y = [], LEFT, HEIGHT - 44
+        entries = [(name, colour, kind, filled) for name, _, colour, kind, filled, _, _ in self.series]
+        if len(self.front) > 1:
+            entries.append(("Pareto front", "#f2c94c", "line", True))
+        for name, colour, kind, filled in entries:
+            room = 24 + 6.2 * len(name)
+            if x + room > WIDTH - RIGHT and x > LEFT:
+                x, y = LEFT, y + 16
+            out.append(f'<path d="M{x} {y - 4}h14" stroke="{colour}" stroke-width="8" stroke-opacity="0.5"/>'
+                       if kind == "line" else mark(kind, x + 7, y - 4, colour, filled))
+            out.append(text(x + 19, y, name, "start"))
+            x += room
+        return out + ([text(WIDTH / 2, HEIGHT - 8, self.foot, fill="#666", font_size=9)] if self.foot else [])

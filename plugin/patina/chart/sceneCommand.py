@@ -1,0 +1,152 @@
+"""patina chart STAGE...: seconds against error of both back ends."""
+import json
+import math
+import os
+import shlex
+import sys
+
+from patina.chart import machine, sceneCharts, sceneLadder, scenePage, sceneResults
+from patina.chart.sceneRenders import BACKENDS, DEFAULT_WIDTH, WORDS
+from patina.cli import compiled, methods, overrides, recordFlags
+from patina.cli.errors import CommandError, UsageError
+from patina.cli.progress import Progress
+
+DEFAULT_SAMPLES, DEFAULT_TOLERANCES = 64, "0.05,0.01"
+
+
+def add_arguments(parser):
+    group = parser.add_argument_group("scenes")
+    group.add_argument("--backend", default="both", choices=["both", *BACKENDS], help="what renders (default: both)")
+    group.add_argument("--imageWidth", "-w", type=recordFlags._size, metavar="PIXELS", help=f"default: {DEFAULT_WIDTH}")
+    group.add_argument("--maxSamples", type=recordFlags._count, default=DEFAULT_SAMPLES, metavar="N",
+                       help=f"the last of 1, 4, 16, ... samples per pixel, also for tolerances (default: {DEFAULT_SAMPLES})")
+    group.add_argument("--tolerances", type=_tolerances, default=_tolerances(DEFAULT_TOLERANCES), metavar="T[,T...]",
+                       help=f"also render to each of these; none: no (default: {DEFAULT_TOLERANCES})")
+    group.add_argument("--seconds", type=recordFlags._not_negative, default=0.0, metavar="S",
+                       help="time for each stage: fewer samples where all would take longer (default: 0, no limit)")
+    group.add_argument("--referenceSamples", type=recordFlags._count, metavar="N",
+                       help="default: 16 times the most samples tested")
+    group.add_argument("--reference", metavar="FILE", help="an OpenEXR, HDR or PFM image to compare with instead (one stage)")
+    group.add_argument("--camera", "-cam", metavar="PATH", help="as in patina record")
+    group.add_argument("--threads", type=recordFlags._count, default=0, metavar="N", help="default: all cores")
+    group.add_argument("--seed", type=recordFlags._seed, default=0, metavar="N", help="default: 0")
+    group.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE", help=overrides.SET_HELP)
+    methods.add_flag(group)
+    group.add_argument("--quiet", "-q", action="store_true", help="no progress")
+
+
+def _tolerances(text):
+    if text == "none":
+        return []
+    values = [float(word) for word in text.split(",")]
+    if not values or not all(v > 0.0 and math.isfinite(v) for v in values):
+        raise ValueError
+    return list(dict.fromkeys(values))
+
+
+_tolerances.__name__ = "list of numbers above 0"
+
+
+def run(arguments):
+    a = arguments
+    if a.reference and len(a.stages) > 1:
+        raise UsageError("patina chart: --reference is of one stage")
+    chosen = methods.parse(a.method)
+    overrides.parse(a.set)
+    _make_folder(a.out)
+    command = shown(shlex.join(["patina", *sys.argv[1:]]))
+    here = machine.describe()
+    progress = Progress("", a.quiet)
+    results = []
+    for stage in dict.fromkeys(a.stages):
+        results.append(_chart(stage, a, chosen, progress))
+        if a.out:  # after each: what an interrupted run has measured stays
+            _write(results, a.out, here, command, a.seed)
+    if a.json:
+        _write_json(json.dumps(sceneResults.as_json(results, here, command), indent=1), a.json)
+    if a.json != "-":
+        texts = [listing(result) for result in results if not result.problem]
+        if a.out:
+            texts.append(os.path.join(a.out, "index.html"))
+        if texts:
+            print(shown("\n\n".join(texts), keep="\n"))
+    problems = [f"{r.stage}: {r.problem}" for r in results if r.problem]
+    problems += [f"{r.stage}: {p}" for r in results if r.ladder for p in r.ladder.problems]
+    for problem in problems:
+        print("patina: " + shown(" ".join(problem.split())), file=sys.stderr)
+    return 1 if problems else 0
+
+
+def _chart(stage, arguments, chosen, progress):
+    """:returns: a StageResult; with its problem, where there is one"""
+    from patina.stage import StageError
+
+    name = shown(os.path.basename(stage))
+    try:
+        ladder = sceneLadder.climb(stage, arguments, chosen, truth(chosen),
+                                   os.path.join(arguments.out, "references") if arguments.out else "",
+                                   lambda text: progress.say(f"{name}: {text}"))
+        return sceneResults.of(shown(stage), ladder, arguments.seed)
+    except (CommandError, StageError, UsageError, RuntimeError, OSError, MemoryError) as error:
+        return sceneResults.StageResult(shown(stage), problem=shown(str(error)) or type(error).__name__)
+
+
+def shown(text, keep=""):
+    """Text that every file may hold: names of files can have any bytes."""
+    return "".join(c if c.isprintable() or c in keep else "?" for c in text)
+
+
+def truth(chosen):
+    """Methods of the reference: those that change what a material means, not how exactly it is computed."""
+    measured = {row["point"] for row in compiled.load().method_table()}
+    return {point: name for point, name in chosen.items() if point not in measured}
+
+
+def _make_folder(folder):
+    if not folder:
+        return
+    try:
+        os.makedirs(folder, exist_ok=True)
+    except OSError as error:
+        raise CommandError(f"cannot make the folder {folder}: {error.strerror}") from error
+
+
+def _write(results, folder, here, command, seed):
+    try:
+        sceneResults.write_csv(results, os.path.join(folder, "scenes.csv"))
+        sceneCharts.write([r for r in results if not r.problem], folder, machine.sentence(here))
+        scenePage.write(results, os.path.join(folder, "index.html"), here, command, seed)
+    except OSError as error:
+        raise CommandError(f"cannot write {error.filename}: {error.strerror}") from error
+
+
+def _write_json(text, file):
+    if file == "-":
+        print(text)
+        return
+    try:
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(text + "\n")
+    except OSError as error:
+        raise CommandError(f"cannot write {file}: {error.strerror}") from error
+
+
+def listing(result):
+    """A stage's rows and findings as text, for a terminal."""
+    lines = [result.stage, f"  {'back end':<13}{'samples':>8}{'tolerance':>11}{'seconds':>10}{'in all':>9}{'relMSE':>11}"
+                           f"{'FLIP':>8}{'bias':>10}"]
+    for row in result.rows:
+        tolerance = f"{row['tolerance']:g}{'' if row['toleranceMet'] == 'yes' else '!'}" if row["tolerance"] else ""
+        flip = "-" if row["flip"] is None else f"{row['flip']:.4f}"
+        bias = "-" if row["meanError"] is None else f"{100 * row['meanError']:+.2f} %"
+        error = "-" if row["relMSE"] is None else f"{row['relMSE']:.3g}"
+        lines.append(f"  {WORDS[row['backend']]:<13}{row['samples']:>8.4g}{tolerance:>11}{row['seconds']:>10.3g}"
+                     f"{row['secondsInAll']:>9.3g}{error:>11}{flip:>8}{bias:>10}")
+    for measure, found in result.crossovers.items():
+        lines.append(f"  by {sceneResults.NAMES[measure]}: {found['text']}")
+    for backend, found in result.slopes.items():
+        if found:
+            tiles = f", {found['byTile']['median']:.2f} by tile" if found["byTile"] else ""
+            lines.append(f"  slope of the {WORDS[backend]}: {found['slope']:.2f}{tiles}")
+    lines += [f"  {note}" for note in result.ladder.notes]
+    return "\n".join(lines)

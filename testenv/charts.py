@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""Measures the project's own charts again, on this machine, and writes what README.md and docs/ show of them.
+
+    charts.py [--out FOLDER] [--only KIND]... [--quick]
+
+Kinds are those of `patina chart`: lobes, scenes, and where this build has them predictions and stability. Each runs in a
+process of its own; of what it writes the files named below go to the folder (default: docs/charts). --quick takes small
+pictures and few samples, to see whether it all works. The whole takes some 20 minutes on two cores.
+"""
+import argparse
+import glob
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+SCENES = ("diffuseBox", "lightDome", "shaderball", "roughGlass", "texturedDiffuse")
+# kind -> (arguments of patina chart, those of --quick instead, files that are kept)
+KINDS = {
+    "lobes": (["--lobes"], ["--lobes", "--point", "fresnel"],
+              ["lobes.csv", "directionalAlbedo_ior_1_5.svg", "energyCompensation_white_metal.svg", "fresnel_ior_1_5.svg",
+               "thinFilm_1_33_on_ior_1_5.svg", "diffuse_white.svg"]),
+    "scenes": ([f"testenv/scenes/{name}.usda" for name in SCENES]
+               + ["--imageWidth", "128", "--maxSamples", "64", "--seconds", "240", "--quiet"],
+               [f"testenv/scenes/{SCENES[0]}.usda", "--imageWidth", "32", "--maxSamples", "4", "--quiet"],
+               ["scenes.csv", "*-relMSE.svg", "*-flip.svg", "*-rmse.svg"]),
+}
+LARGEST = 1 << 20  # bytes: README.md shows the folder
+
+
+def run(kind, folder, quick):
+    """:returns: paths of the kept files; exits where the command fails"""
+    arguments, small, kept = KINDS[kind]
+    with tempfile.TemporaryDirectory() as made:
+        command = [sys.executable, "-m", "patina", "chart", *(small if quick else arguments), "--out", made]
+        print("patina chart", *command[4:-2], flush=True)
+        found = subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        if found.returncode != 0:
+            sys.exit(f"{kind}: {found.stderr.strip()}")
+        paths = [path for pattern in kept for path in sorted(glob.glob(os.path.join(made, pattern)))]
+        if not paths:
+            sys.exit(f"{kind}: nothing was written")
+        return [shutil.copy(path, folder) for path in paths]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", default=os.path.join(ROOT, "docs", "charts"))
+    parser.add_argument("--only", action="append", choices=KINDS)
+    parser.add_argument("--quick", action="store_true")
+    a = parser.parse_args()
+    os.makedirs(a.out, exist_ok=True)
+    for kind in a.only or KINDS:
+        for path in run(kind, a.out, a.quick):
+            print(f"  {path}")
+    size = sum(os.path.getsize(path) for path in glob.glob(os.path.join(a.out, "*")))
+    print(f"{size / 1024:.0f} KiB")
+    if size > LARGEST:
+        sys.exit(f"{a.out} has more than 1 MiB: README.md shows it")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,169 @@
+"""What must hold for every material, whatever is in it: numbers at its worst places, from either back end."""
+import numpy as np
+
+COSINES = (1.0, 0.7, 0.3, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0, -1e-7, -1e-3, -0.4, -1.0)
+INCOMING = (1.0, 0.6, 1e-1, 1e-3, 1e-6, 1e-8, 0.0, -1e-7, -1e-2, -0.5, -1.0)
+LAST = 1.0 - 2.0 ** -24
+# What approximations of a lobe may add to an albedo of 1 (docs of the lobes, testLobeAlbedo): anisotropic and Beckmann
+# tables 0.05, hair's azimuthal tables, the rest far less.
+BUDGET = 0.06
+DELTA = 4
+SAMPLES = 1024
+NARROW = 3e3  # density above which float directions do not hold a lobe's value to a percent
+
+
+def direction(z, phi):
+    s = np.sqrt(max(1.0 - z * z, 0.0))
+    return (s * np.cos(phi), s * np.sin(phi), z)
+
+
+def directions(cosines=COSINES, turns=(0.0, 2.1)):
+    return np.array([direction(z, phi) for z in cosines for phi in turns], dtype=np.float32)
+
+
+def pairs():
+    """:returns: outgoing and incoming directions: a grid, and exact opposites"""
+    wo = directions()
+    wi = directions(INCOMING, (0.0, 3.9))
+    a, b = np.repeat(wo, len(wi), axis=0), np.tile(wi, (len(wo), 1))
+    return np.concatenate([a, wo, wo]), np.concatenate([b, wo, -wo])
+
+
+def randoms():
+    ends = (0.0, 0.37, LAST)
+    return np.array([(x, y, z, w) for x in ends for y in (0.0, 0.61, LAST) for z in (0.0, LAST) for w in (0.0, 0.5, LAST)],
+                    dtype=np.float32)
+
+
+def bad(values):
+    return ~(np.isfinite(values) & (values >= 0.0))
+
+
+class Failures(list):
+    """What failed, in words; one line per kind of failure, with its first place."""
+
+    def look(self, wrong, what, places, values):
+        """:param wrong: a flag per row"""
+        wrong = np.asarray(wrong)
+        if not wrong.any():
+            return
+        i = int(np.argmax(wrong))
+        place = " ".join(f"{name} ({', '.join(f'{v:.9g}' for v in row[i])})" for name, row in places.items())
+        self.append(f"{what}: {np.array2string(np.asarray(values)[i], precision=6)} at {place} ({int(wrong.sum())} of {len(wrong)})")
+
+
+def rows(flags):
+    """One flag per row."""
+    return flags if flags.ndim == 1 else flags.any(axis=1)
+
+
+def check(probe, bound, budget=BUDGET):
+    """:param probe: MaterialProbe or RasterProbe
+    :param bound: of the albedo, inf where there is none
+    :returns: list of what failed, empty when all is well
+    """
+    failures = Failures()
+    wo, wi = pairs()
+    f, pdf = probe.eval(wo, wi)
+    failures.look(rows(bad(f)), "f", {"wo": wo, "wi": wi}, f)
+    failures.look(bad(pdf), "pdf", {"wo": wo, "wi": wi}, pdf)
+    all_wo = directions()
+    albedo, emission = probe.albedo(all_wo), probe.emission(all_wo)
+    failures.look(rows(bad(albedo)), "albedo", {"wo": all_wo}, albedo)
+    failures.look(rows(albedo > bound * (1.0 + budget)), f"albedo above {bound:g}", {"wo": all_wo}, albedo)
+    failures.look(rows(bad(emission)), "emission", {"wo": all_wo}, emission)
+    _check_samples(probe, failures)
+    _check_density(probe, failures)
+    return failures
+
+
+def _check_samples(probe, failures):
+    u = randoms()
+    wo = directions((1.0, 0.5, 1e-2, 1e-4, 1e-8, -1e-7, -0.6))
+    wo, u = np.repeat(wo, len(u), axis=0), np.tile(u, (len(wo), 1))
+    s = probe.sample(wo, u)
+    places = {"wo": wo, "u": u}
+    failures.look(rows(bad(s["weight"])), "weight of a sample", places, s["weight"])
+    failures.look(bad(s["pdf"]), "pdf of a sample", places, s["pdf"])
+    drawn = s["event"] != 0
+    failures.look(drawn & ~(s["pdf"] > 0.0), "sample of pdf 0", places, s["pdf"])
+    length = np.linalg.norm(s["wi"], axis=1)
+    failures.look(drawn & ~(np.abs(length - 1.0) < 1e-3), "length of a sample's direction", places, length)
+
+
+def _check_density(probe, failures):
+    """What sample() gives is what eval() says of the direction: weight = f cos / pdf."""
+    generator = np.random.default_rng(5)
+    wo = np.repeat(directions((0.9, 0.4, 0.1, -0.5), (0.7,)), 64, axis=0)
+    u = generator.random((len(wo), 4), dtype=np.float32)
+    s = probe.sample(wo, u)
+    f, pdf = probe.eval(wo, s["wi"])
+    drawn = (s["event"] != 0) & (s["event"] & DELTA == 0) & (np.maximum(s["pdf"], pdf) < NARROW)
+    places = {"wo": wo, "wi": s["wi"], "u": u}
+    far = np.abs(s["pdf"] - pdf) > 0.02 * pdf + 1e-5
+    failures.look(drawn & far, "pdf of a sample is not that of eval", places, np.column_stack([s["pdf"], pdf]))
+    value = f * np.abs(s["wi"][:, 2:])
+    expected = s["weight"] * s["pdf"][:, None]
+    far = rows(np.abs(value - expected) > 0.02 * value + 1e-5 * (1.0 + value.max(axis=1, keepdims=True)))
+    failures.look(drawn & far, "weight of a sample is not f cos / pdf", places, np.column_stack([expected, value]))
+
+
+def furnace(probe, cosine, seed, count=SAMPLES):
+    """:returns: mean of the weights of samples, and its standard error (the largest channel's)"""
+    generator = np.random.default_rng(seed)
+    weight = probe.sample(np.repeat(directions((cosine,), (0.3,)), count, axis=0),
+                          generator.random((count, 4), dtype=np.float32))["weight"].astype(np.float64)
+    return weight.mean(axis=0), float(weight.std(axis=0).max() / np.sqrt(count))
+
+
+def check_furnace(probe, bound, loses, budget=BUDGET):
+    """The albedo that sampling finds: that of albedo(), and no more than the bound.
+
+    :param loses: samples may be lost below the horizon (mapped normals), so that sampling finds less
+    :returns: list of what failed; five standard errors: p < 1e-6 for each comparison
+    """
+    failures = Failures()
+    for cosine in (0.9, 0.3, -0.6):
+        wo = directions((cosine,), (0.3,))
+        mean, error = furnace(probe, cosine, 11)
+        albedo = probe.albedo(wo)[0]
+        slack = 5.0 * error + budget * max(1.0, float(albedo.max()))
+        place = {"wo": wo}
+        failures.look([(mean > bound + slack).any()], f"sampled albedo above {bound:g}", place, [mean])
+        far = mean - albedo > slack if loses else np.abs(mean - albedo) > slack
+        failures.look([far.any()], "sampled albedo is not albedo()", place, [np.append(mean, albedo)])
+    return failures
+
+
+def compare(probe, other):
+    """Both back ends compute the same.
+
+    :param other: a RasterProbe of the material of `probe`
+    :returns: list of what differs
+    """
+    failures = Failures()
+    wo, wi = pairs()
+    (f, pdf), (g, qdf) = probe.eval(wo, wi), other.eval(wo, wi)
+    both = np.maximum(pdf, qdf) < NARROW
+    places = {"wo": wo, "wi": wi}
+    cosine = np.abs(wi[:, 2:])
+    failures.look(both & rows(_apart(f * cosine, g * cosine)), "f cos differs", places, np.column_stack([f, g]))
+    failures.look(both & _apart(pdf, qdf), "pdf differs", places, np.column_stack([pdf, qdf]))
+    all_wo = directions()
+    for name in ("albedo", "emission"):
+        a, b = getattr(probe, name)(all_wo), getattr(other, name)(all_wo)
+        failures.look(rows(_apart(a, b)), f"{name} differs", {"wo": all_wo}, np.column_stack([a, b]))
+    generator = np.random.default_rng(9)
+    wo = np.repeat(directions((0.9, 0.4, 0.1, -0.5), (0.7,)), 64, axis=0)
+    u = generator.random((len(wo), 4), dtype=np.float32)
+    s, t = probe.sample(wo, u), other.sample(wo, u)
+    apart = rows(_apart(s["weight"], t["weight"])) | (s["event"] != t["event"]) | rows(np.abs(s["wi"] - t["wi"]) > 3e-3)
+    # A choice may fall the other way where the random number is on the border, one sample in a hundred at most.
+    if apart.mean() > 0.01:
+        failures.look(apart, "sample differs", {"wo": wo, "u": u}, np.column_stack([s["weight"], t["weight"], s["wi"], t["wi"]]))
+    return failures
+
+
+def _apart(a, b):
+    """Differences beyond what two orders of rounding explain."""
+    return ~(np.abs(a - b) <= 5e-3 * np.maximum(np.abs(a), np.abs(b)) + 2e-4)

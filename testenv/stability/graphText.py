@@ -1,0 +1,232 @@
+"""Random legal MaterialX graphs of physically based shading nodes, as text.
+
+A seed gives the same text for ever. Parameters are ordinary values, the extremes of float (0, tiny, huge, negative),
+what is no number (as the result of a pattern: MaterialX text has no word for it) and patterns in between.
+"""
+import random
+
+EXTREMES = (0.0, 1e-8, 1e-4, 1e-3, 0.5, 1.0, 50.0, 1e9, 3e38, -1.0)
+COLOR_EXTREMES = (0.0, 1e-8, 0.5, 1.0, 1.0, 1.0, 0.0)
+HUGE_COLORS = (2.0, 65504.0, 1e30, -1.0)
+
+# Category, inputs: name -> (type, lowest and highest of ordinary values). "unit": a share; "color": a tint.
+BSDFS = {
+    "oren_nayar_diffuse_bsdf": {"weight": "unit", "color": "color", "roughness": ("float", 0, 1), "normal": "normal",
+                                "energy_compensation": "boolean"},
+    "burley_diffuse_bsdf": {"weight": "unit", "color": "color", "roughness": ("float", 0, 1), "normal": "normal"},
+    "translucent_bsdf": {"weight": "unit", "color": "color", "normal": "normal"},
+    "dielectric_bsdf": {"weight": "unit", "tint": "color", "ior": ("float", 1, 3), "microfacet": "", "scatter_mode": "mode"},
+    "conductor_bsdf": {"weight": "unit", "ior": ("color3", 0, 4), "extinction": ("color3", 0, 6), "microfacet": ""},
+    "generalized_schlick_bsdf": {"weight": "unit", "color0": "color", "color82": "color", "color90": "color",
+                                 "exponent": ("float", 1, 8), "microfacet": "", "scatter_mode": "mode"},
+    "subsurface_bsdf": {"weight": "unit", "color": "color", "radius": ("color3", 0, 2), "anisotropy": ("float", -1, 1),
+                        "normal": "normal"},
+    "sheen_bsdf": {"weight": "unit", "color": "color", "roughness": ("float", 0, 1), "normal": "normal",
+                   "mode": ("conty_kulla", "zeltner")},
+    "chiang_hair_bsdf": {"tint_R": "color", "tint_TT": "color", "tint_TRT": "color", "ior": ("float", 1.1, 2),
+                         "roughness_R": ("vector2", 0, 1), "roughness_TT": ("vector2", 0, 1),
+                         "roughness_TRT": ("vector2", 0, 1), "cuticle_angle": ("float", 0, 1),
+                         "absorption_coefficient": ("vector3", 0, 2), "normal": "normal", "curve_direction": "tangent"},
+    "patina_lambert_bsdf": {"weight": "unit", "color": "color", "normal": "normal"},
+    "patina_phong_bsdf": {"weight": "unit", "color": "color", "exponent": ("float", 1, 500), "normal": "normal"},
+    "patina_blinn_phong_bsdf": {"weight": "unit", "color": "color", "exponent": ("float", 1, 500), "normal": "normal"},
+    "patina_ward_bsdf": {"weight": "unit", "color": "color", "roughness": ("vector2", 0, 1), "normal": "normal",
+                         "tangent": "tangent", "form": ("bounded", "exact")},
+    "patina_cook_torrance_bsdf": {"weight": "unit", "color": "color", "ior": ("color3", 0, 4), "extinction": ("color3", 0, 6),
+                                  "roughness": ("float", 0, 1), "normal": "normal", "fresnel": ("exact", "schlick")},
+}
+MICROFACET = {"roughness": ("vector2", 0, 1), "thinfilm_thickness": ("float", 0, 2000), "thinfilm_ior": ("float", 1, 3),
+              "normal": "normal", "tangent": "tangent", "distribution": ("ggx", "ggx", "beckmann")}
+EDFS = {
+    "uniform_edf": {"color": "color"},
+    "conical_edf": {"color": "color", "normal": "normal", "inner_angle": ("float", 0, 90), "outer_angle": ("float", 0, 90)},
+    "generalized_schlick_edf": {"color0": "color", "color90": "color", "exponent": ("float", 1, 8)},
+}
+VDFS = {
+    "absorption_vdf": {"absorption": ("vector3", 0, 3)},
+    "anisotropic_vdf": {"absorption": ("vector3", 0, 3), "scattering": ("vector3", 0, 3), "anisotropy": ("float", -1, 1)},
+}
+SIZES = {"float": 1, "vector2": 2, "vector3": 3, "color3": 3}
+
+
+def number(value):
+    return f"{value:.9g}"
+
+
+class Graph:
+    """The text of one material, and what its albedo may be at most.
+
+    bound: largest colour that any lobe may reach, added up where closures are added; infinite where colours are huge.
+    loses: normals are mapped, so that light may be lost below the horizon.
+    """
+
+    def __init__(self, seed):
+        self.random = random.Random(seed)
+        self.seed = seed
+        self.lines = []
+        self.kinds = []  # categories of closures in it
+        self.count = 0
+        self.loses = False
+        surface = {}
+        bsdf, self.bound = self.bsdf(self.random.randint(1, 4))
+        surface["bsdf"] = ("BSDF", bsdf, "")
+        if self.random.random() < 0.25:
+            surface["edf"] = ("EDF", self.edf(2), "")
+        if self.random.random() < 0.2:
+            surface["opacity"] = self.value("float", 0, 1)
+        if self.random.random() < 0.2:
+            surface["thin_walled"] = ("boolean", "", "true")
+        name = self.node("surface", "surfaceshader", surface)
+        self.node("surfacematerial", "material", {"surfaceshader": ("surfaceshader", name, "")})
+
+    def text(self):
+        return '<?xml version="1.0"?>\n<materialx version="1.39">\n' + "\n".join(self.lines) + "\n</materialx>\n"
+
+    def node(self, category, kind, inputs):
+        """:param inputs: name -> (type, name of a node or '', value)"""
+        name = f"n{self.count}" if kind != "material" else f"graph{self.seed}"
+        self.count += 1
+        self.lines.append(f'  <{category} name="{name}" type="{kind}">')
+        for key, (type_, source, value) in inputs.items():
+            given = f'nodename="{source}"' if source else f'value="{value}"'
+            self.lines.append(f'    <input name="{key}" type="{type_}" {given}/>')
+        self.lines.append(f"  </{category}>")
+        return name
+
+    # Values ---------------------------------------------------------------------------------------------------------
+
+    def literal(self, kind, low, high, extremes=EXTREMES):
+        chance = self.random.random()
+        same = self.random.random() < 0.5
+        def one():
+            return self.random.choice(extremes) if chance < 0.4 else self.random.uniform(low, high)
+        values = [one()] * SIZES[kind] if same else [one() for _ in range(SIZES[kind])]
+        return values
+
+    def value(self, kind, low, high):
+        """:returns: an input of a number: written, or connected to a pattern"""
+        if self.random.random() < 0.85:
+            return (kind, "", ", ".join(map(number, self.literal(kind, low, high))))
+        return (kind, self.pattern(kind, low, high), "")
+
+    def pattern(self, kind, low, high):
+        written = lambda: (kind, "", ", ".join(map(number, self.literal(kind, low, high))))
+        choice = self.random.randrange(5)
+        if choice == 0:  # no number: 0 / 0, folded when compiling, or found while shading
+            zero = (kind, "", ", ".join(["0"] * SIZES[kind]))
+            below = zero
+            if kind == "vector3" and self.random.random() < 0.7:
+                below = (kind, self.node("position", kind, {}), "")
+            return self.node("divide", kind, {"in1": below, "in2": below})
+        if choice == 1:
+            return self.node("mix", kind, {"fg": written(), "bg": written(), "mix": ("float", "", "0.5")})
+        if choice == 2:
+            return self.node("multiply", kind, {"in1": written(), "in2": written()})
+        if choice == 3 and kind in ("float", "vector3"):
+            return self.node("noise3d", kind, {"amplitude": (kind, "", ", ".join(["1"] * SIZES[kind]))})
+        return self.node("clamp", kind, {"in": written()})
+
+    def color(self):
+        """:returns: an input, and the largest channel that it may mean"""
+        if self.random.random() < 0.08:
+            return ("color3", self.pattern("color3", 0, 1), ""), float("inf")
+        values = self.literal("color3", 0, 1, HUGE_COLORS if self.random.random() < 0.1 else COLOR_EXTREMES)
+        return ("color3", "", ", ".join(map(number, values))), max(1.0, *values)
+
+    def direction(self, along):
+        """Normals and tangents: slanted, below the horizon, zero, parallel to the normal, no numbers."""
+        chance = self.random.random()
+        self.loses |= along == "normal"
+        if chance < 0.12:
+            return ("vector3", self.pattern("vector3", -1, 1), "")
+        fixed = {"normal": ((0, 0, 1), (0, 0, 0), (0, 0, -1), (1, 0, 0), (0.9, 0, 0.1), (0.5, 0.5, -0.2), (1e-20, 0, 0)),
+                 "tangent": ((1, 0, 0), (0, 0, 0), (0, 0, 1), (0, 0, -1), (1e-20, 0, 0), (0, 1, 1e-9), (1e30, 0, 0))}
+        if chance < 0.6:
+            return ("vector3", "", ", ".join(map(number, self.random.choice(fixed[along]))))
+        slant = [self.random.gauss(0, 0.4) for _ in range(3)]
+        slant[2 if along == "normal" else 0] += 1.0
+        return ("vector3", "", ", ".join(map(number, slant)))
+
+    def inputs(self, table):
+        """:returns: inputs of a leaf (each is left out half of the time), and the largest colour among them"""
+        found, bound = {}, 1.0
+        flat = {k: v for name, spec in table.items() for k, v in (MICROFACET if name == "microfacet" else {name: spec}).items()}
+        for name, spec in flat.items():
+            if self.random.random() < 0.4:
+                continue
+            if spec == "unit":
+                found[name] = self.value("float", 0, 1)
+            elif spec == "color":
+                found[name], largest = self.color()
+                bound = max(bound, largest)
+            elif spec in ("normal", "tangent"):
+                if self.random.random() < 0.4:
+                    found[name] = self.direction(spec)
+            elif spec == "boolean":
+                found[name] = ("boolean", "", self.random.choice(("true", "false")))
+            elif spec == "mode":
+                found[name] = ("string", "", self.random.choice(("R", "T", "RT")))
+            elif isinstance(spec[1], str):
+                found[name] = ("string", "", self.random.choice(spec))
+            else:
+                found[name] = self.value(*spec)
+        return found, bound
+
+    # Closures -------------------------------------------------------------------------------------------------------
+
+    def leaf(self, table, kind):
+        category = self.random.choice(list(table))
+        self.kinds.append(category)
+        inputs, bound = self.inputs(table[category])
+        if inputs.get("form", ("", "", ""))[2] == "exact":
+            bound = float("inf")  # Ward's exact form, as it was printed
+        return self.node(category, kind, inputs), bound
+
+    def bsdf(self, depth):
+        """:returns: name of the node, and the bound of its albedo"""
+        chance = self.random.random()
+        if depth <= 1 or chance < 0.15:
+            return self.leaf(BSDFS, "BSDF")
+        a, bound = self.bsdf(depth - 1)
+        first = ("BSDF", a, "")
+        if chance < 0.3:
+            if self.random.random() < 0.5:
+                by = self.value("float", 0, 1)
+            else:
+                by, _ = self.color()
+            values = [float(x) for x in by[2].split(",")] if by[2] else [float("inf")]
+            return self.node("multiply", "BSDF", {"in1": first, "in2": by}), bound * max(1.0, *values)
+        if chance < 0.38:
+            return self.node("layer", "BSDF", {"top": first, "base": ("VDF", self.vdf(2), "")}), bound
+        b, other = self.bsdf(depth - 1)
+        second = ("BSDF", b, "")
+        if chance < 0.68:
+            return self.node("layer", "BSDF", {"top": first, "base": second}), max(bound, other)
+        if chance < 0.85:
+            return (self.node("mix", "BSDF", {"fg": first, "bg": second, "mix": self.value("float", 0, 1)}), max(bound, other))
+        return self.node("add", "BSDF", {"in1": first, "in2": second}), bound + other
+
+    def edf(self, depth):
+        if depth <= 1 or self.random.random() < 0.5:
+            return self.leaf(EDFS, "EDF")[0]
+        first, second = ("EDF", self.edf(depth - 1), ""), ("EDF", self.edf(depth - 1), "")
+        if self.random.random() < 0.5:
+            return self.node("add", "EDF", {"in1": first, "in2": second})
+        return self.node("mix", "EDF", {"fg": first, "bg": second, "mix": self.value("float", 0, 1)})
+
+    def vdf(self, depth):
+        if depth <= 1 or self.random.random() < 0.6:
+            return self.leaf(VDFS, "VDF")[0]
+        first, second = ("VDF", self.vdf(depth - 1), ""), ("VDF", self.vdf(depth - 1), "")
+        return self.node("mix", "VDF", {"fg": first, "bg": second, "mix": self.value("float", 0, 1)})
+
+
+def methods(seed, points):
+    """Methods forced for one graph in three: about a quarter of the choice points, at random.
+
+    :param points: choice points as _patina.choice_points() gives them
+    """
+    generator = random.Random(seed * 7919 + 1)
+    if generator.random() > 0.33:
+        return {}
+    return {point: generator.choice(names)[0] for point, names in points if generator.random() < 0.25}

@@ -1,0 +1,76 @@
+"""Makes random legal material graphs and looks for what breaks.
+
+    python testenv/stability/randomGraphs.py --seed 1 --count 1000 --keep FOLDER [--raster 20]
+
+Every graph is compiled, evaluated and sampled at its worst places (graphChecks.py); each that fails is kept in FOLDER
+as a document with a comment that says what failed. Run it with the environment that ./patina makes
+(PYTHONPATH=plugin:build/python).
+"""
+import argparse
+import os
+import sys
+import tempfile
+import time
+
+import graphChecks
+import graphText
+
+# Ways to find an albedo that are not meant to be exact: sampling finds another.
+ROUGH_GUESSES = ("karis", "mirror", "monteCarlo16")
+
+
+def load(patina, text):
+    """:returns: the network of a document with one material"""
+    with tempfile.NamedTemporaryFile("w", suffix=".mtlx", encoding="utf-8") as file:
+        file.write(text)
+        file.flush()
+        networks = patina.read_mtlx(file.name)
+    if len(networks) != 1:
+        raise ValueError(f"the document holds {len(networks)} materials")
+    return networks[0]
+
+
+def failures(patina, network, bound, loses, methods, raster=False):
+    """:returns: list of what failed on the processor, and where asked for on the driver"""
+    probe = patina.MaterialProbe(network, methods)
+    found = graphChecks.check(probe, bound)
+    if methods.get("directionalAlbedo") not in ROUGH_GUESSES:
+        found += graphChecks.check_furnace(probe, bound, loses)
+    if raster:
+        other = patina.RasterProbe(network, methods)
+        found += ["raster: " + line for line in graphChecks.check(other, bound)]
+        found += graphChecks.compare(probe, other)
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--seed", type=int, default=1, help="of the first graph; the others count up")
+    parser.add_argument("--count", type=int, default=100)
+    parser.add_argument("--raster", type=int, default=0, metavar="N", help="also on OpenGL, every Nth graph (0: none)")
+    parser.add_argument("--keep", metavar="FOLDER", help="where graphs that fail are written")
+    arguments = parser.parse_args()
+    import _patina
+
+    points, start, broken = _patina.choice_points(), time.time(), 0
+    for seed in range(arguments.seed, arguments.seed + arguments.count):
+        graph = graphText.Graph(seed)
+        methods = graphText.methods(seed, points)
+        raster = arguments.raster > 0 and seed % arguments.raster == 0
+        found = failures(_patina, load(_patina, graph.text()), graph.bound, graph.loses, methods, raster)
+        if not found:
+            continue
+        broken += 1
+        head = [f"seed {seed}: {', '.join(graph.kinds)}; methods: {methods}; bound: {graph.bound:g}", *found]
+        print("\n  ".join(head), flush=True)
+        if arguments.keep:
+            os.makedirs(arguments.keep, exist_ok=True)
+            with open(os.path.join(arguments.keep, f"graph{seed}.mtlx"), "w", encoding="utf-8") as file:
+                comment = "\n".join(line.replace("--", "- -") for line in head)
+                file.write(graph.text().replace("\n<materialx", f"\n<!-- {comment} -->\n<materialx", 1))
+    print(f"{broken} of {arguments.count} graphs failed; {time.time() - start:.1f} s")
+    return 1 if broken else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -64,7 +64,7 @@ export async function makeTexture(image) {
     texture.minFilter = image.nearest ? THREE.NearestFilter : THREE.LinearMipmapLinearFilter;
     texture.generateMipmaps = false;
     texture.needsUpdate = true;
-    texture.userData = { texels: image.width * image.height, levels: levels.length - 1 };
+    texture.userData = { texels: image.width * image.height, levels: levels.length - 1, floats: levels };
     return texture;
 }
 

@@ -1,6 +1,7 @@
 // Draws the page's picture pass by pass until it is done; everything that changes it starts it over.
 import * as THREE from "three";
 import { Accumulator } from "./accumulator.js";
+import { drawSamples } from "./environmentSamples.js";
 import { fillLive } from "./materials.js";
 import { PageScene } from "./scene.js";
 import { makeRows } from "./textures.js";
@@ -45,7 +46,7 @@ export class Viewer {
     }
 
     // Few samples go into one pass, so that a slow device still answers.
-    get samplesPerPass() { return Math.min(8, Math.max(1, Math.floor(this.state.samples / 16))); }
+    get samplesPerPass() { return Math.min(8, Math.max(1, Math.floor(this.state.samples / 64))); }
     get passes() { return Math.max(1, Math.round(this.state.samples / this.samplesPerPass)); }
     get done() { return !this.stale && this.accumulator.count >= this.passes; }
 
@@ -81,6 +82,14 @@ export class Viewer {
         s.lightData.value?.dispose();
         s.lightData.value = makeRows(rows, 8);
         s.lightCount.value = rows.length;
+        // Samples of a pass are shared out where there are many lights.
+        const sized = rows.filter(row => row[7] > 0).length;
+        const each = Math.min(this.samplesPerPass, Math.max(1, Math.floor(4 * this.samplesPerPass / Math.max(sized, 1))));
+        const drawn = drawSamples(environment.texture, s, this.passes, Math.max(4, 2 * this.samplesPerPass));
+        s.environmentSamples.value?.dispose();
+        s.environmentSamples.value = drawn.texture;
+        s.environmentDensity.value.set(drawn.level, drawn.densityOfOne, drawn.trust);
+        s.lightSamples.value.set([drawn.count, each]);
         content.setShape(this.parts.shapes[state.shape]);
         this.stale = false;
     }

@@ -36,7 +36,7 @@ async function start() {
         refuse("This browser cannot unpack the page's data. Firefox from 113, Chrome from 80 and Safari from 16.4 can.");
         return null;
     }
-    const data = readDocument();
+    const data = await readDocument();
     const state = new State(data);
     if (location.hash.length > 1) state.fromText(location.hash.slice(1));
     const viewer = new Viewer(canvas, data, await makeParts(data), state);

@@ -31,10 +31,10 @@ export class PageScene {
     }
 
     // The lean text while the sliders that it leaves out stand where they were, else the whole.
-    programFor(index, needsAll) {
-        const key = `${index} ${needsAll}`;
+    programFor(index, program, needsAll) {
+        const key = `${index} ${program} ${needsAll}`;
         if (!this.programs.has(key))
-            this.programs.set(key, makeMaterial(this.data, index, needsAll, this.shared, this.parts.textures));
+            this.programs.set(key, makeMaterial(this.data, index, program, needsAll, this.shared, this.parts.textures));
         return this.programs.get(key);
     }
 

@@ -101,12 +101,13 @@ export class Viewer {
         s.passInfo.value.set([pass, this.samplesPerPass, state.samples, content.shape.closed ? 1 : 0]);
         // Halton's points, moved so that their mean is the middle of the pixel.
         const jitter = [2, 3].map(base => radicalInverse(pass, base) + 0.5 / this.passes - 0.5);
-        const { made, live } = content.programFor(state.material, state.needsAll());
+        const program = content.programFor(state.material, state.program, state.needsAll());
+        const { made } = program;
         content.mesh.material = made;
         columns.forEach((values, i) => {
             const x0 = Math.round(i * this.width / columns.length);
             const x1 = Math.round((i + 1) * this.width / columns.length);
-            fillLive(live, values);
+            fillLive(program, values);
             made.uniformsNeedUpdate = true;
             target.viewport.set(x0, 0, x1 - x0, this.height);
             target.scissor.set(x0, 0, x1 - x0, this.height);

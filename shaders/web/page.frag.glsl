@@ -1,7 +1,8 @@
 // Ends the fragment shader of a material on the page: a few samples of the BSDF find environment and
-// lights, and one sample of each light; the host averages over passes. The environment is read where
-// its mip level is as coarse as the samples are sparse (filtered importance sampling, Colbert and
-// Krivanek 2007).
+// lights, and a few samples of each of them; the host averages over passes. Samples of the BSDF read
+// the environment where its mip level is as coarse as they are sparse (filtered importance sampling,
+// Colbert and Krivanek 2007). Those of the environment and of lights are the same in all pixels, so
+// that what they miss is smooth; both ways share by the power heuristic (Veach 1997).
 #include "shaders/web/environment.glsl"
 #include "shaders/web/random.glsl"
 #include "shaders/web/lights.glsl"
@@ -10,9 +11,15 @@ uniform vec3 eye;
 uniform float pixelAngle;
 uniform ivec4 passInfo; // index, samples in this pass, samples in all passes, flags
 uniform vec2 environmentInfo; // texels, levels
+uniform sampler2D environmentSamples; // a row for each pass: direction and density, radiance
+uniform vec3 environmentDensity; // level of the map that is sampled, density of a luminance of 1, trust
+uniform ivec2 lightSamples; // in a pass: of the environment, of each light that has a size
 const int PAGE_CLOSED = 1; // a shape with an inside: no light from behind comes through
 
 out vec4 outColor;
+
+// Samples of lights count as if they were so much denser: all pixels share them, their error is smooth.
+const float LIGHT_TRUST = 8.0;
 
 float heuristic(float a, float b) {
     return a * a / max(a * a + b * b, 1e-30);
@@ -48,20 +55,32 @@ bool isBlocked(vec3 wi) {
     return behind && (passInfo.w & PAGE_CLOSED) != 0;
 }
 
+// The density by solid angle with which the host draws environmentSamples.
+float environmentChance(vec3 w) {
+    int level = int(environmentDensity.x);
+    ivec2 size = textureSize(environmentMap, level);
+    ivec2 at = min(ivec2(latlong(worldToEnvironment * w) * vec2(size)), size - 1);
+    vec3 map = texelFetch(environmentMap, max(at, ivec2(0)), level).rgb;
+    return luminance(environmentScale * map + ambient) * environmentDensity.y;
+}
+
 // What a sample of the BSDF finds: the environment, and the lights that it meets. Diffuse and
 // specular shares of the value, each over the density.
 vec3 along(vec3 wi, vec3 diffuse, vec3 specular, float pdf, bool delta) {
     float apart = float(passInfo.z) * pdf * 4.0 * PI / environmentInfo.x;
     // Half as wide as the samples are apart: a filter reaches over two texels. More would blur.
     float lod = delta ? 0.0 : clamp(-0.5 * log2(max(apart, 1e-20)) - 1.0, 0.0, environmentInfo.y);
-    vec3 sum = (diffuse + specular) * environmentAt(wi, lod);
+    float found = delta || lightSamples.x == 0 ? 0.0 : float(lightSamples.x) * environmentChance(wi);
+    vec3 sum = (diffuse + specular) * environmentAt(wi, lod) *
+               (found > 0.0 ? heuristic(float(passInfo.y) * pdf, environmentDensity.z * found) : 1.0);
     if (isBlocked(wi)) return sum;
     for (int i = 0; i < lightCount; ++i) {
         PageLight l = lightAt(i);
         float density;
         vec3 radiance = lightAlong(l, point.position, wi, density);
         if (density == 0.0) continue;
-        float weight = delta ? 1.0 : heuristic(float(passInfo.y) * pdf, density);
+        float weight = delta ? 1.0 : heuristic(float(passInfo.y) * pdf,
+                                                 LIGHT_TRUST * float(lightSamples.y) * density);
         sum += (diffuse * l.shares.x + specular * l.shares.y) * radiance * weight;
     }
     return sum;
@@ -77,21 +96,34 @@ void main() {
     vec3 color = materialEmission(point.view);
     materialSetup();
     float share = 1.0 / float(passInfo.y);
-    // One loop over samples of lights and of the BSDF, so that the lobes stand in the text once.
-    for (int i = 0; i < lightCount + passInfo.y; ++i) {
-        bool ofLight = i < lightCount;
+    // One loop over all samples, so that the lobes stand in the text once.
+    int ofLights = lightCount * lightSamples.y, others = ofLights + lightSamples.x;
+    for (int i = 0; i < others + passInfo.y; ++i) {
         MaterialSample s = materialSampleNone();
-        PageLight l;
+        vec2 shares = vec2(1.0); // of diffuse and of specular light
         vec3 radiance = vec3(0.0);
-        float density = 0.0;
-        if (ofLight) {
-            uint d = 8u + 4u * uint(i);
-            vec2 u = vec2(randomAt(pixel, uint(passInfo.x), d), randomAt(pixel, uint(passInfo.x), d + 1u));
-            l = lightAt(i);
+        float trust = LIGHT_TRUST;
+        float density = 0.0;     // by solid angle, of all samples of the kind together; 0: no choice
+        bool meets = true;       // samples of the BSDF may find the same light
+        if (i < ofLights) {
+            int number = i / lightSamples.y, k = i - number * lightSamples.y;
+            uint index = uint(passInfo.x * lightSamples.y + k), d = 8u + 4u * uint(number);
+            PageLight l = lightAt(number);
+            vec2 u = vec2(randomAt(vec2(0.0), index, d), randomAt(vec2(0.0), index, d + 1u));
             radiance = sampleLight(l, point.position, u, s.wi, density);
-            if (radiance == vec3(0.0) || isBlocked(s.wi)) continue;
+            if (radiance == vec3(0.0) || (density == 0.0 && k > 0) || isBlocked(s.wi)) continue;
+            density *= float(lightSamples.y);
+            shares = l.shares;
+            meets = l.kind != LIGHT_CYLINDER;
+        } else if (i < others) {
+            int at = 2 * (i - ofLights);
+            vec4 to = texelFetch(environmentSamples, ivec2(at, passInfo.x), 0);
+            s.wi = to.xyz;
+            density = to.w * float(lightSamples.x);
+            trust = environmentDensity.z;
+            radiance = texelFetch(environmentSamples, ivec2(at + 1, passInfo.x), 0).rgb;
         } else {
-            uint index = uint(passInfo.x * passInfo.y + i - lightCount);
+            uint index = uint(passInfo.x * passInfo.y + i - others);
             vec3 u = vec3(randomAt(pixel, index, 0u), randomAt(pixel, index, 1u),
                           randomAt(pixel, index, 2u));
             s = materialSample(u, randomAt(pixel, index, 3u));
@@ -101,18 +133,18 @@ void main() {
                 continue;
             }
         }
-        MaterialEval f = materialEvalBut(s.wi, ofLight ? -1 : drawnLobe);
+        MaterialEval f = materialEvalBut(s.wi, i < others ? -1 : drawnLobe);
         f.diffuse += s.diffuseWeight;
         f.specular += s.specularWeight;
         f.pdf += s.pdf;
-        if (!ofLight) {
+        if (i >= others) {
             float inverse = f.pdf > 0.0 ? share / f.pdf : 0.0;
             color += along(s.wi, f.diffuse * inverse, f.specular * inverse, f.pdf, false);
             continue;
         }
-        float found = l.kind == LIGHT_CYLINDER ? 0.0 : float(passInfo.y) * f.pdf;
-        float weight = density == 0.0 ? 1.0 : heuristic(density, found) / density;
-        color += (f.diffuse * l.shares.x + f.specular * l.shares.y) * radiance * weight;
+        float found = meets ? float(passInfo.y) * f.pdf : 0.0;
+        float weight = density == 0.0 ? 1.0 : heuristic(trust * density, found) / density;
+        color += (f.diffuse * shares.x + f.specular * shares.y) * radiance * weight;
     }
     // A value that is no number would stay in the mean for ever.
     if (any(isnan(color)) || any(isinf(color))) color = vec3(0.0);

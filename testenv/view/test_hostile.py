@@ -86,7 +86,10 @@ def test_ten_thousand_inputs(make, chromium, tmp_path):
     color = shown(chromium, make("many.html", tmp_path / "many.mtlx"))
     assert color[0] > 1.5 * color[1] > 0.0
     count, note = chromium.evaluate("return [page.data.materials[0].inputs.length, page.state.current.notes.join()]")
-    assert count == 160 and "more inputs have no slider" in note
+    assert count == 1024 and "more inputs have no slider" in note
+    chromium.evaluate("page.panel.gui.foldersRecursive().forEach(f => f.open().fill?.())")
+    assert chromium.evaluate("return page.panel.gui.controllersRecursive().length") > 1030
+    assert chromium.messages() == []
 
 
 def test_a_shader_that_no_browser_takes_is_refused(tmp_path, capsys):

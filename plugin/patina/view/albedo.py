@@ -23,4 +23,4 @@ def texture(lobes):
     height = -(-len(table) // WIDTH)
     padded = np.zeros(height * WIDTH, dtype=np.float32)
     padded[:len(table)] = table
-    return {"width": WIDTH, "height": height, "data": blobs.pack(blobs.half(padded))}
+    return {"width": WIDTH, "height": height, "data": blobs.pack_smooth(blobs.half(padded))}

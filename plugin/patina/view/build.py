@@ -7,7 +7,7 @@ import numpy as np
 from patina.cli import materials as reader
 from patina.cli import methods, statistics
 from patina.cli.errors import CommandError
-from patina.view import compareImages, controls, layers, live, materials, page, stageScene, surroundings
+from patina.view import compareImages, controls, layers, materials, page, stageScene, surroundings
 
 MOST_MATERIALS = 64
 
@@ -39,10 +39,10 @@ class Builder:
         if unknown and len(self.arguments.material) == 1:
             self.warnings.append(f"--controls: {name} has no input {unknown[0]}"
                                  + (f", nor {len(unknown) - 1} others" if len(unknown) > 1 else ""))
-        material["presets"] = controls.presets(wanted, material["controls"], self.arguments.controls)
+        material["presets"] = controls.presets(wanted, material, self.arguments.controls)
         material["controls"] = entries
         material["sentence"] = wanted.get("sentences", {}).get(short, "")
-        material["layer"] = layers.of(file, short, network, live.live_inputs(network)[0], self.arguments.output)
+        material["layer"] = layers.of(file, short, *material["layer"], self.arguments.output)
         self.materials.append(material)
         self.lobes += used
         self.networks.append(network)

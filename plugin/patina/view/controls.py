@@ -1,8 +1,10 @@
 """What the sliders of a page are: one entry per live input, as JSON that a user may replace.
 
-  {"controls": [{"input": "NODE.NAME", "label": TEXT, "folder": TEXT, "kind": "color" | "number",
-                 "min": N, "max": N, "step": N, "default": [N...], "unit": TEXT}],
-   "presets": [{"name": TEXT, "values": {"NODE.NAME": [N...]}}],
+  {"controls": [{"input": "NODE.NAME", "label": TEXT, "folder": TEXT, "kind": "color" | "number" | "switch",
+                 "min": N, "max": N, "step": N, "default": [N...], "unit": TEXT},
+                {"input": "NODE.NAME", "label": TEXT, "folder": TEXT, "kind": "choice", "options": [TEXT...],
+                 "default": TEXT}],
+   "presets": [{"name": TEXT, "values": {"NODE.NAME": [N...] | TEXT}}],
    "sentences": {MATERIAL: TEXT}, "title": TEXT}
 """
 import json
@@ -40,16 +42,37 @@ def _range(name, values):
     return low, high, unit
 
 
-def entry(live):
+def _folder(node):
+    return node.rstrip("/").rpartition("/")[2].rpartition(":")[2]
+
+
+def _entry(live):
     """:param live: a live.LiveInput"""
     values = [v if math.isfinite(v) else 0.0 for v in live.value]
     is_color = (live.kind.startswith("color") and min(values) >= 0.0 and max(values) <= 1.0
                 and not any(word in live.name.lower() for word in _NO_COLORS))
     low, high, unit = _range(live.name, values)
-    folder = live.node.rstrip("/").rpartition("/")[2].rpartition(":")[2]
-    return {"input": f"{live.node}.{live.name}", "label": live.name.replace("_", " "), "folder": folder,
-            "kind": "color" if is_color and len(values) == 3 else "number", "min": low, "max": high,
-            "step": 0.0, "default": values, "unit": unit}
+    kind = "color" if is_color and len(values) == 3 else "switch" if live.kind == "boolean" else "number"
+    return {"input": f"{live.node}.{live.name}", "label": live.name.replace("_", " "), "folder": _folder(live.node),
+            "kind": kind, "min": low, "max": high, "step": 1.0 if live.kind == "integer" else 0.0, "default": values,
+            "unit": unit}
+
+
+def entries(inputs, choices, fixed):
+    """The controls of a material's live inputs, its choices and what is fixed, node by node.
+
+    :param choices: list of choices.Choice; fixed: of choices.Fixed
+    """
+    found = [(i.node, _entry(i)) for i in inputs]
+    for c in choices:
+        options = [text for text, _ in c.options]
+        found.append((c.node, {"input": c.key, "label": c.name.replace("_", " "), "folder": _folder(c.node),
+                               "kind": "choice", "options": options, "default": options[c.at]}))
+    for f in fixed:
+        found.append((f.node, {"input": f"{f.node}.{f.name}", "label": f.name.replace("_", " "),
+                               "folder": _folder(f.node), "kind": "fixed", "default": f.text, "reason": f.reason}))
+    order = {node: k for k, node in reversed(list(enumerate(node for node, _ in found)))}
+    return [made for _, made in sorted(found, key=lambda pair: order[pair[0]])]
 
 
 def _number(value):
@@ -94,8 +117,12 @@ def merged(entries, wanted, path):
             unknown.append(item["input"])
             continue
         made = dict(known[item["input"]])
+        if made["kind"] in ("choice", "fixed"):
+            made.update({key: item[key] for key in ("label", "folder") if isinstance(item.get(key), str)})
+            result.append(made)
+            continue
         for key, test in (("label", lambda v: isinstance(v, str)), ("folder", lambda v: isinstance(v, str)),
-                          ("unit", lambda v: isinstance(v, str)), ("kind", lambda v: v in ("color", "number")),
+                          ("unit", lambda v: isinstance(v, str)), ("kind", lambda v: v in ("color", "number", "switch")),
                           ("min", _number), ("max", _number), ("step", _number)):
             if key in item:
                 if not test(item[key]):
@@ -107,16 +134,21 @@ def merged(entries, wanted, path):
     return result, unknown
 
 
-def presets(wanted, entries, path):
+def presets(wanted, material, path):
     """The named sets of values of a file that fit a material."""
-    sizes = {entry["input"]: len(entry["default"]) for entry in entries}
+    sizes = {i["input"]: len(i["value"]) for i in material["inputs"]}
+    options = {c["input"]: c["options"] for c in material["controls"] if c["kind"] == "choice"}
     found = []
     for item in wanted.get("presets", []):
         if not isinstance(item, dict) or not isinstance(item.get("name"), str) or not isinstance(item.get("values"), dict):
             raise CommandError(f"--controls: {path}: each preset needs a text `name` and an object `values`")
-        values = {key: value for key, value in item["values"].items() if key in sizes}
+        values = {key: value for key, value in item["values"].items() if key in sizes or key in options}
         for key, value in values.items():
-            if not _numbers(value, sizes[key]):
+            if key in options:
+                if value not in options[key]:
+                    raise CommandError(f"--controls: {path}: preset {item['name']}: {key} is one of "
+                                       + ", ".join(options[key]))
+            elif not _numbers(value, sizes[key]):
                 raise CommandError(f"--controls: {path}: preset {item['name']}: {key} needs a list of {sizes[key]} numbers")
         if values:
             found.append({"name": item["name"], "values": values})

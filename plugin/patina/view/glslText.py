@@ -4,6 +4,8 @@ import re
 from patina.cli import compiled
 from patina.view import live
 
+MOST_UNIFORMS = 128  # WebGL2 promises 224 vectors; more values come by a texture
+
 
 def lean(text):
     """Without comments, blank lines and #line: nobody reads the page's text, but everybody loads it."""
@@ -25,10 +27,15 @@ def primvar_functions(primvars, count):
 
     :param count: live inputs of the material
     """
-    text = f"uniform vec4 live[{max(count, 1)}];\n"
+    if count > MOST_UNIFORMS:
+        text = ("uniform sampler2D liveTable;\n"
+                "vec4 liveAt(int i) { return texelFetch(liveTable, ivec2(i & 255, i >> 8), 0); }\n")
+    else:
+        text = f"uniform vec4 live[{max(count, 1)}];\n"
     for slot, (name, kind) in enumerate(primvars):
         if re.fullmatch(live.PREFIX + r"\d+", name) and int(name[len(live.PREFIX):]) < count:
-            value = f"live[{int(name[len(live.PREFIX):])}]"
+            i = int(name[len(live.PREFIX):])
+            value = f"liveAt({i})" if count > MOST_UNIFORMS else f"live[{i}]"
         elif kind == "vector2":
             value = "vec4(vUv, 0.0, 1.0)"
         elif name == "displayColor":

@@ -45,13 +45,16 @@ def over_stage(file, folder):
     return {"asset": asset(os.path.relpath(os.path.abspath(file), folder)), "prims": [], "paths": {}, "defaultPrim": ""}
 
 
-def whole_material(name, network, live_inputs, folder):
-    """The material written out, for those that are no part of a stage."""
+def whole_material(name, network, moved, folder):
+    """The material written out, for those that are no part of a stage.
+
+    :param moved: the inputs whose values the page writes
+    """
     safe = re.sub(r"\W", "_", name)
     safe = safe if safe and not safe[0].isdigit() else "m_" + safe
     root, nodes = f"/{safe}", network.nodes()
     paths = {node["path"]: f"{root}/n{i}" for i, node in enumerate(nodes)}
-    open_inputs = {(i.node, i.name) for i in live_inputs}
+    open_inputs = {(i.node, i.name) for i in moved}
     terminal = network.terminals().get("surface")
     lines = []
     if terminal and terminal[0] in paths:
@@ -74,8 +77,8 @@ def whole_material(name, network, live_inputs, folder):
     return {"asset": "", "prims": prims, "paths": paths, "defaultPrim": safe}
 
 
-def of(argument_file, name, network, live_inputs, output):
+def of(argument_file, name, network, live_inputs, choices, output):
     folder = os.path.dirname(os.path.abspath(output))
     if is_document(argument_file):
-        return whole_material(name, network, live_inputs, folder)
+        return whole_material(name, network, live_inputs + choices, folder)
     return over_stage(argument_file, folder)

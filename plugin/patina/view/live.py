@@ -4,8 +4,8 @@ and every other host, which has no such primvars, shows the material as authored
 from patina.cli import compiled
 
 PREFIX = "patinaLive"
-COMPONENTS = {"float": 1, "vector2": 2, "vector3": 3, "vector4": 4, "color3": 3, "color4": 4}
-LIMIT = 160  # WebGL2 promises 224 uniform vectors
+COMPONENTS = {"boolean": 1, "integer": 1, "float": 1, "vector2": 2, "vector3": 3, "vector4": 4, "color3": 3, "color4": 4}
+LIMIT = 1024  # more would be neither found nor compiled
 
 
 class LiveInput:
@@ -22,7 +22,7 @@ def _numbers(value):
     return [float(f"{float(x):.7g}") for x in numbers]
 
 
-def _reachable(network):
+def reachable(network):
     """Nodes that the surface is made of, the surface first."""
     nodes = {node["path"]: node for node in network.nodes()}
     terminal = network.terminals().get("surface")
@@ -34,11 +34,14 @@ def _reachable(network):
     return [nodes[path] for path in dict.fromkeys(queue) if path in nodes]
 
 
-def live_inputs(network):
-    """:returns: list of LiveInput of the nodes below the surface, and how many there were beyond LIMIT"""
+def live_inputs(network, limit=LIMIT):
+    """Booleans and integers are among them where the program reads them as it runs.
+
+    :returns: list of LiveInput of the nodes below the surface, and how many there were beyond the limit
+    """
     module = compiled.load()
     found = []
-    for node in _reachable(network):
+    for node in reachable(network):
         types, defaults = module.node_inputs(node["id"]), module.node_defaults(node["id"])
         for name, kind in types.items():
             if kind not in COMPONENTS or name in node["connections"]:
@@ -49,10 +52,24 @@ def live_inputs(network):
             value = _numbers(authored["value"] if authored else defaults[name])
             if len(value) == COMPONENTS[kind]:
                 found.append(LiveInput(node["path"], node["id"], name, kind, value, authored is not None))
+    found = _without_plans(network, found)
     # What an author has set comes before what is left at its default.
     ranked = sorted(range(len(found)), key=lambda i: (not found[i].authored, i))
-    kept = sorted(ranked[:LIMIT])
+    kept = sorted(ranked[:limit])
     return [found[i] for i in kept], len(found) - len(kept)
+
+
+def _without_plans(network, found):
+    """Leaves out booleans and integers that decide what the program is."""
+    whole = [i for i, live_input in enumerate(found) if live_input.kind in ("boolean", "integer")]
+    if not whole:
+        return found
+    compile_one = compiled.load().web_material
+    calm = len(compile_one(network, {}, 1)["warnings"])
+    made = compile_one(with_live(network, found, whole), {}, 1)
+    names = {name for name, _ in made["primvars"]} if len(made["warnings"]) <= calm else set()
+    return [live_input for i, live_input in enumerate(found)
+            if live_input.kind not in ("boolean", "integer") or f"{PREFIX}{i}" in names]
 
 
 def with_live(network, inputs, chosen):
@@ -71,8 +88,9 @@ def with_live(network, inputs, chosen):
         source = f"<{PREFIX}{i}>"
         copy.add_node(source, f"ND_geompropvalue_{inputs[i].kind}")
         copy.set_input(source, "geomprop", "string", f"{PREFIX}{i}")
-        value = inputs[i].value
-        copy.set_input(source, "default", inputs[i].kind, value[0] if len(value) == 1 else value)
+        kind, value = inputs[i].kind, inputs[i].value
+        whole = int(value[0]) if kind in ("boolean", "integer") else value[0]
+        copy.set_input(source, "default", kind, whole if len(value) == 1 else value)
         copy.connect(node, name, source, "")
     for name, (node, output) in network.terminals().items():
         copy.set_terminal(name, node, output)
@@ -84,8 +102,11 @@ def shape_of(material):
     return material["lobes"], material["presence"], material["emission"]
 
 
-def lean_choice(network, inputs, compile_one):
-    """The inputs that may be live without a lobe more than the material as authored has."""
+def lean_choice(network, inputs, compile_one, guess=()):
+    """The inputs that may be live without a lobe more than the material as authored has.
+
+    :param guess: taken where it fits
+    """
     wanted = shape_of(compile_one(network))
 
     def harmless(group, kept):
@@ -97,4 +118,6 @@ def lean_choice(network, inputs, compile_one):
         left = harmless(group[:half], kept)
         return left + harmless(group[half:], kept + left)
 
+    if guess and harmless(guess, []) == guess:
+        return guess
     return harmless(list(range(len(inputs))), [])

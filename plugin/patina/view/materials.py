@@ -1,13 +1,17 @@
 """A material as the page has it: two texts, its inputs, their controls."""
 from patina.cli import compiled
 from patina.cli.errors import CommandError
-from patina.view import controls, glslText, images, live
+from patina.view import choices, controls, glslText, images, live
 
 LONGEST_TEXT = 200000
 MOST_TEXTURES = 12  # of 16; the page itself has albedos, environment, lights and parameters
 _NOTES = (("subsurface", "subsurface scattering shows as diffuse reflection"),
           ("interior", "what light loses inside the object is not shown"),
           ("displacement", "displacement is not shown"))
+
+
+class TooLarge(CommandError):
+    """A shader that browsers would not take."""
 
 
 class Textures:
@@ -27,7 +31,7 @@ class Textures:
 
 def _variant(name, made, chosen, count, textures):
     if len(made["text"]) > LONGEST_TEXT:
-        raise CommandError(f"{name} is too large for a page: its shader has {len(made['text']) // 1000} thousand "
+        raise TooLarge(f"{name} is too large for a page: its shader has {len(made['text']) // 1000} thousand "
                            f"characters, and browsers give up on more than {LONGEST_TEXT // 1000} thousand")
     if len(made["textures"]) > MOST_TEXTURES:
         raise CommandError(f"{name} reads {len(made['textures'])} textures, and browsers promise room for "
@@ -35,6 +39,32 @@ def _variant(name, made, chosen, count, textures):
     return {"text": glslText.material_text(made, count), "presence": made["presence"],
             "parameters": [float(f"{x:.7g}") for x in made["parameters"]], "live": sorted(chosen),
             "textures": [textures.add(found) for found in made["textures"]]}
+
+
+def _program(name, network, inputs, compile_one, textures, guess):
+    """The two texts of a network, what its page needs to know of them, and the lean one's live inputs."""
+    chosen = live.lean_choice(network, inputs, compile_one, guess)
+    lean = compile_one(live.with_live(network, inputs, chosen), textures.largest)
+    made = {"lean": _variant(name, lean, chosen, len(inputs), textures), "whole": None}
+    lobes = list(lean["lobes"])
+    if len(chosen) < len(inputs):
+        whole = compile_one(live.with_live(network, inputs, range(len(inputs))), textures.largest)
+        made["whole"] = _variant(name, whole, range(len(inputs)), len(inputs), textures)
+        lobes += whole["lobes"]
+    return made, lean, lobes, chosen
+
+
+def _authored(name, network, compile_one, textures):
+    """As many inputs are live as leave the texts short enough."""
+    limit = live.LIMIT
+    while True:
+        inputs, beyond = live.live_inputs(network, limit)
+        try:
+            return inputs, beyond, _program(name, network, inputs, compile_one, textures, ())
+        except TooLarge:
+            if not inputs:
+                raise
+            limit = min(limit, len(inputs)) // 4
 
 
 def build(name, network, methods, textures):
@@ -47,25 +77,38 @@ def build(name, network, methods, textures):
     def compile_one(changed, largest=1):
         return module.web_material(changed, methods, largest)
 
-    inputs, beyond = live.live_inputs(network)
-    chosen = live.lean_choice(network, inputs, compile_one)
-    lean = compile_one(live.with_live(network, inputs, chosen), textures.largest)
-    material = {"name": name, "lean": _variant(name, lean, chosen, len(inputs), textures), "whole": None,
+    inputs, beyond, (made, lean, lobes, chosen) = _authored(name, network, compile_one, textures)
+    found, fixed = choices.find(network, inputs)
+    wanted, left = choices.combinations(found)
+    programs, places = [made], {",".join(map(str, wanted[0])): 0}
+    for picked in wanted[1:]:
+        changed = choices.with_choices(network, found, picked)
+        try:
+            other, _, more, _ = _program(name, changed, inputs, compile_one, textures, chosen)
+        except CommandError:  # this value has no program, and the page says so
+            continue
+        if other not in programs:
+            programs.append(other)
+        places[",".join(map(str, picked))] = programs.index(other)
+        lobes += more
+    fixed += [choices.Fixed(c.node, c.name, c.kind, c.options[c.at][0], "every value is a program of its own, and "
+                            f"a page has room for {choices.MOST_PROGRAMS} of them")
+              for c in (found[i] for i in left)]
+    material = {"name": name, "programs": programs, "places": places,
                 "inputs": [{"input": f"{i.node}.{i.name}", "kind": i.kind, "value": list(i.value)} for i in inputs],
-                "controls": [controls.entry(i) for i in inputs], "presets": [], "sentence": ""}
-    lobes = list(lean["lobes"])
-    if len(chosen) < len(inputs):
-        whole = compile_one(live.with_live(network, inputs, range(len(inputs))), textures.largest)
-        material["whole"] = _variant(name, whole, range(len(inputs)), len(inputs), textures)
-        lobes += whole["lobes"]
+                "choices": [{"input": c.key, "kind": c.kind, "values": [v for _, v in c.options], "at": c.at}
+                            for c in found],
+                "controls": controls.entries(inputs, [c for i, c in enumerate(found) if i not in left], fixed),
+                "presets": [], "sentence": ""}
     notes = [text for key, text in _NOTES if lean[key]] + list(dict.fromkeys(lean["leftOut"]))
     if lean["volumeOnly"]:
         notes.append("a volume without a surface is not shown")
-    for found in lean["textures"]:
-        if max(found["fullSize"]) > textures.largest:
-            notes.append(f"a texture of {found['fullSize'][0]} x {found['fullSize'][1]} is shown smaller")
+    for image in lean["textures"]:
+        if max(image["fullSize"]) > textures.largest:
+            notes.append(f"a texture of {image['fullSize'][0]} x {image['fullSize'][1]} is shown smaller")
     if beyond:
         notes.append(f"{beyond} more inputs have no slider")
     material["notes"] = notes
     warnings = [": ".join(part for part in warning if part) for warning in lean["warnings"]]
+    material["layer"] = (network, inputs, found)
     return material, lobes, warnings

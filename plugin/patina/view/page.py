@@ -5,7 +5,7 @@ import os
 import re
 
 from patina.cli.errors import CommandError
-from patina.view import albedo, bundle, glslText
+from patina.view import albedo, blobs, bundle, glslText
 
 
 def _web(name):
@@ -22,7 +22,11 @@ def as_json(data):
 def document(data, lobes):
     """:param data: what web/src reads, without what all pages share
     :returns: the text of the page"""
-    whole = {**data, "library": glslText.library(), "albedo": albedo.texture(lobes)}
+    texts = {"library": glslText.library(), "programs": [m["programs"] for m in data["materials"]],
+             "layers": [m["layer"] for m in data["materials"]]}
+    kept = [{k: v for k, v in m.items() if k not in ("programs", "layer")} for m in data["materials"]]
+    whole = {**data, "materials": kept, "texts": blobs.pack_text(json.dumps(texts, allow_nan=False)),
+             "albedo": albedo.texture(lobes)}
     script = bundle.script()
     if "</script" in script.lower():
         raise CommandError("the page's script cannot stand in a page")

@@ -17,21 +17,72 @@ function addNumber(folder, control, values, index, changed) {
     }
 }
 
-export function addInputs(gui, page) {
-    const { state, viewer } = page, material = state.current, values = state.values[state.material];
-    const index = new Map(material.inputs.map((input, i) => [input.input, i]));
-    const folders = new Map();
-    const changed = () => viewer.invalidate();
-    for (const control of material.controls) {
+function addSwitch(folder, control, values, index, changed) {
+    const proxy = { get on() { return values[index][0] !== 0; }, set on(x) { values[index] = [x ? 1 : 0]; } };
+    folder.add(proxy, "on").name(control.label).onChange(changed);
+}
+
+// A value of which each has a program of its own.
+function addChoice(folder, control, page) {
+    const { state } = page, index = state.current.choices.findIndex(c => c.input === control.input);
+    const options = Object.fromEntries(control.options.map((text, i) => [text, i]));
+    const proxy = { get at() { return state.choices[state.material][index]; }, set at(i) {
+        if (state.choose(index, i)) page.pending = "The page has no program for these choices together: " +
+            "the others are back where they were.";
+    } };
+    folder.add(proxy, "at", options).name(control.label).onChange(() => page.refresh());
+}
+
+function addFixed(folder, control) {
+    const shown = folder.add({ value: control.default }, "value").name(control.label).disable();
+    shown.domElement.title = `Fixed: ${control.reason}.`;
+}
+
+function fill(folder, controls, page, index, changed) {
+    const { state } = page, values = state.values[state.material];
+    for (const control of controls) {
         const i = index.get(control.input);
-        if (i === undefined) continue;
-        if (!folders.has(control.folder)) {
-            folders.set(control.folder, gui.addFolder(control.folder));
-            if (folders.size > 3) folders.get(control.folder).close();
-        }
-        const folder = folders.get(control.folder);
-        if (control.kind === "color")
+        if (control.kind === "choice") addChoice(folder, control, page);
+        else if (control.kind === "fixed") addFixed(folder, control);
+        else if (i === undefined) continue;
+        else if (control.kind === "switch") addSwitch(folder, control, values, i, changed);
+        else if (control.kind === "color")
             addColor(folder, control.label, () => values[i], c => { values[i] = c; }).onChange(changed);
         else addNumber(folder, control, values, i, changed);
     }
+}
+
+const eager = 3, manyFolders = 40;
+
+// Folders are filled when they are opened first: a large material has thousands of controls.
+export function addInputs(gui, page) {
+    const { state, viewer } = page, material = state.current;
+    const index = new Map(material.inputs.map((input, i) => [input.input, i]));
+    const byFolder = grouped(material.controls);
+    const changed = () => viewer.invalidate();
+    let parent = gui, count = 0;
+    for (const [title, controls] of byFolder) {
+        if (byFolder.size > manyFolders && count % manyFolders === 0) {
+            parent = gui.addFolder(`nodes ${count + 1} to ${Math.min(count + manyFolders, byFolder.size)}`);
+            if (count) parent.close();
+        }
+        const folder = parent.addFolder(title);
+        if (count++ < eager) {
+            fill(folder, controls, page, index, changed);
+            continue;
+        }
+        folder.close();
+        let filled = false;
+        folder.fill = () => {
+            if (!filled) fill(folder, controls, page, index, changed);
+            filled = true;
+        };
+        folder.onOpenClose(f => { if (f === folder && !f._closed) f.fill(); });
+    }
+}
+
+function grouped(controls) {
+    const groups = new Map();
+    for (const c of controls) groups.has(c.folder) ? groups.get(c.folder).push(c) : groups.set(c.folder, [c]);
+    return groups;
 }

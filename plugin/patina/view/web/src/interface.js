@@ -64,6 +64,11 @@ export class Page {
         current.inputs.forEach((input, i) => {
             if (preset.values[input.input]) values[material][i] = preset.values[input.input].slice();
         });
+        current.choices.forEach((choice, i) => {
+            const control = current.controls.find(c => c.input === choice.input);
+            const at = control?.options?.indexOf(preset.values[choice.input]) ?? -1;
+            if (at >= 0) this.state.choose(i, at);
+        });
         this.refresh();
     }
 
@@ -82,7 +87,9 @@ export class Page {
     say(text) { document.getElementById("note").textContent = text; }
     showNote() {
         const { sentence, notes } = this.state.current;
-        this.say([sentence, ...notes.map(n => n[0].toUpperCase() + n.slice(1) + ".")].filter(Boolean).join(" "));
+        const { pending = "" } = this;
+        this.pending = "";
+        this.say([pending, sentence, ...notes.map(n => n[0].toUpperCase() + n.slice(1) + ".")].filter(Boolean).join(" "));
     }
 }
 

@@ -1,10 +1,11 @@
 // Changed values as a layer of USD, over the file that holds the material or, where that is no
 // stage, with the whole material in it. Names come from the file and are checked again here.
 
-const types = { float: "float", vector2: "float2", vector3: "float3", vector4: "float4", color3: "color3f",
+const types = { boolean: "bool", integer: "int", string: "string", float: "float", vector2: "float2", vector3: "float3", vector4: "float4", color3: "color3f",
                 color4: "color4f" };
 const number = x => Number.isFinite(x) ? String(Number(x.toPrecision(9))) : "0";
 const valueText = v => v.length === 1 ? number(v[0]) : `(${v.map(number).join(", ")})`;
+const quoted = text => `"${text.replace(/[\x00-\x1f]/g, " ").replace(/\\/g, "\\\\").replace(/"/g, '\\"')}"`;
 const isPath = path => /^(\/[A-Za-z_]\w*)+$/.test(path);
 const isName = name => /^[A-Za-z_]\w*(:[A-Za-z_]\w*)*$/.test(name);
 
@@ -41,6 +42,14 @@ export function layerText(state) {
         const node = nodeAt(tree, path), declared = `${types[input.kind]} inputs:${name}`;
         node.lines.push(`${declared} = ${valueText(value)}`);
         if (!whole) node.lines.push(`${declared}.connect = None`);
+    });
+    material.choices.forEach((choice, i) => {
+        const dot = choice.input.lastIndexOf("."), at = state.choices[m][i];
+        const path = layer.paths[choice.input.slice(0, dot)] ?? choice.input.slice(0, dot);
+        const name = choice.input.slice(dot + 1), value = choice.values[at];
+        if (!isPath(path) || !isName(name) || (!whole && at === choice.at)) return;
+        const text = choice.kind === "string" ? quoted(String(value)) : number(Number(value));
+        nodeAt(tree, path).lines.push(`${types[choice.kind]} inputs:${name} = ${text}`);
     });
     const sub = layer.asset ? `    subLayers = [\n        ${layer.asset}\n    ]\n` : "";
     const lead = layer.defaultPrim && isName(layer.defaultPrim) ? `    defaultPrim = "${layer.defaultPrim}"\n` : "";

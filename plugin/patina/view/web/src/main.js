@@ -36,17 +36,22 @@ async function start() {
         refuse("This browser cannot unpack the page's data. Firefox from 113, Chrome from 80 and Safari from 16.4 can.");
         return null;
     }
-    const data = readDocument();
+    const data = await readDocument();
     const state = new State(data);
     if (location.hash.length > 1) state.fromText(location.hash.slice(1));
     const viewer = new Viewer(canvas, data, await makeParts(data), state);
     const page = await buildInterface(viewer, data, state);
-    const loop = () => {
-        if (page.paused) return requestAnimationFrame(loop);
-        page.beforeStep();
-        if (viewer.step() && viewer.accumulator.count === 1 && !page.firstPicture)
-            page.firstPicture = performance.now();
+    // As many passes a frame as leave the page fluent.
+    let steps = 1, last = 0;
+    const loop = now => {
         requestAnimationFrame(loop);
+        steps = now - last < 24 ? Math.min(8, steps + 1) : Math.max(1, steps >> 1);
+        last = now;
+        if (page.paused) return;
+        page.beforeStep();
+        if (!viewer.accumulator.count) steps = 1;
+        for (let i = 0; i < steps && viewer.step(); ++i)
+            page.firstPicture ||= performance.now();
     };
     requestAnimationFrame(loop);
     return page;

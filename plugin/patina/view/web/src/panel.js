@@ -35,7 +35,9 @@ export class Panel {
     // All of it anew, after what it shows has changed from elsewhere.
     rebuild() {
         const { page } = this, { data, state, viewer } = page;
-        const closed = new Set(this.gui?.foldersRecursive().filter(f => f._closed).map(f => f._title));
+        const folders = this.gui?.foldersRecursive() ?? [];
+        const closed = new Set(folders.filter(f => f._closed).map(f => f._title));
+        const open = new Set(folders.filter(f => !f._closed).map(f => f._title));
         const scroll = this.box.scrollTop;
         this.gui?.destroy();
         this.gui = new GUI({ container: this.box, title: data.title, touchStyles: true });
@@ -59,8 +61,12 @@ export class Panel {
         addWedge(this.gui, page);
         addCompare(this.gui, page);
         addActions(this.gui, page);
-        for (const folder of this.gui.foldersRecursive())
+        for (const folder of this.gui.foldersRecursive()) {
             if (closed.has(folder._title)) folder.close();
+            if (!open.has(folder._title)) continue;
+            folder.fill?.();
+            folder.open();
+        }
         this.box.scrollTop = scroll;
         page.showNote();
     }

@@ -10,6 +10,8 @@ export class PageScene {
             albedoTable: { value: parts.albedo }, environmentMap: { value: null },
             worldToEnvironment: { value: new THREE.Matrix3() }, environmentScale: { value: new THREE.Vector3() },
             ambient: { value: new THREE.Vector3() }, environmentInfo: { value: new THREE.Vector2(1, 0) },
+            environmentSamples: { value: null }, environmentDensity: { value: new THREE.Vector3() },
+            lightSamples: { value: new Int32Array(2) },
             lightData: { value: null }, lightCount: { value: 0 }, eye: { value: new THREE.Vector3() },
             pixelAngle: { value: 0.001 }, passInfo: { value: new Int32Array(4) },
             jitter: { value: new THREE.Vector2() }, objectToWorld: { value: new THREE.Matrix4() },
@@ -29,10 +31,10 @@ export class PageScene {
     }
 
     // The lean text while the sliders that it leaves out stand where they were, else the whole.
-    programFor(index, needsAll) {
-        const key = `${index} ${needsAll}`;
+    programFor(index, program, needsAll) {
+        const key = `${index} ${program} ${needsAll}`;
         if (!this.programs.has(key))
-            this.programs.set(key, makeMaterial(this.data, index, needsAll, this.shared, this.parts.textures));
+            this.programs.set(key, makeMaterial(this.data, index, program, needsAll, this.shared, this.parts.textures));
         return this.programs.get(key);
     }
 

@@ -12,6 +12,7 @@ export class State {
         const { data } = this, start = data.start;
         Object.assign(this, copy(start));
         this.values = data.materials.map(m => m.inputs.map(i => i.value.slice()));
+        this.choices = data.materials.map(m => m.choices.map(c => c.at));
         this.lights = data.lights.map(() => ({ on: true, gain: 1, color: [1, 1, 1] }));
         this.wedge = null;
         this.wipe = 1;
@@ -19,12 +20,26 @@ export class State {
 
     get current() { return this.data.materials[this.material]; }
 
+    // Which of the material's programs has the choices that were made.
+    get program() { return this.current.places[this.choices[this.material].join()] ?? 0; }
+
+    // Where no program was made for what is chosen together, this choice stands alone.
+    // @returns whether others had to go back to where they were authored
+    choose(index, at) {
+        const { current, material } = this, start = current.choices.map(c => c.at);
+        const together = this.choices[material].map((old, i) => i === index ? at : old);
+        const alone = start.map((old, i) => i === index ? at : old);
+        const fits = together.join() in current.places;
+        this.choices[material] = fits ? together : alone.join() in current.places ? alone : start;
+        return !fits;
+    }
+
     // Whether some value has left the authored one that only the whole program can follow.
     needsAll() {
-        const m = this.current;
+        const m = this.current, { lean } = m.programs[this.program];
         const changed = this.values[this.material].some((v, i) =>
-            !m.lean.live.includes(i) && String(v) !== String(m.inputs[i].value));
-        return changed || Boolean(this.wedge && !m.lean.live.includes(this.wedge.input));
+            !lean.live.includes(i) && String(v) !== String(m.inputs[i].value));
+        return changed || Boolean(this.wedge && !lean.live.includes(this.wedge.input));
     }
 
     // A narrow picture keeps the width in view.
@@ -39,7 +54,8 @@ export class State {
         const same = key => JSON.stringify(this[key]) === JSON.stringify(fresh[key]);
         return ["shape", "environment", "rotation", "environmentGain", "ambient", "backdrop", "lights", "wedge"]
             .every(same) && this.eye.every((x, i) => Math.abs(x - fresh.eye[i]) < 1e-4 * this.data.camera.radius) &&
-            String(this.values[this.material]) === String(fresh.values[this.material]);
+            String(this.values[this.material]) === String(fresh.values[this.material]) &&
+            String(this.choices[this.material]) === String(fresh.choices[this.material]);
     }
 
     // Only what differs from the start.
@@ -50,6 +66,7 @@ export class State {
             if (String(v) !== String(fresh.values[m][i])) (values[m] ??= {})[i] = v;
         }));
         if (Object.keys(values).length) out.values = values;
+        if (String(this.choices) !== String(fresh.choices)) out.choices = this.choices;
         for (const key of [...Object.keys(this.data.start), "lights", "wedge"])
             if (JSON.stringify(this[key]) !== JSON.stringify(fresh[key])) out[key] = this[key];
         return Object.keys(out).length ? encodeURIComponent(JSON.stringify(out)) : "";
@@ -65,6 +82,10 @@ export class State {
         for (const [m, list] of Object.entries(read.values ?? {}))
             for (const [i, v] of Object.entries(list ?? {}))
                 if (this.values[m]?.[i] && fits(v, this.values[m][i])) this.values[m][i] = v;
+        (Array.isArray(read.choices) ? read.choices : []).forEach((list, m) => {
+            if (this.data.materials[m] && String(list) in this.data.materials[m].places)
+                this.choices[m] = String(list).split(",").filter(Boolean).map(Number);
+        });
         for (const key of Object.keys(this.data.start))
             if (key in read && fits(read[key], this[key])) this[key] = read[key];
         const clamped = (x, n) => Number.isInteger(x) && x >= 0 && x < n ? x : 0;

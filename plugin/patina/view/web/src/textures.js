@@ -1,6 +1,6 @@
 // Textures as the shaders expect them: rows as packed, mip levels averaged in linear light.
 import * as THREE from "three";
-import { unpack } from "./data.js";
+import { unpack, unpackSmooth } from "./data.js";
 
 const wraps = {
     repeat: THREE.RepeatWrapping, mirror: THREE.MirroredRepeatWrapping, clamp: THREE.ClampToEdgeWrapping,
@@ -64,13 +64,13 @@ export async function makeTexture(image) {
     texture.minFilter = image.nearest ? THREE.NearestFilter : THREE.LinearMipmapLinearFilter;
     texture.generateMipmaps = false;
     texture.needsUpdate = true;
-    texture.userData = { texels: image.width * image.height, levels: levels.length - 1 };
+    texture.userData = { texels: image.width * image.height, levels: levels.length - 1, floats: levels };
     return texture;
 }
 
 // One channel of half floats, read by texelFetch() alone.
 export async function makeTable(table) {
-    const texture = new THREE.DataTexture(await unpack(table.data, "f2"), table.width, table.height,
+    const texture = new THREE.DataTexture(await unpackSmooth(table.data), table.width, table.height,
                                           THREE.RedFormat, THREE.HalfFloatType);
     texture.needsUpdate = true;
     return texture;

@@ -1,6 +1,7 @@
 // Draws the page's picture pass by pass until it is done; everything that changes it starts it over.
 import * as THREE from "three";
 import { Accumulator } from "./accumulator.js";
+import { drawSamples } from "./environmentSamples.js";
 import { fillLive } from "./materials.js";
 import { PageScene } from "./scene.js";
 import { makeRows } from "./textures.js";
@@ -45,7 +46,7 @@ export class Viewer {
     }
 
     // Few samples go into one pass, so that a slow device still answers.
-    get samplesPerPass() { return Math.min(8, Math.max(1, Math.floor(this.state.samples / 16))); }
+    get samplesPerPass() { return Math.min(8, Math.max(1, Math.floor(this.state.samples / 64))); }
     get passes() { return Math.max(1, Math.round(this.state.samples / this.samplesPerPass)); }
     get done() { return !this.stale && this.accumulator.count >= this.passes; }
 
@@ -81,6 +82,14 @@ export class Viewer {
         s.lightData.value?.dispose();
         s.lightData.value = makeRows(rows, 8);
         s.lightCount.value = rows.length;
+        // Samples of a pass are shared out where there are many lights.
+        const sized = rows.filter(row => row[7] > 0).length;
+        const each = Math.min(this.samplesPerPass, Math.max(1, Math.floor(4 * this.samplesPerPass / Math.max(sized, 1))));
+        const drawn = drawSamples(environment.texture, s, this.passes, Math.max(4, 2 * this.samplesPerPass));
+        s.environmentSamples.value?.dispose();
+        s.environmentSamples.value = drawn.texture;
+        s.environmentDensity.value.set(drawn.level, drawn.densityOfOne, drawn.trust);
+        s.lightSamples.value.set([drawn.count, each]);
         content.setShape(this.parts.shapes[state.shape]);
         this.stale = false;
     }
@@ -92,12 +101,13 @@ export class Viewer {
         s.passInfo.value.set([pass, this.samplesPerPass, state.samples, content.shape.closed ? 1 : 0]);
         // Halton's points, moved so that their mean is the middle of the pixel.
         const jitter = [2, 3].map(base => radicalInverse(pass, base) + 0.5 / this.passes - 0.5);
-        const { made, live } = content.programFor(state.material, state.needsAll());
+        const program = content.programFor(state.material, state.program, state.needsAll());
+        const { made } = program;
         content.mesh.material = made;
         columns.forEach((values, i) => {
             const x0 = Math.round(i * this.width / columns.length);
             const x1 = Math.round((i + 1) * this.width / columns.length);
-            fillLive(live, values);
+            fillLive(program, values);
             made.uniformsNeedUpdate = true;
             target.viewport.set(x0, 0, x1 - x0, this.height);
             target.scissor.set(x0, 0, x1 - x0, this.height);

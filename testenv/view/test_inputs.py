@@ -1,0 +1,98 @@
+"""Every input has a control: numbers slide, what decides the program is chosen from a list, the rest says why it is fixed."""
+import os
+
+import numpy as np
+import pytest
+
+MATERIAL = """#usda 1.0
+def Material "plastic"
+{
+    token outputs:mtlx:surface.connect = </plastic/surface.outputs:out>
+    def Shader "base"
+    {
+        uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
+        color3f inputs:color.connect = </plastic/noise.outputs:out>
+        token outputs:out
+    }
+    def Shader "noise"
+    {
+        uniform token info:id = "ND_fractal3d_color3"
+        int inputs:octaves = 2
+        color3f outputs:out
+    }
+    def Shader "coat"
+    {
+        uniform token info:id = "ND_dielectric_bsdf"
+        string inputs:distribution = "ggx"
+        float2 inputs:roughness = (0.2, 0.2)
+        token outputs:out
+    }
+    def Shader "layer"
+    {
+        uniform token info:id = "ND_layer_bsdf"
+        token inputs:top.connect = </plastic/coat.outputs:out>
+        token inputs:base.connect = </plastic/base.outputs:out>
+        token outputs:out
+    }
+    def Shader "surface"
+    {
+        uniform token info:id = "ND_surface"
+        token inputs:bsdf.connect = </plastic/layer.outputs:out>
+        token outputs:out
+    }
+}
+"""
+CONTROL = "page.panel.gui.controllersRecursive().find(c => c._name === '{}')"
+
+
+@pytest.fixture(scope="module")
+def page(make, tmp_path_factory):
+    file = tmp_path_factory.mktemp("inputs") / "plastic.usda"
+    file.write_text(MATERIAL)
+    return make("plastic.html", file)
+
+
+def test_a_page_of_many_programs_is_small(page):
+    assert os.path.getsize(page) < 3e6
+
+
+def test_whole_numbers_and_choices_change_the_picture(page, chromium):
+    chromium.open(page, "?width=48")
+    start = chromium.picture("page.panel.gui.foldersRecursive().forEach(f => f.fill?.()); page.state.samples = 16")
+    kinds = {c["label"]: c["kind"] for c in chromium.evaluate("return page.state.current.controls")}
+    assert kinds["octaves"] == "number" and kinds["distribution"] == kinds["energy compensation"] == "choice"
+    assert kinds["scatter mode"] == "choice"
+    octaves = chromium.picture(CONTROL.format("octaves") + ".setValue(6)")
+    assert np.abs(octaves - start).max() > 0.01
+    chromium.evaluate("page.reset()")
+    beckmann = chromium.picture("page.state.samples = 16;" + CONTROL.format("distribution") + ".setValue(1)")
+    assert np.abs(beckmann - start).max() > 0.01
+    same = chromium.picture("page.reset(); page.state.samples = 16")
+    assert np.abs(same - start).max() < 1e-6
+    assert chromium.messages() == []
+
+
+def test_choices_are_saved_and_linked(page, chromium, tmp_path, capsys):
+    from patina.cli import main
+
+    chromium.open(page, "?width=48")
+    link = chromium.evaluate(CONTROL.format("distribution") + ".setValue(1); return page.state.toText()")
+    path = os.path.join(os.path.dirname(page), "chosen.usda")
+    chromium.call("download", selector="[data-action=layer] button", path=path)
+    assert 'string inputs:distribution = "beckmann"' in open(path, encoding="utf-8").read()
+    assert main.main(["explain", path + ":/plastic"]) == 0
+    assert "beckmann" in capsys.readouterr().out
+    chromium.open(page, "?width=48#" + link)
+    assert chromium.evaluate("return page.state.choices[0].includes(1)")
+    assert chromium.messages() == []
+
+
+def test_more_choices_than_programs_are_fixed_with_the_reason():
+    from patina.view import choices
+
+    made = [choices.Choice("/m/n", "", f"c{i}", "boolean", choices.OFF_ON, 0, i == 29) for i in range(30)]
+    found, left = choices.combinations(made)
+    assert len(found) == choices.MOST_PROGRAMS and len(set(found)) == len(found) and 29 not in left
+    assert len(left) == 30 - (choices.MOST_PROGRAMS - 1)
+    few, none = choices.combinations(made[:3])
+    assert len(few) == 8 and not none

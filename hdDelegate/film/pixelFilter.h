@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace patina {
 
@@ -41,7 +42,32 @@ public:
         return glm::vec2(inverse(u.x), inverse(u.y)) * _radius;
     }
 
+    /// How many pixels away, along an axis, a sample may count for others too: see shares().
+    int reach() const {
+        const int most = int(std::ceil(2.0f * std::min(_radius, 100.0f))) - 1;
+        return most > largestReach ? 0 : std::max(0, most);
+    }
+    /// Shares of a sample along one axis, where all pixels have samples at the same offset. Offsets
+    /// that differ by whole pixels are as likely as the filter is high there, so the sample goes to
+    /// all of them by that: the mean is the filter's, with the samples of several pixels.
+    /// @param offset from the pixel's centre, of sample()
+    /// @returns by pixels from -reach() to reach() along the axis; their sum is 1
+    std::vector<float> shares(float offset) const {
+        const int most = reach();
+        std::vector<float> out(size_t(2 * most + 1), 0.0f);
+        float sum = 0.0f;
+        for (int i = -most; i <= most; ++i) {
+            const float x = (offset - float(i)) / std::max(_radius, 1e-20f);
+            const bool inside = i == 0 || std::fabs(x) < 1.0f;
+            sum += out[size_t(i + most)] = inside ? (_box ? 1.0f : std::exp(-2.0f * x * x)) : 0.0f;
+        }
+        for (float& share : out)
+            share /= sum;
+        return out;
+    }
+
 private:
+    static constexpr int largestReach = 8;
     static constexpr int size = 256, fine = 16384;
 
     float inverse(float u) const {

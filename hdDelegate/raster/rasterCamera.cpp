@@ -52,8 +52,8 @@ RasterCamera::RasterCamera(const Camera& camera, const RenderSettings& settings)
     _worldToCamera = glm::inverse(transformAt(camera.transform, timeCode(0.5f)));
 }
 
-RasterView RasterCamera::view(vec2 offset, vec2 lens, float time, const vec3& low,
-                              const vec3& high) const {
+RasterView RasterCamera::view(vec2 offset, vec2 lens, float time, const vec3& low, const vec3& high,
+                              int border) const {
     RasterView v;
     const mat4 toWorld = transformAt(_camera.transform, timeCode(time));
     const mat4 toCamera = glm::inverse(toWorld);
@@ -71,7 +71,8 @@ RasterView RasterCamera::view(vec2 offset, vec2 lens, float time, const vec3& lo
 
     const vec2 pixel = (_windowMax - _windowMin) / _imageSize;
     const vec2 shift = vec2(offset.x, -offset.y) * pixel;
-    vec2 lo = _windowMin + shift, hi = _windowMax + shift;
+    const vec2 beside = float(border) * pixel;
+    vec2 lo = _windowMin + shift - beside, hi = _windowMax + shift + beside;
     mat4 lensShift(1.0f);
     if (_camera.orthographic) {
         v.worldToClip = glm::ortho(lo.x, hi.x, lo.y, hi.y, n, f) * toCamera;

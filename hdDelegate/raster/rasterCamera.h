@@ -23,8 +23,9 @@ public:
     /// @param lens two numbers for the lens, in [0,1)
     /// @param time in [0,1) over the shutter
     /// @param boundsMin,boundsMax of the scene; the depth range is fitted to them
+    /// @param border pixels that are drawn beside the image on every side
     RasterView view(vec2 offset, vec2 lens, float time, const vec3& boundsMin,
-                    const vec3& boundsMax) const;
+                    const vec3& boundsMax, int border = 0) const;
 
     float timeCode(float time) const { return _shutterOpen + time * _shutterLength; }
     const mat4& worldToCamera() const { return _worldToCamera; } ///< at the middle of the shutter

@@ -14,6 +14,7 @@ RasterExtent::RasterExtent(const Geometry& prim) {
         high = vec3(std::max({p.radius, p.radiusTop, 0.5f * p.height + p.radius}));
         low = -high;
         refines = p.shape != ImplicitShape::Cube && p.shape != ImplicitShape::Plane;
+        round = refines;
     }
     if (prim.kind != GeometryKind::Mesh) return;
     const Mesh& mesh = static_cast<const Mesh&>(prim);
@@ -43,15 +44,10 @@ RasterExtent::RasterExtent(const Geometry& prim) {
     area = std::isfinite(sum) ? float(sum) : 0.0f;
 }
 
-size_t RasterExtent::trianglesFor(float edge) const {
-    if (!(area > 0.0f) || !(edge > 0.0f)) return SIZE_MAX;
-    // An equilateral triangle has sqrt(3) / 4 of the square of its edge.
-    return size_t(std::clamp(double(area) / (0.433 * double(edge) * double(edge)), 64.0, 1e9));
-}
-
 RasterDetail::RasterDetail(const RasterExtent& extent, const MotionTransform& transform,
                            const RasterCamera& camera, const RenderSettings& settings,
-                           bool displaced) {
+                           bool displaced)
+    : _area(extent.area), _round(extent.round), _displaced(displaced) {
     if (!(settings.edgeLength > 0.0f) || !extent.refines) return;
     const vec3 &low = extent.low, &high = extent.high;
     _view = camera.view(vec2(0.0f), vec2(0.0f), 0.5f, low, high);
@@ -59,19 +55,35 @@ RasterDetail::RasterDetail(const RasterExtent& extent, const MotionTransform& tr
     _center = 0.5f * (low + high);
     _radius = 0.5f * glm::length(high - low);
     _nearest = camera.camera().clipNear;
-    _edge = (displaced ? 1.0f : 2.0f) * settings.edgeLength * _view.pixelSpread;
+    _edgeLength = settings.edgeLength;
+}
+
+float RasterDetail::chord(float unit) const {
+    // Parts of a mesh are rounder than the whole.
+    const float curved = _round ? _radius / std::sqrt(3.0f) : 0.25f * _radius;
+    return std::sqrt(8.0f * largestGap * unit * curved);
+}
+
+size_t RasterDetail::trianglesFor(float edge) const {
+    if (_displaced || !(_area > 0.0f) || !(edge > 0.0f)) return SIZE_MAX;
+    const double side = double(std::min(edge, chord(edge / _edgeLength)));
+    // An equilateral triangle has sqrt(3) / 4 of the square of its edge.
+    return size_t(std::clamp(double(_area) / (0.433 * side * side), 64.0, 1e9));
 }
 
 float RasterDetail::edgeAt(const RasterPlace& place) const {
-    if (!(_edge > 0.0f) || !(_radius > 0.0f)) return 0.0f;
+    if (!(_edgeLength > 0.0f) || !(_radius > 0.0f)) return 0.0f;
     const mat4 m = place.groupToWorld * _toGroup;
     const float scale =
         std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
     const vec3 center = vec3(m * vec4(_center, 1.0f));
     const float away = glm::length(center - _view.eye) - _radius * scale;
     const float distance = _view.perspective ? std::max(_nearest, away) : 1.0f;
+    const float unit = _view.pixelSpread * distance / scale, asked = _edgeLength * unit;
+    float wanted = asked;
+    if (!_displaced) wanted = std::clamp(chord(unit), _round ? 0.0f : asked, 2.0f * asked);
     // No edge is longer than the prim: those far away are all drawn alike.
-    const float wanted = std::min(_edge * distance / scale, 2.0f * _radius);
+    wanted = std::min(wanted, 2.0f * _radius);
     if (!std::isfinite(wanted) || !(wanted > 0.0f)) return 0.0f;
     return std::exp2(std::floor(std::log2(wanted)));
 }

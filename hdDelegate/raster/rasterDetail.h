@@ -11,31 +11,40 @@ struct RasterExtent {
     vec3 low{0.0f}, high{0.0f};
     float area = 0.0f;    ///< of the cage of a subdivision surface
     bool refines = false; ///< it can be drawn more or less finely
+    bool round = false;   ///< an implicit shape, of radius `high`
 
     RasterExtent() = default;
     explicit RasterExtent(const Geometry& prim);
-    /// The most triangles that edges of so many object units are asked for: those of that length.
-    /// Uniform refinement by the longest edge alone would make most of a mesh needlessly fine.
-    size_t trianglesFor(float edge) const;
 };
 
 /// How finely a prim is drawn, by its size on screen.
 class RasterDetail {
 public:
-    /// Edges may be twice as long as the settings ask for unless the prim is displaced: normals
-    /// are smooth, and a chord of e pixels leaves a circle of R pixels by e^2 / 8R, less than a
-    /// tenth where R is above 80 (e = 8).
+    /// A chord of c pixels leaves a circle of R pixels by c^2 / 8R. Where that is less than
+    /// `largestGap`, edges may be twice as long as the settings ask for, unless the prim is
+    /// displaced: normals are smooth. Small round shapes have shorter ones instead, as the path
+    /// tracer's always do.
     RasterDetail(const RasterExtent& extent, const MotionTransform& transform,
                  const RasterCamera& camera, const RenderSettings& settings, bool displaced);
 
     /// The longest edge, in object units, that looks as long from the camera as the settings ask
     /// for: a power of two, so that few of them differ. 0: the prim is not refined.
     float edgeAt(const RasterPlace& place) const;
+    /// The most triangles that edges of so many object units are asked for: those whose own edges
+    /// leave the surface by no more than `largestGap`. Uniform refinement by the longest edge alone
+    /// would make most of a mesh needlessly fine.
+    size_t trianglesFor(float edge) const;
+
+    static constexpr float largestGap = 0.03f; ///< pixels
 
 private:
+    /// The longest chord, for `unit` object units a pixel.
+    float chord(float unit) const;
+
     mat4 _toGroup{1.0f};
     vec3 _center{0.0f};
-    float _radius = 0.0f, _edge = 0.0f, _nearest = 0.0f;
+    float _radius = 0.0f, _area = 0.0f, _edgeLength = 0.0f, _nearest = 0.0f;
+    bool _round = false, _displaced = false;
     RasterView _view;
 };
 

@@ -42,7 +42,7 @@ RasterPasses::~RasterPasses() {
     gl.DeleteFramebuffers(1, &_shadowTarget);
 }
 
-bool RasterPasses::resize(const RenderSettings& settings) {
+bool RasterPasses::resize(const RenderSettings& settings, int& border) {
     const int width = settings.width, height = settings.height;
     const int* crop = settings.dataWindow;
     const bool all = crop[2] < crop[0] || crop[3] < crop[1];
@@ -50,22 +50,24 @@ bool RasterPasses::resize(const RenderSettings& settings) {
     _window[1] = all ? 0 : std::clamp(crop[1], 0, height);
     _window[2] = all ? width - 1 : std::min(crop[2], width - 1);
     _window[3] = all ? height - 1 : std::min(crop[3], height - 1);
-    if (width == _width && height == _height) return true;
     GLint largest = 0;
     gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
     if (width > largest || height > largest) return false;
-    const auto make = [&](GLenum format) {
-        return GlTexture(GL_TEXTURE_2D, format, width, height);
+    if (std::max(width, height) + 2 * border > largest) border = 0;
+    if (width == _width && height == _height && border == _border) return true;
+    const auto make = [&](GLenum format, int beside) {
+        return GlTexture(GL_TEXTURE_2D, format, width + 2 * beside, height + 2 * beside);
     };
-    _color = make(GL_RGBA32F);
-    _depth = make(GL_DEPTH_COMPONENT32F);
-    _position = make(GL_RGBA32F);
-    _normal = make(GL_RGBA32F);
-    _ids = make(GL_RGBA32I);
+    _color = make(GL_RGBA32F, border);
+    _depth = make(GL_DEPTH_COMPONENT32F, border);
+    _position = make(GL_RGBA32F, 0);
+    _normal = make(GL_RGBA32F, 0);
+    _ids = make(GL_RGBA32I, 0);
     _colorTarget = GlFramebuffer({&_color}, &_depth);
     _aovTarget = GlFramebuffer({&_position, &_normal, &_ids}, &_depth);
     _width = width;
     _height = height;
+    _border = border;
     return _colorTarget.complete() && _aovTarget.complete();
 }
 
@@ -281,7 +283,7 @@ void RasterPasses::needBehind() {
         _behind = std::make_unique<RasterBehind>(error);
         if (!_behind->ok()) throw DeviceError("the driver does not take the shaders: " + error);
     }
-    if (!_behind->resize(_width, _height))
+    if (!_behind->resize(_color.width(), _color.height()))
         throw DeviceError("the driver has no room for an image of this size");
 }
 
@@ -317,8 +319,8 @@ void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisibl
 
 void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
                         const RasterDomes& domes, int environmentSamples,
-                        const RasterCamera& camera, uint32_t pass, uint32_t taken, vec2 offset,
-                        vec2 lens, float time, Film& film) {
+                        const RasterCamera& camera, const RasterSample& sample, Film& film) {
+    const uint32_t pass = sample.pass;
     const RasterLights::Sampled sampled =
         lights.sample(pass, scene.emitters(), _bounds, shadowMapSize);
     std::vector<mat4> matrices;
@@ -326,13 +328,14 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
         matrices.push_back(v.worldToMap);
     const GlBuffer lightBuffer(sampled.lights), matrixBuffer(matrices);
 
-    const RasterView view = camera.view(offset, lens, time, scene.boundsMin(), scene.boundsMax());
+    const RasterView view = camera.view(sample.offset, sample.lens, sample.time, scene.boundsMin(),
+                                        scene.boundsMax(), _border);
     PassBlock b = block(view);
     b.counts[0] = sampled.taken;
     b.counts[1] = bsdfSamples;
     b.counts[2] = int(pass);
     b.counts[3] = int(lights.seed());
-    b.extra = vec4(1.0f, camera.camera().exposureScale, float(taken),
+    b.extra = vec4(1.0f, camera.camera().exposureScale, float(sample.taken),
                    glm::length(scene.boundsMax() - scene.boundsMin()));
     b.lightInfo[0] = int(sampled.lights.size());
     if (const GlTexture& map = domes.maps()) {
@@ -365,7 +368,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     _shadowMaps.bind(18);
 
     _colorTarget.bind();
-    gl.Viewport(0, 0, _width, _height);
+    gl.Viewport(0, 0, _color.width(), _color.height());
     const float none[4] = {0, 0, 0, 0}, far = 1.0f;
     gl.ClearNamedFramebufferfv(_colorTarget.id(), GL_COLOR, 0, none);
     gl.ClearNamedFramebufferfv(_colorTarget.id(), GL_DEPTH, 0, &far);
@@ -385,15 +388,11 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     gl.DepthMask(GL_TRUE);
 
     _timer.mark(ReadBack);
-    std::vector<vec4> pixels(size_t(_width) * size_t(_height));
+    std::vector<vec4> pixels(size_t(_color.width()) * size_t(_color.height()));
     gl.GetTextureImage(_color.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels.size() * sizeof(vec4)),
                        pixels.data());
     _timer.collect(_seconds);
-    for (int y = _window[1]; y <= _window[3]; ++y) {
-        const vec4* row = &pixels[size_t(_height - 1 - y) * size_t(_width)];
-        for (int x = _window[0]; x <= _window[2]; ++x)
-            film.addColor(x, y, vec3(row[x]), row[x].w);
-    }
+    addShared(pixels, _width, _height, sample, _window, film);
 }
 
 } // namespace patina

@@ -5,6 +5,7 @@
 #include "hdDelegate/raster/rasterBehind.h"
 #include "hdDelegate/raster/rasterLights.h"
 #include "hdDelegate/raster/rasterScene.h"
+#include "hdDelegate/raster/rasterShares.h"
 #include "hdDelegate/raster/rasterSky.h"
 
 #include <functional>
@@ -19,8 +20,9 @@ public:
     bool ok() const { return _background && _shadow; }
 
     /// Sets the size of the image, and which of its pixels reach the film.
-    /// @returns false when the driver has no room for it
-    bool resize(const RenderSettings& settings);
+    /// @param border of the samples, which becomes 0 where the driver has no room for one
+    /// @returns false when the driver has no room for the image
+    bool resize(const RenderSettings& settings, int& border);
     bool inWindow(int x, int y) const {
         return x >= _window[0] && y >= _window[1] && x <= _window[2] && y <= _window[3];
     }
@@ -31,12 +33,10 @@ public:
                   const std::vector<AovSpec>& aovs, Film& film);
 
     /// One sample of every pixel.
-    /// @param pass number of its samples; @param taken how many passes there are with this one
-    /// @param offset of the sample from the pixels' centres; lens, time as of RasterCamera::view()
     /// @param environmentSamples of domes per pixel, where they are filtered
     void draw(const RasterScene& scene, const RasterLights& lights, const RasterDomes& domes,
-              int environmentSamples, const RasterCamera& camera, uint32_t pass, uint32_t taken,
-              vec2 offset, vec2 lens, float time, Film& film);
+              int environmentSamples, const RasterCamera& camera, const RasterSample& sample,
+              Film& film);
 
     /// Draws what earlier passes have left for later ones, for a film that holds `taken` of them.
     /// @param moveTo brings the scene to the shutter time of a pass
@@ -71,7 +71,7 @@ private:
     std::unique_ptr<RasterBehind> _behind; ///< made when something transmits
     GlBuffer _passBuffer, _albedoTable;
     GLuint _vertexArray = 0;
-    int _width = 0, _height = 0;
+    int _width = 0, _height = 0, _border = 0;
     int _window[4] = {0, 0, -1, -1};
     GlTexture _color, _depth, _position, _normal, _ids, _shadowMaps;
     GlFramebuffer _colorTarget, _aovTarget;

@@ -1,6 +1,5 @@
 #include "hdDelegate/raster/rasterRenderer.h"
 
-#include "hdDelegate/film/pixelFilter.h"
 #include "hdDelegate/film/sampler.h"
 #include "hdDelegate/raster/deviceError.h"
 #include "hdDelegate/film/relativeError.h"
@@ -180,7 +179,9 @@ private:
         checkDevice(0);
         build(state, camera);
         if (_stop) return;
-        if (!_passes->resize(_settings))
+        const PixelFilter filter(_settings.filterRadius);
+        int border = filter.reach();
+        if (!_passes->resize(_settings, border))
             throw DeviceError("the driver has no room for an image of " +
                               std::to_string(_settings.width) + " x " +
                               std::to_string(_settings.height) + " pixels");
@@ -206,18 +207,17 @@ private:
         const int* window = _passes->window();
         const bool empty = window[2] < window[0] || window[3] < window[1];
         const uint32_t taken = empty ? 0 : _film->sampleCount(window[2], window[3]);
-        const PixelFilter filter(_settings.filterRadius);
         _passes->resumeAt(*_raster, *_lights, taken, [&](uint32_t pass) {
-            _raster->moveTo(state, _settings, camera.timeCode(numbersOf(pass, filter).time));
+            _raster->moveTo(state, _settings, camera.timeCode(sampleOf(pass, filter, 0).time));
         });
         auto saved = Clock::now();
         auto told = Clock::now() - std::chrono::seconds(1);
         for (uint32_t i = taken; i < uint32_t(std::max(1, _settings.samples)) && !_stop; ++i) {
             if (isGoodEnough(int(i))) break;
-            const auto [offset, lens, time] = numbersOf(i, filter);
-            _raster->moveTo(state, _settings, camera.timeCode(time));
-            _passes->draw(*_raster, *_lights, *_domes, _settings.environmentSamples, camera, i,
-                          i + 1, offset, lens, time, *_film);
+            const RasterSample sample = sampleOf(i, filter, border);
+            _raster->moveTo(state, _settings, camera.timeCode(sample.time));
+            _passes->draw(*_raster, *_lights, *_domes, _settings.environmentSamples, camera, sample,
+                          *_film);
             checkDevice(int(i) + 1);
             {
                 const std::lock_guard<std::mutex> lock(_mutex);
@@ -243,15 +243,20 @@ private:
         }
     }
 
-    struct PassNumbers {
-        vec2 offset, lens;
-        float time;
-    };
-    PassNumbers numbersOf(uint32_t pass, const PixelFilter& filter) const {
+    /// @param border of the image, as RasterPasses::resize() has left it
+    RasterSample sampleOf(uint32_t pass, const PixelFilter& filter, int border) const {
         Sampler numbers(0, 0, _settings.seed, pass);
-        const vec2 offset = filter.sample(numbers.next2());
-        const vec2 lens = numbers.next2();
-        return {offset, lens, numbers.next2().x};
+        RasterSample sample;
+        sample.pass = pass;
+        sample.taken = pass + 1;
+        sample.offset = filter.sample(numbers.next2());
+        sample.lens = numbers.next2();
+        sample.time = numbers.next2().x;
+        if (border > 0) {
+            sample.sharesX = filter.shares(sample.offset.x);
+            sample.sharesY = filter.shares(sample.offset.y);
+        }
+        return sample;
     }
 
     /// Whether the image of so many passes meets the tolerance.

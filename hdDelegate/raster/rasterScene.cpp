@@ -150,7 +150,7 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     const size_t firstGroup = _groups.size();
     for (auto& [edge, list] : byEdge) {
         wish.edge = edge;
-        wish.edgeBudget = displaced ? SIZE_MAX : extent.trianglesFor(edge);
+        wish.edgeBudget = detail.trianglesFor(edge);
         RasterGroup group;
         group.prim = prim;
         group.shape = _shapes.get(wish);

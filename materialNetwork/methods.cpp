@@ -10,7 +10,9 @@ const std::vector<ChoicePoint>& choicePoints() {
           {"none", "single scattering only, as most renderers have it; a white metal of alpha 1 "
                    "loses about half of the light"},
           {"kullaConty", "a second lobe, shaped like diffuse, holds what is lost (Kulla and Conty "
-                         "2017); reciprocal; lobes that reflect only, others as turquin"}}},
+                         "2017); reciprocal; lobes that reflect only, others as turquin"},
+          {"randomWalk", "light bounces between the facets until it leaves (Heitz et al. 2016): the "
+                         "truth, noisier and slow; path tracer only, others as turquin"}}},
         {"directionalAlbedo",
          {{"table", "looked up in baked tables: any roughness, ior, anisotropy and side"},
           {"fit", "three facets that stand in for all, from a small network: more exact than the "

@@ -193,7 +193,7 @@ void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit, c
     path.diffuseShare = vec3(next.diffuse ? 1.0f : 0.0f);
     path.specularShare = vec3(1.0f) - path.diffuseShare;
     if (_lights.splitsLobes() && !path.specular) {
-        const BsdfEval f = bsdf.eval(next.wi);
+        const BsdfEval f = bsdf.evalDrawn(next);
         const vec3 sum = f.diffuse + f.specular;
         for (int c = 0; c < 3; ++c)
             path.diffuseShare[c] = sum[c] > 0.0f ? f.diffuse[c] / sum[c] : 0.5f;
@@ -264,6 +264,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         Bsdf bsdf;
         program.evaluate(s, bsdf);
         if (program.hasSubsurface()) bsdf.walkSubsurface();
+        if (bsdf.stochastic()) bsdf.seed(path.sampler.randomBits());
         if (!aovsWritten) {
             writeAovs(_aovs, target, _camera, point, bsdf);
             aovsWritten = true;

@@ -31,10 +31,10 @@ public:
     }
 
     /// A number that is not stratified, for decisions that are rarely taken.
-    float random() {
-        const uint32_t bits = hash(hash(_seed ^ (0x27d4eb2fu * ++_set)) ^ hash(_index));
-        return toUnit(bits);
-    }
+    float random() { return toUnit(randomBits()); }
+
+    /// A seed for further numbers.
+    uint32_t randomBits() { return hash(hash(_seed ^ (0x27d4eb2fu * ++_set)) ^ hash(_index)); }
 
     static uint32_t hash(uint32_t x) {
         // lowbias32 by Chris Wellons.

@@ -1,11 +1,23 @@
 #include "materialNetwork/cpu/bsdf.h"
 
 #include "materialNetwork/cpu/lobeOps.h"
+#include "materialNetwork/cpu/microsurface.h"
 #include "materialNetwork/cpu/shadingFrame.h"
 
 namespace patina {
 
+namespace {
+
+constexpr int kAlbedoSamples = 32; // of stochastic lobes
+
+} // namespace
+
 BsdfEval Bsdf::eval(const glm::vec3& wi) const {
+    return evalLobes(wi, Lobes::All);
+}
+
+/// Densities are those of all lobes either way.
+BsdfEval Bsdf::evalLobes(const glm::vec3& wi, Lobes which) const {
     BsdfEval result;
     const bool reflects = (glm::dot(wi, _geometricNormal) > 0.0f) == _woOutside;
     int frame = -1;
@@ -19,7 +31,16 @@ BsdfEval Bsdf::eval(const glm::vec3& wi) const {
             frame = l.frame;
         }
         if (((local.z > 0.0f) == (f.wo.z >= 0.0f)) != reflects) continue;
-        const sh::LobeEval e = lobeEval(l, f.wo, local);
+        sh::LobeEval e;
+        if (!l.stochastic) {
+            e = lobeEval(l, f.wo, local);
+        } else if (which == Lobes::Deterministic) {
+            result.pdf += l.probability * microsurfaceDensity(l, f.wo, local);
+            continue;
+        } else {
+            HashedNumbers random = HashedNumbers(_seed + uint32_t(i)).mix(f.wo).mix(local);
+            e = microsurfaceEval(l, f.wo, local, random);
+        }
         (l.diffuse ? result.diffuse : result.specular) += l.weight * e.value;
         result.pdf += l.probability * e.pdf;
     }
@@ -44,7 +65,13 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
         result.roughness = 1.0f;
         return result;
     }
-    const sh::LobeSample s = lobeSample(l, f.wo, u);
+    sh::LobeSample s;
+    if (l.stochastic) {
+        HashedNumbers random = HashedNumbers(_seed ^ 0x5bd1e995u).mix(f.wo).mix(u);
+        s = microsurfaceSample(l, f.wo, u, random);
+    } else {
+        s = lobeSample(l, f.wo, u);
+    }
     if (s.event == 0) return result;
     const glm::vec3 wi = f.toWorld(s.wi);
     const bool reflects = (s.event & sh::LOBE_REFLECT) != 0;
@@ -53,6 +80,7 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
     result.wi = wi;
     result.event = s.event;
     result.diffuse = l.diffuse;
+    result.alone = l.stochastic;
     result.eta = s.eta;
     result.roughness = lobeRoughness(l);
     if ((s.event & sh::LOBE_DELTA) != 0 || _lobeCount == 1) {
@@ -61,7 +89,8 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
         return result;
     }
     glm::vec3 value = l.weight * (s.weight * s.pdf);
-    float pdf = l.probability * s.pdf;
+    float exact = l.probability * s.pdf; // of the lobes in `value`
+    float estimate = 0.0f;               // of the others
     for (int i = 0; i < _lobeCount; ++i) {
         if (i == chosen) continue;
         const BsdfLobe& other = _lobes[i];
@@ -69,12 +98,28 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
         const BsdfFrame& frame = _frames[other.frame];
         const glm::vec3 local = other.frame == l.frame ? s.wi : frame.toLocal(wi);
         if (((local.z > 0.0f) == (frame.wo.z >= 0.0f)) != reflects) continue;
+        if (other.stochastic) {
+            estimate += other.probability * microsurfaceDensity(other, frame.wo, local);
+            continue;
+        }
         const sh::LobeEval e = lobeEval(other, frame.wo, local);
-        value += other.weight * e.value;
-        pdf += other.probability * e.pdf;
+        (l.stochastic ? estimate : exact) += other.probability * e.pdf;
+        if (!l.stochastic) value += other.weight * e.value;
     }
-    result.weight = pdf > 0.0f ? value / pdf : glm::vec3(0.0f);
-    result.pdf = pdf;
+    result.pdf = exact + estimate;
+    if (l.stochastic)
+        result.weight = l.weight * s.weight / l.probability;
+    else
+        result.weight = exact > 0.0f ? value / exact : glm::vec3(0.0f);
+    return result;
+}
+
+BsdfEval Bsdf::evalDrawn(const BsdfSample& sample) const {
+    if (!_stochastic) return eval(sample.wi);
+    if (!sample.alone) return evalLobes(sample.wi, Lobes::Deterministic);
+    BsdfEval result;
+    (sample.diffuse ? result.diffuse : result.specular) = glm::vec3(1.0f);
+    result.pdf = sample.pdf;
     return result;
 }
 
@@ -93,7 +138,7 @@ SubsurfaceEntry Bsdf::subsurface(const BsdfSample& sample) const {
 void Bsdf::makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal) {
     _lobeCount = 1;
     _nonDelta = true;
-    _transmits = _walks = false;
+    _transmits = _walks = _stochastic = false;
     _woOutside = true;
     _geometricNormal = geometricNormal;
     BsdfFrame& f = _frames[0];
@@ -103,13 +148,28 @@ void Bsdf::makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal
     BsdfLobe& l = _lobes[0];
     l.kind = LobeKind::OrenNayar;
     l.diffuse = true;
+    l.stochastic = false;
     l.frame = 0;
     l.probability = 1.0f;
     l.weight = l.albedo = glm::vec3(1.0f);
     l.orenNayar = sh::orenNayarSetup(glm::vec3(1.0f), 0.0f, false);
 }
 
+glm::vec3 Bsdf::sampledAlbedo() const {
+    HashedNumbers random = HashedNumbers(_seed).mix(_frames[0].wo);
+    glm::vec3 sum(0.0f);
+    for (int i = 0; i < kAlbedoSamples; ++i) {
+        const glm::vec3 u = random.next3();
+        const BsdfSample s = sample(u, random.next());
+        if (s.event == 0) continue;
+        const bool beneath = (s.event & LOBE_SUBSURFACE) != 0;
+        sum += beneath ? s.weight * subsurface(s).color : s.weight;
+    }
+    return sum / float(kAlbedoSamples);
+}
+
 glm::vec3 Bsdf::albedo() const {
+    if (_stochastic) return sampledAlbedo();
     glm::vec3 sum(0.0f);
     for (int i = 0; i < _lobeCount; ++i)
         sum += _lobes[i].weight * lobeAlbedo(_lobes[i], _frames[_lobes[i].frame].wo);

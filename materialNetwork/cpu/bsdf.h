@@ -33,6 +33,7 @@ struct BsdfSample {
     float pdf = 0.0f;       ///< solid angle over all lobes; probability when delta
     int event = 0;          ///< LOBE_REFLECT, LOBE_TRANSMIT, LOBE_DELTA bits; 0: no sample
     bool diffuse = false;   ///< which kind of lobe was drawn
+    bool alone = false;     ///< weight is of the lobe drawn alone; pdf is an estimate
     float eta = 1.0f;       ///< ior ratio crossed
     int lobe = -1;          ///< that was drawn
     float roughness = 0.0f; ///< GGX alpha of the lobe drawn (1 for diffuse), to widen the ray cone
@@ -65,6 +66,7 @@ struct SubsurfaceLobe {
 struct BsdfLobe {
     LobeKind kind;
     bool diffuse;      ///< counts as diffuse light (BsdfEval::diffuse)
+    bool stochastic;   ///< its values are random, see Bsdf::stochastic()
     uint8_t frame;     ///< index into the frames of the Bsdf
     float probability; ///< of being chosen by sample(); all sum to 1
     glm::vec3 weight;  ///< product of all weights, mixes and layers above it
@@ -130,8 +132,21 @@ public:
     /// Makes this a white Lambert reflector of the normal.
     void makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal);
 
-    /// @returns directional albedo of the whole material at wo (reflection and transmission)
+    /// @returns directional albedo of the whole material at wo (reflection and transmission); an
+    /// estimate by a few samples when stochastic()
     glm::vec3 albedo() const;
+
+    /// @returns whether a lobe has no formula. Then eval() gives random values whose mean is right,
+    /// and densities that are never 0 where the value is not, which may weigh strategies against
+    /// each other and must not divide. sample() keeps such lobes apart: a sample of one has the
+    /// weight of this lobe alone, one of any other lobe those of all others, so that nothing is
+    /// divided by an estimate and the mean over samples is that over directions.
+    bool stochastic() const { return _stochastic; }
+    /// Other random values from now on. @param seed one per vertex of a path
+    void seed(uint32_t seed) { _seed = seed; }
+
+    /// @returns how the light that comes from `sample` counts: eval() of the lobes in its weight
+    BsdfEval evalDrawn(const BsdfSample& sample) const;
 
     /// @returns false when eval() is 0 everywhere (mirrors, clear glass, black)
     bool hasNonDelta() const { return _nonDelta; }
@@ -147,10 +162,16 @@ public:
 private:
     friend class BsdfBuilder;
 
+    enum class Lobes { All, Deterministic };
+    BsdfEval evalLobes(const glm::vec3& wi, Lobes which) const;
+    glm::vec3 sampledAlbedo() const;
+
     int _lobeCount = 0;
     bool _nonDelta = false;
     bool _transmits = false;
+    bool _stochastic = false;
     bool _walks = false;    ///< subsurface lobes are events
+    uint32_t _seed = 0;
     bool _woOutside = true; ///< wo lies on the front side of the geometry
     glm::vec3 _geometricNormal;
     BsdfFrame _frames[maxFrames];

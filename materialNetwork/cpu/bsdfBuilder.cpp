@@ -1,6 +1,7 @@
 #include "materialNetwork/cpu/bsdfBuilder.h"
 
 #include "materialNetwork/cpu/lobeOps.h"
+#include "materialNetwork/cpu/microsurface.h"
 #include "materialNetwork/cpu/lobeSetup.h"
 #include "materialNetwork/cpu/scratch.h"
 #include "materialNetwork/cpu/shadingFrame.h"
@@ -113,6 +114,8 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
     out._nonDelta = false;
     out._transmits = false;
     out._walks = false;
+    out._stochastic = false;
+    out._seed = 0;
     out._geometricNormal = point.geometricNormal;
     out._woOutside = glm::dot(point.viewDirection, point.geometricNormal) >= 0.0f;
     if (code.lobes.empty()) return;
@@ -137,6 +140,7 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
             l.frame = t.prebuilt.frame;
             setupLobe(t, registers, l);
         }
+        l.stochastic = t.walks && canWalkMicrosurface(l);
         l.weight = glm::vec3(0.0f);
         l.albedo = glm::vec3(0.0f);
         if (registers[t.weight].x > 0.0f)
@@ -222,6 +226,7 @@ void BsdfBuilder::choose(const ProgramCode& code, Bsdf& out) {
         sum += l.probability;
         out._transmits |= lobeTransmits(l);
         out._nonDelta |= lobeNonDelta(l);
+        out._stochastic |= l.stochastic;
     }
     if (!(sum > 0.0f)) {
         out._nonDelta = false;

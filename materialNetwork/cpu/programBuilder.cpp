@@ -293,6 +293,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.compensate = compensation == "none"         ? sh::COMPENSATE_NONE
                    : compensation == "kullaConty" ? sh::COMPENSATE_ADD
                                                   : sh::COMPENSATE_SCALE;
+    t.walks = compensation == "randomWalk";
     t.albedo = chosenIndex(_plan.methods, "directionalAlbedo");
     t.sampling = chosenIndex(_plan.methods, "sampling");
     t.fresnel = chosenIndex(_plan.methods, "fresnel");

@@ -40,6 +40,7 @@ struct LobeTemplate {
     int variant = 0;             ///< lobeVariant()
     int facets = 0;              ///< facetDistribution()
     int compensate = 1;          ///< COMPENSATE_*
+    bool walks = false;          ///< between its facets, see cpu/microsurface.h
     int albedo = 0;              ///< ALBEDO_*
     int sampling = 0;            ///< FACETS_VISIBLE and others
     int fresnel = 0;             ///< FRESNEL_*

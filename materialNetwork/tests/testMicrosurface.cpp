@@ -1,0 +1,177 @@
+// The method randomWalk of energyCompensation: energy, values and samples that agree.
+#include "materialNetwork/tests/statistics.h"
+#include "shaders/measure/microsurfaceWalk.h"
+
+namespace patina {
+
+namespace {
+
+const MethodChoices walks = {{"energyCompensation", "randomWalk"}};
+
+std::shared_ptr<const MaterialProgram> compiled(const Network& network) {
+    static FakeTextures textures;
+    Diagnostics diagnostics;
+    return compileMaterial(network, textures, diagnostics, walks);
+}
+
+Network metal(float n, float k, float x, float y, const char* distribution = "ggx") {
+    return bsdfNetwork({makeNode("bsdf", "ND_conductor_bsdf",
+                                 {{"ior", grey(n)},
+                                  {"extinction", grey(k)},
+                                  {"roughness", Value::makeVec2(x, y)},
+                                  {"distribution", text(distribution)}})});
+}
+
+Network interface(const char* mode, float ior, float alpha, const char* distribution = "ggx") {
+    return bsdfNetwork({makeNode("bsdf", "ND_dielectric_bsdf",
+                                 {{"ior", number(ior)},
+                                  {"roughness", pair(alpha)},
+                                  {"scatter_mode", text(mode)},
+                                  {"distribution", text(distribution)}})});
+}
+
+Network schlick(const char* mode, float alpha) {
+    return bsdfNetwork({makeNode("bsdf", "ND_generalized_schlick_bsdf",
+                                 {{"color0", color(0.3f, 0.1f, 0.05f)},
+                                  {"roughness", pair(alpha)},
+                                  {"scatter_mode", text(mode)}})});
+}
+
+Mean sampledAlbedo(const MaterialProgram& program, const glm::vec3& wo, int samples) {
+    ShadingPoint point;
+    point.viewDirection = wo;
+    Bsdf bsdf;
+    program.evaluate(point, bsdf);
+    Random random(7);
+    Mean mean;
+    for (int i = 0; i < samples; ++i) {
+        bsdf.seed(uint32_t(i));
+        const glm::vec3 u = random.next3();
+        const BsdfSample s = bsdf.sample(u, random.next());
+        mean.add(s.event ? double(s.weight.x) : 0.0);
+    }
+    return mean;
+}
+
+/// No cell may be further off than 4.6 standard errors: of 32 cells that happens by chance once in
+/// 7000 times, and numbers are the same in every run.
+void expectSamplesAndValuesAgree(const Network& network, const glm::vec3& wo, const char* what) {
+    const auto program = compiled(network);
+    const Cells sampled = sampledCells(*program, wo, 60000, 11);
+    const Cells evaluated = evaluatedCells(*program, wo, 60000, 12);
+    EXPECT_LT(deviations(sampled, evaluated), 4.6) << what;
+}
+
+} // namespace
+
+// Every bounce keeps all light, and every walk ends: no noise at all.
+TEST(Microsurface, WhiteLosesNothing) {
+    for (const char* distribution : {"ggx", "beckmann"})
+        for (const float alpha : {0.05f, 0.5f, 1.0f})
+            for (const float degrees : {0.0f, 60.0f, 89.0f}) {
+                const auto white = compiled(metal(0.0f, 1.0f, alpha, alpha, distribution));
+                EXPECT_NEAR(sampledAlbedo(*white, direction(degrees), 500).mean(), 1.0, 1e-4)
+                    << distribution << " " << alpha << " " << degrees;
+                const auto glass = compiled(interface("RT", 1.5f, alpha, distribution));
+                EXPECT_NEAR(sampledAlbedo(*glass, direction(degrees), 500).mean(), 1.0, 1e-4)
+                    << distribution << " " << alpha << " " << degrees;
+                EXPECT_NEAR(sampledAlbedo(*glass, direction(180.0f - degrees), 500).mean(), 1.0,
+                            1e-4)
+                    << distribution << " " << alpha << " " << degrees;
+            }
+}
+
+// Against the walk of shaders/measure, which was written apart. 4 standard errors.
+TEST(Microsurface, MetalsReflectWhatTheReferenceWalkSays) {
+    for (const float alpha : {0.3f, 0.6f, 1.0f})
+        for (const float degrees : {10.0f, 50.0f, 80.0f}) {
+            const auto copper = compiled(metal(1.1f, 2.3f, alpha, alpha));
+            const Mean ours = sampledAlbedo(*copper, direction(degrees), 20000);
+            const glm::vec3 wo = direction(degrees);
+            const measure::Walked truth = measure::walkMicrosurface(
+                sh64::vec3(wo), sh64::vec2(alpha), sh::FACETS_GGX,
+                [](double c) { return sh64::fresnelConductorChannel(c, 1.1, 2.3); }, 20000, 3);
+            const double sigma = std::sqrt(ours.variance() + truth.sigma * truth.sigma);
+            EXPECT_NEAR(ours.mean(), truth.all, 4.0 * sigma) << alpha << " " << degrees;
+        }
+}
+
+TEST(Microsurface, SamplesAndValuesAgree) {
+    const glm::vec3 wo = direction(55.0f, 30.0f), below = direction(130.0f, 30.0f);
+    expectSamplesAndValuesAgree(metal(0.2f, 3.4f, 0.9f, 0.3f), wo, "anisotropic metal");
+    expectSamplesAndValuesAgree(metal(0.2f, 3.4f, 0.8f, 0.8f, "beckmann"), wo, "Beckmann metal");
+    expectSamplesAndValuesAgree(interface("RT", 1.5f, 0.7f), wo, "glass");
+    expectSamplesAndValuesAgree(interface("RT", 1.5f, 0.7f), below, "glass from below");
+    expectSamplesAndValuesAgree(interface("RT", 1.3f, 0.8f, "beckmann"), below, "Beckmann glass");
+    expectSamplesAndValuesAgree(interface("R", 1.5f, 0.9f), wo, "reflection of glass");
+    expectSamplesAndValuesAgree(interface("T", 1.5f, 0.6f), wo, "transmission of glass");
+    expectSamplesAndValuesAgree(schlick("R", 0.7f), wo, "Schlick");
+    expectSamplesAndValuesAgree(schlick("RT", 0.7f), below, "Schlick from below");
+}
+
+// Lobes with and without formulas side by side: samples of one kind leave the other kind out.
+TEST(Microsurface, MixturesStayUnbiased) {
+    const NetworkNode rough = makeNode("rough", "ND_conductor_bsdf", {{"roughness", pair(0.9f)}});
+    const NetworkNode diffuse =
+        makeNode("diffuse", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.5f)}});
+    const NetworkNode sheen = makeNode("sheen", "ND_sheen_bsdf", {{"roughness", number(0.4f)}});
+    const auto mixed = [](const char* name, const char* fg, const char* bg, float amount) {
+        return makeNode(name, "ND_mix_bsdf", {{"mix", number(amount)}},
+                        {{"fg", {fg, ""}}, {"bg", {bg, ""}}});
+    };
+    expectSamplesAndValuesAgree(bsdfNetwork({rough, diffuse, sheen,
+                                             mixed("two", "rough", "diffuse", 0.4f),
+                                             mixed("bsdf", "sheen", "two", 0.3f)}),
+                                direction(40.0f), "metal, diffuse and sheen");
+}
+
+// The density may be any that is positive where light goes.
+TEST(Microsurface, DensityIsPositiveWhereValuesAre) {
+    Random random(5);
+    for (const Network& network :
+         {metal(0.2f, 3.4f, 0.05f, 0.05f), metal(0.2f, 3.4f, 1.0f, 0.1f),
+          interface("RT", 1.5f, 0.4f), interface("T", 2.4f, 0.9f), schlick("RT", 0.3f)}) {
+        const auto program = compiled(network);
+        for (int i = 0; i < 2000; ++i) {
+            ShadingPoint point;
+            point.viewDirection = random.direction();
+            Bsdf bsdf;
+            program->evaluate(point, bsdf);
+            bsdf.seed(uint32_t(i));
+            const BsdfEval e = bsdf.eval(random.direction());
+            const float value = e.diffuse.x + e.specular.x;
+            ASSERT_TRUE(std::isfinite(value) && std::isfinite(e.pdf) && value >= 0.0f);
+            if (value > 0.0f) {
+                EXPECT_GT(e.pdf, 0.0f);
+            }
+        }
+    }
+}
+
+// The same seed gives the same bits; another one another value of the same mean.
+TEST(Microsurface, ValuesFollowFromSeeds) {
+    const auto program = compiled(metal(0.2f, 3.4f, 0.8f, 0.8f));
+    Bsdf bsdf;
+    program->evaluate(ShadingPoint(), bsdf);
+    ASSERT_TRUE(bsdf.stochastic());
+    const glm::vec3 wi = direction(30.0f);
+    bsdf.seed(1);
+    const float first = bsdf.eval(wi).specular.x;
+    EXPECT_EQ(bsdf.eval(wi).specular.x, first);
+    int others = 0;
+    for (uint32_t seed = 2; seed < 100; ++seed) {
+        bsdf.seed(seed);
+        others += bsdf.eval(wi).specular.x != first;
+    }
+    EXPECT_GT(others, 10);
+}
+
+// Mirrors have no facets to walk between.
+TEST(Microsurface, SmoothLobesKeepTheirFormulas) {
+    const auto program = compiled(metal(0.2f, 3.4f, 0.0f, 0.0f));
+    Bsdf bsdf;
+    program->evaluate(ShadingPoint(), bsdf);
+    EXPECT_FALSE(bsdf.stochastic());
+}
+
+} // namespace patina

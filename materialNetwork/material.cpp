@@ -2,6 +2,7 @@
 
 #include "materialNetwork/dump.h"
 #include "materialNetwork/expand.h"
+#include "materialNetwork/planner.h"
 #include "materialNetwork/simplify.h"
 #include "materialNetwork/wholeShaders.h"
 
@@ -34,12 +35,21 @@ Plan planMaterial(const Network& network, Diagnostics& diagnostics, const Method
 
 } // namespace
 
-std::shared_ptr<const MaterialProgram> compileMaterial(const Network& network,
-                                                       TextureSource& textures,
-                                                       Diagnostics& diagnostics,
-                                                       const MethodChoices& methods) {
-    return MaterialProgram::compile(planMaterial(network, diagnostics, methods), textures,
-                                    diagnostics);
+std::shared_ptr<const MaterialProgram>
+compileMaterial(const Network& network, TextureSource& textures, Diagnostics& diagnostics,
+                const MethodChoices& methods, double tolerance) {
+    Plan plan = planMaterial(network, diagnostics, methods);
+    if (tolerance >= 0.0) {
+        plan.planned = planMethods(plan, {methods, tolerance}, textures);
+        plan.methods = methodsOf(plan.planned, plan.methods);
+    }
+    return MaterialProgram::compile(plan, textures, diagnostics);
+}
+
+MethodPlan planMaterialMethods(const Network& network, TextureSource& textures,
+                               Diagnostics& diagnostics, const MethodChoices& methods,
+                               double tolerance) {
+    return planMethods(planMaterial(network, diagnostics, methods), {methods, tolerance}, textures);
 }
 
 std::string explainMaterial(const Network& network, Diagnostics& diagnostics,

@@ -16,10 +16,18 @@ using MaterialOverrides = std::map<std::string, Value>;
 /// Takes a material from its network as authored to a program: expand, simplify, plan, compile.
 /// Never fails: every problem is reported by prim and input, and a documented fallback used (an
 /// input's default, or makeDisplayColorNetwork() for a surface that cannot be understood at all).
-std::shared_ptr<const MaterialProgram> compileMaterial(const Network& network,
-                                                       TextureSource& textures,
-                                                       Diagnostics& diagnostics,
-                                                       const MethodChoices& methods = {});
+/// @param methods that are forced
+/// @param tolerance of the image, from which the other methods follow (Planning); negative:
+/// defaults
+std::shared_ptr<const MaterialProgram>
+compileMaterial(const Network& network, TextureSource& textures, Diagnostics& diagnostics,
+                const MethodChoices& methods = {}, double tolerance = -1.0);
+
+/// How the methods of a material are chosen, and what they cost. With a negative tolerance: what
+/// the defaults cost.
+MethodPlan planMaterialMethods(const Network& network, TextureSource& textures,
+                               Diagnostics& diagnostics, const MethodChoices& methods,
+                               double tolerance);
 
 /// What compileMaterial() makes of a network, as text: the network, the simplified graph, the plan,
 /// what was cut on the way, and the methods at the choice points that matter to it.

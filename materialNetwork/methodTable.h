@@ -5,6 +5,10 @@
 
 namespace patina {
 
+/// Cells of a row.
+constexpr int methodBins = 8;
+constexpr int methodCosines = 4;
+
 /// One method of a choice point as it was measured on one subject. The data (methodTableData.cpp)
 /// are written by `patina chart --lobes --table`.
 struct MeasuredMethod {
@@ -17,6 +21,13 @@ struct MeasuredMethod {
     float cost;          ///< that over the time of the point's default method; carries over to
                          ///< other machines
     float mean, largest, rms; ///< absolute errors over cell centres of (cosine, root of alpha)
+    const char* kind;         ///< of lobe: `dielectric`, `conductor`, `schlick`; empty: any
+    float reflectance;        ///< of the subject at normal incidence; -1: it is no matter
+    const char* axis; ///< what the bins are of: `roughness` (root of alpha), `thickness` (nm)
+    float axisEnd;    ///< they are evenly spaced from 0 to here; beyond nothing is known
+    /// Mean absolute error and mean of what it is of, bin by bin, in each the quarters of the
+    /// cosine of the view, grazing first.
+    float errors[methodBins * methodCosines], truths[methodBins * methodCosines];
 };
 
 /// All rows, in the order of choicePoints() and their methods.

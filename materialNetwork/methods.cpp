@@ -12,7 +12,8 @@ const std::vector<ChoicePoint>& choicePoints() {
           {"kullaConty", "a second lobe, shaped like diffuse, holds what is lost (Kulla and Conty "
                          "2017); reciprocal; lobes that reflect only, others as turquin"},
           {"randomWalk", "light bounces between the facets until it leaves (Heitz et al. 2016): the "
-                         "truth, noisier and slow; path tracer only, others as turquin"}}},
+                         "truth, noisier and slow; path tracer only, others as turquin"}},
+         "randomWalk"},
         {"directionalAlbedo",
          {{"table", "looked up in baked tables: any roughness, ior, anisotropy and side"},
           {"fit", "three facets that stand in for all, from a small network: more exact than the "
@@ -22,7 +23,8 @@ const std::vector<ChoicePoint>& choicePoints() {
           {"mirror", "the reflectance at the view's own cosine, as if the lobe were smooth"},
           {"monteCarlo16", "the mean over 16 visible facets, stratified"},
           {"monteCarlo64", "the mean over 64 visible facets, stratified"},
-          {"quadrature", "the mean over 2304 facets: the truth, slow"}}},
+          {"quadrature", "the mean over 2304 facets: the truth, slow"}},
+         "quadrature"},
         {"sampling",
          {{"vndf", "facets are drawn that the view sees (Heitz 2018, Dupuy and Benyoub 2023)"},
           {"boundedVndf", "of those, what can reflect upwards (Eto and Tokuyoshi 2023): fewer "
@@ -34,13 +36,15 @@ const std::vector<ChoicePoint>& choicePoints() {
           {"schlick", "Schlick's curve from the reflectance at normal incidence (1994): too bright "
                       "near ior 1 and above 2, too bright for metals near 80 degrees"},
           {"f82", "Schlick's curve with a dip that meets the exact reflectance at 82 degrees (Kutz "
-                  "et al. 2021)"}}},
+                  "et al. 2021)"}},
+         "exact"},
         {"thinFilm",
          {{"gaussian", "each order of interference through Gaussians fitted to what a channel sees "
                        "(Belcour and Barla 2017)"},
           {"table", "the same through tables of the transforms"},
           {"spectral", "Airy's formula at 144 wavelengths: the truth, slow; ripples for films of "
-                       "more than 20 um"}}},
+                       "more than 20 um"}},
+         "spectral"},
         {"diffuse",
          {{"authored", "as energy_compensation of the node says: eon or qualitative"},
           {"lambert", "roughness is ignored"},
@@ -80,7 +84,8 @@ const std::vector<ChoicePoint>& choicePoints() {
                           "without the stretch of highlights at grazing angles"},
           {"harmonics", "rasterizer: diffuse and sheen by spherical harmonics of order 2 with the "
                         "dominant light apart, all else filtered; hides sharp changes of the sky's "
-                        "light over the normal"}}}};
+                        "light over the normal"}},
+         "sampled"}};
     return points;
 }
 
@@ -89,6 +94,12 @@ std::string chosenMethod(const MethodChoices& choices, const std::string& point)
     if (found != choices.end()) return found->second;
     for (const ChoicePoint& choice : choicePoints())
         if (choice.name == point) return choice.methods.front().name;
+    return "";
+}
+
+std::string truthMethod(const std::string& point) {
+    for (const ChoicePoint& choice : choicePoints())
+        if (choice.name == point) return choice.truth;
     return "";
 }
 

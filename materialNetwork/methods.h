@@ -17,6 +17,8 @@ struct Method {
 struct ChoicePoint {
     std::string name;
     std::vector<Method> methods;
+    std::string truth = {}; ///< what the others are measured against; empty: a choice of meaning,
+                            ///< or one that makes noise alone. The planner never changes a meaning.
 };
 
 /// Choice point -> method, as the user forces it.
@@ -26,6 +28,9 @@ const std::vector<ChoicePoint>& choicePoints();
 
 /// @returns the method in force at a choice point
 std::string chosenMethod(const MethodChoices& choices, const std::string& point);
+
+/// @returns what a choice point has for truth; empty where there is none
+std::string truthMethod(const std::string& point);
 
 /// @returns its place among the point's methods; for directionalAlbedo, sampling and fresnel these
 /// are the constants of shaders/lib/methods

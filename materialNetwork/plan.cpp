@@ -310,22 +310,27 @@ Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnosti
     return plan;
 }
 
+std::set<std::string> choicesOf(const Plan& plan, const PlanClosure& c) {
+    std::set<std::string> matter;
+    const bool interface = c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Schlick;
+    if (interface || c.kind == ClosureKind::Conductor)
+        matter.insert({"energyCompensation", "directionalAlbedo", "sampling"});
+    if (c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Conductor)
+        matter.insert("fresnel");
+    if (hasFilm(plan, c)) matter.insert("thinFilm");
+    if (c.kind == ClosureKind::OrenNayar) matter.insert("diffuse");
+    if (c.kind == ClosureKind::Layer) matter.insert("layerTransmittance");
+    if (c.underReflection && interface && scatterMode(plan, c) == sh::SCATTER_T)
+        matter.insert("reflectionOverTransmission");
+    if (c.inThinWall && interface && (scatterMode(plan, c) & sh::SCATTER_T) != 0)
+        matter.insert("thinWalled");
+    return matter;
+}
+
 std::vector<std::string> choicesThatMatter(const Plan& plan) {
     std::set<std::string> matter;
-    for (const PlanClosure& c : plan.closures) {
-        const bool interface = c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Schlick;
-        if (interface || c.kind == ClosureKind::Conductor)
-            matter.insert({"energyCompensation", "directionalAlbedo", "sampling"});
-        if (c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Conductor)
-            matter.insert("fresnel");
-        if (hasFilm(plan, c)) matter.insert("thinFilm");
-        if (c.kind == ClosureKind::OrenNayar) matter.insert("diffuse");
-        if (c.kind == ClosureKind::Layer) matter.insert("layerTransmittance");
-        if (c.underReflection && interface && scatterMode(plan, c) == sh::SCATTER_T)
-            matter.insert("reflectionOverTransmission");
-        if (c.inThinWall && interface && (scatterMode(plan, c) & sh::SCATTER_T) != 0)
-            matter.insert("thinWalled");
-    }
+    for (const PlanClosure& c : plan.closures)
+        matter.merge(choicesOf(plan, c));
     std::vector<std::string> result;
     for (const ChoicePoint& point : choicePoints())
         if (matter.count(point.name)) result.push_back(point.name);

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "materialNetwork/graph.h"
+#include "materialNetwork/methodPlan.h"
 #include "materialNetwork/methods.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,6 +50,7 @@ struct Plan {
     bool thinWalled = false;           ///< all of it; see PlanClosure::thin
     bool volumeOnly = false;           ///< a medium without a surface around it
     MethodChoices methods;             ///< at every choice point
+    MethodPlan planned;                ///< how they were found; empty: defaults and what was forced
     std::vector<std::string> leftOut;  ///< what is not modelled, one line each
 };
 
@@ -55,6 +58,9 @@ struct Plan {
 /// @param cuts what simplify() removed; becomes the beginning of Plan::leftOut
 Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnostics,
               const MethodChoices& methods = {});
+
+/// Choice points whose method makes a difference to a closure, but not by itself to others.
+std::set<std::string> choicesOf(const Plan& plan, const PlanClosure& closure);
 
 /// Choice points whose method makes a difference to this plan, in the order of choicePoints().
 std::vector<std::string> choicesThatMatter(const Plan& plan);

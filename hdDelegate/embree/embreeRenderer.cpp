@@ -228,6 +228,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     Arena arena(_settings.threads);
     arena.execute([&] { updateScene(state, camera); });
     if (_stop) return;
+    const ScenePlan plan = _embree->plan();
     {
         std::lock_guard<std::mutex> lock(_mutex);
         _progress.statistics = buildCounts();
@@ -236,6 +237,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         _progress.statistics["secondsBuild"] = secondsSince(buildStart);
         _progress.statistics["trianglesStored"] = double(_embree->trianglesStored());
         _progress.statistics["instances"] = double(_embree->instanceCount());
+        plan.tell(_settings.tolerance, _progress.statistics);
     }
 
     std::vector<AovSpec> aovs;
@@ -246,7 +248,9 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
 
     const CameraRays rays(camera, _settings);
     const Integrator integrator(*_embree, *_lights, rays, _settings, aovs);
-    TileSchedule schedule(*_film, _settings);
+    RenderSettings sampled = _settings;
+    sampled.tolerance = plan.noise(_settings.tolerance);
+    TileSchedule schedule(*_film, sampled);
     _sampling = _lastCheckpoint = Clock::now();
     const auto outOfTime = [&] {
         return _settings.seconds > 0.0 && secondsSince(_started) > _settings.seconds;

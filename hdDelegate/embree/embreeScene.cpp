@@ -150,13 +150,15 @@ EmbreeScene::program(const std::string& path, const std::string& user, const Sce
     }
     const std::string key = prim ? path : std::string();
     CachedProgram& cached = _programs[key];
-    if (!cached.program || cached.prim != prim || cached.methods != settings.methods) {
+    if (!cached.program || cached.prim != prim || cached.methods != settings.methods ||
+        cached.tolerance != settings.tolerance) {
         cached.prim = prim;
+        cached.tolerance = settings.tolerance;
         cached.methods = settings.methods;
         ++_counts.programs;
-        cached.program = compileMaterial(prim && !prim->network.empty() ? prim->network
-                                                                        : makeDisplayColorNetwork(),
-                                         textures, _diagnostics, settings.methods);
+        cached.program = compileMaterial(
+            prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork(), textures,
+            _diagnostics, settings.methods, settings.tolerance);
     }
     return cached.program;
 }
@@ -502,6 +504,13 @@ void EmbreeScene::collectEmissive() {
 std::shared_ptr<const Surface> EmbreeScene::surfaceOf(const std::string& path) const {
     const auto found = _surfaces.find(path);
     return found == _surfaces.end() ? nullptr : found->second.surface;
+}
+
+ScenePlan EmbreeScene::plan() const {
+    ScenePlan plan;
+    for (const auto& item : _programs)
+        plan.add(item.second.program->planned());
+    return plan;
 }
 
 size_t EmbreeScene::bytes() const {

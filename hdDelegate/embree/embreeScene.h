@@ -5,6 +5,7 @@
 #include "hdDelegate/embree/media/volumeScene.h"
 #include "hdDelegate/scene/camera.h"
 #include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/scenePlan.h"
 #include "hdDelegate/scene/settings.h"
 #include "materialNetwork/textureSource.h"
 
@@ -75,7 +76,9 @@ public:
     const std::vector<std::shared_ptr<const void>>& drawnInstancers() const { return _instancers; }
     size_t categoryCount() const { return _categoryIds.size(); }
     const BuildCounts& counts() const { return _counts; } ///< since construction
-    size_t bytes() const;                                 ///< of meshes and Embree's structures
+    /// What the methods of the materials in use are expected to cost.
+    ScenePlan plan() const;
+    size_t bytes() const; ///< of meshes and Embree's structures
 
 private:
     using Programs = std::vector<std::shared_ptr<const MaterialProgram>>;
@@ -116,6 +119,7 @@ private:
     struct CachedProgram {
         std::shared_ptr<const MaterialPrim> prim;
         std::map<std::string, std::string> methods;
+        double tolerance = -1.0;
         std::shared_ptr<const MaterialProgram> program;
     };
 

@@ -94,6 +94,17 @@ Row seedRow() {
             }};
 }
 
+/// Negative, as it is at first: all samples by the default methods.
+Row toleranceRow() {
+    return {TfToken("tolerance"), "Tolerance (mean relative error; 0: truth, -1: all samples)",
+            VtValue(float(RenderSettings().tolerance)), [](HdPatinaSettings& s, const VtValue& v) {
+                const float value = v.UncheckedGet<float>();
+                if (!(value >= 0.0f) && value != -1.0f) return false;
+                s.tolerance = value;
+                return true;
+            }};
+}
+
 const std::vector<Row>& rows() {
     using S = RenderSettings;
     constexpr int most = std::numeric_limits<int>::max();
@@ -102,7 +113,7 @@ const std::vector<Row>& rows() {
                &HdPatinaSettings::backend, {"auto", "embree", "raster", "interactive"}),
         integer("samples", "Samples per pixel", &S::samples, 1, most),
         integer("minSamples", "Least samples per pixel", &S::minSamples, 1, most),
-        real("tolerance", "Tolerance (mean relative error, 0: all samples)", &S::tolerance),
+        toleranceRow(),
         real("seconds", "Time limit (seconds, 0: none)", &S::seconds),
         integer("threads", "Threads (0: all)", &S::threads, 0, 4096),
         seedRow(),

@@ -21,7 +21,8 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
         const auto now = found != state.materials.end() && settings.enableSceneMaterials
                              ? found->second
                              : nullptr;
-        it = it->second.prim == now && it->second.methods == settings.methods
+        it = it->second.prim == now && it->second.methods == settings.methods &&
+                     it->second.tolerance == settings.tolerance
                  ? std::next(it)
                  : _materials.erase(it);
     }
@@ -45,10 +46,11 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
     Cached& cached = _materials[key];
     cached.prim = prim;
     cached.methods = settings.methods;
+    cached.tolerance = settings.tolerance;
     RasterMaterial& m = cached.material;
     m.program =
         compileMaterial(prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork(),
-                        _textures, _diagnostics, settings.methods);
+                        _textures, _diagnostics, settings.methods, settings.tolerance);
     m.glsl = makeGlslMaterial(*m.program);
     for (const std::string& line : m.glsl.leftOut)
         _diagnostics.warn(key, "", line);
@@ -64,6 +66,13 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
     m.parameters = GlBuffer(m.glsl.parameters);
     m.textures = _uploaded.units(m.glsl.textures);
     return m;
+}
+
+ScenePlan RasterMaterials::plan() const {
+    ScenePlan plan;
+    for (const auto& item : _materials)
+        plan.add(item.second.material.program->planned());
+    return plan;
 }
 
 std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial& glsl, int primvars,

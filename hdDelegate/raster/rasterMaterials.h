@@ -4,6 +4,7 @@
 #include "hdDelegate/raster/glResources.h"
 #include "hdDelegate/raster/rasterTextures.h"
 #include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/scenePlan.h"
 #include "hdDelegate/scene/settings.h"
 #include "hdDelegate/scene/textureSystem.h"
 #include "materialNetwork/glsl/glslMaterial.h"
@@ -43,10 +44,14 @@ public:
 
     size_t programsBuilt() const { return _built; }
 
+    /// What the methods of the materials in use are expected to cost.
+    ScenePlan plan() const;
+
 private:
     struct Cached {
         std::shared_ptr<const MaterialPrim> prim;
         std::map<std::string, std::string> methods;
+        double tolerance = -1.0;
         RasterMaterial material;
     };
 

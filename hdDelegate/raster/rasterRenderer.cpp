@@ -200,6 +200,7 @@ private:
             _progress.statistics["instancesWritten"] = double(_raster->instancesWritten());
             _progress.statistics["instances"] = double(_raster->instanceCount());
             _progress.statistics["programsBuilt"] = double(_raster->programsBuilt());
+            _raster->plan().tell(_settings.tolerance, _progress.statistics);
         }
         _passes->clearSeconds();
         _passes->drawAovs(*_raster, camera, aovs, *_film);
@@ -265,7 +266,8 @@ private:
             !isErrorStep(passes))
             return false;
         const int* w = _passes->window();
-        return relativeError(*_film, w[0], w[1], w[2] + 1, w[3] + 1) <= _settings.tolerance;
+        return relativeError(*_film, w[0], w[1], w[2] + 1, w[3] + 1) <=
+               _raster->plan().noise(_settings.tolerance);
     }
 
     /// With _mutex held.

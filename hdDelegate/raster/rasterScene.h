@@ -67,6 +67,7 @@ public:
     size_t instancesWritten() const { return _instancesWritten; } ///< since this was made
     size_t trianglesDrawn() const; ///< those of every instance counted
     size_t programsBuilt() const { return _materials.programsBuilt(); }
+    ScenePlan plan() const { return _materials.plan(); }
     size_t instanceCount() const { return _instances.size(); }
     /// Binds the instances to a vertex array (binding 1).
     void bind(GLuint vertexArray) const;

@@ -41,8 +41,8 @@ void RasterVolumes::build(Cached& cached, const RenderSettings& settings) {
     cached.volumes.clear();
     std::shared_ptr<const MaterialProgram> program;
     if (cached.material && !cached.material->network.empty())
-        program =
-            compileMaterial(cached.material->network, _textures, _diagnostics, settings.methods);
+        program = compileMaterial(cached.material->network, _textures, _diagnostics,
+                                  settings.methods, settings.tolerance);
     if (program && !program->hasInterior()) {
         _diagnostics.warn(cached.prim->path, "material:binding",
                           "the material is not a volume; a white one is shown");

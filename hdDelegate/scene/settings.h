@@ -17,8 +17,10 @@ struct RenderSettings {
 
     int samples = 64;    ///< per pixel, the most that are taken
     int minSamples = 16; ///< adaptive sampling never stops below
-    double tolerance =
-        0.0; ///< mean relative luminance error of the image to stop at; 0: take all samples
+    /// Mean relative luminance error of the image. Above 0: the fastest methods whose predicted
+    /// errors fit, and sampling that stops where the noise does (ScenePlan). 0: the truth at every
+    /// choice point, and all samples. Negative: default methods and all samples.
+    double tolerance = -1.0;
     double seconds = 0.0; ///< time limit; 0: none
     int threads = 0;      ///< 0: all
     uint32_t seed = 0;
@@ -41,15 +43,15 @@ struct RenderSettings {
 
     bool interactive = false; ///< quick starts before speed: acceleration structures that are
                               ///< cheap to change
-    std::vector<std::string> renderTags; ///< only geometry with one of these is drawn; empty: all
-    std::vector<std::string> rootPaths;  ///< only geometry at or below one of these; empty: all
+    std::vector<std::string> renderTags;   ///< only geometry with one of these is drawn; empty: all
+    std::vector<std::string> rootPaths;    ///< only geometry at or below one of these; empty: all
     std::vector<std::string> excludePaths; ///< no geometry at or below one of these
 
     std::string integrator = "path";  ///< path, ambientOcclusion
     int ambientOcclusionSamples = 16; ///< rays per camera hit, with ambientOcclusion
 
-    int environmentSamples = 16; ///< of domes per pixel and pass in the rasterizer, 4 to 1024, where
-                                 ///< its method `domeLight` filters them
+    int environmentSamples = 16; ///< of domes per pixel and pass in the rasterizer, 4 to 1024,
+                                 ///< where its method `domeLight` filters them
 
     std::vector<std::string> aovs; ///< besides color and alpha: names of standardAov()
 

@@ -73,6 +73,15 @@ void BsdfBuilder::build(const ProgramCode& code, const ShadingPoint& point,
     choose(code, out);
 }
 
+void BsdfBuilder::lay(const ProgramCode& code, const ShadingPoint& point,
+                      const glm::vec4* registers, Bsdf& out) {
+    Wall walls[Bsdf::maxLobes];
+    place(code, point, registers, walls, out);
+    for (size_t i = 0; i < code.lobes.size(); ++i)
+        if (code.lobes[i].straight) out._lobes[i].weight *= walls[i].reflected;
+    out._lobeCount = int(code.lobes.size());
+}
+
 glm::vec3 BsdfBuilder::straight(const ProgramCode& code, const ShadingPoint& point,
                                 const glm::vec4* registers) {
     Bsdf bsdf;

@@ -11,6 +11,11 @@ public:
     static void build(const ProgramCode& code, const ShadingPoint& point,
                       const glm::vec4* registers, Bsdf& out);
 
+    /// As build(), but every lobe keeps its place in the program, whatever its weight, and none has
+    /// a probability: for looking at.
+    static void lay(const ProgramCode& code, const ShadingPoint& point, const glm::vec4* registers,
+                    Bsdf& out);
+
     /// @returns the share of light that lobes pass straight on, 0..1. It is no part of what build()
     /// makes, and counts as absence of the surface.
     static glm::vec3 straight(const ProgramCode& code, const ShadingPoint& point,

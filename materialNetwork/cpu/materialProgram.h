@@ -4,6 +4,7 @@
 #include "materialNetwork/cpu/medium.h"
 #include "materialNetwork/cpu/shadingPoint.h"
 #include "materialNetwork/diagnostics.h"
+#include "materialNetwork/methodPlan.h"
 #include "materialNetwork/network.h"
 #include "materialNetwork/textureSource.h"
 
@@ -40,7 +41,8 @@ public:
     bool hasEmission() const { return _hasEmission; }
     bool isOpaque() const { return _isOpaque; } ///< opacity() is 1 everywhere
     bool isThinWalled() const { return _isThinWalled; }
-    /// Has a hair lobe, which stands for a whole fibre: what it lets through leaves on the far side.
+    /// Has a hair lobe, which stands for a whole fibre: what it lets through leaves on the far
+    /// side.
     bool isFibre() const { return _isFibre; }
     bool hasTransmission() const { return _hasTransmission; } ///< a lobe may send light through
     bool hasInterior() const { return _hasInterior; }         ///< a medium fills closed objects
@@ -79,6 +81,9 @@ public:
     /// Sets up the lobes at a point, seen from point.viewDirection.
     void evaluate(const ShadingPoint& point, Bsdf& out) const;
 
+    /// How its methods were chosen; empty without a tolerance.
+    const MethodPlan& planned() const { return _planned; }
+
     /// What other back ends are generated from.
     const ProgramCode& code() const { return *_code; }
 
@@ -102,6 +107,7 @@ private:
     bool _hasDisplacement = false;
     bool _passingEnters = false;
     bool _usesUv = false;
+    MethodPlan _planned;
     std::unique_ptr<ProgramCode> _code;
 };
 

@@ -365,6 +365,7 @@ bool ProgramBuilder::isStraight(const PlanClosure& closure) const {
 
 void ProgramBuilder::setFlags() {
     MaterialProgram& p = *_program;
+    p._planned = _plan.planned;
     p._constant = _code->surfaceCode.empty();
     p._isThinWalled = _plan.thinWalled;
     p._hasEmission = !_code->edf.empty();

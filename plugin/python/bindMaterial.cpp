@@ -56,9 +56,9 @@ struct MaterialProbe {
     TextureSystem textures{diagnostics};
     std::shared_ptr<const MaterialProgram> program;
 
-    MaterialProbe(const Network& network, const MethodChoices& methods) {
+    MaterialProbe(const Network& network, const MethodChoices& methods, double tolerance) {
         py::gil_scoped_release release;
-        program = compileMaterial(network, textures, diagnostics, methods);
+        program = compileMaterial(network, textures, diagnostics, methods, tolerance);
         primvars = std::make_unique<UvPrimvars>(*program);
     }
 
@@ -273,8 +273,8 @@ py::list points() {
 
 void bindMaterial(py::module_& m) {
     py::class_<MaterialProbe>(m, "MaterialProbe", "A compiled material at one shading point.")
-        .def(py::init<const Network&, const MethodChoices&>(), py::arg("network"),
-             py::arg("methods") = MethodChoices())
+        .def(py::init<const Network&, const MethodChoices&, double>(), py::arg("network"),
+             py::arg("methods") = MethodChoices(), py::arg("tolerance") = -1.0)
         .def("eval", &eval, py::arg("wo"), py::arg("wi"),
              "f without the cosine, and the density of sample(); delta lobes have no part in it.")
         .def("sample", &sample, py::arg("wo"), py::arg("u"),

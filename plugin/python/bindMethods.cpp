@@ -2,6 +2,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "hdDelegate/scene/textureSystem.h"
+#include "materialNetwork/material.h"
 #include "materialNetwork/methodTable.h"
 #include "shaders/measure/measure.h"
 
@@ -24,6 +26,12 @@ py::list table() {
         row["mean"] = r.mean;
         row["largest"] = r.largest;
         row["rms"] = r.rms;
+        row["kind"] = r.kind;
+        row["reflectance"] = r.reflectance;
+        row["axis"] = r.axis;
+        row["axisEnd"] = r.axisEnd;
+        row["errors"] = std::vector<float>(std::begin(r.errors), std::end(r.errors));
+        row["truths"] = std::vector<float>(std::begin(r.truths), std::end(r.truths));
         rows.append(row);
     }
     return rows;
@@ -38,6 +46,41 @@ py::object figures(const std::string& point, const std::string& method) {
     row["mean"] = f.mean;
     row["largest"] = f.largest;
     return row;
+}
+
+/// A plan as a dict.
+py::dict planDict(const MethodPlan& plan) {
+    py::dict dict;
+    dict["tolerance"] = plan.tolerance;
+    dict["error"] = plan.error;
+    dict["albedo"] = plan.albedo;
+    dict["varies"] = plan.varies;
+    py::list choices;
+    for (const PlannedMethod& m : plan.choices) {
+        py::dict choice;
+        choice["point"] = m.point;
+        choice["method"] = m.method;
+        choice["forced"] = m.forced;
+        choice["measured"] = m.measured;
+        choice["error"] = m.error;
+        choice["ns"] = m.ns;
+        choice["nsDefault"] = m.nsDefault;
+        choice["nsTruth"] = m.nsTruth;
+        choices.append(choice);
+    }
+    dict["choices"] = choices;
+    return dict;
+}
+
+py::dict planned(const Network& network, const MethodChoices& methods, double tolerance) {
+    MethodPlan plan;
+    {
+        py::gil_scoped_release release;
+        Diagnostics unheard;
+        TextureSystem textures(unheard);
+        plan = planMaterialMethods(network, textures, unheard, methods, tolerance);
+    }
+    return planDict(plan);
 }
 
 py::list measured(const std::string& point, bool timed) {
@@ -59,6 +102,12 @@ py::list measured(const std::string& point, bool timed) {
         row["mean"] = r.mean;
         row["largest"] = r.largest;
         row["rms"] = r.rms;
+        row["kind"] = r.kind;
+        row["reflectance"] = r.reflectance;
+        row["axis"] = r.axis;
+        row["axisEnd"] = r.axisEnd;
+        row["errors"] = std::vector<float>(std::begin(r.errors), std::end(r.errors));
+        row["truths"] = std::vector<float>(std::begin(r.truths), std::end(r.truths));
         rows.append(row);
     }
     return rows;
@@ -69,10 +118,15 @@ py::list measured(const std::string& point, bool timed) {
 void bindMethods(py::module_& m) {
     m.def("method_table", &table,
           "The measured methods as the program was built with them: list of dicts (point, method, "
-          "subject, errorOf, ns, cost, mean, largest, rms).");
+          "subject, errorOf, ns, cost, mean, largest, rms, and errors over cells with kind, "
+          "reflectance, axis, axisEnd and truths as in materialNetwork/methodTable.h).");
     m.def("method_figures", &figures, py::arg("point"), py::arg("method"),
           "dict of errorOf, cost (over the default method), mean and largest error over all "
           "subjects; None where nothing is measured.");
+    m.def("plan_material", &planned, py::arg("network"), py::arg("methods") = MethodChoices(),
+          py::arg("tolerance") = -1.0,
+          "How the methods of a material are chosen for a tolerance (0: truths, negative: "
+          "defaults): dict of tolerance, error (relative luminance), albedo, varies, and choices.");
     m.def("measure_methods", &measured, py::arg("point") = "", py::arg("timed") = true,
           "Measures the methods of a choice point, or of all, here and now, on one thread.");
 }

@@ -7,6 +7,29 @@
 namespace patina::measure {
 
 void Errors::add(double e) {
+    count(e);
+    for (size_t i = 0; i < _errors.size(); ++i) {
+        _errors[i] += std::fabs(e);
+        _truths[i] += 1.0;
+        _counts[i] += 1.0;
+    }
+}
+
+void Errors::add(double e, double truth, double place, double cosine, double sigma) {
+    count(e);
+    const auto cell = [](double x, int n) { return std::clamp(int(x * n), 0, n - 1); };
+    for (int bin = 0; bin < kBins; ++bin) {
+        if (place >= 0.0 && bin != cell(place, kBins)) continue;
+        const size_t i = size_t(bin * kCosines + cell(cosine, kCosines));
+        _errors[i] += std::fabs(e);
+        _squared[i] += e * e;
+        _noise[i] += sigma * sigma;
+        _truths[i] += truth;
+        _counts[i] += 1.0;
+    }
+}
+
+void Errors::count(double e) {
     _sum += std::fabs(e);
     _squares += e * e;
     _largest = std::max(_largest, std::fabs(e));
@@ -18,6 +41,14 @@ void Errors::into(Row& row) const {
     row.mean = _sum / n;
     row.rms = std::sqrt(_squares / n);
     row.largest = _largest;
+    for (size_t i = 0; i < _errors.size(); ++i) {
+        const double n = std::max(_counts[i], 1.0);
+        // Of a truth with noise, what the noise explains is taken off the mean square.
+        row.errors[i] =
+            float(_noise[i] > 0.0 ? std::sqrt(std::max(_squared[i] - _noise[i], 0.0) / n)
+                                  : _errors[i] / n);
+        row.truths[i] = float(_truths[i] / n);
+    }
 }
 
 void time(const std::function<double(int)>& batch, int evaluations, Row& row) {

@@ -1,10 +1,17 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace patina::measure {
+
+/// Cells of a row: errors are kept by what the method's quality hangs on, and by the cosine of the
+/// view, so that a method is chosen where it is good.
+constexpr int kBins = 8;    ///< along Row::axis
+constexpr int kCosines = 4; ///< quarters of [0, 1], grazing first
+using Cells = std::array<float, kBins * kCosines>;
 
 /// One method at a choice point, on one subject: what it costs and how far it is off.
 struct Row {
@@ -18,17 +25,31 @@ struct Row {
     double mean = 0.0; ///< errors, absolute, over a grid of cell centres
     double largest = 0.0;
     double rms = 0.0;
+    std::string kind;               ///< of lobe: `dielectric`, `conductor`, `schlick`; empty: any
+    double reflectance = -1.0;      ///< of the subject at normal incidence; -1: it is no matter
+    std::string axis = "roughness"; ///< what the bins are of: root of alpha, or `thickness` in nm
+    double axisEnd = 1.0;           ///< they are evenly spaced from 0 to here
+    Cells errors{}; ///< mean absolute error, bin by bin, in each the quarters of the cosine
+    Cells truths{}; ///< mean of what the error is of
 };
 
 /// Errors over a grid.
 class Errors {
 public:
+    /// An error that is known to be at no place: it counts in all cells.
     void add(double e);
+    /// @param place along the row's axis, 0..1; negative: it counts in all bins
+    /// @param cosine of the view, 0..1
+    /// @param sigma standard error of the truth itself, which is no error of the method
+    void add(double e, double truth, double place, double cosine, double sigma = 0.0);
     void into(Row& row) const;
 
 private:
+    void count(double e);
+
     double _sum = 0.0, _squares = 0.0, _largest = 0.0;
     int _count = 0;
+    std::array<double, kBins * kCosines> _errors{}, _squared{}, _noise{}, _truths{}, _counts{};
 };
 
 /// Times `evaluate(i)` for i in [0, count): one warm batch, then at least 31 of them, each all of

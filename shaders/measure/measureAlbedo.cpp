@@ -6,7 +6,7 @@ namespace patina::measure {
 namespace {
 
 constexpr int kSide = 32;
-constexpr int kBins = 300;
+constexpr int kSpread = 300;
 constexpr int kQuadrature = 96;
 
 const char* const kMethods[] = {"table",        "fit",          "karis",     "mirror",
@@ -16,16 +16,19 @@ constexpr int kEvaluations[] = {1024, 1024, 1024, 1024, 256, 64, 8}; // in a bat
 /// A reflectance, exact and as a lobe.
 struct Subject {
     std::string name;
+    std::string kind;
     std::function<double(double c)> exact;
     std::function<double(const Place& place, int method)> lobe; ///< in float
     std::function<double(int evaluations, int method)> batch;   ///< many of them
 };
 
 /// Setting a lobe up is no part of what is timed.
-template <typename Make, typename Albedo>
-Subject subject(std::string name, std::function<double(double)> exact, Make make, Albedo albedo) {
+template <typename Make, typename Albedo> Subject subject(std::string name, std::string kind,
+                                                          std::function<double(double)> exact,
+                                                          Make make, Albedo albedo) {
     Subject s;
     s.name = std::move(name);
+    s.kind = std::move(kind);
     s.exact = std::move(exact);
     s.lobe = [=](const Place& p, int method) {
         auto l = make(float(p.alpha));
@@ -55,7 +58,7 @@ Subject subject(std::string name, std::function<double(double)> exact, Make make
 
 Subject dielectric(double ior, const char* name) {
     return subject(
-        name, [=](double c) { return sh64::fresnelDielectric(c, ior); },
+        name, "dielectric", [=](double c) { return sh64::fresnelDielectric(c, ior); },
         [=](float alpha) {
             return sh::dielectricSetup(sh::vec3(1.0f), float(ior), sh::vec2(alpha), false,
                                        sh::SCATTER_R, false, sh::COMPENSATE_NONE);
@@ -66,7 +69,7 @@ Subject dielectric(double ior, const char* name) {
 Subject conductor(const Metal& metal) {
     const double n = metal.n, k = metal.k;
     return subject(
-        metal.name, [=](double c) { return sh64::fresnelConductorChannel(c, n, k); },
+        metal.name, "conductor", [=](double c) { return sh64::fresnelConductorChannel(c, n, k); },
         [=](float alpha) {
             return sh::conductorSetup(sh::vec3(float(n)), sh::vec3(float(k)), sh::vec2(alpha),
                                       false, sh::COMPENSATE_NONE);
@@ -76,7 +79,7 @@ Subject conductor(const Metal& metal) {
 
 Subject schlick() {
     return subject(
-        "schlick 0.04", [=](double c) { return 0.04 + 0.96 * std::pow(1.0 - c, 5.0); },
+        "schlick 0.04", "schlick", [=](double c) { return 0.04 + 0.96 * std::pow(1.0 - c, 5.0); },
         [=](float alpha) {
             return sh::schlickSetup(sh::vec3(0.04f), sh::vec3(1.0f), sh::vec3(1.0f), 5.0f,
                                     sh::vec2(alpha), false, sh::SCATTER_R, false,
@@ -97,16 +100,17 @@ std::vector<Row> directionalAlbedo(bool timed) {
     constexpr size_t methods = std::size(kMethods);
     std::vector<Errors> errors(subjects.size() * methods);
     bake::InterfaceQuadrature quadrature(kQuadrature, sh::FACETS_GGX);
-    double light[kBins], cosine[kBins];
+    double light[kSpread], cosine[kSpread];
     for (const Place& p : places(kSide)) {
         quadrature.look(p.wo, sh64::vec2(p.alpha));
-        quadrature.spread(kBins, light, cosine);
+        quadrature.spread(kSpread, light, cosine);
         for (size_t s = 0; s < subjects.size(); ++s) {
             double truth = 0.0;
-            for (int i = 0; i < kBins; ++i)
+            for (int i = 0; i < kSpread; ++i)
                 if (light[i] > 0.0) truth += light[i] * subjects[s].exact(cosine[i]);
             for (size_t m = 0; m < methods; ++m)
-                errors[s * methods + m].add(subjects[s].lobe(p, int(m)) - truth);
+                errors[s * methods + m].add(subjects[s].lobe(p, int(m)) - truth, truth,
+                                            std::sqrt(p.alpha), p.wo.z);
         }
     }
     std::vector<Row> rows;
@@ -117,6 +121,8 @@ std::vector<Row> directionalAlbedo(bool timed) {
             row.method = kMethods[m];
             row.subject = subjects[s].name;
             row.error = "albedo";
+            row.kind = subjects[s].kind;
+            row.reflectance = subjects[s].exact(1.0);
             errors[s * methods + m].into(row);
             if (timed)
                 time([&](int n) { return subjects[s].batch(n, int(m)); }, kEvaluations[m], row);

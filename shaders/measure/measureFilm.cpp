@@ -7,18 +7,22 @@ namespace patina::measure {
 std::vector<Row> thinFilm(bool timed) {
     const struct {
         const char* name;
+        const char* kind;
+        double reflectance; ///< of what is below
         double ior;
         sh64::vec3 n, k;
-    } bases[] = {{"1.33 on ior 1.5", 1.33, sh64::vec3(1.5), sh64::vec3(0.0)},
-                 {"1.5 on gold", 1.5, sh64::vec3(0.18, 0.42, 1.37), sh64::vec3(3.4, 2.35, 1.77)}};
+    } bases[] = {{"1.33 on ior 1.5", "schlick", 0.04, 1.33, sh64::vec3(1.5), sh64::vec3(0.0)},
+                 {"1.5 on gold", "conductor", 0.94, 1.5, sh64::vec3(0.18, 0.42, 1.37),
+                  sh64::vec3(3.4, 2.35, 1.77)}};
     const char* const names[] = {"gaussian", "table", "spectral"};
-    constexpr int kThicknesses = 24, kCosines = 16;
+    constexpr double kThickest = 2000.0; // nm
+    constexpr int kThicknesses = 24, kFilmCosines = 16;
     std::vector<Row> rows;
     for (const auto& base : bases) {
         std::vector<sh64::vec3> truth;
-        for (int i = 0; i < kThicknesses * kCosines; ++i) {
-            const double thickness = 2000.0 * (i / kCosines + 0.5) / kThicknesses;
-            const double c = (i % kCosines + 0.5) / kCosines;
+        for (int i = 0; i < kThicknesses * kFilmCosines; ++i) {
+            const double thickness = kThickest * (i / kFilmCosines + 0.5) / kThicknesses;
+            const double c = (i % kFilmCosines + 0.5) / kFilmCosines;
             const double s2 = 1.0 - c * c, e = base.ior;
             const double ct = std::sqrt(1.0 - s2 / (e * e)), ec = e * ct;
             const double s12 = (c - ec) / (c + ec), p12 = (e * c - ct) / (e * c + ct);
@@ -46,24 +50,30 @@ std::vector<Row> thinFilm(bool timed) {
             row.subject = base.name;
             row.error = "reflectance";
             const auto at = [&](int i) {
-                sh::Film film =
-                    sh::makeFilm(float(2000.0 * (i / kCosines % kThicknesses + 0.5) / kThicknesses),
-                                 float(base.ior));
+                sh::Film film = sh::makeFilm(
+                    float(kThickest * (i / kFilmCosines % kThicknesses + 0.5) / kThicknesses),
+                    float(base.ior));
                 film.method = m;
-                return sh::filmReflectance(film, (float(i % kCosines) + 0.5f) / kCosines,
+                return sh::filmReflectance(film, (float(i % kFilmCosines) + 0.5f) / kFilmCosines,
                                            sh::vec3(base.n), sh::vec3(base.k));
             };
+            row.kind = base.kind;
+            row.reflectance = base.reflectance;
+            row.axis = "thickness";
+            row.axisEnd = kThickest;
             Errors errors;
             for (size_t i = 0; i < truth.size(); ++i)
                 for (int k = 0; k < 3; ++k)
-                    errors.add(double(at(int(i))[k]) - truth[i][k]);
+                    errors.add(double(at(int(i))[k]) - truth[i][k], truth[i][k],
+                               (int(i) / kFilmCosines + 0.5) / kThicknesses,
+                               (int(i) % kFilmCosines + 0.5) / kFilmCosines);
             errors.into(row);
             if (timed)
                 time(
                     [&](int n) {
                         float sum = 0.0f;
                         for (int i = 0; i < n; ++i)
-                            sum += at(i * 37 % (kThicknesses * kCosines)).x;
+                            sum += at(i * 37 % (kThicknesses * kFilmCosines)).x;
                         return double(sum);
                     },
                     m == sh::FILM_SPECTRAL ? 48 : 384, row);

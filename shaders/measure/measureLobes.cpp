@@ -26,6 +26,45 @@ Row named(const char* point, const char* method, const std::string& subject, con
     return row;
 }
 
+/// An error that hangs on the cosine alone.
+void addAt(Errors& errors, double value, double truth, double cosine) {
+    errors.add(value - truth, truth, -1.0, cosine);
+}
+
+/// An error at a place of the grid.
+void addAt(Errors& errors, double value, double truth, const Place& p) {
+    errors.add(value - truth, truth, std::sqrt(p.alpha), p.wo.z);
+}
+
+/// Times eval of a lobe at every place.
+template <class Lobe> void timeEval(const std::vector<Lobe>& lobes, const std::vector<Place>& grid,
+                                    sh::LobeEval (*eval)(Lobe, sh::vec3, sh::vec3), Row& row) {
+    time(
+        [&](int n) {
+            float sum = 0.0f;
+            for (int i = 0; i < n; ++i) {
+                const sh::vec3 u = point(i & 63);
+                const sh::vec3 wi = sh::sampleCosineHemisphere(sh::vec2(u.x, u.y));
+                sum += eval(lobes[size_t(i)], sh::vec3(grid[size_t(i)].wo), wi).value.x;
+            }
+            return double(sum);
+        },
+        int(grid.size()), row);
+}
+
+/// What comes back of light at every place of the grid, by random walks.
+std::vector<Walked> walks(const std::vector<Place>& grid,
+                          const std::function<double(double)>& reflectance) {
+    std::vector<Walked> result(grid.size());
+    for (size_t i = 0; i < grid.size(); ++i)
+        if (grid[i].alpha < sh64::ALPHA_MIRROR)
+            result[i].all = reflectance(grid[i].wo.z);
+        else
+            result[i] = walkMicrosurface(grid[i].wo, sh64::vec2(grid[i].alpha), sh::FACETS_GGX,
+                                         reflectance, kWalks, 1 + i);
+    return result;
+}
+
 sh::ConductorLobe metalLobe(const Metal& metal, const Place& p, int compensate) {
     return sh::conductorSetup(sh::vec3(float(metal.n)), sh::vec3(float(metal.k)),
                               sh::vec2(float(p.alpha)), false, compensate);
@@ -53,39 +92,46 @@ std::vector<Row> energyCompensation(bool timed) {
     const std::vector<Place> grid = places(kSide);
     std::vector<Row> rows;
     for (const Metal& metal : {white, kMetals[0], kMetals[1]}) {
-        std::vector<double> truth;
-        for (size_t i = 0; i < grid.size(); ++i)
-            truth.push_back(grid[i].alpha < sh64::ALPHA_MIRROR
-                                ? sh64::fresnelConductorChannel(grid[i].wo.z, metal.n, metal.k)
-                                : walkMicrosurface(
-                                      grid[i].wo, sh64::vec2(grid[i].alpha), sh::FACETS_GGX,
-                                      [&](double c) {
-                                          return sh64::fresnelConductorChannel(c, metal.n, metal.k);
-                                      },
-                                      kWalks, 1 + i)
-                                      .all);
+        const auto reflectance = [&](double c) {
+            return sh64::fresnelConductorChannel(c, metal.n, metal.k);
+        };
+        const std::vector<Walked> truth = walks(grid, reflectance);
         for (const auto& method : methods) {
             Row row = named("energyCompensation", method.name, metal.name, "albedo");
             const auto lobes = metalLobes(grid, metal, method.compensate);
             Errors errors;
             for (size_t i = 0; i < grid.size(); ++i)
                 errors.add(double(sh::conductorAlbedo(lobes[i], sh::vec3(grid[i].wo)).x) -
-                           truth[i]);
+                               truth[i].all,
+                           truth[i].all, std::sqrt(grid[i].alpha), grid[i].wo.z, truth[i].sigma);
+            row.kind = "conductor";
+            row.reflectance = reflectance(1.0);
             errors.into(row);
-            if (timed)
-                time(
-                    [&](int n) {
-                        float sum = 0.0f;
-                        for (int i = 0; i < n; ++i) {
-                            const sh::vec3 u = point(i & 63);
-                            const sh::vec3 wi = sh::sampleCosineHemisphere(sh::vec2(u.x, u.y));
-                            sum += sh::conductorEval(lobes[size_t(i)], sh::vec3(grid[size_t(i)].wo),
-                                                     wi)
-                                       .value.x;
-                        }
-                        return double(sum);
-                    },
-                    int(grid.size()), row);
+            if (timed) timeEval(lobes, grid, sh::conductorEval, row);
+            rows.push_back(row);
+        }
+    }
+    // Interfaces whose transmitted light is someone else's.
+    for (const auto& [ior, subject] : {std::pair(1.5, "ior 1.5"), {3.0, "ior 3"}}) {
+        const double eta = ior;
+        const auto reflectance = [&](double c) { return sh64::fresnelDielectric(c, eta); };
+        const std::vector<Walked> truth = walks(grid, reflectance);
+        for (const auto& method : methods) {
+            Row row = named("energyCompensation", method.name, subject, "albedo");
+            Errors errors;
+            std::vector<sh::DielectricLobe> lobes;
+            for (size_t i = 0; i < grid.size(); ++i) {
+                lobes.push_back(sh::dielectricSetup(sh::vec3(1.0f), float(eta),
+                                                    sh::vec2(float(grid[i].alpha)), false,
+                                                    sh::SCATTER_R, false, method.compensate));
+                errors.add(double(sh::dielectricAlbedo(lobes[i], sh::vec3(grid[i].wo)).x) -
+                               truth[i].all,
+                           truth[i].all, std::sqrt(grid[i].alpha), grid[i].wo.z, truth[i].sigma);
+            }
+            if (timed) timeEval(lobes, grid, sh::dielectricEval, row);
+            row.kind = "dielectric";
+            row.reflectance = reflectance(1.0);
+            errors.into(row);
             rows.push_back(row);
         }
     }
@@ -112,7 +158,7 @@ std::vector<Row> sampling(bool timed) {
                 sum += w / kSamples;
                 squares += w * w / kSamples;
             }
-            errors.add(std::sqrt(std::max(squares - sum * sum, 0.0)));
+            addAt(errors, sum + std::sqrt(std::max(squares - sum * sum, 0.0)), sum, grid[i]);
         }
         errors.into(row);
         if (timed)
@@ -148,7 +194,10 @@ std::vector<Row> fresnel(bool timed) {
             };
             Errors errors;
             for (int i = 0; i < places; ++i)
-                errors.add(double(at(i)) - sh64::fresnelDielectric((i + 0.5) / places, ior));
+                addAt(errors, double(at(i)), sh64::fresnelDielectric((i + 0.5) / places, ior),
+                      (i + 0.5) / places);
+            row.kind = "dielectric";
+            row.reflectance = sh64::fresnelDielectric(1.0, ior);
             errors.into(row);
             if (timed)
                 time(
@@ -171,8 +220,11 @@ std::vector<Row> fresnel(bool timed) {
             };
             Errors errors;
             for (int i = 0; i < places; ++i)
-                errors.add(double(at(i)) -
-                           sh64::fresnelConductorChannel((i + 0.5) / places, metal.n, metal.k));
+                addAt(errors, double(at(i)),
+                      sh64::fresnelConductorChannel((i + 0.5) / places, metal.n, metal.k),
+                      (i + 0.5) / places);
+            row.kind = "conductor";
+            row.reflectance = sh64::fresnelConductorChannel(1.0, metal.n, metal.k);
             errors.into(row);
             if (timed)
                 time(
@@ -206,22 +258,10 @@ std::vector<Row> diffuse(bool timed) {
         for (const Place& p : grid) {
             lobes.push_back(
                 sh::orenNayarModel(sh::vec3(1.0f), float(std::sqrt(p.alpha)), false, model.model));
-            errors.add(1.0 - double(sh::orenNayarAlbedo(lobes.back(), sh::vec3(p.wo)).x));
+            addAt(errors, double(sh::orenNayarAlbedo(lobes.back(), sh::vec3(p.wo)).x), 1.0, p);
         }
         errors.into(row);
-        if (timed)
-            time(
-                [&](int n) {
-                    float sum = 0.0f;
-                    for (int i = 0; i < n; ++i) {
-                        const sh::vec3 u = point(i & 63);
-                        const sh::vec3 wi = sh::sampleCosineHemisphere(sh::vec2(u.x, u.y));
-                        sum += sh::orenNayarEval(lobes[size_t(i)], sh::vec3(grid[size_t(i)].wo), wi)
-                                   .value.x;
-                    }
-                    return double(sum);
-                },
-                int(grid.size()), row);
+        if (timed) timeEval(lobes, grid, sh::orenNayarEval, row);
         rows.push_back(row);
     }
     return rows;

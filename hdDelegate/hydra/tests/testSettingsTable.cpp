@@ -64,7 +64,7 @@ TEST(SettingsTable, NonsenseIsRefusedWithAReason) {
     EXPECT_NE(problem, "");
     with("samples", VtValue(std::string("many")), &problem);
     EXPECT_NE(problem, "");
-    with("tolerance", VtValue(-1.0), &problem);
+    with("tolerance", VtValue(-0.5), &problem);
     EXPECT_NE(problem, "");
     with("tolerance", VtValue(std::string("nan")), &problem);
     EXPECT_NE(problem, "");

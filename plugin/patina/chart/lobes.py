@@ -44,6 +44,20 @@ def with_cost(rows, points):
     return sorted(rows, key=lambda row: order[row["point"], row["method"]])
 
 
+def with_times(rows, table):
+    """Gives rows that were measured without times those of the table that is built in; a method or subject that is
+    not in it takes the mean of its point's default method.
+    """
+    known = {(row["point"], row["method"], row["subject"]): row for row in table}
+    for row in rows:
+        found = known.get((row["point"], row["method"], row["subject"]))
+        if not found:
+            found = next((r for r in table if (r["point"], r["method"]) == (row["point"], row["method"])), None)
+        ns = found["ns"] if found else next((r["ns"] for r in table if r["point"] == row["point"]), 0.0)
+        row["ns"] = row["nsLow"] = row["nsHigh"] = ns
+    return rows
+
+
 def write_csv(rows, path):
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, COLUMNS)
@@ -59,12 +73,17 @@ def write_table(rows, path):
         text = f"{value:.4g}"
         return (text if "." in text or "e" in text else text + ".0") + "f"
 
+    def cells(values):
+        return "{" + ", ".join("0" if value == 0.0 else number(float(f"{value:.3g}")) for value in values) + "}"
+
     with open(path, "w", encoding="utf-8") as file:
         file.write(_TABLE_HEAD)
         for row in rows:
             texts = ", ".join(f'"{row[name]}"' for name in ("point", "method", "subject", "errorOf"))
             numbers = ", ".join(number(row[name]) for name in ("ns", "cost", "mean", "largest", "rms"))
-            file.write(f"        {{{texts}, {numbers}}},\n")
+            where = f'"{row["kind"]}", {number(row["reflectance"])}, "{row["axis"]}", {number(row["axisEnd"])}'
+            file.write(f"        {{{texts}, {numbers},\n         {where},\n         {cells(row['errors'])},\n"
+                       f"         {cells(row['truths'])}}},\n")
         file.write(_TABLE_TAIL)
 
 

@@ -52,8 +52,7 @@ def _add_render_flags(group):
                             f"--tolerance or --seconds: {MOST_SAMPLES})")
     group.add_argument("--minSamples", type=_count, metavar="N",
                        help="adaptive sampling takes no fewer (default: 16)")
-    group.add_argument("--tolerance", type=_not_negative, default=0.0, metavar="ERROR",
-                       help="stop where the mean relative error of the luminance is below this, such as 0.02")
+    add_tolerance_flag(group)
     group.add_argument("--seconds", type=_not_negative, default=0.0, metavar="S", help="stop after so many seconds")
     group.add_argument("--threads", type=_count, default=0, metavar="N", help="default: all cores")
     group.add_argument("--seed", type=_seed, default=0, metavar="N",
@@ -83,6 +82,13 @@ def _add_render_flags(group):
                       help="the camera sees dome lights (the default)")
     dome.add_argument("--disableDomeLightVisibility", action="store_false", dest="enableDomeLightVisibility",
                       help="dome lights light, but the camera sees through them")
+
+
+def add_tolerance_flag(group):
+    group.add_argument("--tolerance", type=_not_negative, metavar="ERROR",
+                       help="mean relative error of the luminance, such as 0.02: the fastest methods whose measured "
+                            "errors fit are chosen, and sampling stops where noise does; 0: the truth at every choice "
+                            "point (default: default methods, all samples)")
 
 
 def _add_output_flags(group):
@@ -127,7 +133,8 @@ def _add_run_flags(group):
 
 def settings_of(arguments):
     """:returns: dict of render settings; width, height and checkpointFile are not known yet"""
-    endless = arguments.tolerance > 0.0 or arguments.seconds > 0.0
+    tolerance = -1.0 if arguments.tolerance is None else arguments.tolerance
+    endless = tolerance > 0.0 or arguments.seconds > 0.0
     settings = {
         "samples": arguments.samples or (MOST_SAMPLES if endless else DEFAULT_SAMPLES),
         "pixelAspectRatio": arguments.pixelAspectRatio,
@@ -139,7 +146,8 @@ def settings_of(arguments):
         "methods": methods.parse(arguments.method),
         "checkpointSeconds": arguments.checkpointSeconds,
     }
-    for name in ("tolerance", "seconds", "threads", "seed", "maxDepth", "rouletteDepth", "indirectClamp",
+    settings["tolerance"] = tolerance
+    for name in ("seconds", "threads", "seed", "maxDepth", "rouletteDepth", "indirectClamp",
                  "filterRadius", "edgeLength", "environmentSamples", "cullStyle"):
         settings[name] = getattr(arguments, name)
     if arguments.minSamples is not None:

@@ -99,8 +99,10 @@ class Statistics:
                   "patina:warnings": len(self.warnings())}
         if frame["frame"] is not None:
             values["patina:frame"] = float(frame["frame"])
-        if settings["tolerance"] > 0.0:
+        if settings["tolerance"] >= 0.0:
             values["patina:tolerance"] = settings["tolerance"]
+            if "predictedError" in frame:
+                values["patina:predictedError"] = frame["predictedError"]
         if arguments.set:
             values["patina:set"] = " ".join(arguments.set)
         return values

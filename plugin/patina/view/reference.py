@@ -66,7 +66,7 @@ def render(network, mesh, to_world, environment, camera, eye, width, samples, ba
     module = compiled.load()
     scene = scene or module.Scene()
     film, renderer = module.Film(), module.make_renderer(backend)
-    settings = dict(module.default_render_settings(), width=width, height=width, samples=samples, tolerance=0.0,
+    settings = dict(module.default_render_settings(), width=width, height=width, samples=samples, tolerance=-1.0,
                     filterRadius=0.5, **more)
     with tempfile.TemporaryDirectory() as folder:
         with scene.edit() as edit:

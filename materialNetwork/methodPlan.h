@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// What was chosen at a choice point, and what that is expected to do to an image of the material.
+/// Times are those that the table gives, per evaluation of the material's lobes.
+struct PlannedMethod {
+    std::string point, method;
+    bool forced = false;
+    bool measured = false; ///< false: the table says nothing of it, and error counts as 0
+    double error = 0.0;    ///< relative luminance
+    double ns = 0.0, nsDefault = 0.0, nsTruth = 0.0;
+};
+
+struct MethodPlan {
+    double tolerance = -1.0; ///< as asked for
+    double error = 0.0;      ///< of all points; more than methodShare allows only where forced
+    double albedo = 0.0;     ///< largest directional albedo that was seen, luminance
+    bool varies = false;     ///< parameters vary; the worst that was seen counts
+    std::vector<PlannedMethod> choices; ///< of choicesThatMatter() that have a truth, or noise
+};
+
+} // namespace patina

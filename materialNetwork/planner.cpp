@@ -1,0 +1,191 @@
+#include "materialNetwork/planner.h"
+
+#include "materialNetwork/predictError.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace patina {
+
+namespace {
+
+/// What else a sample of the image costs, apart from the lobe that it draws from: rays and the way
+/// to them. Half a microsecond of a small scene on one thread.
+constexpr double nsPerSample = 500.0;
+
+/// A truth that the table has no time of is taken for so many times as slow as the default.
+constexpr double unmeasuredTruth = 20.0;
+
+struct Option {
+    std::string method;
+    Prediction prediction;
+};
+
+struct Point {
+    std::string name;
+    std::vector<Option> options; ///< fastest first
+    bool forced = false;
+};
+
+class MethodPlanner {
+public:
+    MethodPlanner(const Plan& plan, const Planning& planning, TextureSource& textures)
+        : _plan(plan), _planning(planning), _places(lookAt(plan, textures)) {}
+
+    MethodPlan run() {
+        _result.tolerance = _planning.tolerance;
+        _result.varies = _places.size() > 1;
+        for (const auto& angles : _places)
+            for (const Sighting& s : angles)
+                _result.albedo = std::max(_result.albedo, double(std::min(s.albedo, 1.0f)));
+        _factor = bounceFactor(_result.albedo);
+        for (const std::string& name : choicesThatMatter(_plan))
+            consider(name);
+        double budget = methodShare * std::max(_planning.tolerance, 0.0);
+        for (const Point& p : _points)
+            if (p.forced) budget -= p.options.front().prediction.error;
+        _best.assign(_points.size(), 0);
+        _chosen.assign(_points.size(), 0);
+        for (size_t i = 0; i < _points.size(); ++i)
+            _best[i] = int(_points[i].options.size()) - 1;
+        search(0, std::max(budget, 0.0), 0.0);
+        for (size_t i = 0; i < _points.size(); ++i)
+            keep(_points[i], _points[i].options[size_t(_best[i])]);
+        return std::move(_result);
+    }
+
+private:
+    Prediction look(const std::string& point, const std::string& method) const {
+        Prediction p = predict(_plan, _places, point, method);
+        if (method != truthMethod(point)) {
+            p.error *= _factor;
+            return p;
+        }
+        p.error = 0.0;
+        if (!p.measured)
+            p.ns = unmeasuredTruth * predict(_plan, _places, point, chosenMethod({}, point)).ns;
+        return p;
+    }
+
+    /// Notes what may be chosen at a point.
+    void consider(const std::string& name) {
+        const std::string truth = truthMethod(name);
+        const std::string standard = chosenMethod({}, name);
+        const bool noise = look(name, standard).noise > 0.0;
+        if (truth.empty() && !noise) return;
+        Point point;
+        point.name = name;
+        point.forced = _planning.forced.count(name) > 0;
+        if (point.forced || _planning.tolerance < 0.0) {
+            const std::string method = chosenMethod(_planning.forced, name);
+            point.options = {{method, look(name, method)}};
+        } else if (noise) {
+            point.options = {quietest(name)};
+        } else if (_planning.tolerance == 0.0) {
+            point.options = {{truth, look(name, truth)}};
+        } else {
+            point.options = front(name, truth);
+        }
+        _points.push_back(std::move(point));
+    }
+
+    /// Measured methods of which none is both slower and worse than another; the truth is among
+    /// them.
+    std::vector<Option> front(const std::string& name, const std::string& truth) const {
+        std::vector<Option> all;
+        for (const ChoicePoint& choice : choicePoints())
+            if (choice.name == name)
+                for (const Method& m : choice.methods) {
+                    const Option o{m.name, look(name, m.name)};
+                    if (o.prediction.measured || m.name == truth) all.push_back(o);
+                }
+        std::stable_sort(all.begin(), all.end(), [](const Option& a, const Option& b) {
+            return a.prediction.ns < b.prediction.ns;
+        });
+        std::vector<Option> result;
+        double least = std::numeric_limits<double>::infinity();
+        for (const Option& o : all)
+            if (o.prediction.error < least) {
+                least = o.prediction.error;
+                result.push_back(o);
+            }
+        return result;
+    }
+
+    Option quietest(const std::string& name) const {
+        Option best;
+        double least = std::numeric_limits<double>::infinity();
+        for (const ChoicePoint& choice : choicePoints())
+            if (choice.name == name)
+                for (const Method& m : choice.methods) {
+                    const Option o{m.name, look(name, m.name)};
+                    if (!o.prediction.measured) continue;
+                    const double effort = (1.0 + o.prediction.noise * o.prediction.noise) *
+                                          (nsPerSample + o.prediction.ns);
+                    if (effort < least) {
+                        least = effort;
+                        best = o;
+                    }
+                }
+        return best;
+    }
+
+    /// The fastest combination within the budget. Points are few and fronts short.
+    void search(size_t i, double budget, double ns) {
+        if (ns >= _least) return;
+        if (i == _points.size()) {
+            _least = ns;
+            _best = _chosen;
+            return;
+        }
+        const Point& p = _points[i];
+        for (size_t k = 0; k < p.options.size(); ++k) {
+            const Prediction& q = p.options[k].prediction;
+            if (!p.forced && q.error > budget && p.options.size() > 1) continue;
+            _chosen[i] = int(k);
+            search(i + 1, p.forced ? budget : budget - q.error, ns + q.ns);
+        }
+    }
+
+    void keep(const Point& point, const Option& option) {
+        PlannedMethod m;
+        m.point = point.name;
+        m.method = option.method;
+        m.forced = point.forced;
+        m.measured = option.prediction.measured;
+        m.error = option.prediction.error;
+        m.ns = option.prediction.ns;
+        m.nsDefault = look(point.name, chosenMethod({}, point.name)).ns;
+        const std::string truth = truthMethod(point.name);
+        m.nsTruth = truth.empty() ? m.nsDefault : look(point.name, truth).ns;
+        _result.error += m.error;
+        _result.choices.push_back(m);
+    }
+
+    const Plan& _plan;
+    const Planning& _planning;
+    std::vector<std::vector<Sighting>> _places;
+    std::vector<Point> _points;
+    std::vector<int> _chosen, _best;
+    double _factor = 1.0;
+    double _least = std::numeric_limits<double>::infinity();
+    MethodPlan _result;
+};
+
+} // namespace
+
+double bounceFactor(double albedo) {
+    return 1.0 / (1.0 - 0.75 * std::clamp(albedo, 0.0, 1.0));
+}
+
+MethodPlan planMethods(const Plan& plan, const Planning& planning, TextureSource& textures) {
+    return MethodPlanner(plan, planning, textures).run();
+}
+
+MethodChoices methodsOf(const MethodPlan& plan, MethodChoices others) {
+    for (const PlannedMethod& m : plan.choices)
+        others[m.point] = m.method;
+    return others;
+}
+
+} // namespace patina

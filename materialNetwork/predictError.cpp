@@ -1,0 +1,160 @@
+#include "materialNetwork/predictError.h"
+
+#include "materialNetwork/methodTable.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+/// Tabulating an albedo when a material is compiled is spread over so many evaluations.
+constexpr double evaluationsPerTable = 1e6;
+constexpr double tableNodes = 512;
+
+/// A row and how much it counts.
+struct Near {
+    const MeasuredMethod* row;
+    double weight;
+};
+
+/// Rows of a method that a closure lies between: of its kind, the two nearest in reflectance on
+/// either side, by the roots of their reflectances. Rows that know none come all.
+std::vector<Near> rowsFor(const std::string& point, const std::string& method,
+                          const SeenClosure& seen) {
+    std::vector<const MeasuredMethod*> all, kin;
+    for (const MeasuredMethod& row : methodTable())
+        if (point == row.point && method == row.method) {
+            all.push_back(&row);
+            if (std::string(row.kind) == seen.kind) kin.push_back(&row);
+        }
+    if (kin.empty()) kin = all;
+    const MeasuredMethod *below = nullptr, *above = nullptr;
+    std::vector<Near> result;
+    for (const MeasuredMethod* row : kin) {
+        if (row->reflectance < 0.0f) {
+            result.push_back({row, 1.0});
+        } else if (row->reflectance <= seen.reflectance) {
+            if (!below || row->reflectance > below->reflectance) below = row;
+        } else if (!above || row->reflectance < above->reflectance) {
+            above = row;
+        }
+    }
+    if (below && above) {
+        const double a = std::sqrt(below->reflectance), b = std::sqrt(above->reflectance);
+        const double f = (std::sqrt(double(seen.reflectance)) - a) / (b - a);
+        result.push_back({below, 1.0 - f});
+        result.push_back({above, f});
+    } else if (below || above) {
+        result.push_back({below ? below : above, 1.0});
+    }
+    return result;
+}
+
+/// A row's error and what it is of, at a place along its axis and a quarter of the cosine.
+struct Cell {
+    double error, truth;
+    bool known;
+};
+
+Cell cellOf(const MeasuredMethod& row, const SeenClosure& seen, int quarter) {
+    const double place = std::string(row.axis) == "thickness" ? seen.thickness : seen.roughness;
+    const double x = place / row.axisEnd * methodBins - 0.5;
+    const int i = std::clamp(int(std::floor(x)), 0, methodBins - 2);
+    const double f = std::clamp(x - i, 0.0, 1.0);
+    const auto at = [&](const float* cells) {
+        return cells[i * methodCosines + quarter] * (1.0 - f) +
+               cells[(i + 1) * methodCosines + quarter] * f;
+    };
+    return {at(row.errors), at(row.truths), place <= row.axisEnd * 1.0001};
+}
+
+bool makesNoise(const MeasuredMethod& row) {
+    return std::string(row.errorOf) == "noise";
+}
+
+/// Mirrors need none of these.
+bool onlyRough(const std::string& point) {
+    return point == "energyCompensation" || point == "directionalAlbedo" || point == "sampling";
+}
+
+class Predictor {
+public:
+    Predictor(const Plan& plan, const std::string& point, const std::string& method)
+        : _plan(plan), _point(point), _method(method) {}
+
+    Prediction run(const std::vector<std::vector<Sighting>>& places) {
+        for (const auto& angles : places) {
+            double mean = 0.0, worst = 0.0, ns = 0.0;
+            for (const Sighting& s : angles) {
+                const double error = errorOf(s, ns);
+                mean += error / double(angles.size());
+                worst = std::max(worst, error);
+            }
+            _result.error = std::max(_result.error, 0.5 * (mean + worst));
+            _result.ns = std::max(_result.ns, ns / double(std::max<size_t>(angles.size(), 1)));
+        }
+        return _result;
+    }
+
+private:
+    double errorOf(const Sighting& s, double& ns) {
+        const int quarter = std::clamp(int(s.cosine * methodCosines), 0, methodCosines - 1);
+        double sum = 0.0;
+        for (const SeenClosure& seen : s.closures) {
+            if (!choicesOf(_plan, _plan.closures[size_t(seen.closure)]).count(_point)) continue;
+            if (onlyRough(_point) && seen.roughness <= 0.0f) {
+                _result.measured = true;
+                continue;
+            }
+            double between = 0.0, worst = 0.0, time = 0.0, weights = 0.0;
+            for (const Near& near : rowsFor(_point, _method, seen)) {
+                const Cell cell = cellOf(*near.row, seen, quarter);
+                _result.measured = true;
+                time += near.weight * near.row->ns;
+                weights += near.weight;
+                if (makesNoise(*near.row))
+                    _result.noise = std::max(_result.noise, cell.error * seen.share);
+                else if (near.row->reflectance < 0.0f)
+                    worst = std::max(worst, contribution(*near.row, seen, cell));
+                else
+                    between += near.weight * contribution(*near.row, seen, cell);
+            }
+            sum += std::max(between, worst);
+            time /= std::max(weights, 1.0);
+            if (seen.tabulated && _point == "directionalAlbedo")
+                time *= tableNodes / evaluationsPerTable;
+            ns += time;
+        }
+        return sum;
+    }
+
+    double contribution(const MeasuredMethod& row, const SeenClosure& seen,
+                        const Cell& cell) const {
+        if (!cell.known) return 1.0; // nothing is known of films that thick
+        const double own = cell.error / std::max(cell.truth, 1e-6);
+        // Compensation takes from the albedo only what facets lose, times their reflectance.
+        const double counts =
+            _point == "directionalAlbedo" ? std::min(seen.reflectance + 0.05, 1.0) : 1.0;
+        const bool ofLight =
+            std::string(row.errorOf) == "albedo" || std::string(row.errorOf) == "reflectance";
+        const double below =
+            ofLight && seen.beneath > 0.0f ? cell.error / std::max(1.0 - cell.truth, 0.01) : 0.0;
+        return std::min(own, 1.0) * counts * seen.share + std::min(below, 1.0) * seen.beneath;
+    }
+
+    const Plan& _plan;
+    const std::string& _point;
+    const std::string& _method;
+    Prediction _result;
+};
+
+} // namespace
+
+Prediction predict(const Plan& plan, const std::vector<std::vector<Sighting>>& places,
+                   const std::string& point, const std::string& method) {
+    return Predictor(plan, point, method).run(places);
+}
+
+} // namespace patina

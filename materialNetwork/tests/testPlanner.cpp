@@ -1,0 +1,182 @@
+// The planner: methods follow from the tolerance and the measured table, and from nothing else.
+#include "materialNetwork/methodTable.h"
+#include "materialNetwork/planner.h"
+#include "materialNetwork/tests/materialTest.h"
+
+namespace patina {
+
+namespace {
+
+constexpr double tolerances[] = {1e-5, 1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.05, 0.1, 0.3};
+
+MethodPlan planOf(const Network& network, double tolerance, const MethodChoices& forced = {}) {
+    FakeTextures textures;
+    Diagnostics diagnostics;
+    return planMaterialMethods(network, textures, diagnostics, forced, tolerance);
+}
+
+const PlannedMethod& at(const MethodPlan& plan, const std::string& point) {
+    for (const PlannedMethod& m : plan.choices)
+        if (m.point == point) return m;
+    static const PlannedMethod none;
+    ADD_FAILURE() << "nothing is planned at " << point;
+    return none;
+}
+
+double timeOf(const MethodPlan& plan) {
+    double ns = 0.0;
+    for (const PlannedMethod& m : plan.choices)
+        ns += m.ns;
+    return ns;
+}
+
+NetworkNode gold(float roughness) {
+    return makeNode("bsdf", "ND_conductor_bsdf",
+                    {{"ior", color(0.183f, 0.421f, 1.373f)},
+                     {"extinction", color(3.424f, 2.346f, 1.77f)},
+                     {"roughness", pair(roughness)}});
+}
+
+Network metal(float roughness) {
+    return bsdfNetwork({gold(roughness)});
+}
+
+Network coat(float roughness, float ior) {
+    return bsdfNetwork(
+        {makeNode("top", "ND_dielectric_bsdf",
+                  {{"roughness", pair(roughness)}, {"ior", number(ior)}}),
+         makeNode("base", "ND_oren_nayar_diffuse_bsdf", {{"color", grey(0.5f)}}),
+         makeNode("bsdf", "ND_layer_bsdf", {}, {{"top", {"top", ""}}, {"base", {"base", ""}}})});
+}
+
+Network texturedMetal() {
+    return bsdfNetwork({makeNode("image", "ND_image_vector2", {{"file", text("map.exr")}}),
+                        makeNode("bsdf", "ND_conductor_bsdf",
+                                 {{"ior", color(0.183f, 0.421f, 1.373f)},
+                                  {"extinction", color(3.424f, 2.346f, 1.77f)}},
+                                 {{"roughness", {"image", ""}}})});
+}
+
+} // namespace
+
+TEST(Planner, LargerTolerancesAreNeverSlower) {
+    for (const Network& network : {metal(0.3f), metal(0.9f), coat(0.4f, 1.5f), texturedMetal()}) {
+        double before = timeOf(planOf(network, 1e-6));
+        for (double tolerance : tolerances) {
+            const double now = timeOf(planOf(network, tolerance));
+            EXPECT_LE(now, before) << tolerance;
+            before = now;
+        }
+        EXPECT_LT(before, timeOf(planOf(network, 0.0)));
+    }
+}
+
+TEST(Planner, ZeroIsTheTruthEverywhere) {
+    for (const Network& network : {metal(0.3f), coat(0.4f, 1.5f), texturedMetal()}) {
+        const MethodPlan plan = planOf(network, 0.0);
+        EXPECT_EQ(plan.error, 0.0);
+        for (const PlannedMethod& m : plan.choices)
+            if (!truthMethod(m.point).empty()) {
+                EXPECT_EQ(m.method, truthMethod(m.point)) << m.point;
+            }
+    }
+}
+
+TEST(Planner, WithoutAToleranceTheDefaultsStay) {
+    const MethodPlan plan = planOf(metal(0.5f), -1.0);
+    for (const PlannedMethod& m : plan.choices)
+        EXPECT_EQ(m.method, chosenMethod({}, m.point)) << m.point;
+    EXPECT_GT(plan.error, 0.0);
+    FakeTextures textures;
+    Diagnostics diagnostics;
+    EXPECT_TRUE(compileMaterial(metal(0.5f), textures, diagnostics)->planned().choices.empty());
+}
+
+TEST(Planner, PredictedErrorsStayWithinTheirShare) {
+    for (const Network& network :
+         {metal(0.2f), metal(0.9f), coat(0.1f, 1.3f), coat(0.7f, 2.5f), texturedMetal()})
+        for (double tolerance : tolerances) {
+            const MethodPlan plan = planOf(network, tolerance);
+            EXPECT_LE(plan.error, methodShare * tolerance * (1.0 + 1e-9)) << tolerance;
+            double sum = 0.0;
+            for (const PlannedMethod& m : plan.choices)
+                sum += m.error;
+            EXPECT_DOUBLE_EQ(plan.error, sum);
+        }
+}
+
+TEST(Planner, ForcedMethodsStayAndAreCounted) {
+    const MethodPlan plan = planOf(metal(0.9f), 0.001, {{"energyCompensation", "none"}});
+    EXPECT_EQ(at(plan, "energyCompensation").method, "none");
+    EXPECT_TRUE(at(plan, "energyCompensation").forced);
+    EXPECT_GT(plan.error, 0.1); // a rough metal loses a lot
+    const MethodPlan truth = planOf(metal(0.9f), 0.0, {{"fresnel", "schlick"}});
+    EXPECT_EQ(at(truth, "fresnel").method, "schlick");
+    EXPECT_EQ(at(truth, "directionalAlbedo").method, "quadrature");
+}
+
+TEST(Planner, MeaningsAreNeverChanged) {
+    FakeTextures textures;
+    for (double tolerance : {0.0, 0.001, 0.5}) {
+        Diagnostics diagnostics;
+        const MethodPlan plan = planOf(coat(0.4f, 1.5f), tolerance);
+        for (const PlannedMethod& m : plan.choices)
+            EXPECT_TRUE(!truthMethod(m.point).empty() || m.point == "sampling") << m.point;
+        const MethodChoices chosen =
+            methodsOf(plan, {{"layerTransmittance", "average"}, {"diffuse", "fujii"}});
+        EXPECT_EQ(chosen.at("layerTransmittance"), "average");
+        EXPECT_EQ(chosen.at("diffuse"), "fujii");
+    }
+}
+
+// The texture holds roughness from 0 to 1 along u.
+TEST(Planner, AVaryingParameterCountsAtItsWorst) {
+    const MethodChoices none = {{"energyCompensation", "none"}};
+    const MethodPlan varying = planOf(texturedMetal(), 0.01, none);
+    EXPECT_TRUE(varying.varies);
+    EXPECT_FALSE(planOf(metal(0.2f), 0.01, none).varies);
+    EXPECT_GT(varying.error, 5.0 * planOf(metal(0.01f), 0.01, none).error);
+    EXPECT_GT(varying.error, 0.7 * planOf(metal(0.95f), 0.01, none).error);
+}
+
+TEST(Planner, AMirrorNeedsNoCompensation) {
+    const MethodPlan plan = planOf(metal(0.0f), 0.01, {{"energyCompensation", "none"}});
+    EXPECT_EQ(at(plan, "energyCompensation").error, 0.0);
+}
+
+TEST(Planner, ErrorsFollowTheTable) {
+    // Schlick's curve is far off at ior 1.05, but hardly anything is reflected there.
+    const MethodChoices schlick = {{"fresnel", "schlick"}};
+    const double of3 =
+        at(planOf(bsdfNetwork({makeNode("bsdf", "ND_dielectric_bsdf", {{"ior", number(3.0f)}})}),
+                  0.01, schlick),
+           "fresnel")
+            .error;
+    const double of1 = at(planOf(coat(0.1f, 1.5f), 0.01, schlick), "fresnel").error;
+    EXPECT_GT(of3, of1);
+    EXPECT_GT(of1, 0.001);
+    // What a layer's top takes wrongly, its base shows.
+    const double karis =
+        at(planOf(coat(0.3f, 1.5f), 0.01, {{"directionalAlbedo", "karis"}}), "directionalAlbedo")
+            .error;
+    EXPECT_GT(karis, 0.005);
+    EXPECT_LT(karis, 0.2);
+}
+
+// All rows have what the planner reads.
+TEST(MethodTable, RowsAreWhole) {
+    for (const MeasuredMethod& row : methodTable()) {
+        const std::string name = std::string(row.point) + " " + row.method + ", " + row.subject;
+        EXPECT_GT(row.axisEnd, 0.0f) << name;
+        EXPECT_GE(row.ns, 0.0f) << name;
+        float largest = 0.0f;
+        for (int i = 0; i < methodBins * methodCosines; ++i) {
+            EXPECT_GE(row.errors[i], 0.0f) << name;
+            EXPECT_GT(row.truths[i], 0.0f) << name;
+            largest = std::max(largest, row.errors[i]);
+        }
+        EXPECT_LE(largest, row.largest * 1.001f + 1e-3f) << name;
+    }
+}
+
+} // namespace patina

@@ -1,0 +1,56 @@
+"""A plan of methods as text: what was chosen at every choice point, and what that is expected to do."""
+
+
+def seconds_of(plan, key="ns"):
+    """:returns: nanoseconds of all choices together"""
+    return sum(choice[key] for choice in plan["choices"])
+
+
+def lines(plan):
+    """:param plan: of _patina.plan_material()
+
+    :returns: list of lines
+    """
+    if not plan["choices"]:
+        return ["plan: no choice point with a truth or with noise matters to this material"]
+    tolerance = plan["tolerance"]
+    head = "default methods" if tolerance < 0.0 else f"tolerance {tolerance:g}"
+    result = [f"plan: {head}; albedo {plan['albedo']:.2f} at most" +
+              (", parameters vary: the worst that they show counts" if plan["varies"] else ""),
+              f"  {'choice point':<20}{'method':<14}{'predicted error':>16}{'ns':>9}{'of truth':>10}{'of default':>12}"]
+    for choice in plan["choices"]:
+        error = f"{choice['error']:.2g}" if choice["measured"] else "not measured"
+        result.append(f"  {choice['point']:<20}{choice['method']:<14}{error:>16}{choice['ns']:>9.0f}"
+                      f"{_ratio(choice['ns'], choice['nsTruth']):>10}{_ratio(choice['ns'], choice['nsDefault']):>12}"
+                      + ("  forced" if choice["forced"] else ""))
+    spent = seconds_of(plan)
+    result.append(f"  {'together':<34}{plan['error']:>16.2g}{spent:>9.0f}{_ratio(spent, seconds_of(plan, 'nsTruth')):>10}"
+                  f"{_ratio(spent, seconds_of(plan, 'nsDefault')):>12}")
+    if tolerance > 0.0 and plan["error"] > tolerance:
+        result.append(f"  the forced methods alone are expected to miss the tolerance {tolerance:g}")
+    return result
+
+
+def _ratio(value, base):
+    return f"{value / base:.3g}x" if base > 0.0 else "-"
+
+
+def scene_lines(plans, tolerance):
+    """What the plans of all materials mean for an image of the scene.
+
+    :param plans: list of (name, plan)
+    """
+    errors = [(plan["error"], name) for name, plan in plans]
+    if not errors:
+        return []
+    worst, name = max(errors)
+    spent = {key: sum(seconds_of(plan, key) for _, plan in plans) for key in ("ns", "nsTruth", "nsDefault")}
+    result = [f"scene: methods are expected to cost a relative luminance error of {worst:.2g} where {name} fills the image, "
+              f"{sum(e for e, _ in errors) / len(errors):.2g} as the mean of its materials",
+              f"scene: lobes take {_ratio(spent['ns'], spent['nsTruth'])} the time of the truths and "
+              f"{_ratio(spent['ns'], spent['nsDefault'])} that of the defaults"]
+    if tolerance > 0.0:
+        result.append(f"scene: noise may take {max(tolerance - worst, 0.0):.2g} of the tolerance {tolerance:g}")
+    elif tolerance == 0.0:
+        result.append("scene: all samples are taken")
+    return result

@@ -11,8 +11,9 @@ const std::vector<ChoicePoint>& choicePoints() {
                    "loses about half of the light"},
           {"kullaConty", "a second lobe, shaped like diffuse, holds what is lost (Kulla and Conty "
                          "2017); reciprocal; lobes that reflect only, others as turquin"},
-          {"randomWalk", "light bounces between the facets until it leaves (Heitz et al. 2016): the "
-                         "truth, noisier and slow; path tracer only, others as turquin"}},
+          {"randomWalk",
+           "light bounces between the facets until it leaves (Heitz et al. 2016): the "
+           "truth, noisier and slow; path tracer only, others as turquin"}},
          "randomWalk"},
         {"directionalAlbedo",
          {{"table", "looked up in baked tables: any roughness, ior, anisotropy and side"},
@@ -52,6 +53,23 @@ const std::vector<ChoicePoint>& choicePoints() {
                           "ring where its minimum switches"},
           {"fujii", "Fujii's improved model: no ring, loses energy"},
           {"eon", "Portsmouth, Kutz and Hill 2025: white loses nothing"}}},
+        {"layering",
+         {{"albedoScaling",
+           "a base is scaled by what the top's directional albedo leaves, as in MaterialX; what "
+           "the top sends back down is left out, so that dark bases come out too bright"},
+          {"positionFree",
+           "light bounces between an interface and its base until it leaves (Guo, Hasan and Zhao "
+           "2018): the truth for interfaces, noisier and slow; path tracer only; under sheen, over "
+           "subsurface and over the other half of one interface as albedoScaling"}},
+         "positionFree"},
+        {"subsurface",
+         {{"randomWalk",
+           "light scatters beneath the surface until it leaves the object: the truth; "
+           "path tracer, as diffuse on the rasterizer and on thin walls"},
+          {"diffuse",
+           "light leaves where it entered, as from a diffuse surface of the same colour; "
+           "edges and thin parts do not glow"}},
+         "randomWalk"},
         {"layerTransmittance",
          {{"largest", "a layer lets through 1 - E in all channels, E the largest channel of its "
                       "top's directional albedo without tint; no channel gains energy, and a tint "

@@ -1,5 +1,6 @@
 #include "materialNetwork/plan.h"
 
+#include "materialNetwork/layering.h"
 #include "materialNetwork/nodeTable.h"
 
 #include "shaders/shaders.h"
@@ -307,6 +308,13 @@ Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnosti
     for (const ChoicePoint& point : choicePoints())
         plan.methods[point.name] = chosenMethod(methods, point.name);
     Planner(plan, diagnostics).run();
+    if (plan.methods["layering"] == "positionFree") {
+        const std::vector<LayerWalkability> layers = layerWalkability(plan);
+        for (size_t i = 0; i < layers.size(); ++i)
+            if (!layers[i].reason.empty())
+                plan.leftOut.push_back(plan.graph.nodes[size_t(plan.closures[i].node)].path +
+                                       ": layering is albedoScaling here, for " + layers[i].reason);
+    }
     return plan;
 }
 
@@ -319,7 +327,8 @@ std::set<std::string> choicesOf(const Plan& plan, const PlanClosure& c) {
         matter.insert("fresnel");
     if (hasFilm(plan, c)) matter.insert("thinFilm");
     if (c.kind == ClosureKind::OrenNayar) matter.insert("diffuse");
-    if (c.kind == ClosureKind::Layer) matter.insert("layerTransmittance");
+    if (c.kind == ClosureKind::Subsurface && !c.thin) matter.insert("subsurface");
+    if (c.kind == ClosureKind::Layer) matter.insert({"layering", "layerTransmittance"});
     if (c.underReflection && interface && scatterMode(plan, c) == sh::SCATTER_T)
         matter.insert("reflectionOverTransmission");
     if (c.inThinWall && interface && (scatterMode(plan, c) & sh::SCATTER_T) != 0)
@@ -378,6 +387,11 @@ bool hasFilm(const Plan& plan, const PlanClosure& closure) {
         return false;
     return !isConstantValue(closureInput(plan, closure, "thinfilm_thickness"), 0.0f) &&
            !isConstantValue(closureInput(plan, closure, "thinfilm_ior"), 1.0f);
+}
+
+bool walksBeneath(const Plan& plan, const PlanClosure& closure) {
+    return closure.kind == ClosureKind::Subsurface && !closure.thin &&
+           chosenMethod(plan.methods, "subsurface") == "randomWalk";
 }
 
 bool refracts(const Plan& plan, const PlanClosure& closure) {

@@ -81,6 +81,9 @@ int lobeVariant(const Plan& plan, const PlanClosure& closure);
 /// Whether a lobe may have a thin film; false when it certainly shows none.
 bool hasFilm(const Plan& plan, const PlanClosure& closure);
 
+/// Whether light scatters beneath the surface of a subsurface lobe; else it shows as diffuse.
+bool walksBeneath(const Plan& plan, const PlanClosure& closure);
+
 /// Whether light that is transmitted changes direction, so that the surface has an inside.
 bool refracts(const Plan& plan, const PlanClosure& closure);
 

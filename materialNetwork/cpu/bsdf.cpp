@@ -1,5 +1,6 @@
 #include "materialNetwork/cpu/bsdf.h"
 
+#include "materialNetwork/cpu/layerWalk.h"
 #include "materialNetwork/cpu/lobeOps.h"
 #include "materialNetwork/cpu/microsurface.h"
 #include "materialNetwork/cpu/shadingFrame.h"
@@ -16,7 +17,26 @@ BsdfEval Bsdf::eval(const glm::vec3& wi) const {
     return evalLobes(wi, Lobes::All);
 }
 
-/// Densities are those of all lobes either way.
+float Bsdf::stochasticDensity(const BsdfLobe& l, const glm::vec3& wi,
+                              const glm::vec3& local) const {
+    return l.kind == LobeKind::Layered ? LayerWalk(*_layers, l.layered.op, _view).density(wi)
+                                       : microsurfaceDensity(l, _frames[l.frame].wo, local);
+}
+
+BsdfEval Bsdf::evalStochastic(int i, const glm::vec3& wi, const glm::vec3& local) const {
+    const BsdfLobe& l = _lobes[i];
+    const BsdfFrame& f = _frames[l.frame];
+    HashedNumbers random = HashedNumbers(_seed + uint32_t(i)).mix(f.wo).mix(local);
+    if (l.kind == LobeKind::Layered)
+        return LayerWalk(*_layers, l.layered.op, _view).eval(wi, random);
+    const sh::LobeEval e = microsurfaceEval(l, f.wo, local, random);
+    BsdfEval result;
+    (l.diffuse ? result.diffuse : result.specular) = e.value;
+    result.pdf = e.pdf;
+    return result;
+}
+
+/// Densities are those of all lobes in any case.
 BsdfEval Bsdf::evalLobes(const glm::vec3& wi, Lobes which) const {
     BsdfEval result;
     const bool reflects = (glm::dot(wi, _geometricNormal) > 0.0f) == _woOutside;
@@ -30,20 +50,54 @@ BsdfEval Bsdf::evalLobes(const glm::vec3& wi, Lobes which) const {
             local = f.toLocal(wi);
             frame = l.frame;
         }
-        if (((local.z > 0.0f) == (f.wo.z >= 0.0f)) != reflects) continue;
-        sh::LobeEval e;
-        if (!l.stochastic) {
-            e = lobeEval(l, f.wo, local);
-        } else if (which == Lobes::Deterministic) {
-            result.pdf += l.probability * microsurfaceDensity(l, f.wo, local);
+        // The parts of a layer have frames of their own.
+        if (l.kind != LobeKind::Layered && ((local.z > 0.0f) == (f.wo.z >= 0.0f)) != reflects)
             continue;
-        } else {
-            HashedNumbers random = HashedNumbers(_seed + uint32_t(i)).mix(f.wo).mix(local);
-            e = microsurfaceEval(l, f.wo, local, random);
+        if (l.stochastic) {
+            if (which != Lobes::All) {
+                result.pdf += l.probability * stochasticDensity(l, wi, local);
+                continue;
+            }
+            const BsdfEval e = evalStochastic(i, wi, local);
+            result.diffuse += l.weight * e.diffuse;
+            result.specular += l.weight * e.specular;
+            result.pdf += l.probability * e.pdf;
+            continue;
         }
+        const sh::LobeEval e = lobeEval(l, f.wo, local);
         (l.diffuse ? result.diffuse : result.specular) += l.weight * e.value;
         result.pdf += l.probability * e.pdf;
     }
+    return result;
+}
+
+/// A sample of one lobe as if it were alone, in world space and in the lobe's frame.
+BsdfSample Bsdf::sampleLobe(const BsdfLobe& l, const glm::vec3& u, glm::vec3& local) const {
+    const BsdfFrame& f = _frames[l.frame];
+    BsdfSample result;
+    sh::LobeSample s;
+    if (l.stochastic) {
+        HashedNumbers random = HashedNumbers(_seed ^ 0x5bd1e995u).mix(f.wo).mix(u);
+        if (l.kind == LobeKind::Layered) {
+            result = LayerWalk(*_layers, l.layered.op, _view).sample(u, random);
+            local = f.toLocal(result.wi);
+            return result;
+        }
+        s = microsurfaceSample(l, f.wo, u, random);
+    } else {
+        s = lobeSample(l, f.wo, u);
+    }
+    local = s.wi;
+    if (s.event == 0) return result;
+    result.wi = f.toWorld(s.wi);
+    const bool reflects = (s.event & sh::LOBE_REFLECT) != 0;
+    if (((glm::dot(result.wi, _geometricNormal) > 0.0f) == _woOutside) != reflects) return result;
+    result.weight = s.weight;
+    result.pdf = s.pdf;
+    result.event = s.event;
+    result.diffuse = l.diffuse;
+    result.eta = s.eta;
+    result.roughness = lobeRoughness(l);
     return result;
 }
 
@@ -54,9 +108,8 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
     for (float sum = _lobes[0].probability; chosen + 1 < _lobeCount && uLobe >= sum;)
         sum += _lobes[++chosen].probability;
     const BsdfLobe& l = _lobes[chosen];
-    const BsdfFrame& f = _frames[l.frame];
-    result.lobe = chosen;
     if (_walks && l.kind == LobeKind::Subsurface) {
+        result.lobe = chosen;
         result.wi = _woOutside ? -_geometricNormal : _geometricNormal;
         result.weight = l.weight / l.probability;
         result.pdf = l.probability;
@@ -65,29 +118,18 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
         result.roughness = 1.0f;
         return result;
     }
-    sh::LobeSample s;
-    if (l.stochastic) {
-        HashedNumbers random = HashedNumbers(_seed ^ 0x5bd1e995u).mix(f.wo).mix(u);
-        s = microsurfaceSample(l, f.wo, u, random);
-    } else {
-        s = lobeSample(l, f.wo, u);
-    }
-    if (s.event == 0) return result;
-    const glm::vec3 wi = f.toWorld(s.wi);
-    const bool reflects = (s.event & sh::LOBE_REFLECT) != 0;
-    if (((glm::dot(wi, _geometricNormal) > 0.0f) == _woOutside) != reflects) return result;
-
-    result.wi = wi;
-    result.event = s.event;
-    result.diffuse = l.diffuse;
+    glm::vec3 local;
+    result = sampleLobe(l, u, local);
+    result.lobe = chosen;
     result.alone = l.stochastic;
-    result.eta = s.eta;
-    result.roughness = lobeRoughness(l);
+    if (result.event == 0) return result;
+    const BsdfSample s = result;
     if ((s.event & sh::LOBE_DELTA) != 0 || _lobeCount == 1) {
         result.weight = l.weight * s.weight / l.probability;
         result.pdf = s.pdf * l.probability;
         return result;
     }
+    const bool reflects = (s.event & sh::LOBE_REFLECT) != 0;
     glm::vec3 value = l.weight * (s.weight * s.pdf);
     float exact = l.probability * s.pdf; // of the lobes in `value`
     float estimate = 0.0f;               // of the others
@@ -96,13 +138,15 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
         const BsdfLobe& other = _lobes[i];
         if (_walks && other.kind == LobeKind::Subsurface) continue;
         const BsdfFrame& frame = _frames[other.frame];
-        const glm::vec3 local = other.frame == l.frame ? s.wi : frame.toLocal(wi);
-        if (((local.z > 0.0f) == (frame.wo.z >= 0.0f)) != reflects) continue;
+        const glm::vec3 theirs = other.frame == l.frame ? local : frame.toLocal(s.wi);
+        if (other.kind != LobeKind::Layered &&
+            ((theirs.z > 0.0f) == (frame.wo.z >= 0.0f)) != reflects)
+            continue;
         if (other.stochastic) {
-            estimate += other.probability * microsurfaceDensity(other, frame.wo, local);
+            estimate += other.probability * stochasticDensity(other, s.wi, theirs);
             continue;
         }
-        const sh::LobeEval e = lobeEval(other, frame.wo, local);
+        const sh::LobeEval e = lobeEval(other, frame.wo, theirs);
         (l.stochastic ? estimate : exact) += other.probability * e.pdf;
         if (!l.stochastic) value += other.weight * e.value;
     }
@@ -139,6 +183,7 @@ void Bsdf::makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal
     _lobeCount = 1;
     _nonDelta = true;
     _transmits = _walks = _stochastic = false;
+    _layers.reset();
     _woOutside = true;
     _geometricNormal = geometricNormal;
     BsdfFrame& f = _frames[0];

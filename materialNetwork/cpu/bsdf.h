@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <memory>
 
 namespace patina {
 
@@ -26,6 +27,8 @@ struct SubsurfaceEntry {
     glm::vec3 radius{0.0f}; ///< mean free path per channel, scene units
     float anisotropy = 0.0f;
 };
+
+struct LayeredPoint;
 
 struct BsdfSample {
     glm::vec3 wi{0.0f};
@@ -52,7 +55,8 @@ enum class LobeKind : uint8_t {
     BlinnPhong,
     Ward,
     CookTorrance,
-    ChiangHair
+    ChiangHair,
+    Layered
 };
 
 /// Subsurface scattering. Where nobody walks beneath the surface it shows as diffuse.
@@ -60,6 +64,12 @@ struct SubsurfaceLobe {
     sh::OrenNayarLobe diffuse;
     glm::vec3 radius;
     float anisotropy;
+};
+
+/// A layer between whose top and base light is walked, see layerWalk.h.
+struct LayeredLobe {
+    int op; ///< of the program's BSDF
+    bool transmits;
 };
 
 /// A leaf of the BSDF, ready for one shading point.
@@ -86,6 +96,7 @@ struct BsdfLobe {
         sh::WardLobe ward;
         sh::CookTorranceLobe cookTorrance;
         sh::ChiangHairLobe chiangHair;
+        LayeredLobe layered;
     };
 };
 
@@ -103,15 +114,16 @@ struct BsdfFrame {
 };
 
 /// The lobes of a material at one shading point: built by MaterialProgram, then asked many times.
-/// Lives on the stack; no allocation. All directions are in world space and point away from the
-/// surface; the outgoing direction is fixed when the Bsdf is built.
+/// Lives on the stack; no allocation, unless layers are walked. All directions are in world space
+/// and point away from the surface; the outgoing direction is fixed when the Bsdf is built.
 ///
 /// What counts as reflection and what as transmission is decided by the geometric normal together
 /// with the lobe's own normal: where the two disagree the value is 0, so that no light leaks
 /// through a surface because of an interpolated or mapped normal.
 class Bsdf {
 public:
-    static constexpr int maxLobes = 32; ///< two of the largest models; more are dropped, with a warning at compile time
+    static constexpr int maxLobes =
+        32; ///< two of the largest models; more are dropped, with a warning at compile time
     static constexpr int maxFrames = 8;
 
     Bsdf() {} // NOLINT: members are left uninitialised on purpose; evaluate() fills what is used
@@ -145,6 +157,9 @@ public:
     /// Other random values from now on. @param seed one per vertex of a path
     void seed(uint32_t seed) { _seed = seed; }
 
+    /// @returns density of eval()
+    float density(const glm::vec3& wi) const { return evalLobes(wi, Lobes::None).pdf; }
+
     /// @returns how the light that comes from `sample` counts: eval() of the lobes in its weight
     BsdfEval evalDrawn(const BsdfSample& sample) const;
 
@@ -162,18 +177,24 @@ public:
 private:
     friend class BsdfBuilder;
 
-    enum class Lobes { All, Deterministic };
+    enum class Lobes { All, Deterministic, None };
     BsdfEval evalLobes(const glm::vec3& wi, Lobes which) const;
+    BsdfEval evalStochastic(int lobe, const glm::vec3& wi, const glm::vec3& local) const;
+    float stochasticDensity(const BsdfLobe& lobe, const glm::vec3& wi,
+                            const glm::vec3& local) const;
+    BsdfSample sampleLobe(const BsdfLobe& lobe, const glm::vec3& u, glm::vec3& local) const;
     glm::vec3 sampledAlbedo() const;
 
     int _lobeCount = 0;
     bool _nonDelta = false;
     bool _transmits = false;
     bool _stochastic = false;
-    bool _walks = false;    ///< subsurface lobes are events
+    bool _walks = false; ///< subsurface lobes are events
     uint32_t _seed = 0;
     bool _woOutside = true; ///< wo lies on the front side of the geometry
     glm::vec3 _geometricNormal;
+    glm::vec3 _view; ///< towards the viewer; set where layers are walked
+    std::shared_ptr<const LayeredPoint> _layers; ///< where layers are walked
     BsdfFrame _frames[maxFrames];
     BsdfLobe _lobes[maxLobes];
 };

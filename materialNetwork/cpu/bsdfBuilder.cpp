@@ -1,8 +1,9 @@
 #include "materialNetwork/cpu/bsdfBuilder.h"
 
+#include "materialNetwork/cpu/layerWalk.h"
 #include "materialNetwork/cpu/lobeOps.h"
-#include "materialNetwork/cpu/microsurface.h"
 #include "materialNetwork/cpu/lobeSetup.h"
+#include "materialNetwork/cpu/microsurface.h"
 #include "materialNetwork/cpu/scratch.h"
 #include "materialNetwork/cpu/shadingFrame.h"
 
@@ -60,15 +61,21 @@ glm::vec3 factor(const glm::vec4& c) {
 void BsdfBuilder::build(const ProgramCode& code, const ShadingPoint& point,
                         const glm::vec4* registers, Bsdf& out) {
     Wall walls[Bsdf::maxLobes];
-    place(code, point, registers, walls, out);
+    place(code, point, registers, int(code.bsdf.size()) - 1, walls, out);
     if (code.lobes.empty()) return;
+    if (code.walkedLayers > 0) {
+        const auto layered = std::make_shared<LayeredPoint>(&code, point);
+        layered->registers.assign(registers, registers + code.registerCount);
+        out._layers = layered;
+    }
     if (code.hasStraight) {
         // The surface is only met with the chance that light does not pass straight.
         const float met = 1.0f - largest(glm::vec4(straightWeight(code, walls, out), 0.0f));
         const float scale = met > 0.0f ? 1.0f / met : 0.0f;
-        for (size_t i = 0; i < code.lobes.size(); ++i)
-            out._lobes[i].weight *=
-                code.lobes[i].straight ? walls[i].reflected * scale : glm::vec3(scale);
+        for (size_t i = 0; i < code.lobes.size() + size_t(code.walkedLayers); ++i)
+            out._lobes[i].weight *= i < code.lobes.size() && code.lobes[i].straight
+                                        ? walls[i].reflected * scale
+                                        : glm::vec3(scale);
     }
     choose(code, out);
 }
@@ -76,17 +83,26 @@ void BsdfBuilder::build(const ProgramCode& code, const ShadingPoint& point,
 void BsdfBuilder::lay(const ProgramCode& code, const ShadingPoint& point,
                       const glm::vec4* registers, Bsdf& out) {
     Wall walls[Bsdf::maxLobes];
-    place(code, point, registers, walls, out);
+    place(code, point, registers, int(code.bsdf.size()) - 1, walls, out);
     for (size_t i = 0; i < code.lobes.size(); ++i)
         if (code.lobes[i].straight) out._lobes[i].weight *= walls[i].reflected;
     out._lobeCount = int(code.lobes.size());
+}
+
+void BsdfBuilder::buildPart(const LayeredPoint& layered, int op, const glm::vec3& view, Bsdf& out) {
+    ShadingPoint point = layered.point;
+    point.viewDirection = view;
+    Wall walls[Bsdf::maxLobes];
+    place(*layered.code, point, layered.registers.data(), op, walls, out);
+    out._layers = layered.shared_from_this();
+    choose(*layered.code, out);
 }
 
 glm::vec3 BsdfBuilder::straight(const ProgramCode& code, const ShadingPoint& point,
                                 const glm::vec4* registers) {
     Bsdf bsdf;
     Wall walls[Bsdf::maxLobes];
-    place(code, point, registers, walls, bsdf);
+    place(code, point, registers, int(code.bsdf.size()) - 1, walls, bsdf);
     return straightWeight(code, walls, bsdf);
 }
 
@@ -118,14 +134,16 @@ BsdfBuilder::Wall BsdfBuilder::wallOf(BsdfLobe& lobe, Interface& interface, cons
 }
 
 void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
-                        const glm::vec4* registers, Wall* walls, Bsdf& out) {
+                        const glm::vec4* registers, int root, Wall* walls, Bsdf& out) {
     out._lobeCount = 0;
     out._nonDelta = false;
     out._transmits = false;
     out._walks = false;
     out._stochastic = false;
     out._seed = 0;
+    out._layers.reset();
     out._geometricNormal = point.geometricNormal;
+    out._view = point.viewDirection;
     out._woOutside = glm::dot(point.viewDirection, point.geometricNormal) >= 0.0f;
     if (code.lobes.empty()) return;
     for (size_t i = 0; i < code.frames.size(); ++i) {
@@ -137,10 +155,15 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
             makeFrame(point, f.normal >= 0 ? &n : nullptr, f.tangent >= 0 ? &t : nullptr, f.flips);
     }
     glm::vec3 kept[Bsdf::maxLobes];
+    const uint32_t part = code.bsdf[size_t(root)].lobes;
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const LobeTemplate& t = code.lobes[i];
         kept[i] = glm::vec3(0.0f);
         BsdfLobe& l = out._lobes[i];
+        if ((part & (1u << i)) == 0) {
+            l.weight = glm::vec3(0.0f);
+            continue;
+        }
         if (t.constant) {
             l = t.prebuilt;
         } else {
@@ -160,12 +183,37 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
                        ? wallOf(l, l.dielectric, l.dielectric.tint, wo, code.wallsHaveTwoFaces)
                        : wallOf(l, l.schlick, glm::vec3(1.0f), wo, code.wallsHaveTwoFaces);
     }
-    setWeights(code, registers, kept, out);
+    setWeights(code, registers, kept, root, out);
+}
+
+/// A walked layer stands among the lobes. How much it reflects, to choose it by, is what albedo
+/// scaling says.
+void BsdfBuilder::setLayer(const ProgramCode& code, const glm::vec3& weight, int op, int index,
+                           Bsdf& out) {
+    const ClosureOp& layer = code.bsdf[size_t(op)];
+    const BsdfLobe& top = out._lobes[code.bsdf[size_t(layer.a)].lobe];
+    const uint32_t base = code.bsdf[size_t(layer.b)].lobes;
+    BsdfLobe& l = out._lobes[index];
+    l.kind = LobeKind::Layered;
+    l.diffuse = false;
+    l.stochastic = true;
+    l.frame = top.frame;
+    l.weight = weight;
+    l.layered = {op, false};
+    glm::vec3 beneath(0.0f);
+    int count = 0;
+    for (size_t i = 0; i < code.lobes.size(); ++i) {
+        if ((base & (1u << i)) == 0) continue;
+        beneath += out._lobes[i].albedo;
+        ++count;
+        l.layered.transmits |= lobeTransmits(out._lobes[i]);
+    }
+    l.albedo = top.albedo + (1.0f - unit(top.albedo)) * beneath / float(std::max(count, 1));
 }
 
 void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers,
-                             const glm::vec3* kept, Bsdf& out) {
-    const int n = int(code.bsdf.size());
+                             const glm::vec3* kept, int root, Bsdf& out) {
+    const int n = root + 1;
     // Upwards: what the tops of layers let through.
     Scratch<glm::vec3> passed(size_t(n) + 1);
     const auto passedBy = [&](int i) { return i < 0 ? glm::vec3(1.0f) : passed[i]; };
@@ -195,11 +243,23 @@ void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers
     for (int i = 0; i < n; ++i)
         weight[i] = glm::vec3(0.0f);
     weight[n - 1] = glm::vec3(1.0f);
+    const int lobes = int(code.lobes.size());
+    for (int i = 0; i < code.walkedLayers; ++i)
+        out._lobes[lobes + i].weight = glm::vec3(0.0f);
+    int layers = 0;
     for (int i = n - 1; i >= 0; --i) {
         const ClosureOp& op = code.bsdf[size_t(i)];
         const glm::vec3 w = weight[i];
         switch (op.kind) {
         case ClosureKind::Layer:
+            if (op.walked) {
+                // The top covers the base by its weight.
+                const float covers = unit(registers[code.bsdf[size_t(op.a)].factor].x);
+                if (w != glm::vec3(0.0f) && covers > 0.0f)
+                    setLayer(code, w * covers, i, lobes + layers++, out);
+                weight[op.b] += w * (1.0f - covers);
+                break;
+            }
             weight[op.a] += w;
             weight[op.b] += w * passed[op.a];
             break;
@@ -222,7 +282,7 @@ void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers
 
 void BsdfBuilder::choose(const ProgramCode& code, Bsdf& out) {
     int count = 0;
-    for (int i = 0; i < int(code.lobes.size()); ++i) {
+    for (int i = 0; i < int(code.lobes.size()) + code.walkedLayers; ++i) {
         if (!(luminance(out._lobes[i].weight) > 0.0f)) continue;
         if (count != i) out._lobes[count] = out._lobes[i];
         ++count;

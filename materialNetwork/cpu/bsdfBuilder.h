@@ -16,6 +16,11 @@ public:
     static void lay(const ProgramCode& code, const ShadingPoint& point, const glm::vec4* registers,
                     Bsdf& out);
 
+    /// The same for a part of the material.
+    /// @param op  root of the part, in ProgramCode::bsdf
+    /// @param view  towards where the light of a walk comes from
+    static void buildPart(const LayeredPoint& layered, int op, const glm::vec3& view, Bsdf& out);
+
     /// @returns the share of light that lobes pass straight on, 0..1. It is no part of what build()
     /// makes, and counts as absence of the surface.
     static glm::vec3 straight(const ProgramCode& code, const ShadingPoint& point,
@@ -29,14 +34,17 @@ private:
     };
 
     /// @param walls is set for lobes that pass light straight on
+    /// @param root in ProgramCode::bsdf
     static void place(const ProgramCode& code, const ShadingPoint& point,
-                      const glm::vec4* registers, Wall* walls, Bsdf& out);
+                      const glm::vec4* registers, int root, Wall* walls, Bsdf& out);
     template <class Interface> static Wall wallOf(BsdfLobe& lobe, Interface& interface,
                                                   const glm::vec3& tint, const glm::vec3& wo,
                                                   bool twoFaces);
     static glm::vec3 straightWeight(const ProgramCode& code, const Wall* walls, const Bsdf& bsdf);
     static void setWeights(const ProgramCode& code, const glm::vec4* registers,
-                           const glm::vec3* kept, Bsdf& out);
+                           const glm::vec3* kept, int root, Bsdf& out);
+    static void setLayer(const ProgramCode& code, const glm::vec3& weight, int op, int index,
+                         Bsdf& out);
     static void choose(const ProgramCode& code, Bsdf& out);
 };
 

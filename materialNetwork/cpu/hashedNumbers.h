@@ -36,8 +36,8 @@ public:
     uint32_t bits() { return uint32_t(scramble(_state += 0x9e3779b97f4a7c15u) >> 32); }
 
 private:
-    /// The finaliser of splitmix64 (Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number
-    /// Generators").
+    /// The finaliser of splitmix64 (Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom
+    /// Number Generators").
     static uint64_t scramble(uint64_t x) {
         x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
         x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;

@@ -24,6 +24,7 @@ inline sh::LobeEval lobeEval(const BsdfLobe& l, const glm::vec3& wo, const glm::
     case LobeKind::Ward: return sh::wardEval(l.ward, wo, wi);
     case LobeKind::CookTorrance: return sh::cookTorranceEval(l.cookTorrance, wo, wi);
     case LobeKind::ChiangHair: return sh::chiangHairEval(l.chiangHair, wo, wi);
+    case LobeKind::Layered: break; // has no formula
     }
     return sh::lobeEvalNone();
 }
@@ -43,6 +44,7 @@ inline sh::LobeSample lobeSample(const BsdfLobe& l, const glm::vec3& wo, const g
     case LobeKind::Ward: return sh::wardSample(l.ward, wo, u);
     case LobeKind::CookTorrance: return sh::cookTorranceSample(l.cookTorrance, wo, u);
     case LobeKind::ChiangHair: return sh::chiangHairSample(l.chiangHair, wo, u);
+    case LobeKind::Layered: break;
     }
     return sh::lobeSampleNone();
 }
@@ -62,6 +64,7 @@ inline glm::vec3 lobeAlbedo(const BsdfLobe& l, const glm::vec3& wo) {
     case LobeKind::Ward: return sh::wardAlbedo(l.ward, wo);
     case LobeKind::CookTorrance: return sh::cookTorranceAlbedo(l.cookTorrance, wo);
     case LobeKind::ChiangHair: return sh::chiangHairAlbedo(l.chiangHair, wo);
+    case LobeKind::Layered: return l.albedo;
     }
     return glm::vec3(0.0f);
 }
@@ -116,6 +119,7 @@ inline glm::vec3 lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& 
     case LobeKind::Ward:
     case LobeKind::CookTorrance:
     case LobeKind::ChiangHair: l.albedo = lobeAlbedo(l, wo); return glm::vec3(1.0f);
+    case LobeKind::Layered: return glm::vec3(1.0f);
     }
     return glm::vec3(1.0f);
 }
@@ -126,6 +130,7 @@ inline bool lobeTransmits(const BsdfLobe& l) {
     case LobeKind::ChiangHair: return true;
     case LobeKind::Dielectric: return (l.dielectric.mode & sh::SCATTER_T) != 0;
     case LobeKind::Schlick: return (l.schlick.mode & sh::SCATTER_T) != 0;
+    case LobeKind::Layered: return l.layered.transmits;
     default: return false;
     }
 }

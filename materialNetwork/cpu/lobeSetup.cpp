@@ -117,6 +117,7 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
         out.cookTorrance =
             sh::cookTorranceSetup(color(0), color(1), color(2), number(3), t.variant);
         return;
+    case LobeKind::Layered: return;
     }
 }
 

@@ -140,8 +140,7 @@ public:
         if (crosses == _crossed) {
             if (!reflections) return glm::vec3(0.0f);
             const double p = _surface.reflected(v, i, c) * _surface.leaves(i, _below);
-            return p > 0.0 ? _throughput * reflectance(_lobe, c, _eta) * float(p)
-                           : glm::vec3(0.0f);
+            return p > 0.0 ? _throughput * reflectance(_lobe, c, _eta) * float(p) : glm::vec3(0.0f);
         }
         if (!_walker.refracts) return glm::vec3(0.0f);
         const double p = _surface.refracted(v, i, _eta, c) *

@@ -1,6 +1,7 @@
 #include "materialNetwork/cpu/programBuilder.h"
 
 #include "materialNetwork/cpu/lobeSetup.h"
+#include "materialNetwork/layering.h"
 #include "materialNetwork/value.h"
 
 #include <algorithm>
@@ -232,6 +233,28 @@ void ProgramBuilder::bsdfOps(std::vector<bool>& needed) {
         _code->bsdf.push_back(op);
     }
     markTops(_code->bsdf);
+    markLobes(_code->bsdf);
+    if (chosenMethod(_plan.methods, "layering") == "positionFree") markWalked(_code->bsdf);
+}
+
+void ProgramBuilder::markLobes(std::vector<ClosureOp>& ops) const {
+    for (ClosureOp& op : ops) {
+        if (op.lobe >= 0) op.lobes = 1u << op.lobe;
+        for (const int part : {op.a, op.b})
+            if (part >= 0) op.lobes |= ops[size_t(part)].lobes;
+    }
+}
+
+/// A walked layer takes a place among the lobes.
+void ProgramBuilder::markWalked(std::vector<ClosureOp>& ops) const {
+    const std::vector<LayerWalkability> layers = layerWalkability(_plan);
+    for (size_t i = 0; i < ops.size(); ++i) {
+        ClosureOp& op = ops[i];
+        op.walked = op.kind == ClosureKind::Layer && layers[i].walks &&
+                    ops[size_t(op.a)].lobe >= 0 &&
+                    int(_code->lobes.size()) + _code->walkedLayers < Bsdf::maxLobes;
+        _code->walkedLayers += op.walked;
+    }
 }
 
 /// A default that comes from the geometry is the shading point's own.
@@ -320,8 +343,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.prebuilt.probability = 0.0f;
 
     t.constant = true;
-    // Nothing walks beneath a thin wall.
-    const bool flat = closure.thin && closure.kind == ClosureKind::Subsurface;
+    const bool flat = closure.kind == ClosureKind::Subsurface && !walksBeneath(_plan, closure);
     if (flat) t.prebuilt.kind = LobeKind::OrenNayar;
     const char* const* names = lobeParameters(flat ? ClosureKind::OrenNayar : closure.kind);
     for (int i = 0; names[i]; ++i) {

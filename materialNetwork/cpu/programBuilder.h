@@ -31,6 +31,8 @@ private:
     bool isShadingPoints(const Operand& operand, const char* standard) const;
     int frame(const PlanClosure& closure, bool flips, std::vector<bool>& needed);
     void markTops(std::vector<ClosureOp>& ops) const;
+    void markLobes(std::vector<ClosureOp>& ops) const;
+    void markWalked(std::vector<ClosureOp>& ops) const;
     bool isStraight(const PlanClosure& closure) const;
     void setFlags();
 

@@ -57,6 +57,8 @@ struct ClosureOp {
     int a = -1, b = -1;
     int lobe = -1;            ///< index of the lobe, for lobes
     bool needsPassed = false; ///< stands somewhere in a layer's top
+    bool walked = false;      ///< a layer that is walked, see cpu/layerWalk.h
+    uint32_t lobes = 0;       ///< that are part of it, a bit each
     Register factor = 0;      ///< lobe: weight; Mix: mix; Multiply: factor; EDF: value
                               ///< VDF: absorption
     Register scattering = 0, anisotropy = 0; ///< of an AnisotropicVdf
@@ -86,6 +88,7 @@ struct ProgramCode {
     Register opacity = 0;
     Register displacement = 0, displacementScale = 0;
     bool displacementIsVector = false;
+    int walkedLayers = 0;          ///< of `bsdf`
     bool hasStraight = false;      ///< a lobe is straight
     bool wallsHaveTwoFaces = true; ///< thin walls
     LayerTransmittance layerTransmittance = LayerTransmittance::Largest;

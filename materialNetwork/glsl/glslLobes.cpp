@@ -19,6 +19,7 @@ std::string glslLobePrefix(LobeKind kind) {
     case LobeKind::Ward: return "ward";
     case LobeKind::CookTorrance: return "cookTorrance";
     case LobeKind::ChiangHair: return "chiangHair";
+    case LobeKind::Layered: break; // is never among the lobes of a program
     }
     return "orenNayar";
 }
@@ -47,6 +48,7 @@ std::string glslLobeSetup(const LobeTemplate& t,
     const std::string tail =
         ", " + retro + ", " + mode + ", " + flag(t.fused) + ", " + std::to_string(t.compensate);
     switch (t.prebuilt.kind) {
+    case LobeKind::Layered: break;
     case LobeKind::OrenNayar:
         return "orenNayarModel(" + color(0) + ", " + number(1) + ", " + retro + ", " +
                std::to_string(int(t.diffuse)) + ")";

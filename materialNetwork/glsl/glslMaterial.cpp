@@ -39,6 +39,7 @@ public:
         line("float lobeChance[" + number(lobes) + "];");
         line("Frame frames[" + number(std::max(1, int(_code.frames.size()))) + "];");
         line("vec3 straight;");
+        leaveOutWalks();
         placeFunction();
         setupFunction();
         presenceFunction();
@@ -108,6 +109,21 @@ private:
                     line("vec4 r" + number(i.output + int(k)) + ";");
         }
         _out.parameters.resize(parameters);
+    }
+
+    /// Walks have values that are random.
+    void leaveOutWalks() {
+        for (const LobeTemplate& t : _code.lobes)
+            if (t.walks && (t.prebuilt.kind == LobeKind::Conductor ||
+                            t.prebuilt.kind == LobeKind::Dielectric ||
+                            t.prebuilt.kind == LobeKind::Schlick)) {
+                _out.leftOut.push_back("energyCompensation=randomWalk is for the path tracer alone; "
+                                       "turquin is shown");
+                break;
+            }
+        if (_code.walkedLayers > 0)
+            _out.leftOut.push_back("layering=positionFree is for the path tracer alone; "
+                                   "albedoScaling is shown");
     }
 
     /// What has no GLSL becomes the value that it has at one point.

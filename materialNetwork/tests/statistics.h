@@ -55,13 +55,12 @@ inline double deviations(const Cells& sampled, const Cells& evaluated) {
     for (int i = 0; i < Cells::count; ++i) {
         const Mean& cell = sampled.cell[i];
         const double larger = std::max(cell.mean(), evaluated.cell[i].mean());
-        if (larger * cell.count > 20.0)
-            most = std::max(most, deviations(cell, evaluated.cell[i]));
+        if (larger * cell.count > 20.0) most = std::max(most, deviations(cell, evaluated.cell[i]));
     }
     return most;
 }
 
-/// What samples of a material find, by where they go.
+/// What samples of a material find, by where they go, without mirrors.
 inline Cells sampledCells(const MaterialProgram& program, const glm::vec3& wo, int samples,
                           uint32_t seed) {
     ShadingPoint point;
@@ -74,7 +73,8 @@ inline Cells sampledCells(const MaterialProgram& program, const glm::vec3& wo, i
         bsdf.seed(uint32_t(i));
         const glm::vec3 u = random.next3();
         const BsdfSample s = bsdf.sample(u, random.next());
-        cells.add(s.event ? s.wi : glm::vec3(0, 0, 1), s.event ? double(s.weight.x) : 0.0);
+        const bool counts = s.event != 0 && (s.event & sh::LOBE_DELTA) == 0;
+        cells.add(counts ? s.wi : glm::vec3(0, 0, 1), counts ? double(s.weight.x) : 0.0);
     }
     return cells;
 }

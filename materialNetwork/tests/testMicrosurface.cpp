@@ -119,10 +119,10 @@ TEST(Microsurface, MixturesStayUnbiased) {
         return makeNode(name, "ND_mix_bsdf", {{"mix", number(amount)}},
                         {{"fg", {fg, ""}}, {"bg", {bg, ""}}});
     };
-    expectSamplesAndValuesAgree(bsdfNetwork({rough, diffuse, sheen,
-                                             mixed("two", "rough", "diffuse", 0.4f),
-                                             mixed("bsdf", "sheen", "two", 0.3f)}),
-                                direction(40.0f), "metal, diffuse and sheen");
+    expectSamplesAndValuesAgree(
+        bsdfNetwork({rough, diffuse, sheen, mixed("two", "rough", "diffuse", 0.4f),
+                     mixed("bsdf", "sheen", "two", 0.3f)}),
+        direction(40.0f), "metal, diffuse and sheen");
 }
 
 // The density may be any that is positive where light goes.

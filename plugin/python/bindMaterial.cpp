@@ -109,6 +109,32 @@ Floats singles(size_t n) {
     return Floats(std::vector<size_t>{n});
 }
 
+/// Values that are random are shown as means over so many.
+constexpr uint32_t stochasticEvaluations = 256, stochasticAlbedos = 64;
+
+BsdfEval meanEval(Bsdf& bsdf, const glm::vec3& wi) {
+    if (!bsdf.stochastic()) return bsdf.eval(wi);
+    BsdfEval mean;
+    for (uint32_t seed = 0; seed < stochasticEvaluations; ++seed) {
+        bsdf.seed(seed);
+        const BsdfEval e = bsdf.eval(wi);
+        mean.diffuse += e.diffuse / float(stochasticEvaluations);
+        mean.specular += e.specular / float(stochasticEvaluations);
+        mean.pdf = e.pdf;
+    }
+    return mean;
+}
+
+glm::vec3 meanAlbedo(Bsdf& bsdf) {
+    if (!bsdf.stochastic()) return bsdf.albedo();
+    glm::vec3 mean(0.0f);
+    for (uint32_t seed = 0; seed < stochasticAlbedos; ++seed) {
+        bsdf.seed(seed);
+        mean += bsdf.albedo() / float(stochasticAlbedos);
+    }
+    return mean;
+}
+
 py::tuple eval(const MaterialProbe& probe, const Floats& wo, const Floats& wi) {
     const size_t n = rows(wo, 3, "wo");
     sameRows(n, rows(wi, 3, "wi"));
@@ -121,7 +147,7 @@ py::tuple eval(const MaterialProbe& probe, const Floats& wo, const Floats& wi) {
             Bsdf bsdf;
             probe.program->evaluate(probe.seenFrom(row(outgoing, i)), bsdf);
             const glm::vec3 direction = row(incoming, i);
-            const BsdfEval e = bsdf.eval(direction);
+            const BsdfEval e = meanEval(bsdf, direction);
             const float cosine = std::abs(direction.z);
             store(values, i, cosine > 0.0f ? (e.diffuse + e.specular) / cosine : glm::vec3(0.0f));
             densities[i] = e.pdf;
@@ -145,6 +171,7 @@ py::dict sample(const MaterialProbe& probe, const Floats& wo, const Floats& u) {
             Bsdf bsdf;
             probe.program->evaluate(probe.seenFrom(row(outgoing, i)), bsdf);
             const float* r = random + 4 * i;
+            bsdf.seed(uint32_t(i));
             const BsdfSample s = bsdf.sample({r[0], r[1], r[2]}, r[3]);
             store(directions, i, s.event ? s.wi : glm::vec3(0.0f));
             store(weights, i, s.event ? s.weight : glm::vec3(0.0f));
@@ -178,7 +205,7 @@ Floats albedo(const MaterialProbe& probe, const Floats& wo) {
     return perDirection(wo, [&](const glm::vec3& direction) {
         Bsdf bsdf;
         probe.program->evaluate(probe.seenFrom(direction), bsdf);
-        return bsdf.albedo();
+        return meanAlbedo(bsdf);
     });
 }
 
@@ -281,6 +308,15 @@ void bindMaterial(py::module_& m) {
              "wi, weight (f cos / pdf), pdf and event (0: no sample) for rows of four random "
              "numbers.")
         .def("albedo", &albedo, py::arg("wo"), "Directional albedo, delta lobes included.")
+        .def_property_readonly(
+            "stochastic",
+            [](const MaterialProbe& probe) {
+                Bsdf bsdf;
+                probe.program->evaluate(probe.seenFrom({0, 0, 1}), bsdf);
+                return bsdf.stochastic();
+            },
+            "Whether a lobe has no formula: eval() and albedo() are then means over random walks "
+            "(256 and 2048 of them), and densities estimates.")
         .def("emission", &emission, py::arg("wo"))
         .def("move_to", &MaterialProbe::moveTo, py::arg("u"), py::arg("v"),
              "Chooses the point (u, v) of the unit square in the xy plane for all that follows.")

@@ -9,6 +9,9 @@ Directions are unit vectors in the shading frame (z normal, x tangent) and point
 surface; others are made unit vectors. With - for a direction, sets are read from standard input,
 one per line: wo and wi as six numbers for eval, wo for sample and albedo; where one of the two is
 given as a flag, the line holds the other alone.
+
+Methods that walk (randomWalk, positionFree) have no formula: f is then the mean of 256 walks, an
+albedo that of 2048, and densities are estimates that weigh strategies against each other.
 """
 import json
 import sys
@@ -50,6 +53,8 @@ def run(arguments):
     probe = _probe(arguments.backend, found[0][1], chosen)
     for line in statistics.lines(warnings + probe.warnings):
         print("warning: " + line, file=sys.stderr)
+    if getattr(probe, "stochastic", False):
+        print("note: a method walks at random; values are means over walks, densities are estimates", file=sys.stderr)
     out = sys.stdout
     if arguments.json not in (None, "-"):
         out = open(arguments.json, "w", encoding="utf-8")

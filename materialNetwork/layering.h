@@ -1,0 +1,21 @@
+#pragma once
+
+#include "materialNetwork/plan.h"
+
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// What the method positionFree of the choice point layering can do with a layer.
+struct LayerWalkability {
+    bool walks = false;
+    std::string reason; ///< why not
+};
+
+/// For every closure of a plan, whether it is a layer whose light can be walked between its top and
+/// its base: the top is one interface that reflects, and light does not pass the base straight, or
+/// go beneath it, or through a lobe that is the other half of the same interface.
+std::vector<LayerWalkability> layerWalkability(const Plan& plan);
+
+} // namespace patina

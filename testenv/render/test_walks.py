@@ -1,0 +1,91 @@
+"""Methods that walk at random, as the path tracer renders them: values from light samples and samples of the material
+are weighed against each other by densities that are estimates, and nothing may come out brighter or darker for it."""
+import numpy as np
+import pytest
+
+from rendering import color, patina, record, scene
+
+SIZE, SAMPLES = 24, 128
+DIFFUSE = '''                uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
+                color3f inputs:color = (0.8, 0.8, 0.8)
+                float inputs:roughness = 0
+                token outputs:out
+            }
+'''
+METAL = '''                uniform token info:id = "ND_conductor_bsdf"
+                color3f inputs:ior = (%g, %g, %g)
+                color3f inputs:extinction = (2.3, 2.3, 2.3)
+                float2 inputs:roughness = (0.8, 0.8)
+                token outputs:out
+            }
+'''
+COATED = '''                uniform token info:id = "ND_layer_bsdf"
+                token inputs:top.connect = </World/materials/white/coat.outputs:out>
+                token inputs:base.connect = </World/materials/white/base.outputs:out>
+                token outputs:out
+            }
+
+            def Shader "coat"
+            {
+                uniform token info:id = "ND_dielectric_bsdf"
+                float2 inputs:roughness = (%g, %g)
+                token outputs:out
+            }
+
+            def Shader "base"
+            {
+                uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
+                color3f inputs:color = (1, 1, 1)
+                token outputs:out
+            }
+'''
+DOME = '''    def DomeLight "white"
+    {
+        float inputs:intensity = 1
+    }
+'''
+SUN = '''    def DistantLight "white"
+    {
+        float inputs:angle = 0
+        float inputs:intensity = 1
+    }
+'''
+
+
+def stage(folder, bsdf, light=DOME):
+    with open(scene("furnace"), encoding="utf-8") as file:
+        text = file.read()
+    assert DIFFUSE in text and DOME in text
+    path = folder / "stage.usda"
+    path.write_text(text.replace(DIFFUSE, bsdf).replace(DOME, light))
+    return path
+
+
+def render(path, folder, method, samples=SAMPLES):
+    """:returns: mean over the middle of the sphere, and its standard error"""
+    image = folder / "image.exr"
+    record(path, image, "--imageWidth", SIZE, "--imageHeight", SIZE, "--samples", samples, "--filterRadius", 0.5,
+           "--method", method)
+    middle = slice(SIZE // 3, -(SIZE // 3))
+    found = color(image)[middle, middle, 0]
+    return found.mean(), found.std() / np.sqrt(found.size)
+
+
+@pytest.mark.parametrize("bsdf, method", [(METAL % (0, 0, 0), "energyCompensation=randomWalk"),
+                                          (COATED % (0, 0), "layering=positionFree"),
+                                          (COATED % (0.3, 0.3), "layering=positionFree")])
+def test_white_under_a_white_dome_is_white(tmp_path, bsdf, method):
+    mean, error = render(stage(tmp_path, bsdf), tmp_path, method)
+    assert abs(mean - 1.0) < 4.0 * error + 2e-3
+
+
+def test_light_samples_alone_find_the_mean_value(tmp_path):
+    """A sun of no width is found by light samples only: the sphere's middle shows f, whose mean `bsdf eval` prints."""
+    path = stage(tmp_path, METAL % (1.1, 1.1, 1.1), SUN)
+    image = tmp_path / "image.exr"
+    record(path, image, "--imageWidth", 5, "--imageHeight", 5, "--samples", 2048, "--filterRadius", 0.05, "--method",
+           "energyCompensation=randomWalk")
+    f = patina("bsdf", "eval", path, "--wo", "0,0,1", "--wi", "0,0,1", "--method",
+               "energyCompensation=randomWalk").stdout.split()
+    # 256 walks and 2048: both noisier than 1 %, and single scattering is most of it.
+    assert color(image)[2, 2, 0] == pytest.approx(float(f[1]), rel=0.05)

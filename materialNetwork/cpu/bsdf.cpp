@@ -88,7 +88,7 @@ BsdfSample Bsdf::sampleLobe(const BsdfLobe& l, const glm::vec3& u, glm::vec3& lo
         s = lobeSample(l, f.wo, u);
     }
     local = s.wi;
-    if (s.event == 0) return result;
+    if (s.event == 0 || !(s.pdf > 0.0f)) return result;
     result.wi = f.toWorld(s.wi);
     const bool reflects = (s.event & sh::LOBE_REFLECT) != 0;
     if (((glm::dot(result.wi, _geometricNormal) > 0.0f) == _woOutside) != reflects) return result;
@@ -107,6 +107,9 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
     int chosen = 0;
     for (float sum = _lobes[0].probability; chosen + 1 < _lobeCount && uLobe >= sum;)
         sum += _lobes[++chosen].probability;
+    // Rounding may leave uLobe beyond all of them, and the last never to be drawn.
+    while (chosen > 0 && !(_lobes[chosen].probability > 0.0f))
+        --chosen;
     const BsdfLobe& l = _lobes[chosen];
     if (_walks && l.kind == LobeKind::Subsurface) {
         result.lobe = chosen;
@@ -150,11 +153,12 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
         (l.stochastic ? estimate : exact) += other.probability * e.pdf;
         if (!l.stochastic) value += other.weight * e.value;
     }
+    if (!(l.stochastic || exact > 0.0f)) return BsdfSample();
     result.pdf = exact + estimate;
     if (l.stochastic)
         result.weight = l.weight * s.weight / l.probability;
     else
-        result.weight = exact > 0.0f ? value / exact : glm::vec3(0.0f);
+        result.weight = value / exact;
     return result;
 }
 

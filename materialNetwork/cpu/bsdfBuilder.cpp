@@ -51,9 +51,14 @@ glm::vec3 keptFromBase(const ProgramCode& code, const BsdfLobe& l, const glm::ve
     return unit(tinted ? l.albedo : kept);
 }
 
-/// Authored factors: negative and NaN count as 0.
+/// Authored factors: negative and NaN count as 0, huge ones as COLOR_MAX.
 glm::vec3 factor(const glm::vec4& c) {
-    return sh::max(glm::vec3(c), glm::vec3(0.0f));
+    return sh::lobeColor(glm::vec3(c));
+}
+
+/// Emission, which may be far brighter than a colour.
+glm::vec3 emitted(const glm::vec3& c) {
+    return sh::min(sh::max(c, glm::vec3(0.0f)), glm::vec3(sh::EMISSION_MAX));
 }
 
 } // namespace
@@ -349,17 +354,17 @@ glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* regi
             break;
         }
         case ClosureKind::Add: value[i] = of(op.a) + of(op.b); break;
-        case ClosureKind::Multiply: value[i] = of(op.a) * factor(registers[op.factor]); break;
+        case ClosureKind::Multiply: value[i] = of(op.a) * emitted(glm::vec3(registers[op.factor])); break;
         // Both sides emit alike.
         case ClosureKind::ConicalEdf: {
             const glm::vec3 n = normalOf(op, registers, normal);
-            value[i] = factor(registers[op.factor]) * sh::edfConical(registers[op.first].x,
+            value[i] = emitted(glm::vec3(registers[op.factor])) * sh::edfConical(registers[op.first].x,
                                                                      registers[op.second].x,
                                                                      std::fabs(glm::dot(wo, n)));
             break;
         }
         case ClosureKind::MeasuredEdf:
-            value[i] = factor(registers[op.factor]);
+            value[i] = emitted(glm::vec3(registers[op.factor]));
             if (op.profile)
                 value[i] *= measured(*op.profile, wo, normalOf(op, registers, normal), tangent);
             break;
@@ -368,8 +373,9 @@ glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* regi
                                                  glm::vec3(registers[op.first]),
                                                  registers[op.second].x, glm::dot(wo, normal));
             break;
-        default: value[i] = factor(registers[op.factor]);
+        default: value[i] = glm::vec3(registers[op.factor]);
         }
+        value[i] = emitted(value[i]);
     }
     return value[n - 1];
 }

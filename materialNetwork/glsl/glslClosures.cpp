@@ -29,10 +29,10 @@ std::string glslLinearClosure(const std::vector<ClosureOp>& ops, const std::stri
             break;
         case ClosureKind::Add: value = of(op.a) + " + " + of(op.b); break;
         case ClosureKind::Multiply:
-            value = of(op.a) + " * max(" + reg(op.factor) + ".xyz, vec3(0.0))";
+            value = of(op.a) + " * emitted(" + reg(op.factor) + ".xyz)";
             break;
         case ClosureKind::ConicalEdf: {
-            value = "max(" + reg(op.factor) + ".xyz, vec3(0.0)) * edfConical(";
+            value = "emitted(" + reg(op.factor) + ".xyz) * edfConical(";
             value += reg(op.first) + ".x, ";
             value += reg(op.second) + ".x, abs(dot(wo, ";
             value += op.normal >= 0 ? "unitOr(" + reg(op.normal) + ".xyz, point.normal)"
@@ -45,9 +45,9 @@ std::string glslLinearClosure(const std::vector<ClosureOp>& ops, const std::stri
             value += reg(op.first) + ".xyz, ";
             value += reg(op.second) + ".x, dot(wo, point.normal))";
             break;
-        default: value = "max(" + reg(op.factor) + ".xyz, vec3(0.0))";
+        default: value = reg(op.factor) + ".xyz";
         }
-        line(text, "    vec3 " + of(i) + " = " + value + ";");
+        line(text, "    vec3 " + of(i) + " = emitted(" + value + ");");
     }
     result = of(count - 1);
     return text;

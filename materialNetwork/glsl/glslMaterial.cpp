@@ -310,7 +310,7 @@ private:
                 give(op.a, w);
                 give(op.b, w);
                 break;
-            case ClosureKind::Multiply: give(op.a, w + " * max(" + f + ", vec3(0.0))"); break;
+            case ClosureKind::Multiply: give(op.a, w + " * factor(" + f + ")"); break;
             default:
                 if (op.lobe >= 0)
                     line("    lobeWeight[" + number(op.lobe) + "] = " + w + " * " + f + ";");

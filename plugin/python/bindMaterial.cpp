@@ -11,6 +11,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -326,10 +327,13 @@ void bindMaterial(py::module_& m) {
                                [](const MaterialProbe& p) { return p.program->usesUv(); })
         .def_property_readonly("constant",
                                [](const MaterialProbe& p) { return p.program->constant(); })
-        .def("opacity",
-             [](const MaterialProbe& p) {
-                 return p.program->opacity(p.seenFrom(glm::vec3(0, 0, 1)));
-             })
+        .def(
+            "opacity",
+            [](const MaterialProbe& p, const std::array<float, 3>& wo) {
+                return p.program->opacity(p.seenFrom({wo[0], wo[1], wo[2]}));
+            },
+            py::arg("wo") = std::array<float, 3>{0.0f, 0.0f, 1.0f},
+            "Presence: the chance that light meets the surface rather than pass straight on.")
         .def_property_readonly("warnings", &warningsOf);
 
     m.def(

@@ -8,6 +8,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
@@ -118,11 +120,10 @@ Floats emission(const RasterProbe& probe, const Floats& wo) {
                   [](const RasterBsdf::Answer& a, size_t) { return glm::vec3(a.emission); });
 }
 
-float opacity(const RasterProbe& probe) {
-    Floats up(std::vector<size_t>{1, 3});
-    up.mutable_data()[0] = up.mutable_data()[1] = 0.0f;
-    up.mutable_data()[2] = 1.0f;
-    return answers(probe, up, nullptr, 0)[0].specular.w;
+float opacity(const RasterProbe& probe, const std::array<float, 3>& wo) {
+    Floats row(std::vector<size_t>{1, 3});
+    std::copy(wo.begin(), wo.end(), row.mutable_data());
+    return answers(probe, row, nullptr, 0)[0].specular.w;
 }
 
 py::list warningsOf(const RasterProbe& probe) {
@@ -150,7 +151,7 @@ void bindRasterBsdf(py::module_& m) {
         .def("sample", &sample, py::arg("wo"), py::arg("u"))
         .def("albedo", &albedo, py::arg("wo"))
         .def("emission", &emission, py::arg("wo"))
-        .def("opacity", &opacity)
+        .def("opacity", &opacity, py::arg("wo") = std::array<float, 3>{0.0f, 0.0f, 1.0f})
         .def(
             "move_to",
             [](RasterProbe& probe, float u, float v) {

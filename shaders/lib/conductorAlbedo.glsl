@@ -7,8 +7,8 @@
 const vec3 CONDUCTOR_COS = vec3(0.0894427191f, 0.252982213f, 0.464758002f);
 const float CONDUCTOR_COS3 = 0.715541753f;
 
-// f0 to f5: the reflectance at cosine 0, those of CONDUCTOR_COS, and 1.
-PATINA_FN vec3 curveMean(FacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3 f3, vec3 f4, vec3 f5) {
+// f0 to f5: the reflectance at cosine 0, those of CONDUCTOR_COS, and 1; or what is added to one.
+PATINA_FN vec3 curveMeanAdded(FacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3 f3, vec3 f4, vec3 f5) {
     vec3 a1 = f0 * 0.0815740987f - f1 * 0.591924183f + f2 * 3.18853164f - f3 * 11.5559072f +
               f4 * 29.4486774f - f5 * 20.5709518f;
     vec3 a2 = f0 * -0.249220068f + f1 * 1.80723127f - f2 * 9.67758793f + f3 * 33.7002491f -
@@ -19,9 +19,12 @@ PATINA_FN vec3 curveMean(FacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3 f3, vec3 
               f4 * 35.1275446f + f5 * 13.7307572f;
     vec3 a5 = f0 * 1.9835266f - f1 * 6.63279535f + f2 * 11.8655679f - f3 * 13.9281384f +
               f4 * 10.6694767f - f5 * 3.95763754f;
-    vec3 mean = f5 + a1 * facetMean(p, 1.7f) + a2 * facetMean(p, 2.5f) +
-                a3 * facetMean(p, 5.0f) + a4 * facetMean(p, 10.0f) + a5 * facetMean(p, 20.0f);
-    return min(max(mean, vec3(0.0f)), vec3(1.0f));
+    return f5 + a1 * facetMean(p, 1.7f) + a2 * facetMean(p, 2.5f) + a3 * facetMean(p, 5.0f) +
+           a4 * facetMean(p, 10.0f) + a5 * facetMean(p, 20.0f);
+}
+
+PATINA_FN vec3 curveMean(FacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3 f3, vec3 f4, vec3 f5) {
+    return min(max(curveMeanAdded(p, f0, f1, f2, f3, f4, f5), vec3(0.0f)), vec3(1.0f));
 }
 
 PATINA_FN vec3 conductorMean(FacetPlace p, vec3 n, vec3 k) {

@@ -39,6 +39,9 @@ const float TINY = 1e-20f;
 // Input range of tints and colours: negative and NaN become 0, Inf becomes this.
 const float COLOR_MAX = 65504.0f;
 
+// The same of emission: the product of two still is a float.
+const float EMISSION_MAX = 1e15f;
+
 // Smallest roughness of a sheen lobe; its exponent is 100 there.
 const float SHEEN_ROUGHNESS_MIN = 0.01f;
 

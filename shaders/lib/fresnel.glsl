@@ -49,7 +49,8 @@ PATINA_FN float fresnelConductorChannel(float c, float n, float k) {
     float a = safeSqrt(0.5f * (ab + t0));
     float ac = 2.0f * a * c;
     float rs = (ab + c2 - ac) / max(ab + c2 + ac, TINY);
-    float rp = (c2 * ab + s2 * s2 - ac * s2) / max(c2 * ab + s2 * s2 + ac * s2, TINY);
+    // n = k = 0 reflects all, at normal incidence too, where both parts vanish.
+    float rp = (c2 * ab + s2 * s2 - ac * s2 + TINY) / (c2 * ab + s2 * s2 + ac * s2 + TINY);
     return clamp(0.5f * rs * (1.0f + rp), 0.0f, 1.0f);
 }
 

@@ -149,15 +149,52 @@ PATINA_FN vec3 schlickNormal(SchlickLobe l) {
     return l.fresnel.f0;
 }
 
-// Mean reflectance over the facets seen, from the tables.
+// What a film adds to Schlick's curve, or the reflectance of a dielectric under one.
+PATINA_FN vec3 schlickSmoothPart(SchlickLobe l, float c, float eta) {
+    if (l.exact) return schlickReflectance(l, c, eta);
+    return filmReflectance(l.film, c, l.filmBase, vec3(0.0f)) - schlickBare(l.filmBase, c);
+}
+
+// Mean reflectance over the facets seen, from the tables; of Schlick's curve, from outside. The
+// curve has moments of its own, however steep it is; what a film adds is smooth.
 PATINA_FN vec3 schlickTabled(SchlickLobe l, FacetPlace p, float eta) {
+    vec3 mean = vec3(0.0f);
+    if (!l.exact) mean = schlickMean(p, l.fresnel);
     if (l.exact || l.film.thickness > 0.0f)
-        return curveMean(p, schlickReflectance(l, 0.0f, eta),
-                         schlickReflectance(l, CONDUCTOR_COS.x, eta),
-                         schlickReflectance(l, CONDUCTOR_COS.y, eta),
-                         schlickReflectance(l, CONDUCTOR_COS.z, eta),
-                         schlickReflectance(l, CONDUCTOR_COS3, eta), schlickOutside(l, 1.0f));
-    return schlickMean(p, l.fresnel);
+        mean += curveMeanAdded(
+            p, schlickSmoothPart(l, 0.0f, eta), schlickSmoothPart(l, CONDUCTOR_COS.x, eta),
+            schlickSmoothPart(l, CONDUCTOR_COS.y, eta), schlickSmoothPart(l, CONDUCTOR_COS.z, eta),
+            schlickSmoothPart(l, CONDUCTOR_COS3, eta), schlickSmoothPart(l, 1.0f, l.ior));
+    return min(max(mean, vec3(0.0f)), vec3(1.0f));
+}
+
+// A curve whose transmission is no dielectric's.
+PATINA_FN bool schlickOdd(SchlickLobe l) {
+    SchlickFresnel s = l.fresnel;
+    float dip = s.dip.x + s.dip.y + s.dip.z;
+    return !l.exact && (dip > 0.0f || lobeMean(s.f90) < 1.0f || s.exponent != 5.0f);
+}
+
+// What such a curve lets through over what a dielectric of that ior does, over all facets seen: T
+// also meets those that R sends below the horizon, so that R's mean says little of it.
+PATINA_FN_RARE vec3 schlickPassedShare(SchlickLobe l, vec3 wo, float eta) {
+    vec3 o = vec3(wo.x, wo.y, min(abs(wo.z), 1.0f));
+    vec3 curve = vec3(0.0f);
+    float bare = 0.0f;
+    for (int j = 0; j < ALBEDO_SEEN; ++j) {
+        float c = dot(o, seenFacet(o, l.alpha, l.facets, j));
+        curve += vec3(1.0f) - schlickReflectance(l, clamp(c, 0.0f, 1.0f), eta);
+        bare += 1.0f - fresnelDielectric(clamp(c, 0.0f, 1.0f), eta);
+    }
+    return curve / max(bare, ALBEDO_MIN * float(ALBEDO_SEEN));
+}
+
+// The same from the denser side, where a dielectric of that ior lets `passed` through: the
+// reflectance rises to 1 as that dielectric's does.
+PATINA_FN vec3 schlickTabledDense(SchlickLobe l, vec3 wo, float eta, float passed) {
+    if (schlickOdd(l)) return vec3(1.0f) - min(schlickPassedShare(l, wo, eta) * passed, vec3(1.0f));
+    float f0 = sqr((l.ior - 1.0f) / (l.ior + 1.0f));
+    return mix(vec3(1.0f), schlickNormal(l), clamp(passed / (1.0f - f0), 0.0f, 1.0f));
 }
 
 PATINA_FN bool schlickAdds(SchlickLobe l, float z) {
@@ -188,8 +225,7 @@ PATINA_FN vec4 schlickChosen(SchlickLobe l, vec3 wo, float eta, int method) {
 }
 
 // How T's albedo follows from the dielectric tables: the kernel of T is that of the dielectric with
-// the same ior, and its mean reflectance is taken as that of R. From the inside so is R's, with the
-// dielectric's mean rise from F0 to 1 in place of the curve's.
+// the same ior, and its mean reflectance is taken as that of R where the curve is much like it.
 PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
     SchlickEnergy e;
     float z = wo.z;
@@ -214,8 +250,9 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
         FacetPlace p = facetPlace(wo, l.alpha, l.facets);
         white = facetAlbedo0(p);
         ess = select(white, ess, tabled);
-        if (tabled) mean = schlickTabled(l, p, eta);
         if (!reflectsOnly) a = facetInterface(p, eta);
+        if (tabled && thinner) mean = schlickTabled(l, p, eta);
+        if (tabled && !thinner) mean = schlickTabledDense(l, wo, eta, 1.0f - a.x);
     }
     if (schlickAdds(l, z)) {
         e.r = mean * ess + multiLobe(l.favg, ess, l.alpha, l.facets).color;
@@ -226,11 +263,9 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
     e.kr = vec3(1.0f) + gain * ((1.0f - ess) / max(ess, ALBEDO_MIN));
     e.r = mean * e.kr * ess;
     if (reflectsOnly) return e;
-    float f0 = sqr((l.ior - 1.0f) / (l.ior + 1.0f));
-    float rise = clamp((a.x - f0) / (1.0f - f0), 0.0f, 1.0f);
-    if (tabled && !thinner) mean = mix(schlickNormal(l), vec3(1.0f), rise);
     vec3 er = mean * ess;
     vec3 et = (vec3(1.0f) - mean) * min(white * a.y / max(1.0f - a.x, ALBEDO_MIN), 1.0f);
+    if (schlickOdd(l)) et = min(schlickPassedShare(l, wo, eta) * (white * a.y), vec3(1.0f));
     if (compensates) {
         vec3 both = vec3(1.0f) / max(er + et, vec3(ALBEDO_MIN));
         vec3 rest = max(vec3(1.0f) - er * e.kr, vec3(0.0f)) / max(et, vec3(ALBEDO_MIN));

@@ -67,6 +67,16 @@ float luminance(vec3 c) {
 float unit(float x) {
     return x > 0.0 ? min(x, 1.0) : 0.0;
 }
+// Authored factors of BSDFs and EDFs: negative and NaN count as 0. Drivers may pick either of max()
+// where one is NaN.
+vec3 factor(vec3 c) {
+    return vec3(c.x > 0.0 ? min(c.x, COLOR_MAX) : 0.0, c.y > 0.0 ? min(c.y, COLOR_MAX) : 0.0,
+                c.z > 0.0 ? min(c.z, COLOR_MAX) : 0.0);
+}
+vec3 emitted(vec3 c) {
+    return vec3(c.x > 0.0 ? min(c.x, EMISSION_MAX) : 0.0, c.y > 0.0 ? min(c.y, EMISSION_MAX) : 0.0,
+                c.z > 0.0 ? min(c.z, EMISSION_MAX) : 0.0);
+}
 // Authored coefficients of media: negative and NaN count as 0.
 vec3 coefficient(vec3 c) {
     return vec3(c.x > 0.0 ? min(c.x, 1e15) : 0.0, c.y > 0.0 ? min(c.y, 1e15) : 0.0,
@@ -310,7 +320,8 @@ MaterialSample finishSample(MaterialSample s, LobeSample l, int drawn, vec3 weig
     e.diffuse += s.diffuse ? own : vec3(0.0);
     e.specular += s.diffuse ? vec3(0.0) : own;
     s.pdf = e.pdf + chance * l.pdf;
-    float inverse = (l.event & LOBE_DELTA) != 0 ? 1.0 : s.pdf > 0.0 ? 1.0 / s.pdf : 0.0;
+    if (!(s.pdf > 0.0)) return materialSampleNone();
+    float inverse = (l.event & LOBE_DELTA) != 0 ? 1.0 : 1.0 / s.pdf;
     s.diffuseWeight = e.diffuse * inverse;
     s.specularWeight = e.specular * inverse;
     s.weight = s.diffuseWeight + s.specularWeight;

@@ -46,6 +46,7 @@ VDFS = {
     "absorption_vdf": {"absorption": ("vector3", 0, 3)},
     "anisotropic_vdf": {"absorption": ("vector3", 0, 3), "scattering": ("vector3", 0, 3), "anisotropy": ("float", -1, 1)},
 }
+BURLEY_GAIN = 1.56  # of a white lobe of roughness 1 at grazing angles: the model as it was published
 SIZES = {"float": 1, "vector2": 2, "vector3": 3, "color3": 3}
 
 
@@ -58,6 +59,8 @@ class Graph:
 
     bound: largest colour that any lobe may reach, added up where closures are added; infinite where colours are huge.
     loses: normals are mapped, so that light may be lost below the horizon.
+    thin: light may pass straight through; then albedos are of what does not.
+    ward: the albedo of Ward's lobe is that of an isotropic one.
     """
 
     def __init__(self, seed):
@@ -66,7 +69,7 @@ class Graph:
         self.lines = []
         self.kinds = []  # categories of closures in it
         self.count = 0
-        self.loses = False
+        self.loses = self.thin = False
         surface = {}
         bsdf, self.bound = self.bsdf(self.random.randint(1, 4))
         surface["bsdf"] = ("BSDF", bsdf, "")
@@ -76,6 +79,7 @@ class Graph:
             surface["opacity"] = self.value("float", 0, 1)
         if self.random.random() < 0.2:
             surface["thin_walled"] = ("boolean", "", "true")
+            self.thin = True
         name = self.node("surface", "surfaceshader", surface)
         self.node("surfacematerial", "material", {"surfaceshader": ("surfaceshader", name, "")})
 
@@ -92,6 +96,10 @@ class Graph:
             self.lines.append(f'    <input name="{key}" type="{type_}" {given}/>')
         self.lines.append(f"  </{category}>")
         return name
+
+    @property
+    def ward(self):
+        return "patina_ward_bsdf" in self.kinds
 
     # Values ---------------------------------------------------------------------------------------------------------
 
@@ -112,12 +120,14 @@ class Graph:
     def pattern(self, kind, low, high):
         written = lambda: (kind, "", ", ".join(map(number, self.literal(kind, low, high))))
         choice = self.random.randrange(5)
-        if choice == 0:  # no number: 0 / 0, folded when compiling, or found while shading
-            zero = (kind, "", ", ".join(["0"] * SIZES[kind]))
-            below = zero
+        if choice == 0:  # no number: infinity less itself, folded when compiling, or found while shading
+            huge = (kind, "", ", ".join(["3e38"] * SIZES[kind]))
             if kind == "vector3" and self.random.random() < 0.7:
-                below = (kind, self.node("position", kind, {}), "")
-            return self.node("divide", kind, {"in1": below, "in2": below})
+                huge = (kind, self.node("add", kind, {"in1": ("vector3", self.node("position", kind, {}), ""), "in2": huge}), "")
+            infinite = (kind, self.node("multiply", kind, {"in1": huge, "in2": huge}), "")
+            if self.random.random() < 0.25:
+                return infinite[1]
+            return self.node("subtract", kind, {"in1": infinite, "in2": infinite})
         if choice == 1:
             return self.node("mix", kind, {"fg": written(), "bg": written(), "mix": ("float", "", "0.5")})
         if choice == 2:
@@ -180,6 +190,8 @@ class Graph:
         inputs, bound = self.inputs(table[category])
         if inputs.get("form", ("", "", ""))[2] == "exact":
             bound = float("inf")  # Ward's exact form, as it was printed
+        if category == "burley_diffuse_bsdf":
+            bound *= BURLEY_GAIN
         return self.node(category, kind, inputs), bound
 
     def bsdf(self, depth):

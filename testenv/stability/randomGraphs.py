@@ -30,15 +30,15 @@ def load(patina, text):
     return networks[0]
 
 
-def failures(patina, network, bound, loses, methods, raster=False):
+def failures(patina, network, graph, methods, raster=False):
     """:returns: list of what failed on the processor, and where asked for on the driver"""
     probe = patina.MaterialProbe(network, methods)
-    found = graphChecks.check(probe, bound)
+    found = graphChecks.check(probe, graph)
     if methods.get("directionalAlbedo") not in ROUGH_GUESSES:
-        found += graphChecks.check_furnace(probe, bound, loses)
+        found += graphChecks.check_furnace(probe, graph)
     if raster:
         other = patina.RasterProbe(network, methods)
-        found += ["raster: " + line for line in graphChecks.check(other, bound)]
+        found += ["raster: " + line for line in graphChecks.check(other, graph)]
         found += graphChecks.compare(probe, other)
     return found
 
@@ -57,7 +57,7 @@ def main():
         graph = graphText.Graph(seed)
         methods = graphText.methods(seed, points)
         raster = arguments.raster > 0 and seed % arguments.raster == 0
-        found = failures(_patina, load(_patina, graph.text()), graph.bound, graph.loses, methods, raster)
+        found = failures(_patina, load(_patina, graph.text()), graph, methods, raster)
         if not found:
             continue
         broken += 1

@@ -5,17 +5,18 @@
   patina chart --lobes --point directionalAlbedo    one of them
   patina chart --lobes --table materialNetwork/methodTableData.cpp
                                                     also writes the table that --method list shows
+  patina chart --stability --out FOLDER             methods through the regions where they fail: CSV, SVG, an HTML page
 
 Scenes: every back end renders with 1, 4, 16, ... samples and to each of --tolerances; errors are those against a path traced
 reference of another seed and 16 times the samples. Times are of warm renders, medians of three where these are short.
 Lobes: times are medians of 31 batches on one thread; a busy machine shows in the quartiles (nsLow, nsHigh). Errors do not
 depend on the machine.
 """
-from patina.chart import lobesCommand, sceneCommand
+from patina.chart import lobesCommand, sceneCommand, stabilityCommand
 from patina.cli.errors import UsageError
 
 # flag -> module that has add_arguments(parser) and run(arguments); without a flag stages are charted
-CHARTS = {"lobes": lobesCommand}
+CHARTS = {"lobes": lobesCommand, "stability": stabilityCommand}
 
 
 def add_arguments(parser):

@@ -9,6 +9,14 @@ PATINA_FN float albedoFract(float x) {
     return x - floor(x);
 }
 
+// Facet j of a fixed few that stand for all that wo sees.
+const int ALBEDO_SEEN = 16;
+PATINA_FN vec3 seenFacet(vec3 wo, vec2 alpha, int facets, int j) {
+    float n = float(ALBEDO_SEEN);
+    vec2 u = vec2((float(j) + 0.5f) / n, albedoFract((float(j) + 0.5f) * 0.618033989f));
+    return facetSampleVisible(wo, alpha, u, facets);
+}
+
 // Facet j of `count` (a square number, or ALBEDO_QUADRATURE_FACETS): (cosine between view and
 // facet, its share of the reflected light).
 PATINA_FN vec2 sampledFacet(vec3 wo, vec2 alpha, int facets, int count, int j) {

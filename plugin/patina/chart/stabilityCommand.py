@@ -1,0 +1,52 @@
+"""patina chart --stability: every method through the region where it fails, with the bound that holds there."""
+import csv
+import json
+import os
+
+from patina.chart import stabilityPage, sweepsClassic, sweepsDiffuse, sweepsEnergy, sweepsFacets, sweepsFilm, sweepsFrames
+from patina.chart import sweepsFresnel, sweepsLayers
+from patina.cli.errors import CommandError, UsageError
+
+FAMILIES = {"Fresnel": sweepsFresnel, "facets": sweepsFacets, "energy": sweepsEnergy, "diffuse": sweepsDiffuse,
+            "film": sweepsFilm, "layers": sweepsLayers, "classic": sweepsClassic, "frames": sweepsFrames}
+COLUMNS = ("sweep", "x", "method", "value", "truth", "error", "bound", "chosen")
+
+
+def add_arguments(parser):
+    group = parser.add_argument_group("stability")
+    group.add_argument("--stability", action="store_true", help="methods through the regions where they fail: an atlas")
+    group.add_argument("--points", type=int, default=40, metavar="N", help="of each sweep, 4 or more (default: 40)")
+    group.add_argument("--family", default="", metavar="NAME", help="only this one of " + ", ".join(FAMILIES))
+
+
+def sweeps(points, family=""):
+    """:returns: the sweeps of a family, or of all"""
+    return [sweep for name, module in FAMILIES.items() if family in ("", name) for sweep in module.sweeps(points)]
+
+
+def run(arguments):
+    if arguments.points < 4:
+        raise UsageError("patina chart: --points is 4 or more")
+    if arguments.family and arguments.family not in FAMILIES:
+        raise UsageError(f"patina chart: there is no family '{arguments.family}' (there are: {', '.join(FAMILIES)})")
+    found = sweeps(arguments.points, arguments.family)
+    rows = [row for sweep in found for row in sweep.rows()]
+    text = json.dumps(rows, indent=1) if arguments.json else ""
+    try:
+        if arguments.out:
+            os.makedirs(arguments.out, exist_ok=True)
+            with open(os.path.join(arguments.out, "stability.csv"), "w", newline="", encoding="utf-8") as file:
+                writer = csv.DictWriter(file, COLUMNS)
+                writer.writeheader()
+                writer.writerows(rows)
+            stabilityPage.write(found, arguments.out)
+        if arguments.json and arguments.json != "-":
+            with open(arguments.json, "w", encoding="utf-8") as file:
+                file.write(text + "\n")
+    except OSError as error:
+        raise CommandError(f"cannot write {error.filename}: {error.strerror}") from error
+    print(text if arguments.json == "-" else stabilityPage.listing(found))
+    problems = [problem for sweep in found for problem in sweep.problems()]
+    if problems:
+        raise CommandError(f"{len(problems)} bounds do not hold; first: {problems[0]}")
+    return 0

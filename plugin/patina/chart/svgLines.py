@@ -1,0 +1,95 @@
+"""Line charts as SVG text: methods over a parameter, the truth, and where one method takes over from another."""
+import math
+
+from patina.chart.svg import COLOURS, _text
+
+LEFT, TOP, RIGHT, BOTTOM = 58, 34, 14, 44
+
+
+class Scale:
+    """Values to places, linear or logarithmic; what is not positive stands at the low end of a logarithmic one."""
+
+    def __init__(self, values, start, end, log):
+        values = [v for v in values if math.isfinite(v) and (v > 0.0 or not log)] or [1.0]
+        low, high = min(values), max(values)
+        if log:
+            low, high = math.log10(low), math.log10(high)
+        if high - low < 1e-9:
+            low, high = low - 0.5, high + 0.5
+        self.low, self.high, self.log, self.start, self.end = low, high, log, start, end
+
+    def at(self, value):
+        if self.log:
+            value = math.log10(value) if value > 0.0 else self.low
+        t = (value - self.low) / (self.high - self.low)
+        return self.start + min(max(t, 0.0), 1.0) * (self.end - self.start)
+
+    def ticks(self):
+        """:returns: list of (value, text)"""
+        if self.log:
+            step = max(1, math.ceil((self.high - self.low) / 8))
+            powers = range(math.ceil(self.low - 1e-9), math.floor(self.high + 1e-9) + 1, step)
+            return [(10.0 ** p, f"1e{p}" if abs(p) > 2 else f"{10.0 ** p:g}") for p in powers]
+        span = self.high - self.low
+        step = 10.0 ** math.floor(math.log10(span / 4))
+        step *= next(m for m in (1, 2, 5, 10) if span / (step * m) <= 6)
+        first = math.ceil(self.low / step - 1e-9)
+        return [(i * step, f"{i * step:g}") for i in range(first, math.floor(self.high / step + 1e-9) + 1)]
+
+
+def _path(xs, ys, x, y):
+    """A line with gaps where values are no numbers."""
+    parts, pen = [], False
+    for a, b in zip(xs, ys):
+        if not math.isfinite(b):
+            pen = False
+            continue
+        parts.append(f"{'L' if pen else 'M'}{x.at(a):.1f} {y.at(b):.1f}")
+        pen = True
+    return "".join(parts)
+
+
+def lines(sweep, width=460, height=290):
+    """:param sweep: patina.chart.sweeps.Sweep
+    :returns: an `svg` element
+    """
+    every = [v for values in (*sweep.curves.values(), sweep.truth) for v in map(float, values)]
+    truths = [float(v) for v in sweep.truth]
+    if not sweep.log_y:  # a value that runs away must not flatten the rest
+        top = 2.5 * max(map(abs, truths)) + 10 * sweep.bound
+        every = [min(v, top) for v in every if math.isfinite(v)]
+        every += [max(truths) + 2 * sweep.bound, min(truths) - 2 * sweep.bound]
+    x = Scale(sweep.x, LEFT, width - RIGHT, sweep.log_x)
+    y = Scale(every, height - BOTTOM, TOP, sweep.log_y)
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
+           'font-family="sans-serif" font-size="10.5">', f'<rect width="{width}" height="{height}" fill="white"/>',
+           _text(width / 2, 14, sweep.name, more=' font-size="12" font-weight="bold"')]
+    for value, text in x.ticks():
+        out.append(f'<path d="M{x.at(value):.1f} {TOP}V{height - BOTTOM}" stroke="#e4e4e4"/>')
+        out.append(_text(x.at(value), height - BOTTOM + 13, text))
+    for value, text in y.ticks():
+        out.append(f'<path d="M{LEFT} {y.at(value):.1f}H{width - RIGHT}" stroke="#e4e4e4"/>')
+        out.append(_text(LEFT - 5, y.at(value) + 3.5, text, "end"))
+    out.append(_text((LEFT + width - RIGHT) / 2, height - BOTTOM + 26, sweep.x_label))
+    middle = (TOP + height - BOTTOM) / 2
+    out.append(_text(12, middle, sweep.y_label, more=f' transform="rotate(-90 12 {middle:.1f})"'))
+    if sweep.switch is not None:
+        at = x.at(sweep.switch)
+        out.append(f'<path d="M{at:.1f} {TOP}V{height - BOTTOM}" stroke="#111" stroke-dasharray="2 3"/>')
+        near = at < width - 90
+        out.append(_text(at + (3 if near else -3), TOP + 9, "switch", "start" if near else "end", ' fill="#111"'))
+    out.append(f'<path d="{_path(sweep.x, truths, x, y)}" fill="none" stroke="#bbbbbb" stroke-width="5" opacity="0.7"/>')
+    shown = {"truth": "#bbbbbb"}
+    for i, (name, values) in enumerate(sweep.curves.items()):
+        shown[name] = colour = COLOURS[i % len(COLOURS)]
+        out.append(f'<path d="{_path(sweep.x, list(map(float, values)), x, y)}" fill="none" stroke="{colour}" '
+                   'stroke-width="1.4"/>')
+        for a, b, chosen in zip(sweep.x, map(float, values), sweep.chosen):
+            if chosen == name and math.isfinite(b):
+                out.append(f'<circle cx="{x.at(a):.1f}" cy="{y.at(b):.1f}" r="2.1" fill="{colour}"/>')
+    at = LEFT
+    for name, colour in shown.items():
+        out.append(f'<path d="M{at} {height - 7}h12" stroke="{colour}" stroke-width="3"/>')
+        out.append(_text(at + 15, height - 3.5, name, "start"))
+        at += 25 + 6.0 * len(name)
+    return "\n".join([*out, "</svg>"]) + "\n"

@@ -1,0 +1,69 @@
+"""Energy: directional albedos by every method, what single scattering loses, and what compensation costs in reciprocity."""
+import numpy as np
+
+from patina.chart import probes
+from patina.chart.sweeps import Sweep, always
+from patina.chart.sweepsFacets import white_metal
+
+ALBEDOS = ("table", "fit", "karis", "mirror", "monteCarlo16", "monteCarlo64", "quadrature")
+COMPENSATIONS = ("turquin", "kullaConty", "none")
+
+
+def _albedos(name, fails, label, x, make, wo, bound, failing, chosen="fit", methods=ALBEDOS, **more):
+    curves = {m: [probes.albedo(make(v, {"energyCompensation": "none", "directionalAlbedo": m}), wo(v)) for v in x]
+              for m in methods}
+    return Sweep(name, "energy", fails, label, x, "albedo", curves, curves["quadrature"], always(chosen, x), bound, failing,
+                 **more)
+
+
+def _coat(ior, alpha, methods):
+    return probes.lobe("dielectric_bsdf", methods, ior=float(ior), roughness=(float(alpha),) * 2)
+
+
+def _karis(count):
+    grazing = list(np.logspace(-2.5, 0, count))
+    rough = list(np.linspace(0.03, 1.0, count))
+    ior = list(np.linspace(1.02, 3.0, count))
+    few = ("table", "fit", "karis", "monteCarlo16", "quadrature")
+    return [
+        _albedos("albedo of a smooth coat at grazing views", "Karis's fit loses energy where the lobe is narrow and the view flat.",
+                 "cosine", grazing, lambda v, m: _coat(1.5, 0.05, m), probes.towards, 5e-3, "karis", log_x=True,
+                 methods=("table", "fit", "karis", "mirror", "quadrature"), shows=3),
+        _albedos("albedo of a coat over roughness", "The reflectance at the view's own cosine knows nothing of roughness.",
+                 "alpha", rough, lambda v, m: _coat(1.5, v, m), lambda v: probes.towards(0.3), 2e-3, "mirror", shows=3),
+        _albedos("albedo near ior 1", "Karis's curve rises to white at grazing views, as Schlick's does.", "ior", ior,
+                 lambda v, m: _coat(v, 0.3, m), lambda v: probes.towards(0.2), 2e-3, "karis", methods=few, shows=3),
+        _albedos("corners of the table", "Linear cells cannot follow a narrow lobe near the horizon; the fit can.", "cosine",
+                 list(np.logspace(-3.5, -0.5, count)), lambda v, m: _coat(1.5, 0.011, m), probes.towards, 2e-3, "karis",
+                 methods=few, log_x=True, shows=3)]
+
+
+def _white(count):
+    x = list(np.linspace(0.05, 1.0, count))
+    wo = probes.towards(0.6)
+    curves = {m: [probes.sampled(white_metal(a, {"energyCompensation": m}), wo, 2048) for a in x] for m in COMPENSATIONS}
+    return Sweep("white metal over roughness", "energy",
+                 "Light that bounces between facets is lost: about half of it where alpha is 1.", "alpha", x,
+                 "albedo at cosine 0.6", curves, [1.0] * len(x), always("turquin", x), 1e-2, "none", shows=10)
+
+
+def reciprocity(probe, count=64, seed=probes.SEED):
+    """:returns: mean |f(a, b) - f(b, a)| over the mean of f, for pairs with flat and steep directions"""
+    generator = np.random.default_rng(seed)
+    z = generator.uniform(0.03, 1.0, (count, 2))
+    turn = generator.uniform(0.0, 2.0 * np.pi, (count, 2))
+    a, b = (np.column_stack([np.sqrt(1 - z[:, i] ** 2) * np.cos(turn[:, i]), np.sqrt(1 - z[:, i] ** 2) * np.sin(turn[:, i]),
+                             z[:, i]]).astype(np.float32) for i in (0, 1))
+    there, back = probe.eval(a, b)[0][:, 0].astype(float), probe.eval(b, a)[0][:, 0].astype(float)
+    return float(np.abs(there - back).mean() / max((0.5 * (there + back)).mean(), 1e-12))
+
+
+def _reciprocal(count):
+    x = list(np.linspace(0.1, 1.0, count))
+    curves = {m: [reciprocity(white_metal(a, {"energyCompensation": m})) for a in x] for m in COMPENSATIONS}
+    return Sweep("reciprocity of compensation", "energy", "A factor that hangs on one direction only is not reciprocal.", "alpha",
+                 x, "defect, over the mean value", curves, [0.0] * len(x), always("kullaConty", x), 2e-3, "turquin", shows=3)
+
+
+def sweeps(count):
+    return [*_karis(count), _white(count), _reciprocal(count)]

@@ -1,0 +1,35 @@
+"""Layers: what lies below scaled by what the top lets through, against a walk between the interfaces."""
+import numpy as np
+
+from patina.chart import probes
+from patina.chart.sweeps import Sweep, always
+from patina.cli import layers
+
+
+def _stack(name, fails, label, x, make, cosine, bound, walks):
+    """:param make: x -> interfaces and base, as layers.STACKS has them"""
+    generator = np.random.default_rng(probes.SEED)
+    wo = probes.towards(cosine)
+    curves, truth = {"scaling": [], "no layer": []}, []
+    for v in x:
+        interfaces, base = make(v)
+        curves["scaling"].append(probes.albedo(layers.scaled(interfaces, base, {}), wo))
+        curves["no layer"].append(base[0] + probes.albedo(layers.scaled(interfaces, (0.0,) * 3, {}), wo))
+        truth.append(float(layers.walk(layers.parts(interfaces, base, {}), wo[0], walks, generator)[0][0]))
+    curves["walk"] = truth
+    return Sweep(name, "layers", fails, label, x, f"albedo at cosine {cosine}", curves, truth, always("walk", x), bound, "scaling",
+                 shows=2, notes=["The walk is the truth; scaling leaves out what the interface sends back down."])
+
+
+def sweeps(count):
+    base = list(np.linspace(0.1, 1.0, count))
+    rough = list(np.linspace(0.0, 0.9, count))
+    ior = list(np.linspace(1.1, 2.4, count))
+    walks = 1000 * min(count, 20)
+    return [
+        _stack("layer over grey", "What the interface sends back down is counted as leaving: grey bases come out too bright.",
+               "colour of the base", base, lambda v: ([(1.5, 0.0)], (float(v),) * 3), 0.8, 0.02, walks),
+        _stack("layer over roughness", "The same, whatever the roughness of the interface.", "alpha",
+               rough, lambda v: ([(1.5, float(v))], (0.5,) * 3), 0.8, 0.02, walks),
+        _stack("layer over its ior", "The more the interface reflects inwards, the more is counted twice.", "ior", ior,
+               lambda v: ([(float(v), 0.0)], (0.5,) * 3), 0.8, 0.02, walks)]

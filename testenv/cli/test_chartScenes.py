@@ -277,3 +277,15 @@ def test_png_holds_the_pixels(tmp_path):
     back = np.array(compiled.load().read_image(str(path)).pixels)[..., :3]
     shown = np.where(image <= 0.0031308, 12.92 * image, 1.055 * image ** (1 / 2.4) - 0.055)
     assert back.shape == (5, 7, 3) and np.abs(back - shown).max() <= 0.5 / 255 + 1e-6
+
+
+def test_charts_of_the_readme():
+    """All are there, are SVG, come from testenv/charts.py, and take less than 1 MiB."""
+    root = os.path.normpath(os.path.join(os.path.dirname(__file__), "..", ".."))
+    with open(os.path.join(root, "README.md"), encoding="utf-8") as file:
+        shown = re.findall(r"\]\((docs/charts/[^)]+)\)", file.read())
+    assert len(shown) >= 4
+    for path in shown:
+        ElementTree.parse(os.path.join(root, path))
+    folder = os.path.join(root, "docs", "charts")
+    assert sum(os.path.getsize(os.path.join(folder, name)) for name in os.listdir(folder)) < 1 << 20

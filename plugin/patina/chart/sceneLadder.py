@@ -160,7 +160,7 @@ class _Climber:
                 if made:
                     break
                 raise
-        met = not tolerance or all(r.samples < samples for r in made)
+        met = not tolerance or all(r.most < samples for r in made)  # no pixel stopped for want of samples
         taken = statistics.mean(r.samples for r in made) if tolerance else samples
         rung = Rung(backend, taken, tolerance or 0.0, met, made)
         self.ladder.rungs.append(rung)
@@ -180,7 +180,7 @@ class _Climber:
             self.note(f"{WORDS[backend]}: tolerance {tolerance:g} was given up, --seconds {self.arguments.seconds:g} are over")
             return
         if not rung.met:
-            self.note(f"{WORDS[backend]}: tolerance {tolerance:g} was not met by {most} samples (--maxSamples)")
+            self.note(f"{WORDS[backend]}: tolerance {tolerance:g} was not met by {most} samples everywhere (--maxSamples)")
 
     def references(self, backends):
         a = self.arguments

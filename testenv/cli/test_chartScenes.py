@@ -9,7 +9,8 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from patina.chart import png, sceneCharts, sceneCommand, sceneLadder, sceneMeasures, sceneReference, sceneResults
+from patina.chart import (png, sceneCharts, sceneCommand, sceneLadder, sceneMeasures, scenePage, sceneReference,
+                          sceneResults, svg)
 from patina.chart.plot import Axis, Plot
 from patina.cli import compiled, main
 
@@ -268,6 +269,25 @@ def test_plot_takes_any_numbers():
     assert Axis([], 0.0, 1.0).at(1.0) == pytest.approx(0.5)
     axis = Axis([1.0, 1000.0], 0.0, 100.0, margin=0.0)
     assert axis.at(10.0) == pytest.approx(100.0 / 3.0) and axis.ticks() == [1.0, 10.0, 100.0, 1000.0]
+
+
+def test_signed_errors():
+    reference = np.full((1, 3, 3), 0.5)
+    shown = scenePage.signed(reference * [[[1.0], [1.6], [0.3]]], reference)[0]
+    assert list(shown[0]) == [1.0, 1.0, 1.0]
+    assert shown[1, 0] > 0.7 > 0.2 > shown[1, 2] and shown[2, 2] > 0.8 > 0.2 > shown[2, 0]
+
+
+def test_labels_of_a_scatter_do_not_cover_each_other():
+    chart = svg.scatter("t", [(10.0, 0.01, "schlick"), (11.0, 0.0101, "f82"), (10.5, 0.0099, "exact"), (2.0, 0.0, "none")],
+                        "x", "y")
+    found = {words: (float(x), float(y)) for x, y, words in
+             re.findall(r'x="([\d.]+)" y="([\d.]+)" text-anchor="start"[^>]*>([^<]+)<', chart)}
+    assert set(found) == {"schlick", "f82", "exact", "none (0)"}
+    places = sorted((y, x, x + 6.2 * len(words)) for words, (x, y) in found.items())
+    for i, (y, begin, end) in enumerate(places):
+        for other, start, stop in places[i + 1:]:
+            assert other - y >= 11 or stop <= begin or end <= start
 
 
 def test_png_holds_the_pixels(tmp_path):

@@ -3,11 +3,12 @@ import statistics
 import time
 from dataclasses import dataclass, field
 
-from patina.chart import machine, sceneReference
+from patina.chart import machine, sceneMeasures, sceneReference
 from patina.chart.sceneRenders import BACKENDS, WORDS, OutOfTime, StageRenders
 from patina.cli.errors import CommandError
 
 FACTOR = 4          # from one count of samples to the next
+LEAST = 16          # samples that renders to a tolerance take in any case
 SHORT, REPEATS = 1.0, 3  # renders below so many seconds are repeated
 
 
@@ -77,12 +78,10 @@ def climb(path, arguments, methods, truth, folder, say):
                     raise
                 backends.remove(backend)
                 ladder.problems.append(str(error))
-        if deadline and not arguments.reference:
+        if deadline:
             climber.rate()
         climber.steps(backends)
-        for backend in backends:
-            for tolerance in arguments.tolerances:
-                climber.tolerance(backend, tolerance)
+        climber.tolerances(backends)
         climber.references(backends)
         climber.look_for_other_work()
     except OutOfTime:
@@ -96,7 +95,7 @@ class _Climber:
         self.arguments = self.renders.arguments
         self.methods, self.truth, self.folder, self.say = methods, truth, folder, say
         self.per_sample = {}  # back end -> seconds
-        self.of_reference = 0.0  # seconds of one of its samples; known where time is short
+        self.of_reference, self.of_errors = 0.0, 0.0  # seconds of one of its samples, and of comparing; if time is short
 
     def settings(self, samples, step, repeat, tolerance=None):
         # Every render has noise of its own, or points of a chart would err together.
@@ -111,10 +110,18 @@ class _Climber:
         self.per_sample[backend] = warm.seconds
 
     def rate(self):
-        """How fast the path tracer makes the reference, with the most exact methods."""
+        """How fast the path tracer makes the reference, with the most exact methods, and images are compared."""
         settings = self.renders.settings(4, 0, 0.0, methods=self.truth)
         self.renders.render("embree", settings)
-        self.of_reference = self.renders.render("embree", settings).seconds / 4
+        found = self.renders.render("embree", settings)
+        self.of_reference = found.seconds / 4
+        begin = time.perf_counter()
+        sceneMeasures.errors(found.image, found.image)
+        self.of_errors = time.perf_counter() - begin
+
+    def comparing(self, more=0):
+        """Seconds that errors of all renders and some more will take: the rasterizer's are compared twice."""
+        return self.of_errors * (more + sum(1 + (r.backend == "raster") for r in self.ladder.rungs))
 
     def reserve(self, samples, backends):
         """Seconds that references need for so many samples."""
@@ -125,7 +132,7 @@ class _Climber:
 
     def fits(self, seconds, samples, backends):
         left = self.renders.left()
-        return left is None or seconds + self.reserve(samples, backends) < left
+        return left is None or seconds + self.reserve(samples, backends) + self.comparing(more=2) < left
 
     def steps(self, backends):
         """All counts of samples; a back end that would take too long stops, the other goes on."""
@@ -160,14 +167,22 @@ class _Climber:
                 if made:
                     break
                 raise
-        met = not tolerance or all(r.samples < samples for r in made)
+        met = not tolerance or all(r.most < samples for r in made)  # no pixel stopped for want of samples
         taken = statistics.mean(r.samples for r in made) if tolerance else samples
         rung = Rung(backend, taken, tolerance or 0.0, met, made)
         self.ladder.rungs.append(rung)
         return rung
 
-    def tolerance(self, backend, tolerance):
-        most = max(int(r.samples) for r in self.ladder.of("embree") or self.ladder.of(backend))
+    def tolerances(self, backends):
+        most = max(int(r.samples) for r in self.ladder.rungs)
+        if self.arguments.tolerances and most <= LEAST:
+            self.note(f"no tolerances: these take at least {LEAST} samples, and {most} are the most that were taken")
+            return
+        for backend in backends:
+            for tolerance in self.arguments.tolerances:
+                self.tolerance(backend, tolerance, most)
+
+    def tolerance(self, backend, tolerance, most):
         if not self.fits(self.per_sample[backend] * most, most, [backend]):
             self.note(f"{WORDS[backend]}: tolerance {tolerance:g} left out, --seconds {self.arguments.seconds:g} would not do")
             return
@@ -180,11 +195,13 @@ class _Climber:
             self.note(f"{WORDS[backend]}: tolerance {tolerance:g} was given up, --seconds {self.arguments.seconds:g} are over")
             return
         if not rung.met:
-            self.note(f"{WORDS[backend]}: tolerance {tolerance:g} was not met by {most} samples (--maxSamples)")
+            self.note(f"{WORDS[backend]}: tolerance {tolerance:g} was not met by {most} samples everywhere (--maxSamples)")
 
     def references(self, backends):
         a = self.arguments
         most = max(int(r.samples) for r in self.ladder.rungs)
+        if self.renders.deadline:
+            self.renders.deadline -= self.comparing()
         if a.reference:
             self.ladder.references["all"] = sceneReference.brought(a.reference, self.renders)
             if "raster" not in backends:

@@ -12,9 +12,10 @@ TILES = 6  # a picture is cut into so many tiles along its longer side for slope
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
-def errors(image, reference):
+def errors(image, reference, with_flip=True):
     """How far an image (height, width, 3) is from a reference.
 
+    :param with_flip: FLIP takes longer than all others together
     :returns: dict of relMSE, rmse, flip (None without flip-evaluator), meanError (signed, over the reference's mean), and
         relative: the mean over pixels of |error| / (luminance + 0.01), which is what --tolerance is about
     """
@@ -22,7 +23,8 @@ def errors(image, reference):
     mask = imageMetrics.finite_pixels(image, reference)
     a, b = (np.where(mask[..., None], x, 0.0).astype(np.float64) @ LUMINANCE for x in (image, reference))
     relative = np.abs(a - b)[mask] / (b[mask] + 0.01) if mask.any() else np.array([math.nan])
-    return {"relMSE": found["relMSE"], "rmse": found["rmse"], "flip": imageMetrics.mean_flip(image, reference, True),
+    return {"relMSE": found["relMSE"], "rmse": found["rmse"],
+            "flip": imageMetrics.mean_flip(image, reference, True) if with_flip else None,
             "meanError": found["relativeMeanError"], "relative": float(relative.mean()),
             "notFinite": int((~mask).sum())}
 

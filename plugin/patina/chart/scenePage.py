@@ -2,8 +2,10 @@
 import os
 from html import escape
 
+import numpy as np
+
 from patina.chart import png, sceneCharts, sceneResults
-from patina.chart.sceneMeasures import seconds_text
+from patina.chart.sceneMeasures import LUMINANCE, seconds_text
 from patina.chart.sceneRenders import WORDS
 
 STYLE = """
@@ -73,6 +75,16 @@ def _figure(image, words):
             f"<figcaption>{escape(words)}</figcaption></figure>")
 
 
+def signed(image, reference):
+    """Relative errors of the luminance as colours: white 0, red brighter, blue darker, full colour at half of the reference.
+
+    :returns: linear values, for png
+    """
+    a, b = (np.nan_to_num(x.astype(np.float64)) @ LUMINANCE for x in (image, reference))
+    error = np.clip(2.0 * (a - b) / (b + 0.01), -1.0, 1.0)[..., None]
+    return np.where(error > 0.0, 1.0 - error * (0.2, 0.9, 0.9), 1.0 + error * (0.9, 0.7, 0.1))
+
+
 def _pictures(result):
     ladder = result.ladder
     lines = ["<h3>Pictures</h3>", '<div class="shots">']
@@ -87,6 +99,10 @@ def _pictures(result):
                 flip = "" if row["flip"] is None else f", FLIP {row['flip']:.3f}"
                 lines.append(_figure(rung.renders[0].image, f"{WORDS[backend]}, {what}{rung.samples:.4g} sample{'s' * (rung.samples != 1)}, "
                                                             f"{seconds_text(rung.seconds)}{flip}"))
+        last = ladder.of(backend)[-1]
+        lines.append(_figure(signed(last.renders[0].image, ladder.references["all"].image),
+                             f"{last.samples:g} samples against the reference: red is too bright, blue too dark, full colour "
+                             "from 50 % on"))
         lines.append("</div>")
     return lines
 

@@ -75,7 +75,7 @@ def _read(path, samples):
         image = np.array(found.pixels, dtype=np.float32)[..., [found.channels.index(c) for c in "RGB"]]
     except (RuntimeError, KeyError, ValueError):  # not ours, or broken off: rendered anew
         return None
-    return Render(image, 0.0, 0.0, 0.0, taken, True, noise) if taken >= samples else None
+    return Render(image, 0.0, 0.0, 0.0, taken, taken, noise) if taken >= samples else None
 
 
 def _write(path, found, seed):

@@ -25,7 +25,7 @@ class Render:
     wall: float          # all of it, from the start of the render on
     busy: float          # cores that it had, mean over its wall time
     samples: float       # per pixel, mean
-    met: bool            # ended by itself: all samples taken or the tolerance met
+    most: float          # of any pixel
     noise: float         # relMSE of its own noise, by the variance of its pixels' luminance
 
 
@@ -94,7 +94,7 @@ class StageRenders:
         counts = film.resolve("sampleCount")
         image = np.array(film.resolve("color"), dtype=np.float32)
         return Render(image, state["secondsRendering"] if ended else wall, wall, used / max(wall, 1e-9), float(counts.mean()),
-                      ended, _noise(film, image))
+                      float(counts.max()), _noise(film, image))
 
     def _renderer(self, backend):
         if backend in self.missing:

@@ -54,7 +54,8 @@ def _row(name, ladder, rung, seed):
            "cores": rung.busy}
 
     def against(reference):
-        return sceneMeasures.averaged([sceneMeasures.errors(r.image, reference.image) for r in rung.renders])
+        return sceneMeasures.averaged([sceneMeasures.errors(r.image, reference.image, with_flip=i == 0)
+                                       for i, r in enumerate(rung.renders)])
 
     row.update(against(ladder.references["all"]))
     direct = ladder.references.get("direct")

@@ -34,8 +34,22 @@ def pareto(points):
     return kept
 
 
-def _text(x, y, text, anchor="middle", more=""):
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{more}>{escape(text)}</text>'
+def _text(x, y, words, anchor="middle", more=""):
+    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{more}>{escape(words)}</text>'
+
+
+def _free(cx, cy, room, width, taken):
+    """Where a label of a point does not cover others. :param taken: their boxes; takes this one, too"""
+    places = [(cx + 7, cy - 6), (cx - 7 - room, cy - 6), (cx + 7, cy + 13), (cx - 7 - room, cy + 13), (cx + 7, cy - 18),
+              (cx - 7 - room, cy - 18)]
+    inside = [(a, b) for a, b in places if a >= LEFT and a + room <= width] or places
+
+    def covers(place):
+        return any(abs(place[1] - b) < 11 and place[0] < a + r and a < place[0] + room for a, b, r in taken)
+
+    chosen = next((p for p in inside if not covers(p)), inside[0])
+    taken.append((*chosen, room))
+    return chosen
 
 
 def _decade(value):
@@ -65,9 +79,11 @@ def scatter(title, points, x_label, y_label, width=520, height=340):
     out.append(_text(14, middle, y_label, more=f' transform="rotate(-90 14 {middle:.1f})"'))
     line = " ".join(f"{x.at(p[0]):.1f},{y.at(p[1]):.1f}" for p in pareto(points))
     out.append(f'<polyline points="{line}" fill="none" stroke="#999999" stroke-dasharray="4 3"/>')
+    taken = [(x.at(p[0]) - 5, y.at(p[1]) + 4, 10) for p in points]
     for i, (px, py, label) in enumerate(points):
         cx, cy = x.at(px), y.at(py)
-        right = cx < width - 110
         out.append(f'<circle cx="{cx:.1f}" cy="{cy:.1f}" r="4.5" fill="{COLOURS[i % len(COLOURS)]}"/>')
-        out.append(_text(cx + (7 if right else -7), cy - 6, label, "start" if right else "end"))
+        label += "" if py > 0.0 else " (0)"  # not on the axis: it stands at the lower end
+        out.append(_text(*_free(cx, cy, 6.2 * len(label), width, taken), anchor="start", words=label,
+                         more=f' fill="{COLOURS[i % len(COLOURS)]}"'))
     return "\n".join([*out, "</svg>"]) + "\n"

@@ -8,7 +8,14 @@
   patina chart --stability --out FOLDER             methods through the regions where they fail: CSV, SVG, an HTML page
 
 Scenes: every back end renders with 1, 4, 16, ... samples and to each of --tolerances; errors are those against a path traced
-reference of another seed and 16 times the samples. Times are of warm renders, medians of three where these are short.
+reference of another seed, 16 times the samples and the most exact methods. Times are of warm renders, medians of three where
+these are short. Columns of scenes.csv besides plain ones:
+  seconds, secondsInAll   of sampling; with reading the stage and the first frame's building of scene and shaders
+  cores                   that a render had on the average: few where other work slowed it
+  relMSE rmse flip        as in patina compare
+  meanError               signed, over the mean of the reference
+  relative                mean of |error| / (luminance + 0.01), which is what a tolerance is about
+  ...Direct               the rasterizer against direct light alone, which is all that it draws
 Lobes: times are medians of 31 batches on one thread; a busy machine shows in the quartiles (nsLow, nsHigh). Errors do not
 depend on the machine.
 """

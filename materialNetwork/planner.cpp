@@ -76,7 +76,8 @@ private:
         Point point;
         point.name = name;
         point.forced = _planning.forced.count(name) > 0;
-        if (point.forced || _planning.tolerance < 0.0) {
+        const bool unknown = _planning.tolerance > 0.0 && !look(name, standard).measured;
+        if (point.forced || _planning.tolerance < 0.0 || unknown) {
             const std::string method = chosenMethod(_planning.forced, name);
             point.options = {{method, look(name, method)}};
         } else if (noise) {
@@ -152,7 +153,7 @@ private:
         m.point = point.name;
         m.method = option.method;
         m.forced = point.forced;
-        m.measured = option.prediction.measured;
+        m.measured = option.prediction.measured || option.method == truthMethod(point.name);
         m.error = option.prediction.error;
         m.ns = option.prediction.ns;
         m.nsDefault = look(point.name, chosenMethod({}, point.name)).ns;

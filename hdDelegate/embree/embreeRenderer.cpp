@@ -238,6 +238,8 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         _progress.statistics["trianglesStored"] = double(_embree->trianglesStored());
         _progress.statistics["instances"] = double(_embree->instanceCount());
         plan.tell(_settings.tolerance, _progress.statistics);
+        _progress.statistics["maxDepth"] =
+            _settings.maxDepth < 0 ? plan.depth(_settings.tolerance) : _settings.maxDepth;
     }
 
     std::vector<AovSpec> aovs;
@@ -247,9 +249,10 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
 
     const CameraRays rays(camera, _settings);
-    const Integrator integrator(*_embree, *_lights, rays, _settings, aovs);
     RenderSettings sampled = _settings;
     sampled.tolerance = plan.noise(_settings.tolerance);
+    if (sampled.maxDepth < 0) sampled.maxDepth = plan.depth(_settings.tolerance);
+    const Integrator integrator(*_embree, *_lights, rays, sampled, aovs);
     TileSchedule schedule(*_film, sampled);
     _sampling = _lastCheckpoint = Clock::now();
     const auto outOfTime = [&] {

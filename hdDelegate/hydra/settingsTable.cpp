@@ -117,7 +117,7 @@ const std::vector<Row>& rows() {
         real("seconds", "Time limit (seconds, 0: none)", &S::seconds),
         integer("threads", "Threads (0: all)", &S::threads, 0, 4096),
         seedRow(),
-        integer("maxDepth", "Path depth", &S::maxDepth, 0, 4096),
+        integer("maxDepth", "Path depth (-1: as the tolerance asks)", &S::maxDepth, -1, 4096),
         integer("rouletteDepth", "Russian roulette from depth", &S::rouletteDepth, 0, 4096),
         real("indirectClamp", "Clamp of indirect samples (0: none)", &S::indirectClamp),
         real("filterRadius", "Pixel filter radius (pixels)", &S::filterRadius),

@@ -3,15 +3,27 @@
 #include "materialNetwork/planner.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace patina {
 
 void ScenePlan::add(const MethodPlan& material) {
     _error = std::max(_error, material.error);
+    _albedo = std::max(_albedo, material.albedo);
+}
+
+int ScenePlan::depth(double tolerance) const {
+    if (tolerance < 0.0) return depthStandard;
+    if (tolerance == 0.0 || _albedo >= 1.0) return depthMost;
+    if (_albedo <= 0.0) return depthLeast;
+    const double vertices = std::log(depthShare * tolerance) / std::log(_albedo);
+    return int(std::clamp(std::ceil(vertices), double(depthLeast), double(depthMost)));
 }
 
 double ScenePlan::noise(double tolerance) const {
-    return tolerance > 0.0 ? tolerance - std::min(_error, methodShare * tolerance) : tolerance;
+    return tolerance > 0.0
+               ? tolerance * (1.0 - depthShare) - std::min(_error, methodShare * tolerance)
+               : tolerance;
 }
 
 void ScenePlan::tell(double tolerance, std::map<std::string, double>& statistics) const {

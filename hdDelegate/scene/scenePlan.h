@@ -17,15 +17,23 @@ public:
     /// is largest, since it may fill the image.
     double error() const { return _error; }
 
-    /// What noise may take of a tolerance: all that methods leave, and never less than their own
-    /// share leaves (methods that are forced may spoil more). 0 and below mean all samples.
+    /// Vertices of a path that a tolerance needs: what light has left after so many surfaces as
+    /// white as the whitest is at most depthShare of the tolerance; 0 of it: depthMost; negative:
+    /// depthStandard. Roulette has no part in this, since it makes noise alone.
+    int depth(double tolerance) const;
+
+    static constexpr double depthShare = 0.1;
+    static constexpr int depthStandard = 16, depthLeast = 4, depthMost = 1024;
+
+    /// What noise may take of a tolerance: all that methods and depth leave, and never less than
+    /// their own shares leave (methods that are forced may spoil more). 0 and below: all samples.
     double noise(double tolerance) const;
 
     /// For RenderProgress::statistics; nothing without a tolerance.
     void tell(double tolerance, std::map<std::string, double>& statistics) const;
 
 private:
-    double _error = 0.0;
+    double _error = 0.0, _albedo = 0.0;
 };
 
 } // namespace patina

@@ -25,7 +25,8 @@ struct RenderSettings {
     int threads = 0;      ///< 0: all
     uint32_t seed = 0;
 
-    int maxDepth = 16;          ///< path vertices after the camera
+    int maxDepth = 16; ///< path vertices after the camera; negative: as many as the tolerance asks
+                       ///< for (ScenePlan::depth), 16 without one
     int maxScatterings = 1024;  ///< inside media, per path; not counted in maxDepth
     int rouletteDepth = 4;      ///< Russian roulette starts after so many bounces
     float indirectClamp = 0.0f; ///< largest luminance of one indirect sample; 0: off (unbiased)

@@ -12,27 +12,33 @@ namespace patina {
 class EnergyCurve {
 public:
     static constexpr int nodeCount = 64;
+    static constexpr int fineCount = 512;
 
     /// Measures the lobe. Stays empty for lobes that it does not suit: mirrors and lobes
     /// nearly as narrow, anisotropic ones, interfaces that are denser on the outside (total
-    /// reflection has a kink).
+    /// reflection has a kink). Methods that sum over many facets (ALBEDO_SAMPLES_16 and above) are
+    /// too slow to ask at every point: they get a fine curve, read by cubics, for any roughness,
+    /// for conductors, and for the inner side too.
     void measure(const BsdfLobe& lobe);
-    bool empty() const { return _nodes.empty(); }
+    bool empty() const { return _nodes.empty() && _fine.empty(); }
+    /// Whether at() knows light from this side.
+    bool covers(float z) const { return z >= 0.0f ? !empty() : !_below.empty(); }
 
     struct Energy {
         glm::vec3 kr, kt; ///< factors of shaders/lib/energy.glsl
         glm::vec3 r, t;   ///< albedo of reflection and transmission, without tint
     };
-    /// @param z cosine of wo, not negative
+    /// @param z cosine of wo, of a side that is covered. Of a conductor only kr counts.
     Energy at(float z) const;
-    /// nodeCount of them, evenly spaced in the fourth root of the cosine; none when empty.
+    /// nodeCount of them, evenly spaced in the fourth root of the cosine, for reading by lines;
+    /// none where that is not good enough.
     const std::vector<Energy>& nodes() const { return _nodes; }
 
 private:
-    std::vector<Energy> _nodes;
+    std::vector<Energy> _nodes, _fine, _below;
 };
 
-/// The same, directly from the baked tables. For dielectric and Schlick lobes.
+/// The same by the lobe's own method. For dielectric, Schlick and conductor lobes.
 EnergyCurve::Energy lobeEnergy(const BsdfLobe& lobe, const glm::vec3& wo);
 
 } // namespace patina

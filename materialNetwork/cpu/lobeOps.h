@@ -82,8 +82,7 @@ inline void setFactors(sh::SchlickLobe& l, const EnergyCurve::Energy& e) {
 template <class Interface> glm::vec3 lobeSetEnergy(BsdfLobe& l, Interface& interface,
                                                    const glm::vec3& tint, const glm::vec3& wo,
                                                    const EnergyCurve& curve) {
-    const EnergyCurve::Energy e =
-        wo.z >= 0.0f && !curve.empty() ? curve.at(wo.z) : lobeEnergy(l, wo);
+    const EnergyCurve::Energy e = curve.covers(wo.z) ? curve.at(wo.z) : lobeEnergy(l, wo);
     interface.known = true;
     setFactors(interface, e);
     glm::vec3 kept(0.0f);
@@ -104,7 +103,12 @@ inline glm::vec3 lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& 
     case LobeKind::Subsurface: l.albedo = l.subsurface.diffuse.color; return glm::vec3(1.0f);
     case LobeKind::Translucent: l.albedo = l.translucent.color; return glm::vec3(1.0f);
     case LobeKind::Conductor:
-        l.conductor = sh::conductorAt(l.conductor, wo);
+        if (curve.covers(wo.z)) {
+            l.conductor.known = true;
+            l.conductor.k = curve.at(wo.z).kr;
+        } else {
+            l.conductor = sh::conductorAt(l.conductor, wo);
+        }
         l.albedo = sh::conductorReflectance(l.conductor, glm::clamp(wo.z, 0.0f, 1.0f));
         return glm::vec3(1.0f);
     case LobeKind::Dielectric: return lobeSetEnergy(l, l.dielectric, l.dielectric.tint, wo, curve);

@@ -194,7 +194,7 @@ private:
         if (first + size > maxWithCurves) return "-1";
         _out.parameters.resize(first + size, glm::vec4(0.0f));
         glm::vec4* out = &_out.parameters[first];
-        *out++ = glm::vec4(t.energy.empty() ? 0.0f : 1.0f);
+        *out++ = glm::vec4(t.energy.nodes().empty() ? 0.0f : 1.0f);
         for (const EnergyCurve::Energy& e : t.energy.nodes()) {
             if (schlick) {
                 for (const glm::vec3& v : {e.kr, e.kt, e.r, e.t})

@@ -54,6 +54,36 @@ TEST(EnergyCurve, FollowsTheTables) {
     }
 }
 
+// Methods that sum over facets are slow: what stands in for them must be as good as they are.
+TEST(EnergyCurve, IsFineForSlowMethods) {
+    for (const float alpha : {0.02f, 0.1f, 0.5f, 1.0f}) {
+        BsdfLobe lobe;
+        lobe.kind = LobeKind::Dielectric;
+        lobe.dielectric =
+            sh::dielectricMethods(sh::dielectricSetup(glm::vec3(1.0f), 1.5f, glm::vec2(alpha),
+                                                      false, sh::SCATTER_RT, false, 1),
+                                  sh::ALBEDO_QUADRATURE, sh::FACETS_VISIBLE, sh::FRESNEL_EXACT);
+        EnergyCurve curve;
+        curve.measure(lobe);
+        ASSERT_TRUE(curve.covers(0.5f) && curve.covers(-0.5f));
+        float error = 0.0f;
+        for (int i = 0; i < 60; ++i) {
+            const float x = (float(i) + 0.37f) / 60.0f, z = x * x;
+            const glm::vec3 wo(std::sqrt(1.0f - z * z), 0.0f, z);
+            error = std::max(error, largest(curve.at(z).r - lobeEnergy(lobe, wo).r));
+        }
+        EXPECT_LT(error, 2e-5f) << alpha;
+        lobe.kind = LobeKind::Conductor;
+        lobe.conductor = sh::conductorMethods(
+            sh::conductorSetup(glm::vec3(0.2f), glm::vec3(3.0f), glm::vec2(alpha), false, 1),
+            sh::ALBEDO_QUADRATURE, sh::FACETS_VISIBLE, sh::FILM_GAUSSIANS);
+        curve.measure(lobe);
+        ASSERT_FALSE(curve.empty());
+        const glm::vec3 wo(0.6f, 0.0f, 0.8f);
+        EXPECT_LT(largest(curve.at(wo.z).kr - lobeEnergy(lobe, wo).kr), 2e-5f) << alpha;
+    }
+}
+
 TEST(EnergyCurve, LeavesOtherLobesAlone) {
     EnergyCurve curve;
     BsdfLobe lobe;

@@ -6,6 +6,7 @@
   patina chart --lobes --table materialNetwork/methodTableData.cpp
                                                     also writes the table that --method list shows
   patina chart --stability --out FOLDER             methods through the regions where they fail: CSV, SVG, an HTML page
+  patina chart --predictions STAGE... --out FOLDER  errors that the planner predicts beside those that come: CSV
 
 Scenes: every back end renders with 1, 4, 16, ... samples and to each of --tolerances; errors are those against a path traced
 reference of another seed, 16 times the samples and the most exact methods. Times are of warm renders, medians of three where
@@ -19,11 +20,11 @@ these are short. Columns of scenes.csv besides plain ones:
 Lobes: times are medians of 31 batches on one thread; a busy machine shows in the quartiles (nsLow, nsHigh). Errors do not
 depend on the machine.
 """
-from patina.chart import lobesCommand, sceneCommand, stabilityCommand
+from patina.chart import lobesCommand, predictionsCommand, sceneCommand, stabilityCommand
 from patina.cli.errors import UsageError
 
 # flag -> module that has add_arguments(parser) and run(arguments); without a flag stages are charted
-CHARTS = {"lobes": lobesCommand, "stability": stabilityCommand}
+CHARTS = {"lobes": lobesCommand, "predictions": predictionsCommand, "stability": stabilityCommand}
 
 
 def add_arguments(parser):
@@ -37,7 +38,8 @@ def add_arguments(parser):
 
 def run(arguments):
     chosen = [name for name in CHARTS if getattr(arguments, name)]
-    if len(chosen) + bool(arguments.stages) != 1:
+    of_stages = len(chosen) == 1 and getattr(CHARTS[chosen[0]], "TAKES_STAGES", False)
+    if of_stages != bool(chosen and arguments.stages) or not chosen and not arguments.stages or len(chosen) > 1:
         raise UsageError("patina chart: say what to chart: stages, or one of " +
                          ", ".join("--" + name for name in CHARTS))
     return CHARTS[chosen[0]].run(arguments) if chosen else sceneCommand.run(arguments)

@@ -4,7 +4,7 @@ import json
 import os
 
 # What may change between the two halves of a render: how far it goes and who does the work.
-_FREE = ("samples", "minSamples", "tolerance", "seconds", "threads", "checkpointFile", "checkpointSeconds")
+_FREE = ("samples", "minSamples", "seconds", "threads", "checkpointFile", "checkpointSeconds")
 
 
 def path_of(image):

@@ -57,7 +57,8 @@ def _add_render_flags(group):
     group.add_argument("--threads", type=_count, default=0, metavar="N", help="default: all cores")
     group.add_argument("--seed", type=_seed, default=0, metavar="N",
                        help="another seed, another noise; the same seed gives the same bits (default: 0)")
-    group.add_argument("--maxDepth", type=_count, default=16, metavar="N", help="bounces of a path (default: 16)")
+    group.add_argument("--maxDepth", type=_count, default=-1, metavar="N",
+                       help="bounces of a path (default: 16, or as many as the tolerance needs)")
     group.add_argument("--rouletteDepth", type=_count, default=4, metavar="N",
                        help="bounces before paths are ended by chance (default: 4)")
     group.add_argument("--indirectClamp", type=_not_negative, default=0.0, metavar="L",

@@ -94,7 +94,7 @@ class Statistics:
         frame = self._frame
         values = {"Software": f"Patina {__version__}", "patina:stage": arguments.stage, "patina:camera": camera,
                   "patina:backend": frame["backend"], "patina:seed": settings["seed"],
-                  "patina:samples": frame["samplesPerPixel"], "patina:maxDepth": settings["maxDepth"],
+                  "patina:samples": frame["samplesPerPixel"], "patina:maxDepth": frame.get("maxDepth", 1),
                   "patina:seconds": frame["seconds"].get("build", 0.0) + frame["seconds"].get("render", 0.0),
                   "patina:warnings": len(self.warnings())}
         if frame["frame"] is not None:

@@ -1,0 +1,54 @@
+"""patina chart --predictions STAGE...: what the planner predicts against what comes."""
+import csv
+import json
+import os
+
+from patina.chart import predictions
+from patina.cli import recordFlags
+from patina.cli.errors import CommandError
+from patina.cli.progress import Progress
+
+TAKES_STAGES = True
+DEFAULT_WIDTH, DEFAULT_SECONDS = 40, 20.0
+DEFAULT_TOLERANCES = [0.001, 0.01, 0.05]
+
+
+def add_arguments(parser):
+    group = parser.add_argument_group("predictions")
+    group.add_argument("--predictions", action="store_true",
+                       help="of each stage and tolerance: the predicted error beside the measured one, and the time saved; "
+                            "takes --imageWidth (here 40), --tolerances (here 0.001,0.01,0.05), --maxSamples and --seconds "
+                            "(of one render, here 20)")
+    group.add_argument("--methodSamples", type=recordFlags._count, default=256, metavar="N",
+                       help="samples per pixel that methods are compared by (default: 256)")
+
+
+def run(arguments):
+    a = arguments
+    a.imageWidth = a.imageWidth or DEFAULT_WIDTH
+    a.set = a.set or []
+    given = a.tolerances if a.tolerances != [0.05, 0.01] else DEFAULT_TOLERANCES
+    most = a.maxSamples if a.maxSamples != 64 else recordFlags.MOST_SAMPLES
+    rows = []
+    progress = Progress("", a.quiet)
+    for stage in dict.fromkeys(a.stages):
+        for backend in (["embree", "raster"] if a.backend == "both" else [a.backend]):
+            try:
+                found = predictions.check(stage, a, backend, given, a.methodSamples, most, a.seconds or DEFAULT_SECONDS)
+            except CommandError as error:
+                found = [predictions.Row(os.path.splitext(os.path.basename(stage))[0], backend, 0.0, problem=str(error))]
+            rows += found
+            for row in found:
+                progress.say(f"{row.stage} {row.backend} {row.tolerance:g}: {row.problem or f'{row.methodError:.2g}, {row.error:.2g}'}")
+    if a.out:
+        os.makedirs(a.out, exist_ok=True)
+        with open(os.path.join(a.out, "predictions.csv"), "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, predictions.COLUMNS)
+            writer.writeheader()
+            writer.writerows(row.as_dict() for row in rows)
+    text = json.dumps([row.as_dict() for row in rows], indent=1) if a.json else ""
+    if a.json and a.json != "-":
+        with open(a.json, "w", encoding="utf-8") as file:
+            file.write(text + "\n")
+    print(text if a.json == "-" else predictions.listing(rows))
+    return 0

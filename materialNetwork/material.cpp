@@ -38,11 +38,13 @@ Plan planMaterial(const Network& network, Diagnostics& diagnostics, const Method
 std::shared_ptr<const MaterialProgram>
 compileMaterial(const Network& network, TextureSource& textures, Diagnostics& diagnostics,
                 const MethodChoices& methods, double tolerance) {
-    Plan plan = planMaterial(network, diagnostics, methods);
-    if (tolerance >= 0.0) {
-        plan.planned = planMethods(plan, {methods, tolerance}, textures);
-        plan.methods = methodsOf(plan.planned, plan.methods);
-    }
+    if (tolerance < 0.0)
+        return MaterialProgram::compile(planMaterial(network, diagnostics, methods), textures,
+                                        diagnostics);
+    Diagnostics unheard; // the final plan says it all again
+    const MethodPlan planned = planMaterialMethods(network, textures, unheard, methods, tolerance);
+    Plan plan = planMaterial(network, diagnostics, methodsOf(planned, methods));
+    plan.planned = planned;
     return MaterialProgram::compile(plan, textures, diagnostics);
 }
 

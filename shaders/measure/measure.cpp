@@ -84,7 +84,8 @@ std::vector<Row> measureMethods(const std::string& point, bool timed) {
                   {"sampling", sampling},
                   {"fresnel", fresnel},
                   {"thinFilm", thinFilm},
-                  {"diffuse", diffuse}};
+                  {"diffuse", diffuse},
+                  {"layering", layering}};
     std::vector<Row> rows;
     for (const auto& p : points)
         if (point.empty() || point == p.name)

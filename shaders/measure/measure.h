@@ -64,6 +64,7 @@ std::vector<Row> sampling(bool timed);
 std::vector<Row> fresnel(bool timed);
 std::vector<Row> thinFilm(bool timed);
 std::vector<Row> diffuse(bool timed);
+std::vector<Row> layering(bool timed);
 
 /// Rows of all choice points, or of `point` alone.
 std::vector<Row> measureMethods(const std::string& point, bool timed);

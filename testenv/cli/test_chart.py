@@ -8,7 +8,7 @@ import pytest
 from patina.chart import lobes, svg
 from patina.cli import compiled, main
 
-MEASURED = ("energyCompensation", "directionalAlbedo", "sampling", "fresnel", "thinFilm", "diffuse")
+MEASURED = ("energyCompensation", "directionalAlbedo", "sampling", "fresnel", "thinFilm", "diffuse", "layering")
 
 
 def test_rows_csv_and_charts(capsys, tmp_path):

@@ -1,5 +1,6 @@
 #include "materialNetwork/predictError.h"
 
+#include "materialNetwork/layering.h"
 #include "materialNetwork/methodTable.h"
 
 #include <algorithm>
@@ -82,7 +83,9 @@ bool onlyRough(const std::string& point) {
 class Predictor {
 public:
     Predictor(const Plan& plan, const std::string& point, const std::string& method)
-        : _plan(plan), _point(point), _method(method) {}
+        : _plan(plan), _point(point), _method(method) {
+        if (point == "layering") _walks = layerWalkability(plan);
+    }
 
     Prediction run(const std::vector<std::vector<Sighting>>& places) {
         for (const auto& angles : places) {
@@ -104,7 +107,8 @@ private:
         double sum = 0.0;
         for (const SeenClosure& seen : s.closures) {
             if (!choicesOf(_plan, _plan.closures[size_t(seen.closure)]).count(_point)) continue;
-            if (onlyRough(_point) && seen.roughness <= 0.0f) {
+            const bool alike = !_walks.empty() && !_walks[size_t(seen.closure)].walks;
+            if (alike || (onlyRough(_point) && seen.roughness <= 0.0f)) {
                 _result.measured = true;
                 continue;
             }
@@ -147,6 +151,7 @@ private:
     const Plan& _plan;
     const std::string& _point;
     const std::string& _method;
+    std::vector<LayerWalkability> _walks; ///< of layering: others are scaled by every method
     Prediction _result;
 };
 

@@ -6,6 +6,19 @@
 
 namespace patina {
 
+namespace {
+
+/// Methods as the planner may use them here: random walks are the path tracer's, so that the errors
+/// of what stands in for them are counted.
+MethodChoices drawable(MethodChoices methods, double tolerance) {
+    if (tolerance < 0.0) return methods;
+    for (const char* point : {"energyCompensation", "layering"})
+        methods.emplace(point, chosenMethod({}, point));
+    return methods;
+}
+
+} // namespace
+
 RasterMaterials::RasterMaterials(Diagnostics& diagnostics)
     : _diagnostics(diagnostics), _textures(diagnostics), _uploaded(_textures, diagnostics) {}
 
@@ -48,9 +61,9 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
     cached.methods = settings.methods;
     cached.tolerance = settings.tolerance;
     RasterMaterial& m = cached.material;
-    m.program =
-        compileMaterial(prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork(),
-                        _textures, _diagnostics, settings.methods, settings.tolerance);
+    m.program = compileMaterial(
+        prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork(), _textures,
+        _diagnostics, drawable(settings.methods, settings.tolerance), settings.tolerance);
     m.glsl = makeGlslMaterial(*m.program);
     for (const std::string& line : m.glsl.leftOut)
         _diagnostics.warn(key, "", line);

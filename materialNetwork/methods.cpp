@@ -53,6 +53,11 @@ const std::vector<ChoicePoint>& choicePoints() {
                           "ring where its minimum switches"},
           {"fujii", "Fujii's improved model: no ring, loses energy"},
           {"eon", "Portsmouth, Kutz and Hill 2025: white loses nothing"}}},
+        {"sheen",
+         {{"table", "what sheen of mode conty_kulla reflects in total is looked up; mode zeltner "
+                    "has a formula by its definition"},
+          {"fit", "a polynomial: no table, errors up to 0.004"},
+          {"quadrature", "the sum over 2048 directions: the truth, slow"}}},
         {"layering",
          {{"albedoScaling",
            "a base is scaled by what the top's directional albedo leaves, as in MaterialX; what "

@@ -328,6 +328,8 @@ std::set<std::string> choicesOf(const Plan& plan, const PlanClosure& c) {
     if (hasFilm(plan, c)) matter.insert("thinFilm");
     if (c.kind == ClosureKind::OrenNayar) matter.insert("diffuse");
     if (c.kind == ClosureKind::Subsurface && !c.thin) matter.insert("subsurface");
+    if (c.kind == ClosureKind::Sheen && lobeVariant(plan, c) == sh::SHEEN_CONTY_KULLA)
+        matter.insert("sheen");
     if (c.kind == ClosureKind::Layer) matter.insert({"layering", "layerTransmittance"});
     if (c.underReflection && interface && scatterMode(plan, c) == sh::SCATTER_T)
         matter.insert("reflectionOverTransmission");

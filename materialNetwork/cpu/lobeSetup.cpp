@@ -105,7 +105,10 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
         out.schlick.facets = t.facets;
         out.schlick = sh::schlickMethods(out.schlick, t.albedo, t.sampling, t.filmMethod);
         return;
-    case LobeKind::Sheen: out.sheen = sh::sheenSetup(color(0), number(1), t.variant); return;
+    case LobeKind::Sheen:
+        out.sheen = sh::sheenSetup(color(0), number(1), t.variant);
+        out.sheen = sh::sheenMethods(out.sheen, t.sheenAlbedo);
+        return;
     case LobeKind::Phong: out.phong = sh::phongSetup(color(0), number(1)); return;
     case LobeKind::BlinnPhong: out.blinnPhong = sh::blinnPhongSetup(color(0), number(1)); return;
     case LobeKind::Ward: out.ward = sh::wardSetup(color(0), pair(1), t.variant); return;

@@ -321,6 +321,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.sampling = chosenIndex(_plan.methods, "sampling");
     t.fresnel = chosenIndex(_plan.methods, "fresnel");
     t.filmMethod = chosenIndex(_plan.methods, "thinFilm");
+    t.sheenAlbedo = chosenIndex(_plan.methods, "sheen");
     t.diffuse = DiffuseModel(chosenIndex(_plan.methods, "diffuse"));
     const auto flag = [&](const char* input) {
         float x = 0.0f;

@@ -45,6 +45,7 @@ struct LobeTemplate {
     int sampling = 0;            ///< FACETS_VISIBLE and others
     int fresnel = 0;             ///< FRESNEL_*
     int filmMethod = 0;          ///< FILM_*
+    int sheenAlbedo = 0;         ///< SHEEN_TABLED and others
     DiffuseModel diffuse = DiffuseModel::Authored; ///< of an Oren-Nayar lobe
     EnergyCurve energy;                            ///< of constant interfaces
     Register weight = 0;

@@ -71,7 +71,12 @@ std::string glslLobeSetup(const LobeTemplate& t,
                                  ", " + number(3) + ", " + pair(4) + tail + ")";
         return t.film ? "schlickFilm(" + bare + ", " + number(5) + ", " + number(6) + ")" : bare;
     }
-    case LobeKind::Sheen: return "sheenSetup(" + color(0) + ", " + number(1) + ", " + variant + ")";
+    case LobeKind::Sheen: {
+        const std::string bare = "sheenSetup(" + color(0) + ", " + number(1) + ", " + variant + ")";
+        return t.sheenAlbedo == sh::SHEEN_TABLED
+                   ? bare
+                   : "sheenMethods(" + bare + ", " + std::to_string(t.sheenAlbedo) + ")";
+    }
     case LobeKind::Phong: return "phongSetup(" + color(0) + ", " + number(1) + ")";
     case LobeKind::BlinnPhong: return "blinnPhongSetup(" + color(0) + ", " + number(1) + ")";
     case LobeKind::Ward: return "wardSetup(" + color(0) + ", " + pair(1) + ", " + variant + ")";

@@ -71,6 +71,47 @@ TEST(Methods, StandWhereTheShadersExpectThem) {
     EXPECT_EQ(place("diffuse", "qualitative"), sh::DIFFUSE_QUALITATIVE);
     EXPECT_EQ(place("diffuse", "fujii"), sh::DIFFUSE_FUJII);
     EXPECT_EQ(place("diffuse", "eon"), sh::DIFFUSE_EON);
+    EXPECT_EQ(place("sheen", "table"), sh::SHEEN_TABLED);
+    EXPECT_EQ(place("sheen", "fit"), sh::SHEEN_FITTED);
+    EXPECT_EQ(place("sheen", "quadrature"), sh::SHEEN_QUADRATURE);
+}
+
+TEST(Methods, SheenFindsItsAlbedoInThreeWays) {
+    for (const float roughness : {0.02f, 0.1f, 0.3f, 1.0f})
+        for (const float degrees : {0.0f, 60.0f, 80.0f, 89.0f}) {
+            const auto of = [&](const char* method) {
+                FakeTextures textures;
+                Diagnostics diagnostics;
+                const auto program =
+                    compileMaterial(bsdfNetwork({makeNode("bsdf", "ND_sheen_bsdf",
+                                                          {{"roughness", number(roughness)}})}),
+                                    textures, diagnostics, {{"sheen", method}});
+                ShadingPoint point;
+                point.viewDirection = direction(degrees);
+                Bsdf bsdf;
+                program->evaluate(point, bsdf);
+                return bsdf.albedo().x;
+            };
+            const float truth = of("quadrature");
+            EXPECT_NEAR(of("table"), truth, 4e-3f) << roughness << " " << degrees;
+            EXPECT_NEAR(of("fit"), truth, 6e-3f) << roughness << " " << degrees;
+        }
+}
+
+// On the path tracer light goes beneath the surface; the cheap way is a diffuse lobe.
+TEST(Methods, SubsurfaceCanBeDiffuse) {
+    const Network skin =
+        bsdfNetwork({makeNode("bsdf", "ND_subsurface_bsdf", {{"color", grey(0.5f)}})});
+    const auto kind = [&](const char* method) {
+        FakeTextures textures;
+        Diagnostics diagnostics;
+        const auto program = compileMaterial(skin, textures, diagnostics, {{"subsurface", method}});
+        Bsdf bsdf;
+        program->evaluate(ShadingPoint(), bsdf);
+        return bsdf.lobe(0).kind;
+    };
+    EXPECT_EQ(kind("randomWalk"), LobeKind::Subsurface);
+    EXPECT_EQ(kind("diffuse"), LobeKind::OrenNayar);
 }
 
 // What a layer takes from its base follows the albedo method, and the exact ones agree.

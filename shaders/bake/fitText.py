@@ -1,4 +1,4 @@
-"""GLSL of small networks, from the numbers that albedoFit.py and sheenFit.py find."""
+"""GLSL of small networks, from the numbers that albedoFit.py finds."""
 
 HEAD = """\
 // Three facets that stand in for all that a view sees of isotropic GGX: the directional albedo of a

@@ -14,6 +14,7 @@ struct SheenLobe {
     vec3 color;
     float roughness;
     int mode;
+    int albedo; // SHEEN_TABLED and others, of mode conty_kulla
 };
 
 // color: factor on the lobe; what a layer lets through does not hang on it. roughness: clamped to
@@ -23,6 +24,13 @@ PATINA_FN SheenLobe sheenSetup(vec3 color, float roughness, int mode) {
     l.color = lobeColor(color);
     l.roughness = clamp(roughness, SHEEN_ROUGHNESS_MIN, 1.0f);
     l.mode = mode;
+    l.albedo = SHEEN_TABLED;
+    return l;
+}
+
+// The lobe with another method to find the albedo by.
+PATINA_FN SheenLobe sheenMethods(SheenLobe l, int albedo) {
+    l.albedo = albedo;
     return l;
 }
 
@@ -58,26 +66,7 @@ PATINA_FN vec2 sheenAzimuth(vec3 wo) {
 PATINA_FN float sheenWhiteAlbedo(SheenLobe l, float mu) {
     float x = clamp(mu, 0.0f, 1.0f);
     if (l.mode == SHEEN_ZELTNER) return sheenZeltnerAlbedo(x, l.roughness);
-    return min(sheenAlbedoTable(x, l.roughness), 1.0f);
-}
-
-// Share of the samples that the half vector makes; the rest is uniform. Broad lobes need none.
-PATINA_FN float sheenHalfShare(float roughness) {
-    return 0.5f * sqr(1.0f - roughness);
-}
-
-// The Conty-Kulla lobe as it is published: f |cos wi|, and the density of the sampler.
-PATINA_FN vec2 sheenContyKulla(float roughness, vec3 wo, vec3 wi) {
-    float e = 1.0f / roughness;
-    vec3 h = wo + wi;
-    float h2 = max(dot(h, h), TINY);
-    float sine2 = clamp((h.x * h.x + h.y * h.y) / h2, 0.0f, 1.0f);
-    float d = (2.0f + e) * 0.5f * INV_PI * powSchlick(sine2, 0.5f * e);
-    float sum = wo.z + wi.z;
-    float value = 0.25f * d * wi.z / max(sum - wo.z * wi.z, TINY);
-    // D h.z / (4 o.h) with o.h = |h| / 2.
-    float viaHalf = 0.5f * d * sum / h2;
-    return vec2(value, mix(0.5f * INV_PI, viaHalf, sheenHalfShare(roughness)));
+    return min(sheenReflects(x, l.roughness, l.albedo), 1.0f);
 }
 
 PATINA_FN LobeEval sheenEval(SheenLobe l, vec3 wo, vec3 wi) {
@@ -96,7 +85,7 @@ PATINA_FN LobeEval sheenEval(SheenLobe l, vec3 wo, vec3 wi) {
         return e;
     }
     vec2 v = sheenContyKulla(l.roughness, wo, wi);
-    e.value = l.color * (v.x / max(sheenAlbedoTable(min(wo.z, 1.0f), l.roughness), 1.0f));
+    e.value = l.color * (v.x / max(sheenReflects(min(wo.z, 1.0f), l.roughness, l.albedo), 1.0f));
     e.pdf = v.y;
     return e;
 }

@@ -17,7 +17,7 @@ import graphText
 import kept
 
 # Of the path tracer alone, and with values that are estimates.
-WALK = "randomWalk"
+WALKS = ("randomWalk", "positionFree")
 # Ways to find an albedo that are not meant to be exact: sampling finds another.
 ROUGH_GUESSES = ("karis", "mirror", "monteCarlo16")
 
@@ -36,7 +36,7 @@ def load(patina, text):
 def failures(patina, network, graph, methods, raster=False):
     """:returns: list of what failed on the processor, and where asked for on the driver"""
     probe = patina.MaterialProbe(network, methods)
-    walks = methods.get("energyCompensation") == WALK
+    walks = any(name in WALKS for name in methods.values())
     found = graphChecks.check(probe, graph)
     if not walks:
         found += graphChecks.check_density(probe)

@@ -3,7 +3,7 @@
 
     charts.py [--out FOLDER] [--only KIND]... [--quick]
 
-Kinds are those of `patina chart`: lobes, scenes, and where this build has them predictions and stability. Each runs in a
+Kinds are those of `patina chart`: lobes, scenes, stability, and where this build has them predictions. Each runs in a
 process of its own; of what it writes the files named below go to the folder (default: docs/charts). --quick takes small
 pictures and few samples, to see whether it all works. The whole takes some 20 minutes on two cores.
 """
@@ -26,6 +26,7 @@ KINDS = {
                + ["--imageWidth", "128", "--maxSamples", "64", "--seconds", "240", "--quiet"],
                [f"testenv/scenes/{SCENES[0]}.usda", "--imageWidth", "32", "--maxSamples", "4", "--quiet"],
                ["scenes.csv", "*-relMSE.svg", "*-flip.svg", "*-rmse.svg"]),
+    "stability": (["--stability"], ["--stability", "--points", "6"], ["stability.svg"]),
 }
 LARGEST = 1 << 20  # bytes: README.md shows the folder
 

@@ -1,8 +1,8 @@
 // Mean reflectance of a conductor over the facets that wo sees. The exact reflectance, read at six
 // cosines, is written as a sum of (1 - c)^p, p = 0, 1.7, 2.5, 5, 10, 20, whose albedos the moment
 // table has. The matrix is the inverse of that basis at those cosines, printed by
-// shaders/bake/conductorBasis.py. The sum meets the exact curve within 3e-3 for metals (mean 3e-4),
-// 3e-2 for ior < 1 with k < 0.2.
+// shaders/bake/conductorBasis.py. The sum meets the exact curve within 3e-3 for metals (mean 3e-4);
+// below ior 1 with little k it does not (conductorSteep).
 
 const vec3 CONDUCTOR_COS = vec3(0.0894427191f, 0.252982213f, 0.464758002f);
 const float CONDUCTOR_COS3 = 0.715541753f;

@@ -1,6 +1,6 @@
 // Diffuse reflection of Burley 2012 ("Physically Based Shading at Disney"): MaterialX
 // burley_diffuse_bsdf. Reciprocal, one-sided. Not energy preserving: a white lobe of roughness 1
-// gains up to 7 percent off normal and loses at roughness 0; that is the model.
+// gains 12 percent at 70 degrees and 56 at the horizon, and loses at roughness 0; that is the model.
 
 struct BurleyLobe {
     vec3 color;

@@ -143,6 +143,19 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
     return s;
 }
 
+// A "metal" that refracts: close below a critical angle the reflectance jumps, which no sum of
+// smooth curves follows.
+PATINA_FN bool conductorSteepChannel(float n, float k) {
+    return n < 1.0f && k < 0.5f && n * n - k * k > -0.1f;
+}
+
+PATINA_FN bool conductorSteep(ConductorLobe l) {
+    return (l.fresnel == FRESNEL_EXACT || l.film.thickness > 0.0f) &&
+           (conductorSteepChannel(l.ior.x, l.extinction.x) ||
+            conductorSteepChannel(l.ior.y, l.extinction.y) ||
+            conductorSteepChannel(l.ior.z, l.extinction.z));
+}
+
 PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
     if (l.alpha.x == 0.0f || l.albedo == ALBEDO_MIRROR)
@@ -157,14 +170,18 @@ PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
         vec3 er = conductorReflectance(l, 1.0f) * ab.x + vec3(ab.y);
         return min(er, vec3(ess)) * k + extra;
     }
-    if (albedoHasFacets(method)) {
-        AlbedoFacets a = albedoFacets(wo, l.alpha, l.facets, method);
+    bool steep = method == ALBEDO_TABLE && conductorSteep(l);
+    if (albedoHasFacets(method) || steep) {
+        AlbedoFacets a =
+            albedoFacets(wo, l.alpha, l.facets, select(ALBEDO_SAMPLES_64, method, steep));
         vec3 er = vec3(0.0f);
+        float white = 0.0f;
         for (int j = 0; j < a.count; ++j) {
             vec2 facet = albedoFacet(a, j);
             er += conductorReflectance(l, facet.x) * facet.y;
+            white += facet.y;
         }
-        return er * k + extra;
+        return er * (k * select(ess / max(white, ALBEDO_MIN), 1.0f, steep)) + extra;
     }
     FacetPlace p = facetPlace(wo, l.alpha, l.facets);
     vec3 mean = conductorMean(p, l.ior, l.extinction);

@@ -14,7 +14,10 @@ import time
 
 import graphChecks
 import graphText
+import kept
 
+# Of the path tracer alone, and with values that are estimates.
+WALKS = ("randomWalk", "positionFree")
 # Ways to find an albedo that are not meant to be exact: sampling finds another.
 ROUGH_GUESSES = ("karis", "mirror", "monteCarlo16")
 
@@ -33,12 +36,15 @@ def load(patina, text):
 def failures(patina, network, graph, methods, raster=False):
     """:returns: list of what failed on the processor, and where asked for on the driver"""
     probe = patina.MaterialProbe(network, methods)
+    walks = any(name in WALKS for name in methods.values())
     found = graphChecks.check(probe, graph)
+    if not walks:
+        found += graphChecks.check_density(probe)
     if methods.get("directionalAlbedo") not in ROUGH_GUESSES:
         found += graphChecks.check_furnace(probe, graph)
-    if raster:
+    if raster and not walks:
         other = patina.RasterProbe(network, methods)
-        found += ["raster: " + line for line in graphChecks.check(other, graph)]
+        found += ["raster: " + line for line in [*graphChecks.check(other, graph), *graphChecks.check_density(other)]]
         found += graphChecks.compare(probe, other)
     return found
 
@@ -61,13 +67,11 @@ def main():
         if not found:
             continue
         broken += 1
-        head = [f"seed {seed}: {', '.join(graph.kinds)}; methods: {methods}; bound: {graph.bound:g}", *found]
-        print("\n  ".join(head), flush=True)
+        print("\n  ".join([f"seed {seed}: {', '.join(graph.kinds)}; methods: {methods}; bound: {graph.bound:g}", *found]),
+              flush=True)
         if arguments.keep:
             os.makedirs(arguments.keep, exist_ok=True)
-            with open(os.path.join(arguments.keep, f"graph{seed}.mtlx"), "w", encoding="utf-8") as file:
-                comment = "\n".join(line.replace("--", "- -") for line in head)
-                file.write(graph.text().replace("\n<materialx", f"\n<!-- {comment} -->\n<materialx", 1))
+            kept.write(os.path.join(arguments.keep, f"graph{seed}.mtlx"), graph.text(), graph, methods, found)
     print(f"{broken} of {arguments.count} graphs failed; {time.time() - start:.1f} s")
     return 1 if broken else 0
 

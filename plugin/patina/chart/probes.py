@@ -6,21 +6,35 @@ from patina.cli import compiled
 SEED = 20  # of all sampled numbers in the atlas
 
 
-def lobe(category, methods=None, **inputs):
+def network(category, **inputs):
     """:param category: of a BSDF node, `dielectric_bsdf`
     :param inputs: numbers, tuples or words
-    :returns: its probe
+    :returns: the network of a material of this lobe
     """
     patina = compiled.load()
-    network = patina.Network("/sweep")
+    made = patina.Network("/sweep")
     types = patina.node_inputs("ND_" + category)
-    network.add_node("/sweep/bsdf", "ND_" + category)
+    made.add_node("/sweep/bsdf", "ND_" + category)
     for name, value in inputs.items():
-        network.set_input("/sweep/bsdf", name, types[name], value)
-    network.add_node("/sweep/surface", "ND_surface")
-    network.connect("/sweep/surface", "bsdf", "/sweep/bsdf")
-    network.set_terminal("surface", "/sweep/surface")
-    return patina.MaterialProbe(network, methods or {})
+        made.set_input("/sweep/bsdf", name, types[name], value)
+    made.add_node("/sweep/surface", "ND_surface")
+    made.connect("/sweep/surface", "bsdf", "/sweep/bsdf")
+    made.set_terminal("surface", "/sweep/surface")
+    return made
+
+
+def lobe(category, methods=None, **inputs):
+    """:returns: the probe of a lobe, inputs as network() takes them"""
+    return compiled.load().MaterialProbe(network(category, **inputs), methods or {})
+
+
+def planned(made, point, tolerance):
+    """:returns: the method that the planner takes at a choice point, the default where it leaves that open"""
+    patina = compiled.load()
+    for choice in patina.plan_material(made, tolerance=tolerance)["choices"]:
+        if choice["point"] == point:
+            return choice["method"]
+    return dict(patina.choice_points())[point][0][0]
 
 
 def towards(cosine, turn=0.0):

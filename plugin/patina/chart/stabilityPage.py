@@ -13,7 +13,8 @@ h1{font-size:24px;margin:0 0 6px}h2{font-size:20px;margin:36px 0 8px;border-top:
 figcaption{font-size:13px;padding:4px 12px 10px}b{font-weight:600}.bad{color:#a11}
 """
 HEAD = """<p>Each chart takes one parameter through the region where a method fails. The wide grey line is the truth: a closed form,
-an integral, or a walk. Dots mark the method that is used there; a dotted upright line, where another takes over. Below each
+an integral, or a walk. Dots mark the method that is used there; a dotted upright line, where another takes over; crosses at
+the upper edge, where a method gives no number. Below each
 chart stands what fails, how far off that method is at most, and the bound that the marked one keeps
 (<code>testenv/stability/test_atlas.py</code> holds it). Methods that are called unguarded are no part of Patina: they are
 textbook forms in single precision, to show what the guards are for.</p>"""

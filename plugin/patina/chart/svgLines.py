@@ -55,10 +55,12 @@ def lines(sweep, width=460, height=290):
     """
     every = [v for values in (*sweep.curves.values(), sweep.truth) for v in map(float, values)]
     truths = [float(v) for v in sweep.truth]
-    if not sweep.log_y:  # a value that runs away must not flatten the rest
-        top = 2.5 * max(map(abs, truths)) + 10 * sweep.bound
-        every = [min(v, top) for v in every if math.isfinite(v)]
-        every += [max(truths) + 2 * sweep.bound, min(truths) - 2 * sweep.bound]
+    if not sweep.log_y:
+        if any(truths):  # a value that runs away must not flatten the rest
+            top = 2.5 * max(map(abs, truths)) + 10 * sweep.bound
+            every = [min(v, top) for v in every if math.isfinite(v)]
+        low = min(truths) - 2 * sweep.bound
+        every += [max(truths) + 2 * sweep.bound, low if min(truths) < 0.0 else max(low, 0.0)]
     x = Scale(sweep.x, LEFT, width - RIGHT, sweep.log_x)
     y = Scale(every, height - BOTTOM, TOP, sweep.log_y)
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
@@ -87,6 +89,8 @@ def lines(sweep, width=460, height=290):
         for a, b, chosen in zip(sweep.x, map(float, values), sweep.chosen):
             if chosen == name and math.isfinite(b):
                 out.append(f'<circle cx="{x.at(a):.1f}" cy="{y.at(b):.1f}" r="2.1" fill="{colour}"/>')
+            elif not math.isfinite(b):  # no number: a cross at the upper edge
+                out.append(f'<path d="M{x.at(a) - 3:.1f} {TOP + 2 + 7 * i}l6 6m0 -6l-6 6" stroke="{colour}" fill="none"/>')
     at = LEFT
     for name, colour in shown.items():
         out.append(f'<path d="M{at} {height - 7}h12" stroke="{colour}" stroke-width="3"/>')

@@ -97,7 +97,7 @@ def _grazing(count):
         density = alpha ** 2 / (np.pi * (1.0 - z2 * (1.0 - alpha ** 2)) ** 2)
         found.append(float(probe.eval(wo, probes.towards(1.0))[1][0]) * 4.0 / density)
     return Sweep("grazing views", "facets", "Smith's masking over the cosine, by slopes: 0 / 0 at the horizon.", "cosine", x,
-                 "G1 / cosine, alpha 0.5", {"by lengths": found, "by slopes": unguarded}, truth, always("by lengths", x), 2e-3,
+                 "G1 / cosine, alpha 0.5", {"by lengths": found, "by slopes": unguarded}, truth, always("by lengths", x), 4e-3,
                  "by slopes", log_x=True)
 
 
@@ -143,8 +143,8 @@ def _last_numbers(count):
             unguarded.append(float(density / density))
     return Sweep("random numbers of 0 and just under 1", "facets",
                  "The last random number, rounded up to 1, makes a normal without density, and a weight of 0 / 0.",
-                 "random number", ends, "largest weight", {"guarded": worst, "unguarded": unguarded}, [0.5] * len(ends),
-                 always("guarded", ends), 0.5001, "unguarded")
+                 "random number", ends, "largest weight", {"guarded": worst, "unguarded": unguarded}, [1.0] * len(ends),
+                 always("guarded", ends), 1e-3, "unguarded")
 
 
 def _opposite(count):

@@ -72,7 +72,7 @@ def _matched(count):
 
 def _bright_metal(count):
     x = list(np.linspace(50.0, 1000.0, count))
-    return _thickness("film on a bright metal", x, 1.8, 4e-3, 2.0, metal=(0.2, 3.4), cosine=0.3)
+    return _thickness("film on a bright metal", x, 1.8, 6e-3, 1.5, metal=(0.2, 3.4), cosine=0.3)
 
 
 def _thin(count):

@@ -1,0 +1,48 @@
+"""What the planner takes along a sweep: where it switches, the predicted error of what it left would be too large."""
+from patina.chart import probes
+from patina.chart.sweeps import Sweep
+from patina.cli import compiled
+
+TOLERANCE = 0.01
+SHARE = 0.4  # of the tolerance that methods may take (materialNetwork/planner.h)
+
+
+def _switch(x, chosen):
+    """:returns: the first place where the choice changes, or None"""
+    return next((0.5 * (x[i] + x[i - 1]) for i in range(1, len(x)) if chosen[i] != chosen[i - 1]), None)
+
+
+def _sweep(name, fails, label, x, point, methods, truth, failing, make, wo, more=None, **keywords):
+    """:param make: x -> (category, inputs)"""
+    more, curves, chosen = more or {}, {m: [] for m in methods}, []
+    for v in x:
+        category, inputs = make(v)
+        made = probes.network(category, **inputs)
+        for m in methods:
+            curves[m].append(probes.albedo(compiled.load().MaterialProbe(made, {**more, point: m}), wo))
+        chosen.append(probes.planned(made, point, TOLERANCE))
+    for missing in set(chosen) - set(methods):
+        curves[missing] = [probes.albedo(compiled.load().MaterialProbe(probes.network(make(v)[0], **make(v)[1]),
+                                                                       {**more, point: missing}), wo) for v in x]
+    return Sweep(name, "plan", fails, label, x, "albedo", curves, curves[truth], chosen, TOLERANCE, failing,
+                 switch=_switch(x, chosen), **keywords)
+
+
+def _grid(low, high, count):
+    return [low + (high - low) * i / (count - 1) for i in range(count)]
+
+
+def sweeps(count):
+    """Tolerance 1 %: errors of albedos stay below it, wherever what is cheapest is taken."""
+    wo = probes.towards(0.4)
+    return [
+        _sweep("planned Fresnel over ior", "Schlick's curve is taken near ior 1.5 alone, if at all.", "ior", _grid(1.05, 3.0, count),
+               "fresnel", ("exact", "schlick", "f82"), "exact", "schlick",
+               lambda v: ("dielectric_bsdf", {"ior": float(v), "roughness": (0.3, 0.3)}), wo),
+        _sweep("planned compensation over alpha", "Without compensation what is lost grows with alpha.", "alpha",
+               _grid(0.02, 0.9, count), "energyCompensation", ("turquin", "kullaConty", "none"), "turquin", "none",
+               lambda v: ("conductor_bsdf", {"roughness": (float(v),) * 2}), wo),
+        _sweep("planned albedo over alpha", "A mirror's albedo does while the lobe is narrow.", "alpha", _grid(0.02, 0.9, count),
+               "directionalAlbedo", ("table", "fit", "karis", "mirror", "quadrature"), "quadrature", "mirror",
+               lambda v: ("dielectric_bsdf", {"ior": 1.5, "roughness": (float(v),) * 2}), probes.towards(0.15)),
+    ]

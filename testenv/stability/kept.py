@@ -1,0 +1,42 @@
+"""Graphs that failed once, kept as documents: what may be expected of one stands in a comment, with what failed."""
+import os
+import re
+from types import SimpleNamespace
+
+CORPUS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "corpus")
+EXPECTED = re.compile(r"<!-- expected: (.*) -->")
+
+
+def write(path, text, graph, methods, lines):
+    """:param graph: with bound, loses, thin and ward, as graphText.Graph
+    :param lines: what failed
+    """
+    words = [f"bound={graph.bound:g}", *(name for name in ("loses", "thin", "ward") if getattr(graph, name)),
+             *(f"{point}={name}" for point, name in sorted(methods.items()))]
+    failed = "\n     ".join(line.replace("--", "- -") for line in lines)
+    comments = f"<!-- expected: {' '.join(words)} -->\n<!-- {failed} -->"
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text.replace("\n<materialx", f"\n{comments}\n<materialx", 1))
+
+
+def read(path):
+    """:returns: the text, what is expected of it (as a graph has it), and its methods"""
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    found = EXPECTED.search(text)
+    words = found.group(1).split() if found else []
+    expected, methods = SimpleNamespace(bound=1.0, loses=False, thin=False, ward=False), {}
+    for word in words:
+        name, equals, value = word.partition("=")
+        if name == "bound":
+            expected.bound = float(value)
+        elif equals:
+            methods[name] = value
+        else:
+            setattr(expected, name, True)
+    return text, expected, methods
+
+
+def corpus():
+    """:returns: paths of all kept graphs"""
+    return sorted(os.path.join(CORPUS, name) for name in os.listdir(CORPUS) if name.endswith(".mtlx"))

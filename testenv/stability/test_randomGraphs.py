@@ -1,0 +1,107 @@
+"""Random legal graphs, and those that failed once: no crash, finite, not negative, no energy gained, both back ends equal.
+
+More of them: python testenv/stability/randomGraphs.py --seed N --count M --keep FOLDER
+"""
+import os
+import types
+
+import numpy as np
+import pytest
+
+_patina = pytest.importorskip("_patina")
+
+import graphChecks  # noqa: E402
+import graphText  # noqa: E402
+import kept  # noqa: E402
+import randomGraphs  # noqa: E402
+
+COUNT = 100
+ON_THE_DRIVER = (4, 16, 33)  # seeds; a driver in software takes seconds to compile each
+# Walks take seconds for a graph; the command line has them.
+POINTS = [(point, [m for m in names if m[0] not in randomGraphs.WALKS]) for point, names in _patina.choice_points()]
+
+
+def without_opengl():
+    try:
+        _patina.RasterProbe(randomGraphs.load(_patina, graphText.Graph(ON_THE_DRIVER[0]).text()))
+    except (AttributeError, RuntimeError) as error:
+        return str(error)
+    return ""
+
+
+@pytest.mark.parametrize("first", range(1, COUNT + 1, 20))
+def test_random_graphs(first):
+    found = {}
+    for seed in range(first, first + 20):
+        graph = graphText.Graph(seed)
+        network = randomGraphs.load(_patina, graph.text())
+        failed = randomGraphs.failures(_patina, network, graph, graphText.methods(seed, POINTS))
+        if failed:
+            found[seed] = failed
+    assert found == {}
+
+
+@pytest.mark.parametrize("seed", ON_THE_DRIVER)
+def test_both_back_ends(seed):
+    reason = without_opengl()
+    if reason:
+        pytest.skip(reason)
+    graph = graphText.Graph(seed)
+    assert randomGraphs.failures(_patina, randomGraphs.load(_patina, graph.text()), graph, {}, raster=True) == []
+
+
+@pytest.mark.parametrize("path", kept.corpus(), ids=os.path.basename)
+def test_corpus(path):
+    text, expected, methods = kept.read(path)
+    assert randomGraphs.failures(_patina, randomGraphs.load(_patina, text), expected, methods) == []
+
+
+def test_a_seed_is_a_text_for_ever():
+    assert graphText.Graph(7).text() == graphText.Graph(7).text()
+    assert len({graphText.Graph(seed).text() for seed in range(40)}) == 40
+    kinds = {kind for seed in range(400) for kind in graphText.Graph(seed).kinds}
+    assert kinds == {*graphText.BSDFS, *graphText.EDFS, *graphText.VDFS}
+
+
+def test_kept_graphs_come_back(tmp_path):
+    graph = graphText.Graph(5)
+    kept.write(tmp_path / "a.mtlx", graph.text(), graph, {"fresnel": "f82"}, ["f: nan -- at x"])
+    text, expected, methods = kept.read(tmp_path / "a.mtlx")
+    assert (expected.bound, expected.loses, expected.thin, methods) == (graph.bound, graph.loses, graph.thin, {"fresnel": "f82"})
+    assert randomGraphs.load(_patina, text).path.endswith("graph5")
+
+
+class Broken:
+    """Lambert's lobe with one thing wrong."""
+
+    def __init__(self, wrong):
+        self.wrong = wrong
+
+    def eval(self, wo, wi):
+        f = np.where((wo[:, 2:] >= 0) & (wi[:, 2:] > 0), 0.5 / np.pi, 0.0) * np.ones((1, 3))
+        if self.wrong == "nan":
+            f[17, 1] = np.nan
+        return f, np.maximum(wi[:, 2], 0.0) / np.pi * (0.5 if self.wrong == "density" else 1.0)
+
+    def sample(self, wo, u):
+        z, phi = np.sqrt(1.0 - u[:, 0]), 2.0 * np.pi * u[:, 1]
+        s = np.sqrt(1.0 - z * z)
+        weight = np.full((len(wo), 3), 1.4 if self.wrong == "gain" else -0.5 if self.wrong == "negative" else 0.5)
+        weight[wo[:, 2] < 0] = 0.0
+        return {"wi": np.column_stack([s * np.cos(phi), s * np.sin(phi), z]), "weight": weight, "pdf": z / np.pi + 1e-9,
+                "event": np.full(len(wo), 1)}
+
+    def albedo(self, wo):
+        return np.where(wo[:, 2:] >= 0, 2.0 if self.wrong == "albedo" else 0.5, 0.0) * np.ones((1, 3))
+
+    def emission(self, wo):
+        return np.zeros((len(wo), 3))
+
+
+@pytest.mark.parametrize("wrong, words", [("", ""), ("nan", "f:"), ("gain", "sampled albedo above 1"), ("albedo", "albedo above 1"),
+                                          ("negative", "weight of a sample"), ("density", "pdf of a sample is not")])
+def test_what_is_wrong_is_found(wrong, words):
+    graph = types.SimpleNamespace(bound=1.0, loses=False, thin=False, ward=False)
+    probe = Broken(wrong)
+    found = [*graphChecks.check(probe, graph), *graphChecks.check_density(probe), *graphChecks.check_furnace(probe, graph)]
+    assert any(words in line for line in found) if words else not found

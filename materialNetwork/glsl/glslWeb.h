@@ -17,7 +17,7 @@ namespace patina {
 struct GlslWebMaterial {
     std::string text;
     std::vector<int> textures;        ///< TextureSource handle of each `sampler<i>`
-    std::vector<std::string> leftOut; ///< as GlslMaterial::leftOut
+    std::vector<std::string> leftOut; ///< as GlslMaterial::leftOut, and NaN that became 0
     /// Texels of a row `parameterTable`, where the text finds parameters by a number that it works
     /// out; else empty.
     std::vector<glm::vec4> parameters;

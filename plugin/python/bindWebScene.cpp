@@ -1,6 +1,5 @@
-// Lights and meshes of a scene, as the material page takes them.
+// Meshes of a scene, as the material page takes them.
 
-#include "hdDelegate/lights/areaShape.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/tessellate.h"
@@ -10,8 +9,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <functional>
 
 namespace py = pybind11;
@@ -19,88 +16,6 @@ namespace py = pybind11;
 namespace patina {
 
 namespace {
-
-constexpr float degree = 3.14159265358979f / 180.0f;
-
-std::array<float, 3> triple(const vec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-/// The eight texels of shaders/web/lights.glsl; empty for a light that gives none.
-std::vector<float> lightRow(const Light& light, const mat4& toWorld) {
-    enum { Rect, Disk, Sphere, Cylinder, Point, Distant };
-    vec4 row[8] = {};
-    const float axisLength = glm::length(vec3(toWorld[2]));
-    const vec3 z = axisLength > 0.0f ? vec3(toWorld[2]) / axisLength : vec3(0.0f, 0.0f, 1.0f);
-    vec3 radiance = glm::max(lightRadiance(light, toWorld), vec3(0.0f));
-    int kind = Distant;
-    row[4] = vec4(-z, 1.0f);
-    if (light.type == LightType::Distant) {
-        row[4].w = std::cos(0.5f * degree * std::clamp(light.angle, 0.0f, 360.0f));
-        // Floats cannot tell the cosines of narrow cones apart: those shine from one direction.
-        if (row[4].w > 0.999999f && light.angle > 0.0f) {
-            radiance *= float(lightSizeFactor(light, toWorld));
-            row[4].w = 1.0f;
-        }
-    } else if (light.type == LightType::Sphere && light.treatAsPoint) {
-        kind = Point;
-        radiance = lightBaseRadiance(light) * 0.25f *
-                   (light.normalize ? 1.0f : float(lightSizeFactor(light, toWorld)));
-    } else {
-        const AreaShape shape = makeAreaShape(light, toWorld);
-        if (!shape.valid) return {};
-        const float half = shape.kind == AreaShape::Kind::Disk ? 1.0f : 0.5f;
-        kind = shape.kind == AreaShape::Kind::Rect     ? Rect
-               : shape.kind == AreaShape::Kind::Disk   ? Disk
-               : shape.kind == AreaShape::Kind::Sphere ? Sphere
-                                                       : Cylinder;
-        const float across =
-            kind == Sphere ? std::cbrt(std::abs(shape.determinant)) : glm::length(shape.axes[1]);
-        row[2] = vec4(shape.axes[0] * half, across);
-        row[3] = vec4(shape.axes[1] * half, shape.area);
-        if (kind == Rect || kind == Disk) row[4] = vec4(shape.normal, 0.0f);
-        row[0] = vec4(shape.origin, 0.0f);
-    }
-    if (kind == Point) row[0] = vec4(vec3(toWorld[3]), 0.0f);
-    row[0].w = float(kind);
-    row[1] = vec4(radiance, 1.0f);
-    const float cone = light.shapingConeAuthored ? light.shapingConeAngle * degree : 0.0f;
-    row[5] = vec4(std::max(light.shapingFocus, 0.0f), std::max(cone, 0.0f),
-                  cone * (1.0f - std::clamp(light.shapingConeSoftness, 0.0f, 1.0f)), 0.0f);
-    row[6] = vec4(light.shapingFocusTint, 0.0f);
-    row[7] = vec4(light.diffuse, light.specular, 0.0f, 0.0f);
-    std::vector<float> out;
-    for (const vec4& texel : row)
-        for (int c = 0; c < 4; ++c) {
-            if (!std::isfinite(texel[c])) return {};
-            out.push_back(texel[c]);
-        }
-    return out;
-}
-
-py::dict lightsOf(const Scene& scene) {
-    py::list direct, domes;
-    for (const auto& [path, light] : scene.snapshot()->lights) {
-        if (!light->visible || !light->group.empty()) continue;
-        const mat4 toWorld = transformAt(light->transform, 0.0f);
-        if (light->type == LightType::Dome) {
-            py::dict dome;
-            dome["path"] = path;
-            dome["texture"] = light->textureFile;
-            dome["radiance"] = triple(glm::max(lightRadiance(*light, toWorld), vec3(0.0f)));
-            dome["axes"] = std::vector<std::array<float, 3>>{
-                triple(vec3(toWorld[0])), triple(vec3(toWorld[1])), triple(vec3(toWorld[2]))};
-            domes.append(dome);
-        } else if (light->type != LightType::Mesh) {
-            const std::vector<float> row = lightRow(*light, toWorld);
-            if (!row.empty()) direct.append(py::make_tuple(path, row));
-        }
-    }
-    py::dict dict;
-    dict["lights"] = direct;
-    dict["domes"] = domes;
-    return dict;
-}
 
 using Floats = py::array_t<float>;
 
@@ -183,9 +98,6 @@ py::list shapesOf(const Scene& scene) {
 } // namespace
 
 void bindWebScene(py::module_& m) {
-    m.def("web_lights", &lightsOf, py::arg("scene"),
-          "lights: (path, 32 floats in the layout of shaders/web/lights.glsl); domes: dicts of "
-          "path, texture, radiance and axes. Light groups and mesh lights are left out.");
     m.def("web_mesh", &meshOf, py::arg("scene"), py::arg("path"),
           "Triangles of a prim as arrays with three rows each: points, normals, uv, colors; "
           "toWorld as 16 columns. KeyError, or ValueError for a prim without triangles.");

@@ -20,6 +20,7 @@ void bindMethods(py::module_& m);
 #ifdef PATINA_BIND_WEB
 void bindWeb(py::module_& m);
 void bindWebScene(py::module_& m);
+void bindWebLights(py::module_& m);
 #endif
 #ifdef PATINA_HAS_RASTER
 void bindRasterBsdf(py::module_& m);
@@ -87,6 +88,7 @@ Film, images and colour; Renderer and its settings; materials: see the classes' 
 #ifdef PATINA_BIND_WEB
     patina::bindWeb(m);
     patina::bindWebScene(m);
+    patina::bindWebLights(m);
 #endif
 #ifdef PATINA_HAS_RASTER
     patina::bindRasterBsdf(m);

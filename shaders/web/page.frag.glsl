@@ -114,7 +114,7 @@ void main() {
             if (radiance == vec3(0.0) || (density == 0.0 && k > 0) || isBlocked(s.wi)) continue;
             density *= float(lightSamples.y);
             shares = l.shares;
-            meets = l.kind != LIGHT_CYLINDER;
+            meets = isMet(l);
         } else if (i < others) {
             int at = 2 * (i - ofLights);
             vec4 to = texelFetch(environmentSamples, ivec2(at, passInfo.x), 0);

@@ -11,8 +11,9 @@ from patina.view import compareImages, images, reference, shapes
 DEMOS = os.path.join(os.path.dirname(__file__), "..", "..", "plugin", "patina", "view", "demos")
 TEN = {"classic": ("lambert", "phong", "blinnPhong", "ward", "cookTorrance", "rust"),
        "layers": ("specular", "metal", "coat", "sheen")}
-WIDTH, SAMPLES = 64, 64
-LIGHTS = """#usda 1.0
+WIDTH, SAMPLES = 32, 128
+HARD_ONES = ("lambert", "metal", "coat", "sheen")  # all ten were looked at once: 0.018 to 0.028
+SOFT = """#usda 1.0
 def DistantLight "sun"
 {
     float inputs:angle = 0
@@ -30,6 +31,34 @@ def SphereLight "lamp"
     uniform token[] xformOpOrder = ["xformOp:translate"]
 }
 """
+# A low sun, a small lamp near by, a panel, and a bright window in a dark room.
+HARD = """#usda 1.0
+def DistantLight "lowSun"
+{
+    float inputs:angle = 4
+    float inputs:intensity = 800
+    float3 xformOp:rotateXYZ = (-35, -40, 0)
+    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
+}
+def SphereLight "bulb"
+{
+    color3f inputs:color = (1, 0.7, 0.5)
+    float inputs:intensity = 60
+    float inputs:radius = 0.15
+    double3 xformOp:translate = (3, 1, 2)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def RectLight "panel"
+{
+    float inputs:intensity = 8
+    float inputs:width = 1
+    float inputs:height = 2
+    double3 xformOp:translate = (-2.5, 1.5, 1)
+    float3 xformOp:rotateXYZ = (-20, -70, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+}
+"""
+CASES = {"soft": ("sun", "lamp"), "hard": ("lowSun", "bulb", "panel")}
 
 
 def soft_sky():
@@ -40,37 +69,71 @@ def soft_sky():
             + 0.15 * across[..., None] * np.array([1.2, 1.0, 0.7])).astype(np.float32)
 
 
-@pytest.mark.slow
-def test_ten_materials_look_as_in_the_rasterizer(chromium, make, tmp_path):
+def hard_sky():
+    sky = 0.2 * soft_sky()
+    sky[8:13, 20:27] = 6.0
+    return sky
+
+
+def pictures(chromium, make, folder):
+    """Yields (case, name, the page's picture, a way to draw it with a back end) for each material and case."""
     module = compiled.load()
-    try:
-        module.make_renderer("raster")
-    except RuntimeError as error:
-        pytest.skip(f"no rasterizer: {error}")
-    lights, sky = str(tmp_path / "lights.usda"), str(tmp_path / "sky.exr")
-    with open(lights, "w", encoding="utf-8") as file:
-        file.write(LIGHTS)
-    module.write_image(sky, soft_sky())
-    found = {}
+    lights = {"soft": str(folder / "soft.usda"), "hard": str(folder / "hard.usda")}
+    skies = {"soft": str(folder / "softSky.exr"), "hard": str(folder / "hardSky.exr")}
+    for case, text, sky in (("soft", SOFT, soft_sky()), ("hard", HARD, hard_sky())):
+        with open(lights[case], "w", encoding="utf-8") as file:
+            file.write(text)
+        module.write_image(skies[case], sky)
+    both = folder / "both.usda"
+    both.write_text("#usda 1.0\n(\n    subLayers = [@soft.usda@, @hard.usda@]\n)\n")
     for demo, names in TEN.items():
         file = os.path.join(DEMOS, demo + ".usda")
-        chromium.open(make(f"ten-{demo}.html", file, "--stage", lights, "--environment", sky), f"?width={WIDTH}")
-        data = chromium.evaluate("page.paused = true; const d = page.data; return { environment: d.environments[0], "
+        chromium.open(make(f"ten-{demo}.html", file, "--stage", both, "--environment", skies["soft"], "--environment",
+                           skies["hard"]), f"?width={WIDTH}")
+        data = chromium.evaluate("page.paused = true; const d = page.data; return { environments: d.environments, "
                                  "camera: d.camera, eye: d.start.eye, toWorld: d.shapes[0].toWorld, "
-                                 "names: d.materials.map(m => m.name), lights: d.lights.length }")
-        assert data["lights"] == 2
-        environment = {**data["environment"], "pixels": images.unpacked(data["environment"])}
+                                 "names: d.materials.map(m => m.name), lights: d.lights.map(l => l.name) }")
+        assert sorted(data["lights"]) == sorted(CASES["soft"] + CASES["hard"])
         networks = {name.rpartition("/")[2]: network for name, network in materials.load(file, every=True)[0]}
         for name in names:
-            own = chromium.picture(f"page.choose({data['names'].index(name)}); page.state.samples = {SAMPLES}")
-            # A sphere alone casts no shadow that its own back does not.
-            drawn = reference.render(networks[name], shapes.sphere(64), data["toWorld"], environment, data["camera"],
-                                     data["eye"], WIDTH, SAMPLES, "raster", compareImages.lit_scene(lights),
-                                     enableShadows=False)
-            found[name] = imageMetrics.mean_flip(images.display_values(own), images.display_values(drawn), False)
-            print(name, found[name], float(own.mean() / drawn.mean() - 1.0))
+            for case in CASES if name in HARD_ONES else ("soft",):
+                at = list(CASES).index(case)
+                on = [int(light in CASES[case]) for light in data["lights"]]
+                own = chromium.picture(f"""page.choose({data["names"].index(name)}); page.state.samples = {SAMPLES};
+                    page.state.environment = {at};
+                    page.state.lights.forEach((l, i) => {{ l.on = Boolean({on}[i]); }})""")
+                environment = {**data["environments"][at], "pixels": images.unpacked(data["environments"][at])}
+
+                def drawn(backend, samples, network=networks[name], environment=environment, lit=lights[case]):
+                    # A sphere alone casts no shadow that its own back does not.
+                    return reference.render(network, shapes.sphere(64), data["toWorld"], environment, data["camera"],
+                                            data["eye"], WIDTH, samples, backend, compareImages.lit_scene(lit),
+                                            enableShadows=backend != "raster")
+
+                yield case, name, own, drawn
         assert chromium.messages() == []
+
+
+def flip(a, b):
+    return imageMetrics.mean_flip(images.display_values(a), images.display_values(b), False)
+
+
+@pytest.mark.slow
+def test_ten_materials_look_as_in_the_rasterizer(chromium, make, tmp_path):
+    try:
+        compiled.load().make_renderer("raster")
+    except RuntimeError as error:
+        pytest.skip(f"no rasterizer: {error}")
+    found, light = {}, {}
+    for case, name, own, drawn in pictures(chromium, make, tmp_path):
+        picture = drawn("raster", SAMPLES)
+        found[case, name] = flip(own, picture)
+        light[case, name] = float(own.mean() / picture.mean() - 1.0)
+        print(case, name, found[case, name], light[case, name])
     if None in found.values():
         pytest.skip("flip-evaluator is not installed")
-    assert len(found) == 10 and np.mean(list(found.values())) <= 0.02, found
-    assert max(found.values()) <= 0.04, found
+    assert len(found) == 10 + len(HARD_ONES)
+    assert max(value for (case, _), value in found.items() if case == "soft") <= 0.02, found
+    # Edges of light in the sky are where the rasterizer's few samples differ: the page is nearer to the path tracer.
+    assert max(found.values()) <= 0.035, found
+    assert max(map(abs, light.values())) <= 0.03, light

@@ -65,5 +65,7 @@ def test_numbers_that_are_none_become_literals():
     network.add_node("/m/s", "ND_surface")
     network.connect("/m/s", "bsdf", "/m/b", "out")
     network.set_terminal("surface", "/m/s", "out")
-    text = module.web_material(network)["text"]
+    made = module.web_material(network)
+    text = made["text"]
+    assert [warning[1] for warning in made["warnings"]] == ["color"]
     assert not re.search(r"\b(inf|nan)\b", text) and "vec4(" in text

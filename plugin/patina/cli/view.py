@@ -32,6 +32,7 @@ def add_arguments(parser):
     parser.add_argument("--writeControls", metavar="FILE", help="write that JSON as it is, to be edited")
     parser.add_argument("--compare", action="store_true", help="embed a path-traced picture of each material, with a "
                                                                "wipe and the FLIP figure")
+    parser.add_argument("--compareShapes", action="store_true", help="the same on every shape of the page")
     parser.add_argument("--compareWidth", type=int, default=256, metavar="N", help="its size (default: 256)")
     parser.add_argument("--compareSamples", type=int, default=256, metavar="N", help="its samples (default: 256)")
     parser.add_argument("--textureSize", type=int, default=1024, metavar="N",

@@ -7,7 +7,7 @@ import numpy as np
 from patina.cli import materials as reader
 from patina.cli import methods, statistics
 from patina.cli.errors import CommandError
-from patina.view import compareImages, controls, layers, materials, page, stageScene, surroundings
+from patina.view import blobs, compareImages, controls, layers, materials, page, shapes, stageScene, surroundings
 
 MOST_MATERIALS = 64
 
@@ -64,9 +64,12 @@ class Builder:
         self.camera, self.eye = surroundings.camera(radius, target, self.z_up)
         domes = scene.domes if scene else []
         self.environments = surroundings.environments(a.environment, domes, a.textureSize, self.z_up)
-        built_in = surroundings.built_in_shapes(radius, target, self.z_up)
-        self.shapes = built_in + [stageScene.packed(*shape) for shape in own]
+        self.shapes = surroundings.built_in_shapes(radius, target, self.z_up)
+        self.shapes += [(name, mesh, False, columns) for name, mesh, columns in own]
         self.lights = scene.lights if scene else []
+        self.light_table = scene.light_table if scene else np.zeros((0, 4))
+        self.notes = scene.light_notes if scene else []
+        self.warnings += self.notes
 
     def data(self):
         names = [m["name"] for m in self.materials]
@@ -75,8 +78,10 @@ class Builder:
                  "backdropColor": [0.18, 0.18, 0.18], "eye": self.eye}
         title = self.arguments.title or self.wanted.get("title") or ", ".join(names[:3]) + (" ..." if len(names) > 3 else "")
         return {"title": title, "materials": self.materials, "textures": self.textures.entries,
-                "lights": self.lights, "camera": self.camera, "environments": self.environments,
-                "shapes": self.shapes, "start": start, "references": compareImages.made(self)}
+                "lights": self.lights, "lightTable": blobs.pack(np.asarray(self.light_table, "<f4")),
+                "notes": self.notes, "camera": self.camera, "environments": self.environments,
+                "shapes": [{**shapes.packed(name, mesh, closed), "toWorld": [float(x) for x in columns]}
+                           for name, mesh, closed, columns in self.shapes], "start": start, "references": compareImages.made(self)}
 
 
 def _share_presets(found):

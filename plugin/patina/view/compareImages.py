@@ -1,8 +1,8 @@
-"""The path-traced pictures of --compare: each material on the first shape, from the first camera."""
+"""The path-traced pictures of --compare: each material on the first shape, or on every one, from the first camera."""
 import numpy as np
 
 from patina.cli import compiled
-from patina.view import images, reference, shapes
+from patina.view import images, reference
 
 
 def lit_scene(file, set_texts=()):
@@ -19,6 +19,7 @@ def lit_scene(file, set_texts=()):
     with scene.edit() as edit:
         reader.read_stage(stage, edit, reader.StageOptions(headlight=False))
     kept = {path for path, _ in module.web_lights(scene)["lights"]}
+    kept |= set(module.web_light_meshes(scene))
     with scene.edit() as edit:
         for kind in ("geometry", "instancers", "lights", "cameras", "materials"):
             for path in scene.paths(kind):
@@ -28,18 +29,19 @@ def lit_scene(file, set_texts=()):
 
 
 def made(builder):
-    """:returns: list of {material, image} for the page"""
-    if not builder.arguments.compare:
+    """:returns: list of {material, shape, image} for the page"""
+    arguments = builder.arguments
+    if not (arguments.compare or arguments.compareShapes):
         return []
-    width, samples = builder.arguments.compareWidth, builder.arguments.compareSamples
-    environment = builder.environments[0]
+    width, samples = arguments.compareWidth, arguments.compareSamples
+    environment = {**builder.environments[0], "pixels": images.unpacked(builder.environments[0])}
     file = builder.scene.file if builder.scene else None
-    set_texts = () if builder.arguments.stage else builder.arguments.set
+    set_texts = () if arguments.stage else arguments.set
     found = []
-    for i, network in enumerate(builder.networks):
-        picture = reference.render(network, shapes.sphere(), builder.shapes[0]["toWorld"],
-                                   {**environment, "pixels": images.unpacked(environment)}, builder.camera, builder.eye,
-                                   width, samples, "embree", lit_scene(file, set_texts), methods=builder.methods)
-        image = {**images.half_rgb(np.nan_to_num(picture)), "wrap": ["clamp", "clamp"]}
-        found.append({"material": i, "image": image})
+    for at, (_, mesh, _, to_world) in enumerate(builder.shapes if arguments.compareShapes else builder.shapes[:1]):
+        for i, network in enumerate(builder.networks):
+            picture = reference.render(network, mesh, to_world, environment, builder.camera, builder.eye, width, samples,
+                                       "embree", lit_scene(file, set_texts), methods=builder.methods)
+            image = {**images.half_rgb(np.nan_to_num(picture)), "wrap": ["clamp", "clamp"]}
+            found.append({"material": i, "shape": at, "image": image})
     return found

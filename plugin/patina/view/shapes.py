@@ -84,5 +84,5 @@ def plane():
 
 
 def built_in():
-    return [packed("sphere", sphere(), True), packed("shader ball", shader_ball(), True),
-            packed("plane", plane(), False)]
+    """:returns: list of (name, mesh, whether it is closed)"""
+    return [("sphere", sphere(), True), ("shader ball", shader_ball(), True), ("plane", plane(), False)]

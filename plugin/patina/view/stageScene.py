@@ -20,8 +20,8 @@ class StageScene:
             info = reader.read_stage(stage, edit, reader.StageOptions(headlight=False))
         self.z_up = info.up_axis == "Z"
         found = compiled.load().web_lights(self.scene)
-        self.lights = [{"name": path.rpartition("/")[2], "row": [float(x) for x in row]} for path, row in found["lights"]]
-        self.domes = found["domes"]
+        self.lights = [{"name": path.removesuffix("/light_of_mesh").rpartition("/")[2], "row": [float(x) for x in row]} for path, row in found["lights"]]
+        self.domes, self.light_table, self.light_notes = found["domes"], found["table"], found["notes"]
 
     def shapes(self, wanted, material_paths):
         """
@@ -85,7 +85,3 @@ def bounds(mesh, columns):
     world = np.concatenate([mesh["points"], np.ones((len(mesh["points"]), 1))], axis=1) @ matrix
     low, high = world[:, :3].min(axis=0), world[:, :3].max(axis=0)
     return max(float(np.linalg.norm(world[:, :3] - 0.5 * (low + high), axis=1).max()), 1e-6), 0.5 * (low + high)
-
-
-def packed(name, mesh, columns):
-    return {**shapes.packed(name, mesh, False), "toWorld": [float(x) for x in columns]}

@@ -49,7 +49,10 @@ def environments(files, domes, largest, z_up):
         axes = np.array(dome["axes"])
         lengths = np.linalg.norm(axes, axis=1, keepdims=True)
         axes = axes / np.maximum(lengths, 1e-20)
-        entry = images.latlong(dome["texture"], largest) if dome["texture"] else even()
+        if dome["pixels"] is not None:
+            entry = images.half_rgb(images.shrunk(np.nan_to_num(dome["pixels"]), largest))
+        else:
+            entry = images.latlong(dome["texture"], largest) if dome["texture"] else even()
         found.append({**entry, "name": dome["path"].rpartition("/")[2], "radiance": [float(x) for x in dome["radiance"]],
                       "toLocal": [float(x) for x in axes.T.ravel()]})
     return found + [{**made, "toLocal": upright} for made in (studio(), even(), black())]
@@ -65,8 +68,8 @@ def camera(radius, target, z_up):
 
 
 def built_in_shapes(radius, target, z_up):
-    """The page's own shapes, as large as what they stand for."""
+    """The page's own shapes, as large as what they stand for: (name, mesh, closed, columns of the transform)."""
     # Columns; with z up, the shapes' own y is turned there.
     y, z = ([0.0, 0.0, radius], [0.0, -radius, 0.0]) if z_up else ([0.0, radius, 0.0], [0.0, 0.0, radius])
     to_world = [radius, 0.0, 0.0, 0.0, *y, 0.0, *z, 0.0, *[float(x) for x in target], 1.0]
-    return [{**shape, "toWorld": to_world} for shape in shapes.built_in()]
+    return [(*shape, to_world) for shape in shapes.built_in()]

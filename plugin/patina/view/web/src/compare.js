@@ -6,7 +6,7 @@ import { makeTexture } from "./textures.js";
 export async function loadReferences(viewer, data) {
     for (const reference of data.references) {
         const texture = await makeTexture(reference.image);
-        viewer.references.set(reference.material, { texture, ...reference.image });
+        viewer.references.set(`${reference.material} ${reference.shape}`, { texture, ...reference.image });
     }
 }
 

@@ -89,7 +89,7 @@ export class Page {
         const { sentence, notes } = this.state.current;
         const { pending = "" } = this;
         this.pending = "";
-        this.say([pending, sentence, ...notes.map(n => n[0].toUpperCase() + n.slice(1) + ".")].filter(Boolean).join(" "));
+        this.say([pending, sentence, ...[...notes, ...this.data.notes].map(n => n[0].toUpperCase() + n.slice(1) + ".")].filter(Boolean).join(" "));
     }
 }
 

@@ -1,9 +1,9 @@
 // Starts the page.
 import * as THREE from "three";
-import { readDocument } from "./data.js";
+import { readDocument, unpack } from "./data.js";
 import { makeShape } from "./shapes.js";
 import { State } from "./state.js";
-import { makeTable, makeTexture } from "./textures.js";
+import { makeTable, makeTexture, makeValues } from "./textures.js";
 import { buildInterface } from "./interface.js";
 import { Viewer } from "./viewer.js";
 
@@ -20,6 +20,7 @@ async function makeParts(data) {
     })));
     return {
         albedo: await makeTable(data.albedo), environments,
+        lightTable: makeValues(await unpack(data.lightTable, "f4")),
         textures: await Promise.all(data.textures.map(makeTexture)),
         shapes: await Promise.all(data.shapes.map(makeShape))
     };

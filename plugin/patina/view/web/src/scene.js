@@ -12,7 +12,7 @@ export class PageScene {
             ambient: { value: new THREE.Vector3() }, environmentInfo: { value: new THREE.Vector2(1, 0) },
             environmentSamples: { value: null }, environmentDensity: { value: new THREE.Vector3() },
             lightSamples: { value: new Int32Array(2) },
-            lightData: { value: null }, lightCount: { value: 0 }, eye: { value: new THREE.Vector3() },
+            lightData: { value: null }, lightTable: { value: parts.lightTable }, lightCount: { value: 0 }, eye: { value: new THREE.Vector3() },
             pixelAngle: { value: 0.001 }, passInfo: { value: new Int32Array(4) },
             jitter: { value: new THREE.Vector2() }, objectToWorld: { value: new THREE.Matrix4() },
             normalToWorld: { value: new THREE.Matrix3() }, worldToClip: { value: new THREE.Matrix4() },

@@ -48,11 +48,11 @@ export class State {
         return 2 * Math.atan(aspect < 1 ? half / aspect : half) * 180 / Math.PI;
     }
 
-    // Whether the picture is that of the start, for which there may be a path-traced one.
+    // Whether light, place and values are those of the start, for which there may be a path-traced one.
     isAtStart() {
         const fresh = new State(this.data);
         const same = key => JSON.stringify(this[key]) === JSON.stringify(fresh[key]);
-        return ["shape", "environment", "rotation", "environmentGain", "ambient", "backdrop", "lights", "wedge"]
+        return ["environment", "rotation", "environmentGain", "ambient", "backdrop", "lights", "wedge"]
             .every(same) && this.eye.every((x, i) => Math.abs(x - fresh.eye[i]) < 1e-4 * this.data.camera.radius) &&
             String(this.values[this.material]) === String(fresh.values[this.material]) &&
             String(this.choices[this.material]) === String(fresh.choices[this.material]);

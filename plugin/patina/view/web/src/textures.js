@@ -84,3 +84,12 @@ export function makeRows(rows, width) {
     texture.needsUpdate = true;
     return texture;
 }
+
+// Groups of four floats, 256 in a row.
+export function makeValues(values) {
+    const height = Math.max(1, Math.ceil(values.length / 1024)), data = new Float32Array(1024 * height);
+    data.set(values);
+    const texture = new THREE.DataTexture(data, 256, height, THREE.RGBAFormat, THREE.FloatType);
+    texture.needsUpdate = true;
+    return texture;
+}

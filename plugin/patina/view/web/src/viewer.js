@@ -80,7 +80,7 @@ export class Viewer {
             return state.lights[i].on ? row : null;
         }).filter(Boolean);
         s.lightData.value?.dispose();
-        s.lightData.value = makeRows(rows, 8);
+        s.lightData.value = makeRows(rows, 11);
         s.lightCount.value = rows.length;
         // Samples of a pass are shared out where there are many lights.
         const sized = rows.filter(row => row[7] > 0).length;
@@ -136,7 +136,10 @@ export class Viewer {
     }
 
     // The path-traced picture of what is seen, if there is one.
-    reference() { return this.state.isAtStart() ? this.references.get(this.state.material) : undefined; }
+    reference() {
+        const { state } = this;
+        return state.isAtStart() ? this.references.get(`${state.material} ${state.shape}`) : undefined;
+    }
 
     // For what changes the display alone.
     redraw() { this.drawn = false; }

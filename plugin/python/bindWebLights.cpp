@@ -1,0 +1,305 @@
+// Lights of a scene, as the material page takes them.
+
+#include "hdDelegate/lights/areaShape.h"
+#include "hdDelegate/lights/environmentMap.h"
+#include "hdDelegate/lights/lightImages.h"
+#include "hdDelegate/scene/iesProfile.h"
+#include "hdDelegate/scene/lightShaping.h"
+#include "hdDelegate/scene/lightUnits.h"
+#include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/tessellate.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace py = pybind11;
+
+namespace patina {
+
+namespace {
+
+constexpr float pi = 3.14159265358979f, degree = pi / 180.0f;
+constexpr int largestImage = 128;          ///< of rect lights, texels along a side
+constexpr int domeWidth = 512;             ///< of domes that are no latlong maps
+constexpr size_t mostTriangles = 4096;     ///< of a mesh light
+constexpr size_t largestTable = 1u << 20u; ///< texels
+
+/// What the page finds out about lights, and tells its user.
+struct WebLights {
+    std::vector<vec4> table; ///< values that rows point into
+    std::vector<std::string> notes;
+    Diagnostics diagnostics;
+    LightImages images{diagnostics};
+    py::list direct, domes;
+};
+
+enum Kind { Rect, Disk, Sphere, Cylinder, Point, Distant, Triangles };
+constexpr int texels = 11;
+
+std::array<float, 3> triple(const vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+/// A rect's image, means over its cells, top row first.
+/// @returns first value, width and height
+vec3 addImage(const Light& light, WebLights& out) {
+    const auto image =
+        out.images.image(light.textureFile, light.textureColorSpace, light.path, "texture:file");
+    const int w = std::clamp(image->width, 1, largestImage);
+    const int h = std::clamp(image->height, 1, largestImage);
+    const vec3 place(float(out.table.size()), float(w), float(h));
+    for (int y = 0; y < h; ++y)
+        for (int x = 0; x < w; ++x) {
+            vec3 sum(0.0f);
+            const int x0 = x * image->width / w, x1 = std::max((x + 1) * image->width / w, x0 + 1);
+            const int y0 = y * image->height / h,
+                      y1 = std::max((y + 1) * image->height / h, y0 + 1);
+            for (int k = y0; k < y1; ++k)
+                for (int i = x0; i < x1; ++i)
+                    sum += image->pixels[size_t(k) * size_t(image->width) + size_t(i)];
+            out.table.emplace_back(glm::max(sum / float((x1 - x0) * (y1 - y0)), vec3(0.0f)), 0.0f);
+        }
+    return place;
+}
+
+/// A profile over even steps of theta (0 to pi) and phi (a whole turn).
+/// @returns first value (-1 none), thetas, phis
+vec3 addProfile(const Light& light, WebLights& out) {
+    if (light.iesFile.empty()) return {-1.0f, 0.0f, 0.0f};
+    IesProfile profile;
+    std::string error;
+    if (!profile.load(light.iesFile, error)) {
+        out.diagnostics.warn(light.path, "inputs:shaping:ies:file", error);
+        return {-1.0f, 0.0f, 0.0f};
+    }
+    const float mean = profile.mean();
+    const float scale = !light.iesNormalize ? 1.0f : mean > 0.0f ? 1.0f / mean : 0.0f;
+    constexpr int thetas = 181, phis = 37;
+    const vec3 place(float(out.table.size()), float(thetas), float(phis));
+    for (int p = 0; p < phis; ++p)
+        for (int t = 0; t < thetas; ++t) {
+            const float theta =
+                IesProfile::scaledTheta(float(t) / float(thetas - 1) * pi, light.iesAngleScale);
+            const float phi = float(p) / float(phis - 1) * 2.0f * pi;
+            out.table.emplace_back(profile.candela(theta, phi) * scale, 0.0f, 0.0f, 0.0f);
+        }
+    return place;
+}
+
+/// The largest triangles of the mesh that a light belongs to: corner and running share of the area,
+/// and two edges, one of them with the normal's side.
+bool addTriangles(const Scene& scene, const Light& light, vec4* row, WebLights& out) {
+    const auto state = scene.snapshot();
+    const auto found = state->geometry.find(light.geometry.empty() ? light.path : light.geometry);
+    if (found == state->geometry.end() || found->second->kind != GeometryKind::Mesh) return false;
+    TessellationOptions options;
+    options.triangleBudget = 100000;
+    const TriangleMesh mesh =
+        tessellate(static_cast<const Mesh&>(*found->second), options, out.diagnostics);
+    const mat4 toWorld = transformAt(found->second->transform, 0.0f);
+    const bool mirrored = glm::determinant(mat3(toWorld)) < 0.0f;
+    struct Triangle {
+        vec3 corner, edge1, edge2;
+        float area;
+    };
+    std::vector<Triangle> all;
+    double whole = 0.0, kept = 0.0;
+    for (const auto& t : mesh.triangles) {
+        vec3 p[3];
+        for (int c = 0; c < 3; ++c)
+            p[c] = vec3(toWorld * vec4(mesh.positions[0][t[c]], 1.0f));
+        const vec3 e1 = p[mirrored ? 2 : 1] - p[0], e2 = p[mirrored ? 1 : 2] - p[0];
+        const float area = 0.5f * glm::length(glm::cross(e1, e2));
+        if (!(area > 0.0f) || !std::isfinite(area)) continue;
+        all.push_back({p[0], e1, e2, area});
+        whole += double(area);
+    }
+    if (all.empty()) return false;
+    if (all.size() > mostTriangles) {
+        std::nth_element(all.begin(), all.begin() + mostTriangles, all.end(),
+                         [](const Triangle& a, const Triangle& b) { return a.area > b.area; });
+        all.resize(mostTriangles);
+        out.notes.push_back("the light " + light.path +
+                            " shines from its largest triangles, as if they were all");
+    }
+    for (const Triangle& t : all)
+        kept += double(t.area);
+    row[8] = vec4(float(out.table.size()), float(all.size()), 0.0f, -1.0f);
+    row[3].w = float(kept);
+    double sum = 0.0;
+    for (const Triangle& t : all) {
+        sum += double(t.area);
+        out.table.emplace_back(t.corner, float(sum / kept));
+        out.table.emplace_back(t.edge1, 0.0f);
+        out.table.emplace_back(t.edge2, 0.0f);
+    }
+    vec3 radiance = lightBaseRadiance(light);
+    if (light.normalize) radiance /= float(whole);
+    row[1] = vec4(glm::max(radiance * float(whole / kept), vec3(0.0f)), 1.0f);
+    row[0].w = float(Triangles);
+    return true;
+}
+
+/// The texels of shaders/web/lights.glsl; empty for a light that gives none.
+std::vector<float> lightRow(const Scene& scene, const Light& light, const mat4& toWorld,
+                            WebLights& out) {
+    vec4 row[texels] = {};
+    const float axisLength = glm::length(vec3(toWorld[2]));
+    const vec3 z = axisLength > 0.0f ? vec3(toWorld[2]) / axisLength : vec3(0.0f, 0.0f, 1.0f);
+    vec3 radiance = glm::max(lightRadiance(light, toWorld), vec3(0.0f));
+    Kind kind = Distant;
+    row[4] = vec4(-z, 1.0f);
+    row[8] = vec4(-1.0f);
+    if (light.type == LightType::Mesh) {
+        if (!addTriangles(scene, light, row, out)) return {};
+        kind = Triangles;
+        radiance = vec3(row[1]);
+    } else if (light.type == LightType::Distant) {
+        row[4].w = std::cos(0.5f * degree * std::clamp(light.angle, 0.0f, 360.0f));
+        // Floats cannot tell the cosines of narrow cones apart: those shine from one direction.
+        if (row[4].w > 0.999999f && light.angle > 0.0f) {
+            radiance *= float(lightSizeFactor(light, toWorld));
+            row[4].w = 1.0f;
+        }
+    } else if (light.type == LightType::Sphere && light.treatAsPoint) {
+        kind = Point;
+        radiance = lightBaseRadiance(light) * 0.25f *
+                   (light.normalize ? 1.0f : float(lightSizeFactor(light, toWorld)));
+    } else {
+        const AreaShape shape = makeAreaShape(light, toWorld);
+        if (!shape.valid) return {};
+        const float half = shape.kind == AreaShape::Kind::Disk ? 1.0f : 0.5f;
+        kind = shape.kind == AreaShape::Kind::Rect     ? Rect
+               : shape.kind == AreaShape::Kind::Disk   ? Disk
+               : shape.kind == AreaShape::Kind::Sphere ? Sphere
+                                                       : Cylinder;
+        const float across =
+            kind == Sphere ? std::cbrt(std::abs(shape.determinant)) : glm::length(shape.axes[1]);
+        row[2] = vec4(shape.axes[0] * half, across);
+        row[3] = vec4(shape.axes[1] * half, shape.area);
+        if (kind == Rect || kind == Disk) row[4] = vec4(shape.normal, 0.0f);
+        row[0] = vec4(shape.origin, 0.0f);
+        if (kind == Rect && !light.textureFile.empty()) row[8] = vec4(addImage(light, out), -1.0f);
+    }
+    if (kind == Point) row[0] = vec4(vec3(toWorld[3]), 0.0f);
+    row[0].w = float(kind);
+    row[1] = vec4(radiance, 1.0f);
+    const float cone = light.shapingConeAuthored ? light.shapingConeAngle * degree : 0.0f;
+    row[5] = vec4(std::max(light.shapingFocus, 0.0f), std::max(cone, 0.0f),
+                  cone * (1.0f - std::clamp(light.shapingConeSoftness, 0.0f, 1.0f)), 0.0f);
+    row[6] = vec4(light.shapingFocusTint, 0.0f);
+    row[7] = vec4(light.diffuse, light.specular, 0.0f, 0.0f);
+    if (kind != Distant && kind != Triangles) {
+        const vec3 profile = addProfile(light, out);
+        const LightShaping shaping(light, toWorld, nullptr);
+        row[8].w = profile.x;
+        row[9] = vec4(shaping.x(), profile.y);
+        row[10] = vec4(shaping.y(), profile.z);
+    }
+    std::vector<float> floats;
+    for (const vec4& texel : row)
+        for (int c = 0; c < 4; ++c) {
+            if (!std::isfinite(texel[c])) return {};
+            floats.push_back(texel[c]);
+        }
+    return floats;
+}
+
+/// The image of a dome as a latlong map; none where it is one already.
+py::object latlongOf(const Light& light, WebLights& out) {
+    const EnvironmentFormat format = environmentFormat(light.textureFormat);
+    if (light.textureFile.empty() || format == EnvironmentFormat::Latlong) return py::none();
+    if (format == EnvironmentFormat::Automatic) {
+        const auto image = out.images.image(light.textureFile, light.textureColorSpace, light.path,
+                                            "texture:file");
+        if (image->width * 4 != image->height * 3) return py::none();
+    }
+    const auto map = out.images.environment(light.textureFile, light.textureColorSpace, format,
+                                            light.path, "texture:file");
+    py::array_t<float> pixels(std::vector<size_t>{domeWidth / 2, domeWidth, 3});
+    float* to = pixels.mutable_data();
+    for (int y = 0; y < domeWidth / 2; ++y)
+        for (int x = 0; x < domeWidth; ++x) {
+            vec3 sum(0.0f);
+            for (int k = 0; k < 4; ++k) {
+                const float u = (float(x) + 0.25f + 0.5f * float(k % 2)) / float(domeWidth);
+                const float v = (float(y) + 0.25f + 0.5f * float(k / 2)) * 2.0f / float(domeWidth);
+                const float turn = (0.5f - u) * 2.0f * pi, side = std::sin(v * pi);
+                sum += map->radiance(
+                    vec3(std::sin(turn) * side, std::cos(v * pi), std::cos(turn) * side));
+            }
+            for (int c = 0; c < 3; ++c)
+                *to++ = 0.25f * sum[c];
+        }
+    return pixels;
+}
+
+void addLight(const Scene& scene, const std::string& path, const Light& light, WebLights& out) {
+    const mat4 toWorld = transformAt(light.transform, 0.0f);
+    if (light.type == LightType::Dome) {
+        py::dict dome;
+        dome["path"] = path;
+        dome["texture"] = light.textureFile;
+        dome["pixels"] = latlongOf(light, out);
+        dome["radiance"] = triple(glm::max(lightRadiance(light, toWorld), vec3(0.0f)));
+        dome["axes"] = std::vector<std::array<float, 3>>{
+            triple(vec3(toWorld[0])), triple(vec3(toWorld[1])), triple(vec3(toWorld[2]))};
+        out.domes.append(dome);
+        return;
+    }
+    const size_t before = out.table.size();
+    const std::vector<float> row = lightRow(scene, light, toWorld, out);
+    if (row.empty() || out.table.size() > largestTable) {
+        out.table.resize(std::min(before, out.table.size()));
+        out.notes.push_back("the light " + path + (row.empty() ? " gives none" : " is too large"));
+        return;
+    }
+    out.direct.append(py::make_tuple(path, row));
+}
+
+std::vector<std::string> lightMeshes(const Scene& scene) {
+    std::vector<std::string> paths;
+    for (const auto& [path, light] : scene.snapshot()->lights)
+        if (light->type == LightType::Mesh)
+            paths.push_back(light->geometry.empty() ? path : light->geometry);
+    return paths;
+}
+
+py::dict lightsOf(const Scene& scene) {
+    WebLights out;
+    for (const auto& [path, light] : scene.snapshot()->lights) {
+        if (!light->visible) continue;
+        if (!light->group.empty())
+            out.notes.push_back("the light " + path + " of instances is left out");
+        else
+            addLight(scene, path, *light, out);
+    }
+    for (const Diagnostic& d : out.diagnostics.all())
+        out.notes.push_back(d.prim + (d.input.empty() ? "" : "." + d.input) + ": " + d.message);
+    py::array_t<float> table(std::vector<size_t>{out.table.size(), 4});
+    if (!out.table.empty())
+        std::copy_n(&out.table[0].x, 4 * out.table.size(), table.mutable_data());
+    py::dict dict;
+    dict["lights"] = out.direct;
+    dict["domes"] = out.domes;
+    dict["table"] = table;
+    dict["notes"] = out.notes;
+    return dict;
+}
+
+} // namespace
+
+void bindWebLights(py::module_& m) {
+    m.def("web_light_meshes", &lightMeshes, py::arg("scene"), "Paths of meshes that are lights.");
+    m.def("web_lights", &lightsOf, py::arg("scene"),
+          "lights: (path, 44 floats in the layout of shaders/web/lights.glsl); table: the values "
+          "(n, 4) that they point into; domes: dicts of path, texture, radiance, axes and, where "
+          "the image is no latlong map, pixels of one; notes: texts on what is left out.");
+}
+
+} // namespace patina

@@ -1,0 +1,117 @@
+"""Every kind of direct light on the page beside the path tracer, one at a time. None stands before the
+camera, which sees the path tracer's lights."""
+import numpy as np
+import pytest
+
+from patina.cli import compiled, imageMetrics, materials
+from patina.view import compareImages, images, reference, shapes
+
+WIDTH = 40
+STAGE = """#usda 1.0
+def Material "plastic"
+{
+    token outputs:mtlx:surface.connect = </plastic/surface.outputs:out>
+    def Shader "surface"
+    {
+        uniform token info:id = "ND_standard_surface_surfaceshader"
+        color3f inputs:base_color = (0.5, 0.5, 0.5)
+        float inputs:specular_roughness = 0.3
+        token outputs:out
+    }
+}
+def RectLight "picture"
+{
+    float inputs:intensity = 6
+    float inputs:width = 3
+    float inputs:height = 2
+    asset inputs:texture:file = @picture.exr@
+    double3 xformOp:translate = (0.5, 1, 3)
+    float3 xformOp:rotateXYZ = (-20, 10, 30)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+}
+def CylinderLight "tube"
+{
+    float inputs:intensity = 20
+    float inputs:length = 2
+    float inputs:radius = 0.1
+    double3 xformOp:translate = (-1, 2, 2)
+    float3 xformOp:rotateXYZ = (0, 0, 40)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+}
+def SphereLight "profile" (prepend apiSchemas = ["ShapingAPI"])
+{
+    float inputs:intensity = 6
+    float inputs:radius = 0.2
+    asset inputs:shaping:ies:file = @lamp.ies@
+    double3 xformOp:translate = (-1.2, 2.2, 2.2)
+    float3 xformOp:rotateXYZ = (-45, -28, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+}
+def Mesh "panel" (prepend apiSchemas = ["MeshLightAPI"])
+{
+    uniform token subdivisionScheme = "none"
+    float inputs:intensity = 30
+    point3f[] points = [(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.7, 0), (-0.5, 0.5, 0.3)]
+    int[] faceVertexCounts = [3, 3]
+    int[] faceVertexIndices = [0, 2, 1, 0, 3, 2]
+    double3 xformOp:translate = (-3, 1.2, 1)
+    float3 xformOp:rotateXYZ = (0, -70, 15)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+}
+"""
+# Brighter to one side, and off its axis.
+PROFILE = """IESNA:LM-63-1995
+TILT=NONE
+1 1000 1 4 3 1 2 0 0 0
+1 1 1
+0 30 60 90
+0 90 180
+10 14 3 0
+10 8 2 0
+10 3 1 0
+"""
+
+
+@pytest.fixture(scope="module")
+def stage(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("lights")
+    (folder / "stage.usda").write_text(STAGE)
+    (folder / "lamp.ies").write_text(PROFILE)
+    picture = np.zeros((8, 12, 3), np.float32)
+    picture[:4, :6], picture[4:, 6:], picture[:4, 6:] = (1.0, 0.1, 0.1), (0.1, 0.2, 1.0), (0.1, 0.1, 0.1)
+    compiled.load().write_image(str(folder / "picture.exr"), picture)
+    return str(folder / "stage.usda")
+
+
+def test_each_light_is_as_in_the_path_tracer(chromium, make, stage):
+    chromium.open(make("lights.html", stage), f"?width={WIDTH}")
+    data = chromium.evaluate("""page.paused = true; const d = page.data; page.state.samples = 128;
+        page.state.environment = d.environments.findIndex(e => e.name === "none");
+        return { camera: d.camera, eye: d.start.eye, toWorld: d.shapes[0].toWorld,
+                 lights: d.lights.map(l => l.name), notes: d.notes };""")
+    assert sorted(data["lights"]) == ["panel", "picture", "profile", "tube"] and data["notes"] == []
+    network = materials.load(stage, every=True)[0][0][1]
+    for i, name in enumerate(data["lights"]):
+        own = chromium.picture(f"page.state.lights.forEach((l, i) => {{ l.on = i === {i}; }})")
+        scene = compareImages.lit_scene(stage)
+        with scene.edit() as edit:
+            for path in (*scene.paths("lights"), *scene.paths("geometry")):
+                if path.split("/")[1] != name:
+                    edit.remove(path)
+        traced = reference.render(network, shapes.sphere(64), data["toWorld"], None, data["camera"], data["eye"], WIDTH,
+                                  256, "embree", scene)
+        error = imageMetrics.mean_flip(images.display_values(own), images.display_values(traced), False)
+        print(name, error, float(own.mean() / traced.mean() - 1.0))
+        assert traced.mean() > 0.01 and own.mean() == pytest.approx(traced.mean(), rel=0.03), name
+        assert error is None or error < 0.03, name
+    assert chromium.messages() == []
+
+
+def test_lights_that_cannot_be_shown_are_named(tmp_path, make, chromium, capsys):
+    file = tmp_path / "lost.usda"
+    file.write_text(STAGE.replace("@lamp.ies@", "@none.ies@").replace(
+        "float inputs:length = 2", "float inputs:length = 0").replace("@picture.exr@", "@none.exr@"))
+    chromium.open(make("lost.html", file), f"?width={WIDTH}")
+    notes = " ".join(chromium.evaluate("return page.data.notes"))
+    assert "/tube gives none" in notes and "/profile" in notes and "/picture" in notes
+    assert "/tube gives none" in capsys.readouterr().err

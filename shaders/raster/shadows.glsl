@@ -12,8 +12,8 @@ layout(binding = 19) uniform sampler2DArray skyMaps;
 // Whether a map shows nothing in front of a point. What is compared is where the plane of the surface
 // is in the middle of the texel, not the point: then a surface does not hide itself, without being
 // moved by as much as a texel may be wrong, which would be seen where things touch.
-// least: how exact depths are.
-float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, float least) {
+// n: of the plane; 0 compares the point. least: how exact depths are.
+float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n, float least) {
     vec4 clip = worldToMap * vec4(p, 1.0);
     if (clip.w <= 0.0) return 1.0;
     vec3 q = clip.xyz / clip.w;
@@ -21,7 +21,6 @@ float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, float l
     vec2 size = vec2(textureSize(maps, 0).xy);
     vec2 texel = min(floor((0.5 * q.xy + 0.5) * size), size - 1.0);
     // The plane's depth is linear over the map.
-    vec3 n = point.geometricNormal;
     vec3 x = cross(n, abs(n.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
     vec4 alongX = worldToMap * vec4(x, 0.0);
     vec4 alongY = worldToMap * vec4(cross(n, x), 0.0);
@@ -45,7 +44,7 @@ float reaches(Light l, vec3 p) {
                : a.y >= a.z            ? (d.y > 0.0 ? 2 : 3)
                                        : (d.z > 0.0 ? 4 : 5);
     }
-    return isInFront(shadowMaps, shadowMatrices[map], map, p, 1e-6);
+    return isInFront(shadowMaps, shadowMatrices[map], map, p, point.geometricNormal, 1e-6);
 }
 
 // Share of the light's sample that arrives; the colour of shadows where it does not.
@@ -81,10 +80,20 @@ vec2 octahedral(vec3 w) {
 // in: right but for what is thinner than a cell is wide.
 float skyReaches(vec3 wi) {
     if (lightInfo.z == 0) return 1.0;
-    ivec2 at = min(ivec2(octahedral(wi) * float(lightInfo.z)), ivec2(lightInfo.z - 1));
-    int cell = at.y * lightInfo.z + at.x;
-    // A direction beside the sample's may be under the horizon where the sample is not.
-    vec3 towards = skyCells[cell].towards.xyz;
-    if (dot(towards, point.geometricNormal) * dot(wi, point.geometricNormal) <= 0.0) return 1.0;
-    return isInFront(skyMaps, skyCells[cell].worldToMap, skyCells[cell].map.x, point.position, 3e-5);
+    // A direction beside the sample's may be under the surface's horizon where the sample is not: then
+    // one further up is asked.
+    vec3 up = dot(wi, point.geometricNormal) < 0.0 ? -point.geometricNormal : point.geometricNormal;
+    int cell = 0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 at = min(ivec2(octahedral(wi + up * (0.2 * float(i))) * float(lightInfo.z)), ivec2(lightInfo.z - 1));
+        cell = at.y * lightInfo.z + at.x;
+        if (dot(skyCells[cell].towards.xyz, up) > 0.0) break;
+    }
+    mat4 m = skyCells[cell].worldToMap;
+    int layer = skyCells[cell].map.x;
+    float seen = isInFront(skyMaps, m, layer, point.position, up, 3e-5);
+    if (seen == 0.0) return 0.0;
+    // These texels are wide: the plane of what is small or round reaches through what is near.
+    float texel = 2.0 / (float(textureSize(skyMaps, 0).x) * length(vec3(m[0].x, m[1].x, m[2].x)));
+    return isInFront(skyMaps, m, layer, point.position + up * (0.9 * texel), vec3(0.0), 3e-5);
 }

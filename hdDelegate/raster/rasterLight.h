@@ -39,9 +39,8 @@ struct ShadowBounds {
 };
 
 /// The view from infinitely far in a direction onto all receivers.
-/// @param turn of the map about its axis, in turns
-/// @param texel receives the width of a texel
-ShadowView distantShadow(const glm::vec3& toLight, float turn, const ShadowBounds& bounds,
-                         int mapSize, float& texel);
+/// @param turn x: of the map about its axis, in turns; y, in [0,1): shifts it by parts of a texel
+ShadowView distantShadow(const glm::vec3& toLight, glm::vec2 turn, const ShadowBounds& bounds,
+                         int mapSize);
 
 } // namespace patina

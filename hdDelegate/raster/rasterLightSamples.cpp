@@ -174,7 +174,7 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
             if (_shadows && s.shadows && s.kind == Dome && _domeSamples == 0)
                 g.shadow.x = 0.0f; // has no map of its own, but shadows
             else if (_shadows && s.shadows)
-                castShadow(g, s.shadowCategory, passNumbers(_seed, index, set + 1).x, bounds, room,
+                castShadow(g, s.shadowCategory, passNumbers(_seed, index, set + 1), bounds, room,
                            out);
             out.lights.push_back(g);
         }
@@ -203,7 +203,7 @@ void RasterLights::takeEmitters(uint32_t pass, int samples, const RasterEmitters
         g.cone = vec4(0.0f, 0.0f, e.twoSided ? 1.0f : 0.0f, 0.0f);
         g.fade.w = 1.0f / float(samples);
         g.axis[2].w = float(e.category);
-        if (_shadows) castShadow(g, -1, turn.x, bounds, maxSmallMaps, out);
+        if (_shadows) castShadow(g, -1, turn, bounds, maxSmallMaps, out);
         out.lights.push_back(g);
     }
 }

@@ -79,7 +79,7 @@ private:
     void takeEmitters(uint32_t pass, int samples, const RasterEmitters& emitters,
                       const ShadowBounds& bounds, Sampled& out) const;
     /// @param most maps that there is room for; a light that needs more is not shadowed
-    void castShadow(GpuLight& light, int category, float turn, const ShadowBounds& bounds, int most,
+    void castShadow(GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds, int most,
                     Sampled& out) const;
 
     RasterLightTables _tables;

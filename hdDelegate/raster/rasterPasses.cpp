@@ -192,12 +192,8 @@ void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<Shado
     if (layers > _shadowLayers || _shadowMaps.width() != size) {
         _shadowMaps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layers);
         _shadowLayers = layers;
-        _shadowMaps.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        _shadowMaps.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        _shadowMaps.parameter(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        _shadowMaps.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-        _shadowMaps.parameter(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-        _shadowMaps.parameter(GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+        _shadowMaps.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        _shadowMaps.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
     for (size_t i = 0; i < views.size(); ++i)
         drawCasters(scene, views[i], _shadowMaps, int(i));
@@ -245,8 +241,6 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
     scene.bind(_vertexArray);
     gl.BindFramebuffer(GL_FRAMEBUFFER, _shadowTarget);
     gl.Viewport(0, 0, maps.width(), maps.height());
-    gl.Enable(GL_POLYGON_OFFSET_FILL);
-    gl.PolygonOffset(1.1f, 2.0f);
     const GLenum noColor = GL_NONE;
     gl.NamedFramebufferDrawBuffers(_shadowTarget, 1, &noColor);
     const float far = 1.0f;
@@ -274,7 +268,6 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
         }
         drawRuns(d, visible);
     }
-    gl.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
 void RasterPasses::needBehind() {

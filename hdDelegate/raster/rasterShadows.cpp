@@ -27,11 +27,15 @@ mat4 looking(const vec3& from, const vec3& direction, float turn) {
     return glm::lookAt(from, from + direction, x * std::cos(angle) + y * std::sin(angle));
 }
 
+/// @returns up to half a texel each way, as a part of the map's width
+vec2 shiftOf(vec2 turn, int mapSize) {
+    return (vec2(turn.y, glm::fract(turn.y * 89.0f)) - 0.5f) / float(mapSize);
+}
+
 } // namespace
 
-ShadowView distantShadow(const vec3& toLight, float turn, const ShadowBounds& bounds, int mapSize,
-                         float& texel) {
-    const mat4 view = looking(vec3(0.0f), -toLight, turn);
+ShadowView distantShadow(const vec3& toLight, vec2 turn, const ShadowBounds& bounds, int mapSize) {
+    const mat4 view = looking(vec3(0.0f), -toLight, turn.x);
     vec3 low(INFINITY), high(-INFINITY);
     for (const vec3& p : corners(bounds.receiverMin, bounds.receiverMax)) {
         const vec3 q = vec3(view * vec4(p, 1.0f));
@@ -42,9 +46,8 @@ ShadowView distantShadow(const vec3& toLight, float turn, const ShadowBounds& bo
         high.z = std::max(high.z, (view * vec4(p, 1.0f)).z);
     const float side = std::max(high.x - low.x, high.y - low.y) * 1.02f + 1e-6f;
     const float pad = 0.01f * (high.z - low.z) + 1e-6f;
-    const vec2 c = 0.5f * vec2(low + high);
+    const vec2 c = 0.5f * vec2(low + high) + side * shiftOf(turn, mapSize);
     const float h = 0.5f * side;
-    texel = side / float(mapSize);
     ShadowView out;
     out.worldToMap =
         glm::ortho(c.x - h, c.x + h, c.y - h, c.y + h, -high.z - pad, -low.z + pad) * view;
@@ -52,7 +55,7 @@ ShadowView distantShadow(const vec3& toLight, float turn, const ShadowBounds& bo
     return out;
 }
 
-void RasterLights::castShadow(GpuLight& light, int category, float turn, const ShadowBounds& bounds,
+void RasterLights::castShadow(GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds,
                               int most, Sampled& out) const {
     const auto full = [&](int more) { return int(out.shadows.size()) + more > most; };
     const auto cast = [&](const mat4& worldToMap) {
@@ -61,10 +64,8 @@ void RasterLights::castShadow(GpuLight& light, int category, float turn, const S
     const float first = float(out.shadows.size());
     if (light.sampled.w == 0.0f) {
         if (full(1)) return;
-        float texel = 0.0f;
-        ShadowView view = distantShadow(vec3(light.sampled), turn, bounds, out.mapSize, texel);
-        light.shadow = vec4(first, 1.0f, texel, 0.0f);
-        cast(view.worldToMap);
+        light.shadow = vec4(first, 1.0f, 0.0f, 0.0f);
+        cast(distantShadow(vec3(light.sampled), turn, bounds, out.mapSize).worldToMap);
         return;
     }
     const vec3 from = vec3(light.sampled);
@@ -73,22 +74,26 @@ void RasterLights::castShadow(GpuLight& light, int category, float turn, const S
     const float distance = glm::length(center - from);
     const float reach = distance + radius;
     const float nearest = std::max(1e-3f * reach, 1e-6f);
+    const auto frustum = [&](float n) {
+        const vec2 shift = 2.0f * n * shiftOf(turn, out.mapSize);
+        return glm::frustum(shift.x - n, shift.x + n, shift.y - n, shift.y + n, nearest,
+                            reach * 1.01f);
+    };
     if (distance > 1.3f * radius) {
         if (full(1)) return;
         const float tangent = 1.02f * radius / std::sqrt(distance * distance - radius * radius);
         const float n = nearest * tangent;
-        light.shadow = vec4(first, 1.0f, 2.0f * tangent / float(out.mapSize), 1.0f);
-        cast(glm::frustum(-n, n, -n, n, nearest, reach * 1.01f) *
-             looking(from, (center - from) / distance, turn));
+        light.shadow = vec4(first, 1.0f, 0.0f, 1.0f);
+        cast(frustum(n) * looking(from, (center - from) / distance, turn.x));
         return;
     }
     if (full(6)) return;
-    light.shadow = vec4(first, 6.0f, 2.0f / float(out.mapSize), 1.0f);
+    light.shadow = vec4(first, 6.0f, 0.0f, 1.0f);
     const vec3 directions[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     // A little wider than a face of the cube, for offsets and filters at its edges.
     const float n = nearest * 1.02f;
     for (const vec3& d : directions)
-        cast(glm::frustum(-n, n, -n, n, nearest, reach * 1.01f) * looking(from, d, 0.0f));
+        cast(frustum(n) * looking(from, d, 0.0f));
 }
 
 } // namespace patina

@@ -28,10 +28,8 @@ glm::vec3 fromOctahedral(glm::vec2 u) {
 const GlTexture& RasterSky::maps() {
     if (!_maps) {
         _maps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT16, mapSize, mapSize, cells);
-        _maps.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        _maps.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        _maps.parameter(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-        _maps.parameter(GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+        _maps.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        _maps.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
     return _maps;
 }
@@ -58,11 +56,10 @@ std::vector<RasterSky::Task> RasterSky::begin(uint32_t pass, uint32_t seed,
         const glm::vec3 direction =
             fromOctahedral((glm::vec2(float(at % side), float(at / side)) + in) / float(side));
         Task task;
-        float texel = 0.0f;
-        task.view = distantShadow(direction, numbers.next2().x, bounds, mapSize, texel);
+        task.view = distantShadow(direction, numbers.next2(), bounds, mapSize);
         task.layer = at;
         cell.worldToMap = task.view.worldToMap;
-        cell.towards = glm::vec4(direction, texel);
+        cell.towards = glm::vec4(direction, 0.0f);
         cell.map[0] = at;
         out.push_back(task);
         if (missing &&

@@ -2,18 +2,36 @@
 layout(std430, binding = 5) readonly buffer ShadowMatrices { mat4 shadowMatrices[]; };
 struct SkyCell {
     mat4 worldToMap;
-    vec4 towards; // the direction drawn; w: width of a texel
+    vec4 towards; // the direction drawn
     ivec4 map;    // x: layer
 };
 layout(std430, binding = 10) readonly buffer SkyCells { SkyCell skyCells[]; };
-layout(binding = 18) uniform sampler2DArrayShadow shadowMaps;
-layout(binding = 19) uniform sampler2DArrayShadow skyMaps;
+layout(binding = 18) uniform sampler2DArray shadowMaps;
+layout(binding = 19) uniform sampler2DArray skyMaps;
 
-// The shaded point, moved off its surface by what a texel may be wrong.
-vec3 offSurface(vec3 wi, float texel) {
-    float side = dot(point.geometricNormal, wi) < 0.0 ? -1.0 : 1.0;
-    float sine = sqrt(max(1.0 - pow(dot(point.geometricNormal, wi), 2.0), 0.0));
-    return point.position + point.geometricNormal * (side * texel * (0.3 + 0.6 * sine));
+// Whether a map shows nothing in front of a point. What is compared is where the plane of the surface
+// is in the middle of the texel, not the point: then a surface does not hide itself, without being
+// moved by as much as a texel may be wrong, which would be seen where things touch.
+// n: of the plane; 0 compares the point. least: how exact depths are.
+float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n, float least) {
+    vec4 clip = worldToMap * vec4(p, 1.0);
+    if (clip.w <= 0.0) return 1.0;
+    vec3 q = clip.xyz / clip.w;
+    if (any(greaterThan(abs(q), vec3(1.0)))) return 1.0;
+    vec2 size = vec2(textureSize(maps, 0).xy);
+    vec2 texel = min(floor((0.5 * q.xy + 0.5) * size), size - 1.0);
+    // The plane's depth is linear over the map.
+    vec3 x = cross(n, abs(n.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0));
+    vec4 alongX = worldToMap * vec4(x, 0.0);
+    vec4 alongY = worldToMap * vec4(cross(n, x), 0.0);
+    vec3 dx = alongX.xyz - q * alongX.w, dy = alongY.xyz - q * alongY.w;
+    float area = dx.x * dy.y - dx.y * dy.x;
+    vec2 slope = vec2(dx.z * dy.y - dx.y * dy.z, dx.x * dy.z - dx.z * dy.x) /
+                 (abs(area) > 1e-30 ? area : 1e-30);
+    float depth = q.z + dot(slope, 2.0 * (texel + 0.5) / size - 1.0 - q.xy);
+    // Corners of triangles are rounded to a part of a texel.
+    float bias = least + 0.04 * (abs(slope.x) + abs(slope.y)) / size.x;
+    return 0.5 * depth + 0.5 <= texelFetch(maps, ivec3(ivec2(texel), layer), 0).x + bias ? 1.0 : 0.0;
 }
 
 // Whether a light's sample reaches a point, as far as its maps tell.
@@ -26,18 +44,14 @@ float reaches(Light l, vec3 p) {
                : a.y >= a.z            ? (d.y > 0.0 ? 2 : 3)
                                        : (d.z > 0.0 ? 4 : 5);
     }
-    vec4 clip = shadowMatrices[map] * vec4(p, 1.0);
-    if (clip.w <= 0.0) return 1.0;
-    vec3 q = clip.xyz / clip.w * 0.5 + 0.5;
-    if (any(lessThan(q, vec3(0.0))) || any(greaterThan(q, vec3(1.0)))) return 1.0;
-    return texture(shadowMaps, vec4(q.xy, float(map), q.z));
+    return isInFront(shadowMaps, shadowMatrices[map], map, p, point.geometricNormal, 1e-6);
 }
 
 // Share of the light's sample that arrives; the colour of shadows where it does not.
 vec3 shadowAt(Light l, vec3 wi) {
     if (l.shadow.x < 0.0) return vec3(1.0);
     float away = l.shadow.w != 0.0 ? length(point.position - l.sampled.xyz) : 1.0;
-    vec3 p = offSurface(wi, l.shadow.z * away);
+    vec3 p = point.position;
     float seen = reaches(l, p);
     if (seen < 1.0 && l.fade.x > 0.0) {
         // What is nearest to the light is further off than h where the point moved by h is lit.
@@ -66,13 +80,20 @@ vec2 octahedral(vec3 w) {
 // in: right but for what is thinner than a cell is wide.
 float skyReaches(vec3 wi) {
     if (lightInfo.z == 0) return 1.0;
-    ivec2 at = min(ivec2(octahedral(wi) * float(lightInfo.z)), ivec2(lightInfo.z - 1));
-    int cell = at.y * lightInfo.z + at.x;
-    vec3 towards = skyCells[cell].towards.xyz;
-    // A direction beside the sample's may be under the horizon where the sample is not.
-    if (dot(towards, point.geometricNormal) * dot(wi, point.geometricNormal) <= 0.0) towards = wi;
-    vec4 clip = skyCells[cell].worldToMap * vec4(offSurface(towards, skyCells[cell].towards.w), 1.0);
-    vec3 q = clip.xyz * 0.5 + 0.5;
-    if (any(lessThan(q, vec3(0.0))) || any(greaterThan(q, vec3(1.0)))) return 1.0;
-    return texture(skyMaps, vec4(q.xy, float(skyCells[cell].map.x), q.z));
+    // A direction beside the sample's may be under the surface's horizon where the sample is not: then
+    // one further up is asked.
+    vec3 up = dot(wi, point.geometricNormal) < 0.0 ? -point.geometricNormal : point.geometricNormal;
+    int cell = 0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 at = min(ivec2(octahedral(wi + up * (0.2 * float(i))) * float(lightInfo.z)), ivec2(lightInfo.z - 1));
+        cell = at.y * lightInfo.z + at.x;
+        if (dot(skyCells[cell].towards.xyz, up) > 0.0) break;
+    }
+    mat4 m = skyCells[cell].worldToMap;
+    int layer = skyCells[cell].map.x;
+    float seen = isInFront(skyMaps, m, layer, point.position, up, 3e-5);
+    if (seen == 0.0) return 0.0;
+    // These texels are wide: the plane of what is small or round reaches through what is near.
+    float texel = 2.0 / (float(textureSize(skyMaps, 0).x) * length(vec3(m[0].x, m[1].x, m[2].x)));
+    return isInFront(skyMaps, m, layer, point.position + up * (0.9 * texel), vec3(0.0), 3e-5);
 }

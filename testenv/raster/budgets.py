@@ -7,7 +7,8 @@ budgets.json: `quick` and `full` are settings (samples, width); `scenes` maps a 
   checks  what else stands for the scene: tests against other renderers or closed forms
   quick   worst 8x8 block and bias of the mean that the test allows, from fixed seeds: beside direct light where both have
           the same answer, else beside all light
-  full    what was measured: FLIP against direct light and against all light, RMSE, bias, seconds
+  full    what was measured: FLIP against direct light and against all light, RMSE, bias, seconds; `flipSeeds` between two
+          seeds of the path tracer
   raised  reasons of the budgets that rose
 """
 import json

@@ -37,7 +37,7 @@ class Row:
     samples: float = 0.0        # per pixel, until it stopped
     seconds: float = 0.0
     truthSeconds: float = 0.0   # of as many samples with the truth methods
-    bounded: bool = False       # the time or the samples ended before the tolerance was met
+    bounded: bool = False       # time or samples ended before the tolerance was met, or the reference is too noisy
     problem: str = ""
 
     def as_dict(self):
@@ -53,10 +53,10 @@ def check(path, arguments, backend, tolerances, samples, most, seconds):
     renders = StageRenders(path, arguments)
     name = os.path.splitext(os.path.basename(path))[0]
 
-    def render(seed, tolerance, count, whole):
+    def render(seed, tolerance, count, whole, limit=seconds):
         settings = renders.settings(count, seed, tolerance)
         settings["minSamples"] = 16 if whole else count
-        settings["seconds"] = seconds
+        settings["seconds"] = limit
         settings["maxDepth"] = -1
         begin = time.perf_counter()
         result = renders.render(backend, settings)
@@ -68,9 +68,10 @@ def check(path, arguments, backend, tolerances, samples, most, seconds):
     seeds = (arguments.seed + 1, arguments.seed + 2)
     truths = [render(seed, 0.0, samples, False) for seed in seeds]
     taken = min(t[2] for t in truths)
-    reference = (truths[0][0] + truths[1][0]) / 2.0
+    halves = [render(seed + 100, 0.0, most, False, 2.0 * seconds)[0] for seed in seeds]
+    reference = (halves[0] + halves[1]) / 2.0
     scale = np.maximum(reference, 0.0) + 0.01
-    noise = _mean(np.abs(truths[0][0] - truths[1][0]) / 2.0 / scale)
+    noise = _mean(np.abs(halves[0] - halves[1]) / 2.0 / scale)
     rows = []
     for tolerance in tolerances:
         row = Row(name, backend, tolerance)
@@ -84,7 +85,7 @@ def check(path, arguments, backend, tolerances, samples, most, seconds):
         row.noise, row.samples, row.seconds = noise, whole[2], whole[3]
         row.truthSeconds = whole[2] * sum(per_sample[2:]) / 2.0
         row.error = max(_mean(np.abs(whole[0] - reference) / scale) ** 2 - noise ** 2, 0.0) ** 0.5
-        row.bounded = whole[2] >= most or whole[4] >= seconds > 0.0
+        row.bounded = whole[2] >= most or whole[4] >= seconds > 0.0 or noise > tolerance / 2.0
         row.methodWithin = row.methodError - 2.0 * row.methodSigma <= tolerance
         row.within = row.error <= tolerance
         rows.append(row)
@@ -127,5 +128,6 @@ def listing(rows):
                      f"on {sum(r.within for r in whole)} of {len(whole)} that were not bounded by time or samples; truth "
                      f"methods take {np.median([r.speedup for r in of]):.2f} times as long (median)")
     if any(row.bounded for row in rows):
-        lines.append("b: bounded, the time or the samples ended before the tolerance was met")
+        lines.append("b: bounded: time or samples ended before the tolerance was met, or the reference has more noise than half "
+                     "of it")
     return "\n".join(lines)

@@ -4,9 +4,9 @@ import numpy as np
 COSINES = (1.0, 0.7, 0.3, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0, -1e-7, -1e-3, -0.4, -1.0)
 INCOMING = (1.0, 0.6, 1e-1, 1e-3, 1e-6, 1e-8, 0.0, -1e-7, -1e-2, -0.5, -1.0)
 LAST = 1.0 - 2.0 ** -24
-# What approximations of a lobe may add to an albedo of 1 (docs of the lobes, testLobeAlbedo): anisotropic and Beckmann
-# tables 0.05, hair's azimuthal tables, the rest far less.
-BUDGET = 0.06
+# What approximations of a lobe may add to an albedo of 1 (testLobeAlbedo): anisotropic tables 0.05; the transmission of
+# Schlick curves that no dielectric has, 0.09, from 16 facets; the rest far less.
+BUDGET = 0.09
 DELTA = 4
 SAMPLES = 1024
 NARROW = 3e3  # density above which float directions do not hold a lobe's value to a percent
@@ -136,11 +136,11 @@ def check_furnace(probe, graph, budget=BUDGET):
         wo = directions((cosine,), (0.3,))
         mean, error = furnace(probe, cosine, 11)
         albedo = probe.albedo(wo)[0]
-        slack = 5.0 * error + budget * max(1.0, float(albedo.max()))
+        slack = 5.0 * error + budget * max(1.0, float(albedo.max()), graph.bound if np.isfinite(graph.bound) else 1.0)
         place = {"wo": wo}
         met = mean * present(probe, graph.thin, wo)[0]
         failures.look([(met > graph.bound + slack).any()], f"sampled albedo above {graph.bound:g}", place, [mean])
-        if graph.ward:
+        if graph.ward or not np.isfinite(graph.bound):  # a tint of 65504 makes much of the last digit
             continue
         far = mean - albedo > slack if graph.loses else np.abs(mean - albedo) > slack
         failures.look([far.any()], "sampled albedo is not albedo()", place, [np.append(mean, albedo)])

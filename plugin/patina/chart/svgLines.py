@@ -73,8 +73,8 @@ def lines(sweep, width=460, height=290):
         out.append(f'<path d="M{LEFT} {y.at(value):.1f}H{width - RIGHT}" stroke="#e4e4e4"/>')
         out.append(_text(LEFT - 5, y.at(value) + 3.5, text, "end"))
     out.append(_text((LEFT + width - RIGHT) / 2, height - BOTTOM + 26, sweep.x_label))
-    middle = (TOP + height - BOTTOM) / 2
-    out.append(_text(12, middle, sweep.y_label, more=f' transform="rotate(-90 12 {middle:.1f})"'))
+    middle, long = (TOP + height - BOTTOM) / 2, min(1.0, height / (6.2 * len(sweep.y_label)))
+    out.append(_text(12, middle, sweep.y_label, more=f' font-size="{10.5 * long:.1f}" transform="rotate(-90 12 {middle:.1f})"'))
     if sweep.switch is not None:
         at = x.at(sweep.switch)
         out.append(f'<path d="M{at:.1f} {TOP}V{height - BOTTOM}" stroke="#111" stroke-dasharray="2 3"/>')
@@ -91,9 +91,10 @@ def lines(sweep, width=460, height=290):
                 out.append(f'<circle cx="{x.at(a):.1f}" cy="{y.at(b):.1f}" r="2.1" fill="{colour}"/>')
             elif not math.isfinite(b):  # no number: a cross at the upper edge
                 out.append(f'<path d="M{x.at(a) - 3:.1f} {TOP + 2 + 7 * i}l6 6m0 -6l-6 6" stroke="{colour}" fill="none"/>')
-    at = LEFT
+    room = sum(25 + 6.0 * len(name) for name in shown)
+    fit, at = min(1.0, (width - 16) / room), 8 if room > width - LEFT else LEFT
     for name, colour in shown.items():
-        out.append(f'<path d="M{at} {height - 7}h12" stroke="{colour}" stroke-width="3"/>')
-        out.append(_text(at + 15, height - 3.5, name, "start"))
-        at += 25 + 6.0 * len(name)
+        out.append(f'<path d="M{at:.1f} {height - 7}h{12 * fit:.1f}" stroke="{colour}" stroke-width="3"/>')
+        out.append(_text(at + 15 * fit, height - 3.5, name, "start", f' font-size="{10.5 * fit:.1f}"'))
+        at += (25 + 6.0 * len(name)) * fit
     return "\n".join([*out, "</svg>"]) + "\n"

@@ -81,7 +81,7 @@ def _mirrored(count):
              "lost below": [plain(d) for d in x]}
     return Sweep("normals below the horizon, mirror", "frames", "The mirrored view lies below the surface, where nothing is.",
                  "degrees of slant", x, "albedo, view at 60 degrees", found, [1.0] * len(x), always("bent to the horizon", x), 1e-3,
-                 "lost below", switch=30.0, shows=100)
+                 "lost below", switch=15.0, shows=100)
 
 
 def _no_number(count):

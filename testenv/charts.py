@@ -3,9 +3,9 @@
 
     charts.py [--out FOLDER] [--only KIND]... [--quick]
 
-Kinds are those of `patina chart`: lobes, scenes, stability, and where this build has them predictions. Each runs in a
-process of its own; of what it writes the files named below go to the folder (default: docs/charts). --quick takes small
-pictures and few samples, to see whether it all works. The whole takes some 20 minutes on two cores.
+Kinds are those of `patina chart`: lobes, scenes, stability, predictions. Each runs in a process of its own; of what it writes
+the files named below go to the folder (default: docs/charts). --quick takes small pictures and few samples, to see whether it
+all works. The whole takes some 30 minutes on two cores.
 """
 import argparse
 import glob
@@ -26,6 +26,10 @@ KINDS = {
                + ["--imageWidth", "128", "--maxSamples", "64", "--seconds", "240", "--quiet"],
                [f"testenv/scenes/{SCENES[0]}.usda", "--imageWidth", "32", "--maxSamples", "4", "--quiet"],
                ["scenes.csv", "*-relMSE.svg", "*-flip.svg", "*-rmse.svg"]),
+    "predictions": (["--predictions"] + [f"testenv/scenes/{name}.usda" for name in SCENES] + ["--backend", "embree", "--quiet"],
+                    ["--predictions", f"testenv/scenes/{SCENES[0]}.usda", "--backend", "embree", "--imageWidth", "8",
+                     "--tolerances", "0.5", "--methodSamples", "4", "--seconds", "1", "--quiet"],
+                    ["predictions.csv"]),
     "stability": (["--stability"], ["--stability", "--points", "6"], ["stability.svg"]),
 }
 LARGEST = 1 << 20  # bytes: README.md shows the folder

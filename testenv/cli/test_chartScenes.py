@@ -1,5 +1,7 @@
 """patina chart STAGE...: what its numbers mean, on synthetic data, and one small run through everything."""
+import argparse
 import csv
+import importlib.util
 import json
 import math
 import os
@@ -12,7 +14,7 @@ import pytest
 from patina.chart import (png, sceneCharts, sceneCommand, sceneLadder, sceneMeasures, scenePage, sceneReference,
                           sceneResults, svg)
 from patina.chart.plot import Axis, Plot
-from patina.cli import compiled, main
+from patina.cli import chart, compiled, main
 
 STAGE = """#usda 1.0
 (
@@ -87,10 +89,10 @@ def test_page_and_charts(charted):
     assert addresses and all(a.startswith("data:image/png;base64,") for a in addresses)
     assert re.findall(r"https?://[^\"]*", page) == ["http://www.w3.org/2000/svg"] * page.count("<svg")
     charts = sorted(out.glob("*.svg"))
-    assert {c.name.rsplit("-", 1)[1] for c in charts} >= {"relMSE.svg", "rmse.svg"}
-    for chart in charts:
-        assert re.fullmatch(r"[\w-]+\.svg", chart.name)
-        assert ElementTree.parse(chart).getroot().tag.endswith("svg")
+    assert {path.name.rsplit("-", 1)[1] for path in charts} >= {"relMSE.svg", "rmse.svg"}
+    for path in charts:
+        assert re.fullmatch(r"[\w-]+\.svg", path.name)
+        assert ElementTree.parse(path).getroot().tag.endswith("svg")
     machine = found["machine"]
     assert machine["processor"] in page.replace("&amp;", "&") and int(machine["cores"]) >= 1
 
@@ -279,10 +281,10 @@ def test_signed_errors():
 
 
 def test_labels_of_a_scatter_do_not_cover_each_other():
-    chart = svg.scatter("t", [(10.0, 0.01, "schlick"), (11.0, 0.0101, "f82"), (10.5, 0.0099, "exact"), (2.0, 0.0, "none")],
+    drawn = svg.scatter("t", [(10.0, 0.01, "schlick"), (11.0, 0.0101, "f82"), (10.5, 0.0099, "exact"), (2.0, 0.0, "none")],
                         "x", "y")
     found = {words: (float(x), float(y)) for x, y, words in
-             re.findall(r'x="([\d.]+)" y="([\d.]+)" text-anchor="start"[^>]*>([^<]+)<', chart)}
+             re.findall(r'x="([\d.]+)" y="([\d.]+)" text-anchor="start"[^>]*>([^<]+)<', drawn)}
     assert set(found) == {"schlick", "f82", "exact", "none (0)"}
     places = sorted((y, x, x + 6.2 * len(words)) for words, (x, y) in found.items())
     for i, (y, begin, end) in enumerate(places):
@@ -297,6 +299,22 @@ def test_png_holds_the_pixels(tmp_path):
     back = np.array(compiled.load().read_image(str(path)).pixels)[..., :3]
     shown = np.where(image <= 0.0031308, 12.92 * image, 1.055 * image ** (1 / 2.4) - 0.055)
     assert back.shape == (5, 7, 3) and np.abs(back - shown).max() <= 0.5 / 255 + 1e-6
+
+
+def test_the_projects_own_charts():
+    """Every kind of chart is regenerated, by flags that the command has."""
+    path = os.path.join(os.path.dirname(__file__), "..", "charts.py")
+    spec = importlib.util.spec_from_file_location("charts", path)
+    charts = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(charts)
+    assert set(charts.KINDS) == {"scenes", *chart.CHARTS}
+    for arguments, quick, kept in charts.KINDS.values():
+        for flags in (arguments, quick):
+            parser = argparse.ArgumentParser(exit_on_error=False)
+            chart.add_arguments(parser)
+            found = parser.parse_args(flags)
+            assert all(os.path.exists(os.path.join(charts.ROOT, stage)) for stage in found.stages)
+        assert kept
 
 
 def test_charts_of_the_readme():

@@ -18,11 +18,17 @@ const int PAGE_CLOSED = 1; // a shape with an inside: no light from behind comes
 
 out vec4 outColor;
 
-// Samples of lights count as if they were so much denser: all pixels share them, their error is smooth.
+// For diffuse lobes samples of lights count as if they were so much denser: all pixels share them, and
+// their error is smooth. In mirrors they would be seen as highlights of their own.
 const float LIGHT_TRUST = 8.0;
 
 float heuristic(float a, float b) {
     return a * a / max(a * a + b * b, 1e-30);
+}
+
+// The share of a sample of the BSDF where light is sampled too: of diffuse lobes, and of others.
+vec2 ownShare(float pdf, float density, float trust) {
+    return vec2(heuristic(pdf, trust * density), heuristic(pdf, min(trust, 1.0) * density));
 }
 
 void setPagePoint() {
@@ -71,17 +77,17 @@ vec3 along(vec3 wi, vec3 diffuse, vec3 specular, float pdf, bool delta) {
     // Half as wide as the samples are apart: a filter reaches over two texels. More would blur.
     float lod = delta ? 0.0 : clamp(-0.5 * log2(max(apart, 1e-20)) - 1.0, 0.0, environmentInfo.y);
     float found = delta || lightSamples.x == 0 ? 0.0 : float(lightSamples.x) * environmentChance(wi);
-    vec3 sum = (diffuse + specular) * environmentAt(wi, lod) *
-               (found > 0.0 ? heuristic(float(passInfo.y) * pdf, environmentDensity.z * found) : 1.0);
+    vec2 own = found > 0.0 ? ownShare(float(passInfo.y) * pdf, found, environmentDensity.z) : vec2(1.0);
+    vec3 sum = (diffuse * own.x + specular * own.y) * environmentAt(wi, lod);
     if (isBlocked(wi)) return sum;
     for (int i = 0; i < lightCount; ++i) {
         PageLight l = lightAt(i);
         float density;
         vec3 radiance = lightAlong(l, point.position, wi, density);
         if (density == 0.0) continue;
-        float weight = delta ? 1.0 : heuristic(float(passInfo.y) * pdf,
-                                                 LIGHT_TRUST * float(lightSamples.y) * density);
-        sum += (diffuse * l.shares.x + specular * l.shares.y) * radiance * weight;
+        vec2 share = vec2(1.0);
+        if (!delta) share = ownShare(float(passInfo.y) * pdf, float(lightSamples.y) * density, LIGHT_TRUST);
+        sum += (diffuse * l.shares.x * share.x + specular * l.shares.y * share.y) * radiance;
     }
     return sum;
 }
@@ -143,8 +149,12 @@ void main() {
             continue;
         }
         float found = meets ? float(passInfo.y) * f.pdf : 0.0;
-        float weight = density == 0.0 ? 1.0 : heuristic(trust * density, found) / density;
-        color += (f.diffuse * shares.x + f.specular * shares.y) * radiance * weight;
+        vec2 weight = vec2(1.0);
+        if (density > 0.0) {
+            weight = found > 0.0 ? 1.0 - ownShare(found, density, trust) : vec2(1.0);
+            weight /= density;
+        }
+        color += (f.diffuse * shares.x * weight.x + f.specular * shares.y * weight.y) * radiance;
     }
     // A value that is no number would stay in the mean for ever.
     if (any(isnan(color)) || any(isinf(color))) color = vec3(0.0);

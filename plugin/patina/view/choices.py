@@ -11,7 +11,9 @@ OFF_ON = (("off", 0), ("on", 1))
 _WRAPS = ("constant", "clamp", "periodic", "mirror")
 _USD_WRAPS = ("useMetadata", "black", "clamp", "repeat", "mirror")
 # What MaterialX and UsdPreviewSurface let an input say.
-_TEXTS = {"distribution": ("ggx", "beckmann"), "scatter_mode": ("R", "T", "RT"), "mode": ("conty_kulla", "zeltner"),
+_TEXTS = {"distribution": ("ggx", "beckmann"), "fresnel": ("exact", "schlick"), "form": ("bounded", "exact"),
+          "space": ("object", "world"),
+          "scatter_mode": ("R", "T", "RT"), "mode": ("conty_kulla", "zeltner"),
           "uaddressmode": _WRAPS, "vaddressmode": _WRAPS, "filtertype": ("closest", "linear", "cubic"),
           "wrapS": _USD_WRAPS, "wrapT": _USD_WRAPS, "sourceColorSpace": ("auto", "raw", "sRGB")}
 _NUMBERS = {"opacityMode": (("transparent", 0), ("presence", 1)), "useSpecularWorkflow": OFF_ON,

@@ -60,7 +60,7 @@ void RasterDomes::upload(bool prefiltered) {
             w *= 2;
     const int h = w / 2, dw = densityWidth, dh = dw / 2, layers = int(_wanted.size());
     _maps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_RGBA32F, w, h, layers, 0);
-    _densities = GlTexture(GL_TEXTURE_2D_ARRAY, GL_R32F, dw, dh, layers);
+    _densities = GlTexture(GL_TEXTURE_2D_ARRAY, GL_R32F, dw, dh, layers, 0);
     std::vector<vec4> image(size_t(w) * size_t(h));
     std::vector<float> density(size_t(dw) * size_t(dh));
     for (int k = 0; k < layers; ++k) {
@@ -79,7 +79,8 @@ void RasterDomes::upload(bool prefiltered) {
     }
     gl.GenerateTextureMipmap(_maps.id());
     smoothLatlong(_maps, GL_LINEAR_MIPMAP_LINEAR);
-    smoothLatlong(_densities, GL_NEAREST);
+    gl.GenerateTextureMipmap(_densities.id());
+    smoothLatlong(_densities, GL_LINEAR_MIPMAP_LINEAR);
     _densities.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 

@@ -266,6 +266,7 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
     vec3 er = mean * ess;
     vec3 et = (vec3(1.0f) - mean) * min(white * a.y / max(1.0f - a.x, ALBEDO_MIN), 1.0f);
     if (schlickOdd(l)) et = min(schlickPassedShare(l, wo, eta) * (white * a.y), vec3(1.0f));
+    et = min(et, max(vec3(1.0f) - er, vec3(0.0f)));
     if (compensates) {
         vec3 both = vec3(1.0f) / max(er + et, vec3(ALBEDO_MIN));
         vec3 rest = max(vec3(1.0f) - er * e.kr, vec3(0.0f)) / max(et, vec3(ALBEDO_MIN));

@@ -62,7 +62,7 @@ vec3 fromLight(Light l) {
     if (l.origin.w <= 0.0) {
         // Weights of domes come from the density's table on both sides.
         bool sky = kind == LIGHT_DOME || kind == LIGHT_MORE_DOME;
-        float chance = sky ? l.cone.y * domePdf(l, wi) : density;
+        float chance = sky ? l.cone.y * domePdf(l, wi, 0.0) : density;
         bool found = kind != LIGHT_TRIANGLE && counts.y > 0;
         weight = (found ? heuristic(lightTrust * chance, float(counts.y) * f.pdf) : 1.0) / density;
         if (sky) weight /= l.cone.y;
@@ -87,10 +87,11 @@ vec3 along(MaterialSample s) {
         float density, seen = 1.0;
         if (kind == LIGHT_DOME) {
             if (l.cone.y == 0.0) continue;
-            density = l.cone.y * domePdf(l, s.wi);
             float texel = 4.0 * PI / max(extra.x, 1.0);
             float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(pdf * extra.z * texel, 1e-20));
-            radiance = radianceOfDome(l, s.wi, clamp(lod, 0.0, float(lightInfo.y)));
+            lod = clamp(lod, 0.0, float(lightInfo.y));
+            density = l.cone.y * domePdf(l, s.wi, lod);
+            radiance = radianceOfDome(l, s.wi, lod);
         } else if (kind == LIGHT_DISTANT) {
             if (dot(s.wi, l.origin.xyz) < 1.0 - l.cone.z) continue;
             density = 1.0 / l.cone.w;

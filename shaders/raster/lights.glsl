@@ -50,9 +50,12 @@ vec3 radianceOfDome(Light l, vec3 w, float lod) {
     if (l.cone.x < 0.0) return l.origin.xyz;
     return l.origin.xyz * textureLod(domeMaps, vec3(latlong(toDome(l, w)), l.cone.x), lod).rgb;
 }
-float domePdf(Light l, vec3 w) {
+// lod: as radianceOfDome. What looks into a smaller version of the image must weigh itself by as small
+// a one of the density, else what is bright beside it counts twice.
+float domePdf(Light l, vec3 w, float lod) {
     if (l.cone.x < 0.0) return 0.25 * INV_PI;
-    return textureLod(domeDensities, vec3(latlong(toDome(l, w)), l.cone.x), 0.0).x;
+    float finer = 0.5 * log2(2.0 * max(extra.x, 1.0)) - log2(float(textureSize(domeDensities, 0).x));
+    return textureLod(domeDensities, vec3(latlong(toDome(l, w)), l.cone.x), max(lod - finer, 0.0)).x;
 }
 // All domes together, as the camera sees them.
 vec4 skyRadiance(vec3 w, float lod) {

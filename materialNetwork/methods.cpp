@@ -57,7 +57,8 @@ const std::vector<ChoicePoint>& choicePoints() {
          {{"table", "what sheen of mode conty_kulla reflects in total is looked up; mode zeltner "
                     "has a formula by its definition"},
           {"fit", "a polynomial: no table, errors up to 0.004"},
-          {"quadrature", "the sum over 2048 directions: the truth, slow"}}},
+          {"quadrature", "the sum over 2048 directions: the truth, slow"}},
+         "quadrature"},
         {"layering",
          {{"albedoScaling",
            "a base is scaled by what the top's directional albedo leaves, as in MaterialX; what "

@@ -80,12 +80,15 @@ std::vector<Row> measureMethods(const std::string& point, bool timed) {
         const char* name;
         std::vector<Row> (*measure)(bool);
     } points[] = {{"energyCompensation", energyCompensation},
+                  {"energyCompensation", energyWalk},
                   {"directionalAlbedo", directionalAlbedo},
                   {"sampling", sampling},
                   {"fresnel", fresnel},
                   {"thinFilm", thinFilm},
                   {"diffuse", diffuse},
-                  {"layering", layering}};
+                  {"layering", layering},
+                  {"sheen", sheen},
+                  {"subsurface", subsurface}};
     std::vector<Row> rows;
     for (const auto& p : points)
         if (point.empty() || point == p.name)

@@ -64,7 +64,10 @@ std::vector<Row> sampling(bool timed);
 std::vector<Row> fresnel(bool timed);
 std::vector<Row> thinFilm(bool timed);
 std::vector<Row> diffuse(bool timed);
+std::vector<Row> energyWalk(bool timed); ///< the truth of energyCompensation
 std::vector<Row> layering(bool timed);
+std::vector<Row> sheen(bool timed);
+std::vector<Row> subsurface(bool timed);
 
 /// Rows of all choice points, or of `point` alone.
 std::vector<Row> measureMethods(const std::string& point, bool timed);

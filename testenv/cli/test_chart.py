@@ -8,7 +8,8 @@ import pytest
 from patina.chart import lobes, svg
 from patina.cli import compiled, main
 
-MEASURED = ("energyCompensation", "directionalAlbedo", "sampling", "fresnel", "thinFilm", "diffuse", "layering")
+MEASURED = ("energyCompensation", "directionalAlbedo", "sampling", "fresnel", "thinFilm", "diffuse", "sheen",
+            "layering", "subsurface")
 
 
 def test_rows_csv_and_charts(capsys, tmp_path):

@@ -74,8 +74,7 @@ const std::vector<ChoicePoint>& choicePoints() {
            "path tracer, as diffuse on the rasterizer and on thin walls"},
           {"diffuse",
            "light leaves where it entered, as from a diffuse surface of the same colour; "
-           "edges and thin parts do not glow"}},
-         "randomWalk"},
+           "edges and thin parts do not glow"}}},
         {"layerTransmittance",
          {{"largest", "a layer lets through 1 - E in all channels, E the largest channel of its "
                       "top's directional albedo without tint; no channel gains energy, and a tint "

@@ -18,7 +18,8 @@ struct ChoicePoint {
     std::string name;
     std::vector<Method> methods;
     std::string truth = {}; ///< what the others are measured against; empty: a choice of meaning,
-                            ///< or one that makes noise alone. The planner never changes a meaning.
+                            ///< one that makes noise alone, or (subsurface) one whose error
+                            ///< depends on the object. The planner only looks for less noise there.
 };
 
 /// Choice point -> method, as the user forces it.

@@ -48,7 +48,7 @@ public:
         _chosen.assign(_points.size(), 0);
         for (size_t i = 0; i < _points.size(); ++i)
             _best[i] = int(_points[i].options.size()) - 1;
-        search(0, std::max(budget, 0.0), 0.0);
+        search(0, std::max(budget, 0.0), 0.0, 0.0);
         for (size_t i = 0; i < _points.size(); ++i)
             keep(_points[i], _points[i].options[size_t(_best[i])]);
         return std::move(_result);
@@ -131,11 +131,21 @@ private:
         return best;
     }
 
-    /// The fastest combination within the budget. Points are few and fronts short.
-    void search(size_t i, double budget, double ns) {
-        if (ns >= _least) return;
+    /// Time of an image relative to others: that of a sample, over the noise allowed squared.
+    double effort(double ns, double error) const {
+        if (!(_planning.tolerance > 0.0)) return ns;
+        const double used = std::min(error / _planning.tolerance, methodShare);
+        const double noise = 1.0 - depthShare - used;
+        return (nsPerSample + ns) / (noise * noise);
+    }
+
+    /// The combination within the budget that takes the least effort. Points are few and fronts
+    /// short.
+    void search(size_t i, double budget, double ns, double error) {
+        const double soFar = effort(ns, error);
+        if (soFar >= _least) return;
         if (i == _points.size()) {
-            _least = ns;
+            _least = soFar;
             _best = _chosen;
             return;
         }
@@ -144,7 +154,7 @@ private:
             const Prediction& q = p.options[k].prediction;
             if (!p.forced && q.error > budget && p.options.size() > 1) continue;
             _chosen[i] = int(k);
-            search(i + 1, p.forced ? budget : budget - q.error, ns + q.ns);
+            search(i + 1, p.forced ? budget : budget - q.error, ns + q.ns, error + q.error);
         }
     }
 

@@ -16,9 +16,12 @@ struct Planning {
 /// Share of the tolerance that methods may take; noise gets what they leave.
 constexpr double methodShare = 0.4;
 
-/// Chooses a method at every choice point that matters to a plan and has a truth: those that
-/// together are fastest while their predicted errors sum up to at most methodShare of the
-/// tolerance.
+/// Share of the tolerance that is kept for paths being cut off.
+constexpr double depthShare = 0.1;
+
+/// Chooses a method at every choice point that matters to a plan and has a truth: those whose
+/// predicted errors sum up to at most methodShare of the tolerance, and with which an image is
+/// done first: error that methods take is missing to noise, which then needs more samples.
 ///
 /// The prediction for one method is the table's mean error at the lobe's own kind, reflectance and
 /// roughness (between the two subjects that enclose it), per quarter of the cosine, over what

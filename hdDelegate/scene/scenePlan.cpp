@@ -1,7 +1,5 @@
 #include "hdDelegate/scene/scenePlan.h"
 
-#include "materialNetwork/planner.h"
-
 #include <algorithm>
 #include <cmath>
 

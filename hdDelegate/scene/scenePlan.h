@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/methodPlan.h"
+#include "materialNetwork/planner.h"
 
 #include <map>
 #include <string>
@@ -22,7 +22,6 @@ public:
     /// depthStandard. Roulette has no part in this, since it makes noise alone.
     int depth(double tolerance) const;
 
-    static constexpr double depthShare = 0.1;
     static constexpr int depthStandard = 16, depthLeast = 4, depthMost = 1024;
 
     /// What noise may take of a tolerance: all that methods and depth leave, and never less than

@@ -80,7 +80,10 @@ def test_pareto_and_axes():
 
 def test_table_text(tmp_path):
     row = {"point": "p", "method": "m", "subject": "s", "errorOf": "albedo", "ns": 3.0, "cost": 1.0, "mean": 0.0,
-           "largest": 1e-5, "rms": 0.5}
+           "largest": 1e-5, "rms": 0.5, "kind": "conductor", "reflectance": 0.9, "axis": "roughness", "axisEnd": 1.0,
+           "errors": [0.0, 0.25], "truths": [1.0, 0.5]}
     path = tmp_path / "table.cpp"
     lobes.write_table([row], path)
-    assert '{"p", "m", "s", "albedo", 3.0f, 1.0f, 0.0f, 1e-05f, 0.5f},' in path.read_text()
+    text = " ".join(path.read_text().split())
+    assert ('{"p", "m", "s", "albedo", 3.0f, 1.0f, 0.0f, 1e-05f, 0.5f, "conductor", 0.9f, "roughness", 1.0f, '
+            '{0, 0.25f}, {1.0f, 0.5f}},') in text

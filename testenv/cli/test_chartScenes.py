@@ -58,7 +58,8 @@ def charted(tmp_path_factory):
     out = folder / "out"
     status = main.main(["chart", str(bad), str(good), str(folder / "missing.usda"),
                         str(folder / "\udcff.usda"), "--out", str(out), "--imageWidth", "32",
-                        "--maxSamples", "20", "--tolerances", "0.5", "--quiet", f"--json={folder / 'rows.json'}"])
+                        "--maxSamples", "20", "--tolerances", "0.5", "--method", "layering=positionFree", "--quiet",
+                        f"--json={folder / 'rows.json'}"])
     return out, status, json.loads((folder / "rows.json").read_text())
 
 

@@ -45,6 +45,6 @@ TEST(EnergyCompensation, IsCloserToTheWalkThanNone) {
     for (const measure::Row& row : measure::energyCompensation(false))
         if (row.method != "none") {
             EXPECT_LT(row.mean, 0.1 * none) << row.method << " " << row.subject;
-            EXPECT_LT(row.largest, 0.06) << row.method << " " << row.subject;
+            EXPECT_LT(row.largest, 0.065) << row.method << " " << row.subject;
         }
 }

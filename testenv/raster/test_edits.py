@@ -33,7 +33,7 @@ def draw(frames):
 
 
 EDITS = {  # what an edit may build: shapes, buffers of instances, programs
-    "camera": (lambda f: f.move(3), (0, 0, 0)),
+    "camera": (lambda f: f.move(1), (0, 0, 0)),  # not so far that an instance needs another tessellation
     "material": (lambda f: f.edit("/World/materials/green/diffuse", "color", [0.5, 0.1, 0.1]), (0, 0, 0)),
     "light": (lambda f: f.edit("/World/key", "intensity", 3.0), (0, 0, 0)),
     "nothing": (lambda f: None, (0, 0, 0)),

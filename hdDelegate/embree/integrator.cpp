@@ -89,7 +89,8 @@ float Integrator::addLightsAlong(Path& path, float distance) const {
 void Integrator::addLight(Path& path, int light, const vec3& radiance, float lightPdf) const {
     const LightInfo& info = _lights.info(light);
     if (!linked(info.lightCategory, path.vertexSurface, path.vertexInstanceCategories)) return;
-    const float weight = path.specular ? 1.0f : powerHeuristic(path.pdf, lightPdf);
+    const float weight =
+        path.specular ? 1.0f : powerHeuristic(path.pdf, path.lightSamples * lightPdf);
     const vec3 share = path.diffuseShare * info.diffuse + path.specularShare * info.specular;
     addRadiance(path, share * radiance * weight);
 }
@@ -162,10 +163,10 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
         radiance = _lights.triangleRadiance(light, s.position, path.time);
         if (radiance == vec3(0.0f)) return vec3(0.0f);
     }
-    const float weight = light.delta ? 1.0f : powerHeuristic(light.pdf, f.pdf);
+    const float weight = light.delta ? 1.0f : powerHeuristic(path.lightSamples * light.pdf, f.pdf);
     const float away = glm::dot(light.direction, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
     const vec3 origin = point.departure(light.direction);
-    value *= radiance * (weight / light.pdf);
+    value *= radiance * (weight / (path.lightSamples * light.pdf));
     const MaterialProgram& program = *point.slot->program;
     const bool crosses = program.hasInterior() &&
                          (glm::dot(s.viewDirection, s.geometricNormal) < 0.0f) != (away < 0.0f);
@@ -271,9 +272,14 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         }
         if (path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface)) break;
 
-        const vec4 uLight = path.sampler.next4();
-        if (bsdf.hasNonDelta() && !_lights.set().empty())
-            addRadiance(path, directLight(path, point, bsdf, hit, vec3(uLight), counters));
+        // What the camera sees counts most, and its vertex is paid for.
+        const int lightSamples = path.fromCamera() ? std::max(_settings.lightSamples, 1) : 1;
+        path.lightSamples = float(lightSamples);
+        for (int i = 0; i < lightSamples; ++i) {
+            const vec4 uLight = path.sampler.next4();
+            if (bsdf.hasNonDelta() && !_lights.set().empty())
+                addRadiance(path, directLight(path, point, bsdf, hit, vec3(uLight), counters));
+        }
 
         const vec4 uBsdf = path.sampler.next4();
         const BsdfSample next = bsdf.sample(vec3(uBsdf), uBsdf.w);

@@ -85,6 +85,7 @@ Integrator::Flight Integrator::scatter(Path& path, const Medium& medium, float d
     if (path.depth >= _settings.maxDepth || path.scatterings >= _settings.maxScatterings)
         return Flight::Ends;
     ++path.scatterings;
+    path.lightSamples = 1.0f;
     const vec3 position = path.origin + path.direction * distance;
     const PhaseMixture phase(medium, path.throughput);
     const vec4 u = path.sampler.next4();
@@ -150,6 +151,7 @@ bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& h
     bsdf.makeDiffuse(back ? -there.normal : there.normal, up);
     const Hit& exitHit = exit.found ? exit.hit : hit;
     const vec4 uLight = path.sampler.next4();
+    path.lightSamples = 1.0f;
     if (!_lights.set().empty())
         addRadiance(path, directLight(path, leaving, bsdf, exitHit, vec3(uLight), counters));
     const BsdfSample next = bsdf.sample(vec3(path.sampler.next2(), 0.0f), 0.0f);

@@ -21,7 +21,8 @@ struct Path {
     int scatterings = 0; ///< inside media
 
     // the last vertex that scattered
-    bool specular = true; ///< no light sample could have found this ray
+    bool specular = true;      ///< no light sample could have found this ray
+    float lightSamples = 1.0f; ///< that it took
     float pdf = 0.0f;
     vec3 vertex{0.0f}, vertexNormal{0.0f};
     bool vertexTwoSided = false;

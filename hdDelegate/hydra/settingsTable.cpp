@@ -118,6 +118,7 @@ const std::vector<Row>& rows() {
         integer("threads", "Threads (0: all)", &S::threads, 0, 4096),
         seedRow(),
         integer("maxDepth", "Path depth (-1: as the tolerance asks)", &S::maxDepth, -1, 4096),
+        integer("lightSamples", "Light samples at what the camera sees", &S::lightSamples, 1, 1024),
         integer("rouletteDepth", "Russian roulette from depth", &S::rouletteDepth, 0, 4096),
         real("indirectClamp", "Clamp of indirect samples (0: none)", &S::indirectClamp),
         real("filterRadius", "Pixel filter radius (pixels)", &S::filterRadius),

@@ -28,6 +28,7 @@ struct RenderSettings {
     int maxDepth = 16; ///< path vertices after the camera; negative: as many as the tolerance asks
                        ///< for (ScenePlan::depth), 16 without one
     int maxScatterings = 1024;  ///< inside media, per path; not counted in maxDepth
+    int lightSamples = 2;       ///< where a path from the camera meets a surface; one further on
     int rouletteDepth = 4;      ///< Russian roulette starts after so many bounces
     float indirectClamp = 0.0f; ///< largest luminance of one indirect sample; 0: off (unbiased)
     float filterRadius = 1.0f;  ///< pixels; Gaussian pixel filter, 0.5 means a box

@@ -52,6 +52,7 @@ const std::map<std::string, Field>& fields() {
         {"seed", field(&RenderSettings::seed)},
         {"maxDepth", field(&RenderSettings::maxDepth)},
         {"maxScatterings", field(&RenderSettings::maxScatterings)},
+        {"lightSamples", field(&RenderSettings::lightSamples)},
         {"rouletteDepth", field(&RenderSettings::rouletteDepth)},
         {"indirectClamp", field(&RenderSettings::indirectClamp)},
         {"filterRadius", field(&RenderSettings::filterRadius)},

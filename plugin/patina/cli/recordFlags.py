@@ -59,6 +59,8 @@ def _add_render_flags(group):
                        help="another seed, another noise; the same seed gives the same bits (default: 0)")
     group.add_argument("--maxDepth", type=_count, default=-1, metavar="N",
                        help="bounces of a path (default: 16, or as many as the tolerance needs)")
+    group.add_argument("--lightSamples", type=_light_samples, default=2, metavar="N",
+                       help="path tracer: light samples where a path from the camera meets a surface (default: 2)")
     group.add_argument("--rouletteDepth", type=_count, default=4, metavar="N",
                        help="bounces before paths are ended by chance (default: 4)")
     group.add_argument("--indirectClamp", type=_not_negative, default=0.0, metavar="L",
@@ -148,7 +150,7 @@ def settings_of(arguments):
         "checkpointSeconds": arguments.checkpointSeconds,
     }
     settings["tolerance"] = tolerance
-    for name in ("seconds", "threads", "seed", "maxDepth", "rouletteDepth", "indirectClamp",
+    for name in ("seconds", "threads", "seed", "maxDepth", "lightSamples", "rouletteDepth", "indirectClamp",
                  "filterRadius", "edgeLength", "environmentSamples", "cullStyle"):
         settings[name] = getattr(arguments, name)
     if arguments.minSamples is not None:
@@ -208,6 +210,10 @@ def _count(text):
 
 def _environment_samples(text):
     return _integer(text, 4, 1024)
+
+
+def _light_samples(text):
+    return _integer(text, 1, 1024)
 
 
 def _size(text):

@@ -46,8 +46,9 @@ RasterExtent::RasterExtent(const Geometry& prim) {
 
 RasterDetail::RasterDetail(const RasterExtent& extent, const MotionTransform& transform,
                            const RasterCamera& camera, const RenderSettings& settings,
-                           bool displaced)
-    : _area(extent.area), _round(extent.round), _displaced(displaced) {
+                           bool displaced, bool glows)
+    : _gap(glows ? 0.25f * largestGap : largestGap), _area(extent.area), _round(extent.round),
+      _displaced(displaced) {
     if (!(settings.edgeLength > 0.0f) || !extent.refines) return;
     const vec3 &low = extent.low, &high = extent.high;
     _view = camera.view(vec2(0.0f), vec2(0.0f), 0.5f, low, high);
@@ -61,7 +62,7 @@ RasterDetail::RasterDetail(const RasterExtent& extent, const MotionTransform& tr
 float RasterDetail::chord(float unit) const {
     // Parts of a mesh are rounder than the whole.
     const float curved = _round ? _radius / std::sqrt(3.0f) : 0.25f * _radius;
-    return std::sqrt(8.0f * largestGap * unit * curved);
+    return std::sqrt(8.0f * _gap * unit * curved);
 }
 
 size_t RasterDetail::trianglesFor(float edge) const {

@@ -23,9 +23,10 @@ public:
     /// A chord of c pixels leaves a circle of R pixels by c^2 / 8R. Where that is less than
     /// `largestGap`, edges may be twice as long as the settings ask for, unless the prim is
     /// displaced: normals are smooth. Small round shapes have shorter ones instead, as the path
-    /// tracer's always do.
+    /// tracer's always do. Against the edge of what glows a quarter of the gap is seen as well.
     RasterDetail(const RasterExtent& extent, const MotionTransform& transform,
-                 const RasterCamera& camera, const RenderSettings& settings, bool displaced);
+                 const RasterCamera& camera, const RenderSettings& settings, bool displaced,
+                 bool glows);
 
     /// The longest edge, in object units, that looks as long from the camera as the settings ask
     /// for: a power of two, so that few of them differ. 0: the prim is not refined.
@@ -43,6 +44,7 @@ private:
 
     mat4 _toGroup{1.0f};
     vec3 _center{0.0f};
+    float _gap = largestGap; ///< pixels
     float _radius = 0.0f, _area = 0.0f, _edgeLength = 0.0f, _nearest = 0.0f;
     bool _round = false, _displaced = false;
     RasterView _view;

@@ -2,6 +2,7 @@
 
 #include "hdDelegate/raster/prefilteredSky.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace patina {
@@ -54,10 +55,15 @@ void RasterDomes::upload(bool prefiltered) {
     _maps = GlTexture();
     _densities = GlTexture();
     if (_wanted.empty()) return;
-    int w = 1024; // finer than the image, so that interpolating twice does not blur it
+    int widest = 1;
     for (const auto& map : _wanted)
-        while (w < 4 * map->width() && w < 2048)
-            w *= 2;
+        widest = std::max(widest, map->width());
+    // Finer than the image by an odd number: then its pixels' centres, where interpolated values
+    // have kinks, are those of texels, and interpolating twice blurs nothing.
+    int w = widest;
+    for (int finer = 3; w < 1024; finer += 2)
+        w = finer * widest;
+    w = std::min(w, 3072);
     const int h = w / 2, dw = densityWidth, dh = dw / 2, layers = int(_wanted.size());
     _maps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_RGBA32F, w, h, layers, 0);
     _densities = GlTexture(GL_TEXTURE_2D_ARRAY, GL_R32F, dw, dh, layers, 0);

@@ -143,7 +143,7 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
         measured = prim;
         extent = RasterExtent(*prim);
     }
-    const RasterDetail detail(extent, prim->transform, camera, settings, displaced);
+    const RasterDetail detail(extent, prim->transform, camera, settings, displaced, wish.needsMesh);
     std::map<float, std::vector<uint32_t>> byEdge;
     for (size_t i = 0; i < where.size(); ++i)
         byEdge[detail.edgeAt(where[i])].push_back(uint32_t(i));

@@ -77,9 +77,10 @@ def pytest_collect_file(file_path, parent):
 
 
 def pytest_pycollect_makemodule(module_path):
-    """Tests of one folder may import helpers that lie beside them."""
-    if str(module_path.parent) not in sys.path:
-        sys.path.append(str(module_path.parent))
+    """Tests may import helpers that lie beside them or beside this file."""
+    for folder in (str(module_path.parent), os.path.dirname(os.path.abspath(__file__))):
+        if folder not in sys.path:
+            sys.path.append(folder)
 
 
 def pytest_collection_modifyitems(items):

@@ -15,6 +15,8 @@
 
 namespace patina {
 
+class CameraRays;
+
 enum RayMask : unsigned { RayCamera = 1, RayIndirect = 2, RayShadow = 4 };
 
 /// A triangle that emits light, in world space.
@@ -101,6 +103,14 @@ private:
     /// The programs of a prim's materials as displace() takes them; empty when none displaces.
     Programs displacers(const Geometry& prim, const SceneState& state,
                         const RenderSettings& settings, TextureSource& textures);
+    /// How long the edges of a tessellated prim may be, in its own space: --edgeLength pixels where
+    /// it is nearest, rounded to a power of two so that small moves of the camera change nothing.
+    /// 0: it is drawn as it is.
+    /// @param displaced it has a material that moves its points
+    /// @param transformsOf world transforms by group, of those asked for so far
+    float targetEdge(const Geometry& prim, bool displaced, const Camera& camera,
+                     const CameraRays& rays, const RenderSettings& settings,
+                     std::map<std::string, std::vector<mat4>>& transformsOf) const;
     /// Not baked yet.
     std::shared_ptr<Surface> shape(const std::shared_ptr<const Geometry>& prim, float edgeLength,
                                    const Programs& displacers) const;

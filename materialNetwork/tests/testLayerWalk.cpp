@@ -9,11 +9,9 @@ namespace {
 const MethodChoices walks = {{"layering", "positionFree"}};
 const MethodChoices bothWalk = {{"layering", "positionFree"}, {"energyCompensation", "randomWalk"}};
 
-std::shared_ptr<const MaterialProgram> compiled(const Network& network,
-                                                const MethodChoices& methods = walks) {
-    static FakeTextures textures;
-    Diagnostics diagnostics;
-    return compileMaterial(network, textures, diagnostics, methods);
+std::shared_ptr<const MaterialProgram> walked(const Network& network,
+                                              const MethodChoices& methods = walks) {
+    return compiled(network, methods);
 }
 
 NetworkNode coat(const char* name, float ior, float alpha, const char* mode = "R") {
@@ -40,31 +38,11 @@ Network stacked(NetworkNode top, NetworkNode base) {
     return bsdfNetwork({std::move(top), std::move(base), layer("bsdf", "top", "base")});
 }
 
-Mean sampledAlbedo(const MaterialProgram& program, const glm::vec3& wo, int samples) {
-    ShadingPoint point;
-    point.viewDirection = wo;
-    Bsdf bsdf;
-    program.evaluate(point, bsdf);
-    Random random(7);
-    Mean mean;
-    for (int i = 0; i < samples; ++i) {
-        bsdf.seed(uint32_t(i));
-        const glm::vec3 u = random.next3();
-        const BsdfSample s = bsdf.sample(u, random.next());
-        mean.add(s.event ? double(s.weight.x) : 0.0);
-    }
-    return mean;
-}
-
-/// No cell may be further off than 4.6 standard errors: of 32 cells that happens by chance once in
-/// 7000 times, and numbers are the same in every run.
 void expectSamplesAndValuesAgree(const Network& network, const glm::vec3& wo, const char* what,
                                  const MethodChoices& methods = walks, int samples = 20000) {
-    const auto program = compiled(network, methods);
+    const auto program = walked(network, methods);
     ASSERT_GT(program->code().walkedLayers, 0) << what;
-    const Cells sampled = sampledCells(*program, wo, samples, 21);
-    const Cells evaluated = evaluatedCells(*program, wo, samples, 22);
-    EXPECT_LT(deviations(sampled, evaluated), 4.6) << what;
+    patina::expectSamplesAndValuesAgree(*program, wo, what, samples, 21);
 }
 
 } // namespace
@@ -75,8 +53,7 @@ TEST(LayerWalk, SmoothOverDiffuseIsAGeometricSeries) {
     const double inside = 1.0 - (1.0 - outside) / 2.25;
     for (const float albedo : {0.2f, 0.5f, 0.9f})
         for (const float degrees : {0.0f, 45.0f, 75.0f}) {
-            const auto program =
-                compiled(stacked(coat("top", 1.5f, 0.0f), diffuse("base", albedo)));
+            const auto program = walked(stacked(coat("top", 1.5f, 0.0f), diffuse("base", albedo)));
             const Mean found = sampledAlbedo(*program, direction(degrees), 20000);
             const double f = sh64::fresnelDielectric(std::cos(double(glm::radians(degrees))), 1.5);
             const double a = double(albedo);
@@ -91,7 +68,7 @@ TEST(LayerWalk, WhiteLosesNothing) {
     for (const float alpha : {0.0f, 0.3f, 0.8f})
         for (const float degrees : {0.0f, 60.0f, 85.0f}) {
             const auto program =
-                compiled(stacked(coat("top", 1.5f, alpha), diffuse("base", 1.0f)), bothWalk);
+                walked(stacked(coat("top", 1.5f, alpha), diffuse("base", 1.0f)), bothWalk);
             const Mean found = sampledAlbedo(*program, direction(degrees), 4000);
             EXPECT_NEAR(found.mean(), 1.0, 4.0 * std::sqrt(found.variance()) + 1e-3)
                 << alpha << " " << degrees;
@@ -138,15 +115,13 @@ TEST(LayerWalk, MixturesStayUnbiased) {
 }
 
 TEST(LayerWalk, OtherLayersKeepAlbedoScaling) {
-    const auto walked = [](const Network& network) {
-        return compiled(network)->code().walkedLayers;
-    };
+    const auto count = [](const Network& network) { return walked(network)->code().walkedLayers; };
     const NetworkNode sheen = makeNode("top", "ND_sheen_bsdf");
-    EXPECT_EQ(walked(stacked(sheen, diffuse("base", 0.5f))), 0);
-    EXPECT_EQ(walked(stacked(coat("top", 1.5f, 0.1f), coat("base", 1.5f, 0.1f, "T"))), 0);
+    EXPECT_EQ(count(stacked(sheen, diffuse("base", 0.5f))), 0);
+    EXPECT_EQ(count(stacked(coat("top", 1.5f, 0.1f), coat("base", 1.5f, 0.1f, "T"))), 0);
     const NetworkNode skin = makeNode("base", "ND_subsurface_bsdf");
-    EXPECT_EQ(walked(stacked(coat("top", 1.5f, 0.1f), skin)), 0);
-    EXPECT_EQ(walked(stacked(coat("top", 1.5f, 0.1f), diffuse("base", 0.5f))), 1);
+    EXPECT_EQ(count(stacked(coat("top", 1.5f, 0.1f), skin)), 0);
+    EXPECT_EQ(count(stacked(coat("top", 1.5f, 0.1f), diffuse("base", 0.5f))), 1);
 }
 
 // Work grows with every layer inside a layer, so there is a bound.
@@ -158,7 +133,7 @@ TEST(LayerWalk, DeepNestsEnd) {
         nodes.push_back(coat(top.c_str(), 1.4f, 0.1f));
         nodes.push_back(layer(name.c_str(), top.c_str(), under.c_str()));
     }
-    const auto program = compiled(bsdfNetwork(nodes));
+    const auto program = walked(bsdfNetwork(nodes));
     EXPECT_EQ(program->code().walkedLayers, 4);
     const Mean found = sampledAlbedo(*program, direction(30.0f), 200);
     EXPECT_GT(found.mean(), 0.1);
@@ -172,7 +147,7 @@ TEST(LayerWalk, ValuesAreFiniteAndDensitiesPositive) {
           stacked(coat("top", 0.7f, 0.2f), diffuse("base", 0.5f)),
           stacked(coat("top", 0.0f, 0.2f), diffuse("base", 0.5f)),
           stacked(coat("top", 1.0f, 0.2f), coat("base", 2.4f, 0.5f, "RT"))}) {
-        const auto program = compiled(network, bothWalk);
+        const auto program = walked(network, bothWalk);
         for (int i = 0; i < 500; ++i) {
             ShadingPoint point;
             point.viewDirection = random.direction();

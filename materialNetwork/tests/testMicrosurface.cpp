@@ -8,10 +8,8 @@ namespace {
 
 const MethodChoices walks = {{"energyCompensation", "randomWalk"}};
 
-std::shared_ptr<const MaterialProgram> compiled(const Network& network) {
-    static FakeTextures textures;
-    Diagnostics diagnostics;
-    return compileMaterial(network, textures, diagnostics, walks);
+std::shared_ptr<const MaterialProgram> walked(const Network& network) {
+    return compiled(network, walks);
 }
 
 Network metal(float n, float k, float x, float y, const char* distribution = "ggx") {
@@ -37,29 +35,8 @@ Network schlick(const char* mode, float alpha) {
                                   {"scatter_mode", text(mode)}})});
 }
 
-Mean sampledAlbedo(const MaterialProgram& program, const glm::vec3& wo, int samples) {
-    ShadingPoint point;
-    point.viewDirection = wo;
-    Bsdf bsdf;
-    program.evaluate(point, bsdf);
-    Random random(7);
-    Mean mean;
-    for (int i = 0; i < samples; ++i) {
-        bsdf.seed(uint32_t(i));
-        const glm::vec3 u = random.next3();
-        const BsdfSample s = bsdf.sample(u, random.next());
-        mean.add(s.event ? double(s.weight.x) : 0.0);
-    }
-    return mean;
-}
-
-/// No cell may be further off than 4.6 standard errors: of 32 cells that happens by chance once in
-/// 7000 times, and numbers are the same in every run.
 void expectSamplesAndValuesAgree(const Network& network, const glm::vec3& wo, const char* what) {
-    const auto program = compiled(network);
-    const Cells sampled = sampledCells(*program, wo, 60000, 11);
-    const Cells evaluated = evaluatedCells(*program, wo, 60000, 12);
-    EXPECT_LT(deviations(sampled, evaluated), 4.6) << what;
+    patina::expectSamplesAndValuesAgree(*walked(network), wo, what, 60000, 11);
 }
 
 } // namespace
@@ -69,10 +46,10 @@ TEST(Microsurface, WhiteLosesNothing) {
     for (const char* distribution : {"ggx", "beckmann"})
         for (const float alpha : {0.05f, 0.5f, 1.0f})
             for (const float degrees : {0.0f, 60.0f, 89.0f}) {
-                const auto white = compiled(metal(0.0f, 1.0f, alpha, alpha, distribution));
+                const auto white = walked(metal(0.0f, 1.0f, alpha, alpha, distribution));
                 EXPECT_NEAR(sampledAlbedo(*white, direction(degrees), 500).mean(), 1.0, 1e-4)
                     << distribution << " " << alpha << " " << degrees;
-                const auto glass = compiled(interface("RT", 1.5f, alpha, distribution));
+                const auto glass = walked(interface("RT", 1.5f, alpha, distribution));
                 EXPECT_NEAR(sampledAlbedo(*glass, direction(degrees), 500).mean(), 1.0, 1e-4)
                     << distribution << " " << alpha << " " << degrees;
                 EXPECT_NEAR(sampledAlbedo(*glass, direction(180.0f - degrees), 500).mean(), 1.0,
@@ -85,7 +62,7 @@ TEST(Microsurface, WhiteLosesNothing) {
 TEST(Microsurface, MetalsReflectWhatTheReferenceWalkSays) {
     for (const float alpha : {0.3f, 0.6f, 1.0f})
         for (const float degrees : {10.0f, 50.0f, 80.0f}) {
-            const auto copper = compiled(metal(1.1f, 2.3f, alpha, alpha));
+            const auto copper = walked(metal(1.1f, 2.3f, alpha, alpha));
             const Mean ours = sampledAlbedo(*copper, direction(degrees), 20000);
             const glm::vec3 wo = direction(degrees);
             const measure::Walked truth = measure::walkMicrosurface(
@@ -131,7 +108,7 @@ TEST(Microsurface, DensityIsPositiveWhereValuesAre) {
     for (const Network& network :
          {metal(0.2f, 3.4f, 0.05f, 0.05f), metal(0.2f, 3.4f, 1.0f, 0.1f),
           interface("RT", 1.5f, 0.4f), interface("T", 2.4f, 0.9f), schlick("RT", 0.3f)}) {
-        const auto program = compiled(network);
+        const auto program = walked(network);
         for (int i = 0; i < 2000; ++i) {
             ShadingPoint point;
             point.viewDirection = random.direction();
@@ -150,7 +127,7 @@ TEST(Microsurface, DensityIsPositiveWhereValuesAre) {
 
 // The same seed gives the same bits; another one another value of the same mean.
 TEST(Microsurface, ValuesFollowFromSeeds) {
-    const auto program = compiled(metal(0.2f, 3.4f, 0.8f, 0.8f));
+    const auto program = walked(metal(0.2f, 3.4f, 0.8f, 0.8f));
     Bsdf bsdf;
     program->evaluate(ShadingPoint(), bsdf);
     ASSERT_TRUE(bsdf.stochastic());
@@ -168,7 +145,7 @@ TEST(Microsurface, ValuesFollowFromSeeds) {
 
 // Mirrors have no facets to walk between.
 TEST(Microsurface, SmoothLobesKeepTheirFormulas) {
-    const auto program = compiled(metal(0.2f, 3.4f, 0.0f, 0.0f));
+    const auto program = walked(metal(0.2f, 3.4f, 0.0f, 0.0f));
     Bsdf bsdf;
     program->evaluate(ShadingPoint(), bsdf);
     EXPECT_FALSE(bsdf.stochastic());

@@ -13,25 +13,31 @@ namespace patina {
 
 namespace {
 
+/// What a row of the table and one measured now have in common.
+template <class Row> py::dict shared(const Row& r) {
+    py::dict row;
+    row["point"] = r.point;
+    row["method"] = r.method;
+    row["subject"] = r.subject;
+    row["mean"] = r.mean;
+    row["largest"] = r.largest;
+    row["rms"] = r.rms;
+    row["kind"] = r.kind;
+    row["reflectance"] = r.reflectance;
+    row["axis"] = r.axis;
+    row["axisEnd"] = r.axisEnd;
+    row["errors"] = std::vector<float>(std::begin(r.errors), std::end(r.errors));
+    row["truths"] = std::vector<float>(std::begin(r.truths), std::end(r.truths));
+    return row;
+}
+
 py::list table() {
     py::list rows;
     for (const MeasuredMethod& r : methodTable()) {
-        py::dict row;
-        row["point"] = r.point;
-        row["method"] = r.method;
-        row["subject"] = r.subject;
+        py::dict row = shared(r);
         row["errorOf"] = r.errorOf;
         row["ns"] = r.ns;
         row["cost"] = r.cost;
-        row["mean"] = r.mean;
-        row["largest"] = r.largest;
-        row["rms"] = r.rms;
-        row["kind"] = r.kind;
-        row["reflectance"] = r.reflectance;
-        row["axis"] = r.axis;
-        row["axisEnd"] = r.axisEnd;
-        row["errors"] = std::vector<float>(std::begin(r.errors), std::end(r.errors));
-        row["truths"] = std::vector<float>(std::begin(r.truths), std::end(r.truths));
         rows.append(row);
     }
     return rows;
@@ -91,23 +97,11 @@ py::list measured(const std::string& point, bool timed) {
     }
     py::list rows;
     for (const measure::Row& r : found) {
-        py::dict row;
-        row["point"] = r.point;
-        row["method"] = r.method;
-        row["subject"] = r.subject;
+        py::dict row = shared(r);
         row["errorOf"] = r.error;
         row["ns"] = r.ns;
         row["nsLow"] = r.nsLow;
         row["nsHigh"] = r.nsHigh;
-        row["mean"] = r.mean;
-        row["largest"] = r.largest;
-        row["rms"] = r.rms;
-        row["kind"] = r.kind;
-        row["reflectance"] = r.reflectance;
-        row["axis"] = r.axis;
-        row["axisEnd"] = r.axisEnd;
-        row["errors"] = std::vector<float>(std::begin(r.errors), std::end(r.errors));
-        row["truths"] = std::vector<float>(std::begin(r.truths), std::end(r.truths));
         rows.append(row);
     }
     return rows;

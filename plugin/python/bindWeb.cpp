@@ -137,6 +137,7 @@ void bindWeb(py::module_& m) {
     m.def("albedo_table", &albedoTableArray,
           "The baked directional albedos, in the layout of shaders/lib/albedoTable.glsl.");
     m.attr("ALBEDO_FACET_SIZE") = int(sh::FACET_SIZE);
+    m.attr("ALBEDO_WARD_TABLE") = int(sh::WARD_TABLE);
 }
 
 } // namespace patina

@@ -208,6 +208,23 @@ void bakeClassic(int plane) {
         }
 }
 
+void bakeTurnedWard(int plane) {
+    const int form = plane == CLASSIC_WARD_EXACT ? WARD_EXACT : WARD_BOUNDED;
+    for (int row = 0; row < WARD_SIZE; ++row) {
+        const TurnedNode node = turnedNode(
+            row, TURNED_ALPHA, [](double t, double alpha) { return tableMuAt(t, alpha); });
+        if (node.alpha.x == node.alpha.y) { // nothing to add
+            push(0.0);
+            continue;
+        }
+        const WardLobe ward = wardSetup(vec3(1.0), node.alpha, form);
+        const double e = meanWeight(64, [&](double x, double y) {
+            return wardSample(ward, node.wo, vec3(x, y, 0.5)).weight.x;
+        });
+        push(e - classicAlbedo(plane, node.wo.z, facetAlphaSeen(node.wo, node.alpha)));
+    }
+}
+
 // Moments of the V-cavity lobe, over both facets of each cavity.
 void bakeVCavity() {
     for (int a = 0; a < MOMENT_ALPHA; ++a)
@@ -275,6 +292,8 @@ int main(int argc, char** argv) {
         bakeClassic(plane);
     bakeVCavity();
     bakeFilm();
+    bakeTurnedWard(CLASSIC_WARD_BOUNDED);
+    bakeTurnedWard(CLASSIC_WARD_EXACT);
     if (entryCount != ALBEDO_TABLE_SIZE) {
         std::fprintf(stderr, "bakeAlbedo: %d entries, the layout has %d\n", entryCount,
                      ALBEDO_TABLE_SIZE);

@@ -47,7 +47,9 @@ const int CLASSIC_TABLE = 2 * FACET_SIZE + SHEEN_SIZE;
 const int V_CAVITY_TABLE = CLASSIC_TABLE + 4 * CLASSIC_MU * CLASSIC_ALPHA;
 const int FILM_TABLE = V_CAVITY_TABLE + MOMENT_SIZE;
 const int FILM_PATHS = 1024; // methods/filmSpectrum.glsl
-const int ALBEDO_TABLE_SIZE = FILM_TABLE + 6 * FILM_PATHS;
+const int WARD_TABLE = FILM_TABLE + 6 * FILM_PATHS; // what anisotropy adds, one per form
+const int WARD_SIZE = TURNED_MU * TURNED_AZIMUTH * TURNED_RATIO * TURNED_ALPHA;
+const int ALBEDO_TABLE_SIZE = WARD_TABLE + 2 * WARD_SIZE;
 
 // Exponents of the moment table; 5, 6 and 7 (Schlick and its dip) are entries.
 PATINA_FN float momentExponent(int i) {

@@ -4,7 +4,7 @@
 //
 // Errors (shaders/tests/testLobeAlbedo.cpp measures them): 1.5e-2 for a mirror, 1e-2 for interfaces
 // from outside, 2e-2 from inside. From inside at grazing angles, where one alpha is ten times the
-// other, up to 0.1.
+// other, up to 0.1. Ward's lobes have tables of the same layout (classicAlbedo.glsl): 2e-2.
 
 // The alpha of the isotropic lobe that stands in: what wo sees along its own azimuth, the root mean
 // square when it looks straight down.

@@ -18,6 +18,17 @@ PATINA_FN float classicAlbedo(int plane, float mu, float alpha) {
     return mix(a, b, tableFraction(ta, CLASSIC_ALPHA));
 }
 
+// What anisotropy adds to a form of Ward's lobe (CLASSIC_WARD_*) over the isotropic one that stands
+// in (facetAlphaSeen), in the layout of anisotropicAlbedo.glsl.
+PATINA_FN_RARE float wardTurned(int plane, vec3 wo, vec2 alpha) {
+    FacetPlace p = facetPlace(wo, alpha, FACETS_GGX);
+    int i = WARD_TABLE + (plane - CLASSIC_WARD_BOUNDED) * WARD_SIZE + p.turnedBase;
+    float e = 0.0f;
+    for (int k = 0; k < 16; ++k)
+        e += turnedWeight(k, p.turnedAt) * albedoTableFetch(i + turnedCorner(k));
+    return e;
+}
+
 // The alpha whose Gaussian is as wide as the cosine power `exponent`, and back.
 PATINA_FN float phongAlpha(float exponent) {
     return sqrt(2.0f / (exponent + 2.0f));

@@ -3,14 +3,17 @@
 
 // Unpolarised dielectric reflectance from both cosines: c on the side that light comes from, g =
 // eta times that on the far side, so that g^2 = c^2 + eta^2 - 1. Written with eta^2 - 1 factored
-// out of both amplitudes, which keeps its relative precision for eta near 1.
+// out of both amplitudes, which keeps its relative precision for eta near 1. What is left of the
+// second vanishes at Brewster's angle only; of its two forms the one for eta below 1 does not
+// subtract from 1 what is nearly 1 around the critical angle.
 PATINA_FN float fresnelFromCosines(float c, float g, float eta) {
     float e2 = eta * eta;
     float e = (eta - 1.0f) * (eta + 1.0f);
     float ds = c + g;
     float dp = e2 * c + g;
     float rs = e / max(ds * ds, TINY);
-    float rp = e * ((e2 + 1.0f) * c * c - 1.0f) / max(dp * dp, TINY);
+    float brewster = select((e2 + 1.0f) * c * c - 1.0f, (e2 + 1.0f) * g * g - e2 * e2, e >= 0.0f);
+    float rp = e * brewster / max(dp * dp, TINY);
     return min(0.5f * (rs * rs + rp * rp), 1.0f);
 }
 

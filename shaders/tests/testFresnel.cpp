@@ -103,3 +103,15 @@ TEST(Fresnel, AcosMeetsItsBound) {
     for (int i = 0; i <= 1000; ++i)
         EXPECT_NEAR(sh64::acosUnit(i / 1000.0), std::acos(i / 1000.0), 1e-7);
 }
+
+// There what passes is small, and the tables of albedos are about it.
+TEST(Fresnel, SinglePrecisionHoldsAroundTheCriticalAngle) {
+    for (double ior : {1.5, 4.0, 15.0, 20.0})
+        for (double share : {1e-3, 0.03, 0.2, 0.7}) {
+            const float eta = float(1.0 / ior), g = float(share / ior);
+            const double c = std::sqrt((1.0 - eta) * (1.0 + double(eta)) + double(g) * g);
+            EXPECT_NEAR(sh::fresnelFromCosines(float(c), g, eta),
+                        sh64::fresnelFromCosines(c, g, eta), 2e-6)
+                << ior << " " << share;
+        }
+}

@@ -38,6 +38,8 @@ TEST(MicrosurfaceWalk, GreyFacetsDarkenMoreThanOnce) {
     EXPECT_GT(grey.all, 0.5 * grey.once);
 }
 
+// The largest error is that of the next test, 0.058; the rows' own 6000 walks, whose seed is fixed,
+// have a standard error of 0.0024 at its place, of which three are let through.
 TEST(EnergyCompensation, IsCloserToTheWalkThanNone) {
     double none = 0.0;
     for (const measure::Row& row : measure::energyCompensation(false))
@@ -47,4 +49,27 @@ TEST(EnergyCompensation, IsCloserToTheWalkThanNone) {
             EXPECT_LT(row.mean, 0.1 * none) << row.method << " " << row.subject;
             EXPECT_LT(row.largest, 0.065) << row.method << " " << row.subject;
         }
+}
+
+// Where compensation errs most: at grazing views of narrow facets the second bounce grazes as the
+// first did and reflects 0.54 of what reaches it; compensation takes the mean reflectance, 0.09.
+TEST(EnergyCompensation, TakesTooLittleFromGrazingBounces) {
+    constexpr double ior = 1.5, alpha = 0.0244140625; // centres of cells of the rows' grid
+    const sh64::vec3 wo = bake::slanted(0.03125);
+    const auto walked = measure::walkMicrosurface(
+        wo, vec2(alpha), sh::FACETS_GGX, [](double c) { return sh64::fresnelDielectric(c, ior); },
+        100000, 9);
+    bake::InterfaceQuadrature quadrature(64, sh::FACETS_GGX);
+    quadrature.look(wo, vec2(alpha));
+    double zero = 0.0, white = 0.0;
+    quadrature.moments(&zero, 1, &white);
+    EXPECT_GT((walked.all - walked.once) / (1.0 - white), 0.5);
+    EXPECT_LT(sh64::fresnelDielectricAverage(ior), 0.1);
+    for (const auto& [method, error] :
+         {std::pair(sh::COMPENSATE_SCALE, -0.052), {sh::COMPENSATE_ADD, -0.058}}) {
+        const auto lobe = sh64::dielectricSetup(sh64::vec3(1.0), ior, vec2(alpha), false,
+                                                sh::SCATTER_R, false, method);
+        EXPECT_NEAR(sh64::dielectricAlbedo(lobe, wo).x - walked.all, error,
+                    5.0 * walked.sigma + 1e-3);
+    }
 }

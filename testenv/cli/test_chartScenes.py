@@ -11,7 +11,7 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
-from patina.chart import (png, sceneCharts, sceneCommand, sceneLadder, sceneMeasures, scenePage, sceneReference,
+from patina.chart import (front, png, sceneCharts, sceneCommand, sceneLadder, sceneMeasures, scenePage, sceneReference,
                           sceneResults, svg)
 from patina.chart.plot import Axis, Plot
 from patina.cli import chart, compiled, main
@@ -204,13 +204,13 @@ def test_floor():
 
 def test_pareto():
     points = [(4, 1, "d"), (1, 5, "a"), (2, 6, "b"), (3, 1, "c"), (2, 3, "e"), (2, 2, "f")]
-    assert sceneMeasures.pareto(points) == [(1, 5, "a"), (2, 2, "f"), (3, 1, "c")]
+    assert front.pareto(points) == [(1, 5, "a"), (2, 2, "f"), (3, 1, "c")]
     random = np.random.default_rng(3)
     cloud = [tuple(p) for p in random.random((200, 2))]
-    front = sceneMeasures.pareto(cloud)
+    kept = front.pareto(cloud)
     for p in cloud:
         beaten = any(q != p and q[0] <= p[0] and q[1] <= p[1] for q in cloud)
-        assert beaten != (p in front)
+        assert beaten != (p in kept)
 
 
 def test_crossover():

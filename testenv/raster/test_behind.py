@@ -3,6 +3,7 @@ import numpy as np
 import pytest
 
 import bothBackEnds
+from materialText import material
 from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
 
 STAGE = """#usda 1.0
@@ -41,64 +42,26 @@ def Mesh "wall" (
     token visibility = "%(wall)s"
     rel material:binding = </red>
 }
-def Material "red"
-{
-    token outputs:surface.connect = </red/surface.outputs:out>
-    def Shader "surface"
-    {
-        uniform token info:id = "ND_surface_unlit"
-        color3f inputs:emission_color = (0.5, 0.25, 0.125)
-        token outputs:out
-    }
-}
-def Material "material"
-{
-    %(terminal)s
-    def Shader "vdf"
-    {
-        uniform token info:id = "ND_anisotropic_vdf"
-        vector3f inputs:absorption = %(absorption)s
-        vector3f inputs:scattering = %(scattering)s
-        token outputs:out
-    }
-    def Shader "glass"
-    {
-        uniform token info:id = "ND_dielectric_bsdf"
-        float inputs:ior = 1.5
-        float2 inputs:roughness = (0, 0)
-        string inputs:scatter_mode = "RT"
-        token outputs:out
-    }
-    def Shader "layer"
-    {
-        uniform token info:id = "ND_layer_vdf"
-        token inputs:top.connect = </material/glass.outputs:out>
-        token inputs:base.connect = </material/vdf.outputs:out>
-        token outputs:out
-    }
-    def Shader "surface"
-    {
-        uniform token info:id = "ND_surface"
-        token inputs:bsdf.connect = </material/layer.outputs:out>
-        token outputs:out
-    }
-    def Shader "volume"
-    {
-        uniform token info:id = "ND_volume"
-        token inputs:vdf.connect = </material/vdf.outputs:out>
-        token outputs:out
-    }
-}
+%(materials)s
 """
-VOLUME = "token outputs:mtlx:volume.connect = </material/volume.outputs:out>"
-SURFACE = "token outputs:mtlx:surface.connect = </material/surface.outputs:out>"
 
 
-def _middle(tmp_path, samples=4, **parts):
+def _materials(terminal, absorption, scattering):
+    red = material("red", {"surface": "surface"}, {
+        "surface": ("ND_surface_unlit", {"color3f emission_color": "(0.5, 0.25, 0.125)"})})
+    return red + material("material", {"mtlx:" + terminal: terminal}, {
+        "vdf": ("ND_anisotropic_vdf", {"vector3f absorption": absorption, "vector3f scattering": scattering}),
+        "glass": ("ND_dielectric_bsdf", {"float ior": "1.5", "float2 roughness": "(0, 0)", "string scatter_mode": '"RT"'}),
+        "layer": ("ND_layer_vdf", {"token top": "<glass>", "token base": "<vdf>"}),
+        "surface": ("ND_surface", {"token bsdf": "<layer>"}),
+        "volume": ("ND_volume", {"token vdf": "<vdf>"}),
+    })
+
+
+def _middle(tmp_path, samples=4, terminal="volume", absorption="(0, 0, 0)", scattering="(0, 0, 0)", **parts):
     """:returns: the mean of the pixels in the middle of the image"""
-    words = {"shape": "Cube", "geometry": "double size = 0.8", "terminal": VOLUME, "absorption": "(0, 0, 0)",
-             "scattering": "(0, 0, 0)", "wall": "invisible"}
-    words.update(parts)
+    words = {"shape": "Cube", "geometry": "double size = 0.8", "wall": "invisible"}
+    words.update(parts, materials=_materials(terminal, absorption, scattering))
     stage = tmp_path / "stage.usda"
     stage.write_text(STAGE % words)
     image = str(tmp_path / "image.exr")
@@ -123,7 +86,7 @@ def test_fog_shows_what_is_behind(tmp_path):
     np.testing.assert_allclose(found, np.exp(-0.8 * sigma) * [0.5, 0.25, 0.125], rtol=2e-3)
 
 
-GLASS = {"terminal": SURFACE, "shape": "Sphere", "geometry": "double radius = 0.6"}
+GLASS = {"terminal": "surface", "shape": "Sphere", "geometry": "double radius = 0.6"}
 
 
 def test_clear_glass_in_even_light_is_not_seen(tmp_path):
@@ -138,5 +101,5 @@ def test_glass_shows_the_wall_behind(tmp_path):
 
 @pytest.mark.parametrize("sigma", [0.5, 2.0])
 def test_coloured_glass_absorbs_along_the_bent_path(tmp_path, sigma):
-    found = _middle(tmp_path, samples=32, absorption=f"({sigma}, {sigma}, {sigma})", terminal=SURFACE)
+    found = _middle(tmp_path, samples=32, absorption=f"({sigma}, {sigma}, {sigma})", terminal="surface")
     np.testing.assert_allclose(found, 0.04 + 0.96 * np.exp(-0.8 * sigma), rtol=0.05)

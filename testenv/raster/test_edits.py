@@ -33,7 +33,9 @@ def draw(frames):
 
 
 EDITS = {  # what an edit may build: shapes, buffers of instances, programs
-    "camera": (lambda f: f.move(1), (0, 0, 0)),  # not so far that an instance needs another tessellation
+    "camera": (lambda f: f.move(1), (0, 0, 0)),
+    # Carries an instance to a distance at which others have another tessellation: both are there, their lists change.
+    "camera farther": (lambda f: f.move(3), (0, 1, 0)),
     "material": (lambda f: f.edit("/World/materials/green/diffuse", "color", [0.5, 0.1, 0.1]), (0, 0, 0)),
     "light": (lambda f: f.edit("/World/key", "intensity", 3.0), (0, 0, 0)),
     "nothing": (lambda f: None, (0, 0, 0)),
@@ -52,6 +54,29 @@ def test_edits_build_only_what_they_touch(name):
     np.testing.assert_array_equal(after, expected)
     assert np.array_equal(before, after) == (name == "nothing")
     assert tuple(second[k] - first[k] for k in ("surfacesBuilt", "instancesWritten", "programsBuilt")) == allowed
+
+
+def test_a_moved_camera_tessellates_by_powers_of_two():
+    """A sphere is built anew where its level changes, which a move by a seventh mostly does not."""
+    import _patina
+
+    scene, renderer, film = _patina.Scene(), _patina.make_renderer("raster"), _patina.Film()
+    found = []
+    for step in range(12):
+        with scene.edit() as edit:
+            if step == 0:
+                edit.set_implicit("/ball", shape="sphere", radius=1.0)
+            matrix = np.eye(4, dtype=np.float32)
+            matrix[3, 2] = 4.0 * 1.15 ** step
+            edit.set_camera("/camera", transform=matrix)
+        renderer.start(scene, "/camera", {"width": 48, "height": 32, "samples": 1}, film)
+        renderer.wait()
+        counts = renderer.progress()["statistics"]
+        found.append((counts["surfacesBuilt"], counts["trianglesStored"]))
+    assert found[0][0] == 1
+    changes = [(built - before, now < finer) for (before, finer), (built, now) in zip(found, found[1:])]
+    assert set(changes) == {(0, False), (1, True)}, found
+    assert changes.count((1, True)) <= 2, found  # distances grow by 4.7: chords by the root of that, one or two levels
 
 
 def test_a_prim_that_changes_is_built_anew():

@@ -16,8 +16,10 @@ import kept  # noqa: E402
 import randomGraphs  # noqa: E402
 
 COUNT = 100
+WALKED = 60
+WALKS = {"energyCompensation": "randomWalk", "layering": "positionFree"}
 ON_THE_DRIVER = (4, 16, 33)  # seeds; a driver in software takes seconds to compile each
-# Walks take seconds for a graph; the command line has them.
+# Random walks have a test of their own.
 POINTS = [(point, [m for m in names if m[0] not in randomGraphs.WALKS]) for point, names in _patina.choice_points()]
 
 
@@ -39,6 +41,22 @@ def test_random_graphs(first):
         if failed:
             found[seed] = failed
     assert found == {}
+
+
+@pytest.mark.parametrize("first", range(1, WALKED + 1, 30))
+def test_random_graphs_by_random_walks(first):
+    found, walking = {}, 0
+    for seed in range(first, first + 30):
+        graph = graphText.Graph(seed)
+        network = randomGraphs.load(_patina, graph.text())
+        failed = randomGraphs.failures(_patina, network, graph, WALKS)
+        if failed:
+            found[seed] = failed
+        wo, wi = graphChecks.pairs()
+        by_formula, by_walk = (_patina.MaterialProbe(network, methods).eval(wo, wi)[0] for methods in ({}, WALKS))
+        walking += not np.array_equal(by_formula, by_walk)
+    assert found == {}
+    assert walking >= 5
 
 
 @pytest.mark.parametrize("seed", ON_THE_DRIVER)

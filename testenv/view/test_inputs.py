@@ -4,44 +4,15 @@ import os
 import numpy as np
 import pytest
 
-MATERIAL = """#usda 1.0
-def Material "plastic"
-{
-    token outputs:mtlx:surface.connect = </plastic/surface.outputs:out>
-    def Shader "base"
-    {
-        uniform token info:id = "ND_oren_nayar_diffuse_bsdf"
-        color3f inputs:color.connect = </plastic/noise.outputs:out>
-        token outputs:out
-    }
-    def Shader "noise"
-    {
-        uniform token info:id = "ND_fractal3d_color3"
-        int inputs:octaves = 2
-        color3f outputs:out
-    }
-    def Shader "coat"
-    {
-        uniform token info:id = "ND_dielectric_bsdf"
-        string inputs:distribution = "ggx"
-        float2 inputs:roughness = (0.2, 0.2)
-        token outputs:out
-    }
-    def Shader "layer"
-    {
-        uniform token info:id = "ND_layer_bsdf"
-        token inputs:top.connect = </plastic/coat.outputs:out>
-        token inputs:base.connect = </plastic/base.outputs:out>
-        token outputs:out
-    }
-    def Shader "surface"
-    {
-        uniform token info:id = "ND_surface"
-        token inputs:bsdf.connect = </plastic/layer.outputs:out>
-        token outputs:out
-    }
-}
-"""
+from materialText import material
+
+MATERIAL = "#usda 1.0\n" + material("plastic", {"mtlx:surface": "surface"}, {
+    "base": ("ND_oren_nayar_diffuse_bsdf", {"color3f color": "<noise>"}),
+    "noise": ("ND_fractal3d_color3", {"int octaves": "2"}),
+    "coat": ("ND_dielectric_bsdf", {"string distribution": '"ggx"', "float2 roughness": "(0.2, 0.2)"}),
+    "layer": ("ND_layer_bsdf", {"token top": "<coat>", "token base": "<base>"}),
+    "surface": ("ND_surface", {"token bsdf": "<layer>"}),
+})
 CONTROL = "page.panel.gui.controllersRecursive().find(c => c._name === '{}')"
 
 

@@ -188,6 +188,8 @@ std::vector<AgreementRow> agreementRows() {
             filmDielectricSetup(p3(0), p1(3), p2(4), p1(6), p1(7), false, pn(8), pb(9), pn(10))),
         PATINA_ROW("sheen", sheen, sheenAlbedo, mixed({color, color, color, roughness, flag}),
                    sheenSetup(p3(0), p1(3), pn(4))),
+        PATINA_ROW("methods of sheen", sheen, sheenAlbedo, mixed({color, roughness, three}, 24),
+                   sheenMethods(sheenSetup(vec3(p1(0)), p1(1), 0), pn(2))),
         PATINA_ROW("phong", phong, phongAlbedo, mixed({color, color, color, exponent}),
                    phongSetup(p3(0), p1(3))),
         PATINA_ROW("blinnPhong", blinnPhong, blinnPhongAlbedo,

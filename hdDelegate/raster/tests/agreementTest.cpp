@@ -91,7 +91,9 @@ struct Reason {
 };
 const Reason reasons[] = {
     {"dielectric", "past total reflection and under fused layers what passes is 1 minus nearly 1"},
-    {"schlick", "past total reflection and under fused layers what passes is 1 minus nearly 1"},
+    {"schlick",
+     "past total reflection and under fused layers what passes is 1 minus nearly 1; an index of up "
+     "to 22, from a colour near 1, multiplies the rounding of the cosine by its square"},
     {"conductor", "n below 1 with k 0: facets lie on both sides of total reflection"},
     {"methods of conductor",
      "at grazing angles narrow facets multiply the rounding of their slope"},
@@ -100,6 +102,7 @@ const Reason reasons[] = {
     {"methods of schlick",
      "past total reflection and from a colour of 1 what passes is the ratio of "
      "two that are 1 minus nearly 1; narrow facets as above"},
+    {"film schlick", "as schlick, and amplitudes of the two faces cancel"},
     {"film", "amplitudes of the two faces cancel, and what passes is 1 minus nearly 1"},
     {"phong", "the exponent multiplies the rounding of the cosine"},
     {"blinnPhong", "the exponent multiplies the rounding of the cosine"},
@@ -120,6 +123,8 @@ const Allowance allowances[] = {
     {"blinnPhong", PartWeight, 0.006, "exponents up to 2000 multiply the rounding of exp2"},
     {"sheen", PartSamplePdf, 0.004, "exponents up to 200 multiply the rounding of exp2"},
     {"sheen", PartWeight, 0.003, "exponents up to 200 multiply the rounding of exp2"},
+    {"methods of sheen", PartSamplePdf, 0.004, "as sheen"},
+    {"methods of sheen", PartWeight, 0.004, "as sheen"},
     {"phaseHenyeyGreenstein", PartSamplePdf, 0.15,
      "1 - g of a peak has few digits without fused products"},
     {"film conductor", PartAlbedo, 0.003, "the driver's rounding, below 2e-5; float C++ has none"},
@@ -142,11 +147,15 @@ double allowedShare(const std::string& row, int part) {
 struct Tally {
     int points = 0, above5 = 0, above4 = 0;
     double worst = 0.0;
-    void add(double difference) {
+    size_t set = 0, point = 0; ///< where it is worst
+    void add(double difference, size_t s, size_t i) {
         ++points;
         above5 += difference > 1e-5;
         above4 += difference > 1e-4;
-        worst = std::max(worst, difference);
+        if (difference <= worst) return;
+        worst = difference;
+        set = s;
+        point = i;
     }
     double share5() const { return double(above5) / points; }
     double share4() const { return double(above4) / points; }
@@ -197,8 +206,8 @@ TEST_P(Agreement, OfLobeWithOracle) {
             differences(fromDriver(row, &answers[(s * points.size() + i) * 20]), oracle, d);
             differences(answerOf(f32, points[i]), oracle, f);
             for (int part = 0; part < PartCount; ++part) {
-                driver[part].add(d[part]);
-                single[part].add(f[part]);
+                driver[part].add(d[part], s, i);
+                single[part].add(f[part], s, i);
             }
         }
     }
@@ -207,15 +216,15 @@ TEST_P(Agreement, OfLobeWithOracle) {
         const char* name = agreementPartNames[part];
         const char* reason = d.above4 > 0 ? reasonFor(row.name) : "";
         std::printf("  %-21s %-10s %5d points, above 1e-5 %6.3f%% (float C++ %6.3f%%), above 1e-4 "
-                    "%6.3f%% (%6.3f%%), worst %.0e (%.0e) %s\n",
+                    "%6.3f%% (%6.3f%%), worst %.0e (%.0e) at set %zu, point %zu %s\n",
                     row.name.c_str(), name, d.points, 100.0 * d.share5(), 100.0 * f.share5(),
-                    100.0 * d.share4(), 100.0 * f.share4(), d.worst, f.worst,
+                    100.0 * d.share4(), 100.0 * f.share4(), d.worst, f.worst, d.set, d.point,
                     reason ? reason : "NO REASON");
         EXPECT_TRUE(reason) << name << ": a point is above 1e-4";
         EXPECT_LE(d.share5(), std::max(allowedShare(row.name, part), 1.25 * f.share5() + 1e-3))
             << name;
         EXPECT_LE(d.share4(), 1.25 * f.share4() + 5e-4) << name;
-        EXPECT_LE(d.worst, std::max(1e-4, 5.0 * f.worst)) << name;
+        EXPECT_LE(d.worst, std::max(1e-4, 4.0 * f.worst)) << name;
     }
 }
 

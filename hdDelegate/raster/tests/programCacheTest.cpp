@@ -19,10 +19,10 @@ namespace {
 class ProgramCacheTest : public testing::Test {
 protected:
     void SetUp() override {
-        char name[] = "/tmp/programCacheXXXXXX";
-        ASSERT_TRUE(mkdtemp(name));
+        std::string name = (fs::temp_directory_path() / "programCacheXXXXXX").string();
+        ASSERT_TRUE(mkdtemp(name.data()));
         _root = name;
-        setenv("PATINA_CACHE", name, 1);
+        setenv("PATINA_CACHE", name.c_str(), 1);
     }
     void TearDown() override {
         unsetenv("PATINA_CACHE");

@@ -1,7 +1,7 @@
 """The charts of a stage: error over seconds for each measure, and error over samples."""
 import os
 
-from patina.chart import sceneMeasures
+from patina.chart import front, sceneMeasures
 from patina.chart.plot import Plot
 from patina.chart.sceneRenders import WORDS
 from patina.chart.sceneResults import NAMES
@@ -37,7 +37,7 @@ def _over_seconds(result, measure, title, foot):
                  colour, "diamond", filled=False, line=False, below=not below)
         if (backend, measure) in result.floors:
             plot.add_floor(f"floor of the {words}", result.floors[backend, measure], colour)
-    plot.set_front(sceneMeasures.pareto([(r["seconds"], r[measure]) for r in result.rows if r[measure]]))
+    plot.set_front(front.pareto([(r["seconds"], r[measure]) for r in result.rows if r[measure]]))
     if measure in result.crossovers:
         _mark(plot, result.crossovers[measure])
     return plot

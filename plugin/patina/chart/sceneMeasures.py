@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from patina.chart.front import pareto
 from patina.cli import imageMetrics
 
 TILES = 6  # a picture is cut into so many tiles along its longer side for slopes by tile
@@ -105,16 +106,6 @@ def floor(counts, values, power):
     if found < 0.5 * last or (noise > 0.0 and fitted < 0.25 * last):
         return None
     return float(found)
-
-
-def pareto(points):
-    """Those of (seconds, error, ...) that no other beats in both, by seconds."""
-    best, kept = math.inf, []
-    for point in sorted(points, key=lambda p: (p[0], p[1])):
-        if point[1] < best:
-            best = point[1]
-            kept.append(point)
-    return kept
 
 
 def _reached(front, seconds):

@@ -2,6 +2,8 @@
 import math
 from xml.sax.saxutils import escape
 
+from patina.chart.front import pareto
+
 COLOURS = ("#1b6ca8", "#c8452b", "#3a7d44", "#8a4fa0", "#b8860b", "#45768a", "#7a4a2b")
 LEFT, TOP, RIGHT, BOTTOM = 62, 40, 16, 46
 
@@ -22,16 +24,6 @@ class Axis:
 
     def decades(self):
         return [10.0 ** d for d in range(self.low, self.high + 1)]
-
-
-def pareto(points):
-    """Those of (x, y, ...) that no other beats in both, by x."""
-    best, kept = math.inf, []
-    for point in sorted(points, key=lambda p: (p[0], p[1])):
-        if point[1] < best:
-            best = point[1]
-            kept.append(point)
-    return kept
 
 
 def _text(x, y, words, anchor="middle", more=""):

@@ -4,7 +4,6 @@ from patina.chart.sweeps import Sweep
 from patina.cli import compiled
 
 TOLERANCE = 0.01
-SHARE = 0.4  # of the tolerance that methods may take (materialNetwork/planner.h)
 
 
 def _switch(x, chosen):

@@ -20,6 +20,8 @@ def texture(lobes):
     for facets in (0, 1):
         if not any(kind in MICROFACETS and distribution == str(facets) for kind, distribution in used):
             table[facets * size:(facets + 1) * size] = 0.0
+    if not any(kind == "ward" for kind, _ in used):
+        table[module.ALBEDO_WARD_TABLE:] = 0.0
     height = -(-len(table) // WIDTH)
     padded = np.zeros(height * WIDTH, dtype=np.float32)
     padded[:len(table)] = table

@@ -1,0 +1,134 @@
+// Instances of EmbreeScene: the tree of instancers as groups that Embree traces, and as transforms.
+
+#include "hdDelegate/embree/cameraRays.h"
+#include "hdDelegate/embree/embreeScene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+bool hasInverse(const mat4& m) {
+    const mat4 inverse = glm::inverse(m);
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(m[column][row]) || !std::isfinite(inverse[column][row]))
+                return false;
+    const float determinant = glm::determinant(mat3(m));
+    return std::isfinite(determinant) && determinant != 0.0f;
+}
+
+} // namespace
+
+std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Instancer>& prim) {
+    auto result = std::make_shared<InstancerNode>();
+    result->prim = prim;
+    std::vector<std::vector<mat4>> sampled(prim->transforms.size());
+    for (size_t i = 0; i < sampled.size(); ++i) {
+        sampled[i] = resample(prim->transforms[i], _shutterOpen, _shutterClose);
+        result->steps = std::max(result->steps, int(sampled[i].size()));
+    }
+    result->transforms.resize(sampled.size() * result->steps);
+    result->targets.assign(sampled.size(), nullptr);
+    for (size_t i = 0; i < sampled.size(); ++i) {
+        bool usable = true;
+        for (int s = 0; s < result->steps; ++s) {
+            const mat4 m = transformAtStep(sampled[i], s, result->steps);
+            result->transforms[i * result->steps + s] = m;
+            usable &= hasInverse(m);
+        }
+        const int prototype = i < prim->prototypeIndices.size() ? prim->prototypeIndices[i] : -1;
+        if (prototype < 0 || size_t(prototype) >= prim->prototypes.size()) {
+            _diagnostics.warn(prim->path, "protoIndices",
+                              "index out of range; the instance is not drawn");
+            continue;
+        }
+        if (!usable) {
+            _diagnostics.warn(prim->path, "transform",
+                              "an instance has a transform without an inverse and is not drawn");
+            continue;
+        }
+        result->targets[i] = finishedGroup(prim->prototypes[prototype]);
+    }
+    for (const auto& names : prim->categories)
+        result->categories.push_back(intern(names));
+    return result;
+}
+
+EmbreeGroup* EmbreeScene::finishedGroup(const std::string& name) const {
+    return _finished.count(name) ? _groups.at(name).get() : nullptr;
+}
+
+std::shared_ptr<InstancerNode>
+EmbreeScene::currentNode(const std::shared_ptr<const Instancer>& prim) {
+    std::vector<uint64_t> versions;
+    for (const std::string& name : prim->prototypes) {
+        const EmbreeGroup* target = finishedGroup(name);
+        versions.push_back(target ? target->version : 0);
+    }
+    std::shared_ptr<InstancerNode>& cached = _nodes[prim->path];
+    if (!cached || cached->prim != prim || cached->versions != versions) {
+        cached = node(prim);
+        cached->versions = std::move(versions);
+    }
+    return cached;
+}
+
+EmbreeGroup* EmbreeScene::buildGroup(const std::string& name, int depth,
+                                     const RenderSettings& settings,
+                                     const std::atomic<bool>& stop) {
+    if (EmbreeGroup* finished = finishedGroup(name)) return finished;
+    if (depth > TraceContext::maxDepth || _building[name]) {
+        _diagnostics.warn(name, "prototypes",
+                          "instances are nested in themselves or deeper than 8; left out");
+        return nullptr;
+    }
+    _building[name] = true;
+    for (const auto& instancer : _instancersOf[name])
+        for (const std::string& prototype : instancer->prototypes)
+            buildGroup(prototype, depth + 1, settings, stop);
+    if (stop) return nullptr; // versions tell the next update what this one did not reach
+    std::vector<std::shared_ptr<InstancerNode>> nodes;
+    for (const auto& instancer : _instancersOf[name]) {
+        nodes.push_back(currentNode(instancer));
+        _instanceCount += instancer->transforms.size();
+    }
+    auto& group = _groups[name];
+    if (!group) group = std::make_unique<EmbreeGroup>();
+    group->name = name;
+    group->update(_device, _surfacesOf[name], nodes, settings.interactive, stop);
+    if (group->changed) group->version = ++_groupVersion;
+    _counts.groups += group->changed;
+    _building[name] = false;
+    _finished.insert(name);
+    return group.get();
+}
+
+void EmbreeScene::gatherTransforms(const std::string& group, const mat4& tail, int depth,
+                                   std::vector<mat4>& out) const {
+    if (group.empty()) {
+        out.push_back(tail);
+        return;
+    }
+    if (depth > TraceContext::maxDepth) return;
+    for (const auto& item : _instancersOf)
+        for (const auto& instancer : item.second)
+            for (size_t i = 0; i < instancer->transforms.size(); ++i) {
+                const int prototype =
+                    i < instancer->prototypeIndices.size() ? instancer->prototypeIndices[i] : -1;
+                if (prototype >= 0 && size_t(prototype) < instancer->prototypes.size() &&
+                    instancer->prototypes[prototype] == group)
+                    gatherTransforms(item.first, interpolate(instancer->transforms[i], 0.0f) * tail,
+                                     depth + 1, out);
+            }
+}
+
+std::vector<mat4> EmbreeScene::groupTransforms(const std::string& group) const {
+    std::vector<mat4> result;
+    gatherTransforms(group, mat4(1.0f), 0, result);
+    return result;
+}
+
+} // namespace patina

@@ -1,0 +1,187 @@
+// Surfaces of EmbreeScene: how finely a prim is tessellated, its shape, its materials.
+
+#include "hdDelegate/embree/cameraRays.h"
+#include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/embree/surfaceSpace.h"
+#include "hdDelegate/scene/displace.h"
+#include "hdDelegate/scene/primCompare.h"
+#include "hdDelegate/scene/splitTriangles.h"
+#include "hdDelegate/scene/tessellate.h"
+#include "materialNetwork/material.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+float maxScale(const mat4& m) {
+    return std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
+}
+
+} // namespace
+
+float EmbreeScene::targetEdge(const Geometry& prim, bool displaced, const Camera& camera,
+                              const CameraRays& rays, const RenderSettings& settings,
+                              std::map<std::string, std::vector<mat4>>& transformsOf) const {
+    const bool refined = prim.kind == GeometryKind::Mesh &&
+                         static_cast<const Mesh&>(prim).scheme != SubdivisionScheme::None;
+    if ((!displaced && !refined) || !(settings.edgeLength > 0.0f)) return 0.0f;
+    vec3 lower(INFINITY), upper(-INFINITY);
+    if (prim.kind == GeometryKind::Implicit) {
+        const Implicit& shape = static_cast<const Implicit&>(prim);
+        upper = vec3(0.5f * std::max({2.0f * shape.radius, 2.0f * shape.radiusTop, shape.height,
+                                      shape.size}));
+        lower = -upper;
+    } else if (const Mesh& mesh = static_cast<const Mesh&>(prim); !mesh.points.empty()) {
+        for (const vec3& p : mesh.points.first())
+            if (std::isfinite(p.x + p.y + p.z)) {
+                lower = glm::min(lower, p);
+                upper = glm::max(upper, p);
+            }
+    }
+    auto places = transformsOf.find(prim.group);
+    if (places == transformsOf.end())
+        places = transformsOf.emplace(prim.group, groupTransforms(prim.group)).first;
+    const vec3 eye = vec3(glm::inverse(rays.worldToCamera())[3]);
+    float edge = 0.0f;
+    for (const mat4& place : places->second) {
+        const mat4 m = place * interpolate(prim.transform, 0.0f);
+        const float scale = maxScale(m);
+        const vec3 center = vec3(m * vec4(0.5f * (lower + upper), 1.0f));
+        const float radius = 0.5f * glm::length(upper - lower) * scale;
+        const float distance = rays.orthographic()
+                                   ? 1.0f
+                                   : std::max(camera.clipNear, glm::length(center - eye) - radius);
+        const float wanted = settings.edgeLength * rays.pixelSpread() * distance / scale;
+        if (std::isfinite(wanted) && wanted > 0.0f)
+            edge = edge > 0.0f ? std::min(edge, wanted) : wanted;
+    }
+    return edge > 0.0f ? std::exp2(std::floor(std::log2(edge))) : 0.0f;
+}
+
+std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry>& prim,
+                                            float edgeLength, const Programs& displacers) const {
+    auto surface = std::make_shared<Surface>();
+    surface->prim = prim;
+    TessellationOptions options;
+    options.shutterOpen = _shutterOpen;
+    options.shutterClose = _shutterClose;
+    options.targetEdge = edgeLength;
+    switch (prim->kind) {
+    case GeometryKind::Mesh:
+        surface->mesh = tessellate(static_cast<const Mesh&>(*prim), options, _diagnostics);
+        break;
+    case GeometryKind::Implicit:
+        surface->mesh = tessellate(static_cast<const Implicit&>(*prim), options, _diagnostics);
+        break;
+    case GeometryKind::Curves:
+        surface->shape = Surface::Shape::Curves;
+        surface->curves = buildCurves(static_cast<const Curves&>(*prim), options, _diagnostics);
+        break;
+    case GeometryKind::Points:
+        surface->shape = Surface::Shape::Points;
+        surface->points = buildPoints(static_cast<const Points&>(*prim), options, _diagnostics);
+        break;
+    case GeometryKind::Volume: break; // no surface, see VolumeScene
+    }
+    if (!displacers.empty() && surface->shape == Surface::Shape::Triangles) {
+        const auto transforms = resample(prim->transform, _shutterOpen, _shutterClose);
+        splitTriangles(surface->mesh, edgeLength, options.triangleBudget);
+        displace(surface->mesh, displacers, transforms[transforms.size() / 2]);
+    }
+    surface->stAttribute = surface->findAttribute("st");
+    return surface;
+}
+
+void EmbreeScene::updateSurface(CachedSurface& cached, const std::shared_ptr<const Geometry>& prim,
+                                float edgeLength, const Programs& displacers, bool keepRest) {
+    const bool moved = cached.prim && !sameTransform(cached.prim->transform, prim->transform);
+    // Displacement reads the world.
+    const bool reshape = !cached.surface || cached.edgeLength != edgeLength ||
+                         cached.displacers != displacers || (moved && !displacers.empty()) ||
+                         !sameShape(*cached.prim, *prim);
+    if (!reshape && !moved) {
+        cached.prim = cached.surface->prim = prim;
+        return;
+    }
+    std::shared_ptr<Surface> surface;
+    if (reshape || !cached.rest) {
+        surface = shape(prim, edgeLength, displacers);
+        cached.rest = keepRest ? std::make_shared<const RestShape>(restOf(*surface)) : nullptr;
+        ++_counts.tessellated;
+    } else {
+        surface = std::make_shared<Surface>(*cached.surface);
+        surface->prim = prim;
+        restore(*cached.rest, *surface);
+    }
+    bake(*surface, resample(prim->transform, _shutterOpen, _shutterClose));
+    ++_counts.surfaces;
+    cached.surface = std::move(surface);
+    cached.edgeLength = edgeLength;
+    cached.displacers = displacers;
+    cached.prim = prim;
+}
+
+std::shared_ptr<const MaterialProgram>
+EmbreeScene::program(const std::string& path, const std::string& user, const SceneState& state,
+                     const RenderSettings& settings, TextureSource& textures) {
+    std::shared_ptr<const MaterialPrim> prim;
+    if (!path.empty() && settings.enableSceneMaterials) {
+        const auto found = state.materials.find(path);
+        if (found != state.materials.end())
+            prim = found->second;
+        else
+            _diagnostics.warn(user, "material:binding",
+                              "material " + path + " does not exist; displayColor is shown");
+    }
+    const std::string key = prim ? path : std::string();
+    CachedProgram& cached = _programs[key];
+    if (!cached.program || cached.prim != prim || cached.methods != settings.methods ||
+        cached.tolerance != settings.tolerance) {
+        cached.prim = prim;
+        cached.tolerance = settings.tolerance;
+        cached.methods = settings.methods;
+        ++_counts.programs;
+        cached.program = compileMaterial(
+            prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork(), textures,
+            _diagnostics, settings.methods, settings.tolerance);
+    }
+    return cached.program;
+}
+
+EmbreeScene::Programs EmbreeScene::displacers(const Geometry& prim, const SceneState& state,
+                                              const RenderSettings& settings,
+                                              TextureSource& textures) {
+    if (prim.kind != GeometryKind::Mesh && prim.kind != GeometryKind::Implicit) return {};
+    const auto mayDisplace = [&](const std::string& path) {
+        const auto found = state.materials.find(path);
+        return settings.enableSceneMaterials && found != state.materials.end() &&
+               found->second->network.terminals.count("displacement") > 0;
+    };
+    bool any = false;
+    Programs result;
+    const auto add = [&](const std::string& path) {
+        result.push_back(mayDisplace(path) ? program(path, prim.path, state, settings, textures)
+                                           : nullptr);
+        any |= result.back() && result.back()->hasDisplacement();
+    };
+    add(prim.material);
+    for (const GeomSubset& subset : prim.subsets)
+        add(subset.material.empty() ? prim.material : subset.material);
+    return any ? result : Programs();
+}
+
+MaterialSlot EmbreeScene::makeSlot(const Surface& surface, const std::string& materialPath,
+                                   const SceneState& state, const RenderSettings& settings,
+                                   TextureSource& textures) {
+    MaterialSlot slot;
+    slot.program = program(materialPath, surface.prim->path, state, settings, textures);
+    for (const auto& primvar : slot.program->primvars())
+        slot.attributes.push_back(surface.findAttribute(primvar.name));
+    slot.opaque = slot.program->isOpaqueWith(slot.attributes);
+    return slot;
+}
+
+} // namespace patina

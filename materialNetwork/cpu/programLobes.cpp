@@ -1,0 +1,138 @@
+// Lobes of a ProgramBuilder: their kind, methods, frame and the registers of their parameters.
+
+#include "materialNetwork/cpu/programBuilder.h"
+
+#include "materialNetwork/cpu/lobeSetup.h"
+
+namespace patina {
+
+/// A default that comes from the geometry is the shading point's own.
+bool ProgramBuilder::isShadingPoints(const Operand& operand, const char* standard) const {
+    if (operand.isConstant()) return false;
+    const GraphNode& source = nodeOf(operand.node);
+    return source.def->id == standard && source.inputs[0].value.text == "world";
+}
+
+int ProgramBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bool>& needed) {
+    FrameTemplate f;
+    f.flips = flips;
+    const auto choose = [&](const char* input, const char* standard) {
+        const GraphNode& node = nodeOf(closure.node);
+        const int i = node.def->findInput(input);
+        if (i < 0) return -1;
+        const Operand& operand = node.inputs[size_t(i)];
+        if (isShadingPoints(operand, standard)) return -1;
+        mark(operand, needed);
+        return int(registerOf(operand));
+    };
+    f.normal = choose("normal", "ND_normal_vector3");
+    f.tangent = choose(closure.kind == ClosureKind::ChiangHair ? "curve_direction" : "tangent",
+                       "ND_tangent_vector3");
+    auto& frames = _code->frames;
+    for (size_t i = 0; i < frames.size(); ++i)
+        if (frames[i].normal == f.normal && frames[i].tangent == f.tangent &&
+            frames[i].flips == f.flips)
+            return int(i);
+    if (int(frames.size()) >= Bsdf::maxFrames) {
+        _diagnostics.warn(nodeOf(closure.node).path, "normal",
+                          "the material has too many different normals; the first is used");
+        return 0;
+    }
+    frames.push_back(f);
+    return int(frames.size()) - 1;
+}
+
+void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasInside,
+                          std::vector<bool>& needed) {
+    const GraphNode& node = nodeOf(closure.node);
+    if (int(_code->lobes.size()) >= Bsdf::maxLobes) {
+        _diagnostics.warn(node.path, "",
+                          "the material has more than " + std::to_string(Bsdf::maxLobes) +
+                              " lobes; this one is left out");
+        return;
+    }
+    LobeTemplate t;
+    t.prebuilt.kind = lobeKind(closure.kind);
+    t.thin = closure.thin;
+    t.prebuilt.diffuse =
+        closure.kind == ClosureKind::OrenNayar || closure.kind == ClosureKind::Burley ||
+        closure.kind == ClosureKind::Subsurface || closure.kind == ClosureKind::Translucent ||
+        closure.kind == ClosureKind::Sheen;
+    const bool interface =
+        closure.kind == ClosureKind::Dielectric || closure.kind == ClosureKind::Schlick;
+    t.fused = closure.fused;
+    const std::string compensation = chosenMethod(_plan.methods, "energyCompensation");
+    t.compensate = compensation == "none"         ? sh::COMPENSATE_NONE
+                   : compensation == "kullaConty" ? sh::COMPENSATE_ADD
+                                                  : sh::COMPENSATE_SCALE;
+    t.walks = compensation == "randomWalk";
+    t.albedo = chosenIndex(_plan.methods, "directionalAlbedo");
+    t.sampling = chosenIndex(_plan.methods, "sampling");
+    t.fresnel = chosenIndex(_plan.methods, "fresnel");
+    t.filmMethod = chosenIndex(_plan.methods, "thinFilm");
+    t.sheenAlbedo = chosenIndex(_plan.methods, "sheen");
+    t.diffuse = DiffuseModel(chosenIndex(_plan.methods, "diffuse"));
+    const auto flag = [&](const char* input) {
+        float x = 0.0f;
+        return node.def->findInput(input) >= 0 &&
+               constantNumber(closureInput(_plan, closure, input), x) && x != 0.0f;
+    };
+    t.flagA =
+        flag(closure.kind == ClosureKind::OrenNayar ? "energy_compensation" : "retroreflective");
+    if (interface) t.mode = scatterMode(_plan, closure);
+    t.variant = lobeVariant(_plan, closure);
+    t.facets = facetDistribution(_plan, closure);
+    t.film = hasFilm(_plan, closure);
+    // A film colours the reflectance, for which a dielectric has no room.
+    t.filmDielectric = t.film && closure.kind == ClosureKind::Dielectric;
+    if (t.filmDielectric) t.prebuilt.kind = LobeKind::Schlick;
+    // Metals and diffuse lobes show the same face on both sides; an interface has an inside.
+    const bool flips = !interface || !hasInside || closure.thin;
+    t.prebuilt.frame = uint8_t(frame(closure, flips, needed));
+    t.prebuilt.weight = t.prebuilt.albedo = glm::vec3(0.0f);
+    t.prebuilt.probability = 0.0f;
+
+    t.constant = true;
+    const bool flat = closure.kind == ClosureKind::Subsurface && !walksBeneath(_plan, closure);
+    if (flat) t.prebuilt.kind = LobeKind::OrenNayar;
+    const char* const* names = lobeParameters(flat ? ClosureKind::OrenNayar : closure.kind);
+    for (int i = 0; names[i]; ++i) {
+        Operand operand;
+        operand.value = Value::makeFloat(0.0f);
+        if (node.def->findInput(names[i]) >= 0) operand = closureInput(_plan, closure, names[i]);
+        // Light goes straight through a thin wall; the layer above has taken what is reflected.
+        if (closure.thin && closure.fused && t.mode == sh::SCATTER_T &&
+            closure.kind == ClosureKind::Dielectric && std::string(names[i]) == "ior") {
+            operand = Operand();
+            operand.value = Value::makeFloat(1.0f);
+        }
+        mark(operand, needed);
+        t.constant &= operand.isConstant();
+        t.parameters[i] = registerOf(operand);
+    }
+    t.straight = isStraight(closure);
+    _code->hasStraight |= t.straight;
+    if (t.constant) {
+        setupLobe(t, _code->constants.data(), t.prebuilt);
+        t.energy.measure(t.prebuilt);
+    }
+    Operand weight;
+    weight.value = Value::makeFloat(1.0f);
+    if (node.def->findInput("weight") >= 0) weight = closureInput(_plan, closure, "weight");
+    mark(weight, needed);
+    op.factor = t.weight = registerOf(weight);
+    op.lobe = int(_code->lobes.size());
+    _code->lobes.push_back(t);
+}
+
+/// Without bending: what a shadow ray may cross.
+bool ProgramBuilder::isStraight(const PlanClosure& closure) const {
+    const bool dielectric = closure.kind == ClosureKind::Dielectric;
+    if ((!dielectric && closure.kind != ClosureKind::Schlick) ||
+        (scatterMode(_plan, closure) & sh::SCATTER_T) == 0 || hasFilm(_plan, closure))
+        return false;
+    return closure.thin ||
+           (dielectric && isConstantValue(closureInput(_plan, closure, "ior"), 1.0f));
+}
+
+} // namespace patina

@@ -1,0 +1,97 @@
+// What can be asked of a plan and its closures.
+
+#include "materialNetwork/plan.h"
+
+#include "shaders/shaders.h"
+
+#include <set>
+
+namespace patina {
+
+std::set<std::string> choicesOf(const Plan& plan, const PlanClosure& c) {
+    std::set<std::string> matter;
+    const bool interface = c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Schlick;
+    if (interface || c.kind == ClosureKind::Conductor)
+        matter.insert({"energyCompensation", "directionalAlbedo", "sampling"});
+    if (c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Conductor)
+        matter.insert("fresnel");
+    if (hasFilm(plan, c)) matter.insert("thinFilm");
+    if (c.kind == ClosureKind::OrenNayar) matter.insert("diffuse");
+    if (c.kind == ClosureKind::Subsurface && !c.thin) matter.insert("subsurface");
+    if (c.kind == ClosureKind::Sheen && lobeVariant(plan, c) == sh::SHEEN_CONTY_KULLA)
+        matter.insert("sheen");
+    if (c.kind == ClosureKind::Layer) matter.insert({"layering", "layerTransmittance"});
+    if (c.underReflection && interface && scatterMode(plan, c) == sh::SCATTER_T)
+        matter.insert("reflectionOverTransmission");
+    if (c.inThinWall && interface && (scatterMode(plan, c) & sh::SCATTER_T) != 0)
+        matter.insert("thinWalled");
+    return matter;
+}
+
+std::vector<std::string> choicesThatMatter(const Plan& plan) {
+    std::set<std::string> matter;
+    for (const PlanClosure& c : plan.closures)
+        matter.merge(choicesOf(plan, c));
+    std::vector<std::string> result;
+    for (const ChoicePoint& point : choicePoints())
+        if (matter.count(point.name)) result.push_back(point.name);
+    return result;
+}
+
+const Operand& closureInput(const Plan& plan, const PlanClosure& closure, const char* name) {
+    const GraphNode& node = plan.graph.nodes[size_t(closure.node)];
+    return node.inputs[size_t(node.def->findInput(name))];
+}
+
+int scatterMode(const Plan& plan, const PlanClosure& closure) {
+    const std::string& mode = closureInput(plan, closure, "scatter_mode").value.text;
+    return mode == "T" ? sh::SCATTER_T : mode == "RT" ? sh::SCATTER_RT : sh::SCATTER_R;
+}
+
+int facetDistribution(const Plan& plan, const PlanClosure& closure) {
+    const GraphNode& node = plan.graph.nodes[size_t(closure.node)];
+    if (node.def->findInput("distribution") < 0) return sh::FACETS_GGX;
+    return closureInput(plan, closure, "distribution").value.text == "beckmann"
+               ? sh::FACETS_BECKMANN
+               : sh::FACETS_GGX;
+}
+
+int lobeVariant(const Plan& plan, const PlanClosure& closure) {
+    const auto chosen = [&](const char* name, const char* text) {
+        return closureInput(plan, closure, name).value.text == text;
+    };
+    switch (closure.kind) {
+    case ClosureKind::Sheen:
+        return chosen("mode", "zeltner") ? sh::SHEEN_ZELTNER : sh::SHEEN_CONTY_KULLA;
+    case ClosureKind::Ward: return chosen("form", "exact") ? sh::WARD_EXACT : sh::WARD_BOUNDED;
+    case ClosureKind::CookTorrance:
+        return chosen("fresnel", "schlick") ? sh::COOK_TORRANCE_SCHLICK : sh::COOK_TORRANCE_EXACT;
+    default: return 0;
+    }
+}
+
+bool hasFilm(const Plan& plan, const PlanClosure& closure) {
+    const GraphNode& node = plan.graph.nodes[size_t(closure.node)];
+    if (node.def->findInput("thinfilm_thickness") < 0) return false;
+    // A film on a thin wall's transmission is that of the reflection over it.
+    if (closure.thin && node.def->findInput("scatter_mode") >= 0 &&
+        scatterMode(plan, closure) == sh::SCATTER_T)
+        return false;
+    return !isConstantValue(closureInput(plan, closure, "thinfilm_thickness"), 0.0f) &&
+           !isConstantValue(closureInput(plan, closure, "thinfilm_ior"), 1.0f);
+}
+
+bool walksBeneath(const Plan& plan, const PlanClosure& closure) {
+    return closure.kind == ClosureKind::Subsurface && !closure.thin &&
+           chosenMethod(plan.methods, "subsurface") == "randomWalk";
+}
+
+bool refracts(const Plan& plan, const PlanClosure& closure) {
+    if (closure.kind != ClosureKind::Dielectric && closure.kind != ClosureKind::Schlick)
+        return false;
+    if ((scatterMode(plan, closure) & sh::SCATTER_T) == 0) return false;
+    return closure.kind == ClosureKind::Schlick ||
+           !isConstantValue(closureInput(plan, closure, "ior"), 1.0f);
+}
+
+} // namespace patina

@@ -5,11 +5,36 @@
 #include "hdDelegate/scene/textureSystem.h"
 #include "materialNetwork/material.h"
 #include "materialNetwork/methodTable.h"
+#include "plugin/python/plans.h"
 #include "shaders/measure/measure.h"
 
 namespace py = pybind11;
 
 namespace patina {
+
+py::dict planDict(const MethodPlan& plan) {
+    py::dict dict;
+    dict["tolerance"] = plan.tolerance;
+    dict["error"] = plan.error;
+    dict["albedo"] = plan.albedo;
+    dict["varies"] = plan.varies;
+    py::list choices;
+    for (const PlannedMethod& m : plan.choices) {
+        py::dict choice;
+        choice["point"] = m.point;
+        choice["method"] = m.method;
+        choice["forced"] = m.forced;
+        choice["measured"] = m.measured;
+        choice["error"] = m.error;
+        choice["errorDefault"] = m.errorDefault;
+        choice["ns"] = m.ns;
+        choice["nsDefault"] = m.nsDefault;
+        choice["nsTruth"] = m.nsTruth;
+        choices.append(choice);
+    }
+    dict["choices"] = choices;
+    return dict;
+}
 
 namespace {
 
@@ -46,30 +71,6 @@ py::object figures(const std::string& point, const std::string& method) {
     row["mean"] = f.mean;
     row["largest"] = f.largest;
     return row;
-}
-
-/// A plan as a dict.
-py::dict planDict(const MethodPlan& plan) {
-    py::dict dict;
-    dict["tolerance"] = plan.tolerance;
-    dict["error"] = plan.error;
-    dict["albedo"] = plan.albedo;
-    dict["varies"] = plan.varies;
-    py::list choices;
-    for (const PlannedMethod& m : plan.choices) {
-        py::dict choice;
-        choice["point"] = m.point;
-        choice["method"] = m.method;
-        choice["forced"] = m.forced;
-        choice["measured"] = m.measured;
-        choice["error"] = m.error;
-        choice["ns"] = m.ns;
-        choice["nsDefault"] = m.nsDefault;
-        choice["nsTruth"] = m.nsTruth;
-        choices.append(choice);
-    }
-    dict["choices"] = choices;
-    return dict;
 }
 
 py::dict planned(const Network& network, const MethodChoices& methods, double tolerance) {

@@ -4,6 +4,7 @@
 
 #include "hdDelegate/scene/textureSystem.h"
 #include "materialNetwork/material.h"
+#include "materialNetwork/measure/measureLayers.h"
 #include "materialNetwork/methodTable.h"
 #include "plugin/python/plans.h"
 #include "shaders/measure/measure.h"
@@ -89,6 +90,9 @@ py::list measured(const std::string& point, bool timed) {
     {
         py::gil_scoped_release release;
         found = measure::measureMethods(point, timed);
+        if (point.empty() || point == "layering")
+            for (measure::Row& row : measure::layering(timed))
+                found.push_back(std::move(row));
     }
     py::list rows;
     for (const measure::Row& r : found) {

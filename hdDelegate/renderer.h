@@ -3,6 +3,7 @@
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
+#include "materialNetwork/methodPlan.h"
 
 #include <functional>
 #include <map>
@@ -28,6 +29,8 @@ struct RenderProgress {
     /// edits cost: "surfacesBuilt", "surfacesTessellated" (the others were only moved),
     /// "groupsBuilt" (acceleration structures), "programsBuilt", "lightsBuilt".
     std::map<std::string, double> statistics;
+    std::map<std::string, MethodPlan> plans; ///< of materials in use, by path ("": displayColor);
+                                             ///< without choices when there is no tolerance
 };
 
 /// Told about a film at rest: no thread works on it while the call lasts.

@@ -10,8 +10,9 @@ namespace patina {
 struct PlannedMethod {
     std::string point, method;
     bool forced = false;
-    bool measured = false; ///< false: the table says nothing of it, and error counts as 0
-    double error = 0.0;    ///< relative luminance
+    bool measured = false;     ///< false: the table says nothing of it, and error counts as 0
+    double error = 0.0;        ///< relative luminance
+    double errorDefault = 0.0; ///< of the point's default method
     double ns = 0.0, nsDefault = 0.0, nsTruth = 0.0;
 };
 

@@ -166,7 +166,9 @@ private:
         m.measured = option.prediction.measured || option.method == truthMethod(point.name);
         m.error = option.prediction.error;
         m.ns = option.prediction.ns;
-        m.nsDefault = look(point.name, chosenMethod({}, point.name)).ns;
+        const Prediction standard = look(point.name, chosenMethod({}, point.name));
+        m.nsDefault = standard.ns;
+        m.errorDefault = standard.error;
         const std::string truth = truthMethod(point.name);
         m.nsTruth = truth.empty() ? m.nsDefault : look(point.name, truth).ns;
         _result.error += m.error;
@@ -191,6 +193,19 @@ double bounceFactor(double albedo) {
 
 MethodPlan planMethods(const Plan& plan, const Planning& planning, TextureSource& textures) {
     return MethodPlanner(plan, planning, textures).run();
+}
+
+MethodPlan withoutWalks(MethodPlan plan) {
+    for (PlannedMethod& m : plan.choices) {
+        const bool walks = (m.point == "energyCompensation" && m.method == "randomWalk") ||
+                           (m.point == "layering" && m.method == "positionFree");
+        if (!walks) continue;
+        plan.error += m.errorDefault - m.error;
+        m.method = chosenMethod({}, m.point);
+        m.error = m.errorDefault;
+        m.ns = m.nsDefault;
+    }
+    return plan;
 }
 
 MethodChoices methodsOf(const MethodPlan& plan, MethodChoices others) {

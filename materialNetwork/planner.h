@@ -38,6 +38,11 @@ MethodPlan planMethods(const Plan& plan, const Planning& planning, TextureSource
 /// 1 / (1 - 0.75 albedo).
 double bounceFactor(double albedo);
 
+/// @returns the plan as a back end shows it that has no random walks within a surface
+/// (energyCompensation = randomWalk, layering = positionFree): with the defaults in their place,
+/// and the errors that these are expected to make
+MethodPlan withoutWalks(MethodPlan plan);
+
 /// @returns the choices of a plan as they go into Plan::methods
 MethodChoices methodsOf(const MethodPlan& plan, MethodChoices others);
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int varyingPlaces = 64;
 constexpr int cosines = 4;
+constexpr float metalShare = 0.95f; ///< of a base that is called metal
 
 float luminance(const glm::vec3& c) {
     const float y = 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
@@ -72,6 +73,13 @@ void describe(const BsdfLobe& l, SeenClosure& out) {
     default: out.kind = "other"; break;
     }
     out.reflectance = luminance(l.albedo);
+}
+
+/// Schlick's curve stands for metals where it begins this high, and lets nothing through.
+bool isMetallic(const BsdfLobe& l) {
+    if (l.kind == LobeKind::Conductor) return true;
+    return l.kind == LobeKind::Schlick && l.schlick.mode == sh::SCATTER_R &&
+           luminance(sh::fresnelSchlick(1.0f, l.schlick.fresnel)) > 0.2f;
 }
 
 class Viewer {
@@ -135,11 +143,12 @@ private:
         return s;
     }
 
-    /// A layer shows as its roughest interface over an albedo.
+    /// A layer shows as its roughest interface over an albedo; over metals their roughness counts
+    /// too.
     void layer(const ClosureOp& op, const Bsdf& bsdf, const std::vector<float>& light,
                SeenClosure& out) const {
         out.kind = "layer";
-        float weight = 0.0f, base = 0.0f;
+        float weight = 0.0f, base = 0.0f, metal = 0.0f, rough = 0.0f;
         for (int lobe : lobesOf(op.a)) {
             SeenClosure top;
             describe(bsdf.lobe(lobe), top);
@@ -152,6 +161,15 @@ private:
             weight += w;
             base += w * luminance(l.albedo);
             out.share += light[size_t(lobe)];
+            if (!isMetallic(l)) continue;
+            SeenClosure below;
+            describe(l, below);
+            metal += w * luminance(l.albedo);
+            rough = std::max(rough, below.roughness);
+        }
+        if (metal > 0.0f && metal >= metalShare * base) {
+            out.kind = "layerOverMetal";
+            out.roughness = std::max(out.roughness, rough);
         }
         out.reflectance = weight > 0.0f ? std::min(base / weight, 1.0f) : 0.0f;
     }

@@ -5,7 +5,7 @@
 
 Kinds are those of `patina chart`: lobes, scenes, stability, predictions. Each runs in a process of its own; of what it writes
 the files named below go to the folder (default: docs/charts). --quick takes small pictures and few samples, to see whether it
-all works. The whole takes some 30 minutes on two cores.
+all works. The whole takes about an hour on two cores.
 """
 import argparse
 import glob
@@ -16,38 +16,67 @@ import sys
 import tempfile
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+ROOM = os.path.join(ROOT, "testenv", "scenes")
+# All of them. A tenth of a percent takes a hundred times the samples of one percent: of few pixels, where that is affordable.
+EVERY = [os.path.relpath(path, ROOT) for path in sorted(glob.glob(os.path.join(ROOM, "*.usda")))
+         + sorted(glob.glob(os.path.join(ROOM, "classic", "*.usda")))]
+DEAR = ("diffuseBox", "hair", "lightCylinder", "lightMesh", "lightSphere", "manyLights", "media", "roughConductor",
+        "roughDielectricSlab", "shaderball", "volume")
+CHEAP = [path for path in EVERY if os.path.splitext(os.path.basename(path))[0] not in DEAR]
+PREDICTIONS = ["--predictions", "--backend", "embree", "--maxSamples", "4000000", "--methodSamples", "512", "--quiet"]
 SCENES = ("diffuseBox", "lightDome", "shaderball", "roughGlass", "texturedDiffuse")
-# kind -> (arguments of patina chart, those of --quick instead, files that are kept)
+# kind -> (arguments of patina chart, more than once where a table is made of several, those of --quick instead, files kept)
 KINDS = {
-    "lobes": (["--lobes"], ["--lobes", "--point", "fresnel"],
+    "lobes": ([["--lobes"]], ["--lobes", "--point", "fresnel"],
               ["lobes.csv", "directionalAlbedo_ior_1_5.svg", "energyCompensation_white_metal.svg", "fresnel_ior_1_5.svg",
                "thinFilm_1_33_on_ior_1_5.svg", "diffuse_white.svg"]),
-    "scenes": ([f"testenv/scenes/{name}.usda" for name in SCENES]
-               + ["--imageWidth", "128", "--maxSamples", "64", "--seconds", "240", "--quiet"],
+    "scenes": ([[f"testenv/scenes/{name}.usda" for name in SCENES]
+               + ["--imageWidth", "128", "--maxSamples", "64", "--seconds", "240", "--quiet"]],
                [f"testenv/scenes/{SCENES[0]}.usda", "--imageWidth", "32", "--maxSamples", "4", "--quiet"],
                ["scenes.csv", "*-relMSE.svg", "*-flip.svg", "*-rmse.svg"]),
-    "predictions": (["--predictions"] + [f"testenv/scenes/{name}.usda" for name in SCENES] + ["--backend", "embree", "--quiet"],
+    "predictions": ([PREDICTIONS + EVERY + ["--imageWidth", "12", "--tolerances", "0.05,0.01", "--seconds", "15"],
+                     PREDICTIONS + CHEAP + ["--imageWidth", "3", "--tolerances", "0.001", "--seconds", "30"]],
                     ["--predictions", f"testenv/scenes/{SCENES[0]}.usda", "--backend", "embree", "--imageWidth", "8",
                      "--tolerances", "0.5", "--methodSamples", "4", "--seconds", "1", "--quiet"],
                     ["predictions.csv"]),
-    "stability": (["--stability"], ["--stability", "--points", "6"], ["stability.svg"]),
+    "stability": ([["--stability"]], ["--stability", "--points", "6"], ["stability.svg"]),
 }
 LARGEST = 1 << 20  # bytes: README.md shows the folder
 
 
 def run(kind, folder, quick):
     """:returns: paths of the kept files; exits where the command fails"""
-    arguments, small, kept = KINDS[kind]
-    with tempfile.TemporaryDirectory() as made:
-        command = [sys.executable, "-m", "patina", "chart", *(small if quick else arguments), "--out", made]
-        print("patina chart", *command[4:-2], flush=True)
-        found = subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        if found.returncode != 0:
-            sys.exit(f"{kind}: {found.stderr.strip()}")
-        paths = [path for pattern in kept for path in sorted(glob.glob(os.path.join(made, pattern)))]
-        if not paths:
-            sys.exit(f"{kind}: nothing was written")
-        return [shutil.copy(path, folder) for path in paths]
+    commands, small, kept = KINDS[kind]
+    written = {}  # name -> path
+    for arguments in [small] if quick else commands:
+        with tempfile.TemporaryDirectory() as made:
+            command = [sys.executable, "-m", "patina", "chart", *arguments, "--out", made]
+            print("patina chart", *command[4:-2], flush=True)
+            found = subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            if found.returncode != 0:
+                sys.exit(f"{kind}: {found.stderr.strip()}")
+            for path in (path for pattern in kept for path in sorted(glob.glob(os.path.join(made, pattern)))):
+                name = os.path.basename(path)
+                if name in written:
+                    append(path, written[name])
+                else:
+                    written[name] = shutil.copy(path, folder)
+    if not written:
+        sys.exit(f"{kind}: nothing was written")
+    return list(written.values())
+
+
+def append(table, whole):
+    """The rows of one CSV file below those of another with the same columns."""
+    with open(table, encoding="utf-8") as rows, open(whole, "a", encoding="utf-8") as file:
+        file.writelines(rows.readlines()[1:])
+
+
+def summarize(path):
+    """What a table of predictions comes to, in words."""
+    from patina.chart import predictions
+
+    print(predictions.summary(predictions.read(path)))
 
 
 def main():
@@ -60,6 +89,8 @@ def main():
     for kind in a.only or KINDS:
         for path in run(kind, a.out, a.quick):
             print(f"  {path}")
+            if os.path.basename(path) == "predictions.csv":
+                summarize(path)
     size = sum(os.path.getsize(path) for path in glob.glob(os.path.join(a.out, "*")))
     print(f"{size / 1024:.0f} KiB")
     if size > LARGEST:

@@ -238,6 +238,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         _progress.statistics["trianglesStored"] = double(_embree->trianglesStored());
         _progress.statistics["instances"] = double(_embree->instanceCount());
         plan.tell(_settings.tolerance, _progress.statistics);
+        _progress.plans = plan.materials();
         _progress.statistics["maxDepth"] =
             _settings.maxDepth < 0 ? plan.depth(_settings.tolerance) : _settings.maxDepth;
     }

@@ -219,7 +219,7 @@ std::shared_ptr<const Surface> EmbreeScene::surfaceOf(const std::string& path) c
 ScenePlan EmbreeScene::plan() const {
     ScenePlan plan;
     for (const auto& item : _programs)
-        plan.add(item.second.program->planned());
+        plan.add(item.first, item.second.program->planned());
     return plan;
 }
 

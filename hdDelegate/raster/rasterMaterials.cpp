@@ -84,7 +84,7 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
 ScenePlan RasterMaterials::plan() const {
     ScenePlan plan;
     for (const auto& item : _materials)
-        plan.add(item.second.material.program->planned());
+        plan.add(item.first, withoutWalks(item.second.material.program->planned()));
     return plan;
 }
 

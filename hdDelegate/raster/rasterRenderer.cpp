@@ -200,7 +200,9 @@ private:
             _progress.statistics["instancesWritten"] = double(_raster->instancesWritten());
             _progress.statistics["instances"] = double(_raster->instanceCount());
             _progress.statistics["programsBuilt"] = double(_raster->programsBuilt());
-            _raster->plan().tell(_settings.tolerance, _progress.statistics);
+            const ScenePlan plan = _raster->plan();
+            plan.tell(_settings.tolerance, _progress.statistics);
+            _progress.plans = plan.materials();
         }
         _passes->clearSeconds();
         _passes->drawAovs(*_raster, camera, aovs, *_film);

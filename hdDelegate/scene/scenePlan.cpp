@@ -5,7 +5,8 @@
 
 namespace patina {
 
-void ScenePlan::add(const MethodPlan& material) {
+void ScenePlan::add(const std::string& path, const MethodPlan& material) {
+    _materials[path] = material;
     _error = std::max(_error, material.error);
     _albedo = std::max(_albedo, material.albedo);
 }

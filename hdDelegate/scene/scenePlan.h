@@ -11,7 +11,8 @@ namespace patina {
 /// they have compiled the materials, and stop sampling by what it leaves for noise.
 class ScenePlan {
 public:
-    void add(const MethodPlan& material);
+    /// @param path of the material; empty for displayColor
+    void add(const std::string& path, const MethodPlan& material);
 
     /// Relative luminance error that methods are expected to cost: that of the material where it
     /// is largest, since it may fill the image.
@@ -31,8 +32,12 @@ public:
     /// For RenderProgress::statistics; nothing without a tolerance.
     void tell(double tolerance, std::map<std::string, double>& statistics) const;
 
+    /// Of every material in use, by its path.
+    const std::map<std::string, MethodPlan>& materials() const { return _materials; }
+
 private:
     double _error = 0.0, _albedo = 0.0;
+    std::map<std::string, MethodPlan> _materials;
 };
 
 } // namespace patina

@@ -49,6 +49,15 @@ Network coat(float roughness, float ior) {
          makeNode("bsdf", "ND_layer_bsdf", {}, {{"top", {"top", ""}}, {"base", {"base", ""}}})});
 }
 
+Network coatedGold(float coat, float roughness) {
+    NetworkNode base = gold(roughness);
+    base.path = "/m/base";
+    return bsdfNetwork(
+        {makeNode("top", "ND_dielectric_bsdf", {{"roughness", pair(coat)}, {"ior", number(1.5f)}}),
+         base,
+         makeNode("bsdf", "ND_layer_bsdf", {}, {{"top", {"top", ""}}, {"base", {"base", ""}}})});
+}
+
 Network texturedMetal() {
     return bsdfNetwork({makeNode("image", "ND_image_vector2", {{"file", text("map.exr")}}),
                         makeNode("bsdf", "ND_conductor_bsdf",
@@ -137,6 +146,31 @@ TEST(Planner, AVaryingParameterCountsAtItsWorst) {
     EXPECT_FALSE(planOf(metal(0.2f), 0.01, none).varies);
     EXPECT_GT(varying.error, 5.0 * planOf(metal(0.01f), 0.01, none).error);
     EXPECT_GT(varying.error, 0.7 * planOf(metal(0.95f), 0.01, none).error);
+}
+
+// What a smooth metal sends up meets the interface at the angle that it came in by, so that scaling
+// is nearly right; a diffuse base sends most light where the interface reflects it back.
+TEST(Planner, LayersAreWalkedWhereScalingErrs) {
+    const MethodPlan grey = planOf(coat(0.1f, 1.5f), 0.1);
+    EXPECT_EQ(at(grey, "layering").method, "positionFree");
+    EXPECT_GT(at(grey, "layering").errorDefault, 0.3);
+    EXPECT_GT(at(grey, "layering").ns, 5.0 * at(grey, "layering").nsDefault);
+    EXPECT_EQ(at(planOf(coatedGold(0.0f, 0.0f), 0.9), "layering").method, "albedoScaling");
+    EXPECT_EQ(at(planOf(coatedGold(0.0f, 0.5f), 0.9), "layering").method, "positionFree");
+    EXPECT_LT(at(planOf(coatedGold(0.0f, 0.0f), -1.0), "layering").error,
+              0.5 * at(planOf(coatedGold(0.0f, 0.5f), -1.0), "layering").error);
+}
+
+TEST(Planner, ABackEndWithoutWalksSaysWhatItTakes) {
+    const MethodPlan walked = planOf(coat(0.4f, 1.5f), 0.01), scaled = withoutWalks(walked);
+    EXPECT_EQ(at(walked, "layering").method, "positionFree");
+    EXPECT_EQ(at(scaled, "layering").method, "albedoScaling");
+    EXPECT_EQ(at(scaled, "layering").error, at(walked, "layering").errorDefault);
+    double sum = 0.0;
+    for (const PlannedMethod& m : scaled.choices)
+        sum += m.error;
+    EXPECT_NEAR(scaled.error, sum, 1e-12);
+    EXPECT_GT(scaled.error, 0.1);
 }
 
 TEST(Planner, AMirrorNeedsNoCompensation) {

@@ -4,12 +4,38 @@
 
 #include "hdDelegate/scene/textureSystem.h"
 #include "materialNetwork/material.h"
+#include "materialNetwork/measure/measureLayers.h"
 #include "materialNetwork/methodTable.h"
+#include "plugin/python/plans.h"
 #include "shaders/measure/measure.h"
 
 namespace py = pybind11;
 
 namespace patina {
+
+py::dict planDict(const MethodPlan& plan) {
+    py::dict dict;
+    dict["tolerance"] = plan.tolerance;
+    dict["error"] = plan.error;
+    dict["albedo"] = plan.albedo;
+    dict["varies"] = plan.varies;
+    py::list choices;
+    for (const PlannedMethod& m : plan.choices) {
+        py::dict choice;
+        choice["point"] = m.point;
+        choice["method"] = m.method;
+        choice["forced"] = m.forced;
+        choice["measured"] = m.measured;
+        choice["error"] = m.error;
+        choice["errorDefault"] = m.errorDefault;
+        choice["ns"] = m.ns;
+        choice["nsDefault"] = m.nsDefault;
+        choice["nsTruth"] = m.nsTruth;
+        choices.append(choice);
+    }
+    dict["choices"] = choices;
+    return dict;
+}
 
 namespace {
 
@@ -54,30 +80,6 @@ py::object figures(const std::string& point, const std::string& method) {
     return row;
 }
 
-/// A plan as a dict.
-py::dict planDict(const MethodPlan& plan) {
-    py::dict dict;
-    dict["tolerance"] = plan.tolerance;
-    dict["error"] = plan.error;
-    dict["albedo"] = plan.albedo;
-    dict["varies"] = plan.varies;
-    py::list choices;
-    for (const PlannedMethod& m : plan.choices) {
-        py::dict choice;
-        choice["point"] = m.point;
-        choice["method"] = m.method;
-        choice["forced"] = m.forced;
-        choice["measured"] = m.measured;
-        choice["error"] = m.error;
-        choice["ns"] = m.ns;
-        choice["nsDefault"] = m.nsDefault;
-        choice["nsTruth"] = m.nsTruth;
-        choices.append(choice);
-    }
-    dict["choices"] = choices;
-    return dict;
-}
-
 py::dict planned(const Network& network, const MethodChoices& methods, double tolerance) {
     MethodPlan plan;
     {
@@ -94,6 +96,9 @@ py::list measured(const std::string& point, bool timed) {
     {
         py::gil_scoped_release release;
         found = measure::measureMethods(point, timed);
+        if (point.empty() || point == "layering")
+            for (measure::Row& row : measure::layering(timed))
+                found.push_back(std::move(row));
     }
     py::list rows;
     for (const measure::Row& r : found) {

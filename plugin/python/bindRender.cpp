@@ -2,6 +2,7 @@
 
 #include "hdDelegate/renderer.h"
 #include "hdDelegate/backends/backends.h"
+#include "plugin/python/plans.h"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -143,6 +144,10 @@ py::dict progress(const Renderer& renderer) {
     dict["deviceFailed"] = p.deviceFailed;
     dict["backend"] = p.backend;
     dict["statistics"] = p.statistics;
+    py::dict plans;
+    for (const auto& item : p.plans)
+        if (!item.second.choices.empty()) plans[py::str(item.first)] = planDict(item.second);
+    dict["plans"] = plans;
     return dict;
 }
 

@@ -65,11 +65,11 @@ std::vector<Row> fresnel(bool timed);
 std::vector<Row> thinFilm(bool timed);
 std::vector<Row> diffuse(bool timed);
 std::vector<Row> energyWalk(bool timed); ///< the truth of energyCompensation
-std::vector<Row> layering(bool timed);
 std::vector<Row> sheen(bool timed);
 std::vector<Row> subsurface(bool timed);
 
-/// Rows of all choice points, or of `point` alone.
+/// Rows of all choice points that concern lobes by themselves, or of `point` alone; layering has
+/// materialNetwork/measure.
 std::vector<Row> measureMethods(const std::string& point, bool timed);
 
 } // namespace patina::measure

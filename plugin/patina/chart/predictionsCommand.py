@@ -27,28 +27,53 @@ def run(arguments):
     a = arguments
     a.imageWidth = a.imageWidth or DEFAULT_WIDTH
     a.set = a.set or []
-    given = a.tolerances if a.tolerances != [0.05, 0.01] else DEFAULT_TOLERANCES
-    most = a.maxSamples if a.maxSamples != 64 else recordFlags.MOST_SAMPLES
+    given = a.tolerances or DEFAULT_TOLERANCES
+    most = a.maxSamples or recordFlags.MOST_SAMPLES
     rows = []
     progress = Progress("", a.quiet)
-    for stage in dict.fromkeys(a.stages):
-        for backend in (["embree", "raster"] if a.backend == "both" else [a.backend]):
-            try:
-                found = predictions.check(stage, a, backend, given, a.methodSamples, most, a.seconds or DEFAULT_SECONDS)
-            except CommandError as error:
-                found = [predictions.Row(os.path.splitext(os.path.basename(stage))[0], backend, 0.0, problem=str(error))]
-            rows += found
-            for row in found:
-                progress.say(f"{row.stage} {row.backend} {row.tolerance:g}: {row.problem or f'{row.methodError:.2g}, {row.error:.2g}'}")
-    if a.out:
-        os.makedirs(a.out, exist_ok=True)
-        with open(os.path.join(a.out, "predictions.csv"), "w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, predictions.COLUMNS)
-            writer.writeheader()
-            writer.writerows(row.as_dict() for row in rows)
+    with _Table(a.out) as table:
+        for stage in dict.fromkeys(a.stages):
+            for backend in (["embree", "raster"] if a.backend == "both" else [a.backend]):
+                for row in _rows(stage, a, backend, given, most):
+                    rows.append(row)
+                    table.add(row)
+                    progress.say(f"{row.stage} {row.backend} {row.tolerance:g}: "
+                                 f"{row.problem or f'{row.methodError:.2g}, {row.error:.2g}, {row.state}'}")
     text = json.dumps([row.as_dict() for row in rows], indent=1) if a.json else ""
     if a.json and a.json != "-":
         with open(a.json, "w", encoding="utf-8") as file:
             file.write(text + "\n")
     print(text if a.json == "-" else predictions.listing(rows))
     return 0
+
+
+def _rows(stage, a, backend, tolerances, most):
+    try:
+        yield from predictions.check(stage, a, backend, tolerances, a.methodSamples, most, a.seconds or DEFAULT_SECONDS)
+    except CommandError as error:
+        yield predictions.Row(os.path.splitext(os.path.basename(stage))[0], backend, 0.0, problem=str(error))
+
+
+class _Table:
+    """predictions.csv in a folder, or nothing; each row is written when it is there, for the whole takes long."""
+
+    def __init__(self, folder):
+        self.file = None
+        if folder:
+            os.makedirs(folder, exist_ok=True)
+            self.file = open(os.path.join(folder, "predictions.csv"), "w", newline="", encoding="utf-8")
+            self.writer = csv.DictWriter(self.file, predictions.COLUMNS)
+            self.writer.writeheader()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.file:
+            self.file.close()
+
+    def add(self, row):
+        if self.file:
+            self.writer.writerow({name: f"{value:.4g}" if isinstance(value, float) else value
+                                  for name, value in row.as_dict().items()})
+            self.file.flush()

@@ -18,9 +18,9 @@ def add_arguments(parser):
     group = parser.add_argument_group("scenes")
     group.add_argument("--backend", default="both", choices=["both", *BACKENDS], help="what renders (default: both)")
     group.add_argument("--imageWidth", "-w", type=recordFlags._size, metavar="PIXELS", help=f"default: {DEFAULT_WIDTH}")
-    group.add_argument("--maxSamples", type=recordFlags._count, default=DEFAULT_SAMPLES, metavar="N",
+    group.add_argument("--maxSamples", type=recordFlags._count, metavar="N",
                        help=f"the last of 1, 4, 16, ... samples per pixel, also for tolerances (default: {DEFAULT_SAMPLES})")
-    group.add_argument("--tolerances", type=_tolerances, default=_tolerances(DEFAULT_TOLERANCES), metavar="T[,T...]",
+    group.add_argument("--tolerances", type=_tolerances, metavar="T[,T...]",
                        help=f"also render to each of these; none: no (default: {DEFAULT_TOLERANCES})")
     group.add_argument("--seconds", type=recordFlags._not_negative, default=0.0, metavar="S",
                        help="time for each stage: fewer samples where all would take longer (default: 0, no limit)")
@@ -49,6 +49,8 @@ _tolerances.__name__ = "list of numbers above 0"
 
 def run(arguments):
     a = arguments
+    a.maxSamples = a.maxSamples or DEFAULT_SAMPLES
+    a.tolerances = _tolerances(DEFAULT_TOLERANCES) if a.tolerances is None else a.tolerances
     if a.reference and len(a.stages) > 1:
         raise UsageError("patina chart: --reference is of one stage")
     chosen = methods.parse(a.method)

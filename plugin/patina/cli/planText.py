@@ -54,3 +54,31 @@ def scene_lines(plans, tolerance):
     elif tolerance == 0.0:
         result.append("scene: all samples are taken")
     return result
+
+
+def of_scene(plans):
+    """:param plans: material path -> plan, as Renderer.progress() tells them
+
+    :returns: dict for --json: by material the predicted error and what was chosen, and by choice point the materials' choices
+    """
+    materials = {path or "displayColor": {"error": plan["error"], "albedo": plan["albedo"],
+                                          "methods": {choice["point"]: choice["method"] for choice in plan["choices"]}}
+                 for path, plan in plans.items()}
+    points = {}
+    for material in materials.values():
+        for point, method in material["methods"].items():
+            points.setdefault(point, {}).setdefault(method, 0)
+            points[point][method] += 1
+    return {"error": max(m["error"] for m in materials.values()), "methods": points, "materials": materials}
+
+
+def metadata(plan):
+    """:param plan: of of_scene()
+
+    :returns: one line for an image's metadata: materials with the same choices together
+    """
+    groups = {}
+    for path, material in plan["materials"].items():
+        chosen = " ".join(f"{point}={method}" for point, method in material["methods"].items())
+        groups.setdefault(chosen, []).append(f"{path} ({material['error']:.2g})")
+    return "; ".join(f"{chosen}: {', '.join(paths)}" for chosen, paths in groups.items())

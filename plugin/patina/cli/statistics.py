@@ -5,6 +5,7 @@ import sys
 import time
 
 from patina import __version__
+from patina.cli import planText
 
 PHASES = ("open", "translate", "build", "render", "write", "total")
 
@@ -68,6 +69,8 @@ class Statistics:
             droppedSamples=film.dropped_samples,
             **{name: int(value) if float(value).is_integer() else value for name, value in numbers.items()
                if name not in ("samples", "droppedSamples")})
+        if state["plans"]:
+            self._frame["plan"] = planText.of_scene(state["plans"])
         if film.width:
             error = _mean_relative_error(film)
             if error is not None:
@@ -103,6 +106,8 @@ class Statistics:
             values["patina:tolerance"] = settings["tolerance"]
             if "predictedError" in frame:
                 values["patina:predictedError"] = frame["predictedError"]
+            if "plan" in frame:
+                values["patina:methods"] = planText.metadata(frame["plan"])
         if arguments.set:
             values["patina:set"] = " ".join(arguments.set)
         return values

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "materialNetwork/methodPlan.h"
+
+#include <pybind11/pybind11.h>
+
+namespace patina {
+
+/// A plan of methods as Python sees it: tolerance, error, albedo, varies, and the list of choices.
+pybind11::dict planDict(const MethodPlan& plan);
+
+} // namespace patina

@@ -108,6 +108,15 @@ const std::vector<ChoicePoint>& choicePoints() {
           {"harmonics", "rasterizer: diffuse and sheen by spherical harmonics of order 2 with the "
                         "dominant light apart, all else filtered; hides sharp changes of the sky's "
                         "light over the normal"}},
+         "sampled"},
+        {"areaLight",
+         {{"sampled", "rasterizer: a place on each light per pass, and samples of the material; "
+                      "passes converge to the path tracer's direct light"},
+          {"linearlyTransformedCosines",
+           "rasterizer: the outline of each light through a linear map of the lobe (Heitz et al. "
+           "2016), free of noise but for shadows; lights with an image, a profile or a cone, and "
+           "materials with anisotropic or other lobes than diffuse, sheen and facets are sampled; "
+           "no roughness of diffuse lobes, and no stretch of Fresnel's over a lobe"}},
          "sampled"}};
     return points;
 }

@@ -29,6 +29,8 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
                 : method == "prefiltered" ? "#define DOME_METHOD DOME_PREFILTERED\n"
                 : method == "harmonics"   ? "#define DOME_METHOD DOME_HARMONICS\n"
                                           : "";
+    if (chosenMethod(settings.methods, "areaLight") == "linearlyTransformedCosines")
+        _lighting += "#define AREA_OUTLINES\n";
     for (auto it = _materials.begin(); it != _materials.end();) {
         const auto found = state.materials.find(it->first);
         const auto now = found != state.materials.end() && settings.enableSceneMaterials

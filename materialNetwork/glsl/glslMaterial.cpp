@@ -4,6 +4,7 @@
 #include "materialNetwork/glsl/glslClosures.h"
 #include "materialNetwork/glsl/glslLobes.h"
 #include "materialNetwork/glsl/glslPatterns.h"
+#include "materialNetwork/glsl/glslScattering.h"
 
 #include <algorithm>
 #include <functional>
@@ -39,14 +40,14 @@ public:
         line("float lobeChance[" + number(lobes) + "];");
         line("Frame frames[" + number(std::max(1, int(_code.frames.size()))) + "];");
         line("vec3 straight;");
-        leaveOutWalks();
+        for (const std::string& walks : glslWalksLeftOut(_code))
+            _out.leftOut.push_back(walks);
         placeFunction();
         setupFunction();
         presenceFunction();
         emissionFunction();
         if (_program.hasInterior()) mediumFunction();
-        evalFunction();
-        sampleFunction();
+        _text += glslEval(_code) + glslSample(_code);
         const std::string textures =
             glslTextureText(_textures, _code.textures, _features.textureArrays, _out.textures,
                             _out.parameters, _out.leftOut);
@@ -55,8 +56,8 @@ public:
                 number(std::max(1, int(_out.parameters.size()))) +
                 "]; };\nvec4 materialParameter(int i) { return parameters[i]; }\n" + textures;
         _out.text = head + _text;
-        _out.albedoText = albedoFunction();
-        _out.traitsText = traitsFunctions();
+        _out.albedoText = glslAlbedo(_code);
+        _out.traitsText = glslTraits(_code);
         if (_out.parameters.empty()) _out.parameters.emplace_back(0.0f);
         _out.presence = !_program.isOpaque();
         _out.emission = _program.hasEmission();
@@ -111,21 +112,6 @@ private:
         _out.parameters.resize(parameters);
     }
 
-    /// Walks have values that are random.
-    void leaveOutWalks() {
-        for (const LobeTemplate& t : _code.lobes)
-            if (t.walks && (t.prebuilt.kind == LobeKind::Conductor ||
-                            t.prebuilt.kind == LobeKind::Dielectric ||
-                            t.prebuilt.kind == LobeKind::Schlick)) {
-                _out.leftOut.push_back("energyCompensation=randomWalk is for the path tracer alone; "
-                                       "turquin is shown");
-                break;
-            }
-        if (_code.walkedLayers > 0)
-            _out.leftOut.push_back("layering=positionFree is for the path tracer alone; "
-                                   "albedoScaling is shown");
-    }
-
     /// What has no GLSL becomes the value that it has at one point.
     void instructions(const std::vector<Instruction>& code) {
         for (const Instruction& i : code) {
@@ -150,10 +136,6 @@ private:
         const std::string t = f.tangent >= 0 ? reg(f.tangent) + ".xyz" : "vec3(0.0)";
         line("    frames[" + number(i) + "] = makeFrame(" + n + ", " + t + ", " +
              (f.flips ? "true" : "false") + ");");
-    }
-
-    std::string frameOf(size_t lobe) const {
-        return "frames[" + number(_code.lobes[lobe].prebuilt.frame) + "]";
     }
 
     /// Lobes set up, with weights that do not yet know what passes straight.
@@ -239,8 +221,8 @@ private:
         const auto registers = [&](Register r) { return reg(r); };
         line("    " + lobe + " = " + glslLobeSetup(t, registers) + ";");
         methodLines(t, lobe);
-        const std::string fixed = prefix + "Fix(" + lobe + ", " + frameOf(i) + ".wo, " + curve(t) +
-                                  ", lobeAlbedo[" + n + "])";
+        const std::string fixed = prefix + "Fix(" + lobe + ", " + glslFrameOf(_code, i) + ".wo, " +
+                                  curve(t) + ", lobeAlbedo[" + n + "])";
         const LobeKind kind = t.prebuilt.kind;
         const bool reflects =
             (kind == LobeKind::Dielectric || kind == LobeKind::Schlick) && t.mode == sh::SCATTER_R;
@@ -250,8 +232,8 @@ private:
         line("    kept" + n + " = " + share(tinted ? "lobeAlbedo[" + n + "]" : "kept" + n) + ";");
         if (!t.straight) return;
         line("    vec3 wallPassed" + n + ", wallReflected" + n + ";");
-        line("    " + prefix + "Wall(" + lobe + ", " + frameOf(i) + ".wo, lobeAlbedo[" + n +
-             "], wallPassed" + n + ", wallReflected" + n + ", " +
+        line("    " + prefix + "Wall(" + lobe + ", " + glslFrameOf(_code, i) + ".wo, lobeAlbedo[" +
+             n + "], wallPassed" + n + ", wallReflected" + n + ", " +
              (_code.wallsHaveTwoFaces ? "true" : "false") + ");");
     }
 
@@ -388,100 +370,6 @@ private:
         line("    m.emission = " + result + ";");
         line("    return m;");
         line("}");
-    }
-
-    void evalFunction() {
-        line("MaterialEval materialEvalBut(vec3 wi, int without) {");
-        line("    MaterialEval sum = materialEvalNone();");
-        line("    bool reflects = (dot(wi, point.geometricNormal) > 0.0) == woOutside();");
-        for (size_t i = 0; i < _code.lobes.size(); ++i) {
-            const LobeTemplate& t = _code.lobes[i];
-            const std::string n = number(int(i));
-            line("    if (without != " + n + ") addLobe(sum, " +
-                 std::string(t.prebuilt.diffuse ? "true" : "false") + ", lobeWeight[" + n +
-                 "], lobeChance[" + n + "], reflects, " + frameOf(i) + ", wi, " +
-                 glslLobePrefix(t.prebuilt.kind) + "Eval(lobe" + n + ", " + frameOf(i) +
-                 ".wo, toLocal(" + frameOf(i) + ", wi)));");
-        }
-        line("    return sum;");
-        line("}");
-        line("MaterialEval materialEval(vec3 wi) { return materialEvalBut(wi, -1); }");
-    }
-
-    /// What lights that go through lobes one by one have to know; only who asks for it takes this
-    /// text in.
-    std::string traitsFunctions() const {
-        std::string kinds = "int lobeKind(int i) {\n", alphas = "float lobeAlpha(int i) {\n",
-                    places = "Frame lobeFrame(int i) {\n";
-        for (size_t i = 0; i < _code.lobes.size(); ++i) {
-            const std::string at = "    if (i == " + number(int(i)) + ") return ";
-            const std::string lobe = "lobe" + number(int(i));
-            std::string kind = "LOBE_OTHER", alpha = "0.0";
-            switch (_code.lobes[i].prebuilt.kind) {
-            case LobeKind::OrenNayar:
-            case LobeKind::Burley:
-            case LobeKind::Subsurface: kind = "LOBE_DIFFUSE"; break;
-            case LobeKind::Sheen: kind = "LOBE_SHEEN"; break;
-            case LobeKind::Dielectric:
-            case LobeKind::Schlick:
-                kind = lobe + ".mode == SCATTER_R ? LOBE_MIRROR : LOBE_OTHER";
-                alpha = "sqrt(" + lobe + ".alpha.x * " + lobe + ".alpha.y)";
-                break;
-            case LobeKind::Conductor:
-                kind = lobe + ".retro < 0.0 ? LOBE_OTHER : LOBE_MIRROR";
-                alpha = "sqrt(" + lobe + ".alpha.x * " + lobe + ".alpha.y)";
-                break;
-            default: break;
-            }
-            kinds += at + kind + ";\n";
-            alphas += at + alpha + ";\n";
-            places += at + frameOf(i) + ";\n";
-        }
-        return "const int LOBE_DIFFUSE = 0, LOBE_SHEEN = 1, LOBE_OTHER = 3;\n"
-               "const int LOBE_MIRROR = 2; // reflects, by facets\n"
-               "const int LOBES = " +
-               number(int(_code.lobes.size())) + ";\n" + kinds + "    return LOBE_OTHER;\n}\n" +
-               alphas + "    return 0.0;\n}\n" + places + "    return frames[0];\n}\n";
-    }
-
-    void sampleFunction() {
-        line("MaterialSample materialSample(vec3 u, float uLobe) {");
-        line("    MaterialSample s = materialSampleNone();");
-        line("    LobeSample l = lobeSampleNone();");
-        line("    float below = 0.0, chance = 0.0;");
-        line("    vec3 weight = vec3(0.0);");
-        line("    int drawn = -1;");
-        for (size_t i = 0; i < _code.lobes.size(); ++i) {
-            const LobeTemplate& t = _code.lobes[i];
-            const std::string n = number(int(i)), own = "lobeChance[" + n + "]";
-            // Rounding must not leave the last without its share.
-            const bool last = i + 1 == _code.lobes.size();
-            line("    if (drawn < 0 && " + own + " > 0.0" +
-                 (last ? std::string() : " && uLobe < below + " + own) + ") {");
-            line("        l = " + glslLobePrefix(t.prebuilt.kind) + "Sample(lobe" + n + ", " +
-                 frameOf(i) + ".wo, u);");
-            line("        s.wi = toWorld(" + frameOf(i) + ", l.wi);");
-            line("        s.diffuse = " + std::string(t.prebuilt.diffuse ? "true" : "false") + ";");
-            line("        drawn = " + n + ";");
-            line("        weight = lobeWeight[" + n + "];");
-            line("        chance = " + own + ";");
-            line("    }");
-            line("    below += " + own + ";");
-        }
-        line("    return finishSample(s, l, drawn, weight, chance);");
-        line("}");
-    }
-
-    /// As Bsdf::albedo(). Only who asks for it takes this text in.
-    std::string albedoFunction() const {
-        std::string text = "vec3 materialAlbedo() {\n    vec3 sum = vec3(0.0);\n";
-        for (size_t i = 0; i < _code.lobes.size(); ++i) {
-            const std::string n = number(int(i));
-            text += "    if (luminance(lobeWeight[" + n + "]) > 0.0) sum += lobeWeight[" + n +
-                    "] * " + glslLobePrefix(_code.lobes[i].prebuilt.kind) + "Albedo(lobe" + n +
-                    ", " + frameOf(i) + ".wo);\n";
-        }
-        return text + "    return sum;\n}\n";
     }
 
     const MaterialProgram& _program;

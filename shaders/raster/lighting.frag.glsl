@@ -24,6 +24,9 @@ bool isSunOfDome(Light l) {
 
 #include "shaders/raster/behind.glsl"
 
+bool outlines = false;    // lights that are their outline go another way, see areaLights.glsl
+bool lightsAlone = false; // no sample of the BSDF finds the same light
+
 // Light from one light's sample.
 vec3 fromLight(Light l) {
     int kind = int(l.radiance.w);
@@ -63,12 +66,20 @@ vec3 fromLight(Light l) {
         // Weights of domes come from the density's table on both sides.
         bool sky = kind == LIGHT_DOME || kind == LIGHT_MORE_DOME;
         float chance = sky ? l.cone.y * domePdf(l, wi, 0.0) : density;
-        bool found = kind != LIGHT_TRIANGLE && counts.y > 0;
+        bool found = kind != LIGHT_TRIANGLE && counts.y > 0 && !lightsAlone;
         weight = (found ? heuristic(lightTrust * chance, float(counts.y) * f.pdf) : 1.0) / density;
         if (sky) weight /= l.cone.y;
     }
     return value * radiance * weight * shadowAt(l, wi);
 }
+
+#ifdef AREA_OUTLINES
+#include "shaders/raster/areaLights.glsl"
+#else
+bool isOutline(Light l) {
+    return false;
+}
+#endif
 
 // Light that a sample of the BSDF finds.
 vec3 along(MaterialSample s) {
@@ -82,7 +93,7 @@ vec3 along(MaterialSample s) {
     for (int i = 0; i < counts.x; ++i) {
         Light l = lights[i];
         int kind = int(l.radiance.w);
-        if (l.origin.w > 0.0 || kind > LIGHT_DOME || !isLit(l)) continue;
+        if (l.origin.w > 0.0 || kind > LIGHT_DOME || !isLit(l) || (outlines && isOutline(l))) continue;
         vec3 radiance = l.radiance.xyz;
         float density, seen = 1.0;
         if (kind == LIGHT_DOME) {
@@ -148,9 +159,19 @@ void main() {
         return;
     }
     materialSetup();
+#ifdef AREA_OUTLINES
+    outlines = isTransformable();
+#endif
     for (int i = 0; i < counts.x; ++i) {
         Light l = lights[i];
-        if (isLit(l) && !isSunOfDome(l)) color += fromLight(l);
+        if (!isLit(l) || isSunOfDome(l)) continue;
+#ifdef AREA_OUTLINES
+        if (outlines && isOutline(l)) {
+            color += byOutline(l) + onSheen(l);
+            continue;
+        }
+#endif
+        color += fromLight(l);
     }
     vec3 found = vec3(0.0);
     for (int i = 0; i < counts.y; ++i) {

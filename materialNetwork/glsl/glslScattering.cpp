@@ -1,0 +1,133 @@
+#include "materialNetwork/glsl/glslScattering.h"
+
+#include "materialNetwork/glsl/glslLobes.h"
+
+namespace patina {
+
+namespace {
+
+std::string number(int i) {
+    return std::to_string(i);
+}
+
+/// What a lobe is to lights that go through lobes one by one, as GLSL.
+struct Trait {
+    std::string kind = "LOBE_OTHER", alpha = "0.0", round = "true";
+};
+
+Trait traitOf(LobeKind kind, const std::string& lobe) {
+    Trait t;
+    switch (kind) {
+    case LobeKind::OrenNayar:
+    case LobeKind::Burley:
+    case LobeKind::Subsurface: t.kind = "LOBE_DIFFUSE"; return t;
+    case LobeKind::Sheen: t.kind = "LOBE_SHEEN"; return t;
+    case LobeKind::Dielectric:
+    case LobeKind::Schlick:
+        t.kind = lobe + ".mode == SCATTER_R && " + lobe + ".retro > 0.0 ? LOBE_MIRROR : LOBE_OTHER";
+        break;
+    case LobeKind::Conductor: t.kind = lobe + ".retro > 0.0 ? LOBE_MIRROR : LOBE_OTHER"; break;
+    default: return t;
+    }
+    t.alpha = "sqrt(" + lobe + ".alpha.x * " + lobe + ".alpha.y)";
+    t.round = lobe + ".alpha.x == " + lobe + ".alpha.y && " + lobe + ".facets == FACETS_GGX";
+    return t;
+}
+
+} // namespace
+
+std::string glslFrameOf(const ProgramCode& code, size_t lobe) {
+    return "frames[" + number(code.lobes[lobe].prebuilt.frame) + "]";
+}
+
+std::string glslEval(const ProgramCode& code) {
+    std::string text =
+        "MaterialEval materialEvalBut(vec3 wi, int without) {\n"
+        "    MaterialEval sum = materialEvalNone();\n"
+        "    bool reflects = (dot(wi, point.geometricNormal) > 0.0) == woOutside();\n";
+    for (size_t i = 0; i < code.lobes.size(); ++i) {
+        const LobeTemplate& t = code.lobes[i];
+        const std::string n = number(int(i)), frame = glslFrameOf(code, i);
+        text += "    if (without != " + n + ") addLobe(sum, " +
+                (t.prebuilt.diffuse ? "true" : "false") + ", lobeWeight[" + n + "], lobeChance[" +
+                n + "], reflects, " + frame + ", wi, " + glslLobePrefix(t.prebuilt.kind) +
+                "Eval(lobe" + n + ", " + frame + ".wo, toLocal(" + frame + ", wi)));\n";
+    }
+    return text + "    return sum;\n}\n"
+                  "MaterialEval materialEval(vec3 wi) { return materialEvalBut(wi, -1); }\n";
+}
+
+std::string glslSample(const ProgramCode& code) {
+    std::string text = "MaterialSample materialSample(vec3 u, float uLobe) {\n"
+                       "    MaterialSample s = materialSampleNone();\n"
+                       "    LobeSample l = lobeSampleNone();\n"
+                       "    float below = 0.0, chance = 0.0;\n"
+                       "    vec3 weight = vec3(0.0);\n"
+                       "    int drawn = -1;\n";
+    for (size_t i = 0; i < code.lobes.size(); ++i) {
+        const LobeTemplate& t = code.lobes[i];
+        const std::string n = number(int(i)), frame = glslFrameOf(code, i);
+        const std::string own = "lobeChance[" + n + "]";
+        // Rounding must not leave the last without its share.
+        const bool last = i + 1 == code.lobes.size();
+        text += "    if (drawn < 0 && " + own + " > 0.0" +
+                (last ? std::string() : " && uLobe < below + " + own) + ") {\n";
+        text += "        l = " + std::string(glslLobePrefix(t.prebuilt.kind)) + "Sample(lobe" + n +
+                ", " + frame + ".wo, u);\n";
+        text += "        s.wi = toWorld(" + frame + ", l.wi);\n";
+        text += "        s.diffuse = " + std::string(t.prebuilt.diffuse ? "true" : "false") + ";\n";
+        text += "        drawn = " + n + ";\n";
+        text += "        weight = lobeWeight[" + n + "];\n";
+        text += "        chance = " + own + ";\n";
+        text += "    }\n    below += " + own + ";\n";
+    }
+    return text + "    return finishSample(s, l, drawn, weight, chance);\n}\n";
+}
+
+std::string glslAlbedo(const ProgramCode& code) {
+    std::string text = "vec3 materialAlbedo() {\n    vec3 sum = vec3(0.0);\n";
+    for (size_t i = 0; i < code.lobes.size(); ++i) {
+        const std::string n = number(int(i));
+        text += "    if (luminance(lobeWeight[" + n + "]) > 0.0) sum += lobeWeight[" + n + "] * " +
+                glslLobePrefix(code.lobes[i].prebuilt.kind) + "Albedo(lobe" + n + ", " +
+                glslFrameOf(code, i) + ".wo);\n";
+    }
+    return text + "    return sum;\n}\n";
+}
+
+std::string glslTraits(const ProgramCode& code) {
+    std::string kinds = "int lobeKind(int i) {\n", alphas = "float lobeAlpha(int i) {\n",
+                places = "Frame lobeFrame(int i) {\n", rounds = "bool lobeIsRound(int i) {\n";
+    for (size_t i = 0; i < code.lobes.size(); ++i) {
+        const std::string at = "    if (i == " + number(int(i)) + ") return ";
+        const Trait t = traitOf(code.lobes[i].prebuilt.kind, "lobe" + number(int(i)));
+        kinds += at + t.kind + ";\n";
+        alphas += at + t.alpha + ";\n";
+        rounds += at + t.round + ";\n";
+        places += at + glslFrameOf(code, i) + ";\n";
+    }
+    return "const int LOBE_DIFFUSE = 0, LOBE_SHEEN = 1, LOBE_OTHER = 3;\n"
+           "const int LOBE_MIRROR = 2; // reflects, by facets\n"
+           "const int LOBES = " +
+           number(int(code.lobes.size())) + ";\n" + kinds + "    return LOBE_OTHER;\n}\n" + alphas +
+           "    return 0.0;\n}\n" + rounds + "    return true;\n}\n" + places +
+           "    return frames[0];\n}\n";
+}
+
+std::vector<std::string> glslWalksLeftOut(const ProgramCode& code) {
+    std::vector<std::string> lines;
+    for (const LobeTemplate& t : code.lobes)
+        if (t.walks &&
+            (t.prebuilt.kind == LobeKind::Conductor || t.prebuilt.kind == LobeKind::Dielectric ||
+             t.prebuilt.kind == LobeKind::Schlick)) {
+            lines.push_back("energyCompensation=randomWalk is for the path tracer alone; "
+                            "turquin is shown");
+            break;
+        }
+    if (code.walkedLayers > 0)
+        lines.push_back("layering=positionFree is for the path tracer alone; "
+                        "albedoScaling is shown");
+    return lines;
+}
+
+} // namespace patina

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "materialNetwork/cpu/programCode.h"
+
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// @returns GLSL for the frame of a lobe
+std::string glslFrameOf(const ProgramCode& code, size_t lobe);
+
+/// @returns text of materialEval() and materialEvalBut(), as Bsdf::eval()
+std::string glslEval(const ProgramCode& code);
+
+/// @returns text of materialSample(), as Bsdf::sample()
+std::string glslSample(const ProgramCode& code);
+
+/// @returns text of materialAlbedo(), as Bsdf::albedo(). Only who asks for it takes it in
+std::string glslAlbedo(const ProgramCode& code);
+
+/// @returns text of LOBES, lobeKind(), lobeAlpha(), lobeIsRound() and lobeFrame(): what lights that
+/// go through lobes one by one have to know. Only who asks for it takes it in
+std::string glslTraits(const ProgramCode& code);
+
+/// @returns a line for each method of the program that walks, whose values are random and not
+/// GLSL's
+std::vector<std::string> glslWalksLeftOut(const ProgramCode& code);
+
+} // namespace patina

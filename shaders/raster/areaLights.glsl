@@ -1,0 +1,138 @@
+// Area lights by linearly transformed cosines (choice point areaLight): no noise but that of shadows.
+// Shadows are the share of the lights' samples above the surface's horizon that are seen, all of them
+// alike. Diffuse lobes count as Lambert's, mirrors as round GGX with the albedo of the view; sheen has
+// the lights' samples.
+#include "shaders/lib/ltcFit.glsl"
+#include "shaders/lib/ltc.glsl"
+
+// Whether the light is even over its whole surface, so that its outline says all.
+bool isOutline(Light l) {
+    return l.origin.w <= 0.0 && int(l.radiance.w) <= LIGHT_CYLINDER && l.table.x < 0.0 &&
+           l.table.w < 0.0 && l.shaping.w == 0.0 && l.focusTint.w == 0.0;
+}
+
+// Whether lobes of the material are all of kinds that transforms stand for. In what is nearly a mirror
+// the corners of the outlines would show, and samples make little noise.
+bool isTransformable() {
+    for (int i = 0; i < LOBES; ++i) {
+        int kind = lobeKind(i);
+        if (lobeWeight[i] == vec3(0.0)) continue;
+        if (kind == LOBE_OTHER) return false;
+        if (kind == LOBE_MIRROR && (!lobeIsRound(i) || lobeAlpha(i) < 0.01)) return false;
+    }
+    return true;
+}
+
+// The outline as the point sees it. @returns how many corners, 0 where it shines away
+int outlineOf(Light l, out vec3 corners[LTC_CORNERS]) {
+    int kind = int(l.radiance.w);
+    vec3 d = point.position - l.origin.xyz;
+    vec3 from = toShape(l, d);
+    if (kind == LIGHT_RECT) {
+        if (dot(l.normal.xyz, d) <= 0.0) return 0;
+        for (int i = 0; i < 4; ++i)
+            corners[i] = fromShape(l, vec3(i == 0 || i == 3 ? -0.5 : 0.5, i < 2 ? -0.5 : 0.5, 0.0)) - d;
+        return 4;
+    }
+    const int sides = 16;
+    const float wider = 1.0129; // a polygon of 16 sides as large as its circle
+    if (kind == LIGHT_DISK) {
+        if (dot(l.normal.xyz, d) <= 0.0) return 0;
+        for (int i = 0; i < sides; ++i) {
+            float a = TWO_PI * float(i) / float(sides);
+            corners[i] = fromShape(l, wider * vec3(cos(a), sin(a), 0.0)) - d;
+        }
+        return sides;
+    }
+    if (kind == LIGHT_SPHERE) {
+        // The circle in which the cone of the point touches the sphere.
+        float far2 = dot(from, from);
+        if (far2 <= 1.0001) return 0;
+        vec3 axis = from * inversesqrt(far2), x = anyTangent(axis), y = cross(axis, x);
+        float r = wider * sqrt(1.0 - 1.0 / far2);
+        for (int i = 0; i < sides; ++i) {
+            float a = TWO_PI * float(i) / float(sides);
+            corners[i] = fromShape(l, axis * inversesqrt(far2) + (x * cos(a) + y * sin(a)) * r) - d;
+        }
+        return sides;
+    }
+    float far = length(from.yz);
+    if (far <= 1.0001) return 0;
+    // Two lines that touch the cylinder, and the arcs of its ends that face the point.
+    const int steps = 8;
+    float towards = atan(from.z, from.y), open = acos(1.0 / far);
+    for (int i = 0; i < 2 * steps; ++i) {
+        int k = i < steps ? i : 2 * steps - 1 - i;
+        float a = towards + open * (2.0 * float(k) / float(steps - 1) - 1.0);
+        corners[i] = fromShape(l, vec3(i < steps ? -0.5 : 0.5, cos(a), sin(a))) - d;
+    }
+    return 2 * steps;
+}
+
+// Share of the light's samples that are above the plane of the surface.
+float shareAbove(Light l, vec3 n) {
+    int kind = int(l.radiance.w);
+    float h = dot(n, l.origin.xyz - point.position);
+    vec3 reach = vec3(dot(n, l.axis0.xyz), dot(n, l.axis1.xyz), dot(n, l.axis2.xyz));
+    if (kind == LIGHT_SPHERE) return clamp(0.5 + 0.5 * h / max(length(reach), 1e-20), 0.0, 1.0);
+    if (kind == LIGHT_DISK) {
+        float t = clamp(h / max(length(reach.xy), 1e-20), -1.0, 1.0);
+        return 1.0 - (acos(t) - t * sqrt(1.0 - t * t)) * INV_PI;
+    }
+    // Lines along the shape, each cut exactly.
+    const int lines = 8;
+    bool round = kind == LIGHT_CYLINDER;
+    float width = max(round ? length(reach.yz) : abs(reach.y), 1e-20), sum = 0.0;
+    for (int i = 0; i < lines; ++i) {
+        float t = (h + reach.x * ((float(i) + 0.5) / float(lines) - 0.5)) / width;
+        sum += round ? 1.0 - acos(clamp(t, -1.0, 1.0)) * INV_PI : clamp(0.5 + t, 0.0, 1.0);
+    }
+    return sum / float(lines);
+}
+
+// Light of one light on all diffuse lobes and mirrors.
+vec3 byOutline(Light l) {
+    vec3 corners[LTC_CORNERS], own[LTC_CORNERS];
+    int count = outlineOf(l, corners);
+    if (count == 0) return vec3(0.0);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < LOBES; ++i) {
+        int kind = lobeKind(i);
+        if (lobeWeight[i] == vec3(0.0) || (kind != LOBE_DIFFUSE && kind != LOBE_MIRROR)) continue;
+        Frame f = lobeFrame(i);
+        float side = f.wo.z < 0.0 ? -1.0 : 1.0;
+        vec3 wo = vec3(f.wo.xy, side * f.wo.z);
+        for (int k = 0; k < count; ++k) {
+            vec3 v = toLocal(f, corners[k]);
+            own[k] = ltcTurned(vec3(v.xy, side * v.z), wo);
+        }
+        bool mirror = kind == LOBE_MIRROR;
+        vec4 map = mirror ? ltcFacets(wo, lobeAlpha(i)) : vec4(1.0, 0.0, 1.0, 0.0);
+        sum += lobeWeight[i] * lobeAlbedo[i] * ltcShare(own, count, map) *
+               (mirror ? l.inverse1.w : l.inverse0.w);
+    }
+    if (sum == vec3(0.0) || l.shadow.x < 0.0) return sum * l.radiance.xyz * l.fade.w;
+    // The outline is cut at the horizon: samples below it are no shadow.
+    vec3 n = dot(point.geometricNormal, point.view) < 0.0 ? -point.geometricNormal : point.geometricNormal;
+    vec3 wi = unitOr(l.sampled.xyz - point.position, n);
+    float above = shareAbove(l, n);
+    if (dot(n, wi) <= 0.0 || above <= 1e-4) return vec3(0.0);
+    return sum * l.radiance.xyz * l.fade.w * shadowAt(l, wi) / above;
+}
+
+// What sheen has of the light, by its samples alone.
+vec3 onSheen(Light l) {
+    vec3 weights[max(LOBES, 1)];
+    bool any = false;
+    for (int i = 0; i < LOBES; ++i) {
+        weights[i] = lobeWeight[i];
+        if (lobeKind(i) != LOBE_SHEEN) lobeWeight[i] = vec3(0.0);
+        any = any || lobeWeight[i] != vec3(0.0);
+    }
+    lightsAlone = true;
+    vec3 found = any ? fromLight(l) : vec3(0.0);
+    lightsAlone = false;
+    for (int i = 0; i < LOBES; ++i)
+        lobeWeight[i] = weights[i];
+    return found;
+}

@@ -32,6 +32,7 @@ public:
     bool black() const { return _distribution.empty(); }
     vec3 radiance(const vec3& direction) const;
     int width() const { return _image->width; } ///< texels of the image as it lies in the file
+    int height() const { return _image->height; }
     vec3 mean() const { return _mean; } ///< of the radiance over the sphere
 
     /// @param pdf receives the density over solid angle

@@ -55,15 +55,17 @@ void RasterDomes::upload(bool prefiltered) {
     _maps = GlTexture();
     _densities = GlTexture();
     if (_wanted.empty()) return;
-    int widest = 1;
+    int w = 1;
+    bool same = true; // texels are the image's pixels, so that interpolating twice blurs no kinks
     for (const auto& map : _wanted)
-        widest = std::max(widest, map->width());
-    // Finer than the image by an odd number: then its pixels' centres, where interpolated values
-    // have kinks, are those of texels, and interpolating twice blurs nothing.
-    int w = widest;
-    for (int finer = 3; w < 1024; finer += 2)
-        w = finer * widest;
-    w = std::min(w, 3072);
+        w = std::max(w, map->width());
+    for (const auto& map : _wanted)
+        same &= map->width() == w && 2 * map->height() == w;
+    if (!same || (w & (w - 1)) != 0 || w > 2048) {
+        const int widest = w;
+        for (w = 1024; w < 4 * widest && w < 2048;)
+            w *= 2;
+    }
     const int h = w / 2, dw = densityWidth, dh = dw / 2, layers = int(_wanted.size());
     _maps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_RGBA32F, w, h, layers, 0);
     _densities = GlTexture(GL_TEXTURE_2D_ARRAY, GL_R32F, dw, dh, layers, 0);

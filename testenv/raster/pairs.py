@@ -83,9 +83,10 @@ def command(name, samples, width):
     return f"python testenv/raster/bothBackEnds.py OUTPUT {name} --samples {samples} --width {width}"
 
 
-def pair(name, folder, samples, width, depths=(DIRECT, WHOLE)):
+def pair(name, folder, samples, width, depths=(DIRECT, WHOLE), seed=0):
     """Renders one scene by the rasterizer once, and by the path tracer once per length of paths.
 
+    :param seed: of the rasterizer
     :returns: a dict: `name`, `command`, `raster` (array), `rasterSeconds`, and `traced`: depth -> dict of `image`,
         `seconds` and numbers()
     :raises RuntimeError: with the words of the command that failed"""
@@ -98,7 +99,7 @@ def pair(name, folder, samples, width, depths=(DIRECT, WHOLE)):
         return pixels(image), seconds
 
     row = {"name": name, "command": command(name, samples, width), "traced": {}}
-    row["raster"], row["rasterSeconds"] = render("raster")
+    row["raster"], row["rasterSeconds"] = render("raster", "--seed", str(seed))
     for depth in depths:
         image, seconds = render("embree", "--maxDepth", str(depth), "--seed", str(TRACED_SEED))
         row["traced"][depth] = {"image": image, "seconds": seconds, **numbers(row["raster"], image)}

@@ -309,8 +309,8 @@ def test_the_projects_own_charts():
     charts = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(charts)
     assert set(charts.KINDS) == {"scenes", *chart.CHARTS}
-    for arguments, quick, kept in charts.KINDS.values():
-        for flags in (arguments, quick):
+    for commands, quick, kept in charts.KINDS.values():
+        for flags in (*commands, quick):
             parser = argparse.ArgumentParser(exit_on_error=False)
             chart.add_arguments(parser)
             found = parser.parse_args(flags)

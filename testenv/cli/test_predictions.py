@@ -8,6 +8,7 @@ import pytest
 
 _patina = pytest.importorskip("_patina")
 
+from patina.chart import predictions, predictionsCommand  # noqa: E402
 from patina.cli import main  # noqa: E402
 
 SCENES = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
@@ -77,3 +78,30 @@ def test_renders_tell_the_predicted_error(tmp_path, backend):
     assert "/World/materials/m3" in metadata["patina:methods"]
     if backend == "embree":
         assert plain["maxDepth"] == 16 and planned["maxDepth"] != 16
+
+
+def test_states_are_counted_as_they_are(tmp_path):
+    """Samples that ended before the tolerance was met are a failure; where time ended nothing is said."""
+    rows = [predictions.Row("a", "embree", 0.01, state=state, methodWithin=True, speedup=2.0, defaultSpeedup=0.5)
+            for state in (predictions.WITHIN, predictions.SAMPLES, predictions.OUTSIDE, predictions.SECONDS, predictions.REFERENCE)]
+    rows.append(predictions.Row("b", "embree", 0.0, problem="cannot be read"))
+    text = predictions.summary(rows)
+    assert "methods within it on 5 of 5" in text and "whole error within it on 1 of 3 (2 more ended by time)" in text
+    assert "0.50x of the truth's, 2.00x of the default's" in text
+    table = predictionsCommand.Table(str(tmp_path))
+    with table:
+        for row in rows:
+            table.add(row)
+    assert predictions.read(str(tmp_path / "predictions.csv")) == rows
+
+
+def test_the_shipped_table_keeps_the_promise():
+    """docs/charts/predictions.csv: at least 20 scenes, three tolerances, 95 % within them of those that time did not end."""
+    root = os.path.dirname(os.path.dirname(SCENES))
+    rows = predictions.read(os.path.join(root, "docs", "charts", "predictions.csv"))
+    assert not any(row.problem for row in rows)
+    assert {row.tolerance for row in rows} == {0.001, 0.01, 0.05} and len({row.stage for row in rows}) >= 20
+    said = [row for row in rows if row.state in (predictions.WITHIN, predictions.OUTSIDE, predictions.SAMPLES)]
+    assert len(said) >= 60 and sum(row.state == predictions.WITHIN for row in said) >= 0.95 * len(said)
+    assert all(row.error <= row.tolerance for row in said if row.state == predictions.WITHIN)
+    assert all(row.methodWithin for row in rows)

@@ -31,7 +31,7 @@ def run(arguments):
     most = a.maxSamples or recordFlags.MOST_SAMPLES
     rows = []
     progress = Progress("", a.quiet)
-    with _Table(a.out) as table:
+    with Table(a.out) as table:
         for stage in dict.fromkeys(a.stages):
             for backend in (["embree", "raster"] if a.backend == "both" else [a.backend]):
                 for row in _rows(stage, a, backend, given, most):
@@ -54,7 +54,7 @@ def _rows(stage, a, backend, tolerances, most):
         yield predictions.Row(os.path.splitext(os.path.basename(stage))[0], backend, 0.0, problem=str(error))
 
 
-class _Table:
+class Table:
     """predictions.csv in a folder, or nothing; each row is written when it is there, for the whole takes long."""
 
     def __init__(self, folder):

@@ -107,7 +107,10 @@ const std::vector<ChoicePoint>& choicePoints() {
                           "without the stretch of highlights at grazing angles"},
           {"harmonics", "rasterizer: diffuse and sheen by spherical harmonics of order 2 with the "
                         "dominant light apart, all else filtered; hides sharp changes of the sky's "
-                        "light over the normal"}},
+                        "light over the normal"},
+          {"harmonicsUnwindowed",
+           "rasterizer: the same with all of the sky in the harmonics and no window: to show that "
+           "they ring, bright behind a sun and black beside it"}},
          "sampled"},
         {"areaLight",
          {{"sampled", "rasterizer: a place on each light per pass, and samples of the material; "

@@ -49,10 +49,11 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
     : _tables(diagnostics), _domeSamples(domeSamples), _seed(uint32_t(settings.seed)),
       _shadows(settings.enableShadows) {
     const std::string method = chosenMethod(settings.methods, "domeLight");
-    _domeMethod = method == "filtered"      ? DomeMethod::Filtered
-                  : method == "prefiltered" ? DomeMethod::Prefiltered
-                  : method == "harmonics"   ? DomeMethod::Harmonics
-                                            : DomeMethod::Sampled;
+    _domeMethod = method == "filtered"              ? DomeMethod::Filtered
+                  : method == "prefiltered"         ? DomeMethod::Prefiltered
+                  : method == "harmonics"           ? DomeMethod::Harmonics
+                  : method == "harmonicsUnwindowed" ? DomeMethod::BareHarmonics
+                                                    : DomeMethod::Sampled;
     if (_domeMethod != DomeMethod::Sampled) _domeSamples = 0;
     domes.begin();
     if (settings.enableSceneLights)
@@ -153,8 +154,10 @@ void RasterLights::addDome(Source& s, const Light& light, const mat4& toWorld, L
                                            environmentFormat(light.textureFormat), light.path,
                                            "inputs:texture:file");
         layer = domes.layer(s.environment);
-        if (_domeMethod == DomeMethod::Harmonics || _domeMethod == DomeMethod::Prefiltered) {
-            const SkyHarmonics& sky = domes.harmonics(s.environment);
+        const bool bare = _domeMethod == DomeMethod::BareHarmonics;
+        if (bare || _domeMethod == DomeMethod::Harmonics ||
+            _domeMethod == DomeMethod::Prefiltered) {
+            const SkyHarmonics& sky = domes.harmonics(s.environment, bare);
             std::vector<vec4> values;
             for (const vec3& c : sky.irradiance)
                 values.emplace_back(c, 0.0f);

@@ -47,7 +47,7 @@ public:
 
 private:
     /// How domes light; see the choice point `domeLight`.
-    enum class DomeMethod { Sampled, Filtered, Prefiltered, Harmonics };
+    enum class DomeMethod { Sampled, Filtered, Prefiltered, Harmonics, BareHarmonics };
     /// The numbers are those of lights.glsl.
     enum Kind { Rect, Disk, Sphere, Cylinder, Point, Distant, Dome, MoreDome, Line, Triangle };
     struct Source {

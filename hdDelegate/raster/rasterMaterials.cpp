@@ -27,8 +27,9 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
     const std::string method = chosenMethod(settings.methods, "domeLight");
     _lighting = method == "filtered"      ? "#define DOME_METHOD DOME_FILTERED\n"
                 : method == "prefiltered" ? "#define DOME_METHOD DOME_PREFILTERED\n"
-                : method == "harmonics"   ? "#define DOME_METHOD DOME_HARMONICS\n"
-                                          : "";
+                : method == "harmonics" || method == "harmonicsUnwindowed"
+                    ? "#define DOME_METHOD DOME_HARMONICS\n"
+                    : "";
     if (chosenMethod(settings.methods, "areaLight") == "linearlyTransformedCosines")
         _lighting += "#define AREA_OUTLINES\n";
     for (auto it = _materials.begin(); it != _materials.end();) {

@@ -116,7 +116,8 @@ vec3 SkyHarmonics::at(const vec3& normal) const {
     return sum;
 }
 
-SkyHarmonics makeSkyHarmonics(const std::function<vec3(const vec3&)>& radiance, bool splitSun) {
+SkyHarmonics makeSkyHarmonics(const std::function<vec3(const vec3&)>& radiance, bool splitSun,
+                              bool windows) {
     SkyHarmonics out;
     std::vector<vec3> sky(size_t(width) * height);
     for (int y = 0; y < height; ++y)
@@ -146,7 +147,7 @@ SkyHarmonics makeSkyHarmonics(const std::function<vec3(const vec3&)>& radiance, 
         }
     for (int i = 0; i < 9; ++i)
         out.irradiance[i] = vec3(sums[i]) * cosine[bandOf(i)];
-    if (lowest(out) >= 0.0f) return out;
+    if (!windows || lowest(out) >= 0.0f) return out;
     float low = 0.0f, high = 1e-3f;
     while (lowest(windowed(out, high)) < 0.0f && high < 1e3f)
         high *= 2.0f;

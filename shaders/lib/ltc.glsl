@@ -75,3 +75,64 @@ PATINA_FN vec3 ltcTurned(vec3 v, vec3 wo) {
     float s = wo.y / l;
     return vec3(c * v.x + s * v.y, c * v.y - s * v.x, v.z);
 }
+
+const int LTC_RECT = 0; // sides of 1 across x and y
+const int LTC_DISK = 1; // radius 1, across x and y
+const int LTC_SPHERE = 2; // radius 1
+const int LTC_CYLINDER = 3; // radius 1, length 1 along x
+
+struct LtcOutline {
+    vec3 corners[LTC_CORNERS];
+    int count; // 0: none, as from the inside
+};
+
+// The outline of a shape as a point sees it.
+PATINA_FN LtcOutline ltcOutline(int kind, vec3 from) {
+    LtcOutline o;
+    o.count = 16;
+    const float wider = 1.0129f; // a polygon of 16 sides as large as its circle
+    if (kind == LTC_RECT) {
+        o.count = 4;
+        o.corners[0] = vec3(-0.5f, -0.5f, 0.0f);
+        o.corners[1] = vec3(0.5f, -0.5f, 0.0f);
+        o.corners[2] = vec3(0.5f, 0.5f, 0.0f);
+        o.corners[3] = vec3(-0.5f, 0.5f, 0.0f);
+    } else if (kind == LTC_CYLINDER) {
+        // Two lines that touch it, and the arcs of its ends that face the point.
+        float far2 = from.y * from.y + from.z * from.z;
+        if (far2 <= 1.0002f) o.count = 0;
+        float far = sqrt(max(far2, 1.0f));
+        float open = acos(1.0f / far);
+        for (int i = 0; i < o.count; ++i) {
+            int k = i;
+            if (i >= 8) k = 15 - i;
+            float a = open * (2.0f * float(k) / 7.0f - 1.0f);
+            float c = cos(a) / far;
+            float s = sin(a) / far;
+            float x = -0.5f;
+            if (i >= 8) x = 0.5f;
+            o.corners[i] = vec3(x, c * from.y - s * from.z, c * from.z + s * from.y);
+        }
+    } else {
+        // Of a sphere the circle in which the point's cone touches it.
+        vec3 axis = vec3(0.0f, 0.0f, 1.0f);
+        float height = 0.0f;
+        float r = wider;
+        if (kind == LTC_SPHERE) {
+            float far2 = dot(from, from);
+            if (far2 <= 1.0002f) o.count = 0;
+            height = 1.0f / sqrt(max(far2, 1.0f));
+            axis = from * height;
+            r = wider * sqrt(max(1.0f - height * height, 0.0f));
+        }
+        vec3 x = vec3(1.0f, 0.0f, 0.0f);
+        if (abs(axis.x) > 0.7f) x = vec3(0.0f, 1.0f, 0.0f);
+        x = normalize(cross(x, axis));
+        vec3 y = cross(axis, x);
+        for (int i = 0; i < o.count; ++i) {
+            float a = TWO_PI * float(i) / 16.0f;
+            o.corners[i] = axis * height + (x * cos(a) + y * sin(a)) * r;
+        }
+    }
+    return o;
+}

@@ -86,7 +86,8 @@ std::vector<Row> measureMethods(const std::string& point, bool timed) {
                   {"thinFilm", thinFilm},
                   {"diffuse", diffuse},
                   {"sheen", sheen},
-                  {"subsurface", subsurface}};
+                  {"subsurface", subsurface},
+                  {"areaLight", areaLight}};
     std::vector<Row> rows;
     for (const auto& p : points)
         if (point.empty() || point == p.name)

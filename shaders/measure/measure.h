@@ -67,6 +67,7 @@ std::vector<Row> diffuse(bool timed);
 std::vector<Row> energyWalk(bool timed); ///< the truth of energyCompensation
 std::vector<Row> sheen(bool timed);
 std::vector<Row> subsurface(bool timed);
+std::vector<Row> areaLight(bool timed);
 
 /// Rows of all choice points that concern lobes by themselves, or of `point` alone; layering has
 /// materialNetwork/measure.

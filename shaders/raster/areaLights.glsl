@@ -27,46 +27,11 @@ bool isTransformable() {
 int outlineOf(Light l, out vec3 corners[LTC_CORNERS]) {
     int kind = int(l.radiance.w);
     vec3 d = point.position - l.origin.xyz;
-    vec3 from = toShape(l, d);
-    if (kind == LIGHT_RECT) {
-        if (dot(l.normal.xyz, d) <= 0.0) return 0;
-        for (int i = 0; i < 4; ++i)
-            corners[i] = fromShape(l, vec3(i == 0 || i == 3 ? -0.5 : 0.5, i < 2 ? -0.5 : 0.5, 0.0)) - d;
-        return 4;
-    }
-    const int sides = 16;
-    const float wider = 1.0129; // a polygon of 16 sides as large as its circle
-    if (kind == LIGHT_DISK) {
-        if (dot(l.normal.xyz, d) <= 0.0) return 0;
-        for (int i = 0; i < sides; ++i) {
-            float a = TWO_PI * float(i) / float(sides);
-            corners[i] = fromShape(l, wider * vec3(cos(a), sin(a), 0.0)) - d;
-        }
-        return sides;
-    }
-    if (kind == LIGHT_SPHERE) {
-        // The circle in which the cone of the point touches the sphere.
-        float far2 = dot(from, from);
-        if (far2 <= 1.0001) return 0;
-        vec3 axis = from * inversesqrt(far2), x = anyTangent(axis), y = cross(axis, x);
-        float r = wider * sqrt(1.0 - 1.0 / far2);
-        for (int i = 0; i < sides; ++i) {
-            float a = TWO_PI * float(i) / float(sides);
-            corners[i] = fromShape(l, axis * inversesqrt(far2) + (x * cos(a) + y * sin(a)) * r) - d;
-        }
-        return sides;
-    }
-    float far = length(from.yz);
-    if (far <= 1.0001) return 0;
-    // Two lines that touch the cylinder, and the arcs of its ends that face the point.
-    const int steps = 8;
-    float towards = atan(from.z, from.y), open = acos(1.0 / far);
-    for (int i = 0; i < 2 * steps; ++i) {
-        int k = i < steps ? i : 2 * steps - 1 - i;
-        float a = towards + open * (2.0 * float(k) / float(steps - 1) - 1.0);
-        corners[i] = fromShape(l, vec3(i < steps ? -0.5 : 0.5, cos(a), sin(a))) - d;
-    }
-    return 2 * steps;
+    if ((kind == LIGHT_RECT || kind == LIGHT_DISK) && dot(l.normal.xyz, d) <= 0.0) return 0;
+    LtcOutline outline = ltcOutline(kind, toShape(l, d));
+    for (int i = 0; i < outline.count; ++i)
+        corners[i] = fromShape(l, outline.corners[i]) - d;
+    return outline.count;
 }
 
 // Share of the light's samples that are above the plane of the surface.

@@ -9,7 +9,7 @@ from patina.chart import lobes, svg
 from patina.cli import compiled, main
 
 MEASURED = ("energyCompensation", "directionalAlbedo", "sampling", "fresnel", "thinFilm", "diffuse", "sheen",
-            "layering", "subsurface")
+            "layering", "subsurface", "areaLight")
 
 
 def test_rows_csv_and_charts(capsys, tmp_path):

@@ -5,9 +5,11 @@ very settings; both images are made of fixed seeds, so that a difference is a ch
 """
 import os
 
+import numpy as np
 import pytest
 
 import bothBackEnds
+from patina.chart import sweepsSky
 
 STAGE = """#usda 1.0
 (
@@ -85,8 +87,6 @@ def many_links():
 
 
 def _image(folder):
-    import numpy as np
-
     import _patina
 
     values = np.zeros((8, 8, 3), np.float32)
@@ -195,3 +195,16 @@ def test_one_filtered_pass_has_less_noise_than_one_sampled_pass(references, tmp_
                             "domeLight=" + method)
         error[method] = bothBackEnds.numbers(bothBackEnds.pixels(image), references["roughConductor"])["relMSE"]
     assert error["filtered"] < error["sampled"], error
+
+
+def test_harmonics_ring_only_without_a_window():
+    """A ball under a sky with one bright texel, whose harmonics of order 2 are known: what is below zero is black."""
+    sky = sweepsSky.one_texel()
+    truth, ringing = sweepsSky.irradiance(sky), np.maximum(sweepsSky.irradiance(sky, 2), 0.0)
+    error = {}
+    for method in ("harmonics", "harmonicsUnwindowed"):
+        drawn = sweepsSky.render(sky, sweepsSky.DIFFUSE, "raster", 16, "--method", "domeLight=" + method)
+        error[method] = float(np.abs(drawn - truth).mean() / truth.mean())
+        if method == "harmonicsUnwindowed":
+            assert np.abs(drawn - ringing).max() < 0.05 * ringing.max()
+    assert error["harmonics"] < 0.4 * error["harmonicsUnwindowed"], error

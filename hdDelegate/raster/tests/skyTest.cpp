@@ -97,6 +97,15 @@ TEST(SkyHarmonics, withoutTheSplitOneBrightPixelRingsOrIsSpread) {
     EXPECT_GT(most, 2.0f * 0.3f * pi);
 }
 
+TEST(SkyHarmonics, withoutAWindowOneBrightPixelRingsBelowZero) {
+    const SkyHarmonics bare = makeSkyHarmonics(onePixel, false, false);
+    EXPECT_EQ(bare.window, 0.0f);
+    float least = 0.0f;
+    for (int i = 0; i < 200; ++i)
+        least = std::min(least, bare.at(directionAt(i % 20, i / 20, 20, 10)).x);
+    EXPECT_LT(least, -0.1f);
+}
+
 TEST(SkyHarmonics, survivesWhatIsNoLight) {
     const SkyHarmonics sky = makeSkyHarmonics(
         [](const vec3& d) { return d.x > 0.0f ? vec3(NAN) : vec3(-1.0f, INFINITY, 0.0f); });

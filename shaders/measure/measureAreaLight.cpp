@@ -1,0 +1,284 @@
+#include "shaders/measure/measure.h"
+#include "shaders/measure/places.h"
+
+#include <random>
+
+#include <glm/glm.hpp>
+
+namespace patina {
+namespace sh {
+#define PATINA_FN inline
+#include "shaders/lib/ltcFit.glsl"
+
+#include "shaders/lib/ltc.glsl"
+#undef PATINA_FN
+} // namespace sh
+} // namespace patina
+
+namespace patina::measure {
+
+namespace {
+
+using sh::vec2;
+using sh::vec3;
+
+constexpr int kSide = 8;   ///< places: cosines, and roots of alpha
+constexpr int kFine = 100; ///< places along a side of the light, for the truth
+constexpr int kPoses = 5;
+constexpr float kPi = 3.14159265f;
+
+/// As lightTrust and the samples of the material of shaders/raster/lighting.frag.glsl.
+constexpr float kLightTrust = 8.0f;
+constexpr int kMaterialSamples = 2;
+
+/// A shape of ltcOutline() with radiance 1, seen from a point in whose frame the normal is z.
+struct AreaLight {
+    int kind;
+    vec3 origin, x, y, z; ///< places are origin + x a + y b + z c
+
+    /// @param u in the unit square @returns a place; n: the normal there, times the area for all u
+    vec3 at(vec2 u, vec3& n) const {
+        const float a = 2.0f * kPi * u.y;
+        vec3 p(u.x - 0.5f, u.y - 0.5f, 0.0f);
+        if (kind == sh::LTC_RECT) {
+            n = glm::cross(x, y);
+        } else if (kind == sh::LTC_DISK) {
+            p = std::sqrt(u.x) * vec3(std::cos(a), std::sin(a), 0.0f);
+            n = kPi * glm::cross(x, y);
+        } else if (kind == sh::LTC_SPHERE) {
+            const float h = 2.0f * u.x - 1.0f, r = std::sqrt(1.0f - h * h);
+            p = vec3(r * std::cos(a), r * std::sin(a), h);
+            n = 4.0f * kPi * glm::dot(x, x) * glm::normalize(x * p.x + y * p.y + z * p.z);
+        } else {
+            p = vec3(u.x - 0.5f, std::cos(a), std::sin(a));
+            n = 2.0f * kPi * glm::length(x) * glm::length(y) * glm::normalize(y * p.y + z * p.z);
+        }
+        return origin + x * p.x + y * p.y + z * p.z;
+    }
+
+    /// The direction to a place, and its density by solid angle; 0 where it shines away.
+    float density(const vec3& p, const vec3& n, vec3& wi) const {
+        const float d2 = glm::dot(p, p);
+        wi = p / std::sqrt(d2);
+        const float c = -glm::dot(n, wi); // times the area
+        return c > 1e-9f ? d2 / c : 0.0f;
+    }
+
+    vec3 toShape(const vec3& v) const {
+        return vec3(glm::dot(v, x) / glm::dot(x, x), glm::dot(v, y) / glm::dot(y, y),
+                    glm::dot(v, z) / glm::dot(z, z));
+    }
+
+    /// Density with which at() finds a direction; 0 where there is no light.
+    float densityAlong(const vec3& wi) const {
+        const vec3 o = toShape(-origin), d = toShape(wi);
+        float t = -1.0f;
+        if (kind == sh::LTC_RECT || kind == sh::LTC_DISK) {
+            t = std::fabs(d.z) > 1e-9f ? -o.z / d.z : -1.0f;
+            const vec3 p = o + d * t;
+            const bool inside = kind == sh::LTC_RECT
+                                    ? std::max(std::fabs(p.x), std::fabs(p.y)) <= 0.5f
+                                    : p.x * p.x + p.y * p.y <= 1.0f;
+            if (!inside) return 0.0f;
+        } else {
+            const vec3 along = kind == sh::LTC_SPHERE ? vec3(1.0f) : vec3(0.0f, 1.0f, 1.0f);
+            const float a = glm::dot(d * along, d), b = glm::dot(o * along, d),
+                        c = glm::dot(o * along, o) - 1.0f, root = b * b - a * c;
+            if (a < 1e-12f || root < 0.0f) return 0.0f;
+            t = (-b - std::sqrt(root)) / a;
+            if (kind == sh::LTC_CYLINDER && std::fabs(o.x + d.x * t) > 0.5f) return 0.0f;
+        }
+        if (t <= 0.0f) return 0.0f;
+        const vec3 p = wi * t, local = o + d * t;
+        vec3 n, unused;
+        at(vec2(0.5f), n);
+        if (kind == sh::LTC_SPHERE)
+            n = glm::length(n) * glm::normalize(x * local.x + y * local.y + z * local.z);
+        if (kind == sh::LTC_CYLINDER)
+            n = glm::length(n) * glm::normalize(y * local.y + z * local.z);
+        return density(p, n, unused);
+    }
+};
+
+/// A light beside the direction in which a mirror would show it, or edge on; for diffuse lobes on
+/// all sides.
+AreaLight pose(int kind, bool edgeOn, bool around, const vec3& wo, int i) {
+    const float aside = 0.35f * float(i - 1), turned = 2.4f * float(i);
+    const float about = around ? kPi + 0.4f * kPi * float(i) : kPi;
+    vec3 to = glm::normalize(vec3(wo.x * std::cos(about), wo.x * std::sin(about), wo.z) +
+                             aside * vec3(std::cos(turned), std::sin(turned), 0.7f));
+    to.z = std::max(to.z, 0.05f);
+    to = glm::normalize(to);
+    AreaLight l{kind, 1.6f * to, vec3(0.0f), vec3(0.0f), vec3(0.0f)};
+    vec3 n = -to;
+    const vec3 side =
+        glm::normalize(glm::cross(std::fabs(n.z) < 0.9f ? vec3(0, 0, 1) : vec3(1, 0, 0), n));
+    if (edgeOn) n = glm::normalize(n + 4.0f * side);
+    l.x = glm::normalize(glm::cross(vec3(0.3f, 0.9f, 0.2f), n));
+    l.y = glm::cross(n, l.x);
+    l.z = n;
+    const bool flat = kind == sh::LTC_RECT || kind == sh::LTC_DISK;
+    const float size = kind == sh::LTC_RECT ? 1.0f : kind == sh::LTC_CYLINDER ? 0.25f : 0.4f;
+    const float length = kind == sh::LTC_CYLINDER ? 1.2f : size;
+    l.x *= length;
+    l.y *= size;
+    l.z *= flat ? 1.0f : size;
+    return l;
+}
+
+/// A lobe of one of the kinds, at one place.
+struct Reflector {
+    std::string kind;
+    sh::ConductorLobe metal;
+    sh::DielectricLobe plastic;
+    sh::OrenNayarLobe diffuse;
+    vec3 wo;
+    float alpha;
+
+    Reflector(const std::string& k, const Place& p) : kind(k), wo(p.wo), alpha(float(p.alpha)) {
+        metal =
+            sh::conductorAt(sh::conductorSetup(vec3(float(kMetals[0].n)), vec3(float(kMetals[0].k)),
+                                               vec2(alpha), false, sh::COMPENSATE_SCALE),
+                            wo);
+        plastic = sh::dielectricAt(sh::dielectricSetup(vec3(1.0f), 1.5f, vec2(alpha), false,
+                                                       sh::SCATTER_R, false, sh::COMPENSATE_SCALE),
+                                   wo);
+        diffuse = sh::orenNayarSetup(vec3(0.5f), std::sqrt(alpha), true);
+    }
+    sh::LobeEval eval(const vec3& wi) const {
+        return kind == "conductor"    ? sh::conductorEval(metal, wo, wi)
+               : kind == "dielectric" ? sh::dielectricEval(plastic, wo, wi)
+                                      : sh::orenNayarEval(diffuse, wo, wi);
+    }
+    sh::LobeSample sample(const vec3& u) const {
+        return kind == "conductor"    ? sh::conductorSample(metal, wo, u)
+               : kind == "dielectric" ? sh::dielectricSample(plastic, wo, u)
+                                      : sh::orenNayarSample(diffuse, wo, u);
+    }
+    float albedo() const {
+        return kind == "conductor"    ? sh::conductorAlbedo(metal, wo).x
+               : kind == "dielectric" ? sh::dielectricAlbedo(plastic, wo).x
+                                      : sh::orenNayarAlbedo(diffuse, wo).x;
+    }
+};
+
+double brute(const Reflector& f, const AreaLight& l) {
+    double sum = 0.0;
+    for (int i = 0; i < kFine * kFine; ++i) {
+        vec3 n, wi;
+        const vec3 p = l.at((vec2(float(i % kFine), float(i / kFine)) + 0.5f) / float(kFine), n);
+        const float density = l.density(p, n, wi);
+        if (density > 0.0f && wi.z > 0.0f) sum += f.eval(wi).value.x / density;
+    }
+    return sum / (double(kFine) * kFine);
+}
+
+/// As the rasterizer: a place on the light per pass, and samples of the material.
+double sampled(const Reflector& f, const AreaLight& l, int passes, std::mt19937& random) {
+    std::uniform_real_distribution<float> u(0.0f, 1.0f);
+    const auto heuristic = [](float a, float b) { return a * a / std::max(a * a + b * b, 1e-30f); };
+    double sum = 0.0;
+    for (int i = 0; i < passes; ++i) {
+        vec3 n, wi;
+        const vec3 p = l.at(vec2(u(random), u(random)), n);
+        const float density = l.density(p, n, wi);
+        if (density > 0.0f && wi.z > 0.0f) {
+            const sh::LobeEval e = f.eval(wi);
+            sum += e.value.x / density *
+                   heuristic(kLightTrust * density, float(kMaterialSamples) * e.pdf);
+        }
+        for (int k = 0; k < kMaterialSamples; ++k) {
+            const sh::LobeSample s = f.sample(vec3(u(random), u(random), u(random)));
+            if (s.event == 0 || s.wi.z <= 0.0f) continue;
+            const float found = l.densityAlong(s.wi);
+            if (found > 0.0f)
+                sum += s.weight.x / kMaterialSamples *
+                       heuristic(float(kMaterialSamples) * s.pdf, kLightTrust * found);
+        }
+    }
+    return sum / passes;
+}
+
+double truth(const Reflector& f, const AreaLight& l) {
+    if (f.alpha >= 0.01f) return brute(f, l);
+    std::mt19937 random(3); // sharp lobes fall between places
+    return sampled(f, l, 4096, random);
+}
+
+double byOutline(const Reflector& f, const AreaLight& l) {
+    sh::LtcOutline outline = sh::ltcOutline(l.kind, l.toShape(-l.origin));
+    if (outline.count == 0) return 0.0;
+    if ((l.kind == sh::LTC_RECT || l.kind == sh::LTC_DISK) && glm::dot(l.z, l.origin) >= 0.0f)
+        return 0.0;
+    for (int i = 0; i < outline.count; ++i) {
+        const vec3& c = outline.corners[i];
+        outline.corners[i] = sh::ltcTurned(l.origin + l.x * c.x + l.y * c.y + l.z * c.z, f.wo);
+    }
+    const sh::vec4 map =
+        f.kind == "diffuse" ? sh::vec4(1.0f, 0.0f, 1.0f, 0.0f) : sh::ltcFacets(f.wo, f.alpha);
+    return double(f.albedo() * sh::ltcShare(outline.corners, outline.count, map));
+}
+
+} // namespace
+
+// Light of an area light without shadows: a light's samples and the material's, and the outline,
+// against a sum over 10000 places of the light, or 4096 samples. Below alpha 0.01,
+// in the first bin, the rasterizer samples whatever the method.
+std::vector<Row> areaLight(bool timed) {
+    const struct {
+        const char* name;
+        int kind;
+        bool edgeOn;
+    } shapes[] = {{"rect", sh::LTC_RECT, false},
+                  {"rect, edge on", sh::LTC_RECT, true},
+                  {"disk", sh::LTC_DISK, false},
+                  {"sphere", sh::LTC_SPHERE, false},
+                  {"cylinder", sh::LTC_CYLINDER, false}};
+    const std::vector<Place> grid = places(kSide);
+    std::vector<Row> rows;
+    for (const char* kind : {"diffuse", "dielectric", "conductor"})
+        for (const auto& shape : shapes) {
+            std::vector<Reflector> lobes;
+            std::vector<AreaLight> lights;
+            std::vector<double> truths;
+            for (const Place& p : grid)
+                for (int i = 0; i < kPoses; ++i) {
+                    lobes.emplace_back(kind, p);
+                    lights.push_back(pose(shape.kind, shape.edgeOn, lobes.back().kind == "diffuse",
+                                          lobes.back().wo, i));
+                    truths.push_back(truth(lobes.back(), lights.back()));
+                }
+            for (const int passes : {0, 1, 4, 16, 64}) {
+                Row row;
+                row.point = "areaLight";
+                row.method = passes ? "sampled" : "linearlyTransformedCosines";
+                row.subject = std::string(kind) + ", " + shape.name +
+                              (passes > 1 ? ", " + std::to_string(passes) + " samples" : "");
+                row.error = "light";
+                row.kind = kind;
+                const auto value = [&](size_t i, std::mt19937& random) {
+                    return passes ? sampled(lobes[i], lights[i], passes, random)
+                                  : byOutline(lobes[i], lights[i]);
+                };
+                std::mt19937 random(5);
+                Errors errors;
+                for (size_t i = 0; i < lobes.size(); ++i)
+                    errors.add(value(i, random) - truths[i], truths[i],
+                               std::sqrt(double(lobes[i].alpha)), lobes[i].wo.z);
+                errors.into(row);
+                if (timed)
+                    time(
+                        [&](int n) {
+                            double sum = 0.0;
+                            for (int i = 0; i < n; ++i)
+                                sum += value(size_t(i) * 7 % lobes.size(), random);
+                            return sum;
+                        },
+                        passes > 4 ? 16 : 128, row);
+                rows.push_back(row);
+            }
+        }
+    return rows;
+}
+
+} // namespace patina::measure

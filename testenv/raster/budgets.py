@@ -18,7 +18,7 @@ import os
 FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "budgets.json")
 SLACK, LEAST = 1.1, 0.004  # between a measurement and the budget that it sets
 LARGEST_FLIP = 0.01        # where both have the same answer
-SEEDS = 5
+SEEDS = 3
 
 
 def load():

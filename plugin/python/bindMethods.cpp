@@ -2,6 +2,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "hdDelegate/raster/measure/measureDome.h"
 #include "hdDelegate/scene/textureSystem.h"
 #include "materialNetwork/material.h"
 #include "materialNetwork/measure/measureLayers.h"
@@ -96,9 +97,13 @@ py::list measured(const std::string& point, bool timed) {
     {
         py::gil_scoped_release release;
         found = measure::measureMethods(point, timed);
-        if (point.empty() || point == "layering")
-            for (measure::Row& row : measure::layering(timed))
+        const auto add = [&](const char* name, std::vector<measure::Row> (*rows)(bool)) {
+            if (!point.empty() && point != name) return;
+            for (measure::Row& row : rows(timed))
                 found.push_back(std::move(row));
+        };
+        add("layering", measure::layering);
+        add("domeLight", measure::domeLight);
     }
     py::list rows;
     for (const measure::Row& r : found) {

@@ -70,7 +70,7 @@ std::vector<Row> subsurface(bool timed);
 std::vector<Row> areaLight(bool timed);
 
 /// Rows of all choice points that concern lobes by themselves, or of `point` alone; layering has
-/// materialNetwork/measure.
+/// materialNetwork/measure, domeLight hdDelegate/raster/measure.
 std::vector<Row> measureMethods(const std::string& point, bool timed);
 
 } // namespace patina::measure

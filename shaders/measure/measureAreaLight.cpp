@@ -1,5 +1,5 @@
 #include "shaders/measure/measure.h"
-#include "shaders/measure/places.h"
+#include "shaders/measure/reflector.h"
 
 #include <random>
 
@@ -126,42 +126,6 @@ AreaLight pose(int kind, bool edgeOn, bool around, const vec3& wo, int i) {
     return l;
 }
 
-/// A lobe of one of the kinds, at one place.
-struct Reflector {
-    std::string kind;
-    sh::ConductorLobe metal;
-    sh::DielectricLobe plastic;
-    sh::OrenNayarLobe diffuse;
-    vec3 wo;
-    float alpha;
-
-    Reflector(const std::string& k, const Place& p) : kind(k), wo(p.wo), alpha(float(p.alpha)) {
-        metal =
-            sh::conductorAt(sh::conductorSetup(vec3(float(kMetals[0].n)), vec3(float(kMetals[0].k)),
-                                               vec2(alpha), false, sh::COMPENSATE_SCALE),
-                            wo);
-        plastic = sh::dielectricAt(sh::dielectricSetup(vec3(1.0f), 1.5f, vec2(alpha), false,
-                                                       sh::SCATTER_R, false, sh::COMPENSATE_SCALE),
-                                   wo);
-        diffuse = sh::orenNayarSetup(vec3(0.5f), std::sqrt(alpha), true);
-    }
-    sh::LobeEval eval(const vec3& wi) const {
-        return kind == "conductor"    ? sh::conductorEval(metal, wo, wi)
-               : kind == "dielectric" ? sh::dielectricEval(plastic, wo, wi)
-                                      : sh::orenNayarEval(diffuse, wo, wi);
-    }
-    sh::LobeSample sample(const vec3& u) const {
-        return kind == "conductor"    ? sh::conductorSample(metal, wo, u)
-               : kind == "dielectric" ? sh::dielectricSample(plastic, wo, u)
-                                      : sh::orenNayarSample(diffuse, wo, u);
-    }
-    float albedo() const {
-        return kind == "conductor"    ? sh::conductorAlbedo(metal, wo).x
-               : kind == "dielectric" ? sh::dielectricAlbedo(plastic, wo).x
-                                      : sh::orenNayarAlbedo(diffuse, wo).x;
-    }
-};
-
 double brute(const Reflector& f, const AreaLight& l) {
     double sum = 0.0;
     for (int i = 0; i < kFine * kFine; ++i) {
@@ -215,7 +179,7 @@ double byOutline(const Reflector& f, const AreaLight& l) {
         outline.corners[i] = sh::ltcTurned(l.origin + l.x * c.x + l.y * c.y + l.z * c.z, f.wo);
     }
     const sh::vec4 map =
-        f.kind == "diffuse" ? sh::vec4(1.0f, 0.0f, 1.0f, 0.0f) : sh::ltcFacets(f.wo, f.alpha);
+        !f.mirrors() ? sh::vec4(1.0f, 0.0f, 1.0f, 0.0f) : sh::ltcFacets(f.wo, f.alpha);
     return double(f.albedo() * sh::ltcShare(outline.corners, outline.count, map));
 }
 
@@ -236,7 +200,7 @@ std::vector<Row> areaLight(bool timed) {
                   {"cylinder", sh::LTC_CYLINDER, false}};
     const std::vector<Place> grid = places(kSide);
     std::vector<Row> rows;
-    for (const char* kind : {"diffuse", "dielectric", "conductor"})
+    for (const auto kind : {Reflector::Diffuse, Reflector::Dielectric, Reflector::Conductor})
         for (const auto& shape : shapes) {
             std::vector<Reflector> lobes;
             std::vector<AreaLight> lights;
@@ -244,7 +208,7 @@ std::vector<Row> areaLight(bool timed) {
             for (const Place& p : grid)
                 for (int i = 0; i < kPoses; ++i) {
                     lobes.emplace_back(kind, p);
-                    lights.push_back(pose(shape.kind, shape.edgeOn, lobes.back().kind == "diffuse",
+                    lights.push_back(pose(shape.kind, shape.edgeOn, !lobes.back().mirrors(),
                                           lobes.back().wo, i));
                     truths.push_back(truth(lobes.back(), lights.back()));
                 }
@@ -252,10 +216,10 @@ std::vector<Row> areaLight(bool timed) {
                 Row row;
                 row.point = "areaLight";
                 row.method = passes ? "sampled" : "linearlyTransformedCosines";
-                row.subject = std::string(kind) + ", " + shape.name +
+                row.subject = std::string(Reflector::name(kind)) + ", " + shape.name +
                               (passes > 1 ? ", " + std::to_string(passes) + " samples" : "");
                 row.error = "light";
-                row.kind = kind;
+                row.kind = Reflector::name(kind);
                 const auto value = [&](size_t i, std::mt19937& random) {
                     return passes ? sampled(lobes[i], lights[i], passes, random)
                                   : byOutline(lobes[i], lights[i]);

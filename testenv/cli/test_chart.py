@@ -9,7 +9,7 @@ from patina.chart import lobes, svg
 from patina.cli import compiled, main
 
 MEASURED = ("energyCompensation", "directionalAlbedo", "sampling", "fresnel", "thinFilm", "diffuse", "sheen",
-            "layering", "subsurface", "areaLight")
+            "layering", "subsurface", "areaLight", "domeLight")
 
 
 def test_rows_csv_and_charts(capsys, tmp_path):
@@ -63,7 +63,6 @@ def test_listing_shows_figures(capsys):
 
 
 @pytest.mark.parametrize("arguments", [[], ["--lobes", "--point", "nothing"], ["--lobes", "--point", "thinWalled"],
-                                       ["--lobes", "--point", "fresnel", "--table", "x.cpp"],
                                        ["--lobes", "--point", "fresnel", "--out", "/dev/null/x"]])
 def test_what_cannot_be_charted(arguments, capsys):
     assert main.main(["chart", *arguments]) in (1, 2)
@@ -75,6 +74,21 @@ def test_axes():
     axis = svg.Axis([0.0, 0.02, 30.0], 0.0, 100.0)
     assert axis.decades() == [0.01, 0.1, 1.0, 10.0, 100.0]
     assert axis.at(0.0) == 0.0 and axis.at(1.0) == pytest.approx(50.0)
+
+
+def test_a_point_goes_into_the_table_alone():
+    table = [{"point": p, "subject": s} for p, s in (("a", "1"), ("b", "2"), ("b", "3"), ("c", "4"))]
+    rows = [{"point": "b", "subject": "new"}]
+    assert [row["subject"] for row in lobes.merged(rows, table, "b")] == ["1", "new", "4"]
+    assert [row["subject"] for row in lobes.merged(rows, table[:1], "b")] == ["1", "new"]
+
+
+def test_costs_of_counts_are_over_the_default_without_one():
+    rows = [{"point": "p", "method": m, "subject": s, "ns": ns}
+            for m, s, ns in (("a", "x", 10.0), ("a", "x, 16 passes", 160.0), ("b", "x, 4 samples", 5.0),
+                             ("b", "y", 3.0))]
+    costs = [row["cost"] for row in lobes.with_cost(rows, [("p", [("a", ""), ("b", "")])])]
+    assert costs == [1.0, 1.0, 0.5, 1.0]
 
 
 def test_table_text(tmp_path):

@@ -1,6 +1,7 @@
 """Rows of measured methods: CSV, SVG, and the table that is compiled in."""
 import csv
 import os
+import re
 from collections import defaultdict
 
 from patina.chart import svg
@@ -37,11 +38,19 @@ def with_cost(rows, points):
     default = {point: methods[0][0] for point, methods in points}
     reference = {(row["point"], row["subject"]): row["ns"] for row in rows if row["method"] == default[row["point"]]}
     for row in rows:
+        # Counts of samples or passes are told after the subject, which the default has without one too.
+        alone = re.sub(r", \d+ (samples|passes)$", "", row["subject"])
         # The default of the diffuse model is the node's own choice: its cost is that of the first row.
         first = next(r["ns"] for r in rows if r["point"] == row["point"] and r["subject"] == row["subject"])
-        base = reference.get((row["point"], row["subject"]), first)
+        base = reference.get((row["point"], row["subject"]), reference.get((row["point"], alone), first))
         row["cost"] = row["ns"] / base if base > 0.0 else 1.0
     return sorted(rows, key=lambda row: order[row["point"], row["method"]])
+
+
+def merged(rows, table, point):
+    """The table with these rows in place of those it has of a point."""
+    found = next((i for i, row in enumerate(table) if row["point"] == point), len(table))
+    return table[:found] + rows + [row for row in table[found:] if row["point"] != point]
 
 
 def with_times(rows, table):
@@ -109,9 +118,11 @@ def write_charts(rows, folder):
 
 def listing(rows):
     """The rows as text, for a terminal."""
-    lines = [f"{'choice point':<19}{'method':<14}{'subject':<14}{'ns':>9}{'cost':>8}  {'mean error':>10}"
+    wide = {name: max([14] + [len(row[name]) + 1 for row in rows]) for name in ("method", "subject")}
+    method, subject = wide["method"], wide["subject"]
+    lines = [f"{'choice point':<19}{'method':<{method}}{'subject':<{subject}}{'ns':>9}{'cost':>8}  {'mean error':>10}"
              f"{'largest':>10}{'RMSE*65535':>12}"]
     for row in rows:
-        lines.append(f"{row['point']:<19}{row['method']:<14}{row['subject']:<14}{row['ns']:>9.1f}{row['cost']:>8.2f}"
-                     f"  {row['mean']:>10.2g}{row['largest']:>10.2g}{row['rms'] * 65535:>12.1f}")
+        lines.append(f"{row['point']:<19}{row['method']:<{method}}{row['subject']:<{subject}}{row['ns']:>9.1f}"
+                     f"{row['cost']:>8.2f}  {row['mean']:>10.2g}{row['largest']:>10.2g}{row['rms'] * 65535:>12.1f}")
     return "\n".join(lines)

@@ -14,12 +14,10 @@ def add_arguments(parser):
     group.add_argument("--errors", action="store_true",
                        help="measure errors only, which takes seconds; times are those of the table that is built in")
     group.add_argument("--table", default="", metavar="FILE",
-                       help="writes the C++ table of measured methods (all choice points only)")
+                       help="writes the C++ table of measured methods; with --point, other points as they are built in")
 
 
 def run(arguments):
-    if arguments.table and arguments.point:
-        raise UsageError("patina chart: --table needs all choice points, so no --point")
     patina = compiled.load()
     points = patina.choice_points()
     names = [point for point, _ in points]
@@ -33,7 +31,8 @@ def run(arguments):
     rows = lobes.with_cost(rows, points)
     try:
         if arguments.table:
-            lobes.write_table(rows, arguments.table)
+            table = lobes.merged(rows, patina.method_table(), arguments.point) if arguments.point else rows
+            lobes.write_table(table, arguments.table)
         if arguments.out:
             os.makedirs(arguments.out, exist_ok=True)
             lobes.write_csv(rows, os.path.join(arguments.out, "lobes.csv"))

@@ -4,7 +4,8 @@
   patina chart --lobes                              all choice points of lobes: rows, CSV and SVG
   patina chart --lobes --point directionalAlbedo    one of them
   patina chart --lobes --table materialNetwork/methodTableData.cpp
-                                                    also writes the table that --method list shows
+                                                    also writes the table that --method list shows; with --point,
+                                                    the rest of it as it is built in
   patina chart --stability --out FOLDER             methods through the regions where they fail: CSV, SVG, an HTML page
   patina chart --predictions STAGE... --out FOLDER  errors that the planner predicts beside those that come: CSV
 

@@ -17,8 +17,9 @@ from rendering import SCENES, color, record, scene
 
 NAMES = sorted(os.path.splitext(os.path.basename(path))[0] for path in glob.glob(os.path.join(SCENES, "*.usda")))
 COUNTS, SEEDS = (16, 64, 256), (11, 12, 13)
-# Caustics through glass are found so rarely that 16 samples miss most of them and err too little.
-LATER = {"roughGlass": (64, 256, 1024)}
+# Caustics through glass, and paths from hair to hair into its highlights, are found so rarely that 16 samples miss most of
+# them and err too little.
+LATER = {"roughGlass": (64, 256, 1024), "hair": (64, 256, 1024)}
 
 
 def trimmed_rmse(image, reference):

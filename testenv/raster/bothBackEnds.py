@@ -48,7 +48,7 @@ def table(held):
     for name, entry in held["scenes"].items():
         f = entry.get("full")
         if f:
-            cells = [name, f"{f['rmse']:.4f}", f"{f.get('flip', 0):.4f}", f"{100 * f['bias']:+.1f} %"]
+            cells = [name, f"{f['rmse']:.4f}", f"{f.get('flip', 0):.4f}", f"{100 * f['bias']:+.2f} %"]
             cells += [f"{f['flipWhole']:.3f}", f"{100 * f['biasWhole']:+.1f} %"] if "flipWhole" in f else ["", ""]
             cells += [f"{f['secondsRaster']:.0f} : {f['secondsDirect']:.0f}" if "secondsRaster" in f else ""]
             print("| " + " | ".join(cells) + " |")

@@ -16,18 +16,35 @@ RasterExtent::RasterExtent(const Geometry& prim) {
         refines = p.shape != ImplicitShape::Cube && p.shape != ImplicitShape::Plane;
         round = refines;
     }
+    const auto around = [&](const std::vector<vec3>& points) {
+        low = vec3(INFINITY);
+        high = vec3(-INFINITY);
+        for (const vec3& p : points)
+            if (std::isfinite(p.x + p.y + p.z)) {
+                low = glm::min(low, p);
+                high = glm::max(high, p);
+            }
+        refines = low.x <= high.x;
+    };
+    slight = prim.kind == GeometryKind::Curves || prim.kind == GeometryKind::Points;
+    if (prim.kind == GeometryKind::Curves && !static_cast<const Curves&>(prim).points.empty())
+        around(static_cast<const Curves&>(prim).points.first());
+    if (prim.kind == GeometryKind::Points && !static_cast<const Points&>(prim).points.empty())
+        around(static_cast<const Points&>(prim).points.first());
+    if (slight) {
+        // Widths count too: a single point has no other extent.
+        float wide = 0.0f;
+        if (const Primvar* widths = prim.primvar("widths"))
+            for (const float width : widths->values)
+                if (std::isfinite(width)) wide = std::max(wide, width);
+        low -= 0.5f * wide;
+        high += 0.5f * wide;
+    }
     if (prim.kind != GeometryKind::Mesh) return;
     const Mesh& mesh = static_cast<const Mesh&>(prim);
     if (mesh.scheme == SubdivisionScheme::None || mesh.points.empty()) return;
     const std::vector<vec3>& points = mesh.points.first();
-    low = vec3(INFINITY);
-    high = vec3(-INFINITY);
-    for (const vec3& p : points)
-        if (std::isfinite(p.x + p.y + p.z)) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
-    refines = low.x <= high.x;
+    around(points);
     double sum = 0.0;
     const auto point = [&](size_t corner) {
         const int i = mesh.faceVertexIndices[corner];
@@ -48,7 +65,7 @@ RasterDetail::RasterDetail(const RasterExtent& extent, const MotionTransform& tr
                            const RasterCamera& camera, const RenderSettings& settings,
                            bool displaced, bool glows)
     : _gap(glows ? 0.25f * largestGap : largestGap), _area(extent.area), _round(extent.round),
-      _displaced(displaced) {
+      _slight(extent.slight), _displaced(displaced) {
     if (!(settings.edgeLength > 0.0f) || !extent.refines) return;
     const vec3 &low = extent.low, &high = extent.high;
     _view = camera.view(vec2(0.0f), vec2(0.0f), 0.5f, low, high);
@@ -82,7 +99,10 @@ float RasterDetail::edgeAt(const RasterPlace& place) const {
     const float distance = _view.perspective ? std::max(_nearest, away) : 1.0f;
     const float unit = _view.pixelSpread * distance / scale, asked = _edgeLength * unit;
     float wanted = asked;
-    if (!_displaced) wanted = std::clamp(chord(unit), _round ? 0.0f : asked, 2.0f * asked);
+    if (_slight)
+        wanted = unit;
+    else if (!_displaced)
+        wanted = std::clamp(chord(unit), _round ? 0.0f : asked, 2.0f * asked);
     // No edge is longer than the prim: those far away are all drawn alike.
     wanted = std::min(wanted, 2.0f * _radius);
     if (!std::isfinite(wanted) || !(wanted > 0.0f)) return 0.0f;

@@ -12,6 +12,7 @@ struct RasterExtent {
     float area = 0.0f;    ///< of the cage of a subdivision surface
     bool refines = false; ///< it can be drawn more or less finely
     bool round = false;   ///< an implicit shape, of radius `high`
+    bool slight = false;  ///< curves or points, which only ask for the width of a pixel
 
     RasterExtent() = default;
     explicit RasterExtent(const Geometry& prim);
@@ -29,7 +30,8 @@ public:
                  bool glows);
 
     /// The longest edge, in object units, that looks as long from the camera as the settings ask
-    /// for: a power of two, so that few of them differ. 0: the prim is not refined.
+    /// for: a power of two, so that few of them differ. 0: the prim is not refined. Of curves and
+    /// points the width of a pixel.
     float edgeAt(const RasterPlace& place) const;
     /// The most triangles that edges of so many object units are asked for: those whose own edges
     /// leave the surface by no more than `largestGap`. Uniform refinement by the longest edge alone
@@ -46,7 +48,7 @@ private:
     vec3 _center{0.0f};
     float _gap = largestGap; ///< pixels
     float _radius = 0.0f, _area = 0.0f, _edgeLength = 0.0f, _nearest = 0.0f;
-    bool _round = false, _displaced = false;
+    bool _round = false, _slight = false, _displaced = false;
     RasterView _view;
 };
 

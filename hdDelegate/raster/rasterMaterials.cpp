@@ -100,6 +100,7 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
                              (glsl.transmits ? "#define MATERIAL_TRANSMITS\n" : "") +
                              (glsl.holds ? "#define MATERIAL_HOLDS\n" : "") +
                              (glsl.volumeOnly ? "#define MATERIAL_IS_VOLUME\n" : "") +
+                             (glsl.fibre ? "#define MATERIAL_IS_FIBRE\n" : "") +
                              "#define MATERIAL_IS_THIN " + (glsl.thin ? "true\n" : "false\n");
     auto& shared = _programs[head + _lighting + glsl.text + (faulty ? "faulty" : "")];
     if (shared) return shared;

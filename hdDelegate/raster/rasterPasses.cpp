@@ -35,6 +35,12 @@ RasterPasses::RasterPasses(std::string& error)
         {{GL_VERTEX_SHADER, "shadow", "#include \"shaders/raster/shadow.vert.glsl\"\n"},
          {GL_FRAGMENT_SHADER, "shadow", "#include \"shaders/raster/shadow.frag.glsl\"\n"}},
         error);
+    if (!_shadow) return;
+    _depthOnly = GlProgram::make(
+        {{GL_VERTEX_SHADER, "surface",
+          "#define PRIMVARS 0\n#include \"shaders/raster/surface.vert.glsl\"\n"},
+         {GL_FRAGMENT_SHADER, "shadow", "#include \"shaders/raster/shadow.frag.glsl\"\n"}},
+        error);
 }
 
 RasterPasses::~RasterPasses() {
@@ -80,16 +86,23 @@ RasterPasses::PassBlock RasterPasses::block(const RasterView& view) const {
     return b;
 }
 
-void RasterPasses::drawRuns(const RasterDraw& draw, const RasterVisible& visible) const {
+void RasterPasses::drawRuns(const RasterDraw& draw, const RasterSurface& surface,
+                            const RasterVisible& visible) const {
     const auto [begin, end] = visible.group[size_t(draw.group)];
     if (begin == end) return;
-    for (const RasterChunk& chunk : draw.surface->chunks) {
+    for (const RasterChunk& chunk : surface.chunks) {
         chunk.bind(_vertexArray);
         for (size_t r = begin; r < end; ++r)
             gl.DrawElementsInstancedBaseInstance(GL_TRIANGLES, chunk.indexCount(), GL_UNSIGNED_INT,
                                                  chunk.firstIndex(), visible.runs[r].count,
                                                  GLuint(visible.runs[r].first));
     }
+}
+
+/// Hairs lie over each other many times, and only what is in front has to be shaded.
+static bool isDrawnByDepth(const RasterDraw& d) {
+    return (d.flags & RasterShape::strip) && !d.material->glsl.presence &&
+           !d.material->glsl.transmits;
 }
 
 void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& visible,
@@ -122,8 +135,26 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
             const vec3& l = d.meshLight.radiance;
             gl.Uniform4f(7, l.x, l.y, l.z, float(d.meshLight.mode));
         }
-        drawRuns(d, visible);
+        const bool known = which == Solid && isDrawnByDepth(d);
+        if (known) gl.DepthFunc(GL_LEQUAL);
+        drawRuns(d, *d.surface, visible);
+        if (known) gl.DepthFunc(GL_LESS);
     }
+}
+
+void RasterPasses::drawDepthOfStrips(const RasterScene& scene, const RasterVisible& visible) const {
+    bool used = false;
+    for (const RasterDraw& d : scene.draws()) {
+        if (!isDrawnByDepth(d)) continue;
+        if (!used) {
+            scene.bind(_vertexArray);
+            _depthOnly->use();
+            gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        }
+        used = true;
+        drawRuns(d, *d.surface, visible);
+    }
+    if (used) gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera,
@@ -186,30 +217,6 @@ void RasterPasses::measureReceivers(const std::vector<vec4>& positions, const Ra
     _sky.reset();
 }
 
-void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views,
-                               int size) {
-    const int layers = std::max(1, int(views.size()));
-    if (layers > _shadowLayers || _shadowMaps.width() != size) {
-        _shadowMaps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layers);
-        _shadowLayers = layers;
-        _shadowMaps.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        _shadowMaps.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    }
-    for (size_t i = 0; i < views.size(); ++i)
-        drawCasters(scene, views[i], _shadowMaps, int(i));
-}
-
-/// The first pass of a small scene draws all cells; a large one gets them by and by.
-int RasterPasses::skyCells(const RasterScene& scene) {
-    const size_t triangles = std::max<size_t>(1, scene.trianglesDrawn());
-    return int(std::clamp<size_t>(2000000 / triangles, 4, 1000));
-}
-
-void RasterPasses::drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass) {
-    for (const RasterSky::Task& task : _sky.begin(pass, lights.seed(), _bounds, skyCells(scene)))
-        drawCasters(scene, task.view, _sky.maps(), task.layer);
-}
-
 void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights, uint32_t taken,
                             const std::function<void(uint32_t)>& moveTo) {
     if (!lights.hasDome() || !lights.shadows()) return;
@@ -233,40 +240,6 @@ void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights
         _passBuffer.write(&b, sizeof b);
         _passBuffer.bindUniform(0);
         drawCasters(scene, task.view, _sky.maps(), task.layer);
-    }
-}
-
-void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
-                               const GlTexture& maps, int layer) const {
-    scene.bind(_vertexArray);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, _shadowTarget);
-    gl.Viewport(0, 0, maps.width(), maps.height());
-    const GLenum noColor = GL_NONE;
-    gl.NamedFramebufferDrawBuffers(_shadowTarget, 1, &noColor);
-    const float far = 1.0f;
-    gl.NamedFramebufferTextureLayer(_shadowTarget, GL_DEPTH_ATTACHMENT, maps.id(), 0, layer);
-    gl.ClearNamedFramebufferfv(_shadowTarget, GL_DEPTH, 0, &far);
-    const RasterVisible visible = scene.visible(view.worldToMap);
-    const GlProgram* last = nullptr;
-    for (const RasterDraw& d : scene.draws()) {
-        if (!d.prim->visibility.shadow || d.material->glsl.volumeOnly) continue;
-        const GlProgram* own = d.material->programs->shadow.get();
-        const GlProgram* program = own ? own : _shadow.get();
-        if (program != last) {
-            program->use();
-            gl.UniformMatrix4fv(2, 1, GL_FALSE, &view.worldToMap[0][0]);
-            gl.Uniform1i(3, view.category);
-        }
-        last = program;
-        if (own) {
-            d.material->parameters.bindUniform(1);
-            for (size_t t = 0; t < d.material->textures.size(); ++t)
-                d.material->textures[t]->bind(GLuint(t));
-            const vec4& to = view.towards;
-            gl.Uniform4i(1, d.surface->primvarBits, d.primId, d.flags, 0);
-            gl.Uniform4f(6, to.x, to.y, to.z, to.w);
-        }
-        drawRuns(d, visible);
     }
 }
 
@@ -303,7 +276,7 @@ void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisibl
     for (const RasterDraw& d : scene.draws()) {
         if (!transmits(d)) continue;
         gl.Uniform4i(1, 0, d.primId, d.flags, 0);
-        drawRuns(d, visible);
+        drawRuns(d, *d.surface, visible);
     }
     _colorTarget.bind();
     _behind->bind();
@@ -370,6 +343,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     gl.DepthFunc(GL_LESS);
     const RasterVisible visible = scene.visible(view.worldToClip);
+    drawDepthOfStrips(scene, visible);
     drawSurfaces(scene, visible, Solid);
     drawTransmitting(scene, visible);
     gl.DepthMask(GL_FALSE);

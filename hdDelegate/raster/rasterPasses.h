@@ -17,7 +17,7 @@ class RasterPasses {
 public:
     /// @param error is set, and ok() false, when the driver does not take what every pass needs
     explicit RasterPasses(std::string& error);
-    bool ok() const { return _background && _shadow; }
+    bool ok() const { return _background && _shadow && _depthOnly; }
 
     /// Sets the size of the image, and which of its pixels reach the film.
     /// @param border of the samples, which becomes 0 where the driver has no room for one
@@ -61,13 +61,15 @@ private:
                      int layer) const;
     enum Which { AllForAovs, Solid, Transmitting, Tints };
     void drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which) const;
+    void drawDepthOfStrips(const RasterScene& scene, const RasterVisible& visible) const;
     void drawTransmitting(const RasterScene& scene, const RasterVisible& visible);
     void drawVolumes(const RasterScene& scene);
     void needBehind();
-    void drawRuns(const RasterDraw& draw, const RasterVisible& visible) const;
+    void drawRuns(const RasterDraw& draw, const RasterSurface& surface,
+                  const RasterVisible& visible) const;
     void measureReceivers(const std::vector<vec4>& positions, const RasterScene& scene);
 
-    std::unique_ptr<GlProgram> _background, _shadow;
+    std::unique_ptr<GlProgram> _background, _shadow, _depthOnly;
     std::unique_ptr<RasterBehind> _behind; ///< made when something transmits
     GlBuffer _passBuffer, _albedoTable;
     GLuint _vertexArray = 0;

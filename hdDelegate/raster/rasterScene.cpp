@@ -131,9 +131,12 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     for (const RasterMaterial* material : materials) {
         const MaterialProgram& program = *material->program;
         wish.primvars.push_back(namesOf(program.primvars()));
-        wish.displacers.push_back(program.hasDisplacement() ? material->program : nullptr);
+        const bool bends = program.hasDisplacement() && (prim->kind == GeometryKind::Mesh ||
+                                                         prim->kind == GeometryKind::Implicit);
+        wish.displacers.push_back(bends ? material->program : nullptr);
         wish.needsMesh |= settings.enableSceneLights && program.hasEmission();
     }
+    wish.strips = !wish.needsMesh;
     // Places that are equally far away share a tessellation.
     const bool displaced =
         std::any_of(wish.displacers.begin(), wish.displacers.end(),
@@ -193,7 +196,7 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
     for (size_t g = firstGroup; g < _groups.size(); ++g) {
         const RasterGroup& group = _groups[g];
         draw.group = int(g);
-        draw.flags = group.shape->faceted ? 2 : 0;
+        draw.flags = group.shape->flags;
         for (size_t subset = 0; subset < materials.size(); ++subset) {
             draw.material = materials[subset];
             if (!draw.material->programs) continue;
@@ -201,8 +204,8 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
                 for (const uint32_t i : group.places)
                     _emitters.add(*group.shape->mesh, subset, *draw.material->program,
                                   draw.meshLight, places[i].groupToWorld * toGroup, lit);
-            draw.surface = &group.shape->surfaces[subset];
             draw.subset = int(subset);
+            draw.show(*group.shape);
             if (draw.surface->triangles == 0) continue;
             _triangles += draw.surface->triangles;
             _draws.push_back(draw);
@@ -282,11 +285,13 @@ void RasterScene::deform(float timeCode) {
         RasterShapeCache::Wish wish = *group.deforms;
         wish.timeCode = time;
         const auto shape = _shapes.get(wish);
-        if (shape->surfaces.size() == group.shape->surfaces.size()) group.shape = shape;
+        if (shape->surfaces.size() == group.shape->surfaces.size() &&
+            shape->flags == group.shape->flags)
+            group.shape = shape;
     }
     for (RasterDraw& draw : _draws) {
         const RasterGroup& group = _groups[size_t(draw.group)];
-        if (group.deforms) draw.surface = &group.shape->surfaces[size_t(draw.subset)];
+        if (group.deforms) draw.show(*group.shape);
     }
 }
 
@@ -341,7 +346,7 @@ void RasterScene::describe(GLuint vertexArray) {
         gl.VertexArrayAttribFormat(vertexArray, i, components, GL_FLOAT, GL_FALSE, offset);
         gl.VertexArrayAttribBinding(vertexArray, i, binding);
     };
-    attribute(0, 3, offsetof(RasterChunk::Vertex, position), 0);
+    attribute(0, 4, offsetof(RasterChunk::Vertex, position), 0);
     attribute(1, 3, offsetof(RasterChunk::Vertex, normal), 0);
     for (GLuint i = 0; i < 7; ++i) // columns and normals
         attribute(2 + i, 4, i * GLuint(sizeof(vec4)), 1);

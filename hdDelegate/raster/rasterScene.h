@@ -25,11 +25,17 @@ struct RasterGroup {
 
 /// Triangles of one prim with one material, drawn at every place of a group.
 struct RasterDraw {
+    void show(const RasterShape& shape) {
+        surface = &shape.surfaces[size_t(subset)];
+        casting = shape.casting.empty() ? surface : &shape.casting[size_t(subset)];
+    }
+
     const RasterMaterial* material = nullptr;
     std::shared_ptr<const Geometry> prim;
     const RasterSurface* surface = nullptr;
+    const RasterSurface* casting = nullptr; ///< what shadow maps show
     int group = 0, subset = 0;
-    int primId = 0, flags = 0; ///< flags: 2 has no normals
+    int primId = 0, flags = 0; ///< flags: of RasterShape
     RasterMeshLight meshLight;
 };
 

@@ -1,5 +1,6 @@
 #include "hdDelegate/raster/rasterShapeCache.h"
 
+#include "hdDelegate/raster/rasterDetail.h"
 #include "hdDelegate/raster/rasterShapes.h"
 #include "hdDelegate/scene/displace.h"
 #include "hdDelegate/scene/primCompare.h"
@@ -19,8 +20,9 @@ bool displaces(const RasterShapeCache::Wish& wish) {
 /// Whether a shape made for `old` serves `wish`.
 bool serves(const RasterShapeCache::Wish& old, const RasterShapeCache::Wish& wish) {
     return (old.needsMesh || !wish.needsMesh) && old.timeCode == wish.timeCode &&
-           old.primvars == wish.primvars && old.displacers == wish.displacers &&
-           (!displaces(wish) || old.toWorld == wish.toWorld) && sameShape(*old.prim, *wish.prim);
+           old.strips == wish.strips && old.primvars == wish.primvars &&
+           old.displacers == wish.displacers && (!displaces(wish) || old.toWorld == wish.toWorld) &&
+           sameShape(*old.prim, *wish.prim);
 }
 
 size_t storageLimit() {
@@ -58,9 +60,10 @@ void RasterShapeCache::forgetUnused() {
 size_t RasterShapeCache::bytes() const {
     size_t sum = 0;
     for (const auto& item : _entries)
-        for (const RasterSurface& surface : item.second.shape->surfaces)
-            for (const RasterChunk& chunk : surface.chunks)
-                sum += chunk.bytes();
+        for (const auto* surfaces : {&item.second.shape->surfaces, &item.second.shape->casting})
+            for (const RasterSurface& surface : *surfaces)
+                for (const RasterChunk& chunk : surface.chunks)
+                    sum += chunk.bytes();
     return sum;
 }
 
@@ -71,7 +74,11 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Wish& wish) {
     options.shutterOpen = options.shutterClose = wish.timeCode;
     options.targetEdge = options.roundEdge = wish.edge;
     options.edgeBudget = wish.edgeBudget;
-    TriangleMesh mesh = rasterTriangles(*wish.prim, options, _diagnostics);
+    RasterFineness fineness;
+    fineness.gap = RasterDetail::largestGap * wish.edge;
+    if (wish.strips) fineness.thick = wish.edge;
+    RasterForm form = rasterTriangles(*wish.prim, options, fineness, _diagnostics);
+    TriangleMesh& mesh = form.seen.mesh;
     if (mesh.positions.empty() || mesh.triangles.empty()) return shape;
     if (displaces(wish)) {
         if (wish.edge > 0.0f) splitTriangles(mesh, wish.edge, options.triangleBudget);
@@ -79,11 +86,18 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Wish& wish) {
     }
     shape->boundsMin = mesh.boundsMin;
     shape->boundsMax = mesh.boundsMax;
-    shape->faceted = mesh.normals.empty();
+    shape->flags = mesh.normals.empty() ? RasterShape::faceted : 0;
+    if (!form.seen.aside.empty()) shape->flags = RasterShape::strip;
+    if (!form.casting.mesh.triangles.empty()) shape->flags = RasterShape::tube;
     shape->triangles = mesh.triangles.size();
-    RasterSurfaceBuilder builder(mesh, storageLimit());
-    for (size_t subset = 0; subset < wish.primvars.size(); ++subset)
-        shape->surfaces.push_back(builder.make(subset, wish.primvars[subset]));
+    const auto fill = [&](const RasterTriangles& triangles, std::vector<RasterSurface>& surfaces) {
+        if (triangles.mesh.triangles.empty()) return;
+        RasterSurfaceBuilder builder(triangles, storageLimit());
+        for (size_t subset = 0; subset < wish.primvars.size(); ++subset)
+            surfaces.push_back(builder.make(subset, wish.primvars[subset]));
+    };
+    fill(form.seen, shape->surfaces);
+    fill(form.casting, shape->casting);
     if (wish.needsMesh) shape->mesh = std::make_shared<TriangleMesh>(std::move(mesh));
     return shape;
 }

@@ -14,11 +14,16 @@ namespace patina {
 
 /// A prim tessellated, in buffers.
 struct RasterShape {
+    static constexpr int faceted = 2; ///< has no normals
+    static constexpr int tube = 4;    ///< round, whatever its triangles are; tangents go along
+    static constexpr int strip = 8;   ///< see RasterTriangles
+
     vec3 boundsMin{0.0f}, boundsMax{0.0f};    ///< object space
     std::vector<RasterSurface> surfaces;      ///< [0] the prim's material, [i + 1] that of subset i
+    std::vector<RasterSurface> casting;       ///< the same for shadow maps; empty: as it is seen
     std::shared_ptr<const TriangleMesh> mesh; ///< only where it was asked for
     size_t triangles = 0;
-    bool faceted = false; ///< has no normals
+    int flags = 0; ///< of the shader's drawInfo
 };
 
 /// Shapes, for as long as nothing changes that they are made of.
@@ -27,7 +32,8 @@ public:
     /// What a shape is made of.
     struct Wish {
         std::shared_ptr<const Geometry> prim;
-        float edge = 0.0f;            ///< longest edge, object units; 0: as authored
+        /// Longest edge, object units; 0: as authored. Of curves and points: the width of a pixel.
+        float edge = 0.0f;
         size_t edgeBudget = SIZE_MAX; ///< triangles that edges alone ask for; follows from both
         float timeCode = 0.0f;        ///< of points that move
         std::vector<std::vector<std::string>> primvars; ///< that materials read, per surface
@@ -35,6 +41,7 @@ public:
         std::vector<std::shared_ptr<const MaterialProgram>> displacers;
         mat4 toWorld{1.0f}; ///< that displacement sees
         bool needsMesh = false;
+        bool strips = true; ///< thin curves may be strips
     };
 
     explicit RasterShapeCache(Diagnostics& diagnostics) : _diagnostics(diagnostics) {}

@@ -4,8 +4,35 @@
 
 namespace patina {
 
-/// Any shape as triangles: curves become tubes or ribbons, points spheres or discs.
-TriangleMesh rasterTriangles(const Geometry& prim, const TessellationOptions& options,
-                             Diagnostics& diagnostics);
+/// Triangles, and how shaders read them.
+struct RasterTriangles {
+    TriangleMesh mesh;
+    /// Per vertex of a strip: its half width, negative on the right. Such a vertex is on the axis
+    /// of a curve, its normal goes along it, and the vertex stage moves it aside, so that the strip
+    /// faces whoever looks. Empty: no strips.
+    std::vector<float> aside;
+    /// Of curves, per triangle: along, as long as the radius. Empty: tangents follow from `st`.
+    std::vector<vec3> along;
+};
+
+/// What a shape is drawn as.
+struct RasterForm {
+    RasterTriangles seen;
+    RasterTriangles casting; ///< for shadow maps; without triangles: as it is seen
+};
+
+/// How finely curves and points are drawn.
+struct RasterFineness {
+    float gap = 0.0f; ///< largest distance from the true shape, object units; 0: as coarse as ever
+    float thick = 0.0f; ///< curves with a smaller radius are strips, object units
+};
+
+/// Any shape as triangles: curves become strips, tubes or ribbons, points spheres or discs.
+RasterForm rasterTriangles(const Geometry& prim, const TessellationOptions& options,
+                           const RasterFineness& fineness, Diagnostics& diagnostics);
+
+/// Curves as Embree has them: circles swept along cubic segments, open at the ends; cones and
+/// spheres along linear ones. Tubes and ribbons here are polygons; strips face whoever looks.
+RasterTriangles curveTriangles(const CurveSet& set, const RasterFineness& fineness, bool strips);
 
 } // namespace patina

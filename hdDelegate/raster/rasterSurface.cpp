@@ -45,6 +45,11 @@ RasterSurfaceBuilder::RasterSurfaceBuilder(const TriangleMesh& mesh, size_t stor
     : _mesh(mesh), _storageLimit(storageLimit), _st(mesh.attribute("st")),
       _first(mesh.positions[0].size(), none) {}
 
+RasterSurfaceBuilder::RasterSurfaceBuilder(const RasterTriangles& triangles, size_t storageLimit)
+    : RasterSurfaceBuilder(triangles.mesh, storageLimit) {
+    _form = &triangles;
+}
+
 RasterSurface RasterSurfaceBuilder::make(size_t subset, const std::vector<std::string>& primvars) {
     using Rate = MeshAttribute::Rate;
     RasterSurface surface;
@@ -79,7 +84,9 @@ uint32_t RasterSurfaceBuilder::vertex(unsigned t, int c) {
     uint32_t& first = _first[position];
     if (_sharesAll && first != none) return first;
     const float u = c == 1 ? 1.0f : 0.0f, v = c == 2 ? 1.0f : 0.0f;
-    RasterChunk::Vertex own{_mesh.positions[0][position], vec3(0.0f)};
+    RasterChunk::Vertex own;
+    own.position = _mesh.positions[0][position];
+    if (_form && !_form->aside.empty()) own.aside = _form->aside[position];
     if (!_mesh.normals.empty()) own.normal = evalNormal(_mesh, t, u, v);
     const size_t count = _attributes.size(), at = _primvars.size();
     for (const MeshAttribute* attribute : _attributes) {
@@ -108,6 +115,10 @@ RasterChunk::Triangle RasterSurfaceBuilder::triangle(unsigned t) const {
     const vec3 p[3] = {positions[tri.x], positions[tri.y], positions[tri.z]};
     out.normal = glm::cross(p[1] - p[0], p[2] - p[0]);
     out.element = t < _mesh.triangleFace.size() ? _mesh.triangleFace[t] : int(t);
+    if (_form && !_form->along.empty()) {
+        out.dPdu = _form->along[t];
+        return out;
+    }
     float uv[3][4];
     if (!_st || !evalAttribute(_mesh, *_st, t, 0, 0, uv[0]) ||
         !evalAttribute(_mesh, *_st, t, 1, 0, uv[1]) || !evalAttribute(_mesh, *_st, t, 0, 1, uv[2]))

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/rasterShapes.h"
 #include "hdDelegate/scene/triangleMesh.h"
 
 #include <string>
@@ -22,7 +23,9 @@ public:
         float reserved = 0.0f;
     };
     struct Vertex {
-        vec3 position, normal;
+        vec3 position;
+        float aside = 0.0f; ///< of strips, see RasterTriangles
+        vec3 normal{0.0f};
     };
 
     RasterChunk(const std::vector<Vertex>& vertices, const std::vector<vec4>& primvars,
@@ -53,6 +56,8 @@ public:
     /// @param storageLimit in bytes, of what one storage binding shows; more triangles go into
     ///        further chunks
     RasterSurfaceBuilder(const TriangleMesh& mesh, size_t storageLimit);
+    /// @param triangles must outlive this
+    RasterSurfaceBuilder(const RasterTriangles& triangles, size_t storageLimit);
 
     /// @param subset as of TriangleMesh::triangleSubset
     /// @param primvars that a material reads, in its order
@@ -65,6 +70,7 @@ private:
     RasterChunk take();
 
     const TriangleMesh& _mesh;
+    const RasterTriangles* _form = nullptr;
     size_t _storageLimit;
     const MeshAttribute* _st;
     std::vector<const MeshAttribute*> _attributes; ///< null where the mesh has none

@@ -1,5 +1,6 @@
 #include "hdDelegate/scene/curveValues.h"
 #include "hdDelegate/scene/drawnFaces.h"
+#include "hdDelegate/scene/splitRibbons.h"
 
 #include <algorithm>
 #include <cmath>
@@ -210,11 +211,10 @@ CurveSet buildCurves(const Curves& curves, const TessellationOptions& options,
     const bool ribbons = authored && authored->components == 3 &&
                          normals.read(*authored, batch, curves.path, diagnostics);
     const bool linear = curves.basis == CurveBasis::Linear;
-    // Embree has no linear ribbons, and values that are linear along cubic segments only stand on
-    // control points of the Bezier basis.
-    const bool bezier = linear ? ribbons
-                               : widths.isVarying() || (ribbons && normals.isVarying()) ||
-                                     negativePhantom(batch, widths);
+    // Embree has no linear ribbons, values that are linear along cubic segments only stand on
+    // control points of the Bezier basis, and it is the one that ribbons are split in.
+    const bool bezier =
+        ribbons || (!linear && (widths.isVarying() || negativePhantom(batch, widths)));
 
     CurveSet out;
     out.basis = bezier ? CurveBasis::Bezier : curves.basis;
@@ -238,6 +238,7 @@ CurveSet buildCurves(const Curves& curves, const TessellationOptions& options,
             out.attributes.push_back(makeAttribute(primvar, values, batch));
     }
     if (out.segments.empty()) return out;
+    if (ribbons) splitRibbons(out);
     out.boundsMin = vec3(INFINITY);
     out.boundsMax = vec3(-INFINITY);
     for (const auto& step : out.controlPoints)

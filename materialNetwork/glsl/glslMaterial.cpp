@@ -65,6 +65,7 @@ public:
         _out.holds = _program.hasInterior();
         _out.volumeOnly = _program.isVolumeOnly();
         _out.thin = _program.isThinWalled();
+        _out.fibre = _program.isFibre();
         _out.transmits = _out.volumeOnly || (_program.hasTransmission() && !_program.isFibre());
     }
 

@@ -36,6 +36,7 @@ struct GlslMaterial {
     bool holds = false;     ///< there is a medium inside: the text has materialMedium()
     bool volumeOnly = false; ///< there is a boundary, but no surface
     bool thin = false;       ///< there is no inside
+    bool fibre = false;      ///< lobes stand for the whole width of a curve
 };
 
 /// What the text may use.

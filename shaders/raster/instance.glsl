@@ -1,6 +1,6 @@
 // Attributes of the vertex stage: a vertex, and the instance that it is drawn for.
-layout(location = 0) in vec3 inPosition;
-layout(location = 1) in vec3 inNormal;
+layout(location = 0) in vec4 inPosition; // w: of strips the half width, negative on the right; else 0
+layout(location = 1) in vec3 inNormal; // of strips: along the curve
 layout(location = 2) in vec4 inColumn0; // object to world, in columns; w: cube root of the determinant
 layout(location = 3) in vec4 inColumn1;
 layout(location = 4) in vec4 inColumn2;
@@ -13,5 +13,20 @@ layout(location = 9) in ivec4 inIds; // instance, row of links, -, -
 vec3 worldPosition() {
     mat4 toWorld = mat4(vec4(inColumn0.xyz, 0.0), vec4(inColumn1.xyz, 0.0), vec4(inColumn2.xyz, 0.0),
                         vec4(inColumn3.xyz, 1.0));
-    return (toWorld * vec4(inPosition, 1.0)).xyz;
+    return (toWorld * vec4(inPosition.xyz, 1.0)).xyz;
+}
+
+vec3 alongStrip() {
+    return mat3(inColumn0.xyz, inColumn1.xyz, inColumn2.xyz) * inNormal;
+}
+// Where a vertex is for one who looks: a strip faces him, as wide as the outline of the tube.
+// viewer: position, or direction to it where w is 0.
+vec3 positionFor(vec4 viewer) {
+    vec3 p = worldPosition();
+    if (inPosition.w == 0.0) return p;
+    vec3 d = viewer.w != 0.0 ? viewer.xyz - p : viewer.xyz;
+    vec3 across = cross(alongStrip(), d);
+    float r = inPosition.w * inColumn0.w, l = length(across), away = dot(d, d);
+    if (viewer.w != 0.0) r *= inversesqrt(max(1.0 - r * r / max(away, 1e-30), 0.1));
+    return l > 0.0 ? p + across * (r / l) : p;
 }

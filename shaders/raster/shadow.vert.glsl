@@ -1,10 +1,11 @@
 // Opaque casters: positions only.
 #include "shaders/raster/instance.glsl"
 layout(location = 2) uniform mat4 worldToMap;
+layout(location = 6) uniform vec4 towardsLight; // position of the light, or direction where w is 0
 layout(location = 3) uniform int category; // of what casts, -1: everything
 #include "shaders/raster/links.glsl"
 
 void main() {
-    gl_Position = worldToMap * vec4(worldPosition(), 1.0);
+    gl_Position = worldToMap * vec4(positionFor(towardsLight), 1.0);
     if (!isLinked(inIds.y, category)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // clipped
 }

@@ -1,4 +1,5 @@
 // Shadows of lights' samples, and of directions that are none, by the cells of the sky.
+// Defined before: isTube(), planeTowards() and departure() as surface.frag.glsl has them.
 layout(std430, binding = 5) readonly buffer ShadowMatrices { mat4 shadowMatrices[]; };
 struct SkyCell {
     mat4 worldToMap;
@@ -44,14 +45,15 @@ float reaches(Light l, vec3 p) {
                : a.y >= a.z            ? (d.y > 0.0 ? 2 : 3)
                                        : (d.z > 0.0 ? 4 : 5);
     }
-    return isInFront(shadowMaps, shadowMatrices[map], map, p, point.geometricNormal, 1e-6);
+    vec3 towards = l.sampled.w != 0.0 ? l.sampled.xyz - p : l.sampled.xyz;
+    return isInFront(shadowMaps, shadowMatrices[map], map, p, planeTowards(normalize(towards)), 1e-6);
 }
 
 // Share of the light's sample that arrives; the colour of shadows where it does not.
 vec3 shadowAt(Light l, vec3 wi) {
     if (l.shadow.x < 0.0) return vec3(1.0);
     float away = l.shadow.w != 0.0 ? length(point.position - l.sampled.xyz) : 1.0;
-    vec3 p = point.position;
+    vec3 p = departure(wi);
     float seen = reaches(l, p);
     if (seen < 1.0 && l.fade.x > 0.0) {
         // What is nearest to the light is further off than h where the point moved by h is lit.
@@ -91,8 +93,9 @@ float skyReaches(vec3 wi) {
     }
     mat4 m = skyCells[cell].worldToMap;
     int layer = skyCells[cell].map.x;
-    float seen = isInFront(skyMaps, m, layer, point.position, up, 3e-5);
-    if (seen == 0.0) return 0.0;
+    vec3 towards = skyCells[cell].towards.xyz, p = departure(towards);
+    float seen = isInFront(skyMaps, m, layer, p, isTube() ? planeTowards(towards) : up, 3e-5);
+    if (seen == 0.0 || isTube()) return seen;
     // These texels are wide: the plane of what is small or round reaches through what is near.
     float texel = 2.0 / (float(textureSize(skyMaps, 0).x) * length(vec3(m[0].x, m[1].x, m[2].x)));
     return isInFront(skyMaps, m, layer, point.position + up * (0.9 * texel), vec3(0.0), 3e-5);

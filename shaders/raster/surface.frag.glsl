@@ -3,6 +3,7 @@
 in vec3 vPosition;
 in vec3 vObjectPosition;
 in vec3 vNormal;
+in float vAcross;
 flat in mat3 vNormalMatrix;
 flat in float vScale;
 flat in ivec2 vInstance; // id, row of links
@@ -15,7 +16,7 @@ vec3 vBitangent;
 vec3 vGeometricNormal;
 float vUvPerLength;
 ivec4 vIds; // element, instance, row of links
-layout(location = 1) uniform ivec4 drawInfo; // bits of primvars that there are, prim id, flags
+layout(location = 1) uniform ivec4 drawInfo; // bits of primvars that there are, prim id, flags of RasterShape
 
 vec4 primvar(int slot, vec4 fallback) {
 #if PRIMVARS > 0
@@ -40,14 +41,62 @@ void loadTriangle() {
     vIds = ivec4(floatBitsToInt(t.dPdv.w), vInstance, 0);
 }
 
+const int FACETED = 2;
+const int TUBE = 4;
+const int STRIP = 8;
+bool isTube() {
+    return (drawInfo.z & (TUBE | STRIP)) != 0;
+}
+float tubeRadius = 0.0;
+
+// The near side of the tube that a strip stands for.
+void setOnStrip(vec3 view) {
+    vec3 along = unitOr(vNormal, vTangent);
+    vec3 across = unitOr(cross(along, view), anyTangent(along));
+    float h = clamp(vAcross, -1.0, 1.0), front = sqrt(1.0 - h * h) * tubeRadius;
+    vec3 facing = cross(across, along);
+    point.normal = point.geometricNormal = across * h + facing * sqrt(1.0 - h * h);
+    point.position += facing * front;
+    point.objectPosition += point.normal * tubeRadius * vNormalMatrix;
+    vTangent = along;
+}
+
+// What casts shadows of a tube is a strip that faces the light, so its points are compared with the
+// strip's plane, in front of which they all are on the lit side.
+vec3 planeTowards(vec3 towards) {
+    if (!isTube()) return point.geometricNormal;
+    return unitOr(towards - point.tangent * dot(towards, point.tangent), vec3(0.0));
+}
+// Where light from wi comes in. What goes through a fibre starts again on the far side, as
+// SurfacePoint::departure() of the path tracer has it.
+vec3 departure(vec3 wi) {
+#ifdef MATERIAL_IS_FIBRE
+    float cosine = dot(wi, point.geometricNormal), along = dot(wi, point.tangent);
+    if (isTube() && cosine < 0.0)
+        return point.position - wi * (2.02 * tubeRadius * cosine / max(1.0 - along * along, 0.01));
+#endif
+    return point.position;
+}
+
 void setPoint(vec3 view, float coneWidth) {
     loadTriangle();
     point.position = vPosition;
     point.objectPosition = vObjectPosition;
     point.geometricNormal = vGeometricNormal;
     point.view = view;
-    point.normal = (drawInfo.z & 2) != 0 ? vGeometricNormal : unitOr(vNormal, vGeometricNormal);
-    if (dot(point.normal, point.geometricNormal) < 0.0) point.normal = -point.normal;
+    tubeRadius = length(triangles[gl_PrimitiveID].dPdu.xyz) * vScale;
+    if ((drawInfo.z & STRIP) != 0) {
+        setOnStrip(view);
+    } else {
+        point.normal = (drawInfo.z & FACETED) != 0 ? vGeometricNormal : unitOr(vNormal, vGeometricNormal);
+        if (dot(point.normal, point.geometricNormal) < 0.0) point.normal = -point.normal;
+        if ((drawInfo.z & TUBE) != 0) {
+            // At its outline a corner's normal may turn away.
+            float c = dot(point.normal, view);
+            if (c < 1e-3) point.normal = normalize(point.normal + view * (1e-3 - c));
+            point.geometricNormal = point.normal;
+        }
+    }
     vec3 t = vTangent - point.normal * dot(point.normal, vTangent);
     float l = length(t);
     if (l > 1e-20) {

@@ -3,6 +3,7 @@
 
 #ifdef SHADOW
 layout(location = 2) uniform mat4 worldToMap;
+layout(location = 6) uniform vec4 towardsLight; // position of the light, or direction where w is 0
 layout(location = 3) uniform int category; // of what casts, -1: everything
 #include "shaders/raster/links.glsl"
 #endif
@@ -10,9 +11,12 @@ layout(location = 3) uniform int category; // of what casts, -1: everything
 layout(std430, binding = 6) readonly buffer Primvars { vec4 primvars[]; };
 #endif
 
+invariant gl_Position; // depths that were drawn before are met again
+
 out vec3 vPosition;
 out vec3 vObjectPosition;
-out vec3 vNormal;
+out vec3 vNormal; // of strips: along the curve
+out float vAcross; // of strips: -1 to 1
 flat out mat3 vNormalMatrix;
 flat out float vScale;
 flat out ivec2 vInstance; // id, row of links
@@ -23,9 +27,14 @@ out vec4 vPrimvars[PRIMVARS];
 void main() {
     vNormalMatrix = mat3(inNormal0.xyz, inNormal1.xyz, inNormal2.xyz);
     vScale = inColumn0.w;
-    vObjectPosition = inPosition;
-    vPosition = worldPosition();
-    vNormal = vNormalMatrix * inNormal;
+    vObjectPosition = inPosition.xyz;
+#ifdef SHADOW
+    vPosition = positionFor(towardsLight);
+#else
+    vPosition = positionFor(eye.w != 0.0 ? vec4(eye.xyz, 1.0) : vec4(-forward.xyz, 0.0));
+#endif
+    vAcross = sign(inPosition.w);
+    vNormal = inPosition.w != 0.0 ? alongStrip() : vNormalMatrix * inNormal;
     vInstance = inIds.xy;
 #if PRIMVARS > 0
     for (int i = 0; i < PRIMVARS; ++i)

@@ -20,6 +20,15 @@ struct VolumePoint {
     vec3 position;
     vec3 geometricNormal;
 } point;
+bool isTube() {
+    return false;
+}
+vec3 planeTowards(vec3 towards) {
+    return point.geometricNormal;
+}
+vec3 departure(vec3 wi) {
+    return point.position;
+}
 #include "shaders/raster/shadows.glsl"
 
 const int CAMERA_STEPS = 48;

@@ -210,10 +210,44 @@ TEST(Curves, ribbonsHaveUnitNormalsPerControlPoint) {
         ASSERT_EQ(set.normals.size(), 1u);
         ASSERT_EQ(set.normals[0].size(), set.controlPoints[0].size());
         for (const vec3& n : set.normals[0])
-            EXPECT_EQ(n, vec3(0, 0, 1));
+            expectNear(vec4(n, 0), vec3(0, 0, 1));
         if (basis == CurveBasis::Linear)
             expectNear(evaluate(set, 1, 0.5f), 0.5f * (line(4)[1] + line(4)[2]));
     }
+}
+
+TEST(Curves, ribbonsThatTurnAreSplit) {
+    Curves curves = makeCurves(CurveBasis::Bezier, CurveWrap::Nonperiodic, {4, 4},
+                               {{0, 0, 0},
+                                {2, 0, 0},
+                                {2, 1, 0},
+                                {0, 1, 0}, // turns back
+                                {0, 2, 0},
+                                {1, 2, 0},
+                                {2, 2, 0},
+                                {3, 2, 0}});
+    curves.primvars = {makePrimvar("normals", Interpolation::Constant, 3, {0, 0, 1}),
+                       makePrimvar("widths", Interpolation::Varying, 1, {2, 4, 1, 1}),
+                       makePrimvar("a", Interpolation::Varying, 1, {10, 20, 0, 1})};
+    curves.subsets = {{"/curves/second", "", {1}}};
+    const CurveSet set = build(curves);
+    const unsigned pieces = unsigned(set.segments.size()) - 1;
+    ASSERT_GT(pieces, 8u);
+    for (unsigned s = 0; s < pieces; ++s)
+        for (const float u : {0.0f, 0.5f, 1.0f}) {
+            const float t = (float(s) + u) / float(pieces), w = 1.0f - t;
+            expectNear(evaluate(set, s, u), 3 * w * w * t * vec3(2, 0, 0) +
+                                                3 * w * t * t * vec3(2, 1, 0) +
+                                                t * t * t * vec3(0, 1, 0));
+            float a[4];
+            ASSERT_TRUE(evalAttribute(set, *set.attribute("a"), s, u, a));
+            EXPECT_NEAR(a[0], 10 + 10 * t, 1e-4f);
+            EXPECT_EQ(set.segmentCurve[s], 0);
+        }
+    EXPECT_EQ(set.segmentCurve.back(), 1); // straight: one piece
+    EXPECT_EQ(set.segmentSubset.back(), 1);
+    EXPECT_NEAR(set.controlPoints[0][set.segments[pieces - 1] + 3].w, 2.0f, 1e-5f);
+    EXPECT_EQ(set.segmentU[pieces - 1].y, 1.0f);
 }
 
 TEST(Curves, attributesAtSegmentEnds) {

@@ -1,0 +1,108 @@
+// Curves as triangles: how many, how wide, and along what.
+
+#include "hdDelegate/raster/rasterShapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace patina;
+
+namespace {
+
+/// Three quarters of a circle of radius 1, and a straight one beside it.
+CurveSet bent(float radius) {
+    CurveSet set;
+    set.basis = CurveBasis::Bezier;
+    constexpr float k = 0.5522848f; // of a quarter circle's control points
+    const vec2 corners[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    for (int i = 0; i < 3; ++i) {
+        const vec2 a = corners[i], b = corners[i + 1];
+        set.segments.push_back(uint32_t(4 * i));
+        for (const vec2& p : {a, a + k * b, b + k * a, b})
+            set.controlPoints.resize(1), set.controlPoints[0].emplace_back(p, 0.0f, radius);
+    }
+    set.segments.push_back(12);
+    for (int i = 0; i < 4; ++i)
+        set.controlPoints[0].emplace_back(2.0f, float(i), 0.0f, radius);
+    set.segmentCurve = {0, 0, 0, 1};
+    return set;
+}
+
+RasterFineness fineness(float pixel) {
+    return {0.03f * pixel, pixel};
+}
+
+/// The width of a straight tube as seen from a direction across it, by its vertices.
+float widthOf(const TriangleMesh& mesh, float angle) {
+    float low = INFINITY, high = -INFINITY;
+    for (const vec3& p : mesh.positions[0]) {
+        if (p.x < 1.5f) continue;
+        const float at = (p.x - 2.0f) * std::cos(angle) + p.z * std::sin(angle);
+        low = std::min(low, at);
+        high = std::max(high, at);
+    }
+    return high - low;
+}
+
+} // namespace
+
+TEST(RasterCurves, StripsFollowTheCurveAsFarAsIsSeen) {
+    size_t last = 0;
+    for (const float pixel : {0.5f, 0.05f, 0.005f}) {
+        const RasterTriangles strips = curveTriangles(bent(0.01f), fineness(pixel), true);
+        const TriangleMesh& mesh = strips.mesh;
+        ASSERT_EQ(strips.aside.size(), mesh.positions[0].size());
+        ASSERT_EQ(strips.along.size(), mesh.triangles.size());
+        EXPECT_GT(mesh.triangles.size(), last);
+        last = mesh.triangles.size();
+        for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+            vec3 middle(0.0f);
+            for (int k = 0; k < 3; ++k)
+                middle += mesh.positions[0][mesh.triangles[t][k]] / 3.0f;
+            EXPECT_NEAR(glm::length(strips.along[t]), 0.01f, 1e-5f);
+            if (middle.x < 1.5f) {
+                EXPECT_GT(glm::length(middle), 1.0f - 0.045f * pixel);
+            }
+        }
+        size_t straight = 0;
+        for (const int curve : mesh.triangleFace)
+            straight += curve == 1;
+        EXPECT_EQ(straight, 2u);
+    }
+}
+
+TEST(RasterCurves, TubesAreAsWideAsTheCurveInTheMean) {
+    for (const float pixel : {0.2f, 0.02f}) {
+        const RasterTriangles tube = curveTriangles(bent(0.1f), fineness(pixel), false);
+        float sum = 0.0f;
+        constexpr int angles = 720;
+        for (int i = 0; i < angles; ++i) {
+            const float width = widthOf(tube.mesh, 3.14159265f * float(i) / float(angles));
+            EXPECT_NEAR(width, 0.2f, 0.06f * pixel + 1e-5f);
+            sum += width;
+        }
+        EXPECT_NEAR(sum / float(angles), 0.2f, 2e-4f);
+    }
+}
+
+TEST(RasterCurves, TubesAreNotTwisted) {
+    // Corners of neighbouring rings stay beside each other all around the circle.
+    const RasterTriangles tube = curveTriangles(bent(0.1f), fineness(0.01f), false);
+    const TriangleMesh& mesh = tube.mesh;
+    for (const uvec3& t : mesh.triangles)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_GT(glm::dot(mesh.normals[0][t[k]], mesh.normals[0][t[(k + 1) % 3]]), 0.5f);
+}
+
+TEST(RasterCurves, LinearOnesHaveRoundEnds) {
+    CurveSet set;
+    set.controlPoints = {{vec4(0, 0, 0, 0.1f), vec4(1, 0, 0, 0.1f)}};
+    set.segments = {0};
+    set.segmentCurve = {0};
+    const RasterTriangles fine = curveTriangles(set, fineness(0.01f), false);
+    EXPECT_NEAR(fine.mesh.boundsMax.x, 1.1f, 1e-3f);
+    EXPECT_NEAR(fine.mesh.boundsMin.x, -0.1f, 1e-3f);
+    // Where they are too small to be seen there are none.
+    EXPECT_EQ(curveTriangles(set, fineness(10.0f), true).mesh.triangles.size(), 2u);
+}

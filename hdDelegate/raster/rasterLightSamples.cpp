@@ -145,7 +145,8 @@ RasterLights::choose(uint32_t pass, const ShadowBounds& bounds, int room) const 
 }
 
 RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& emitters,
-                                           const ShadowBounds& bounds, int mapSize) const {
+                                           const ShadowBounds& bounds, int mapSize,
+                                           int pixels) const {
     Sampled out;
     int wanted = 0;
     for (const Source& s : _sources)
@@ -156,9 +157,18 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
             : std::clamp((maxMaps - wanted) / 6, leastEmitterSamples, mostEmitterSamples);
     const int forEmitters = _shadows ? 6 * emitterSamples : 0;
     wanted += forEmitters;
-    const bool small = wanted > maxMaps;
-    out.mapSize = small ? mapSize / 2 : mapSize;
-    int room = (small ? maxSmallMaps : maxMaps) - forEmitters;
+    int most = maxMaps;
+    out.mapSize = mapSize;
+    if (wanted > maxMaps) {
+        most = maxSmallMaps;
+        out.mapSize = mapSize / 2;
+    }
+    // As many texels in more maps, as long as they are no coarser than the image.
+    while (wanted > most && most < maxTinyMaps && out.mapSize / 2 >= pixels) {
+        most *= 4;
+        out.mapSize /= 2;
+    }
+    int room = most - forEmitters;
     std::vector<bool> taken(_sources.size(), false);
     for (const auto& choice : choose(pass, bounds, room)) {
         const Source& s = _sources[choice.first];
@@ -179,7 +189,7 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
             out.lights.push_back(g);
         }
     }
-    takeEmitters(pass, emitterSamples, emitters, bounds, out);
+    takeEmitters(pass, emitterSamples, emitters, bounds, most, out);
     out.taken = int(out.lights.size());
     for (size_t i = 0; i < _sources.size(); ++i)
         if (!taken[i] && _sources[i].fixed.inverse[2].w != 0.0f)
@@ -188,7 +198,7 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
 }
 
 void RasterLights::takeEmitters(uint32_t pass, int samples, const RasterEmitters& emitters,
-                                const ShadowBounds& bounds, Sampled& out) const {
+                                const ShadowBounds& bounds, int most, Sampled& out) const {
     for (uint32_t n = 0; n < uint32_t(samples); ++n) {
         const vec2 u = passNumbers(_seed, pass * uint32_t(samples) + n, 17);
         const vec2 turn = passNumbers(_seed, pass * uint32_t(samples) + n, 18);
@@ -203,7 +213,7 @@ void RasterLights::takeEmitters(uint32_t pass, int samples, const RasterEmitters
         g.cone = vec4(0.0f, 0.0f, e.twoSided ? 1.0f : 0.0f, 0.0f);
         g.fade.w = 1.0f / float(samples);
         g.axis[2].w = float(e.category);
-        if (_shadows) castShadow(g, -1, turn, bounds, maxSmallMaps, out);
+        if (_shadows) castShadow(g, -1, turn, bounds, most, out);
         out.lights.push_back(g);
     }
 }

@@ -21,6 +21,7 @@ public:
     static constexpr int mostEmitterSamples = 5;  ///< where lights leave room for their shadows
     static constexpr int maxMaps = 32;            ///< shadow maps per pass in the full size
     static constexpr int maxSmallMaps = 128;      ///< in half of it, where lights need more
+    static constexpr int maxTinyMaps = 512;       ///< smaller still, for as few pixels a side
     static constexpr int maxUnshadowed = 64;      ///< lights without shadows per pass
 
     /// @param domeSamples per pass, where domes are sampled
@@ -37,8 +38,9 @@ public:
         int mapSize = 0;
     };
     /// @param mapSize of shadow maps, when there are not too many
+    /// @param pixels along the longer side of the image
     Sampled sample(uint32_t pass, const RasterEmitters& emitters, const ShadowBounds& bounds,
-                   int mapSize) const;
+                   int mapSize, int pixels) const;
 
     uint32_t seed() const { return _seed; }
     bool hasDome() const { return _hasDome; }
@@ -77,7 +79,7 @@ private:
     std::vector<std::pair<size_t, float>> choose(uint32_t pass, const ShadowBounds& bounds,
                                                  int room) const;
     void takeEmitters(uint32_t pass, int samples, const RasterEmitters& emitters,
-                      const ShadowBounds& bounds, Sampled& out) const;
+                      const ShadowBounds& bounds, int most, Sampled& out) const;
     /// @param most maps that there is room for; a light that needs more is not shadowed
     void castShadow(GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds, int most,
                     Sampled& out) const;

@@ -288,7 +288,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
                         const RasterCamera& camera, const RasterSample& sample, Film& film) {
     const uint32_t pass = sample.pass;
     const RasterLights::Sampled sampled =
-        lights.sample(pass, scene.emitters(), _bounds, shadowMapSize);
+        lights.sample(pass, scene.emitters(), _bounds, shadowMapSize, std::max(_width, _height));
     std::vector<mat4> matrices;
     for (const ShadowView& v : sampled.shadows)
         matrices.push_back(v.worldToMap);

@@ -1,6 +1,7 @@
 #include "hdDelegate/raster/lightChoice.h"
-
-#include <gtest/gtest.h>
+#include "hdDelegate/raster/rasterLights.h"
+#include "hdDelegate/raster/tests/rasterTest.h"
+#include "hdDelegate/scene/settings.h"
 
 #include <numeric>
 
@@ -41,6 +42,37 @@ TEST(LightChoice, countsEveryLightOnceInTheMean) {
 TEST(LightChoice, survivesWeightsThatSumToNothing) {
     EXPECT_TRUE(chooseLights({0.0f, 0.0f, 0.0f}, 1, 0.5f).empty());
     EXPECT_TRUE(chooseLights({1.0f, 2.0f}, 0, 0.5f).empty());
+}
+
+TEST(LightChoice, smallImagesTakeMoreLightsByCoarserMaps) {
+    PATINA_NEED_CONTEXT();
+    patina::SceneState state;
+    for (int i = 0; i < 100; ++i) {
+        auto light = std::make_shared<patina::Light>();
+        light->type = patina::LightType::Sphere;
+        light->path = "/light" + std::to_string(i);
+        light->radius = 0.1f;
+        light->transform = patina::mat4(1.0f);
+        state.lights[light->path] = light;
+    }
+    const patina::RenderSettings settings;
+    patina::Diagnostics diagnostics;
+    patina::RasterInstances places(state, settings, 0.0f);
+    patina::LightImages images(diagnostics);
+    patina::RasterDomes domes;
+    const patina::RasterLights lights(state, settings, places, 0.0f, 4, images, domes, {},
+                                      diagnostics);
+    patina::ShadowBounds bounds;
+    bounds.sceneMin = bounds.receiverMin = patina::vec3(-1.0f);
+    bounds.sceneMax = bounds.receiverMax = patina::vec3(1.0f);
+    const auto large = lights.sample(0, {}, bounds, 1024, 1280);
+    EXPECT_EQ(large.mapSize, 512);
+    EXPECT_EQ(large.shadows.size(), 126u); // six of 21 lights
+    EXPECT_EQ(large.taken, 21);
+    const auto small = lights.sample(0, {}, bounds, 1024, 96);
+    EXPECT_EQ(small.mapSize, 256);
+    EXPECT_EQ(small.shadows.size(), 510u);
+    EXPECT_EQ(small.taken, 85);
 }
 
 } // namespace

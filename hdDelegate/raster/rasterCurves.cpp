@@ -12,7 +12,6 @@ namespace {
 constexpr float pi = 3.14159265f;
 constexpr int mostSides = 63, mostSteps = 64;
 constexpr float largestTurn = 0.3f; ///< of a curve's direction or a ribbon's normal in a step
-constexpr size_t mostTriangles = 4000000;
 
 using Rate = MeshAttribute::Rate;
 
@@ -23,6 +22,13 @@ struct Ring {
     float u;           ///< of attributes
     float lean = 0.0f; ///< sine of the normal's angle to the circle's plane
 };
+
+float widestOf(const CurveSet& set) {
+    float widest = 0.0f;
+    for (const vec4& p : set.controlPoints[0])
+        widest = std::max(widest, p.w);
+    return widest;
+}
 
 class CurveBuilder {
 public:
@@ -37,11 +43,7 @@ public:
     }
 
     RasterTriangles build() {
-        float widest = 0.0f;
-        for (const vec4& p : _set.controlPoints[0])
-            widest = std::max(widest, p.w);
-        while (_gap > 0.0f && expected(widest) > mostTriangles)
-            _gap *= 2.0f;
+        const float widest = widestOf(_set);
         _sides = _strips || _ribbon ? 1 : sidesFor(widest);
         // As wide as the circle in the mean over all directions.
         _wider = _sides > 1 ? pi / float(_sides) / std::sin(pi / float(_sides)) : 1.0f;
@@ -60,17 +62,18 @@ public:
         return std::move(_out);
     }
 
+    size_t expected() const {
+        size_t steps = 0;
+        for (size_t s = 0; s < _set.segments.size(); ++s)
+            steps += size_t(stepsOf(s));
+        return 2 * steps * size_t(_strips || _ribbon ? 1 : sidesFor(widestOf(_set)));
+    }
+
 private:
     /// An odd number: the width of such polygons depends less on the direction.
     int sidesFor(float radius) const {
         if (!(_gap > 0.0f)) return 9;
         return std::clamp(int(std::ceil(pi * std::sqrt(radius / (3.0f * _gap)))) | 1, 5, mostSides);
-    }
-    size_t expected(float widest) const {
-        size_t steps = 0;
-        for (size_t s = 0; s < _set.segments.size(); ++s)
-            steps += size_t(stepsOf(s));
-        return 2 * steps * size_t(_strips || _ribbon ? 1 : sidesFor(widest));
     }
 
     int controls() const { return _linear ? 2 : 4; }
@@ -261,6 +264,17 @@ private:
 };
 
 } // namespace
+
+bool fitCurves(const CurveSet& set, RasterFineness& fineness, size_t most) {
+    const float widest = widestOf(set);
+    for (int i = 0; i < 24 && fineness.gap > 0.0f; ++i) {
+        const bool thin = widest <= fineness.thick;
+        if (CurveBuilder(set, fineness, thin).expected() <= most) break;
+        fineness.gap *= 2.0f;
+        fineness.thick *= 2.0f;
+    }
+    return widest <= fineness.thick;
+}
 
 RasterTriangles curveTriangles(const CurveSet& set, const RasterFineness& fineness, bool strips) {
     return CurveBuilder(set, fineness, strips).build();

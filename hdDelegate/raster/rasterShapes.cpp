@@ -10,6 +10,7 @@ namespace patina {
 namespace {
 
 constexpr float twoPi = 6.2831853f;
+constexpr size_t mostCurveTriangles = 4000000; ///< of a prim all around the camera
 
 using Rate = MeshAttribute::Rate;
 
@@ -129,12 +130,10 @@ RasterForm rasterTriangles(const Geometry& prim, const TessellationOptions& opti
     case GeometryKind::Curves: {
         const CurveSet set = buildCurves(static_cast<const Curves&>(prim), options, diagnostics);
         if (set.segments.empty()) break;
-        float widest = 0.0f;
-        for (const vec4& p : set.controlPoints[0])
-            widest = std::max(widest, p.w);
-        const bool thin = widest <= fineness.thick;
-        form.seen = curveTriangles(set, fineness, thin);
-        if (!thin && set.normals.empty()) form.casting = curveTriangles(set, fineness, true);
+        RasterFineness own = fineness;
+        const bool thin = fitCurves(set, own, mostCurveTriangles);
+        form.seen = curveTriangles(set, own, thin);
+        if (!thin && set.normals.empty()) form.casting = curveTriangles(set, own, true);
         break;
     }
     case GeometryKind::Points: {

@@ -31,6 +31,10 @@ struct RasterFineness {
 RasterForm rasterTriangles(const Geometry& prim, const TessellationOptions& options,
                            const RasterFineness& fineness, Diagnostics& diagnostics);
 
+/// Makes curves coarser until they take so many triangles at most, as far as that is possible.
+/// @returns whether they are thin enough for strips
+bool fitCurves(const CurveSet& set, RasterFineness& fineness, size_t most);
+
 /// Curves as Embree has them: circles swept along cubic segments, open at the ends; cones and
 /// spheres along linear ones. Tubes and ribbons here are polygons; strips face whoever looks.
 RasterTriangles curveTriangles(const CurveSet& set, const RasterFineness& fineness, bool strips);

@@ -95,6 +95,18 @@ TEST(RasterCurves, TubesAreNotTwisted) {
             EXPECT_GT(glm::dot(mesh.normals[0][t[k]], mesh.normals[0][t[(k + 1) % 3]]), 0.5f);
 }
 
+TEST(RasterCurves, ThoseAroundTheCameraAreMadeCoarser) {
+    RasterFineness close = fineness(1e-6f);
+    EXPECT_TRUE(fitCurves(bent(0.01f), close, 200));
+    EXPECT_LE(curveTriangles(bent(0.01f), close, true).mesh.triangles.size(), 200u);
+    RasterFineness far = fineness(0.05f);
+    EXPECT_TRUE(fitCurves(bent(0.01f), far, 200));
+    EXPECT_EQ(far.gap, fineness(0.05f).gap);
+    EXPECT_FALSE(fitCurves(bent(0.1f), far, 100000));
+    RasterFineness none = fineness(1e-6f);
+    fitCurves(bent(0.01f), none, 0); // cannot be met, and ends
+}
+
 TEST(RasterCurves, LinearOnesHaveRoundEnds) {
     CurveSet set;
     set.controlPoints = {{vec4(0, 0, 0, 0.1f), vec4(1, 0, 0, 0.1f)}};

@@ -151,10 +151,13 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
     int wanted = 0;
     for (const Source& s : _sources)
         wanted += mapsOf(s, bounds);
+    // Maps of half the size are still finer than a small image, and more samples gain more.
+    const bool coarse = mapSize / 2 >= 4 * pixels;
     const int emitterSamples =
         emitters.empty()
             ? 0
-            : std::clamp((maxMaps - wanted) / 6, leastEmitterSamples, mostEmitterSamples);
+            : std::clamp(((coarse ? maxSmallMaps : maxMaps) - wanted) / 6, leastEmitterSamples,
+                         coarse ? mostCoarseSamples : mostEmitterSamples);
     const int forEmitters = _shadows ? 6 * emitterSamples : 0;
     wanted += forEmitters;
     int most = maxMaps;

@@ -19,6 +19,7 @@ class RasterLights {
 public:
     static constexpr int leastEmitterSamples = 2; ///< of all glowing triangles together, per pass
     static constexpr int mostEmitterSamples = 5;  ///< where lights leave room for their shadows
+    static constexpr int mostCoarseSamples = 16;  ///< in small images, by maps of half the size
     static constexpr int maxMaps = 32;            ///< shadow maps per pass in the full size
     static constexpr int maxSmallMaps = 128;      ///< in half of it, where lights need more
     static constexpr int maxTinyMaps = 512;       ///< smaller still, for as few pixels a side

@@ -31,6 +31,8 @@ struct RenderProgress {
     std::map<std::string, double> statistics;
     std::map<std::string, MethodPlan> plans; ///< of materials in use, by path ("": displayColor);
                                              ///< without choices when there is no tolerance
+    std::vector<PlannedMethod>
+        sceneChoices; ///< those of the scene as a whole: ScenePlan::choices()
 };
 
 /// Told about a film at rest: no thread works on it while the call lasts.

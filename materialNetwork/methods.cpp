@@ -112,6 +112,13 @@ const std::vector<ChoicePoint>& choicePoints() {
            "rasterizer: the same with all of the sky in the harmonics and no window: to show that "
            "they ring, bright behind a sun and black beside it"}},
          "sampled"},
+        {"environmentSamples",
+         {{"16", "rasterizer: 16 samples of the material per pass look at domes, where they are "
+                 "filtered; --environmentSamples takes any number from 4 to 1024"},
+          {"4", "4 samples"},
+          {"64", "64 samples"},
+          {"256", "256 samples"},
+          {"1024", "1024 samples"}}},
         {"areaLight",
          {{"sampled", "rasterizer: a place on each light per pass, and samples of the material; "
                       "passes converge to the path tracer's direct light"},
@@ -120,7 +127,34 @@ const std::vector<ChoicePoint>& choicePoints() {
            "2016), free of noise but for shadows; lights with an image, a profile or a cone, and "
            "materials with anisotropic or other lobes than diffuse, sheen and facets are sampled; "
            "no roughness of diffuse lobes, and no stretch of Fresnel's over a lobe"}},
-         "sampled"}};
+         "sampled"},
+        {"subdivision",
+         {{"4px",
+           "subdivision surfaces are refined until no edge is longer on screen than 4 pixels"},
+          {"16px", "16 pixels: outlines are seen to have corners"},
+          {"8px", "8 pixels"},
+          {"2px", "2 pixels"},
+          {"1px", "1 pixel"},
+          {"0.5px", "half a pixel: the truth, as far as a million triangles of a prim and six "
+                    "levels go"}},
+         "0.5px"},
+        {"pathDepth",
+         {{"16", "paths meet 16 surfaces at most: what is left of the light after so many as white "
+                 "as the whitest is missing"},
+          {"4", "4 surfaces"},
+          {"8", "8 surfaces"},
+          {"32", "32 surfaces"},
+          {"64", "64 surfaces"},
+          {"128", "128 surfaces"},
+          {"256", "256 surfaces"},
+          {"512", "512 surfaces"},
+          {"1024", "1024 surfaces: the truth, unless they absorb next to nothing"}},
+         "1024"},
+        {"roulette",
+         {{"throughput", "after --rouletteDepth surfaces a path goes on with the chance of what is "
+                         "left of its light, 0.95 at most, and counts more"},
+          {"none", "no path is ended by chance, only by its depth: less noise of a sample, which "
+                   "takes longer"}}}};
     return points;
 }
 

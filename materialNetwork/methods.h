@@ -13,7 +13,8 @@ struct Method {
 };
 
 /// A place where something can be computed in several ways, or where the field leaves a meaning
-/// open. The first method is the default.
+/// open. The first method is the default. Those of light
+/// and geometry (domeLight and what follows it) are chosen with the scene in view.
 struct ChoicePoint {
     std::string name;
     std::vector<Method> methods;

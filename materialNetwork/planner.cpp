@@ -16,6 +16,9 @@ constexpr double nsPerSample = 500.0;
 /// A truth that the table has no time of is taken for so many times as slow as the default.
 constexpr double unmeasuredTruth = 20.0;
 
+/// Lobes with a smaller share of the light are not looked at for how smooth a material is.
+constexpr float seenShare = 0.02f;
+
 struct Option {
     std::string method;
     Prediction prediction;
@@ -30,14 +33,18 @@ struct Point {
 class MethodPlanner {
 public:
     MethodPlanner(const Plan& plan, const Planning& planning, TextureSource& textures)
-        : _plan(plan), _planning(planning), _places(lookAt(plan, textures)) {}
+        : _plan(plan), _planning(planning),
+          _seen(std::make_shared<std::vector<std::vector<Sighting>>>(lookAt(plan, textures))),
+          _places(*_seen) {}
 
     MethodPlan run() {
         _result.tolerance = _planning.tolerance;
+        _result.seen = _seen;
         _result.varies = _places.size() > 1;
         for (const auto& angles : _places)
             for (const Sighting& s : angles)
                 _result.albedo = std::max(_result.albedo, double(std::min(s.albedo, 1.0f)));
+        lookForFacets();
         _factor = bounceFactor(_result.albedo);
         for (const std::string& name : choicesThatMatter(_plan))
             consider(name);
@@ -65,6 +72,21 @@ private:
         if (!p.measured)
             p.ns = unmeasuredTruth * predict(_plan, _places, point, chosenMethod({}, point)).ns;
         return p;
+    }
+
+    void lookForFacets() {
+        for (const auto& angles : _places) {
+            double share = 0.0;
+            for (const Sighting& s : angles)
+                for (const SeenClosure& c : s.closures) {
+                    const std::string kind = c.kind;
+                    if (kind != "dielectric" && kind != "conductor" && kind != "schlick") continue;
+                    share += c.share / double(angles.size());
+                    if (c.share > seenShare)
+                        _result.smoothest = std::min(_result.smoothest, double(c.roughness));
+                }
+            _result.facets = std::max(_result.facets, std::min(share, 1.0));
+        }
     }
 
     /// Notes what may be chosen at a point.
@@ -177,7 +199,8 @@ private:
 
     const Plan& _plan;
     const Planning& _planning;
-    std::vector<std::vector<Sighting>> _places;
+    std::shared_ptr<const std::vector<std::vector<Sighting>>> _seen;
+    const std::vector<std::vector<Sighting>>& _places;
     std::vector<Point> _points;
     std::vector<int> _chosen, _best;
     double _factor = 1.0;

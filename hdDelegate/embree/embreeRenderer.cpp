@@ -228,7 +228,8 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     Arena arena(_settings.threads);
     arena.execute([&] { updateScene(state, camera); });
     if (_stop) return;
-    const ScenePlan plan = _embree->plan();
+    ScenePlan plan = _embree->plan();
+    plan.addPaths(_settings);
     {
         std::lock_guard<std::mutex> lock(_mutex);
         _progress.statistics = buildCounts();
@@ -239,8 +240,8 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         _progress.statistics["instances"] = double(_embree->instanceCount());
         plan.tell(_settings.tolerance, _progress.statistics);
         _progress.plans = plan.materials();
-        _progress.statistics["maxDepth"] =
-            _settings.maxDepth < 0 ? plan.depth(_settings.tolerance) : _settings.maxDepth;
+        _progress.sceneChoices = plan.choices();
+        _progress.statistics["maxDepth"] = plan.depth(_settings);
     }
 
     std::vector<AovSpec> aovs;
@@ -252,7 +253,8 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     const CameraRays rays(camera, _settings);
     RenderSettings sampled = _settings;
     sampled.tolerance = plan.noise(_settings.tolerance);
-    if (sampled.maxDepth < 0) sampled.maxDepth = plan.depth(_settings.tolerance);
+    sampled.maxDepth = plan.depth(_settings);
+    sampled.rouletteDepth = plan.rouletteDepth(_settings);
     const Integrator integrator(*_embree, *_lights, rays, sampled, aovs);
     TileSchedule schedule(*_film, sampled);
     _sampling = _lastCheckpoint = Clock::now();

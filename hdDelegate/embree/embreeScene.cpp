@@ -60,9 +60,9 @@ int EmbreeScene::category(const std::string& name) const {
     return found == _categoryIds.end() ? -1 : found->second;
 }
 
-void EmbreeScene::update(const SceneState& state, const Camera& camera,
-                         const RenderSettings& settings, TextureSource& textures,
-                         const std::atomic<bool>& stop) {
+void EmbreeScene::update(const SceneState& state, const Camera& camera, const RenderSettings& asked,
+                         TextureSource& textures, const std::atomic<bool>& stop) {
+    RenderSettings settings = asked;
     const float open = float(camera.shutterOpen);
     const float close = settings.enableMotionBlur ? float(camera.shutterClose) : open;
     if (open != _shutterOpen || close != _shutterClose) {
@@ -97,6 +97,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
     std::set<std::string> drawn;
     size_t primRank = 0;
     std::map<std::string, std::vector<mat4>> transformsOf;
+    settings.edgeLength = planSubdivision(state, rays, settings, textures);
     for (const auto& item : state.geometry) {
         const auto& prim = item.second;
         const int rank = int(primRank++);
@@ -220,6 +221,7 @@ ScenePlan EmbreeScene::plan() const {
     ScenePlan plan;
     for (const auto& item : _programs)
         plan.add(item.first, item.second.program->planned());
+    plan.add(_subdivision);
     return plan;
 }
 

@@ -6,6 +6,7 @@
 #include "hdDelegate/scene/camera.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/scenePlan.h"
+#include "hdDelegate/scene/subdivisionPlan.h"
 #include "hdDelegate/scene/settings.h"
 #include "materialNetwork/textureSource.h"
 
@@ -103,6 +104,9 @@ private:
     /// The programs of a prim's materials as displace() takes them; empty when none displaces.
     Programs displacers(const Geometry& prim, const SceneState& state,
                         const RenderSettings& settings, TextureSource& textures);
+    /// Chooses how long edges of subdivision surfaces are on screen. @returns pixels
+    float planSubdivision(const SceneState& state, const CameraRays& rays,
+                          const RenderSettings& settings, TextureSource& textures);
     /// How long the edges of a tessellated prim may be, in its own space: --edgeLength pixels where
     /// it is nearest, rounded to a power of two so that small moves of the camera change nothing.
     /// 0: it is drawn as it is.
@@ -137,6 +141,7 @@ private:
     RTCDevice _device = nullptr;
     std::map<std::string, CachedSurface> _surfaces;
     std::map<std::string, CachedProgram> _programs;
+    PlannedMethod _subdivision; ///< of this update; without a name where nothing was planned
     std::map<std::string, std::unique_ptr<EmbreeGroup>> _groups; ///< by name; "" is the world
     std::map<std::string, std::vector<std::shared_ptr<Surface>>> _surfacesOf; ///< by group
     std::map<std::string, std::vector<std::shared_ptr<const Instancer>>> _instancersOf;

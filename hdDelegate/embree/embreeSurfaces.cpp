@@ -1,6 +1,7 @@
 // Surfaces of EmbreeScene: how finely a prim is tessellated, its shape, its materials.
 
 #include "hdDelegate/embree/cameraRays.h"
+#include "hdDelegate/embree/drawnPrims.h"
 #include "hdDelegate/embree/embreeScene.h"
 #include "hdDelegate/embree/surfaceSpace.h"
 #include "hdDelegate/scene/displace.h"
@@ -22,11 +23,29 @@ float maxScale(const mat4& m) {
 
 } // namespace
 
+float EmbreeScene::planSubdivision(const SceneState& state, const CameraRays& rays,
+                                   const RenderSettings& settings, TextureSource& textures) {
+    const ScreenScale screen{vec3(glm::inverse(rays.worldToCamera())[3]), !rays.orthographic(),
+                             rays.pixelSpread(), rays.camera().clipNear,
+                             double(settings.width) * settings.height};
+    SubdivisionPlan plan(settings, screen);
+    for (const auto& item : state.geometry) {
+        const Geometry& prim = *item.second;
+        if (!plan.looks() || !subdivides(prim) || !isDrawn(prim, settings)) continue;
+        std::vector<mat4> places = groupTransforms(prim.group);
+        for (mat4& place : places)
+            place = place * interpolate(prim.transform, 0.0f);
+        plan.add(CageSize(static_cast<const Mesh&>(prim)), places,
+                 program(prim.material, prim.path, state, settings, textures)->planned());
+    }
+    _subdivision = plan.chosen();
+    return plan.edgeLength();
+}
+
 float EmbreeScene::targetEdge(const Geometry& prim, bool displaced, const Camera& camera,
                               const CameraRays& rays, const RenderSettings& settings,
                               std::map<std::string, std::vector<mat4>>& transformsOf) const {
-    const bool refined = prim.kind == GeometryKind::Mesh &&
-                         static_cast<const Mesh&>(prim).scheme != SubdivisionScheme::None;
+    const bool refined = subdivides(prim);
     if ((!displaced && !refined) || !(settings.edgeLength > 0.0f)) return 0.0f;
     vec3 lower(INFINITY), upper(-INFINITY);
     if (prim.kind == GeometryKind::Implicit) {
@@ -54,7 +73,11 @@ float EmbreeScene::targetEdge(const Geometry& prim, bool displaced, const Camera
         const float distance = rays.orthographic()
                                    ? 1.0f
                                    : std::max(camera.clipNear, glm::length(center - eye) - radius);
-        const float wanted = settings.edgeLength * rays.pixelSpread() * distance / scale;
+        // Displacement shows more of itself on shorter edges, which no row of the table is of.
+        const float asked = displaced && !_subdivision.forced && !_subdivision.point.empty()
+                                ? std::min(settings.edgeLength, SubdivisionPlan::standardEdge)
+                                : settings.edgeLength;
+        const float wanted = asked * rays.pixelSpread() * distance / scale;
         if (std::isfinite(wanted) && wanted > 0.0f)
             edge = edge > 0.0f ? std::min(edge, wanted) : wanted;
     }

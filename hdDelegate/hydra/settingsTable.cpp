@@ -105,6 +105,18 @@ Row toleranceRow() {
             }};
 }
 
+/// Negative, as it is at first: planned.
+Row edgeLengthRow() {
+    return {TfToken("edgeLength"),
+            "Edge length of subdivided meshes (pixels; -1: as the tolerance asks)",
+            VtValue(RenderSettings().edgeLength), [](HdPatinaSettings& s, const VtValue& v) {
+                const float value = v.UncheckedGet<float>();
+                if (!(value >= 0.0f) && value != -1.0f) return false;
+                s.edgeLength = value;
+                return true;
+            }};
+}
+
 const std::vector<Row>& rows() {
     using S = RenderSettings;
     constexpr int most = std::numeric_limits<int>::max();
@@ -131,13 +143,13 @@ const std::vector<Row>& rows() {
              &S::domeLightCameraVisibility),
         choice("cullStyle", "Faces culled for the camera", &S::cullStyle,
                {"nothing", "back", "front", "backUnlessDoubleSided", "frontUnlessDoubleSided"}),
-        real("edgeLength", "Edge length of subdivided meshes (pixels)", &S::edgeLength),
+        edgeLengthRow(),
         choice("integrator", "Integrator (path, ambientOcclusion)", &S::integrator,
                {"path", "ambientOcclusion"}),
         integer("ambientOcclusionSamples", "Ambient occlusion rays per hit",
                 &S::ambientOcclusionSamples, 1, 65536),
-        integer("environmentSamples", "Rasterizer: samples of domes", &S::environmentSamples, 4,
-                1024),
+        integer("environmentSamples", "Rasterizer: samples of domes (-1: as the tolerance asks)",
+                &S::environmentSamples, -1, 1024),
         flag("interactive", "Interactive (quick starts before speed)", &S::interactive, true),
     };
     return table;

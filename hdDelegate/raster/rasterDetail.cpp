@@ -1,6 +1,7 @@
 #include "hdDelegate/raster/rasterDetail.h"
 
 #include "hdDelegate/scene/lightUnits.h"
+#include "hdDelegate/scene/subdivisionPlan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +75,8 @@ RasterDetail::RasterDetail(const RasterExtent& extent, const MotionTransform& tr
     _radius = 0.5f * glm::length(high - low);
     _nearest = camera.camera().clipNear;
     _edgeLength = settings.edgeLength;
+    const float finer = std::min(_edgeLength / SubdivisionPlan::standardEdge, 1.0f);
+    _gap *= finer * finer;
 }
 
 float RasterDetail::chord(float unit) const {

@@ -23,7 +23,8 @@ class RasterDetail {
 public:
     /// A chord of c pixels leaves a circle of R pixels by c^2 / 8R. Where that is less than
     /// `largestGap`, edges may be twice as long as the settings ask for, unless the prim is
-    /// displaced: normals are smooth. Small round shapes have shorter ones instead, as the path
+    /// displaced: normals are smooth. Where shorter edges are asked for than the default's, the gap
+    /// is smaller with their square. Small round shapes have shorter ones instead, as the path
     /// tracer's always do. Against the edge of what glows a quarter of the gap is seen as well.
     RasterDetail(const RasterExtent& extent, const MotionTransform& transform,
                  const RasterCamera& camera, const RenderSettings& settings, bool displaced,

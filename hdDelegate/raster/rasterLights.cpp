@@ -3,7 +3,6 @@
 #include "hdDelegate/scene/lightShaping.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "materialNetwork/diagnostics.h"
-#include "materialNetwork/methods.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,17 +43,12 @@ int categoryOf(const std::string& link, const std::map<std::string, int>& catego
 
 RasterLights::RasterLights(const SceneState& state, const RenderSettings& settings,
                            RasterInstances& places, float timeCode, int domeSamples,
-                           LightImages& images, RasterDomes& domes,
-                           const std::map<std::string, int>& categories, Diagnostics& diagnostics)
-    : _tables(diagnostics), _domeSamples(domeSamples), _seed(uint32_t(settings.seed)),
-      _shadows(settings.enableShadows) {
-    const std::string method = chosenMethod(settings.methods, "domeLight");
-    _domeMethod = method == "filtered"              ? DomeMethod::Filtered
-                  : method == "prefiltered"         ? DomeMethod::Prefiltered
-                  : method == "harmonics"           ? DomeMethod::Harmonics
-                  : method == "harmonicsUnwindowed" ? DomeMethod::BareHarmonics
-                                                    : DomeMethod::Sampled;
-    if (_domeMethod != DomeMethod::Sampled) _domeSamples = 0;
+                           const std::set<std::string>& domeMethods, LightImages& images,
+                           RasterDomes& domes, const std::map<std::string, int>& categories,
+                           Diagnostics& diagnostics)
+    : _tables(diagnostics), _domeMethods(domeMethods), _domeSamples(domeSamples),
+      _seed(uint32_t(settings.seed)), _shadows(settings.enableShadows) {
+    if (!domeMethods.empty() && domeMethods.count("sampled") == 0) _domeSamples = 0;
     domes.begin();
     if (settings.enableSceneLights)
         for (const auto& item : state.lights) {
@@ -66,7 +60,7 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
                     images, domes, categories, diagnostics);
         }
     _tables.upload();
-    domes.upload(_domeMethod == DomeMethod::Prefiltered);
+    domes.upload(_domeMethods.count("prefiltered") > 0);
 }
 
 void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSettings& settings,
@@ -154,9 +148,8 @@ void RasterLights::addDome(Source& s, const Light& light, const mat4& toWorld, L
                                            environmentFormat(light.textureFormat), light.path,
                                            "inputs:texture:file");
         layer = domes.layer(s.environment);
-        const bool bare = _domeMethod == DomeMethod::BareHarmonics;
-        if (bare || _domeMethod == DomeMethod::Harmonics ||
-            _domeMethod == DomeMethod::Prefiltered) {
+        const bool bare = _domeMethods.count("harmonicsUnwindowed") > 0;
+        if (bare || _domeMethods.count("harmonics") > 0 || _domeMethods.count("prefiltered") > 0) {
             const SkyHarmonics& sky = domes.harmonics(s.environment, bare);
             std::vector<vec4> values;
             for (const vec3& c : sky.irradiance)

@@ -8,6 +8,7 @@
 #include "hdDelegate/raster/rasterLightTables.h"
 
 #include <map>
+#include <set>
 
 namespace patina {
 
@@ -26,9 +27,11 @@ public:
     static constexpr int maxUnshadowed = 64;      ///< lights without shadows per pass
 
     /// @param domeSamples per pass, where domes are sampled
+    /// @param domeMethods of `domeLight`, by which materials are drawn
     /// @param categories of light and shadow links, see RasterScene
     RasterLights(const SceneState& state, const RenderSettings& settings, RasterInstances& places,
-                 float timeCode, int domeSamples, LightImages& images, RasterDomes& domes,
+                 float timeCode, int domeSamples, const std::set<std::string>& domeMethods,
+                 LightImages& images, RasterDomes& domes,
                  const std::map<std::string, int>& categories, Diagnostics& diagnostics);
 
     /// What a pass knows of the lights.
@@ -49,8 +52,6 @@ public:
     const RasterLightTables& tables() const { return _tables; }
 
 private:
-    /// How domes light; see the choice point `domeLight`.
-    enum class DomeMethod { Sampled, Filtered, Prefiltered, Harmonics, BareHarmonics };
     /// The numbers are those of lights.glsl.
     enum Kind { Rect, Disk, Sphere, Cylinder, Point, Distant, Dome, MoreDome, Line, Triangle };
     struct Source {
@@ -87,8 +88,8 @@ private:
 
     RasterLightTables _tables;
     std::vector<Source> _sources;
-    DomeMethod _domeMethod = DomeMethod::Sampled;
-    int _domeSamples = 1;
+    std::set<std::string> _domeMethods;
+    int _domeSamples = 1; ///< 0: no material looks at samples of domes
     uint32_t _seed = 0;
     bool _shadows = true, _hasDome = false;
 };

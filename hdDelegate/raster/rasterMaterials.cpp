@@ -4,6 +4,9 @@
 #include "hdDelegate/raster/glFaults.h"
 #include "materialNetwork/material.h"
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace patina {
 
 namespace {
@@ -17,21 +20,26 @@ MethodChoices drawable(MethodChoices methods, double tolerance) {
     return methods;
 }
 
+/// Text that the default methods do not need is kept from the driver: compiling it takes long.
+std::string lightingText(const std::string& dome, const std::string& area) {
+    const std::string text = dome == "filtered"      ? "#define DOME_METHOD DOME_FILTERED\n"
+                             : dome == "prefiltered" ? "#define DOME_METHOD DOME_PREFILTERED\n"
+                             : dome == "harmonics" || dome == "harmonicsUnwindowed"
+                                 ? "#define DOME_METHOD DOME_HARMONICS\n"
+                                 : "";
+    return text + (area == "linearlyTransformedCosines" ? "#define AREA_OUTLINES\n" : "");
+}
+
 } // namespace
 
 RasterMaterials::RasterMaterials(Diagnostics& diagnostics)
     : _diagnostics(diagnostics), _textures(diagnostics), _uploaded(_textures, diagnostics) {}
 
-void RasterMaterials::update(const SceneState& state, const RenderSettings& settings) {
-    // Text that the default method does not need is kept from the driver: compiling it takes long.
-    const std::string method = chosenMethod(settings.methods, "domeLight");
-    _lighting = method == "filtered"      ? "#define DOME_METHOD DOME_FILTERED\n"
-                : method == "prefiltered" ? "#define DOME_METHOD DOME_PREFILTERED\n"
-                : method == "harmonics" || method == "harmonicsUnwindowed"
-                    ? "#define DOME_METHOD DOME_HARMONICS\n"
-                    : "";
-    if (chosenMethod(settings.methods, "areaLight") == "linearlyTransformedCosines")
-        _lighting += "#define AREA_OUTLINES\n";
+void RasterMaterials::update(const SceneState& state, const RenderSettings& settings,
+                             const RasterLightPlan& lights) {
+    _lights = lights;
+    _domeMethods.clear();
+    _environmentSamples = std::max(settings.environmentSamples, 0);
     for (auto it = _materials.begin(); it != _materials.end();) {
         const auto found = state.materials.find(it->first);
         const auto now = found != state.materials.end() && settings.enableSceneMaterials
@@ -42,11 +50,13 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
                  ? std::next(it)
                  : _materials.erase(it);
     }
+    for (auto& item : _materials)
+        item.second.lit = false;
 }
 
-const RasterMaterial& RasterMaterials::get(const std::string& path, const std::string& user,
-                                           const SceneState& state,
-                                           const RenderSettings& settings) {
+RasterMaterials::Cached& RasterMaterials::compiled(const std::string& path, const std::string& user,
+                                                   const SceneState& state,
+                                                   const RenderSettings& settings) {
     std::shared_ptr<const MaterialPrim> prim;
     if (!path.empty() && settings.enableSceneMaterials) {
         const auto found = state.materials.find(path);
@@ -58,19 +68,38 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
     }
     const std::string key = prim ? path : std::string();
     const auto known = _materials.find(key);
-    if (known != _materials.end()) return known->second.material;
+    if (known != _materials.end()) return known->second;
     Cached& cached = _materials[key];
     cached.prim = prim;
     cached.methods = settings.methods;
     cached.tolerance = settings.tolerance;
-    RasterMaterial& m = cached.material;
-    m.program = compileMaterial(
+    cached.material.program = compileMaterial(
         prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork(), _textures,
         _diagnostics, drawable(settings.methods, settings.tolerance), settings.tolerance);
-    m.glsl = makeGlslMaterial(*m.program);
-    for (const std::string& line : m.glsl.leftOut)
-        _diagnostics.warn(key, "", line);
-    m.programs = build(m.glsl, int(m.program->primvars().size()), key);
+    return cached;
+}
+
+const MethodPlan& RasterMaterials::planned(const std::string& path, const std::string& user,
+                                           const SceneState& state,
+                                           const RenderSettings& settings) {
+    return compiled(path, user, state, settings).material.program->planned();
+}
+
+const RasterMaterial& RasterMaterials::get(const std::string& path, const std::string& user,
+                                           const SceneState& state,
+                                           const RenderSettings& settings) {
+    Cached& cached = compiled(path, user, state, settings);
+    RasterMaterial& m = cached.material;
+    const bool first = !cached.built;
+    if (first) m.glsl = makeGlslMaterial(*m.program);
+    const bool relit = !cached.lit && light(cached, settings);
+    if (!first && !relit) return m;
+    cached.built = true;
+    const std::string key = cached.prim ? path : std::string();
+    if (first)
+        for (const std::string& line : m.glsl.leftOut)
+            _diagnostics.warn(key, "", line);
+    m.programs = build(m.glsl, int(m.program->primvars().size()), cached.lighting, key);
     if (!m.programs && key.empty())
         throw DeviceError("the driver does not take the shader of displayColor");
     if (!m.programs) {
@@ -84,14 +113,40 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
     return m;
 }
 
+bool RasterMaterials::light(Cached& cached, const RenderSettings& settings) {
+    cached.lit = true;
+    cached.light = _lights.choose(withoutWalks(cached.material.program->planned()), settings,
+                                  cached.material.glsl.transmits || cached.material.glsl.holds);
+    std::string dome = chosenMethod(settings.methods, "domeLight");
+    std::string area = chosenMethod(settings.methods, "areaLight");
+    for (const PlannedMethod& m : cached.light) {
+        if (m.point == "domeLight") dome = m.method;
+        if (m.point == "areaLight") area = m.method;
+        if (m.point == "environmentSamples")
+            _environmentSamples = std::max(_environmentSamples, std::atoi(m.method.c_str()));
+    }
+    _domeMethods.insert(dome);
+    const std::string text = lightingText(dome, area);
+    const bool changed = text != cached.lighting;
+    cached.lighting = text;
+    return changed;
+}
+
 ScenePlan RasterMaterials::plan() const {
     ScenePlan plan;
-    for (const auto& item : _materials)
-        plan.add(item.first, withoutWalks(item.second.material.program->planned()));
+    for (const auto& item : _materials) {
+        MethodPlan material = withoutWalks(item.second.material.program->planned());
+        for (const PlannedMethod& m : item.second.light) {
+            material.error += m.error;
+            material.choices.push_back(m);
+        }
+        plan.add(item.first, material);
+    }
     return plan;
 }
 
 std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial& glsl, int primvars,
+                                                             const std::string& lighting,
                                                              const std::string& user) {
     const bool faulty = !user.empty() && glFault("material") == user;
     const std::string head = "#define PRIMVARS " + std::to_string(primvars) + "\n" +
@@ -102,7 +157,7 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
                              (glsl.volumeOnly ? "#define MATERIAL_IS_VOLUME\n" : "") +
                              (glsl.fibre ? "#define MATERIAL_IS_FIBRE\n" : "") +
                              "#define MATERIAL_IS_THIN " + (glsl.thin ? "true\n" : "false\n");
-    auto& shared = _programs[head + _lighting + glsl.text + (faulty ? "faulty" : "")];
+    auto& shared = _programs[head + lighting + glsl.text + (faulty ? "faulty" : "")];
     if (shared) return shared;
     const GlStage vertex{GL_VERTEX_SHADER, "surface",
                          head + "#include \"shaders/raster/surface.vert.glsl\"\n"};
@@ -116,7 +171,7 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
     programs->color =
         GlProgram::make({vertex,
                          {GL_FRAGMENT_SHADER, "material",
-                          surface + _lighting + (_lighting.empty() ? "" : glsl.traitsText) +
+                          surface + lighting + (lighting.empty() ? "" : glsl.traitsText) +
                               "#include \"shaders/raster/lighting.frag.glsl\"\n"}},
                         error);
     if (programs->color)

@@ -2,6 +2,7 @@
 
 #include "hdDelegate/raster/glProgram.h"
 #include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/rasterLightPlan.h"
 #include "hdDelegate/raster/rasterTextures.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/scenePlan.h"
@@ -39,8 +40,20 @@ public:
     /// @param user who is told about in messages
     const RasterMaterial& get(const std::string& path, const std::string& user,
                               const SceneState& state, const RenderSettings& settings);
+    /// How its methods are chosen; nothing of it is on the GPU before get() asks for it.
+    const MethodPlan& planned(const std::string& path, const std::string& user,
+                              const SceneState& state, const RenderSettings& settings);
     /// Forgets materials whose prim has changed; programs and textures stay.
-    void update(const SceneState& state, const RenderSettings& settings);
+    /// @param lights that materials are lit by, for how they are
+    void update(const SceneState& state, const RenderSettings& settings,
+                const RasterLightPlan& lights);
+    /// Methods of `domeLight` that materials have been built with since update().
+    const std::set<std::string>& domeMethods() const { return _domeMethods; }
+    /// Samples where domes are filtered: the most that a material asks for.
+    int environmentSamples() const {
+        return _environmentSamples > 0 ? _environmentSamples : standardEnvironmentSamples;
+    }
+    static constexpr int standardEnvironmentSamples = 16;
 
     size_t programsBuilt() const { return _built; }
 
@@ -53,12 +66,23 @@ private:
         std::map<std::string, std::string> methods;
         double tolerance = -1.0;
         RasterMaterial material;
+        std::vector<PlannedMethod> light; ///< how it is lit
+        std::string lighting;             ///< text in front of the lighting: methods in force
+        bool lit = false;                 ///< `light` is of this update
+        bool built = false;               ///< its text and its GPU objects
     };
 
+    Cached& compiled(const std::string& path, const std::string& user, const SceneState& state,
+                     const RenderSettings& settings);
     std::shared_ptr<const RasterPrograms> build(const GlslMaterial& glsl, int primvars,
+                                                const std::string& lighting,
                                                 const std::string& user);
+    /// Chooses how a material is lit. @returns whether that is new
+    bool light(Cached& cached, const RenderSettings& settings);
 
-    std::string _lighting; ///< text in front of the lighting: methods in force
+    RasterLightPlan _lights;
+    std::set<std::string> _domeMethods;
+    int _environmentSamples = 0; ///< 0: nobody has said how many
     Diagnostics& _diagnostics;
     TextureSystem _textures;
     std::map<std::string, Cached> _materials;

@@ -57,6 +57,9 @@ public:
         _scene = std::move(scene);
         _film = std::move(film);
         _settings = settings;
+        const auto samples = settings.methods.find("environmentSamples");
+        if (samples != settings.methods.end() && settings.environmentSamples <= 0)
+            _settings.environmentSamples = std::atoi(samples->second.c_str());
         _stop = _pause = false;
         {
             const std::lock_guard<std::mutex> lock(_mutex);
@@ -164,14 +167,37 @@ private:
             _domes = std::make_unique<RasterDomes>();
             _builtFor = _scene;
         }
-        _raster->update(state, camera, _settings, _stop);
+        _raster->update(state, camera, _settings, lightPlan(state), _stop);
         if (_stop) return;
         // Every sample of a dome costs a shadow map: few of them where that takes long.
         const int domeSamples = _raster->trianglesDrawn() > 1000000 ? 1 : 4;
         RasterInstances places(state, _settings, camera.timeCode(0.5f));
-        _lights = std::make_unique<RasterLights>(state, _settings, places, camera.timeCode(0.5f),
-                                                 domeSamples, *_images, *_domes,
-                                                 _raster->categories(), _scene->diagnostics());
+        _lights = std::make_unique<RasterLights>(
+            state, _settings, places, camera.timeCode(0.5f), domeSamples, _raster->domeMethods(),
+            *_images, *_domes, _raster->categories(), _scene->diagnostics());
+    }
+
+    /// What lights there are for the planner to look at; without a tolerance it does not.
+    RasterLightPlan lightPlan(const SceneState& state) {
+        RasterLightPlan plan;
+        if (_settings.tolerance < 0.0) return plan;
+        for (const auto& item : state.geometry)
+            if (item.second->kind == GeometryKind::Volume) plan.needSamples();
+        for (const auto& item : state.lights) {
+            const Light& light = *item.second;
+            if (!_settings.enableSceneLights || !light.visible) continue;
+            if (light.type != LightType::Dome) {
+                plan.addArea(light);
+                continue;
+            }
+            std::shared_ptr<const EnvironmentMap> map;
+            if (!light.textureFile.empty())
+                map = _images->environment(light.textureFile, light.textureColorSpace,
+                                           environmentFormat(light.textureFormat), light.path,
+                                           "inputs:texture:file");
+            plan.addDome(map.get());
+        }
+        return plan;
     }
 
     void render(const SceneState& state, const Camera& cameraPrim) {
@@ -203,6 +229,7 @@ private:
             const ScenePlan plan = _raster->plan();
             plan.tell(_settings.tolerance, _progress.statistics);
             _progress.plans = plan.materials();
+            if (_settings.tolerance >= 0.0) _progress.sceneChoices = plan.choices();
         }
         _passes->clearSeconds();
         _passes->drawAovs(*_raster, camera, aovs, *_film);
@@ -219,8 +246,8 @@ private:
             if (isGoodEnough(int(i))) break;
             const RasterSample sample = sampleOf(i, filter, border);
             _raster->moveTo(state, _settings, camera.timeCode(sample.time));
-            _passes->draw(*_raster, *_lights, *_domes, _settings.environmentSamples, camera, sample,
-                          *_film);
+            _passes->draw(*_raster, *_lights, *_domes, _raster->environmentSamples(), camera,
+                          sample, *_film);
             checkDevice(int(i) + 1);
             {
                 const std::lock_guard<std::mutex> lock(_mutex);

@@ -146,7 +146,11 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
         measured = prim;
         extent = RasterExtent(*prim);
     }
-    const RasterDetail detail(extent, prim->transform, camera, settings, displaced, wish.needsMesh);
+    RenderSettings fine = settings;
+    // Displacement shows more of itself on shorter edges, which no row of the table is of.
+    if (displaced && !_subdivision.forced && !_subdivision.point.empty())
+        fine.edgeLength = std::min(fine.edgeLength, SubdivisionPlan::standardEdge);
+    const RasterDetail detail(extent, prim->transform, camera, fine, displaced, wish.needsMesh);
     std::map<float, std::vector<uint32_t>> byEdge;
     for (size_t i = 0; i < where.size(); ++i)
         byEdge[detail.edgeAt(where[i])].push_back(uint32_t(i));
@@ -213,8 +217,30 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
     }
 }
 
+float RasterScene::planSubdivision(const SceneState& state, const RasterCamera& camera,
+                                   const RenderSettings& settings, RasterInstances& places) {
+    const RasterView view = camera.view(vec2(0.0f), vec2(0.0f), 0.5f, vec3(-1.0f), vec3(1.0f));
+    const ScreenScale screen{view.eye, view.perspective, view.pixelSpread, camera.camera().clipNear,
+                             double(settings.width) * settings.height};
+    SubdivisionPlan plan(settings, screen);
+    for (const auto& item : state.geometry) {
+        const Geometry& prim = *item.second;
+        if (!plan.looks() || !subdivides(prim) || !isDrawnInRaster(prim, settings)) continue;
+        const mat4 toGroup = transformAt(prim.transform, camera.timeCode(0.5f));
+        std::vector<mat4> toWorld;
+        for (const RasterPlace& place : places.places(prim.group))
+            toWorld.push_back(place.groupToWorld * toGroup);
+        plan.add(CageSize(static_cast<const Mesh&>(prim)), toWorld,
+                 _materials.planned(prim.material, prim.path, state, settings));
+    }
+    _subdivision = plan.chosen();
+    return plan.edgeLength();
+}
+
 void RasterScene::update(const SceneState& state, const RasterCamera& camera,
-                         const RenderSettings& settings, const std::atomic<bool>& stop) {
+                         const RenderSettings& asked, const RasterLightPlan& lights,
+                         const std::atomic<bool>& stop) {
+    RenderSettings settings = asked;
     _draws.clear();
     _groups.clear();
     _instances.clear();
@@ -225,12 +251,13 @@ void RasterScene::update(const SceneState& state, const RasterCamera& camera,
     _shutterClose = camera.timeCode(1.0f);
     _boundsMin = vec3(INFINITY);
     _boundsMax = vec3(-INFINITY);
-    _materials.update(state, settings);
+    _materials.update(state, settings, lights);
     collectCategories(state);
     collectMeshLights(state, settings);
     _emitters.clear();
     _volumes.begin();
     RasterInstances places(state, settings, camera.timeCode(0.5f));
+    settings.edgeLength = planSubdivision(state, camera, settings, places);
     for (const auto& item : state.instancers)
         for (const MotionTransform& transform : item.second->transforms)
             _moves |= transform.moves();
@@ -326,6 +353,12 @@ RasterVisible RasterScene::visible(const mat4& worldToClip) const {
         found.group.emplace_back(before, found.runs.size());
     }
     return found;
+}
+
+ScenePlan RasterScene::plan() const {
+    ScenePlan plan = _materials.plan();
+    plan.add(_subdivision);
+    return plan;
 }
 
 size_t RasterScene::trianglesDrawn() const {

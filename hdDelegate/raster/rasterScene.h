@@ -8,6 +8,7 @@
 #include "hdDelegate/raster/rasterMaterials.h"
 #include "hdDelegate/raster/rasterShapeCache.h"
 #include "hdDelegate/raster/rasterVolumes.h"
+#include "hdDelegate/scene/subdivisionPlan.h"
 
 #include <atomic>
 
@@ -54,8 +55,9 @@ public:
         : _diagnostics(diagnostics), _materials(diagnostics), _shapes(diagnostics),
           _volumes(diagnostics) {}
 
+    /// @param lights that materials are lit by: with a tolerance they decide how
     void update(const SceneState& state, const RasterCamera& camera, const RenderSettings& settings,
-                const std::atomic<bool>& stop);
+                const RasterLightPlan& lights, const std::atomic<bool>& stop);
     /// Moves to another time of the shutter: transforms exactly, points that move to the nearest of
     /// deformationSteps times. @returns false when nothing moves
     bool moveTo(const SceneState& state, const RenderSettings& settings, float timeCode);
@@ -73,7 +75,10 @@ public:
     size_t instancesWritten() const { return _instancesWritten; } ///< since this was made
     size_t trianglesDrawn() const; ///< those of every instance counted
     size_t programsBuilt() const { return _materials.programsBuilt(); }
-    ScenePlan plan() const { return _materials.plan(); }
+    ScenePlan plan() const;
+    /// Methods of `domeLight` that materials are drawn by.
+    const std::set<std::string>& domeMethods() const { return _materials.domeMethods(); }
+    int environmentSamples() const { return _materials.environmentSamples(); }
     size_t instanceCount() const { return _instances.size(); }
     /// Binds the instances to a vertex array (binding 1).
     void bind(GLuint vertexArray) const;
@@ -88,6 +93,9 @@ private:
         void place(const mat4& toWorld);
     };
 
+    /// Chooses how long edges of subdivision surfaces are on screen. @returns pixels
+    float planSubdivision(const SceneState& state, const RasterCamera& camera,
+                          const RenderSettings& settings, RasterInstances& places);
     void addPrim(const std::shared_ptr<const Geometry>& prim, int rank, const SceneState& state,
                  const RasterCamera& camera, const RenderSettings& settings,
                  RasterInstances& places);
@@ -121,6 +129,7 @@ private:
     size_t _triangles = 0, _instancesWritten = 0;
     float _shutterOpen = 0.0f, _shutterClose = 0.0f; ///< time codes
     bool _moves = false;
+    PlannedMethod _subdivision; ///< of this update; without a name where nothing was planned
 };
 
 } // namespace patina

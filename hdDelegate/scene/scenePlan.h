@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hdDelegate/scene/settings.h"
 #include "materialNetwork/planner.h"
 
 #include <map>
@@ -7,26 +8,34 @@
 
 namespace patina {
 
-/// What the methods of a scene's materials mean for an image of it: both back ends fill one when
-/// they have compiled the materials, and stop sampling by what it leaves for noise.
+/// What the methods of a scene and of its materials mean for an image of it: both back ends fill
+/// one when they have compiled the materials, and stop sampling by what it leaves for noise.
 class ScenePlan {
 public:
     /// @param path of the material; empty for displayColor
     void add(const std::string& path, const MethodPlan& material);
+    /// A choice that holds for all of the scene; one without a name is none.
+    void add(const PlannedMethod& choice);
+    /// Adds what a path tracer chooses: pathDepth and roulette.
+    void addPaths(const RenderSettings& settings);
 
     /// Relative luminance error that methods are expected to cost: that of the material where it
     /// is largest, since it may fill the image.
     double error() const { return _error; }
 
-    /// Vertices of a path that a tolerance needs: what light has left after so many surfaces as
-    /// white as the whitest is at most depthShare of the tolerance; 0 of it: depthMost; negative:
-    /// depthStandard. Roulette has no part in this, since it makes noise alone.
-    int depth(double tolerance) const;
+    /// Vertices of a path: those of the settings or of a forced method, else by the tolerance. What
+    /// light has left after so many surfaces as white as the whitest is at most depthShare of it; 0
+    /// of it: depthMost; negative: depthStandard. Roulette has no part in this, since it makes
+    /// noise alone.
+    int depth(const RenderSettings& settings) const;
+    /// RenderSettings::rouletteDepth, beyond all depths where the method is `none`.
+    int rouletteDepth(const RenderSettings& settings) const;
 
-    static constexpr int depthStandard = 16, depthLeast = 4, depthMost = 1024;
+    static constexpr int depthStandard = 16, depthMost = 1024;
 
-    /// What noise may take of a tolerance: all that methods and depth leave, and never less than
-    /// their own shares leave (methods that are forced may spoil more). 0 and below: all samples.
+    /// What noise may take of a tolerance: all that methods, subdivision and depth leave, and never
+    /// less than their own shares leave (methods that are forced may spoil more). 0 and below: all
+    /// samples.
     double noise(double tolerance) const;
 
     /// For RenderProgress::statistics; nothing without a tolerance.
@@ -34,10 +43,16 @@ public:
 
     /// Of every material in use, by its path.
     const std::map<std::string, MethodPlan>& materials() const { return _materials; }
+    /// Choices of the scene as a whole; times are over those of the default.
+    const std::vector<PlannedMethod>& choices() const { return _choices; }
 
 private:
-    double _error = 0.0, _albedo = 0.0;
+    PlannedMethod pathDepth(const RenderSettings& settings) const;
+    PlannedMethod roulette(const RenderSettings& settings) const;
+
+    double _error = 0.0, _albedo = 0.0, _subdivision = 0.0;
     std::map<std::string, MethodPlan> _materials;
+    std::vector<PlannedMethod> _choices;
 };
 
 } // namespace patina

@@ -41,7 +41,8 @@ struct RenderSettings {
     bool domeLightCameraVisibility = true;
     std::string cullStyle = "nothing"; ///< for camera rays, Hydra's names: nothing, back, front,
                                        ///< backUnlessDoubleSided, frontUnlessDoubleSided
-    float edgeLength = 4.0f;           ///< pixels; subdivision refines until edges are this short
+    float edgeLength = -1.0f; ///< pixels; subdivision refines until edges are this short; negative:
+                              ///< as the tolerance allows (SubdivisionPlan), 4 without one
 
     bool interactive = false; ///< quick starts before speed: acceleration structures that are
                               ///< cheap to change
@@ -52,8 +53,9 @@ struct RenderSettings {
     std::string integrator = "path";  ///< path, ambientOcclusion
     int ambientOcclusionSamples = 16; ///< rays per camera hit, with ambientOcclusion
 
-    int environmentSamples = 16; ///< of domes per pixel and pass in the rasterizer, 4 to 1024,
-                                 ///< where its method `domeLight` filters them
+    int environmentSamples = -1; ///< of domes per pixel and pass in the rasterizer, 4 to 1024,
+                                 ///< where its method `domeLight` filters them; negative: as the
+                                 ///< tolerance asks, 16 without one
 
     std::vector<std::string> aovs; ///< besides color and alpha: names of standardAov()
 

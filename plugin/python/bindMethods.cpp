@@ -20,8 +20,13 @@ py::dict planDict(const MethodPlan& plan) {
     dict["error"] = plan.error;
     dict["albedo"] = plan.albedo;
     dict["varies"] = plan.varies;
+    dict["choices"] = choiceList(plan.choices);
+    return dict;
+}
+
+py::list choiceList(const std::vector<PlannedMethod>& planned) {
     py::list choices;
-    for (const PlannedMethod& m : plan.choices) {
+    for (const PlannedMethod& m : planned) {
         py::dict choice;
         choice["point"] = m.point;
         choice["method"] = m.method;
@@ -34,8 +39,7 @@ py::dict planDict(const MethodPlan& plan) {
         choice["nsTruth"] = m.nsTruth;
         choices.append(choice);
     }
-    dict["choices"] = choices;
-    return dict;
+    return choices;
 }
 
 namespace {

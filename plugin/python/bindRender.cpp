@@ -148,6 +148,7 @@ py::dict progress(const Renderer& renderer) {
     for (const auto& item : p.plans)
         if (!item.second.choices.empty()) plans[py::str(item.first)] = planDict(item.second);
     dict["plans"] = plans;
+    dict["sceneChoices"] = choiceList(p.sceneChoices);
     return dict;
 }
 

@@ -8,5 +8,7 @@ namespace patina {
 
 /// A plan of methods as Python sees it: tolerance, error, albedo, varies, and the list of choices.
 pybind11::dict planDict(const MethodPlan& plan);
+/// Its choices, or those of a scene.
+pybind11::list choiceList(const std::vector<PlannedMethod>& choices);
 
 } // namespace patina

@@ -33,7 +33,9 @@ vec3 fromLight(Light l) {
     vec3 wi = l.sampled.xyz;
     float density = l.normal.w; // by solid angle
     vec3 radiance = l.radiance.xyz * l.fade.w;
-    if (kind == LIGHT_DOME && l.cone.y == 0.0) return vec3(0.0); // see skyLight()
+#ifdef DOME_METHOD
+    if (kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) return vec3(0.0); // see skyLight()
+#endif
     if (l.sampled.w != 0.0) {
         vec3 d = l.sampled.xyz - point.position;
         float d2 = max(dot(d, d), 1e-20);
@@ -97,7 +99,9 @@ vec3 along(MaterialSample s) {
         vec3 radiance = l.radiance.xyz;
         float density, seen = 1.0;
         if (kind == LIGHT_DOME) {
-            if (l.cone.y == 0.0) continue;
+#ifdef DOME_METHOD
+            continue; // see skyLight()
+#endif
             float texel = 4.0 * PI / max(extra.x, 1.0);
             float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(pdf * extra.z * texel, 1e-20));
             lod = clamp(lod, 0.0, float(lightInfo.y));

@@ -88,7 +88,7 @@ vec3 skyByLobes(bool mirrors) {
             vec3 light = kind == LOBE_MIRROR ? prefiltered(l, mirrored, lobeAlpha(i))
                                              : INV_PI * domeIrradiance(l, normal);
             vec3 shadow = l.shadow.x < 0.0 ? vec3(1.0) : mix(l.shadowColor.rgb, vec3(1.0), seen);
-            sum += lobeWeight[i] * lobeAlbedo[i] * light * shadow *
+            sum += lobeWeight[i] * lobeAlbedo[i] * light * shadow * l.fade.w *
                    (kind == LOBE_DIFFUSE ? l.inverse0.w : l.inverse1.w);
         }
     }
@@ -114,7 +114,7 @@ vec3 skyBySamples() {
             vec3 light = radianceOfDome(l, s.wi, clamp(lod, 0.0, float(lightInfo.y)));
             if (sky < 0.0) sky = skyReaches(s.wi);
             vec3 shadow = l.shadow.x < 0.0 ? vec3(1.0) : mix(l.shadowColor.rgb, vec3(1.0), sky);
-            sum += (s.diffuseWeight * l.inverse0.w + s.specularWeight * l.inverse1.w) * light * shadow;
+            sum += (s.diffuseWeight * l.inverse0.w + s.specularWeight * l.inverse1.w) * light * shadow * l.fade.w;
         }
     }
     return sum / float(max(count, 1));

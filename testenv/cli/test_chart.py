@@ -3,9 +3,10 @@ import csv
 import json
 import xml.etree.ElementTree as ElementTree
 
+import numpy as np
 import pytest
 
-from patina.chart import lobes, svg
+from patina.chart import lobes, measurePaths, measureSubdivision, svg
 from patina.cli import compiled, main
 
 MEASURED = ("energyCompensation", "directionalAlbedo", "sampling", "fresnel", "thinFilm", "diffuse", "sheen",
@@ -36,11 +37,50 @@ def test_errors_are_those_of_the_table():
     table = {(r["point"], r["method"], r["subject"]): r for r in patina.method_table()}
     rows = patina.measure_methods("", False)
     assert {r["point"] for r in rows} == set(MEASURED)
-    assert len(rows) == len(table)
+    assert len(rows) == sum(point in MEASURED for point, _, _ in table)
     for row in rows:
         known = table[row["point"], row["method"], row["subject"]]
         for figure in ("mean", "largest", "rms"):
             assert row[figure] == pytest.approx(known[figure], rel=0.02, abs=2e-6), row
+
+
+def cells(row):
+    return np.array(row["errors"]).reshape(8, 4)
+
+
+def of_table(row):
+    return cells(next(r for r in compiled.load().method_table()
+                      if (r["point"], r["method"], r["subject"]) == (row["point"], row["method"], row["subject"])))
+
+
+def test_errors_of_pictures_are_those_of_the_table():
+    """A few cells of the rows that take whole pictures: the same random numbers as in the table, so nearly the same errors."""
+    for row in measureSubdivision.rows(False, shapes=("smooth",), sizes=(20,), bins=(4,)):
+        found = (slice(None), 1) if row["kind"] == "diffuse" else (4, 1)
+        assert cells(row)[found] == pytest.approx(of_table(row)[found], rel=0.1, abs=1e-4), row["method"]
+    for row in measurePaths.path_depth(False, scenes=("box",), bins=(3,)):
+        assert cells(row)[3] == pytest.approx(of_table(row)[3], rel=0.1, abs=1e-4), row["method"]
+
+
+def test_paths_lose_what_is_predicted():
+    """What a depth cuts off is at most the albedo to that power, and nearly that in a closed box: noise allows a twentieth."""
+    table = [row for row in compiled.load().method_table() if row["point"] == "pathDepth"]
+    albedos = (np.arange(8) + 0.5) / 8
+    for row in table:
+        predicted = albedos ** int(row["method"])
+        assert (cells(row)[:, 0] <= 1.05 * predicted + 1e-4).all(), row
+        if row["subject"] == "box":
+            assert (cells(row)[:, 0] >= 0.8 * predicted - 1e-3).all(), row
+
+
+def test_without_roulette_a_sample_has_less_noise():
+    """Variance alone: nobody ends a path by chance, so a sample in a white box has less of it, and takes longer."""
+    none = next(row for row in measurePaths.roulette(False, scenes=("box",), bins=(7,), depths=(16,)) if row["method"] == "none")
+    assert cells(none)[7, 1] < 0.5
+    known = {row["method"]: of_table(row) for row in compiled.load().method_table()
+             if (row["point"], row["subject"]) == ("roulette", "box")}
+    assert (known["throughput"] == 1.0).all()
+    assert known["none"][0, 3] > 2.0 and known["none"][7, 2] < 0.5
 
 
 def test_the_fit_is_exact_and_cheap():

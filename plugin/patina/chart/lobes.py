@@ -28,6 +28,19 @@ _TABLE_TAIL = """\
 """
 
 
+def measure(point, timed=True):
+    """Rows of one choice point, or of all for an empty name: those of lobes, and those that take whole pictures."""
+    from patina.chart import measurePaths, measureSubdivision
+    from patina.cli import compiled
+
+    rows = compiled.load().measure_methods(point, timed)
+    for name, pictures in (("subdivision", measureSubdivision.rows), ("pathDepth", measurePaths.path_depth),
+                           ("roulette", measurePaths.roulette)):
+        if point in ("", name):
+            rows += pictures(timed)
+    return rows
+
+
 def with_cost(rows, points):
     """Adds `cost`, the time over that of the point's default method on the same subject, and orders rows.
 

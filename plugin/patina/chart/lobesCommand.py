@@ -12,7 +12,7 @@ def add_arguments(parser):
     group.add_argument("--lobes", action="store_true", help="ns per evaluation against error, per method")
     group.add_argument("--point", default="", metavar="NAME", help="only this choice point")
     group.add_argument("--errors", action="store_true",
-                       help="measure errors only, which takes seconds; times are those of the table that is built in")
+                       help="measure errors only; times are those of the table that is built in")
     group.add_argument("--table", default="", metavar="FILE",
                        help="writes the C++ table of measured methods; with --point, other points as they are built in")
 
@@ -23,7 +23,7 @@ def run(arguments):
     names = [point for point, _ in points]
     if arguments.point and arguments.point not in names:
         raise UsageError(f"patina chart: there is no choice point '{arguments.point}' (there are: {', '.join(names)})")
-    rows = patina.measure_methods(arguments.point, not arguments.errors)
+    rows = lobes.measure(arguments.point, not arguments.errors)
     if not rows:
         raise CommandError(f"nothing is measured at '{arguments.point}': its methods differ in meaning, not in accuracy")
     if arguments.errors:

@@ -3,11 +3,14 @@ lobes, what was left out, the method at each choice point that matters, and the 
 these methods are expected to take. Of a stage without a named material all materials are shown.
 
   patina explain shot.usda --tolerance 0.01    what the planner would choose for 1 % of error
+
+Of a whole stage with a tolerance it also builds the scene, and tells what is chosen for it: the edges of subdivision surfaces
+(of an image of 960 pixels from the first camera), how long paths are, and for the rasterizer how each material is lit.
 """
 import json
 import sys
 
-from patina.cli import compiled, materials, methods, planText, recordFlags, statistics
+from patina.cli import compiled, materials, methods, planText, recordFlags, sceneChoices, statistics
 
 
 def add_arguments(parser):
@@ -17,6 +20,8 @@ def add_arguments(parser):
                         help="change an input before (repeatable)")
     methods.add_flag(parser)
     recordFlags.add_tolerance_flag(parser)
+    parser.add_argument("--backend", default="embree", choices=["embree", "raster"],
+                        help="whose choices for the scene are shown, with --tolerance (default: embree)")
     parser.add_argument("--json", metavar="FILE", help="write texts and warnings as JSON: --json to standard "
                                                        "output, --json=FILE to a file")
 
@@ -27,6 +32,7 @@ def run(arguments):
     chosen = methods.parse(arguments.method)
     tolerance = -1.0 if arguments.tolerance is None else arguments.tolerance
     plans = [(name, module.plan_material(network, chosen, tolerance)) for name, network in found]
+    choices, lit = _of_scene(arguments, chosen, tolerance)
     texts = []
     for (name, network), (_, plan) in zip(found, plans):
         planned = {choice["point"]: choice["method"] for choice in plan["choices"]}
@@ -35,6 +41,7 @@ def run(arguments):
         text = json.dumps({"materials": [{"name": name, "text": text, "plan": plan}
                                          for (name, text), (_, plan) in zip(texts, plans)],
                            "error": max(plan["error"] for _, plan in plans),
+                           "scene": [dict(choice) for choice in choices], "lit": planText.lit(lit),
                            "warnings": warnings}, indent=2)
         if arguments.json == "-":
             print(text)
@@ -49,5 +56,15 @@ def run(arguments):
         print("\n".join(planText.lines(plans[i][1])))
     if len(texts) > 1:
         print("\n" + "\n".join(planText.scene_lines(plans, tolerance)))
+    if choices or lit:
+        print("\n".join(planText.choice_lines(choices) + planText.lit_lines(lit)))
     for line in statistics.lines(warnings):
         print("warning: " + line, file=sys.stderr)
+
+
+def _of_scene(arguments, chosen, tolerance):
+    """:returns: choices of the scene and plans of its back end; nothing without a tolerance and of what is no stage"""
+    file, name = materials.split(arguments.material)
+    if tolerance < 0.0 or name or materials.is_document(file):
+        return [], {}
+    return sceneChoices.of_stage(file, arguments.set, chosen, tolerance, arguments.backend)

@@ -56,10 +56,50 @@ def scene_lines(plans, tolerance):
     return result
 
 
-def of_scene(plans):
+def choice_lines(choices):
+    """:param choices: of the scene as a whole, as Renderer.progress() tells them; times are over those of the default
+
+    :returns: list of lines
+    """
+    lines = []
+    for choice in choices:
+        error = f"expected error {choice['error']:.2g}" if choice["point"] != "roulette" else "noise alone"
+        what = "time x variance" if choice["point"] == "roulette" else "time"
+        lines.append(f"scene: {choice['point']} {choice['method']}, {error}, {choice['ns']:.3g} times the {what} of the default"
+                     + (", forced" if choice["forced"] else ""))
+    return lines
+
+
+LIGHT_POINTS = ("domeLight", "environmentSamples", "areaLight")
+
+
+def lit(plans):
     """:param plans: material path -> plan, as Renderer.progress() tells them
 
-    :returns: dict for --json: by material the predicted error and what was chosen, and by choice point the materials' choices
+    :returns: dict of material path -> choices of how the rasterizer lights it
+    """
+    found = {path or "displayColor": [dict(c) for c in plan["choices"] if c["point"] in LIGHT_POINTS]
+             for path, plan in plans.items()}
+    return {path: choices for path, choices in found.items() if choices}
+
+
+def lit_lines(plans):
+    """:returns: list of lines, materials with the same choices together"""
+    groups = {}
+    for path, choices in lit(plans).items():
+        text = ", ".join(f"{c['point']} {c['method']}" + (f" (expected error {c['error']:.2g})" if c["error"] else "") +
+                         (f" in {_ratio(c['ns'], c['nsDefault'])} the time of samples" if c["method"] != "sampled" and
+                          c["nsDefault"] > 0.0 else "") for c in choices)
+        groups.setdefault(text, []).append(path)
+    return [f"scene: {text}: {', '.join(paths)}" for text, paths in groups.items()]
+
+
+def of_scene(plans, choices=()):
+    """:param plans: material path -> plan, as Renderer.progress() tells them
+    :param choices: of the scene as a whole
+
+    :returns: dict for --json: by material the predicted error and what was chosen, by choice point the materials' choices, and
+        those of the scene
     """
     materials = {path or "displayColor": {"error": plan["error"], "albedo": plan["albedo"],
                                           "methods": {choice["point"]: choice["method"] for choice in plan["choices"]}}
@@ -69,7 +109,9 @@ def of_scene(plans):
         for point, method in material["methods"].items():
             points.setdefault(point, {}).setdefault(method, 0)
             points[point][method] += 1
-    return {"error": max(m["error"] for m in materials.values()), "methods": points, "materials": materials}
+    scene = {choice["point"]: {name: choice[name] for name in ("method", "error", "forced")} for choice in choices}
+    return {"error": max([m["error"] for m in materials.values()], default=0.0), "methods": points, "materials": materials,
+            "scene": scene}
 
 
 def metadata(plan):
@@ -81,4 +123,6 @@ def metadata(plan):
     for path, material in plan["materials"].items():
         chosen = " ".join(f"{point}={method}" for point, method in material["methods"].items())
         groups.setdefault(chosen, []).append(f"{path} ({material['error']:.2g})")
-    return "; ".join(f"{chosen}: {', '.join(paths)}" for chosen, paths in groups.items())
+    lines = [f"{chosen}: {', '.join(paths)}" for chosen, paths in groups.items()]
+    scene = " ".join(f"{point}={choice['method']}" for point, choice in plan["scene"].items())
+    return "; ".join(lines + ([f"{scene}: scene"] if scene else []))

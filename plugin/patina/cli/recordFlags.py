@@ -67,11 +67,12 @@ def _add_render_flags(group):
                        help="largest luminance of one indirect sample: less noise, too dark (default: 0, off)")
     group.add_argument("--filterRadius", type=_not_negative, default=1.0, metavar="R",
                        help="radius of the pixel filter in pixels; 0.5 is a box (default: 1)")
-    group.add_argument("--edgeLength", type=_positive, default=4.0, metavar="PIXELS",
-                       help="subdivision surfaces are refined until edges are this short (default: 4)")
-    group.add_argument("--environmentSamples", type=_environment_samples, default=16, metavar="N",
+    group.add_argument("--edgeLength", type=_positive, default=-1.0, metavar="PIXELS",
+                       help="subdivision surfaces are refined until edges are this short (default: 4, or as long as the "
+                            "tolerance allows)")
+    group.add_argument("--environmentSamples", type=_environment_samples, default=-1, metavar="N",
                        help="rasterizer: samples of domes per pixel and pass, 4 to 1024, where --method domeLight is not "
-                            "sampled (default: 16)")
+                            "sampled (default: 16, or as many as the tolerance needs)")
     methods.add_flag(group)
     group.add_argument("--cullStyle", default="nothing", metavar="STYLE",
                        choices=["nothing", "back", "front", "backUnlessDoubleSided", "frontUnlessDoubleSided"],

@@ -69,8 +69,8 @@ class Statistics:
             droppedSamples=film.dropped_samples,
             **{name: int(value) if float(value).is_integer() else value for name, value in numbers.items()
                if name not in ("samples", "droppedSamples")})
-        if state["plans"]:
-            self._frame["plan"] = planText.of_scene(state["plans"])
+        if state["plans"] or state["sceneChoices"]:
+            self._frame["plan"] = planText.of_scene(state["plans"], state["sceneChoices"])
         if film.width:
             error = _mean_relative_error(film)
             if error is not None:

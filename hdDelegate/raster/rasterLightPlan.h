@@ -1,0 +1,54 @@
+#pragma once
+
+#include "hdDelegate/lights/environmentMap.h"
+#include "hdDelegate/scene/light.h"
+#include "hdDelegate/scene/settings.h"
+#include "materialNetwork/methodPlan.h"
+
+#include <set>
+
+namespace patina {
+
+/// Share of a sky's light that comes from its brightest hundredth: 0.01 of an even one, nearly all
+/// of a small sun.
+double peakShare(const EnvironmentMap& map);
+
+/// Chooses how materials are lit by domes (`domeLight`, `environmentSamples`) and by areas
+/// (`areaLight`), by the lights that a scene has.
+///
+/// Samples converge, so what they cost is the time of as many passes as their noise needs to fall
+/// to what is left for it; a method without noise takes the fewest passes that there are, and its
+/// error has to be within what the material's own methods leave of methodShare of the tolerance.
+/// The faster one is taken. Domes are looked up between the measured skies by their peakShare().
+class RasterLightPlan {
+public:
+    /// peakShare() of the skies that rows are of (hdDelegate/raster/measure/measuredSky).
+    static constexpr double evenPeak = 0.01, softPeak = 0.05, sunPeak = 0.83;
+
+    void addDome(const EnvironmentMap* map); ///< null: the same from everywhere
+    void addArea(const Light& light);
+    /// Volumes and what transmits look at samples of domes: nothing else may be chosen.
+    void needSamples() { _needsSamples = true; }
+
+    /// @param material as planned, without walks
+    /// @param transmits see needSamples()
+    /// @returns the choices that matter to it; none where nothing is planned
+    std::vector<PlannedMethod> choose(const MethodPlan& material, const RenderSettings& settings,
+                                      bool transmits) const;
+
+private:
+    struct Option {
+        std::string method;
+        int samples = 0; ///< of environmentSamples
+        double error = 0.0, ns = 0.0;
+    };
+    Option domes(const MethodPlan& material, const RenderSettings& settings,
+                 const std::string& method, int samples) const;
+    Option areas(const MethodPlan& material, const std::string& method, bool& measured) const;
+
+    double _peak = 0.0;
+    bool _hasDome = false, _needsSamples = false;
+    std::set<std::string> _areas; ///< the shapes, as rows name them
+};
+
+} // namespace patina

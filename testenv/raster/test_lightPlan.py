@@ -1,0 +1,107 @@
+"""With a tolerance the rasterizer lights each material by the cheapest way that the table of methods finds good enough."""
+import os
+
+import numpy as np
+import pytest
+
+_patina = pytest.importorskip("_patina")
+
+from patina.chart import measureSubdivision, probes  # noqa: E402
+from patina.chart.sceneMeasures import LUMINANCE  # noqa: E402
+
+SKY = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes", "textures", "sky.exr")
+MATERIALS = {"diffuse": None, "smooth": 0.003, "rough": 0.4}  # alpha of metals
+
+
+SIZE = {"width": 36, "height": 12}
+
+
+class Balls:
+    """Three balls in a row under one light at a time. One scene and one renderer: each program is compiled once."""
+
+    def __init__(self):
+        self.scene, self.renderer = _patina.Scene(), _patina.make_renderer("raster")
+        points, counts, indices, _ = measureSubdivision.cage(False)
+        place = np.eye(4, dtype=np.float32)
+        place[3, 2] = 4.0
+        with self.scene.edit() as edit:
+            edit.set_camera("/camera", transform=place, orthographic=True, horizontal_aperture=33.0, vertical_aperture=11.0,
+                            clip_near=0.1)
+            for i, (name, alpha) in enumerate(MATERIALS.items()):
+                edit.set_material(f"/{name}", probes.network("oren_nayar_diffuse_bsdf", color=(0.5, 0.5, 0.5)) if alpha is None
+                                  else probes.network("conductor_bsdf", ior=(0.2,) * 3, extinction=(3.9,) * 3,
+                                                      roughness=(alpha, alpha)))
+                at = np.eye(4, dtype=np.float32)
+                at[3, 0] = 1.1 * (i - 1)
+                edit.set_mesh(f"/ball{i}", points=points, face_vertex_counts=counts, face_vertex_indices=indices,
+                              scheme="catmullClark", material=f"/{name}", transform=at)
+
+    def light(self, kind):
+        with self.scene.edit() as edit:
+            if kind == "sky":
+                edit.set_light("/light", type="dome", texture_file=SKY, texture_format="latlong", texture_color_space="auto",
+                               camera_visible=False)
+            elif kind == "even":
+                edit.set_light("/light", type="dome", camera_visible=False)
+            else:
+                edit.set_light("/light", type="rect", transform=measureSubdivision._facing(np.array((-0.5, 0.7, 0.5)), 2.0),
+                               width=1.5, height=1.5, intensity=9.0)
+
+    def render(self, tolerance=None, samples=1024, **more):
+        film = _patina.Film()
+        settings = {**SIZE, "samples": samples, "seed": 5, "checkpointSeconds": 0.0, "edgeLength": 4.0, **more}
+        if tolerance is not None:
+            settings["tolerance"] = tolerance
+        self.renderer.start(self.scene, "/camera", settings, film)
+        self.renderer.wait()
+        progress = self.renderer.progress()
+        assert not progress["failed"], progress["error"]
+        if progress["backend"] != "raster":
+            pytest.skip("no OpenGL here")
+        chosen = {path: {c["point"]: c for c in plan["choices"]} for path, plan in progress["plans"].items()}
+        return np.asarray(film.resolve("color"), np.float64) @ LUMINANCE, chosen
+
+
+@pytest.fixture(scope="module")
+def balls():
+    return Balls()
+
+
+def relative(image, truth):
+    return float((np.abs(image - truth) / (truth + 0.01)).mean())
+
+
+@pytest.mark.parametrize("light, point, tolerances", [("sky", "domeLight", (0.3, 0.1, 0.02)), ("rect", "areaLight", (0.3, 0.1))])
+def test_the_cheapest_that_fits_is_taken(balls, light, point, tolerances):
+    """Three materials side by side, seed 5: the whole error, noise of the reference included, is within the tolerance."""
+    balls.light(light)
+    truth, none = balls.render(samples=512, seed=6)
+    assert not none
+    ways = {}
+    for tolerance in tolerances:
+        image, chosen = balls.render(tolerance)
+        for name in MATERIALS:
+            choice = chosen["/" + name][point]
+            ways[name, tolerance] = choice["method"]
+            assert choice["error"] <= 0.4 * tolerance and choice["ns"] <= choice["nsDefault"]
+            assert (choice["error"] == 0.0) == (choice["method"] == "sampled")
+        assert relative(image, truth) <= tolerance, (tolerance, ways)
+    # What fits a large tolerance is cheap, and no error is small enough at last.
+    assert ways["diffuse", 0.3] == ("harmonics" if point == "domeLight" else "linearlyTransformedCosines")
+    assert ways["diffuse", tolerances[-1]] == ways["rough", tolerances[-1]] == "sampled"
+    if point == "domeLight":
+        assert ways["smooth", 0.1] == "prefiltered" and ways["rough", 0.1] == "sampled"
+
+
+def test_an_even_sky_needs_no_samples(balls):
+    balls.light("even")
+    assert balls.render(0.01, samples=2)[1]["/diffuse"]["domeLight"]["method"] in ("harmonics", "prefiltered")
+
+
+def test_who_decides(balls):
+    balls.light("sky")
+    for tolerance, methods, expected in ((0.0, {}, "sampled"), (0.3, {"domeLight": "sampled"}, "sampled"),
+                                         (0.01, {"domeLight": "harmonics"}, "harmonics")):
+        choice = balls.render(tolerance, samples=1, methods=methods)[1]["/diffuse"]["domeLight"]
+        assert choice["method"] == expected and choice["forced"] == bool(methods)
+    assert balls.render(samples=1)[1] == {}

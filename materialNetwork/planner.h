@@ -27,9 +27,10 @@ constexpr double depthShare = 0.1;
 /// roughness (between the two subjects that enclose it), per quarter of the cosine, over what
 /// is reflected; times the lobe's share of the material's albedo, and on what lies beneath it the
 /// error over what is let through. Of the quarters the mean and the worst count half each, of
-/// places with different parameters the worst. Light that meets several surfaces takes the error
-/// along each time, which a factor allows for (bounceFactor). Among methods without bias (sampling)
-/// the one with the least noise for its time is taken. Where the default is not measured, it stays.
+/// places with different parameters the worst. Layers are predicted channel by channel of their
+/// base. Light that meets several surfaces takes the error along each time, which a factor allows
+/// for (bounceFactor). Among methods without bias (sampling) the one with the least noise for its
+/// time is taken. Where the default is not measured, it stays.
 /// @param plan with the default methods; meanings (points without a truth) are left as they are
 /// @param textures what the material reads; errors are worst over what is seen there
 MethodPlan planMethods(const Plan& plan, const Planning& planning, TextureSource& textures);

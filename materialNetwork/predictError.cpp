@@ -14,6 +14,8 @@ namespace {
 constexpr double evaluationsPerTable = 1e6;
 constexpr double tableNodes = 512;
 
+constexpr double luminanceOf[3] = {0.2126, 0.7152, 0.0722};
+
 /// A row and how much it counts.
 struct Near {
     const MeasuredMethod* row;
@@ -112,6 +114,10 @@ private:
                 _result.measured = true;
                 continue;
             }
+            if (_point == "layering") {
+                sum += layered(seen, quarter, ns);
+                continue;
+            }
             double between = 0.0, worst = 0.0, time = 0.0, weights = 0.0;
             for (const Near& near : rowsFor(_point, _method, seen)) {
                 const Cell cell = cellOf(*near.row, seen, quarter);
@@ -132,6 +138,24 @@ private:
             ns += time;
         }
         return sum;
+    }
+
+    /// Layers channel by channel: what scaling is off grows less than the albedo of the base, so
+    /// that a grey base as bright as a coloured one is further off.
+    double layered(const SeenClosure& seen, int quarter, double& ns) {
+        double error = 0.0, truth = 0.0;
+        for (int c = 0; c < 3; ++c) {
+            SeenClosure channel = seen;
+            channel.reflectance = seen.base[c];
+            for (const Near& near : rowsFor(_point, _method, channel)) {
+                const Cell cell = cellOf(*near.row, channel, quarter);
+                _result.measured = true;
+                error += luminanceOf[c] * near.weight * cell.error;
+                truth += luminanceOf[c] * near.weight * cell.truth;
+                ns += near.weight * near.row->ns / 3.0;
+            }
+        }
+        return std::min(error / std::max(truth, 1e-6), 1.0) * seen.share;
     }
 
     double contribution(const MeasuredMethod& row, const SeenClosure& seen,

@@ -148,6 +148,7 @@ private:
     void layer(const ClosureOp& op, const Bsdf& bsdf, const std::vector<float>& light,
                SeenClosure& out) const {
         out.kind = "layer";
+        glm::vec3 weights(0.0f), bases(0.0f);
         float weight = 0.0f, base = 0.0f, metal = 0.0f, rough = 0.0f;
         for (int lobe : lobesOf(op.a)) {
             SeenClosure top;
@@ -160,6 +161,8 @@ private:
             const float w = luminance(l.weight);
             weight += w;
             base += w * luminance(l.albedo);
+            weights += l.weight;
+            bases += l.weight * l.albedo;
             out.share += light[size_t(lobe)];
             if (!isMetallic(l)) continue;
             SeenClosure below;
@@ -172,6 +175,10 @@ private:
             out.roughness = std::max(out.roughness, rough);
         }
         out.reflectance = weight > 0.0f ? std::min(base / weight, 1.0f) : 0.0f;
+        for (int c = 0; c < 3; ++c) {
+            const float albedo = weights[c] > 0.0f ? bases[c] / weights[c] : 0.0f;
+            out.base[c] = std::isfinite(albedo) ? std::clamp(albedo, 0.0f, 1.0f) : 0.0f;
+        }
     }
 
     std::set<int> lobesOf(int closure) const {

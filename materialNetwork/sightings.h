@@ -3,6 +3,8 @@
 #include "materialNetwork/plan.h"
 #include "materialNetwork/textureSource.h"
 
+#include <glm/glm.hpp>
+
 #include <vector>
 
 namespace patina {
@@ -15,6 +17,7 @@ struct SeenClosure {
     float share = 0.0f;   ///< of the luminance of the directional albedo, 0..1
     float beneath = 0.0f; ///< share of what lies under it in layers
     float reflectance = 0.0f; ///< luminance at normal incidence; of a layer the albedo of its base
+    glm::vec3 base{0.0f};     ///< of a layer: the albedo of its base by channel
     float roughness = 0.0f;   ///< root of alpha, mean of both axes; 0: a mirror
     float thickness = 0.0f;   ///< of a film, nm
     bool tabulated = false;   ///< its albedo is looked up over the cosine, whatever the method

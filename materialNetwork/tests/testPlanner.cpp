@@ -161,6 +161,25 @@ TEST(Planner, LayersAreWalkedWhereScalingErrs) {
               0.5 * at(planOf(coatedGold(0.0f, 0.5f), -1.0), "layering").error);
 }
 
+// Scaling is off by less, relative to all light, over a saturated base than over a grey one of the
+// same luminance.
+TEST(Planner, LayersArePredictedByChannel) {
+    const auto over = [](const Value& base) {
+        return at(planOf(bsdfNetwork(
+                             {makeNode("top", "ND_dielectric_bsdf",
+                                       {{"roughness", pair(0.1f)}, {"ior", number(1.5f)}}),
+                              makeNode("base", "ND_oren_nayar_diffuse_bsdf", {{"color", base}}),
+                              makeNode("bsdf", "ND_layer_bsdf", {},
+                                       {{"top", {"top", ""}}, {"base", {"base", ""}}})}),
+                         -1.0),
+                  "layering")
+            .error;
+    };
+    const double red = over(color(0.8f, 0.04f, 0.02f)), same = over(grey(0.2f));
+    EXPECT_LT(red, 0.9 * same);
+    EXPECT_GT(red, 0.4 * same);
+}
+
 TEST(Planner, ABackEndWithoutWalksSaysWhatItTakes) {
     const MethodPlan walked = planOf(coat(0.4f, 1.5f), 0.01), scaled = withoutWalks(walked);
     EXPECT_EQ(at(walked, "layering").method, "positionFree");
@@ -209,7 +228,7 @@ TEST(MethodTable, RowsAreWhole) {
             EXPECT_GT(row.truths[i], 0.0f) << name;
             largest = std::max(largest, row.errors[i]);
         }
-        EXPECT_LE(largest, row.largest * 1.001f + 1e-3f) << name;
+        EXPECT_LE(largest, row.largest * 1.005f + 1e-3f) << name;
     }
 }
 

@@ -47,7 +47,7 @@ class Balls:
                 edit.set_light("/light", type="rect", transform=measureSubdivision._facing(np.array((-0.5, 0.7, 0.5)), 2.0),
                                width=1.5, height=1.5, intensity=9.0)
 
-    def render(self, tolerance=None, samples=1024, **more):
+    def render(self, tolerance=None, samples=192, **more):
         film = _patina.Film()
         settings = {**SIZE, "samples": samples, "seed": 5, "checkpointSeconds": 0.0, "edgeLength": 4.0, **more}
         if tolerance is not None:
@@ -71,24 +71,26 @@ def relative(image, truth):
     return float((np.abs(image - truth) / (truth + 0.01)).mean())
 
 
-@pytest.mark.parametrize("light, point, tolerances", [("sky", "domeLight", (0.3, 0.1, 0.02)), ("rect", "areaLight", (0.3, 0.1))])
-def test_the_cheapest_that_fits_is_taken(balls, light, point, tolerances):
-    """Three materials side by side, seed 5: the whole error, noise of the reference included, is within the tolerance."""
+@pytest.mark.parametrize("light, point", [("sky", "domeLight"), ("rect", "areaLight")])
+def test_the_cheapest_that_fits_is_taken(balls, light, point):
+    """Three materials side by side, seed 5: the whole error, noise of 192 passes of the reference included, is within the
+    tolerance. For the smallest one only the choice is looked at: its passes would take a minute.
+    """
     balls.light(light)
-    truth, none = balls.render(samples=512, seed=6)
+    truth, none = balls.render(samples=192, seed=6)
     assert not none
     ways = {}
-    for tolerance in tolerances:
-        image, chosen = balls.render(tolerance)
+    for tolerance, samples in ((0.3, 192), (0.1, 192), (0.01, 1)):
+        image, chosen = balls.render(tolerance, samples)
         for name in MATERIALS:
             choice = chosen["/" + name][point]
             ways[name, tolerance] = choice["method"]
             assert choice["error"] <= 0.4 * tolerance and choice["ns"] <= choice["nsDefault"]
             assert (choice["error"] == 0.0) == (choice["method"] == "sampled")
-        assert relative(image, truth) <= tolerance, (tolerance, ways)
+        assert samples == 1 or relative(image, truth) <= tolerance, (tolerance, ways)
     # What fits a large tolerance is cheap, and no error is small enough at last.
     assert ways["diffuse", 0.3] == ("harmonics" if point == "domeLight" else "linearlyTransformedCosines")
-    assert ways["diffuse", tolerances[-1]] == ways["rough", tolerances[-1]] == "sampled"
+    assert ways["diffuse", 0.01] == ways["rough", 0.01] == "sampled"
     if point == "domeLight":
         assert ways["smooth", 0.1] == "prefiltered" and ways["rough", 0.1] == "sampled"
 

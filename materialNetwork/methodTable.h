@@ -16,17 +16,21 @@ struct MeasuredMethod {
     const char* method;
     const char* subject; ///< `ior 1.5`, `gold, red`, ...
     const char* errorOf; ///< `albedo`, `reflectance`; `noise`: standard deviation of one sample's
-                         ///< weight; `furnace`: light that white loses
+                         ///< weight; `furnace`: light that white loses; `picture`: mean relative
+                         ///< luminance; `effort`: time x variance over the default's
     float ns;            ///< median time of an evaluation, one thread, where it was measured
     float cost;          ///< that over the time of the point's default method; carries over to
                          ///< other machines
     float mean, largest, rms; ///< absolute errors over cell centres of (cosine, root of alpha)
     const char* kind;         ///< of lobe: `dielectric`, `conductor`, `schlick`; empty: any
     float reflectance;        ///< of the subject at normal incidence; -1: it is no matter
-    const char* axis; ///< what the bins are of: `roughness` (root of alpha), `thickness` (nm)
-    float axisEnd;    ///< they are evenly spaced from 0 to here; beyond nothing is known
+    /// What the bins are of: `roughness` (root of alpha), `thickness` (nm) or `albedo`. They are
+    /// evenly spaced from 0 to axisEnd; beyond nothing is known.
+    const char* axis;
+    float axisEnd;
     /// Mean absolute error and mean of what it is of, bin by bin, in each the quarters of the
-    /// cosine of the view, grazing first.
+    /// cosine of the view, grazing first. Of scenes the columns are others: sizes on screen for
+    /// `subdivision`, depths for `roulette`; those of `pathDepth` are all alike.
     float errors[methodBins * methodCosines], truths[methodBins * methodCosines];
 };
 

@@ -13,6 +13,9 @@ namespace patina {
 namespace {
 
 constexpr int side = 64, inner = 4; ///< cells of a sky, and what is looked at in each
+/// Skies have other features than the two that rows are of: as much again is allowed for them.
+constexpr double otherSkies = 2.0;
+
 /// The passes of a row of samples.
 constexpr double rowPasses = 16.0;
 const std::string passes = "16 passes";
@@ -107,14 +110,16 @@ RasterLightPlan::Option RasterLightPlan::domes(const MethodPlan& material,
         const LightPrediction soft = under("soft"), sun = under("sun");
         const double f = std::clamp((_peak - softPeak) / (sunPeak - softPeak), 0.0, 1.0);
         const double error = soft.error * (1.0 - f) + sun.error * f;
-        option.error = soft.measured && sun.measured ? std::max(soft.error, error) : 1.0;
+        const double more = method == "sampled" ? 1.0 : otherSkies;
+        option.error =
+            soft.measured && sun.measured ? std::min(more * std::max(soft.error, error), 1.0) : 1.0;
         option.ns = soft.ns;
     }
     if (method == "sampled") {
         const double noise = settings.tolerance * (1.0 - depthShare) -
                              std::min(material.error, methodShare * settings.tolerance);
         option.ns *= passesFor(option.error, noise, settings) / rowPasses;
-        option.error = 0.0;
+        option.error = 0.0; // they converge
     } else {
         option.ns *= std::max(2, settings.minSamples);
     }

@@ -21,10 +21,7 @@ TileSchedule::TileSchedule(const Film& film, const RenderSettings& settings)
     for (int y = y0; y < y1; y += tileSize)
         for (int x = x0; x < x1; x += tileSize)
             _tiles.push_back({x, y, std::min(x + tileSize, x1), std::min(y + tileSize, y1)});
-}
-
-int TileSchedule::nextStep(int samples, int most) {
-    return nextErrorStep(samples, most);
+    _looks.resize(_tiles.size());
 }
 
 int TileSchedule::count(int tile) const {
@@ -32,12 +29,19 @@ int TileSchedule::count(int tile) const {
     return int(_film.sampleCount(t.x1 - 1, t.y1 - 1)); // the pixel that is rendered last
 }
 
+bool TileSchedule::isEnough(int tile, int samples) const {
+    if (!(_tolerance > 0.0) || samples < _minSamples || !isErrorStep(samples)) return false;
+    const Tile& t = _tiles[tile];
+    // Some of its pixels are further already: it was broken off when it had been told to go on.
+    if (int(_film.sampleCount(t.x0, t.y0)) != samples) return false;
+    Look& look = _looks[tile];
+    if (look.samples != samples) look = {samples, relativeError(_tiles[tile]) <= _tolerance};
+    return look.isEnough;
+}
+
 int TileSchedule::target(int tile) const {
     const int done = count(tile);
-    if (done >= _samples) return 0;
-    if (_tolerance > 0.0 && done >= _minSamples && relativeError(_tiles[tile]) <= _tolerance)
-        return 0;
-    return nextStep(done, _samples);
+    return done >= _samples || isEnough(tile, done) ? 0 : nextStep(done, _samples);
 }
 
 std::vector<int> TileSchedule::pending() const {

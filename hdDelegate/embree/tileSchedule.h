@@ -14,9 +14,9 @@ struct Tile {
 
 /// Decides which tile takes how many samples next.
 ///
-/// Every tile steps through the same sample counts (1, 2, 4, 8, 16, then 16 more each). Whether it
-/// goes on is a function of its own pixels at such a count, so neither threads, nor the order of
-/// tiles, nor an interruption changes what a finished image contains.
+/// Every tile steps through the same sample counts (film/relativeError.h). Whether it goes on is a
+/// function of its own pixels at some of these, so neither threads, nor the order of tiles, nor an
+/// interruption changes what a finished image contains.
 class TileSchedule {
 public:
     static constexpr int tileSize = 16;
@@ -24,7 +24,8 @@ public:
     TileSchedule(const Film& film, const RenderSettings& settings);
 
     const std::vector<Tile>& tiles() const { return _tiles; }
-    /// The sample count that a tile should reach next; 0 when it has enough.
+    /// The sample count that a tile should reach next; 0 when it has enough. One thread may ask for
+    /// one tile at a time.
     int target(int tile) const;
     /// Tiles that have not reached the next step of the slowest tile.
     std::vector<int> pending() const;
@@ -35,15 +36,21 @@ public:
     /// Of a tile's pixels, as of film/relativeError.h.
     double relativeError(const Tile& tile) const;
 
-    static int nextStep(int samples, int most);
-
 private:
+    /// What was found out when a tile was looked at.
+    struct Look {
+        int samples = 0; ///< that it had then
+        bool isEnough = false;
+    };
+
     int count(int tile) const;
+    bool isEnough(int tile, int samples) const;
 
     const Film& _film;
     int _samples, _minSamples;
     double _tolerance;
     std::vector<Tile> _tiles;
+    mutable std::vector<Look> _looks; ///< beside _tiles
 };
 
 } // namespace patina

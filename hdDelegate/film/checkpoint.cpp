@@ -16,7 +16,7 @@ namespace patina {
 namespace {
 
 constexpr char magic[8] = {'P', 'a', 't', 'i', 'n', 'a', 'C', 'P'};
-constexpr uint32_t formatVersion = 1;
+constexpr uint32_t formatVersion = 2;
 constexpr uint32_t byteOrderMark = 0x01020304;
 constexpr uint32_t longestText = 4096, mostAovs = 1024;
 
@@ -134,7 +134,7 @@ private:
 } // namespace
 
 void Film::saveCheckpoint(const std::string& file) const {
-    static_assert(sizeof(Pixel) == 48, "pixels are written as bytes, without padding");
+    static_assert(sizeof(Pixel) == 56, "pixels are written as bytes, without padding");
     AtomicFile target(file);
     FilePtr stream(std::fopen(target.temporaryPath().c_str(), "wb"), &std::fclose);
     if (!stream)

@@ -92,6 +92,10 @@ bool Film::findSpec(const std::string& name, AovSpec& spec) const {
 
 bool Film::addColor(int x, int y, glm::vec3 radiance, float alpha) {
     Pixel& p = _pixels[index(x, y)];
+    if (p.count && !(p.count & (p.count - 1))) {
+        p.deviationBefore = deviationOfMean(p);
+        p.meanBefore = float(luminanceOf(p.sum[0], p.sum[1], p.sum[2]) / p.count);
+    }
     ++p.count;
     bool goodAlpha = usable(alpha);
     if (goodAlpha) p.alpha += alpha;
@@ -137,6 +141,7 @@ void Film::setMean(int x, int y, glm::vec3 color, float alpha) {
     p.alpha = n * double(alpha);
     const double after = luminanceOf(p.sum[0], p.sum[1], p.sum[2]);
     p.luminanceSquared += (after * after - before * before) / n;
+    p.meanBefore += float((after - before) / n);
 }
 
 void Film::copyFrom(const Film& other) {
@@ -170,6 +175,19 @@ float Film::varianceOfMean(int x, int y) const {
     if (p.count < 2) return 0.0f;
     double n = p.count, l = luminanceOf(p.sum[0], p.sum[1], p.sum[2]);
     return float(std::max(0.0, (p.luminanceSquared - l * l / n) / (n - 1.0)) / n);
+}
+
+float Film::deviationOfMean(const Pixel& p) {
+    if (p.count < 2) return 0.0f;
+    uint32_t first = 1; // samples that the part before is the mean of
+    while (first < p.count - first)
+        first *= 2;
+    const double n = p.count, part = first;
+    const double change = luminanceOf(p.sum[0], p.sum[1], p.sum[2]) / n - double(p.meanBefore);
+    const double latest = change * change * part / (n - part);
+    if (first == 1) return float(std::sqrt(latest));
+    const double earlier = double(p.deviationBefore) * double(p.deviationBefore) * part / n;
+    return float(std::sqrt(0.5 * (latest + earlier)));
 }
 
 std::vector<float> Film::resolve(const std::string& name) const {

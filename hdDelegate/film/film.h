@@ -71,6 +71,11 @@ public:
     float alpha(int x, int y) const;
     /// Variance of the mean of the luminance: s^2 / n. 0 with fewer than two samples.
     float varianceOfMean(int x, int y) const;
+    /// Standard deviation of the mean of the luminance, as the well spread sequence of the samples
+    /// leaves it, which varianceOfMean() does not know of: from the differences between the mean
+    /// after each power of two samples and the one before, half of it from the latest. Few numbers,
+    /// so that it is right in the mean over some pixels only. 0 with fewer than two samples.
+    float deviationOfMean(int x, int y) const { return deviationOfMean(pixel(x, y)); }
     float luminance(int x, int y) const; ///< Rec.709
 
     /// Resolved pixels of any AOV (also color, alpha, sampleCount, variance): components floats per
@@ -97,7 +102,10 @@ private:
         double alpha = 0;
         double luminanceSquared = 0;
         uint32_t count = 0;
-        uint32_t reserved = 0; ///< no padding: checkpoints hold the bytes
+        // Of the luminance's mean at the largest power of two below count:
+        float meanBefore = 0;
+        float deviationBefore = 0; ///< as deviationOfMean() was there; 0 of one sample
+        uint32_t reserved = 0;     ///< no padding: checkpoints hold the bytes
     };
     /// Means keep components sums and their count, the others components values and the distance
     /// of the sample. Only the vector of the AOV's kind is filled.
@@ -108,6 +116,7 @@ private:
 
     size_t index(int x, int y) const { return size_t(y) * size_t(_width) + size_t(x); }
     const Pixel& pixel(int x, int y) const { return _pixels[index(x, y)]; }
+    static float deviationOfMean(const Pixel& pixel);
     void drop() { _dropped.fetch_add(1, std::memory_order_relaxed); }
     static Plane clearedPlane(const AovSpec& spec, size_t pixels);
 

@@ -5,32 +5,81 @@
 
 namespace patina {
 
-double relativeError(const Film& film, int x0, int y0, int x1, int y1) {
-    constexpr double meanOfHalfNormal = 0.79788456080286536; // sqrt(2 / pi)
-    // The variance of a pixel is known badly after few samples: the pixels share theirs.
-    double variance = 0.0, luminance = 0.0, relative = 0.0;
-    int pixels = 0;
+namespace {
+
+constexpr double meanOfHalfNormal = 0.79788456080286536; // sqrt(2 / pi)
+constexpr double leastLuminance = 0.01;                  // black pixels do not decide
+
+/// A rectangle of numbers.
+struct Grid {
+    int width, height;
+    std::vector<float> values;
+
+    Grid(int width, int height)
+        : width(width), height(height), values(size_t(width) * size_t(height)) {}
+    float& at(int x, int y) { return values[size_t(y) * size_t(width) + size_t(x)]; }
+    float at(int x, int y) const { return values[size_t(y) * size_t(width) + size_t(x)]; }
+
+    /// Mean of a number and those of its up to eight neighbours.
+    double meanAround(int x, int y) const {
+        const int left = std::max(x - 1, 0), right = std::min(x + 1, width - 1);
+        const int top = std::max(y - 1, 0), bottom = std::min(y + 1, height - 1);
+        double sum = 0.0;
+        for (int v = top; v <= bottom; ++v)
+            for (int u = left; u <= right; ++u)
+                sum += at(u, v);
+        return sum / ((right - left + 1) * (bottom - top + 1));
+    }
+};
+
+} // namespace
+
+double relativeError(const Film& film, int x0, int y0, int x1, int y1, PixelNoise noise) {
+    if (x1 <= x0 || y1 <= y0) return 0.0;
+    Grid luminance(x1 - x0, y1 - y0), squares(x1 - x0, y1 - y0);
+    for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x)
+            luminance.at(x - x0, y - y0) = film.luminance(x, y);
+    double plain = 0.0; // by the variance of samples that would be independent
     for (int y = y0; y < y1; ++y)
         for (int x = x0; x < x1; ++x) {
-            const double v = film.varianceOfMean(x, y), l = film.luminance(x, y);
-            variance += v;
-            luminance += l;
-            relative += std::sqrt(v) / (l + 0.01);
-            ++pixels;
+            // A pixel that has found too much light must not count less for that.
+            const double l = luminance.at(x - x0, y - y0);
+            const double scale = std::min(l, luminance.meanAround(x - x0, y - y0)) + leastLuminance;
+            const double deviation = double(film.deviationOfMean(x, y)) / scale;
+            squares.at(x - x0, y - y0) = float(std::min(deviation * deviation, 1e30));
+            plain += std::sqrt(double(film.varianceOfMean(x, y))) / scale;
         }
-    if (pixels == 0) return 0.0;
-    const double pooled = std::sqrt(variance / pixels) / (luminance / pixels + 0.01);
-    return meanOfHalfNormal * std::max(pooled * 0.5, relative / pixels);
+    // Light that few samples find is noise of the pixels around, too, that have found none of it.
+    double sum = 0.0, sumOfSquares = 0.0;
+    for (int y = 0; y < squares.height; ++y)
+        for (int x = 0; x < squares.width; ++x) {
+            const double square = squares.meanAround(x, y);
+            sum += std::sqrt(square);
+            sumOfSquares += square;
+        }
+    const double pixels = double(squares.values.size()), mean = sum / pixels;
+    // One standard error more, since a few pixels may have most of the noise, and know it badly.
+    const double spread =
+        pixels > 1.0 ? std::max(sumOfSquares / pixels - mean * mean, 0.0) / (pixels - 1.0) : 0.0;
+    double error = mean + std::sqrt(spread);
+    // Pixels that are wrong together may agree by chance: then half of the plain error is the
+    // least.
+    if (noise == PixelNoise::Shared) error = std::max(error, 0.5 * plain / pixels);
+    return meanOfHalfNormal * error;
 }
 
-int nextErrorStep(int samples, int most) {
-    const int next = samples == 0 ? 1 : samples < 16 ? samples * 2 : (samples / 16 + 1) * 16;
+int nextStep(int samples, int most) {
+    int step = 16;
+    while (step < 256 && samples / step >= 32)
+        step *= 2;
+    const int next = samples == 0 ? 1 : samples < 16 ? samples * 2 : (samples / step + 1) * step;
     return std::min(next, most);
 }
 
 bool isErrorStep(int samples) {
-    const bool powerOfTwo = samples > 0 && (samples & (samples - 1)) == 0;
-    return samples <= 16 ? powerOfTwo : samples % 16 == 0;
+    const auto powerOfTwo = [](int n) { return n > 0 && (n & (n - 1)) == 0; };
+    return powerOfTwo(samples) || (samples > 32 && samples % 3 == 0 && powerOfTwo(samples / 3));
 }
 
 } // namespace patina

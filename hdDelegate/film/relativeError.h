@@ -4,14 +4,26 @@
 
 namespace patina {
 
-/// Mean relative error (one standard deviation of the mean times sqrt(2/pi), over luminance + 0.01)
-/// of the pixels x0 <= x < x1, y0 <= y < y1: what RenderSettings::tolerance is measured by. 0 where
-/// there are no pixels.
-double relativeError(const Film& film, int x0, int y0, int x1, int y1);
+/// What the noise of neighbouring pixels has to do with each other.
+enum class PixelNoise {
+    Independent, ///< every pixel has random numbers of its own (path tracer)
+    Shared,      ///< all have the same (rasterizer): many pixels tell no more than one
+};
 
-/// The count after `samples` at which errors are looked at next, at most `most`: 1, 2, 4, 8, 16,
-/// then every 16. Looking only there makes an interrupted and resumed render end as any other.
-int nextErrorStep(int samples, int most);
-bool isErrorStep(int samples); ///< whether it is one of those counts
+/// Mean over the pixels x0 <= x < x1, y0 <= y < y1 of |luminance - its limit| / (limit + 0.01), as
+/// their samples let one expect it: what RenderSettings::tolerance is measured by. Too high rather
+/// than too low: measured on 13 scenes with 16 to 2048 samples it was 1.5 times the true error in
+/// the mean, and below it one time in 25. 0 where there are no pixels.
+double relativeError(const Film& film, int x0, int y0, int x1, int y1,
+                     PixelNoise noise = PixelNoise::Independent);
+
+/// The count after `samples` that a render goes to in one piece, at most `most`: 1, 2, 4, 8, 16,
+/// then 16 more each, and from 512 on a sixteenth of the power of two below, up to 256 more.
+int nextStep(int samples, int most);
+
+/// Whether the error is looked at after so many samples: powers of two, and from 32 on those in the
+/// middle between two. All are steps. A render that is looked at nowhere else ends as any other,
+/// however it was interrupted; and the more often one looks, the likelier an estimate is too low.
+bool isErrorStep(int samples);
 
 } // namespace patina

@@ -295,7 +295,7 @@ private:
             !isErrorStep(passes))
             return false;
         const int* w = _passes->window();
-        return relativeError(*_film, w[0], w[1], w[2] + 1, w[3] + 1) <=
+        return relativeError(*_film, w[0], w[1], w[2] + 1, w[3] + 1, PixelNoise::Shared) <=
                _raster->plan().noise(_settings.tolerance);
     }
 

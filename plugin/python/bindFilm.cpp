@@ -2,6 +2,7 @@
 // fields of ImageOptions in snake case.
 
 #include "hdDelegate/film/imageFile.h"
+#include "hdDelegate/film/relativeError.h"
 #include "hdDelegate/scene/colorSpaces.h"
 
 #include <pybind11/numpy.h>
@@ -186,6 +187,15 @@ void bindFilm(py::module_& m) {
         .def_readwrite("resume_token", &Film::resumeToken)
         .def("resolve", &resolve, py::arg("name"),
              "Array of height x width (x components), top row first; int32 for ids.")
+        .def(
+            "relative_error",
+            [](const Film& film, bool shared) {
+                return relativeError(film, 0, 0, film.width(), film.height(),
+                                     shared ? PixelNoise::Shared : PixelNoise::Independent);
+            },
+            py::arg("shared") = false,
+            "Expected mean of |luminance - its limit| / (limit + 0.01) over the pixels, by their "
+            "samples; shared: all pixels have the same random numbers (rasterizer).")
         .def("add_color", &addColor, py::arg("x"), py::arg("y"), py::arg("radiance"),
              py::arg("alpha") = 1.0f)
         .def("save_checkpoint", &Film::saveCheckpoint, py::arg("file"),

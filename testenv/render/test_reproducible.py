@@ -53,6 +53,18 @@ def test_adaptive_render_is_reproducible_and_cheaper(tmp_path):
     assert statistics[0]["samples"] < 256 * 80 * 45
 
 
+def test_adaptive_render_that_is_continued_is_the_same(tmp_path):
+    whole, cut = tmp_path / "whole.exr", tmp_path / "cut.exr"
+    flags = ["--imageWidth", 40, "--imageHeight", 23, "--tolerance", 0.02]
+    record(scene("lightSphere"), whole, *flags, "--samples", 1024)
+    # Broken off between two steps, and after the counts at which the first tiles are good enough.
+    for samples in (40, 100):
+        record(scene("lightSphere"), cut, *flags, "--samples", samples, "--keepCheckpoint")
+        assert not np.array_equal(pixels(whole), pixels(cut))
+        record(scene("lightSphere"), cut, *flags, "--samples", 1024, "--resume")
+        assert np.array_equal(pixels(whole), pixels(cut))
+
+
 def test_tolerance_is_kept(tmp_path):
     reference, image = tmp_path / "reference.exr", tmp_path / "image.exr"
     record(scene("lightSphere"), reference, *SMALL, "--samples", 4096, "--seed", 7)

@@ -19,19 +19,19 @@ def scene(name):
 
 
 def test_predictions_hold_on_scenes(capsys, tmp_path):
-    """Small renders with fixed seeds, 64 samples. Differences have noise: the estimate of the error may miss by two of its
-    standard errors, which a right planner does on no scene of these.
+    """Small renders with fixed seeds, so that the same comes every time; no limit of time is reached. Of other seeds an
+    image of so few pixels, most of whose noise gets 0.9 of the tolerance, is outside one time in 20 or less.
     """
     stages = [scene(name) for name in ("plastic", "roughConductor", "lightSphere")]
-    assert main.main(["chart", "--predictions", *stages, "--backend", "embree", "-w", "24", "--methodSamples", "64",
-                      "--tolerances", "0.02", "--seconds", "0.8", "--maxSamples", "1024", "--quiet", "--out", str(tmp_path), "--json"]) == 0
+    assert main.main(["chart", "--predictions", *stages, "--backend", "embree", "-w", "12", "--methodSamples", "64", "--tolerances",
+                      "0.05", "--seconds", "600", "--maxSamples", "8192", "--quiet", "--out", str(tmp_path), "--json"]) == 0
     rows = json.loads(capsys.readouterr().out)
     assert [row["stage"] for row in rows] == ["plastic", "roughConductor", "lightSphere"]
     for row in rows:
-        assert row["predicted"] <= 0.4 * 0.02
+        assert row["predicted"] <= 0.4 * 0.05
         assert row["methodWithin"], row
-        assert row["state"] in ("within", "samples ended", "seconds ended", "reference noisy") or row["error"] <= 0.02 * 1.2, row
-        assert row["state"] != "within" or row["error"] <= 0.02
+        assert row["state"] == "within" and row["error"] <= 0.05, row
+        assert row["samples"] <= 2048, row
     assert (tmp_path / "predictions.csv").read_text(encoding="utf-8").count("\n") == 4
 
 
@@ -55,7 +55,7 @@ def test_explain_says_what_is_planned(capsys, tolerance, method):
 def test_renders_tell_the_predicted_error(tmp_path, backend):
     def record(*flags):
         file = tmp_path / "statistics.json"
-        assert main.main(["record", scene("plastic"), str(tmp_path / "a.exr"), "-w", "16", "--backend", backend, "--quiet",
+        assert main.main(["record", scene("subdivision"), str(tmp_path / "a.exr"), "-w", "8", "--backend", backend, "--quiet",
                           "--samples", "64", f"--json={file}", *flags]) == 0
         return json.loads(file.read_text(encoding="utf-8"))["frames"][0]
 
@@ -70,15 +70,15 @@ def test_renders_tell_the_predicted_error(tmp_path, backend):
     plan = planned["plan"]
     assert "plan" not in plain
     # Of the diffuse floor nothing is chosen but how the rasterizer lights it.
-    assert set(plan["materials"]) == {f"/World/materials/m{i}" for i in range(5)} | (
+    assert set(plan["materials"]) == {"/World/materials/red", "/World/materials/blue"} | (
         {"/World/materials/grey"} if backend == "raster" else set())
     assert plan["error"] == planned["predictedError"] == max(m["error"] for m in plan["materials"].values())
-    assert sum(plan["methods"]["directionalAlbedo"].values()) == 5
+    assert sum(plan["methods"]["directionalAlbedo"].values()) == 2
     # The rasterizer has no walks between layers, and says what it takes instead and how far that is off.
     assert set(plan["methods"]["layering"]) == {"positionFree" if backend == "embree" else "albedoScaling"}
     metadata = _patina.read_image(str(tmp_path / "a.exr")).metadata
     assert "layering=" + ("positionFree" if backend == "embree" else "albedoScaling") in metadata["patina:methods"]
-    assert "/World/materials/m3" in metadata["patina:methods"]
+    assert "/World/materials/red" in metadata["patina:methods"]
     if backend == "embree":
         assert plain["maxDepth"] == 16 and planned["maxDepth"] == int(plan["scene"]["pathDepth"]["method"])
         assert record("--tolerance", "0", "--samples", "1")["maxDepth"] == 1024

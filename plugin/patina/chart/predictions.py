@@ -82,9 +82,11 @@ def check(path, arguments, backend, tolerances, samples, most, seconds):
     taken = max(1, int(min(t.samples for t in truths)))
     render(0, None, 1)
     defaults = [render(seed, None, taken) for seed in seeds]
-    reference, noise = _reference(render, arguments.seed + 100, samples, min(tolerances), seconds)
-    scale = np.maximum(reference, 0.0) + 0.01
     repeats = min(-(-FEW_PIXELS // (renders.width * renders.height)), MOST_REPEATS)
+    every = {t: [render(arguments.seed + 7 + k, t, most, True) for k in range(repeats)] for t in tolerances}
+    least = 2.0 * max(w.most for wholes in every.values() for w in wholes)
+    reference, noise = _reference(render, arguments.seed + 100, samples, min(tolerances), seconds, least)
+    scale = np.maximum(reference, 0.0) + 0.01
     for tolerance in tolerances:
         row = Row(name, backend, tolerance, width=renders.width, height=renders.height)
         render(0, tolerance, 1)
@@ -95,7 +97,7 @@ def check(path, arguments, backend, tolerances, samples, most, seconds):
         row.defaultError = _common(*[(d.image - t.image) / scale for d, t in zip(defaults, truths)])[0]
         own, truth, default = (sum(r.perSample for r in of) / len(of) for of in (planned, truths, defaults))
         row.speedup, row.defaultSpeedup = truth / max(own, 1e-12), default / max(own, 1e-12)
-        wholes = [render(arguments.seed + 7 + k, tolerance, most, True) for k in range(repeats)]
+        wholes = every[tolerance]
         row.noise, row.samples = noise, sum(w.samples for w in wholes) / repeats
         row.seconds, row.truthSeconds = sum(w.samples * w.perSample for w in wholes) / repeats, row.samples * truth
         row.error = max(_mean([np.abs(w.image - reference) / scale for w in wholes]) ** 2 - noise**2, 0.0) ** 0.5
@@ -118,9 +120,10 @@ class _Image:
         self.perSample = result.seconds * result.busy / max(result.samples, 1e-9)
 
 
-def _reference(render, seed, samples, tolerance, seconds):
+def _reference(render, seed, samples, tolerance, seconds, least):
     """The mean of truths, more and more samples of them, until noise takes less than half of the tolerance or time is over.
 
+    :param least: samples per pixel that it has in any case, for of light that neither half has found none is missed
     :returns: it and its noise, the mean over the pixels relative to it
     """
     sums, counts, spent, noise, image = [0.0, 0.0], [0.0, 0.0], 0.0, 1.0, None
@@ -133,10 +136,11 @@ def _reference(render, seed, samples, tolerance, seconds):
         halves = [s / c for s, c in zip(sums, counts)]
         image = (halves[0] + halves[1]) / 2.0
         noise = _mean(np.abs(halves[0] - halves[1]) / 2.0 / (np.maximum(image, 0.0) + 0.01))
-        if noise <= tolerance / 2.2 or (seconds and spent >= 2.0 * seconds) or counts[0] >= 1e8:
+        enough = noise <= tolerance / 2.2 and sum(counts) >= least
+        if enough or (seconds and spent >= 2.0 * seconds) or counts[0] >= 1e8:
             return image, noise
         # Doubled at least; at most what noise and time ask for.
-        factor = min(max((2.2 * noise / tolerance) ** 2 - 1.0, 0.1), 3.0)
+        factor = min(max((2.2 * noise / tolerance) ** 2 - 1.0, least / sum(counts) - 1.0, 0.1), 3.0)
         if seconds:
             factor = min(factor, max(2.0 * seconds / spent - 1.0, 0.1) * 1.1)
         seed, samples = seed + 2, max(1, int(counts[0] * factor))

@@ -51,18 +51,20 @@ double relativeError(const Film& film, int x0, int y0, int x1, int y1, PixelNois
             plain += std::sqrt(double(film.varianceOfMean(x, y))) / scale;
         }
     // Light that few samples find is noise of the pixels around, too, that have found none of it.
-    double sum = 0.0, sumOfSquares = 0.0;
+    double sum = 0.0, own = 0.0, ownSquares = 0.0;
     for (int y = 0; y < squares.height; ++y)
         for (int x = 0; x < squares.width; ++x) {
-            const double square = squares.meanAround(x, y);
-            sum += std::sqrt(square);
-            sumOfSquares += square;
+            sum += std::sqrt(squares.meanAround(x, y));
+            own += std::sqrt(double(squares.at(x, y)));
+            ownSquares += double(squares.at(x, y));
         }
-    const double pixels = double(squares.values.size()), mean = sum / pixels;
-    // One standard error more, since a few pixels may have most of the noise, and know it badly.
+    // One standard error more, since a few pixels may have most of the noise, and each knows its
+    // own badly: of the pixels themselves, for means around are no more numbers than these.
+    const double pixels = double(squares.values.size()), ownMean = own / pixels;
     const double spread =
-        pixels > 1.0 ? std::max(sumOfSquares / pixels - mean * mean, 0.0) / (pixels - 1.0) : 0.0;
-    double error = mean + std::sqrt(spread);
+        pixels > 1.0 ? std::max(ownSquares / pixels - ownMean * ownMean, 0.0) / (pixels - 1.0)
+                     : ownSquares;
+    double error = sum / pixels + std::sqrt(spread);
     // Pixels that are wrong together may agree by chance: then half of the plain error is the
     // least.
     if (noise == PixelNoise::Shared) error = std::max(error, 0.5 * plain / pixels);

@@ -17,12 +17,19 @@ import tempfile
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 ROOM = os.path.join(ROOT, "testenv", "scenes")
-# All of them. A tenth of a percent takes a hundred times the samples of one percent: of few pixels, where that is affordable.
+# All of them to 5 and 1 %. A tenth of a percent takes a hundred times the samples of one percent: of few pixels, where that is
+# affordable.
 EVERY = [os.path.relpath(path, ROOT) for path in sorted(glob.glob(os.path.join(ROOM, "*.usda")))
          + sorted(glob.glob(os.path.join(ROOM, "classic", "*.usda")))]
-DEAR = ("diffuseBox", "hair", "lightCylinder", "lightMesh", "lightSphere", "manyLights", "media", "roughConductor",
-        "roughDielectricSlab", "shaderball", "volume")
-CHEAP = [path for path in EVERY if os.path.splitext(os.path.basename(path))[0] not in DEAR]
+DEAR = ("manyLights", "media", "roughDielectricSlab", "shaderball", "volume")
+CHEAP = ("furnace", "lightDistant", "lightDome")
+
+
+def named(names):
+    return [path for path in EVERY if os.path.splitext(os.path.basename(path))[0] in names]
+
+
+FEW = [path for path in EVERY if path not in named(DEAR + CHEAP)]
 PREDICTIONS = ["--predictions", "--backend", "embree", "--maxSamples", "4000000", "--methodSamples", "512", "--quiet"]
 SCENES = ("diffuseBox", "lightDome", "shaderball", "roughGlass", "texturedDiffuse")
 # kind -> (arguments of patina chart, more than once where a table is made of several, those of --quick instead, files kept)
@@ -34,8 +41,9 @@ KINDS = {
                + ["--imageWidth", "128", "--maxSamples", "64", "--seconds", "240", "--quiet"]],
                [f"testenv/scenes/{SCENES[0]}.usda", "--imageWidth", "32", "--maxSamples", "4", "--quiet"],
                ["scenes.csv", "*-relMSE.svg", "*-flip.svg", "*-rmse.svg"]),
-    "predictions": ([PREDICTIONS + EVERY + ["--imageWidth", "12", "--tolerances", "0.05,0.01", "--seconds", "15"],
-                     PREDICTIONS + CHEAP + ["--imageWidth", "3", "--tolerances", "0.001", "--seconds", "30"]],
+    "predictions": ([PREDICTIONS + EVERY + ["--imageWidth", "12", "--tolerances", "0.05,0.01", "--seconds", "300"],
+                     PREDICTIONS + named(CHEAP) + ["--imageWidth", "6", "--tolerances", "0.001", "--seconds", "600"],
+                     PREDICTIONS + FEW + ["--imageWidth", "3", "--tolerances", "0.001", "--seconds", "600"]],
                     ["--predictions", f"testenv/scenes/{SCENES[0]}.usda", "--backend", "embree", "--imageWidth", "8",
                      "--tolerances", "0.5", "--methodSamples", "4", "--seconds", "1", "--quiet"],
                     ["predictions.csv"]),

@@ -60,8 +60,8 @@ TEST(LightChoice, smallImagesTakeMoreLightsByCoarserMaps) {
     patina::RasterInstances places(state, settings, 0.0f);
     patina::LightImages images(diagnostics);
     patina::RasterDomes domes;
-    const patina::RasterLights lights(state, settings, places, 0.0f, 4, images, domes, {},
-                                      diagnostics);
+    const patina::RasterLights lights(state, settings, places, 0.0f, 4, {"sampled"}, images, domes,
+                                      {}, diagnostics);
     patina::ShadowBounds bounds;
     bounds.sceneMin = bounds.receiverMin = patina::vec3(-1.0f);
     bounds.sceneMax = bounds.receiverMax = patina::vec3(1.0f);

@@ -76,6 +76,7 @@ void MediaScene::distant(const vec3& irradiance, const vec3& travels) {
 void MediaScene::camera(const vec3& eye, float width) {
     auto camera = place<Camera>("/camera", placed(eye, vec3(1.0f)));
     camera->orthographic = true;
+    camera->clipNear = 0.01f; // where no box has a face: which side it is on would hang on rounding
     // Apertures are tenths of scene units.
     camera->horizontalAperture = camera->verticalAperture = 10.0f * width;
     scene->edit().set(std::shared_ptr<const Camera>(camera));

@@ -44,7 +44,10 @@ double rowError(const std::string& method, const char* kind, double roughness, d
     const int bin = std::min(int(x), methodBins - 2);
     const double across = s - column, along = x - bin;
     const double largest = sizes[methodCosines - 1];
-    const double beyond = size > largest ? largest * largest / (size * size) : 1.0;
+    // Small ones are measured no further down: from edges of 2 to 4 pixels errors grow eightfold.
+    const double beyond = size > largest    ? std::pow(largest / size, 2.0)
+                          : size < sizes[0] ? std::pow(sizes[0] / std::max(size, 0.1), 3.0)
+                                            : 1.0;
     double worst = 0.0;
     for (const MeasuredMethod& row : methodTable()) {
         if (point != row.point || method != row.method || std::string(kind) != row.kind) continue;
@@ -54,7 +57,7 @@ double rowError(const std::string& method, const char* kind, double roughness, d
         };
         worst = std::max(worst, at(bin) * (1.0 - along) + at(bin + 1) * along);
     }
-    return outlines * worst * beyond;
+    return std::min(outlines * worst * beyond, 1.0);
 }
 
 } // namespace

@@ -91,6 +91,17 @@ def test_both_back_ends_choose_alike():
     assert error <= choices["subdivision"]["error"] + 1e-3
 
 
+def test_small_surfaces_are_expected_to_be_far_off():
+    """Some pixels across, which is less than any row was measured at. 96 samples with the random numbers of the finest (seed 3)."""
+    scene, small = ball("diffuse"), {"width": 6, "height": 6, "samples": 96}
+    finest = render(scene, "embree", methods={"subdivision": "0.5px"}, **small)[0]
+    coarse, _, _ = render(scene, "embree", methods={"subdivision": "2px"}, **small)
+    predicted = render(scene, "embree", 0.5, methods={"subdivision": "2px"}, **small)[1]["subdivision"]["error"]
+    wrong = float((np.abs(coarse - finest) / (finest + 0.01)).mean())
+    assert 0.0 < wrong <= predicted
+    assert render(scene, "embree", 0.01, width=6, height=6, samples=1)[1]["subdivision"]["method"] in ("1px", "0.5px")
+
+
 def test_who_decides():
     scene = ball("diffuse")
     count = {edge: render(scene, "embree", edgeLength=edge, samples=1)[2]["trianglesStored"] for edge in (16.0, 4.0, 0.5)}
@@ -112,7 +123,11 @@ def test_files_say_what_was_chosen(tmp_path):
     image, file = tmp_path / "a.exr", tmp_path / "a.json"
     assert main.main(["record", os.path.join(SCENES, "subdivision.usda"), str(image), "-w", "32", "--tolerance", "0.2",
                       "--samples", "4", "--quiet", f"--json={file}"]) == 0
-    scene = json.loads(file.read_text(encoding="utf-8"))["frames"][0]["plan"]["scene"]
+    frame = json.loads(file.read_text(encoding="utf-8"))["frames"][0]
+    scene = frame["plan"]["scene"]
     assert set(scene) == {"subdivision", "pathDepth", "roulette"}
+    drawn = scene["subdivision"]["error"]
+    assert 0.0 < drawn <= 0.1 * 0.2
+    assert frame["noiseTolerance"] == pytest.approx(0.9 * 0.2 - min(frame["predictedError"], 0.4 * 0.2) - drawn)
     told = _patina.read_image(str(image)).metadata["patina:methods"]
     assert all(f"{point}={choice['method']}" in told for point, choice in scene.items())

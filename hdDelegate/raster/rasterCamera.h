@@ -3,6 +3,8 @@
 #include "hdDelegate/scene/camera.h"
 #include "hdDelegate/scene/settings.h"
 
+#include <algorithm>
+
 namespace patina {
 
 /// What one pass sees: matrices for one point of the pixel, the lens and the shutter.
@@ -32,6 +34,7 @@ public:
     /// Depth in [0,1] as OpenGL's default window depth over the camera's own clipping range.
     float windowDepth(const vec3& cameraPoint) const;
     const Camera& camera() const { return _camera; }
+    float pixels() const { return std::max(_imageSize.x, _imageSize.y); } ///< along the longer side
 
 private:
     Camera _camera;

@@ -65,8 +65,9 @@ RasterExtent::RasterExtent(const Geometry& prim) {
 RasterDetail::RasterDetail(const RasterExtent& extent, const MotionTransform& transform,
                            const RasterCamera& camera, const RenderSettings& settings,
                            bool displaced, bool glows)
-    : _gap(glows ? 0.25f * largestGap : largestGap), _area(extent.area), _round(extent.round),
-      _slight(extent.slight), _displaced(displaced) {
+    : _gap((glows ? 0.25f : 1.0f) * largestGap *
+           std::clamp(camera.pixels() / gapPixels, 0.25f, 1.0f)),
+      _area(extent.area), _round(extent.round), _slight(extent.slight), _displaced(displaced) {
     if (!(settings.edgeLength > 0.0f) || !extent.refines) return;
     const vec3 &low = extent.low, &high = extent.high;
     _view = camera.view(vec2(0.0f), vec2(0.0f), 0.5f, low, high);

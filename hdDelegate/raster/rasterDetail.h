@@ -40,6 +40,9 @@ public:
     size_t trianglesFor(float edge) const;
 
     static constexpr float largestGap = 0.03f; ///< pixels
+    /// Smaller images, of which outlines take a larger share, have as much smaller gaps, down to a
+    /// quarter.
+    static constexpr float gapPixels = 512.0f; ///< along the longer side
 
 private:
     /// The longest chord, for `unit` object units a pixel.

@@ -21,6 +21,7 @@ struct Ring {
     float radius;
     float u;           ///< of attributes
     float lean = 0.0f; ///< sine of the normal's angle to the circle's plane
+    StripEnd end = StripGoesOn;
 };
 
 float widestOf(const CurveSet& set) {
@@ -136,6 +137,25 @@ private:
         return int(std::ceil(std::clamp(steps, 1.0f, float(mostSteps))));
     }
 
+    /// Whether no other segment of the curve goes on from an end of this one.
+    bool isOpen(size_t s, bool end) const {
+        const auto curve = [&](size_t k) {
+            return k < _set.segmentCurve.size() ? _set.segmentCurve[k] : int(k);
+        };
+        const Ring edge = ringAt(s, end ? 1.0f : 0.0f);
+        const auto goesOn = [&](size_t k) {
+            const vec3 gap = ringAt(k, end ? 0.0f : 1.0f).position - edge.position;
+            return glm::length(gap) <= 1e-3f * edge.radius;
+        };
+        const size_t next = end ? s + 1 : s - 1; // wraps around to what is no segment
+        if (next < _set.segments.size() && curve(next) == curve(s)) return !goesOn(next);
+        // A periodic curve meets its other end.
+        size_t other = s;
+        while (end ? other > 0 && curve(other - 1) == curve(s)
+                   : other + 1 < _set.segments.size() && curve(other + 1) == curve(s))
+            other += end ? size_t(-1) : 1;
+        return !goesOn(other);
+    }
     /// Whether a linear segment's end at u shows a sphere.
     bool isRound(size_t s, bool end) const {
         if (!_linear || !(_gap > 0.0f)) return false;
@@ -171,6 +191,7 @@ private:
         if (_strips) {
             _out.aside.push_back(ring.radius);
             _out.aside.push_back(-ring.radius);
+            _out.ends.insert(_out.ends.end(), 2, float(ring.end));
             vertex(ring.position, ring.along);
             return vertex(ring.position, ring.along) - 1;
         }
@@ -229,6 +250,9 @@ private:
         const int steps = stepsOf(s);
         for (int i = 0; i <= steps; ++i)
             rings.push_back(ringAt(s, float(i) / float(steps)));
+        if (_strips && isOpen(s, false))
+            rings.front().end = _linear ? StripBeginsRound : StripBegins;
+        if (_strips && isOpen(s, true)) rings.back().end = _linear ? StripEndsRound : StripEnds;
         if (isRound(s, true)) addCap(s, true, rings);
         std::vector<uint32_t> first;
         _x = vec3(0.0f);

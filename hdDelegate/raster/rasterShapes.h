@@ -5,12 +5,25 @@
 namespace patina {
 
 /// Triangles, and how shaders read them.
+/// How a strip ends. Its normal is that long, as the vertex stage has it (instance.glsl): the rim
+/// of an open tube shows as half an ellipse, and round ends as half a circle, for which it is
+/// longer.
+enum StripEnd {
+    StripGoesOn = 1,
+    StripEnds = 2,
+    StripBegins = 3,
+    StripEndsRound = 4,
+    StripBeginsRound = 5
+};
+
 struct RasterTriangles {
     TriangleMesh mesh;
     /// Per vertex of a strip: its half width, negative on the right. Such a vertex is on the axis
     /// of a curve, its normal goes along it, and the vertex stage moves it aside, so that the strip
     /// faces whoever looks. Empty: no strips.
     std::vector<float> aside;
+    /// Of strips, by vertex: whether the tube ends there and how, a StripEnd.
+    std::vector<float> ends;
     /// Of curves, per triangle: along, as long as the radius. Empty: tangents follow from `st`.
     std::vector<vec3> along;
 };

@@ -88,6 +88,7 @@ uint32_t RasterSurfaceBuilder::vertex(unsigned t, int c) {
     own.position = _mesh.positions[0][position];
     if (_form && !_form->aside.empty()) own.aside = _form->aside[position];
     if (!_mesh.normals.empty()) own.normal = evalNormal(_mesh, t, u, v);
+    if (_form && !_form->ends.empty()) own.normal *= _form->ends[position];
     const size_t count = _attributes.size(), at = _primvars.size();
     for (const MeshAttribute* attribute : _attributes) {
         float value[4] = {0, 0, 0, 0};

@@ -1,6 +1,6 @@
 // Attributes of the vertex stage: a vertex, and the instance that it is drawn for.
 layout(location = 0) in vec4 inPosition; // w: of strips the half width, negative on the right; else 0
-layout(location = 1) in vec3 inNormal; // of strips: along the curve
+layout(location = 1) in vec3 inNormal; // of strips: along the curve, as long as a StripEnd
 layout(location = 2) in vec4 inColumn0; // object to world, in columns; w: cube root of the determinant
 layout(location = 3) in vec4 inColumn1;
 layout(location = 4) in vec4 inColumn2;
@@ -28,5 +28,16 @@ vec3 positionFor(vec4 viewer) {
     vec3 across = cross(alongStrip(), d);
     float r = inPosition.w * inColumn0.w, l = length(across), away = dot(d, d);
     if (viewer.w != 0.0) r *= inversesqrt(max(1.0 - r * r / max(away, 1e-30), 0.1));
-    return l > 0.0 ? p + across * (r / l) : p;
+    if (l <= 0.0) return p;
+    // The outline of an open tube has half an ellipse beyond its end, that of a round one half a circle:
+    // a strip gets as much longer.
+    float kind = round(length(inNormal));
+    if (kind > 1.0) {
+        vec3 along = normalize(alongStrip()), towards = d * inversesqrt(max(away, 1e-30));
+        float c = dot(along, towards);
+        vec3 beyond = (along - towards * c) * inversesqrt(max(1.0 - c * c, 1e-6));
+        float more = 0.785398 * abs(r) * (kind > 3.5 ? 1.0 : abs(c));
+        p += beyond * (kind == 2.0 || kind == 4.0 ? more : -more);
+    }
+    return p + across * (r / l);
 }

@@ -7,7 +7,11 @@
 layout(location = 0) out vec4 outColor;
 layout(location = 7) uniform vec4 meshLight; // w: modes of RasterMeshLight
 
+#ifdef MATERIAL_IS_FIBRE
+const float lightTrust = 3.0; // what light through a fibre makes of few directions is noisier than its shadows are wrong
+#else
 const float lightTrust = 8.0;
+#endif
 
 float heuristic(float a, float b) {
     return a * a / max(a * a + b * b, 1e-30);

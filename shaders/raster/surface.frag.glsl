@@ -73,7 +73,7 @@ vec3 departure(vec3 wi) {
 #ifdef MATERIAL_IS_FIBRE
     float cosine = dot(wi, point.geometricNormal), along = dot(wi, point.tangent);
     if (isTube() && cosine < 0.0)
-        return point.position - wi * (2.02 * tubeRadius * cosine / max(1.0 - along * along, 0.01));
+        return point.position + wi * (0.05 * tubeRadius - tubeRadius * cosine / max(1.0 - along * along, 0.01));
 #endif
     return point.position;
 }

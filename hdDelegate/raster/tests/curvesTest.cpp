@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 using namespace patina;
 
@@ -70,6 +71,42 @@ TEST(RasterCurves, StripsFollowTheCurveAsFarAsIsSeen) {
             straight += curve == 1;
         EXPECT_EQ(straight, 2u);
     }
+}
+
+TEST(RasterCurves, StripsEndWhereTheCurveDoes) {
+    CurveSet set = bent(0.01f);
+    const auto endsOf = [](const CurveSet& curves) {
+        const RasterTriangles strips = curveTriangles(curves, fineness(0.5f), true);
+        std::map<float, int> count;
+        for (const float end : strips.ends)
+            ++count[end];
+        EXPECT_EQ(strips.ends.size(), strips.aside.size());
+        return count;
+    };
+    // Two curves, each with a beginning and an end of two vertices.
+    std::map<float, int> count = endsOf(set);
+    EXPECT_EQ(count[StripBegins], 4);
+    EXPECT_EQ(count[StripEnds], 4);
+    EXPECT_GT(count[StripGoesOn], 4);
+    // A fourth quarter closes the circle.
+    constexpr float k = 0.5522848f;
+    set.segments.insert(set.segments.begin() + 3, uint32_t(set.controlPoints[0].size()));
+    for (const vec2& p : {vec2(0, -1), vec2(k, -1), vec2(1, -k), vec2(1, 0)})
+        set.controlPoints[0].emplace_back(p, 0.0f, 0.01f);
+    set.segmentCurve = {0, 0, 0, 0, 1};
+    count = endsOf(set);
+    EXPECT_EQ(count[StripBegins], 2);
+    EXPECT_EQ(count[StripEnds], 2);
+    // Linear curves are round at their ends.
+    CurveSet line;
+    line.basis = CurveBasis::Linear;
+    line.segments = {0, 1};
+    line.segmentCurve = {0, 0};
+    line.controlPoints = {{vec4(0, 0, 0, 0.01f), vec4(1, 0, 0, 0.01f), vec4(2, 1, 0, 0.01f)}};
+    count = endsOf(line);
+    EXPECT_EQ(count[StripBeginsRound], 2);
+    EXPECT_EQ(count[StripEndsRound], 2);
+    EXPECT_EQ(count[StripBegins] + count[StripEnds], 0);
 }
 
 TEST(RasterCurves, TubesAreAsWideAsTheCurveInTheMean) {

@@ -26,6 +26,9 @@ class ShapeBuilder {
 public:
     /// @param coarser divides the numbers of segments: 1, 2, 4 or 8. Faces keep their numbers.
     ShapeBuilder(TriangleMesh& out, int coarser) : _out(out), _coarser(coarser) {
+        // Outlines of inscribed polygons would be too narrow.
+        const float half = glm::pi<float>() * float(coarser) / float(aroundSegments);
+        if (coarser > 1) _wider = half / std::sin(half);
         _out.positions.resize(1);
         _out.normals.resize(1);
         _st.name = "st";
@@ -67,7 +70,7 @@ public:
         vertex(vec3(0, 0, z), normal, vec2(0.5f));
         for (int i = 0; i < aroundSegments; i += _coarser) {
             const vec2 rim = turn(float(i) / float(aroundSegments));
-            vertex(vec3(radius * rim, z), normal, 0.5f + 0.5f * vec2(side * rim.x, rim.y));
+            vertex(vec3(radius * _wider * rim, z), normal, 0.5f + 0.5f * vec2(side * rim.x, rim.y));
         }
         const uint32_t segments = uint32_t(aroundSegments / _coarser);
         for (uint32_t i = 0; i < segments; ++i) {
@@ -96,6 +99,11 @@ public:
     }
 
     int faces() const { return _faces; }
+    /// How much further from the axis coarse shapes are, to be as wide as round ones in the mean
+    /// over all directions.
+    float wider() const { return _wider; }
+    void setWider(float factor) { _wider = factor; }
+    int coarser() const { return _coarser; }
 
 private:
     void vertex(const vec3& position, const vec3& normal, const vec2& st) {
@@ -114,6 +122,7 @@ private:
     TriangleMesh& _out;
     MeshAttribute _st;
     int _faces = 0, _coarser;
+    float _wider = 1.0f;
 };
 
 /// Part of a sphere between two latitudes (radians).
@@ -124,9 +133,27 @@ void sphereZone(ShapeBuilder& shape, float radius, float z, float from, float to
         const bool pole = std::abs(std::abs(theta) - glm::half_pi<float>()) < 1e-6f;
         const float ring = pole ? 0.0f : std::cos(theta);
         normal = vec3(ring * turn(st.x), pole ? std::copysign(1.0f, theta) : std::sin(theta));
-        position = radius * normal + vec3(0, 0, z);
+        position = radius * shape.wider() * normal + vec3(0, 0, z);
     };
     shape.grid(aroundSegments, rings, zone, tRange);
+}
+
+/// How much larger an inscribed sphere of so many segments is to be for its outline to be as large
+/// as a sphere's in the mean over all directions: a quarter of its surface (Cauchy 1832).
+float largerSphere(int around) {
+    const float pole = glm::half_pi<float>(), step = glm::two_pi<float>() / float(around);
+    const auto at = [&](float theta, float phi) {
+        return vec3(std::cos(theta) * std::cos(phi), std::cos(theta) * std::sin(phi),
+                    std::sin(theta));
+    };
+    float area = 0.0f;
+    for (int j = 0; j < around / 2; ++j) {
+        const float low = -pole + step * float(j), high = low + step;
+        const vec3 a = at(low, 0.0f), b = at(low, step), c = at(high, step), d = at(high, 0.0f);
+        area +=
+            0.5f * (glm::length(glm::cross(b - a, c - a)) + glm::length(glm::cross(c - a, d - a)));
+    }
+    return std::sqrt(4.0f * glm::pi<float>() / (float(around) * area));
 }
 
 /// The side of a cone, cylinder or truncated cone.
@@ -138,7 +165,8 @@ void side(ShapeBuilder& shape, float bottom, float top, float height,
     const vec2 slope = glm::normalize(vec2(height, bottom - top));
     const auto surface = [&](const vec2& st, vec3& position, vec3& normal) {
         const vec2 around = turn(st.x);
-        position = vec3((bottom * (1.0f - st.y) + top * st.y) * around, height * (st.y - 0.5f));
+        const float radius = (bottom * (1.0f - st.y) + top * st.y) * shape.wider();
+        position = vec3(radius * around, height * (st.y - 0.5f));
         normal = vec3(slope.x * around, slope.y);
     };
     shape.grid(aroundSegments, rows, surface, tRange);
@@ -210,6 +238,7 @@ TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& opt
     switch (implicit.shape) {
     case ImplicitShape::Sphere: {
         const float radius = size(implicit.radius, "radius");
+        if (shape.coarser() > 1) shape.setWider(largerSphere(aroundSegments / shape.coarser()));
         if (radius > 0.0f)
             sphereZone(shape, radius, 0.0f, -glm::half_pi<float>(), glm::half_pi<float>(),
                        sphereRings);

@@ -3,7 +3,8 @@
 
     bothBackEnds.py OUTPUT_FOLDER [SCENE...] [--samples N] [--width PIXELS] [--update quick|full [--reason TEXT]]
 
-Without names all of testenv/scenes. The path tracer renders twice: stopped after direct light, which is what the
+Without names all of testenv/scenes. The page also shows what earlier runs with the same samples and width left in the
+folder, so that it can be made in pieces. The path tracer renders twice: stopped after direct light, which is what the
 rasterizer draws, and whole. --update sets the budgets of testenv/raster/budgets.json (quick and full name its settings);
 they may only go down, unless --reason says why one rises. --table prints the rows of the README's table.
 """
@@ -74,13 +75,20 @@ def main():
     if a.update and (samples, width) != (settings["samples"], settings["width"]):
         parser.error("--update goes with the samples and width of budgets.json")
     os.makedirs(a.folder, exist_ok=True)
-    rows, remarks = [], {}
-    for name in a.scenes or pairs.names():
+    rows, remarks = {}, {}
+    chosen = a.scenes or pairs.names()
+    for name in pairs.names():
+        before = None if name in chosen else pairs.kept(name, a.folder, samples, width)
+        if before:
+            rows[name] = before
+            remarks[name] = held["scenes"].get(name, {}).get("why", "")
+    for name in chosen:
         entry = held["scenes"].setdefault(name, {})
         remarks[name] = entry.get("why", "")
         try:
             depths = (pairs.depth_of(entry),) if a.update == "quick" else (pairs.DIRECT, pairs.WHOLE)
             row = pairs.pair(name, a.folder, samples, width, depths)
+            pairs.keep(row, a.folder)
             print(report(row), flush=True)
             if a.update:
                 found = spread(row, a.folder, samples, width) if a.update == "quick" else measured(row)
@@ -90,8 +98,8 @@ def main():
         except RuntimeError as error:
             row = {"name": name, "error": str(error)}
             print(f"{name:22} {error}", flush=True)
-        rows.append(row)
-        page = pairsPage.write(rows, a.folder, f"Both back ends, {samples} samples, {width} pixels wide", remarks)
+        rows[name] = row
+        page = pairsPage.write([rows[n] for n in sorted(rows)], a.folder, f"Both back ends, {samples} samples, {width} pixels wide", remarks)
     print(page)
 
 

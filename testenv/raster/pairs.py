@@ -1,4 +1,5 @@
 """One scene through both back ends, and the numbers of the pair."""
+import json
 import os
 import subprocess
 import sys
@@ -98,9 +99,34 @@ def pair(name, folder, samples, width, depths=(DIRECT, WHOLE), seed=0):
         seconds = record(stage, image, "--backend", backend, "--samples", str(samples), "-w", str(width), *extra)
         return pixels(image), seconds
 
-    row = {"name": name, "command": command(name, samples, width), "traced": {}}
+    row = {"name": name, "command": command(name, samples, width), "settings": [samples, width, seed], "traced": {}}
     row["raster"], row["rasterSeconds"] = render("raster", "--seed", str(seed))
     for depth in depths:
         image, seconds = render("embree", "--maxDepth", str(depth), "--seed", str(TRACED_SEED))
         row["traced"][depth] = {"image": image, "seconds": seconds, **numbers(row["raster"], image)}
+    return row
+
+
+def keep(row, folder):
+    """Writes a row of pair() beside its images, for kept()."""
+    light = {key: value for key, value in row.items() if key not in ("raster", "traced")}
+    light["traced"] = {depth: {key: value for key, value in found.items() if key != "image"}
+                       for depth, found in row["traced"].items()}
+    with open(os.path.join(folder, row["name"].replace("/", "-") + ".json"), "w", encoding="utf-8") as out:
+        json.dump(light, out, indent=1)
+
+
+def kept(name, folder, samples, width, seed=0):
+    """:returns: the row of an earlier run into the folder with the same settings, or None"""
+    flat = name.replace("/", "-")
+    try:
+        with open(os.path.join(folder, flat + ".json"), encoding="utf-8") as file:
+            row = json.load(file)
+        if row["settings"] != [samples, width, seed]:
+            return None
+        row["raster"] = pixels(os.path.join(folder, f"{flat}.raster{seed}.exr"))
+        row["traced"] = {int(depth): {**found, "image": pixels(os.path.join(folder, f"{flat}.embree{depth}{TRACED_SEED}.exr"))}
+                         for depth, found in row["traced"].items()}
+    except (OSError, RuntimeError):
+        return None
     return row

@@ -53,7 +53,16 @@ float tubeRadius = 0.0;
 void setOnStrip(vec3 view) {
     vec3 along = unitOr(vNormal, vTangent);
     vec3 across = unitOr(cross(along, view), anyTangent(along));
-    float h = clamp(vAcross, -1.0, 1.0), front = sqrt(1.0 - h * h) * tubeRadius;
+    float h = clamp(vAcross, -1.0, 1.0);
+    // Interpolated over parts of a pixel it is only as exact as corners are, which drivers round: below an
+    // eighth of a pixel any place across is taken, which are all as likely.
+    if (fwidth(vAcross) > 16.0) {
+        uvec2 strip = uvec2(gl_PrimitiveID & 1023, drawInfo.y & 1023);
+        float there = 2.0 * randomAt(uvec2(gl_FragCoord.xy) + strip, uint(counts.z), 30u).x - 1.0;
+        point.position += across * ((there - h) * tubeRadius);
+        h = there;
+    }
+    float front = sqrt(1.0 - h * h) * tubeRadius;
     vec3 facing = cross(across, along);
     point.normal = point.geometricNormal = across * h + facing * sqrt(1.0 - h * h);
     point.position += facing * front;
@@ -67,13 +76,19 @@ vec3 planeTowards(vec3 towards) {
     if (!isTube()) return point.geometricNormal;
     return unitOr(towards - point.tangent * dot(towards, point.tangent), vec3(0.0));
 }
-// Where light from wi comes in. What goes through a fibre starts again on the far side, as
-// SurfacePoint::departure() of the path tracer has it.
+// Where light from wi comes in. What goes through a fibre starts again on the far side, nearly; see
+// SurfacePoint::departure() of the path tracer.
 vec3 departure(vec3 wi) {
 #ifdef MATERIAL_IS_FIBRE
     float cosine = dot(wi, point.geometricNormal), along = dot(wi, point.tangent);
-    if (isTube() && cosine < 0.0)
-        return point.position + wi * (0.05 * tubeRadius - tubeRadius * cosine / max(1.0 - along * along, 0.01));
+    if (isTube() && cosine < 0.0) {
+        float sin2 = max(1.0 - along * along, 0.01);
+        float chord = -2.0 * tubeRadius * cosine / sin2;
+        // Strips lie at the axes of fibres. Those that the far side is inside of shade it, too: half a circle's
+        // area, as much as a strip covers that begins 0.785 radii before it. Never behind the own axis.
+        float before = min(0.785 * tubeRadius * inversesqrt(sin2), 0.5 * chord);
+        return point.position + wi * (chord - before + 0.05 * tubeRadius);
+    }
 #endif
     return point.position;
 }

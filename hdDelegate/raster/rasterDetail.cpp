@@ -16,6 +16,8 @@ RasterExtent::RasterExtent(const Geometry& prim) {
         low = -high;
         refines = p.shape != ImplicitShape::Cube && p.shape != ImplicitShape::Plane;
         round = refines;
+        // 128 segments are the most that round prims have.
+        if (round) finest = 6.2831853f / 128.0f * std::max(p.radius, p.radiusTop);
     }
     const auto around = [&](const std::vector<vec3>& points) {
         low = vec3(INFINITY);
@@ -68,6 +70,7 @@ RasterDetail::RasterDetail(const RasterExtent& extent, const MotionTransform& tr
     : _gap((glows ? 0.25f : 1.0f) * largestGap *
            std::clamp(camera.pixels() / gapPixels, 0.25f, 1.0f)),
       _area(extent.area), _round(extent.round), _slight(extent.slight), _displaced(displaced) {
+    _finest = extent.finest;
     if (!(settings.edgeLength > 0.0f) || !extent.refines) return;
     const vec3 &low = extent.low, &high = extent.high;
     _view = camera.view(vec2(0.0f), vec2(0.0f), 0.5f, low, high);
@@ -106,7 +109,9 @@ float RasterDetail::edgeAt(const RasterPlace& place) const {
     if (_slight)
         wanted = unit;
     else if (!_displaced)
-        wanted = std::clamp(chord(unit), _round ? 0.0f : asked, 2.0f * asked);
+        // Shorter edges than twice the finest change nothing.
+        wanted =
+            std::max(std::clamp(chord(unit), _round ? 0.0f : asked, 2.0f * asked), 1.99f * _finest);
     // No edge is longer than the prim: those far away are all drawn alike.
     wanted = std::min(wanted, 2.0f * _radius);
     if (!std::isfinite(wanted) || !(wanted > 0.0f)) return 0.0f;

@@ -12,6 +12,7 @@ struct RasterExtent {
     float area = 0.0f;    ///< of the cage of a subdivision surface
     bool refines = false; ///< it can be drawn more or less finely
     bool round = false;   ///< an implicit shape, of radius `high`
+    float finest = 0.0f;  ///< of round prims: their shortest edges, in object units
     bool slight = false;  ///< curves or points, which only ask for the width of a pixel
 
     RasterExtent() = default;
@@ -52,6 +53,7 @@ private:
     vec3 _center{0.0f};
     float _gap = largestGap; ///< pixels
     float _radius = 0.0f, _area = 0.0f, _edgeLength = 0.0f, _nearest = 0.0f;
+    float _finest = 0.0f;
     bool _round = false, _slight = false, _displaced = false;
     RasterView _view;
 };

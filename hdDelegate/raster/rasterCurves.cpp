@@ -250,9 +250,11 @@ private:
         const int steps = stepsOf(s);
         for (int i = 0; i <= steps; ++i)
             rings.push_back(ringAt(s, float(i) / float(steps)));
-        if (_strips && isOpen(s, false))
+        // Where caps are drawn there is nothing to make longer.
+        if (_strips && !isRound(s, false) && isOpen(s, false))
             rings.front().end = _linear ? StripBeginsRound : StripBegins;
-        if (_strips && isOpen(s, true)) rings.back().end = _linear ? StripEndsRound : StripEnds;
+        if (_strips && !isRound(s, true) && isOpen(s, true))
+            rings.back().end = _linear ? StripEndsRound : StripEnds;
         if (isRound(s, true)) addCap(s, true, rings);
         std::vector<uint32_t> first;
         _x = vec3(0.0f);

@@ -107,6 +107,12 @@ TEST(RasterCurves, StripsEndWhereTheCurveDoes) {
     EXPECT_EQ(count[StripBeginsRound], 2);
     EXPECT_EQ(count[StripEndsRound], 2);
     EXPECT_EQ(count[StripBegins] + count[StripEnds], 0);
+    // Where they are large enough to have caps, those end the strip.
+    for (vec4& p : line.controlPoints[0])
+        p.w = 0.2f;
+    count = endsOf(line);
+    EXPECT_EQ(count.size(), 1u);
+    EXPECT_GT(count[StripGoesOn], 8);
 }
 
 TEST(RasterCurves, TubesAreAsWideAsTheCurveInTheMean) {

@@ -2,6 +2,7 @@
 
 #include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/subdivisionPlan.h"
+#include "hdDelegate/scene/tessellate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,7 @@ RasterExtent::RasterExtent(const Geometry& prim) {
         low = -high;
         refines = p.shape != ImplicitShape::Cube && p.shape != ImplicitShape::Plane;
         round = refines;
-        // 128 segments are the most that round prims have.
-        if (round) finest = 6.2831853f / 128.0f * std::max(p.radius, p.radiusTop);
+        if (round) finest = 6.2831853f / float(roundSegments) * std::max(p.radius, p.radiusTop);
     }
     const auto around = [&](const std::vector<vec3>& points) {
         low = vec3(INFINITY);

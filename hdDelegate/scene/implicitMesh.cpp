@@ -11,8 +11,8 @@ namespace {
 
 using Rate = MeshAttribute::Rate;
 
-constexpr int aroundSegments = 128; // of everything round
-constexpr int sphereRings = 64;     // from pole to pole
+constexpr int aroundSegments = roundSegments;
+constexpr int sphereRings = 64; // from pole to pole
 
 /// Cosine and sine of s turns, exactly the same at 0 and 1 so that the seam closes.
 vec2 turn(float s) {

@@ -7,6 +7,9 @@
 
 namespace patina {
 
+/// Segments around everything that is round by itself, at most.
+inline constexpr int roundSegments = 128;
+
 /// How finely, and when, shapes are drawn.
 struct TessellationOptions {
     float shutterOpen = 0.0f, shutterClose = 0.0f; ///< time codes relative to the frame

@@ -99,7 +99,8 @@ def main():
             row = {"name": name, "error": str(error)}
             print(f"{name:22} {error}", flush=True)
         rows[name] = row
-        page = pairsPage.write([rows[n] for n in sorted(rows)], a.folder, f"Both back ends, {samples} samples, {width} pixels wide", remarks)
+        page = pairsPage.write([rows[n] for n in sorted(rows)], a.folder,
+                               f"Both back ends, {samples} samples, {width} pixels wide", remarks)
     print(page)
 
 

@@ -127,6 +127,6 @@ def kept(name, folder, samples, width, seed=0):
         row["raster"] = pixels(os.path.join(folder, f"{flat}.raster{seed}.exr"))
         row["traced"] = {int(depth): {**found, "image": pixels(os.path.join(folder, f"{flat}.embree{depth}{TRACED_SEED}.exr"))}
                          for depth, found in row["traced"].items()}
-    except (OSError, RuntimeError):
+    except (OSError, RuntimeError, ValueError, KeyError):  # half written, or of another version
         return None
     return row

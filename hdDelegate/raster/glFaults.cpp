@@ -18,15 +18,18 @@ std::string glFault(const std::string& kind) {
 }
 
 std::string oneLine(const std::string& log) {
-    std::string line;
-    for (const char c : log)
-        if (c != '\n')
-            line += c;
-        else if (!line.empty() && line.back() != ' ')
-            line += ' ';
-    while (!line.empty() && line.back() == ' ')
-        line.pop_back();
-    return line.size() > 300 ? line.substr(0, 297) + "..." : line;
+    // Drivers warn of many things before they say what is wrong.
+    const bool fails = log.find("error") != std::string::npos;
+    std::istringstream lines(log);
+    std::string line, out;
+    while (std::getline(lines, line)) {
+        if (line.empty() || (fails && line.find(": warning:") != std::string::npos)) continue;
+        if (!out.empty() && out.back() != ' ') out += ' ';
+        out += line;
+    }
+    while (!out.empty() && out.back() == ' ')
+        out.pop_back();
+    return out.size() > 300 ? out.substr(0, 297) + "..." : out;
 }
 
 } // namespace patina

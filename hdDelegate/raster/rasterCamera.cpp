@@ -96,6 +96,11 @@ RasterView RasterCamera::view(vec2 offset, vec2 lens, float time, const vec3& lo
     return v;
 }
 
+float RasterCamera::blurAt(float distance) const {
+    if (!(_lensRadius > 0.0f)) return 0.0f;
+    return _lensRadius * std::fabs(distance / _camera.focusDistance - 1.0f);
+}
+
 float RasterCamera::windowDepth(const vec3& p) const {
     const float n = _camera.clipNear, f = _camera.clipFar, z = -p.z;
     if (_camera.orthographic) return std::clamp((z - n) / (f - n), 0.0f, 1.0f);

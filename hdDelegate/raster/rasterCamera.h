@@ -33,6 +33,8 @@ public:
     const mat4& worldToCamera() const { return _worldToCamera; } ///< at the middle of the shutter
     /// Depth in [0,1] as OpenGL's default window depth over the camera's own clipping range.
     float windowDepth(const vec3& cameraPoint) const;
+    /// Radius of what the lens blurs a point over, in the scene.
+    float blurAt(float distance) const;
     const Camera& camera() const { return _camera; }
     float pixels() const { return std::max(_imageSize.x, _imageSize.y); } ///< along the longer side
 

@@ -40,8 +40,10 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
     const float far = 1.0f;
     gl.NamedFramebufferTextureLayer(_shadowTarget, GL_DEPTH_ATTACHMENT, maps.id(), 0, layer);
     gl.ClearNamedFramebufferfv(_shadowTarget, GL_DEPTH, 0, &far);
-    const RasterVisible visible = scene.visible(view.worldToMap);
     const vec4& to = view.towards;
+    const bool parallel = to.w == 0.0f; // see distantShadow()
+    const RasterVisible visible = scene.visible(view.worldToMap, parallel);
+    if (parallel) gl.Enable(GL_DEPTH_CLAMP);
     const GlProgram* last = nullptr;
     for (const RasterDraw& d : scene.draws()) {
         if (!d.prim->visibility.shadow || d.material->glsl.volumeOnly) continue;
@@ -62,6 +64,7 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
         }
         drawRuns(d, *d.casting, visible);
     }
+    gl.Disable(GL_DEPTH_CLAMP);
 }
 
 } // namespace patina

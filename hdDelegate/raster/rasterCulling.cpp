@@ -27,11 +27,12 @@ RasterBox RasterBox::around(const vec3& low, const vec3& high, const mat4& toWor
     return box;
 }
 
-RasterFrustum::RasterFrustum(const mat4& m) {
+RasterFrustum::RasterFrustum(const mat4& m, bool clampsNear) {
     for (int axis = 0; axis < 3; ++axis)
         for (int side = 0; side < 2; ++side)
             for (int c = 0; c < 4; ++c)
                 _planes[2 * axis + side][c] = m[c][3] + (side ? -m[c][axis] : m[c][axis]);
+    if (clampsNear) _planes[4] = vec4(0.0f, 0.0f, 0.0f, 1.0f);
 }
 
 bool RasterFrustum::misses(const RasterBox& box) const {

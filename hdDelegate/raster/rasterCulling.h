@@ -16,7 +16,8 @@ struct RasterBox {
 /// What a view can show.
 class RasterFrustum {
 public:
-    explicit RasterFrustum(const mat4& worldToClip);
+    /// @param clampsNear nothing is outside of the near plane
+    explicit RasterFrustum(const mat4& worldToClip, bool clampsNear = false);
     /// True only when nothing in the box can be seen.
     bool misses(const RasterBox& box) const;
 

@@ -45,9 +45,13 @@ RasterExtent::RasterExtent(const Geometry& prim) {
     }
     if (prim.kind != GeometryKind::Mesh) return;
     const Mesh& mesh = static_cast<const Mesh&>(prim);
-    if (mesh.scheme == SubdivisionScheme::None || mesh.points.empty()) return;
+    if (mesh.points.empty()) return;
     const std::vector<vec3>& points = mesh.points.first();
     around(points);
+    if (mesh.scheme == SubdivisionScheme::None) {
+        refines = false;
+        return;
+    }
     double sum = 0.0;
     const auto point = [&](size_t corner) {
         const int i = mesh.faceVertexIndices[corner];
@@ -71,7 +75,7 @@ RasterDetail::RasterDetail(const RasterExtent& extent, const MotionTransform& tr
            std::clamp(camera.pixels() / gapPixels, 0.25f, 1.0f)),
       _area(extent.area), _round(extent.round), _slight(extent.slight), _displaced(displaced) {
     _finest = extent.finest;
-    if (!(settings.edgeLength > 0.0f) || !extent.refines) return;
+    if (!(settings.edgeLength > 0.0f) || !(extent.refines || displaced)) return;
     const vec3 &low = extent.low, &high = extent.high;
     _view = camera.view(vec2(0.0f), vec2(0.0f), 0.5f, low, high);
     _toGroup = transformAt(transform, camera.timeCode(0.5f));

@@ -10,7 +10,7 @@ namespace patina {
 struct RasterExtent {
     vec3 low{0.0f}, high{0.0f};
     float area = 0.0f;    ///< of the cage of a subdivision surface
-    bool refines = false; ///< it can be drawn more or less finely
+    bool refines = false; ///< it is drawn more or less finely even where nothing displaces it
     bool round = false;   ///< an implicit shape, of radius `high`
     float finest = 0.0f;  ///< of round prims: their shortest edges, in object units
     bool slight = false;  ///< curves or points, which only ask for the width of a pixel

@@ -11,7 +11,8 @@ void RasterEmitters::clear() {
 }
 
 void RasterEmitters::add(const TriangleMesh& mesh, size_t subset, const MaterialProgram& program,
-                         const RasterMeshLight& light, const mat4& toWorld, int category) {
+                         const RasterMeshLight& light, const mat4& toWorld, int category,
+                         const vec3& origin) {
     const bool glows = program.hasEmission();
     if (!glows && light.mode == RasterMeshLight::None) return;
     const bool mirrored = glm::determinant(mat3(toWorld)) < 0.0f;
@@ -35,7 +36,7 @@ void RasterEmitters::add(const TriangleMesh& mesh, size_t subset, const Material
         e.category = category;
         e.twoSided = glows;
         ShadingPoint point;
-        point.position = point.objectPosition = (p[0] + p[1] + p[2]) / 3.0f;
+        point.position = point.objectPosition = origin + (p[0] + p[1] + p[2]) / 3.0f;
         point.geometricNormal = point.normal = point.viewDirection = glm::normalize(ng);
         const vec3 glow = glows ? program.emission(point, point.viewDirection) : vec3(0.0f);
         switch (light.mode) {

@@ -31,8 +31,10 @@ public:
     void clear();
     /// Adds the triangles of one subset of a mesh at one place.
     /// @param category as of RasterEmitter
+    /// @param origin that `toWorld` is relative to
     void add(const TriangleMesh& mesh, size_t subset, const MaterialProgram& program,
-             const RasterMeshLight& light, const mat4& toWorld, int category);
+             const RasterMeshLight& light, const mat4& toWorld, int category,
+             const vec3& origin = vec3(0.0f));
     bool empty() const { return _emitters.empty(); }
 
     /// @returns a triangle; `within` a number in [0,1) that is left of u, `chance` the probability

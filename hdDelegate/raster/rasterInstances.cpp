@@ -42,12 +42,13 @@ bool isDrawnInRaster(const Geometry& prim, const RenderSettings& settings) {
 }
 
 RasterInstances::RasterInstances(const SceneState& state, const RenderSettings& settings,
-                                 float timeCode)
-    : _time(timeCode) {
+                                 float timeCode, const vec3& origin)
+    : _time(timeCode), _origin(origin) {
     for (const auto& item : state.instancers)
         if (item.second->visibility.camera && !anyHolds(settings.excludePaths, item.first))
             _instancers.push_back(item.second);
     _places[""] = {RasterPlace()};
+    _places[""][0].groupToWorld[3] -= vec4(origin, 0.0f);
 }
 
 const std::vector<RasterPlace>& RasterInstances::places(const std::string& group) {
@@ -61,7 +62,9 @@ const std::vector<RasterPlace>& RasterInstances::places(const std::string& group
 void RasterInstances::gather(const std::string& group, const RasterPlace& inner, int depth,
                              std::vector<RasterPlace>& out) const {
     if (group.empty()) {
-        if (usable(inner.groupToWorld)) out.push_back(inner);
+        if (!usable(inner.groupToWorld)) return;
+        out.push_back(inner);
+        out.back().groupToWorld[3] -= vec4(_origin, 0.0f);
         return;
     }
     if (depth > maxDepth) return;

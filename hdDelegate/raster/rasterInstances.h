@@ -17,7 +17,9 @@ struct RasterPlace {
 /// Where groups are drawn: instancers, nested ones too, made flat.
 class RasterInstances {
 public:
-    RasterInstances(const SceneState& state, const RenderSettings& settings, float timeCode);
+    /// @param origin of the space that is called the world here, in the scene's world
+    RasterInstances(const SceneState& state, const RenderSettings& settings, float timeCode,
+                    const vec3& origin = vec3(0.0f));
     /// The world has one place.
     const std::vector<RasterPlace>& places(const std::string& group);
 
@@ -28,6 +30,7 @@ private:
     std::vector<std::shared_ptr<const Instancer>> _instancers;
     std::map<std::string, std::vector<RasterPlace>> _places;
     float _time;
+    vec3 _origin;
 };
 
 /// Whether the settings let a prim be drawn (render tags, root and excluded paths).

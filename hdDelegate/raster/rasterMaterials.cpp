@@ -38,6 +38,10 @@ RasterMaterials::RasterMaterials(Diagnostics& diagnostics)
 void RasterMaterials::update(const SceneState& state, const RenderSettings& settings,
                              const RasterLightPlan& lights) {
     _lights = lights;
+    if (const RasterAovWish aovs(settings.aovs); !(aovs == _aovs)) {
+        _aovs = aovs;
+        _materials.clear();
+    }
     _domeMethods.clear();
     _environmentSamples = std::max(settings.environmentSamples, 0);
     for (auto it = _materials.begin(); it != _materials.end();) {
@@ -99,7 +103,11 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
     if (first)
         for (const std::string& line : m.glsl.leftOut)
             _diagnostics.warn(key, "", line);
-    m.programs = build(m.glsl, int(m.program->primvars().size()), cached.lighting, key);
+    std::vector<std::string> primvars;
+    for (const MaterialPrimvar& p : m.program->primvars())
+        primvars.push_back(p.name);
+    m.primvars = _aovs.with(primvars);
+    m.programs = build(m.glsl, int(m.primvars.size()), cached.lighting, key);
     if (!m.programs && key.empty())
         throw DeviceError("the driver does not take the shader of displayColor");
     if (!m.programs) {
@@ -107,6 +115,7 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
         m.program = shown.program;
         m.glsl = shown.glsl;
         m.programs = shown.programs;
+        m.primvars = shown.primvars;
     }
     m.parameters = GlBuffer(m.glsl.parameters);
     m.textures = _uploaded.units(m.glsl.textures);
@@ -157,7 +166,8 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
                              (glsl.volumeOnly ? "#define MATERIAL_IS_VOLUME\n" : "") +
                              (glsl.fibre ? "#define MATERIAL_IS_FIBRE\n" : "") +
                              "#define MATERIAL_IS_THIN " + (glsl.thin ? "true\n" : "false\n");
-    auto& shared = _programs[head + lighting + glsl.text + (faulty ? "faulty" : "")];
+    const std::string aovs = _aovs.text();
+    auto& shared = _programs[head + lighting + aovs + glsl.text + (faulty ? "faulty" : "")];
     if (shared) return shared;
     const GlStage vertex{GL_VERTEX_SHADER, "surface",
                          head + "#include \"shaders/raster/surface.vert.glsl\"\n"};
@@ -178,7 +188,8 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
         programs->aovs =
             GlProgram::make({vertex,
                              {GL_FRAGMENT_SHADER, "material",
-                              surface + "#include \"shaders/raster/aovs.frag.glsl\"\n"}},
+                              surface + aovs + (_aovs.albedo ? glsl.albedoText : std::string()) +
+                                  "#include \"shaders/raster/aovs.frag.glsl\"\n"}},
                             error);
     if (programs->aovs && glsl.presence)
         programs->shadow = GlProgram::make(

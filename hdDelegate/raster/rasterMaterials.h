@@ -2,6 +2,7 @@
 
 #include "hdDelegate/raster/glProgram.h"
 #include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/rasterAovWish.h"
 #include "hdDelegate/raster/rasterLightPlan.h"
 #include "hdDelegate/raster/rasterTextures.h"
 #include "hdDelegate/scene/scene.h"
@@ -28,6 +29,7 @@ struct RasterMaterial {
     std::shared_ptr<const RasterPrograms> programs; ///< displayColor's where its own do not compile
     GlBuffer parameters;
     std::vector<std::shared_ptr<const GlTexture>> textures;
+    std::vector<std::string> primvars; ///< that its surfaces carry, in the shaders' order
 };
 
 /// The materials of a scene. Equal texts share a program, for as long as this lives; an edit of a
@@ -47,6 +49,8 @@ public:
     /// @param lights that materials are lit by, for how they are
     void update(const SceneState& state, const RenderSettings& settings,
                 const RasterLightPlan& lights);
+    /// What programs write beside light.
+    const RasterAovWish& aovs() const { return _aovs; }
     /// Methods of `domeLight` that materials have been built with since update().
     const std::set<std::string>& domeMethods() const { return _domeMethods; }
     /// Samples where domes are filtered: the most that a material asks for.
@@ -81,6 +85,7 @@ private:
     bool light(Cached& cached, const RenderSettings& settings);
 
     RasterLightPlan _lights;
+    RasterAovWish _aovs;
     std::set<std::string> _domeMethods;
     int _environmentSamples = 0; ///< 0: nobody has said how many
     Diagnostics& _diagnostics;

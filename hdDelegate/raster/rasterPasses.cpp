@@ -18,6 +18,7 @@ struct RasterPasses::PassBlock {
     int counts[4] = {0, 0, 0, 0};
     vec4 extra{0.0f};
     int lightInfo[4] = {0, 0, 0, 0};
+    vec4 origin{0.0f};
 };
 
 RasterPasses::RasterPasses(std::string& error)
@@ -70,15 +71,17 @@ bool RasterPasses::resize(const RenderSettings& settings, int& border) {
     _normal = make(GL_RGBA32F, 0);
     _ids = make(GL_RGBA32I, 0);
     _colorTarget = GlFramebuffer({&_color}, &_depth);
-    _aovTarget = GlFramebuffer({&_position, &_normal, &_ids}, &_depth);
     _width = width;
     _height = height;
     _border = border;
+    makeAovTarget(_aovWish);
     return _colorTarget.complete() && _aovTarget.complete();
 }
 
-RasterPasses::PassBlock RasterPasses::block(const RasterView& view) const {
+RasterPasses::PassBlock RasterPasses::block(const RasterScene& scene,
+                                            const RasterView& view) const {
     PassBlock b;
+    b.origin = vec4(scene.origin(), 0.0f);
     b.worldToClip = view.worldToClip;
     b.clipToWorld = view.clipToWorld;
     b.eye = vec4(view.eye, view.perspective ? 1.0f : 0.0f);
@@ -131,6 +134,12 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
         }
         lastMaterial = d.material;
         gl.Uniform4i(1, d.surface->primvarBits, d.primId, d.flags, 0);
+        if (aovs && !_aovWish.primvars.empty()) {
+            int slots[RasterAovWish::mostPrimvars] = {-1, -1, -1, -1};
+            for (size_t i = 0; i < _aovWish.primvars.size(); ++i)
+                slots[i] = RasterAovWish::slot(d.material->primvars, _aovWish.primvars[i]);
+            gl.Uniform4i(8, slots[0], slots[1], slots[2], slots[3]);
+        }
         if (!aovs && which != Tints) {
             const vec3& l = d.meshLight.radiance;
             gl.Uniform4f(7, l.x, l.y, l.z, float(d.meshLight.mode));
@@ -157,11 +166,27 @@ void RasterPasses::drawDepthOfStrips(const RasterScene& scene, const RasterVisib
     if (used) gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
-void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera,
-                            const std::vector<AovSpec>& aovs, Film& film) {
+/// The targets of aovs.frag.glsl.
+void RasterPasses::makeAovTarget(const RasterAovWish& wish) {
+    const auto make = [&] { return GlTexture(GL_TEXTURE_2D, GL_RGBA32F, _width, _height); };
+    _aovWish = wish;
+    _albedo = wish.albedo || !wish.primvars.empty() ? make() : GlTexture();
+    _primvars.clear();
+    std::vector<const GlTexture*> targets = {&_position, &_normal, &_ids};
+    if (_albedo) targets.push_back(&_albedo);
+    for (size_t i = 0; i < wish.primvars.size(); ++i)
+        _primvars.push_back(make());
+    for (const GlTexture& primvar : _primvars)
+        targets.push_back(&primvar);
+    _aovTarget = GlFramebuffer(targets, &_depth);
+}
+
+void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera) {
+    if (!(scene.aovs() == _aovWish)) makeAovTarget(scene.aovs());
+    if (!_aovTarget.complete()) throw DeviceError("the driver has no room for the AOVs");
     const RasterView view =
         camera.view(vec2(0.0f), vec2(0.0f), 0.5f, scene.boundsMin(), scene.boundsMax());
-    const PassBlock b = block(view);
+    const PassBlock b = block(scene, view);
     _timer.mark(Aovs);
     _passBuffer.write(&b, sizeof b);
     _passBuffer.bindUniform(0);
@@ -173,6 +198,8 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
     gl.ClearNamedFramebufferfv(_aovTarget.id(), GL_COLOR, 0, none);
     gl.ClearNamedFramebufferfv(_aovTarget.id(), GL_COLOR, 1, none);
     gl.ClearNamedFramebufferiv(_aovTarget.id(), GL_COLOR, 2, noIds);
+    for (size_t i = 0; i < _primvars.size() + (_albedo ? 1 : 0); ++i)
+        gl.ClearNamedFramebufferfv(_aovTarget.id(), GL_COLOR, 3 + GLint(i), none);
     gl.ClearNamedFramebufferfv(_aovTarget.id(), GL_DEPTH, 0, &far);
     gl.Enable(GL_DEPTH_TEST);
     gl.DepthFunc(GL_LESS);
@@ -182,39 +209,65 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
 
     _timer.mark(ReadBack);
     const size_t pixels = size_t(_width) * size_t(_height);
-    std::vector<vec4> positions(pixels), normals(pixels);
-    std::vector<int> ids(pixels * 4);
-    gl.GetTextureImage(_position.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels * sizeof(vec4)),
-                       positions.data());
-    gl.GetTextureImage(_normal.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels * sizeof(vec4)),
-                       normals.data());
+    const auto read = [&](const GlTexture& from, std::vector<vec4>& to) {
+        to.resize(pixels);
+        gl.GetTextureImage(from.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels * sizeof(vec4)),
+                           to.data());
+    };
+    read(_position, _seen.positions);
+    read(_normal, _seen.normals);
+    if (_albedo) read(_albedo, _seen.albedos);
+    _seen.primvars.resize(_primvars.size());
+    for (size_t i = 0; i < _primvars.size(); ++i)
+        read(_primvars[i], _seen.primvars[i]);
+    _seen.ids.resize(pixels * 4);
     gl.GetTextureImage(_ids.id(), 0, GL_RGBA_INTEGER, GL_INT, GLsizei(pixels * 4 * sizeof(int)),
-                       ids.data());
+                       _seen.ids.data());
     _timer.collect(_seconds);
-    measureReceivers(positions, scene);
-    const RasterAovs target{camera, aovs, _width, _height, _window};
-    target.write(positions, normals, ids, film);
+    measureReceivers(scene, camera, view);
+}
+
+void RasterPasses::writeAovs(const RasterScene& scene, const RasterCamera& camera,
+                             const std::vector<AovSpec>& aovs, Film& film) const {
+    const RasterAovs target{camera, aovs, scene.origin(), _width, _height, _window};
+    target.write(_seen, _aovWish, film);
 }
 
 /// What the camera sees, which is all that shadows have to be found on.
-void RasterPasses::measureReceivers(const std::vector<vec4>& positions, const RasterScene& scene) {
+void RasterPasses::measureReceivers(const RasterScene& scene, const RasterCamera& camera,
+                                    const RasterView& view) {
     vec3 low(INFINITY), high(-INFINITY);
-    for (const vec4& p : positions)
-        if (p.w > 0.0f) {
-            low = glm::min(low, vec3(p));
-            high = glm::max(high, vec3(p));
-        }
+    for (const vec4& p : _seen.positions) {
+        if (!(p.w > 0.0f) || !std::isfinite(p.x + p.y + p.z)) continue;
+        // What is beside the pixel's centre, through the lens too.
+        const float away = glm::length(vec3(p) - view.eye);
+        const float beside =
+            2.0f * (view.perspective ? away : 1.0f) * view.pixelSpread + camera.blurAt(away);
+        low = glm::min(low, vec3(p) - beside);
+        high = glm::max(high, vec3(p) + beside);
+    }
     _bounds.sceneMin = scene.boundsMin();
     _bounds.sceneMax = scene.boundsMax();
     if (low.x > high.x) {
         low = _bounds.sceneMin;
         high = _bounds.sceneMax;
     }
-    // A pixel's footprint, lens and shutter reach a little further than its centre.
+    _seenMin = low;
+    _seenMax = high;
     const vec3 margin = 0.02f * (high - low) + 1e-4f * glm::length(high - low);
     _bounds.receiverMin = glm::max(low - margin, _bounds.sceneMin);
     _bounds.receiverMax = glm::min(high + margin, _bounds.sceneMax);
     _sky.reset();
+}
+
+vec3 RasterPasses::originOfSeen(const RasterScene& scene) const {
+    const glm::dvec3 low(_seenMin), high(_seenMax), half = 0.5 * (high - low);
+    const glm::dvec3 middle = glm::dvec3(scene.origin()) + 0.5 * (low + high);
+    const double size = std::max({half.x, half.y, half.z});
+    const double far = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)});
+    if (!(size > 0.0) || !std::isfinite(far) || far <= 16.0 * size) return vec3(0.0f);
+    const double cell = std::exp2(std::ceil(std::log2(4.0 * size)));
+    return vec3(glm::round(middle / cell) * cell);
 }
 
 void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights, uint32_t taken,
@@ -235,6 +288,7 @@ void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights
     for (const auto& [pass, task] : byPass) {
         moveTo(pass);
         PassBlock b;
+        b.origin = vec4(scene.origin(), 0.0f);
         b.counts[2] = int(pass);
         b.counts[3] = int(lights.seed());
         _passBuffer.write(&b, sizeof b);
@@ -296,7 +350,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
 
     const RasterView view = camera.view(sample.offset, sample.lens, sample.time, scene.boundsMin(),
                                         scene.boundsMax(), _border);
-    PassBlock b = block(view);
+    PassBlock b = block(scene, view);
     b.counts[0] = sampled.taken;
     b.counts[1] = bsdfSamples;
     b.counts[2] = int(pass);

@@ -2,6 +2,7 @@
 
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/raster/glTimer.h"
+#include "hdDelegate/raster/rasterAovs.h"
 #include "hdDelegate/raster/rasterBehind.h"
 #include "hdDelegate/raster/rasterLights.h"
 #include "hdDelegate/raster/rasterScene.h"
@@ -28,9 +29,14 @@ public:
     }
     const int* window() const { return _window; } ///< xmin, ymin, xmax, ymax, inclusive
 
-    /// Ids, positions and normals through the pixels' centres; writes the film's AOVs.
-    void drawAovs(const RasterScene& scene, const RasterCamera& camera,
-                  const std::vector<AovSpec>& aovs, Film& film);
+    /// Ids, positions and normals through the pixels' centres.
+    void drawAovs(const RasterScene& scene, const RasterCamera& camera);
+    /// Writes them to the film's AOVs.
+    void writeAovs(const RasterScene& scene, const RasterCamera& camera,
+                   const std::vector<AovSpec>& aovs, Film& film) const;
+    /// Where the scene's origin should be for what drawAovs() has seen: 0, unless that is far from
+    /// it beside its size. The same for small moves of the camera.
+    vec3 originOfSeen(const RasterScene& scene) const;
 
     /// One sample of every pixel.
     /// @param environmentSamples of domes per pixel, where they are filtered
@@ -53,7 +59,8 @@ public:
 
 private:
     struct PassBlock;
-    PassBlock block(const RasterView& view) const;
+    void makeAovTarget(const RasterAovWish& wish);
+    PassBlock block(const RasterScene& scene, const RasterView& view) const;
     void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);
     static int skyCells(const RasterScene& scene);
     void drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass);
@@ -67,7 +74,8 @@ private:
     void needBehind();
     void drawRuns(const RasterDraw& draw, const RasterSurface& surface,
                   const RasterVisible& visible) const;
-    void measureReceivers(const std::vector<vec4>& positions, const RasterScene& scene);
+    void measureReceivers(const RasterScene& scene, const RasterCamera& camera,
+                          const RasterView& view);
 
     std::unique_ptr<GlProgram> _background, _shadow, _depthOnly;
     std::unique_ptr<RasterBehind> _behind; ///< made when something transmits
@@ -76,11 +84,16 @@ private:
     int _width = 0, _height = 0, _border = 0;
     int _window[4] = {0, 0, -1, -1};
     GlTexture _color, _depth, _position, _normal, _ids, _shadowMaps;
+    GlTexture _albedo;
+    std::vector<GlTexture> _primvars;
     GlFramebuffer _colorTarget, _aovTarget;
+    RasterAovWish _aovWish; ///< that _aovTarget is for
     GLuint _shadowTarget = 0;
     int _shadowLayers = 0;
     RasterSky _sky;
     ShadowBounds _bounds;
+    RasterAovImages _seen; ///< of drawAovs()
+    vec3 _seenMin{0.0f}, _seenMax{0.0f};
     GlTimer _timer;
     std::vector<double> _seconds = std::vector<double>(ShareCount, 0.0);
 

@@ -167,11 +167,11 @@ private:
             _domes = std::make_unique<RasterDomes>();
             _builtFor = _scene;
         }
-        _raster->update(state, camera, _settings, lightPlan(state), _stop);
+        _raster->update(state, _origin, camera, _settings, lightPlan(state), _stop);
         if (_stop) return;
         // Every sample of a dome costs a shadow map: few of them where that takes long.
         const int domeSamples = _raster->trianglesDrawn() > 1000000 ? 1 : 4;
-        RasterInstances places(state, _settings, camera.timeCode(0.5f));
+        RasterInstances places(state, _settings, camera.timeCode(0.5f), _origin);
         _lights = std::make_unique<RasterLights>(
             state, _settings, places, camera.timeCode(0.5f), domeSamples, _raster->domeMethods(),
             *_images, *_domes, _raster->categories(), _scene->diagnostics());
@@ -200,8 +200,15 @@ private:
         return plan;
     }
 
+    /// With places as seen from the origin.
+    RasterCamera cameraFrom(Camera camera) const {
+        for (mat4& transform : camera.transform.values)
+            transform[3] -= vec4(_origin, 0.0f);
+        return RasterCamera(camera, _settings);
+    }
+
     void render(const SceneState& state, const Camera& cameraPrim) {
-        const RasterCamera camera(cameraPrim, _settings);
+        RasterCamera camera = cameraFrom(cameraPrim);
         checkDevice(0);
         build(state, camera);
         if (_stop) return;
@@ -216,6 +223,15 @@ private:
         for (const std::string& name : _settings.aovs)
             if (name != "color" && name != "alpha" && name != "sampleCount" && name != "variance")
                 aovs.push_back(standardAov(name));
+        _passes->clearSeconds();
+        _passes->drawAovs(*_raster, camera);
+        if (const vec3 origin = _passes->originOfSeen(*_raster); origin != _origin) {
+            _origin = origin;
+            camera = cameraFrom(cameraPrim);
+            build(state, camera);
+            if (_stop) return;
+            _passes->drawAovs(*_raster, camera);
+        }
         _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
         {
             const std::lock_guard<std::mutex> lock(_mutex);
@@ -231,8 +247,7 @@ private:
             _progress.plans = plan.materials();
             if (_settings.tolerance >= 0.0) _progress.sceneChoices = plan.choices();
         }
-        _passes->clearSeconds();
-        _passes->drawAovs(*_raster, camera, aovs, *_film);
+        _passes->writeAovs(*_raster, camera, aovs, *_film);
         const auto sampling = Clock::now();
         const int* window = _passes->window();
         const bool empty = window[2] < window[0] || window[3] < window[1];
@@ -374,6 +389,7 @@ private:
     RenderProgress _progress;
     std::atomic<bool> _running{false}, _stop{false}, _pause{false};
     bool _idle = true;
+    vec3 _origin{0.0f};         ///< see RasterScene::update()
     std::string _deviceFailure; ///< what was made with the context is gone
     Clock::time_point _started;
 };

@@ -24,13 +24,6 @@ float areaOf(const TriangleMesh& mesh, const mat4& toWorld) {
 
 constexpr size_t fewPlaces = 32; // are drawn in the order that they have
 
-std::vector<std::string> namesOf(const std::vector<MaterialPrimvar>& primvars) {
-    std::vector<std::string> names;
-    for (const MaterialPrimvar& p : primvars)
-        names.push_back(p.name);
-    return names;
-}
-
 bool deforms(const Geometry& prim) {
     switch (prim.kind) {
     case GeometryKind::Mesh: return static_cast<const Mesh&>(prim).points.moves();
@@ -127,10 +120,11 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     wish.prim = prim;
     wish.timeCode = camera.timeCode(0.5f);
     wish.toWorld = where[0].groupToWorld * toGroup;
+    wish.toWorld[3] += vec4(_origin, 0.0f);
     wish.needsMesh = _meshLights.count(prim->path) != 0;
     for (const RasterMaterial* material : materials) {
         const MaterialProgram& program = *material->program;
-        wish.primvars.push_back(namesOf(program.primvars()));
+        wish.primvars.push_back(material->primvars);
         const bool bends = program.hasDisplacement() && (prim->kind == GeometryKind::Mesh ||
                                                          prim->kind == GeometryKind::Implicit);
         wish.displacers.push_back(bends ? material->program : nullptr);
@@ -207,7 +201,7 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
             if (settings.enableSceneLights && group.shape->mesh)
                 for (const uint32_t i : group.places)
                     _emitters.add(*group.shape->mesh, subset, *draw.material->program,
-                                  draw.meshLight, places[i].groupToWorld * toGroup, lit);
+                                  draw.meshLight, places[i].groupToWorld * toGroup, lit, _origin);
             draw.subset = int(subset);
             draw.show(*group.shape);
             if (draw.surface->triangles == 0) continue;
@@ -237,7 +231,7 @@ float RasterScene::planSubdivision(const SceneState& state, const RasterCamera& 
     return plan.edgeLength();
 }
 
-void RasterScene::update(const SceneState& state, const RasterCamera& camera,
+void RasterScene::update(const SceneState& state, const vec3& origin, const RasterCamera& camera,
                          const RenderSettings& asked, const RasterLightPlan& lights,
                          const std::atomic<bool>& stop) {
     RenderSettings settings = asked;
@@ -247,6 +241,7 @@ void RasterScene::update(const SceneState& state, const RasterCamera& camera,
     _boxes.clear();
     _triangles = 0;
     _moves = false;
+    _origin = origin;
     _shutterOpen = camera.timeCode(0.0f);
     _shutterClose = camera.timeCode(1.0f);
     _boundsMin = vec3(INFINITY);
@@ -256,7 +251,7 @@ void RasterScene::update(const SceneState& state, const RasterCamera& camera,
     collectMeshLights(state, settings);
     _emitters.clear();
     _volumes.begin();
-    RasterInstances places(state, settings, camera.timeCode(0.5f));
+    RasterInstances places(state, settings, camera.timeCode(0.5f), origin);
     settings.edgeLength = planSubdivision(state, camera, settings, places);
     for (const auto& item : state.instancers)
         for (const MotionTransform& transform : item.second->transforms)
@@ -325,7 +320,7 @@ void RasterScene::deform(float timeCode) {
 bool RasterScene::moveTo(const SceneState& state, const RenderSettings& settings, float timeCode) {
     if (!_moves) return false;
     deform(timeCode);
-    RasterInstances places(state, settings, timeCode);
+    RasterInstances places(state, settings, timeCode, _origin);
     for (const RasterGroup& group : _groups) {
         const auto& where = places.places(group.prim->group);
         const mat4 toGroup = transformAt(group.prim->transform, timeCode);
@@ -341,8 +336,8 @@ bool RasterScene::moveTo(const SceneState& state, const RenderSettings& settings
     return true;
 }
 
-RasterVisible RasterScene::visible(const mat4& worldToClip) const {
-    const RasterFrustum frustum(worldToClip);
+RasterVisible RasterScene::visible(const mat4& worldToClip, bool clampsNear) const {
+    const RasterFrustum frustum(worldToClip, clampsNear);
     RasterVisible found;
     for (const RasterGroup& group : _groups) {
         const size_t before = found.runs.size();

@@ -55,9 +55,12 @@ public:
         : _diagnostics(diagnostics), _materials(diagnostics), _shapes(diagnostics),
           _volumes(diagnostics) {}
 
+    /// @param origin that all places are relative to, those of the camera too: numbers of 32 bits
+    /// are too coarse for shadows where places are large beside what is seen
     /// @param lights that materials are lit by: with a tolerance they decide how
-    void update(const SceneState& state, const RasterCamera& camera, const RenderSettings& settings,
-                const RasterLightPlan& lights, const std::atomic<bool>& stop);
+    void update(const SceneState& state, const vec3& origin, const RasterCamera& camera,
+                const RenderSettings& settings, const RasterLightPlan& lights,
+                const std::atomic<bool>& stop);
     /// Moves to another time of the shutter: transforms exactly, points that move to the nearest of
     /// deformationSteps times. @returns false when nothing moves
     bool moveTo(const SceneState& state, const RenderSettings& settings, float timeCode);
@@ -65,8 +68,10 @@ public:
     const std::vector<RasterDraw>& draws() const { return _draws; }
     const std::vector<const RasterVolume*>& volumes() const { return _volumes.placed(); }
     const RasterEmitters& emitters() const { return _emitters; }
-    RasterVisible visible(const mat4& worldToClip) const;
+    /// @param clampsNear what is before the near plane shows, too
+    RasterVisible visible(const mat4& worldToClip, bool clampsNear = false) const;
     const std::map<std::string, int>& categories() const { return _categories; }
+    const vec3& origin() const { return _origin; }
     const vec3& boundsMin() const { return _boundsMin; }
     const vec3& boundsMax() const { return _boundsMax; }
     size_t triangles() const { return _triangles; }
@@ -76,6 +81,7 @@ public:
     size_t trianglesDrawn() const; ///< those of every instance counted
     size_t programsBuilt() const { return _materials.programsBuilt(); }
     ScenePlan plan() const;
+    const RasterAovWish& aovs() const { return _materials.aovs(); }
     /// Methods of `domeLight` that materials are drawn by.
     const std::set<std::string>& domeMethods() const { return _materials.domeMethods(); }
     int environmentSamples() const { return _materials.environmentSamples(); }
@@ -125,7 +131,7 @@ private:
     std::vector<int> _links;                ///< see shaders/raster/links.glsl
     std::map<std::vector<int>, int> _linkRows;
     GlBuffer _instanceBuffer, _linkBuffer;
-    vec3 _boundsMin{0.0f}, _boundsMax{0.0f};
+    vec3 _origin{0.0f}, _boundsMin{0.0f}, _boundsMax{0.0f};
     size_t _triangles = 0, _instancesWritten = 0;
     float _shutterOpen = 0.0f, _shutterClose = 0.0f; ///< time codes
     bool _moves = false;

@@ -42,9 +42,14 @@ ShadowView distantShadow(const vec3& toLight, vec2 turn, const ShadowBounds& bou
         low = glm::min(low, q);
         high = glm::max(high, q);
     }
-    for (const vec3& p : corners(bounds.sceneMin, bounds.sceneMax))
-        high.z = std::max(high.z, (view * vec4(p, 1.0f)).z);
     const float side = std::max(high.x - low.x, high.y - low.y) * 1.02f + 1e-6f;
+    // What is further towards the light is drawn at the map's near end (GL_DEPTH_CLAMP): numbers
+    // are for where shadows fall.
+    const float nearest = high.z + 8.0f * std::max(high.z - low.z, side);
+    float casters = high.z;
+    for (const vec3& p : corners(bounds.sceneMin, bounds.sceneMax))
+        casters = std::max(casters, (view * vec4(p, 1.0f)).z);
+    high.z = std::min(casters, nearest);
     const float pad = 0.01f * (high.z - low.z) + 1e-6f;
     const vec2 c = 0.5f * vec2(low + high) + side * shiftOf(turn, mapSize);
     const float h = 0.5f * side;

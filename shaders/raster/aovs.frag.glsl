@@ -1,6 +1,13 @@
 layout(location = 0) out vec4 outPosition;
 layout(location = 1) out vec4 outNormal;
 layout(location = 2) out ivec4 outIds;
+#ifdef AOV_ALBEDO
+layout(location = 3) out vec4 outAlbedo;
+#endif
+#if AOV_PRIMVARS > 0
+layout(location = 4) out vec4 outPrimvars[AOV_PRIMVARS];
+layout(location = 8) uniform ivec4 aovSlots; // of the primvars asked for, -1 where there is none
+#endif
 
 void main() {
     setPointFromCamera();
@@ -10,4 +17,12 @@ void main() {
     outPosition = vec4(point.position, 1.0);
     outNormal = vec4(point.normal, 0.0);
     outIds = ivec4(drawInfo.y, vIds.y, vIds.x, 0);
+#ifdef AOV_ALBEDO
+    materialSetup();
+    outAlbedo = vec4(materialAlbedo(), 0.0);
+#endif
+#if AOV_PRIMVARS > 0
+    for (int i = 0; i < AOV_PRIMVARS; ++i)
+        outPrimvars[i] = primvar(aovSlots[i], vec4(0.0));
+#endif
 }

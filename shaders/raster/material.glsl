@@ -20,6 +20,7 @@ struct SurfacePoint {
     float uvFootprint;
 };
 SurfacePoint point;
+vec3 worldOrigin = vec3(0.0); // what positions are relative to
 
 // Defined by the pass: the value of a primvar, or what stands in for it.
 vec4 primvar(int slot, vec4 fallback);
@@ -428,7 +429,7 @@ vec4 nodeRamp4(vec4 tl, vec4 tr, vec4 bl, vec4 br, vec2 uv) {
 }
 // mode 0 is world space.
 vec4 nodePosition(int mode) {
-    return vec4(mode == 0 ? point.position : point.objectPosition, 0.0);
+    return vec4(mode == 0 ? point.position + worldOrigin : point.objectPosition, 0.0);
 }
 vec4 nodeNormal(int mode, vec3 n) {
     if (mode == 0) return vec4(n, 0.0);

@@ -173,8 +173,9 @@ mat3 nodeObjectToWorld() {
 vec4 nodeTransformPoint(int mode, vec4 v) {
     if (mode == 0) return v;
     if (mode == 1)
-        return vec4(nodeObjectToWorld() * (v.xyz - point.objectPosition) + point.position, 0.0);
-    return vec4(transpose(point.objectToWorldNormal) * (v.xyz - point.position) +
+        return vec4(nodeObjectToWorld() * (v.xyz - point.objectPosition) + point.position + worldOrigin,
+                    0.0);
+    return vec4(transpose(point.objectToWorldNormal) * (v.xyz - worldOrigin - point.position) +
                     point.objectPosition, 0.0);
 }
 vec4 nodeTransformVector(int mode, vec4 v) {

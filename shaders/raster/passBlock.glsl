@@ -10,4 +10,5 @@ layout(std140, binding = 0) uniform Pass {
     ivec4 counts;   // lights taken, BSDF samples, index of the pass, seed
     vec4 extra;     // x: texels of a dome's image, y: exposure factor, z: passes that will have been taken, w: extent of the scene
     ivec4 lightInfo; // x: lights that the background shows, y: highest level of domes, z: cells of the sky along a side (0 none), w: samples of filtered domes
+    vec4 origin;     // all positions are relative to this place in the world
 };

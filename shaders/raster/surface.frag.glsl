@@ -96,6 +96,7 @@ vec3 departure(vec3 wi) {
 void setPoint(vec3 view, float coneWidth) {
     loadTriangle();
     point.position = vPosition;
+    worldOrigin = origin.xyz;
     point.objectPosition = vObjectPosition;
     point.geometricNormal = vGeometricNormal;
     point.view = view;

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// What of the AOVs asked for only the fragment stage of a material can tell.
+struct RasterAovWish {
+    static constexpr size_t mostPrimvars = 4; ///< targets that drivers have beside the others
+
+    bool albedo = false;
+    std::vector<std::string> primvars; ///< names, at most `mostPrimvars`
+
+    RasterAovWish() = default;
+    /// @param aovs by name, `primvars:NAME` for those; further primvars are left out
+    explicit RasterAovWish(const std::vector<std::string>& aovs) {
+        const std::string prefix = "primvars:";
+        for (const std::string& aov : aovs) {
+            albedo |= aov == "albedo";
+            if (aov.rfind(prefix, 0) == 0 && primvars.size() < mostPrimvars)
+                primvars.push_back(aov.substr(prefix.size()));
+        }
+    }
+
+    /// For aovs.frag.glsl.
+    std::string text() const {
+        return (albedo ? "#define AOV_ALBEDO\n" : "") +
+               ("#define AOV_PRIMVARS " + std::to_string(primvars.size()) + "\n");
+    }
+
+    /// What a surface carries: the primvars of its material, and those asked for.
+    std::vector<std::string> with(std::vector<std::string> ofMaterial) const {
+        for (const std::string& name : primvars)
+            if (slot(ofMaterial, name) < 0) ofMaterial.push_back(name);
+        return ofMaterial;
+    }
+
+    /// @returns -1 where it is not there
+    static int slot(const std::vector<std::string>& primvars, const std::string& name) {
+        for (size_t i = 0; i < primvars.size(); ++i)
+            if (primvars[i] == name) return int(i);
+        return -1;
+    }
+
+    bool operator==(const RasterAovWish& o) const {
+        return albedo == o.albedo && primvars == o.primvars;
+    }
+};
+
+} // namespace patina

@@ -49,7 +49,7 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, float s
                            float shutterClose, LightImages& images, Diagnostics& diagnostics)
     : _light(light), _group(groupToWorld) {
     if (!light.visible || light.type == LightType::Mesh) return;
-    const auto warn = [&](const char* input, const char* message) {
+    const auto warn = [&](const std::string& input, const char* message) {
         diagnostics.warn(light.path, input, message);
     };
     _times = {shutterOpen};
@@ -94,7 +94,8 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, float s
     for (float time : _times)
         if (_kind == Kind::Area &&
             !makePose(_group * transformAt(light.transform, time)).shape.valid) {
-            warn("xformOpOrder", "the light has no size or is flattened to nothing; it is off");
+            warn(lightSizeInput(_light),
+                 "the light has no size or is flattened to nothing; it is off");
             _kind = Kind::None;
         }
     const bool anything = luminance(_radiance) * _meanTexture * _pose.shaping.level() > 0.0f;
@@ -104,7 +105,7 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, float s
 /// Decides what the light is treated as, and how bright that is.
 /// @returns false when there is nothing to render
 bool LightEmitter::choosesKind(const mat4& toWorld, Diagnostics& diagnostics) {
-    const auto off = [&](const char* input, const char* message) {
+    const auto off = [&](const std::string& input, const char* message) {
         diagnostics.warn(_light.path, input, message);
         return false;
     };
@@ -150,7 +151,8 @@ bool LightEmitter::choosesKind(const mat4& toWorld, Diagnostics& diagnostics) {
     }
     _kind = Kind::Area;
     if (!(size > 0.0) || !std::isfinite(size))
-        return off("xformOpOrder", "the light's size is zero or not finite; the light is off");
+        return off(lightSizeInput(_light),
+                   "the light's size is zero or not finite; the light is off");
     return true;
 }
 

@@ -67,7 +67,11 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
                        LightImages& images, RasterDomes& domes,
                        const std::map<std::string, int>& categories, Diagnostics& diagnostics) {
     Source s;
-    s.radiance = glm::max(lightRadiance(light, toWorld), vec3(0.0f));
+    const vec3 asked = lightRadiance(light, toWorld);
+    s.radiance = glm::max(asked, vec3(0.0f));
+    if (glm::any(glm::lessThan(asked, vec3(0.0f))))
+        diagnostics.warn(light.path, "inputs:intensity",
+                         "negative light is not supported and counts as zero");
     if (!isFinite(s.radiance) && light.normalize) s.radiance = vec3(0.0f);
     if (!isFinite(s.radiance) || !isFinite(vec3(toWorld[3]))) {
         diagnostics.warn(light.path, "inputs:intensity", "the light is not finite; it is off");
@@ -192,7 +196,8 @@ bool RasterLights::addShape(Source& s, const Light& light, const mat4& toWorld, 
     }
     s.shape = makeAreaShape(light, toWorld);
     if (!s.shape.valid) {
-        diagnostics.warn(light.path, "xformOpOrder", "the light has no size and is off");
+        diagnostics.warn(light.path, lightSizeInput(light),
+                         "the light's size is zero or not finite; the light is off");
         return false;
     }
     s.kind = Kind(int(s.shape.kind));

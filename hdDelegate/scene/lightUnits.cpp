@@ -101,6 +101,16 @@ mat4 transformAt(const MotionTransform& transform, float time) {
     return a * (1.0f - span.fraction) + transform.values[span.index + 1] * span.fraction;
 }
 
+std::string lightSizeInput(const Light& light) {
+    const auto none = [](float size) { return size == 0.0f || !std::isfinite(size); };
+    const bool rect = light.type == LightType::Rect;
+    if (rect && none(light.width)) return "inputs:width";
+    if (rect && none(light.height)) return "inputs:height";
+    if (light.type == LightType::Cylinder && none(light.length)) return "inputs:length";
+    if (!rect && none(light.radius)) return "inputs:radius";
+    return "xformOpOrder";
+}
+
 double lightSizeFactor(const Light& light, const mat4& toWorld) {
     const double r = std::abs(light.radius);
     switch (light.type) {

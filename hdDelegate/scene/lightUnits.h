@@ -17,6 +17,8 @@ mat4 transformAt(const MotionTransform& transform, float time);
 /// solid angle pi sin^2(angle / 2), continued as pi (2 - sin^2) beyond 180 degrees, and 1 for angle
 /// 0. Domes and mesh lights: 1 (the area of a mesh is its owner's to know).
 double lightSizeFactor(const Light& light, const mat4& toWorld);
+/// What to name where a light of a shape has no size: an input that is 0, else the transform.
+std::string lightSizeInput(const Light& light);
 
 /// Radiance that a light emits before textures and shaping: intensity 2^exposure color blackbody,
 /// divided by the size factor when `normalize` asks for it (UsdLux LightAPI). A distant light of

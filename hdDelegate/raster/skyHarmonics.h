@@ -29,8 +29,8 @@ void shHarmonics(const glm::vec3& direction, float out[9]);
 /// from ringing below zero anywhere.
 /// @param radiance of a direction; negative and not finite values count as zero
 /// @param splitSun false keeps all of it in the harmonics
-/// @param windows false leaves the harmonics as they are: bright spots ring, with light of less than
-/// nothing behind
+/// @param windows false leaves the harmonics as they are: bright spots ring, with light of less
+/// than nothing behind
 SkyHarmonics makeSkyHarmonics(const std::function<glm::vec3(const glm::vec3&)>& radiance,
                               bool splitSun = true, bool windows = true);
 

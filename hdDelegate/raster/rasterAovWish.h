@@ -11,15 +11,17 @@ struct RasterAovWish {
 
     bool albedo = false;
     std::vector<std::string> primvars; ///< names, at most `mostPrimvars`
+    std::vector<std::string> leftOut;  ///< further ones
 
     RasterAovWish() = default;
-    /// @param aovs by name, `primvars:NAME` for those; further primvars are left out
+    /// @param aovs by name, `primvars:NAME` for those; further primvars are told in `leftOut`
     explicit RasterAovWish(const std::vector<std::string>& aovs) {
         const std::string prefix = "primvars:";
         for (const std::string& aov : aovs) {
             albedo |= aov == "albedo";
-            if (aov.rfind(prefix, 0) == 0 && primvars.size() < mostPrimvars)
-                primvars.push_back(aov.substr(prefix.size()));
+            if (aov.rfind(prefix, 0) != 0) continue;
+            auto& list = primvars.size() < mostPrimvars ? primvars : leftOut;
+            list.push_back(aov.substr(prefix.size()));
         }
     }
 
@@ -44,7 +46,7 @@ struct RasterAovWish {
     }
 
     bool operator==(const RasterAovWish& o) const {
-        return albedo == o.albedo && primvars == o.primvars;
+        return albedo == o.albedo && primvars == o.primvars && leftOut == o.leftOut;
     }
 };
 

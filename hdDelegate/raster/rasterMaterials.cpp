@@ -41,6 +41,11 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
     if (const RasterAovWish aovs(settings.aovs); !(aovs == _aovs)) {
         _aovs = aovs;
         _materials.clear();
+        for (const std::string& name : _aovs.leftOut)
+            _diagnostics.warn("", "primvars:" + name,
+                              "the rasterizer writes " +
+                                  std::to_string(RasterAovWish::mostPrimvars) +
+                                  " primvars as AOVs; this one is left empty");
     }
     _domeMethods.clear();
     _environmentSamples = std::max(settings.environmentSamples, 0);

@@ -50,7 +50,7 @@ def settle(entry, kind, found, reason=None):
             held[key] = round(wanted, 1)
         elif key not in held or abs(wanted) <= abs(held[key]):
             held[key] = _rounded(wanted)
-        elif abs(wanted) > abs(held[key]) * 1.0001:
+        elif abs(_rounded(wanted)) > abs(held[key]):
             if reason is None:
                 refused.append(f"{kind} {key}: {_rounded(wanted)} above {held[key]}")
             else:

@@ -42,10 +42,10 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
         _aovs = aovs;
         _materials.clear();
         for (const std::string& name : _aovs.leftOut)
-            _diagnostics.warn("", "primvars:" + name,
-                              "the rasterizer writes " +
-                                  std::to_string(RasterAovWish::mostPrimvars) +
-                                  " primvars as AOVs; this one is left empty");
+            _diagnostics.warn("", "",
+                              "the AOV primvars:" + name +
+                                  " is left empty: the rasterizer writes " +
+                                  std::to_string(RasterAovWish::mostPrimvars) + " primvars");
     }
     _domeMethods.clear();
     _environmentSamples = std::max(settings.environmentSamples, 0);

@@ -1,6 +1,7 @@
 """Where things are does not change what they look like: far from the world's origin, beside casters that are far away,
-on displaced polygons; and the AOVs of both back ends are the same. Images are of fixed seeds; the limits are about twice
-what was measured, and each case fails without what it is for (measured then: in its comment)."""
+on displaced polygons; and the AOVs of both back ends are the same. Images are of fixed seeds; the limits are two to three
+times what was measured (means: more). Comments say what blocks were without what a case is for.
+"""
 import numpy as np
 import pytest
 
@@ -160,18 +161,18 @@ def worst(a, b):
 @pytest.mark.parametrize("far", [1e3, 1e4])
 def test_far_from_the_origin(tmp_path, far):
     block, mean = worst(draw(tmp_path, "raster", far=far), draw(tmp_path, "raster"))
-    assert block < 0.01 and mean < 0.001  # all in the world's coordinates, 1e4: 0.6, 0.08
+    assert block < 0.01 and mean < 0.001  # all in the world's coordinates: 0.039 and 0.31
 
 
 def test_a_caster_far_away_takes_no_shadow(tmp_path):
     block, mean = worst(draw(tmp_path, "raster", more=CARD), draw(tmp_path, "embree", more=CARD))
-    assert block < 0.08 and mean < 0.02  # depths over the whole scene: 0.29, 0.066
+    assert block < 0.08 and mean < 0.02  # depths over the whole scene: 0.78
 
 
 def test_polygons_are_displaced(tmp_path):
     bound = {"floor": "        rel material:binding = </bumps>", "end": BUMPS}
     block, mean = worst(draw(tmp_path, "raster", **bound), draw(tmp_path, "embree", **bound))
-    assert block < 0.1 and mean < 0.02
+    assert block < 0.1 and mean < 0.02  # not refined: 0.38
     flat = pairs.pixels(draw(tmp_path, "embree"))
     assert np.abs(flat - pairs.pixels(tmp_path / "raster0.exr")).mean() > 0.02
 

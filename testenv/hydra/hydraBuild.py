@@ -1,4 +1,5 @@
 """The OpenUSD that the plugin was built for: where it is, and how to run programs of it."""
+import glob
 import json
 import os
 import shutil
@@ -28,6 +29,31 @@ def missing():
 def folder(name):
     """:param name: root, plugin, host or python, as the build wrote them down"""
     return _read()[name]
+
+
+def unreadable(stage):
+    """:param stage: an opened Usd.Stage
+    :returns: one line that names a layer whose file format this OpenUSD has no plugin for, as it has none for
+        MaterialX documents when it was built without MaterialX; else None"""
+    formats = _formats()
+    for layer in stage.GetUsedLayers():
+        for asset in layer.GetCompositionAssetDependencies():
+            if asset and os.path.splitext(asset)[1][1:].lower() not in formats:
+                return f"this OpenUSD does not read {asset}, which {os.path.basename(layer.realPath)} composes"
+    return None
+
+
+def _formats():
+    """:returns: the file extensions that the plugins of this OpenUSD say they read"""
+    found = set()
+    for base in ("lib", "plugin"):
+        for path in glob.glob(os.path.join(folder("root"), base, "usd", "*", "resources", "plugInfo.json")):
+            with open(path, encoding="utf-8") as file:
+                text = "".join(line for line in file if not line.lstrip().startswith("#"))
+            for plugin in json.loads(text)["Plugins"]:
+                for described in plugin.get("Info", {}).get("Types", {}).values():
+                    found.update(described.get("extensions", []))
+    return found
 
 
 def environment(scene_index=False, **more):

@@ -26,7 +26,7 @@ vec3 onSphere(vec2 u) {
 
 } // namespace
 
-GpuLight RasterLights::draw(const Source& s, vec2 u) const {
+GpuLight RasterLights::draw(const Source& s, vec2 u, float more) const {
     GpuLight g = s.fixed;
     vec3 radiance = s.radiance;
     switch (s.kind) {
@@ -44,18 +44,18 @@ GpuLight RasterLights::draw(const Source& s, vec2 u) const {
     }
     case Sphere:
     case Cylinder: {
-        vec3 q, n;
+        // Points of a sphere in one dimension more, projected: whoever looks from far away sees them
+        // spread evenly over the outline, from every side. See chordDensity() in lights.glsl.
+        vec3 q;
         if (s.kind == Sphere) {
-            q = n = onSphere(u);
+            const float r = std::sqrt(1.0f - u.x);
+            q = vec3(r * std::cos(2.0f * pi * u.y), r * std::sin(2.0f * pi * u.y),
+                     std::sqrt(u.x) * std::cos(2.0f * pi * more));
         } else {
-            n = vec3(0.0f, std::cos(2.0f * pi * u.y), std::sin(2.0f * pi * u.y));
-            q = n + vec3(u.x - 0.5f, 0.0f, 0.0f);
+            q = onSphere(vec2(more, u.y));
+            q = vec3(u.x - 0.5f, q.x, q.y);
         }
-        const vec3 wide = glm::transpose(s.shape.inverse) * n;
-        const float length = glm::length(wide);
-        const float stretched = std::fabs(s.shape.determinant) * length;
         g.sampled = vec4(s.shape.origin + s.shape.axes * q, 1.0f);
-        g.normal = vec4(wide / length, 1.0f / ((s.kind == Sphere ? 4.0f : 2.0f) * pi * stretched));
         break;
     }
     case Triangle: break; // see takeEmitters()
@@ -180,7 +180,8 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
         const int samples = s.kind == Dome ? std::max(_domeSamples, 1) : 1;
         for (int n = 0; n < samples; ++n) {
             const uint32_t index = pass * uint32_t(samples) + uint32_t(n);
-            GpuLight g = draw(s, passNumbers(_seed, index, set));
+            GpuLight g = draw(s, passNumbers(_seed, index, set),
+                              passNumbers(_seed, index, set + 2).x);
             g.fade.w = choice.second;
             // The first of a dome also stands for what samples of the BSDF find.
             if (n > 0) g.radiance.w = float(MoreDome);
@@ -196,7 +197,7 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
     out.taken = int(out.lights.size());
     for (size_t i = 0; i < _sources.size(); ++i)
         if (!taken[i] && _sources[i].fixed.inverse[2].w != 0.0f)
-            out.lights.push_back(draw(_sources[i], vec2(0.5f)));
+            out.lights.push_back(draw(_sources[i], vec2(0.5f), 0.5f));
     return out;
 }
 

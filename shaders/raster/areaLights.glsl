@@ -39,9 +39,9 @@ float shareAbove(Light l, vec3 n) {
     int kind = int(l.radiance.w);
     float h = dot(n, l.origin.xyz - point.position);
     vec3 reach = vec3(dot(n, l.axis0.xyz), dot(n, l.axis1.xyz), dot(n, l.axis2.xyz));
-    if (kind == LIGHT_SPHERE) return clamp(0.5 + 0.5 * h / max(length(reach), 1e-20), 0.0, 1.0);
-    if (kind == LIGHT_DISK) {
-        float t = clamp(h / max(length(reach.xy), 1e-20), -1.0, 1.0);
+    if (kind == LIGHT_DISK || kind == LIGHT_SPHERE) { // a sphere's samples have a disk's shadow
+        float across = kind == LIGHT_DISK ? length(reach.xy) : length(reach);
+        float t = clamp(h / max(across, 1e-20), -1.0, 1.0);
         return 1.0 - (acos(t) - t * sqrt(1.0 - t * t)) * INV_PI;
     }
     // Lines along the shape, each cut exactly.
@@ -50,7 +50,7 @@ float shareAbove(Light l, vec3 n) {
     float width = max(round ? length(reach.yz) : abs(reach.y), 1e-20), sum = 0.0;
     for (int i = 0; i < lines; ++i) {
         float t = (h + reach.x * ((float(i) + 0.5) / float(lines) - 0.5)) / width;
-        sum += round ? 1.0 - acos(clamp(t, -1.0, 1.0)) * INV_PI : clamp(0.5 + t, 0.0, 1.0);
+        sum += clamp(0.5 + (round ? 0.5 : 1.0) * t, 0.0, 1.0);
     }
     return sum / float(lines);
 }

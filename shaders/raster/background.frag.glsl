@@ -17,8 +17,8 @@ void main() {
         Light l = lights[i];
         if (l.inverse2.w == 0.0) continue;
         float t, density;
-        vec3 n, image;
-        if (!lightHit(l, origin, direction, t, n, density, image) || t >= nearest) continue;
+        vec3 image;
+        if (!lightHit(l, origin, direction, t, density, image) || t >= nearest) continue;
         nearest = t;
         shape = vec4(l.radiance.xyz * image * shapingFactor(l, -direction), 1.0);
         vec4 clip = worldToClip * vec4(origin + direction * t, 1.0);

@@ -88,8 +88,8 @@ vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
             if (dot(direction, l.origin.xyz) < 1.0 - l.cone.z) continue;
         } else {
             float t, density;
-            vec3 n, image;
-            if (!lightHit(l, origin, direction, t, n, density, image)) continue;
+            vec3 image;
+            if (!lightHit(l, origin, direction, t, density, image)) continue;
             radiance *= image * shapingFactor(l, -direction);
         }
         sum += radiance * l.fade.w * l.inverse1.w;
@@ -98,28 +98,6 @@ vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
 }
 
 #ifdef MATERIAL_HOLDS
-// A light's sample as a medium at p meets it: radiance over density.
-vec3 sampleInMedium(Light l, vec3 p, out vec3 wi) {
-    int kind = int(l.radiance.w);
-    wi = l.sampled.xyz;
-    vec3 radiance = l.radiance.xyz * l.fade.w;
-    float density = l.normal.w;
-    if (l.sampled.w != 0.0) {
-        vec3 d = l.sampled.xyz - p;
-        float d2 = max(dot(d, d), 1e-20);
-        wi = d * inversesqrt(d2);
-        radiance *= shapingFactor(l, -wi);
-        if (l.origin.w > 0.0) return radiance / d2;
-        float c = -dot(l.normal.xyz, wi);
-        if (kind == LIGHT_TRIANGLE && l.cone.z != 0.0) c = abs(c);
-        if (c <= 0.0) return vec3(0.0);
-        density *= d2 / c;
-    }
-    if (l.origin.w > 0.0) return radiance;
-    if (kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) density *= l.cone.y;
-    return radiance / density;
-}
-
 // Light after a stretch through the medium: what comes from behind, what the medium gives off, and
 // light scattered once. That light is not weakened on its way in; of a white medium in even light
 // nothing is then lost, as when all orders of scattering are counted.
@@ -144,7 +122,8 @@ vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool
             continue;
         }
         vec3 wi;
-        vec3 radiance = sampleInMedium(l, start + direction * mean, wi);
+        float density, reach;
+        vec3 radiance = lightSample(l, start + direction * mean, wi, density, reach) / density;
         float p = phaseHenyeyGreensteinEval(phase, -direction, wi).pdf;
         // The object's own far side is in the shadow maps, so they tell nothing of light from there.
         bool outwards = dot(wi, point.geometricNormal) > 0.0;

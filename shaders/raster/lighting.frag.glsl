@@ -34,32 +34,13 @@ bool lightsAlone = false; // no sample of the BSDF finds the same light
 // Light from one light's sample.
 vec3 fromLight(Light l) {
     int kind = int(l.radiance.w);
-    vec3 wi = l.sampled.xyz;
-    float density = l.normal.w; // by solid angle
-    vec3 radiance = l.radiance.xyz * l.fade.w;
 #ifdef DOME_METHOD
     if (kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) return vec3(0.0); // see skyLight()
 #endif
-    if (l.sampled.w != 0.0) {
-        vec3 d = l.sampled.xyz - point.position;
-        float d2 = max(dot(d, d), 1e-20);
-        wi = d * inversesqrt(d2);
-        radiance *= shapingFactor(l, -wi);
-        if (kind == LIGHT_RECT && l.table.x >= 0.0)
-            radiance *= imageOfRect(l, toShape(l, l.sampled.xyz - l.origin.xyz).xy).rgb;
-        if (l.origin.w > 0.0) {
-            radiance /= d2;
-            if (kind == LIGHT_LINE) {
-                float along = dot(wi, l.axis0.xyz);
-                radiance *= sqrt(max(1.0 - along * along, 0.0)) / density;
-            }
-        } else {
-            float c = -dot(l.normal.xyz, wi);
-            if (kind == LIGHT_TRIANGLE && l.cone.z != 0.0) c = abs(c);
-            if (c <= 0.0) return vec3(0.0);
-            density *= d2 / c;
-        }
-    }
+    vec3 wi;
+    float density, reach;
+    vec3 radiance = lightSample(l, point.position, wi, density, reach);
+    if (radiance == vec3(0.0)) return vec3(0.0);
     MaterialEval f = materialEval(wi);
 #ifdef MATERIAL_TRANSMITS
     // Samples of the BSDF find what comes through the object.
@@ -74,7 +55,6 @@ vec3 fromLight(Light l) {
         float chance = sky ? l.cone.y * domePdf(l, wi, 0.0) : density;
         bool found = kind != LIGHT_TRIANGLE && counts.y > 0 && !lightsAlone;
         weight = (found ? heuristic(lightTrust * chance, float(counts.y) * f.pdf) : 1.0) / density;
-        if (sky) weight /= l.cone.y;
     }
     return value * radiance * weight * shadowAt(l, wi);
 }
@@ -116,9 +96,8 @@ vec3 along(MaterialSample s) {
             density = 1.0 / l.cone.w;
         } else {
             float t;
-            vec3 n, image;
-            if (!lightHit(l, point.position, s.wi, t, n, density, image)) continue;
-            density *= t * t / max(-dot(n, s.wi), 1e-10);
+            vec3 image;
+            if (!lightHit(l, point.position, s.wi, t, density, image)) continue;
             radiance *= image * shapingFactor(l, -s.wi);
         }
         vec3 shadow = vec3(1.0);

@@ -100,10 +100,6 @@ vec3 toShape(Light l, vec3 v) {
 vec3 fromShape(Light l, vec3 v) {
     return l.axis0.xyz * v.x + l.axis1.xyz * v.y + l.axis2.xyz * v.z;
 }
-// World normal of a normal in the shape's coordinates; its length is that of the inverse transpose.
-vec3 shapeNormal(Light l, vec3 n) {
-    return vec3(dot(l.inverse0.xyz, n), dot(l.inverse1.xyz, n), dot(l.inverse2.xyz, n));
-}
 
 // A rect's image at a position in the shape's coordinates: radiance factor, and density of samples
 // relative to uniform.
@@ -119,24 +115,47 @@ vec4 imageOfRect(Light l, vec2 q) {
     return vec4(value.rgb, lightTables[first + cell.y * w + cell.x].w);
 }
 
-// First point of the emitting side that a ray meets; density by area of what samples draw, and the
-// factor of the radiance there that is not the shaping's.
-bool lightHit(Light l, vec3 origin, vec3 direction, out float t, out vec3 n, out float density,
-              out vec3 image) {
+float shapeVolume(Light l) {
+    return abs(dot(cross(l.axis0.xyz, l.axis1.xyz), l.axis2.xyz));
+}
+
+// Density by solid angle of the samples of a sphere or cylinder, which lie inside of it (see
+// RasterLights::draw()): the integral of their density by volume, over pi sqrt(1 - r^2), times t^2 along
+// the ray's chord. o, d: the ray in the shape's coordinates; middle: of the infinite chord, half: its
+// half length; both in units of the ray's parameter. a: squared length of the part of d across the shape.
+float chordDensity(Light l, vec3 o, vec3 d, float a, float middle, float half2) {
+    float scale = INV_PI * INV_PI / (shapeVolume(l) * sqrt(a));
+    float even = middle * middle + 0.5 * half2;
+    if (int(l.radiance.w) == LIGHT_SPHERE) return scale * PI * even;
+    // Where the chord leaves a cylinder by its ends it is cut.
+    float h = sqrt(half2), low = -h, high = h;
+    if (abs(d.x) > 1e-20) {
+        vec2 ends = (vec2(-0.5, 0.5) - o.x) / d.x - middle;
+        low = clamp(min(ends.x, ends.y), -h, h);
+        high = clamp(max(ends.x, ends.y), -h, h);
+    }
+    vec2 s = vec2(low, high), root = sqrt(max(half2 - s * s, vec2(0.0)));
+    vec2 whole = even * asin(clamp(s / max(h, 1e-30), -1.0, 1.0)) - (2.0 * middle + 0.5 * s) * root;
+    return 0.5 * PI * scale * max(whole.y - whole.x, 0.0);
+}
+
+// First point of the emitting side that a ray meets; density by solid angle of what samples draw, and
+// the factor of the radiance there that is not the shaping's.
+bool lightHit(Light l, vec3 origin, vec3 direction, out float t, out float density, out vec3 image) {
     int kind = int(l.radiance.w);
     image = vec3(1.0);
     if (l.origin.w > 0.0 || kind > LIGHT_CYLINDER) return false;
     vec3 o = toShape(l, origin - l.origin.xyz);
     vec3 d = toShape(l, direction);
     if (kind == LIGHT_RECT || kind == LIGHT_DISK) {
-        n = l.normal.xyz;
         t = -o.z / d.z;
         vec3 q = o + d * t;
+        float c = -dot(l.normal.xyz, direction);
         bool inside = kind == LIGHT_RECT ? max(abs(q.x), abs(q.y)) <= 0.5 : dot(q.xy, q.xy) <= 1.0;
-        if (!(t > 0.0 && inside && dot(n, direction) < 0.0)) return false;
+        if (!(t > 0.0 && inside && c > 0.0)) return false;
         vec4 value = imageOfRect(l, q.xy);
         image = value.rgb;
-        density = l.shadowColor.w * value.w;
+        density = l.shadowColor.w * value.w * t * t / max(c, 1e-10);
         return true;
     }
     vec3 mask = kind == LIGHT_SPHERE ? vec3(1.0) : vec3(0.0, 1.0, 1.0);
@@ -145,12 +164,42 @@ bool lightHit(Light l, vec3 origin, vec3 direction, out float t, out vec3 n, out
     float discriminant = b * b - a * c;
     if (discriminant <= 0.0 || a <= 0.0 || c <= 0.0) return false;
     t = (-b - sqrt(discriminant)) / a;
-    vec3 q = o + d * t;
-    if (t <= 0.0 || (kind == LIGHT_CYLINDER && abs(q.x) > 0.5)) return false;
-    vec3 wide = shapeNormal(l, q * mask);
-    float length2 = length(wide);
-    n = wide / length2;
-    float det = abs(dot(cross(l.axis0.xyz, l.axis1.xyz), l.axis2.xyz));
-    density = (kind == LIGHT_SPHERE ? 0.25 * INV_PI : 0.5 * INV_PI) / (det * length2);
-    return true;
+    if (t <= 0.0 || (kind == LIGHT_CYLINDER && abs(o.x + d.x * t) > 0.5)) return false;
+    density = chordDensity(l, o, d, a, -b / a, discriminant / (a * a));
+    return density > 0.0;
+}
+
+// A light's sample as a point meets it. wi: to it; reach: how far it is; density: of all samples of the
+// light, by solid angle, 1 of lights that are no area.
+// @returns radiance towards the point, or irradiance of what is no area; with how often the light counts
+vec3 lightSample(Light l, vec3 p, out vec3 wi, out float density, out float reach) {
+    int kind = int(l.radiance.w);
+    vec3 radiance = l.radiance.xyz * l.fade.w;
+    wi = l.sampled.xyz;
+    reach = 1e30;
+    density = l.origin.w > 0.0 ? 1.0 : l.normal.w;
+    if (kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) density *= l.cone.y;
+    if (l.sampled.w == 0.0) return radiance;
+    vec3 d = l.sampled.xyz - p;
+    float d2 = max(dot(d, d), 1e-20);
+    reach = sqrt(d2);
+    wi = d / reach;
+    if (kind == LIGHT_SPHERE || kind == LIGHT_CYLINDER) {
+        vec3 image;
+        if (!lightHit(l, p, wi, reach, density, image)) return vec3(0.0);
+        return radiance * shapingFactor(l, -wi);
+    }
+    radiance *= shapingFactor(l, -wi);
+    if (l.origin.w > 0.0) {
+        if (kind != LIGHT_LINE) return radiance / d2;
+        float along = dot(wi, l.axis0.xyz);
+        return radiance / d2 * (sqrt(max(1.0 - along * along, 0.0)) / l.normal.w);
+    }
+    if (kind == LIGHT_RECT && l.table.x >= 0.0)
+        radiance *= imageOfRect(l, toShape(l, l.sampled.xyz - l.origin.xyz).xy).rgb;
+    float c = -dot(l.normal.xyz, wi);
+    if (kind == LIGHT_TRIANGLE && l.cone.z != 0.0) c = abs(c);
+    if (c <= 0.0) return vec3(0.0);
+    density *= d2 / c;
+    return radiance;
 }

@@ -84,27 +84,10 @@ vec3 litAt(vec3 p, vec3 direction, float g, float jitter) {
                    lightArrives(p, evenDirection(vec2(jitter, fract(17.0 * jitter))), 1e30, jitter) * l.inverse1.w;
             continue;
         }
-        vec3 wi = l.sampled.xyz, radiance = l.radiance.xyz * l.fade.w;
-        float density = l.normal.w, reach = 1e30;
-        if (l.sampled.w != 0.0) {
-            vec3 d = l.sampled.xyz - p;
-            float d2 = max(dot(d, d), 1e-20);
-            reach = sqrt(d2);
-            wi = d / reach;
-            radiance *= shapingFactor(l, -wi);
-            if (l.origin.w > 0.0) {
-                radiance /= d2;
-                density = 1.0;
-            } else {
-                float c = -dot(l.normal.xyz, wi);
-                if (kind == LIGHT_TRIANGLE && l.cone.z != 0.0) c = abs(c);
-                if (c <= 0.0) continue;
-                density *= d2 / c;
-            }
-        } else if (l.origin.w > 0.0) {
-            density = 1.0;
-        }
-        if (kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) density *= l.cone.y;
+        vec3 wi;
+        float density, reach;
+        vec3 radiance = lightSample(l, p, wi, density, reach);
+        if (radiance == vec3(0.0)) continue;
         point.geometricNormal = wi;
         sum += radiance / density * henyeyGreenstein(g, dot(direction, wi)) * shadowAt(l, wi) *
                lightArrives(p, wi, reach, jitter) * l.inverse1.w;

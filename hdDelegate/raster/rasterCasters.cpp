@@ -43,17 +43,26 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
     const vec4& to = view.towards;
     const bool parallel = to.w == 0.0f; // see distantShadow()
     const RasterVisible visible = scene.visible(view.worldToMap, parallel);
+    // Few lights have anything inside.
+    const RasterVisible inside =
+        view.shape != 0 ? scene.visible(view.worldToLight) : RasterVisible();
     if (parallel) gl.Enable(GL_DEPTH_CLAMP);
     const GlProgram* last = nullptr;
     for (const RasterDraw& d : scene.draws()) {
         if (!d.prim->visibility.shadow || d.material->glsl.volumeOnly) continue;
         const GlProgram* own = d.material->programs->shadow.get();
-        const GlProgram* program = own ? own : _shadow.get();
+        const bool around = !inside.group.empty() && inside.group[size_t(d.group)].first <
+                                                         inside.group[size_t(d.group)].second;
+        const GlProgram* program = own ? own : around ? _shadowAround.get() : _shadow.get();
         if (program != last) {
             program->use();
             gl.UniformMatrix4fv(2, 1, GL_FALSE, &view.worldToMap[0][0]);
             gl.Uniform1i(3, view.category);
             gl.Uniform4f(6, to.x, to.y, to.z, to.w);
+            if (own || around) {
+                gl.UniformMatrix4fv(11, 1, GL_FALSE, &view.worldToLight[0][0]);
+                gl.Uniform1i(12, view.shape);
+            }
         }
         last = program;
         if (own) {

@@ -30,6 +30,8 @@ struct ShadowView {
     glm::mat4 worldToMap{1.0f};
     glm::vec4 towards{0.0f}; ///< position of the light; direction to it where w is 0
     int category = -1;       ///< of what casts; -1: everything
+    int shape = 0;           ///< what is inside of it casts nothing: 0 none, 1 sphere, 2 cylinder
+    glm::mat4 worldToLight{1.0f}; ///< to the coordinates of the shape, see AreaShape
 };
 
 /// Boxes that shadows are fitted to.

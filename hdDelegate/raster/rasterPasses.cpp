@@ -37,6 +37,13 @@ RasterPasses::RasterPasses(std::string& error)
          {GL_FRAGMENT_SHADER, "shadow", "#include \"shaders/raster/shadow.frag.glsl\"\n"}},
         error);
     if (!_shadow) return;
+    _shadowAround = GlProgram::make(
+        {{GL_VERTEX_SHADER, "shadow",
+          "#define AROUND_LIGHT\n#include \"shaders/raster/shadow.vert.glsl\"\n"},
+         {GL_FRAGMENT_SHADER, "shadow",
+          "#define AROUND_LIGHT\n#include \"shaders/raster/shadow.frag.glsl\"\n"}},
+        error);
+    if (!_shadowAround) return;
     _depthOnly = GlProgram::make(
         {{GL_VERTEX_SHADER, "surface",
           "#define PRIMVARS 0\n#include \"shaders/raster/surface.vert.glsl\"\n"},

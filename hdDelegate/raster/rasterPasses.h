@@ -18,7 +18,7 @@ class RasterPasses {
 public:
     /// @param error is set, and ok() false, when the driver does not take what every pass needs
     explicit RasterPasses(std::string& error);
-    bool ok() const { return _background && _shadow && _depthOnly; }
+    bool ok() const { return _background && _shadow && _shadowAround && _depthOnly; }
 
     /// Sets the size of the image, and which of its pixels reach the film.
     /// @param border of the samples, which becomes 0 where the driver has no room for one
@@ -77,7 +77,7 @@ private:
     void measureReceivers(const RasterScene& scene, const RasterCamera& camera,
                           const RasterView& view);
 
-    std::unique_ptr<GlProgram> _background, _shadow, _depthOnly;
+    std::unique_ptr<GlProgram> _background, _shadow, _shadowAround, _depthOnly;
     std::unique_ptr<RasterBehind> _behind; ///< made when something transmits
     GlBuffer _passBuffer, _albedoTable;
     GLuint _vertexArray = 0;

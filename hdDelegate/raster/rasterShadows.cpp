@@ -64,7 +64,15 @@ void RasterLights::castShadow(GpuLight& light, int category, vec2 turn, const Sh
                               int most, Sampled& out) const {
     const auto full = [&](int more) { return int(out.shadows.size()) + more > most; };
     const auto cast = [&](const mat4& worldToMap) {
-        out.shadows.push_back({worldToMap, light.sampled, category});
+        ShadowView view{worldToMap, light.sampled, category};
+        const int kind = int(light.radiance.w);
+        if (kind == Sphere || kind == Cylinder) {
+            view.shape = kind == Sphere ? 1 : 2;
+            const mat3 inverse(vec3(light.inverse[0]), vec3(light.inverse[1]),
+                               vec3(light.inverse[2]));
+            view.worldToLight = mat4(inverse) * glm::translate(mat4(1.0f), -vec3(light.origin));
+        }
+        out.shadows.push_back(view);
     };
     const float first = float(out.shadows.size());
     if (light.sampled.w == 0.0f) {

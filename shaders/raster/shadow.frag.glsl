@@ -1,1 +1,10 @@
+#ifdef AROUND_LIGHT
+#include "shaders/raster/lightShape.glsl"
+in vec3 vPosition;
+
+void main() {
+    if (isInsideLight(vPosition)) discard;
+}
+#else
 void main() {}
+#endif

@@ -3,11 +3,20 @@
 #include "hdDelegate/film/sampler.h"
 #include "hdDelegate/raster/lightChoice.h"
 #include "hdDelegate/raster/rasterLights.h"
+#include "shaders/shaders.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace patina {
+
+namespace sh {
+#define PATINA_FN inline
+#define PATINA_OUT(T) T&
+#include "shaders/lib/roundLight.glsl"
+#undef PATINA_OUT
+#undef PATINA_FN
+} // namespace sh
 
 namespace {
 
@@ -44,17 +53,7 @@ GpuLight RasterLights::draw(const Source& s, vec2 u, float more) const {
     }
     case Sphere:
     case Cylinder: {
-        // Points of a sphere in one dimension more, projected: whoever looks from far away sees them
-        // spread evenly over the outline, from every side. See chordDensity() in lights.glsl.
-        vec3 q;
-        if (s.kind == Sphere) {
-            const float r = std::sqrt(1.0f - u.x);
-            q = vec3(r * std::cos(2.0f * pi * u.y), r * std::sin(2.0f * pi * u.y),
-                     std::sqrt(u.x) * std::cos(2.0f * pi * more));
-        } else {
-            q = onSphere(vec2(more, u.y));
-            q = vec3(u.x - 0.5f, q.x, q.y);
-        }
+        const vec3 q = sh::roundLightPlace(s.kind == Sphere, vec3(u, more));
         g.sampled = vec4(s.shape.origin + s.shape.axes * q, 1.0f);
         break;
     }
@@ -180,8 +179,8 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
         const int samples = s.kind == Dome ? std::max(_domeSamples, 1) : 1;
         for (int n = 0; n < samples; ++n) {
             const uint32_t index = pass * uint32_t(samples) + uint32_t(n);
-            GpuLight g = draw(s, passNumbers(_seed, index, set),
-                              passNumbers(_seed, index, set + 2).x);
+            GpuLight g =
+                draw(s, passNumbers(_seed, index, set), passNumbers(_seed, index, set + 2).x);
             g.fade.w = choice.second;
             // The first of a dome also stands for what samples of the BSDF find.
             if (n > 0) g.radiance.w = float(MoreDome);

@@ -11,6 +11,9 @@ namespace sh {
 #include "shaders/lib/ltcFit.glsl"
 
 #include "shaders/lib/ltc.glsl"
+#define PATINA_OUT(T) T&
+#include "shaders/lib/roundLight.glsl"
+#undef PATINA_OUT
 #undef PATINA_FN
 } // namespace sh
 } // namespace patina
@@ -69,34 +72,36 @@ struct AreaLight {
                     glm::dot(v, z) / glm::dot(z, z));
     }
 
-    /// Density with which at() finds a direction; 0 where there is no light.
+    bool isRound() const { return kind == sh::LTC_SPHERE || kind == sh::LTC_CYLINDER; }
+
+    /// A direction to a sample of the rasterizer, and its density by solid angle.
+    float sample(vec3 u, vec3& wi) const {
+        vec3 n;
+        if (!isRound()) {
+            const vec3 p = at(vec2(u), n);
+            return density(p, n, wi);
+        }
+        const vec3 q = sh::roundLightPlace(kind == sh::LTC_SPHERE, u);
+        wi = glm::normalize(origin + x * q.x + y * q.y + z * q.z);
+        return densityAlong(wi);
+    }
+
+    /// Density with which sample() finds a direction; 0 where there is no light.
     float densityAlong(const vec3& wi) const {
         const vec3 o = toShape(-origin), d = toShape(wi);
-        float t = -1.0f;
-        if (kind == sh::LTC_RECT || kind == sh::LTC_DISK) {
-            t = std::fabs(d.z) > 1e-9f ? -o.z / d.z : -1.0f;
-            const vec3 p = o + d * t;
-            const bool inside = kind == sh::LTC_RECT
-                                    ? std::max(std::fabs(p.x), std::fabs(p.y)) <= 0.5f
-                                    : p.x * p.x + p.y * p.y <= 1.0f;
-            if (!inside) return 0.0f;
-        } else {
-            const vec3 along = kind == sh::LTC_SPHERE ? vec3(1.0f) : vec3(0.0f, 1.0f, 1.0f);
-            const float a = glm::dot(d * along, d), b = glm::dot(o * along, d),
-                        c = glm::dot(o * along, o) - 1.0f, root = b * b - a * c;
-            if (a < 1e-12f || root < 0.0f) return 0.0f;
-            t = (-b - std::sqrt(root)) / a;
-            if (kind == sh::LTC_CYLINDER && std::fabs(o.x + d.x * t) > 0.5f) return 0.0f;
+        if (isRound()) {
+            const float volume = std::fabs(glm::dot(glm::cross(x, y), z));
+            float t, found;
+            return sh::roundLightHit(kind == sh::LTC_SPHERE, o, d, volume, t, found) ? found : 0.0f;
         }
-        if (t <= 0.0f) return 0.0f;
-        const vec3 p = wi * t, local = o + d * t;
+        const float t = std::fabs(d.z) > 1e-9f ? -o.z / d.z : -1.0f;
+        const vec3 p = o + d * t;
+        const bool inside = kind == sh::LTC_RECT ? std::max(std::fabs(p.x), std::fabs(p.y)) <= 0.5f
+                                                 : p.x * p.x + p.y * p.y <= 1.0f;
+        if (!inside || t <= 0.0f) return 0.0f;
         vec3 n, unused;
         at(vec2(0.5f), n);
-        if (kind == sh::LTC_SPHERE)
-            n = glm::length(n) * glm::normalize(x * local.x + y * local.y + z * local.z);
-        if (kind == sh::LTC_CYLINDER)
-            n = glm::length(n) * glm::normalize(y * local.y + z * local.z);
-        return density(p, n, unused);
+        return density(wi * t, n, unused);
     }
 };
 
@@ -143,9 +148,8 @@ double sampled(const Reflector& f, const AreaLight& l, int passes, std::mt19937&
     const auto heuristic = [](float a, float b) { return a * a / std::max(a * a + b * b, 1e-30f); };
     double sum = 0.0;
     for (int i = 0; i < passes; ++i) {
-        vec3 n, wi;
-        const vec3 p = l.at(vec2(u(random), u(random)), n);
-        const float density = l.density(p, n, wi);
+        vec3 wi;
+        const float density = l.sample(vec3(u(random), u(random), u(random)), wi);
         if (density > 0.0f && wi.z > 0.0f) {
             const sh::LobeEval e = f.eval(wi);
             sum += e.value.x / density *

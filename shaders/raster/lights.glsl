@@ -1,5 +1,7 @@
 // Lights as a pass knows them, and their shapes. See hdDelegate/raster/rasterLight.h.
 
+#include "shaders/lib/roundLight.glsl"
+
 struct Light {
     vec4 sampled;  // xyz: position, or direction to the light; w: 1 position, 0 direction
     vec4 normal;   // of the emitter at the sample; w: density by area, by length, or by solid angle
@@ -115,30 +117,6 @@ vec4 imageOfRect(Light l, vec2 q) {
     return vec4(value.rgb, lightTables[first + cell.y * w + cell.x].w);
 }
 
-float shapeVolume(Light l) {
-    return abs(dot(cross(l.axis0.xyz, l.axis1.xyz), l.axis2.xyz));
-}
-
-// Density by solid angle of the samples of a sphere or cylinder, which lie inside of it (see
-// RasterLights::draw()): the integral of their density by volume, over pi sqrt(1 - r^2), times t^2 along
-// the ray's chord. o, d: the ray in the shape's coordinates; middle: of the infinite chord, half: its
-// half length; both in units of the ray's parameter. a: squared length of the part of d across the shape.
-float chordDensity(Light l, vec3 o, vec3 d, float a, float middle, float half2) {
-    float scale = INV_PI * INV_PI / (shapeVolume(l) * sqrt(a));
-    float even = middle * middle + 0.5 * half2;
-    if (int(l.radiance.w) == LIGHT_SPHERE) return scale * PI * even;
-    // Where the chord leaves a cylinder by its ends it is cut.
-    float h = sqrt(half2), low = -h, high = h;
-    if (abs(d.x) > 1e-20) {
-        vec2 ends = (vec2(-0.5, 0.5) - o.x) / d.x - middle;
-        low = clamp(min(ends.x, ends.y), -h, h);
-        high = clamp(max(ends.x, ends.y), -h, h);
-    }
-    vec2 s = vec2(low, high), root = sqrt(max(half2 - s * s, vec2(0.0)));
-    vec2 whole = even * asin(clamp(s / max(h, 1e-30), -1.0, 1.0)) - (2.0 * middle + 0.5 * s) * root;
-    return 0.5 * PI * scale * max(whole.y - whole.x, 0.0);
-}
-
 // First point of the emitting side that a ray meets; density by solid angle of what samples draw, and
 // the factor of the radiance there that is not the shaping's.
 bool lightHit(Light l, vec3 origin, vec3 direction, out float t, out float density, out vec3 image) {
@@ -158,15 +136,8 @@ bool lightHit(Light l, vec3 origin, vec3 direction, out float t, out float densi
         density = l.shadowColor.w * value.w * t * t / max(c, 1e-10);
         return true;
     }
-    vec3 mask = kind == LIGHT_SPHERE ? vec3(1.0) : vec3(0.0, 1.0, 1.0);
-    vec3 om = o * mask, dm = d * mask;
-    float a = dot(dm, dm), b = dot(om, dm), c = dot(om, om) - 1.0;
-    float discriminant = b * b - a * c;
-    if (discriminant <= 0.0 || a <= 0.0 || c <= 0.0) return false;
-    t = (-b - sqrt(discriminant)) / a;
-    if (t <= 0.0 || (kind == LIGHT_CYLINDER && abs(o.x + d.x * t) > 0.5)) return false;
-    density = chordDensity(l, o, d, a, -b / a, discriminant / (a * a));
-    return density > 0.0;
+    float volume = abs(dot(cross(l.axis0.xyz, l.axis1.xyz), l.axis2.xyz));
+    return roundLightHit(kind == LIGHT_SPHERE, o, d, volume, t, density);
 }
 
 // A light's sample as a point meets it. wi: to it; reach: how far it is; density: of all samples of the

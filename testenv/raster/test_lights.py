@@ -155,6 +155,40 @@ def test_light_is_the_path_tracers(name, tmp_path):
     assert found["worst"] <= worst, found
 
 
+INSIDE = """    def Sphere "bulb"
+    {
+        double radius = 0.3
+        double3 xformOp:translate = (-1, 2, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+"""
+
+
+@pytest.mark.parametrize("kind", ["SphereLight", "CylinderLight"])
+def test_what_is_inside_of_a_light_casts_nothing(kind, tmp_path):
+    """Samples of round lights lie inside of the light, but it shines from its surface."""
+    place = '        double3 xformOp:translate = (-1, 2, 0)\n        uniform token[] xformOpOrder = ["xformOp:translate"]\n'
+    lamp = light(kind, "        float inputs:radius = 0.4\n        float inputs:intensity = 4", place=place)
+    (tmp_path / "with").mkdir()
+    (tmp_path / "without").mkdir()
+    full, traced = pair(tmp_path / "with", lamp + INSIDE)
+    empty, _ = pair(tmp_path / "without", lamp)
+    found = bothBackEnds.numbers(full, traced)
+    assert abs(found["bias"]) <= 0.01 and found["worst"] <= 0.1, found
+    np.testing.assert_allclose(full, empty, atol=2e-4)
+
+
+def test_few_samples_of_a_ball_are_even(tmp_path):
+    """Places on the surface of a sphere light, half of which face away, leave 1.8 % with 16 passes."""
+    stage, images = os.path.join(bothBackEnds.SCENES, "lightSphere.usda"), {}
+    for backend, samples in (("raster", 16), ("embree", 512)):
+        image = str(tmp_path / (backend + ".exr"))
+        bothBackEnds.record(stage, image, "--backend", backend, "--samples", str(samples), "-w", "64", "--maxDepth", "1")
+        images[backend] = bothBackEnds.pixels(image)
+    off = np.abs(images["raster"] - images["embree"]).mean(axis=2) / (images["embree"].mean(axis=2) + 0.02)
+    assert np.median(off) <= 0.005, float(np.median(off))
+
+
 # Method: scene, largest bias of the mean, largest relative difference of an 8x8 block. What remains is the method's own.
 METHODS = [
     ("filtered", "lightDome", 0.05, 0.3),

@@ -25,6 +25,15 @@ public:
         return glm::vec2(toUnit(x), toUnit(y));
     }
 
+    /// Three numbers in [0, 1): next2(), and the third dimension of the same points.
+    glm::vec3 next3() {
+        const uint32_t setSeed = hash(_seed ^ (0x85ebca6bu * (_set + 1)));
+        const glm::vec2 two = next2();
+        const uint32_t z = nestedUniformScramble(sobol3(nestedUniformScramble(_index, setSeed)),
+                                                 hash(setSeed + 0x1b56c4e9u));
+        return glm::vec3(two, toUnit(z));
+    }
+
     glm::vec4 next4() {
         const glm::vec2 a = next2(), b = next2();
         return glm::vec4(a, b);
@@ -71,6 +80,18 @@ private:
         uint32_t result = 0;
         for (uint32_t direction = 1u << 31; index != 0; index >>= 1, direction ^= direction >> 1)
             result ^= (index & 1u) * direction;
+        return result;
+    }
+
+    /// The third: that of the primitive polynomial x^2 + x + 1 with 1, 3 (Joe and Kuo 2008).
+    static uint32_t sobol3(uint32_t index) {
+        uint32_t result = 0, direction = 1u << 31, next = 3u << 30;
+        for (; index != 0; index >>= 1) {
+            result ^= (index & 1u) * direction;
+            const uint32_t after = next ^ direction ^ (direction >> 2);
+            direction = next;
+            next = after;
+        }
         return result;
     }
 

@@ -44,8 +44,7 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
     const bool parallel = to.w == 0.0f; // see distantShadow()
     const RasterVisible visible = scene.visible(view.worldToMap, parallel);
     // Few lights have anything inside.
-    const RasterVisible inside =
-        view.shape != 0 ? scene.visible(view.worldToLight) : RasterVisible();
+    const RasterVisible inside = view.sphere ? scene.visible(view.worldToLight) : RasterVisible();
     if (parallel) gl.Enable(GL_DEPTH_CLAMP);
     const GlProgram* last = nullptr;
     for (const RasterDraw& d : scene.draws()) {
@@ -61,7 +60,7 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
             gl.Uniform4f(6, to.x, to.y, to.z, to.w);
             if (own || around) {
                 gl.UniformMatrix4fv(11, 1, GL_FALSE, &view.worldToLight[0][0]);
-                gl.Uniform1i(12, view.shape);
+                gl.Uniform1i(12, view.sphere);
             }
         }
         last = program;

@@ -28,10 +28,10 @@ struct GpuLight {
 /// A view from a light, to be drawn into one shadow map.
 struct ShadowView {
     glm::mat4 worldToMap{1.0f};
-    glm::vec4 towards{0.0f}; ///< position of the light; direction to it where w is 0
-    int category = -1;       ///< of what casts; -1: everything
-    int shape = 0;           ///< what is inside of it casts nothing: 0 none, 1 sphere, 2 cylinder
-    glm::mat4 worldToLight{1.0f}; ///< to the coordinates of the shape, see AreaShape
+    glm::vec4 towards{0.0f};      ///< position of the light; direction to it where w is 0
+    int category = -1;            ///< of what casts; -1: everything
+    bool sphere = false;          ///< a sphere light: what is inside of it casts nothing
+    glm::mat4 worldToLight{1.0f}; ///< to the coordinates of the sphere, see AreaShape
 };
 
 /// Boxes that shadows are fitted to.

@@ -13,7 +13,7 @@ namespace patina {
 namespace sh {
 #define PATINA_FN inline
 #define PATINA_OUT(T) T&
-#include "shaders/lib/roundLight.glsl"
+#include "shaders/lib/sphereLight.glsl"
 #undef PATINA_OUT
 #undef PATINA_FN
 } // namespace sh
@@ -28,6 +28,11 @@ vec2 passNumbers(uint32_t seed, uint32_t pass, uint32_t set) {
     return Sampler(set, 1, seed, pass).next2();
 }
 
+/// The same with a third number, stratified together with them.
+vec3 threeNumbers(uint32_t seed, uint32_t pass, uint32_t set) {
+    return Sampler(set, 1, seed, pass).next3();
+}
+
 vec3 onSphere(vec2 u) {
     const float z = 1.0f - 2.0f * u.x, r = std::sqrt(std::max(0.0f, 1.0f - z * z));
     return vec3(r * std::cos(2.0f * pi * u.y), r * std::sin(2.0f * pi * u.y), z);
@@ -35,15 +40,15 @@ vec3 onSphere(vec2 u) {
 
 } // namespace
 
-GpuLight RasterLights::draw(const Source& s, vec2 u, float more) const {
+GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
     GpuLight g = s.fixed;
     vec3 radiance = s.radiance;
     switch (s.kind) {
     case Rect:
     case Disk: {
-        vec2 q = u - 0.5f;
+        vec2 q = vec2(u) - 0.5f;
         float density = 1.0f;
-        if (s.image) density = s.image->sample(u, q); // shaders look the image up
+        if (s.image) density = s.image->sample(vec2(u), q); // shaders look the image up
         if (s.kind == Disk)
             q = std::sqrt(u.x) * vec2(std::cos(2.0f * pi * u.y), std::sin(2.0f * pi * u.y));
         g.sampled = vec4(s.shape.origin + s.shape.axes * vec3(q, 0.0f), 1.0f);
@@ -52,9 +57,15 @@ GpuLight RasterLights::draw(const Source& s, vec2 u, float more) const {
         break;
     }
     case Sphere:
+        g.sampled = vec4(s.shape.origin + s.shape.axes * sh::sphereLightPlace(u), 1.0f);
+        break;
     case Cylinder: {
-        const vec3 q = sh::roundLightPlace(s.kind == Sphere, vec3(u, more));
-        g.sampled = vec4(s.shape.origin + s.shape.axes * q, 1.0f);
+        const vec3 n(0.0f, std::cos(2.0f * pi * u.y), std::sin(2.0f * pi * u.y));
+        const vec3 wide = glm::transpose(s.shape.inverse) * n;
+        const float length = glm::length(wide);
+        const float stretched = std::fabs(s.shape.determinant) * length;
+        g.sampled = vec4(s.shape.origin + s.shape.axes * (n + vec3(u.x - 0.5f, 0.0f, 0.0f)), 1.0f);
+        g.normal = vec4(wide / length, 1.0f / (2.0f * pi * stretched));
         break;
     }
     case Triangle: break; // see takeEmitters()
@@ -78,10 +89,10 @@ GpuLight RasterLights::draw(const Source& s, vec2 u, float more) const {
         vec3 d;
         float pdf = 0.25f / pi;
         if (s.environment) {
-            d = s.environment->sample(u, pdf);
+            d = s.environment->sample(vec2(u), pdf);
             radiance *= s.environment->radiance(d);
         } else {
-            d = onSphere(u);
+            d = onSphere(vec2(u));
         }
         g.sampled = vec4(s.domeToWorld * d, 0.0f);
         g.normal = vec4(0.0f, 0.0f, 0.0f, pdf);
@@ -179,8 +190,7 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
         const int samples = s.kind == Dome ? std::max(_domeSamples, 1) : 1;
         for (int n = 0; n < samples; ++n) {
             const uint32_t index = pass * uint32_t(samples) + uint32_t(n);
-            GpuLight g =
-                draw(s, passNumbers(_seed, index, set), passNumbers(_seed, index, set + 2).x);
+            GpuLight g = draw(s, threeNumbers(_seed, index, set));
             g.fade.w = choice.second;
             // The first of a dome also stands for what samples of the BSDF find.
             if (n > 0) g.radiance.w = float(MoreDome);
@@ -196,7 +206,7 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
     out.taken = int(out.lights.size());
     for (size_t i = 0; i < _sources.size(); ++i)
         if (!taken[i] && _sources[i].fixed.inverse[2].w != 0.0f)
-            out.lights.push_back(draw(_sources[i], vec2(0.5f), 0.5f));
+            out.lights.push_back(draw(_sources[i], vec3(0.5f)));
     return out;
 }
 

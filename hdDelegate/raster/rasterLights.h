@@ -76,8 +76,8 @@ private:
                  RasterDomes& domes);
     bool addShape(Source& source, const Light& light, const mat4& toWorld, LightImages& images,
                   Diagnostics& diagnostics);
-    /// @param more a third number, for shapes that are samples all through
-    GpuLight draw(const Source& source, vec2 u, float more) const;
+    /// @param u in the unit cube; the third number is for sphere lights
+    GpuLight draw(const Source& source, const vec3& u) const;
     int mapsOf(const Source& source, const ShadowBounds& bounds) const;
     std::vector<std::pair<size_t, float>> choose(uint32_t pass, const ShadowBounds& bounds,
                                                  int room) const;

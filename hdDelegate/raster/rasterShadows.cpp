@@ -65,9 +65,8 @@ void RasterLights::castShadow(GpuLight& light, int category, vec2 turn, const Sh
     const auto full = [&](int more) { return int(out.shadows.size()) + more > most; };
     const auto cast = [&](const mat4& worldToMap) {
         ShadowView view{worldToMap, light.sampled, category};
-        const int kind = int(light.radiance.w);
-        if (kind == Sphere || kind == Cylinder) {
-            view.shape = kind == Sphere ? 1 : 2;
+        view.sphere = int(light.radiance.w) == Sphere;
+        if (view.sphere) {
             const mat3 inverse(vec3(light.inverse[0]), vec3(light.inverse[1]),
                                vec3(light.inverse[2]));
             view.worldToLight = mat4(inverse) * glm::translate(mat4(1.0f), -vec3(light.origin));

@@ -12,7 +12,7 @@ namespace sh {
 
 #include "shaders/lib/ltc.glsl"
 #define PATINA_OUT(T) T&
-#include "shaders/lib/roundLight.glsl"
+#include "shaders/lib/sphereLight.glsl"
 #undef PATINA_OUT
 #undef PATINA_FN
 } // namespace sh
@@ -72,36 +72,48 @@ struct AreaLight {
                     glm::dot(v, z) / glm::dot(z, z));
     }
 
-    bool isRound() const { return kind == sh::LTC_SPHERE || kind == sh::LTC_CYLINDER; }
-
     /// A direction to a sample of the rasterizer, and its density by solid angle.
     float sample(vec3 u, vec3& wi) const {
-        vec3 n;
-        if (!isRound()) {
-            const vec3 p = at(vec2(u), n);
-            return density(p, n, wi);
+        if (kind == sh::LTC_SPHERE) {
+            const vec3 q = sh::sphereLightPlace(u);
+            wi = glm::normalize(origin + x * q.x + y * q.y + z * q.z);
+            return densityAlong(wi);
         }
-        const vec3 q = sh::roundLightPlace(kind == sh::LTC_SPHERE, u);
-        wi = glm::normalize(origin + x * q.x + y * q.y + z * q.z);
-        return densityAlong(wi);
+        vec3 n;
+        const vec3 p = at(vec2(u), n);
+        return density(p, n, wi);
     }
 
     /// Density with which sample() finds a direction; 0 where there is no light.
     float densityAlong(const vec3& wi) const {
         const vec3 o = toShape(-origin), d = toShape(wi);
-        if (isRound()) {
+        float t = -1.0f;
+        if (kind == sh::LTC_SPHERE) {
             const float volume = std::fabs(glm::dot(glm::cross(x, y), z));
-            float t, found;
-            return sh::roundLightHit(kind == sh::LTC_SPHERE, o, d, volume, t, found) ? found : 0.0f;
+            float found;
+            return sh::sphereLightHit(o, d, volume, t, found) ? found : 0.0f;
         }
-        const float t = std::fabs(d.z) > 1e-9f ? -o.z / d.z : -1.0f;
-        const vec3 p = o + d * t;
-        const bool inside = kind == sh::LTC_RECT ? std::max(std::fabs(p.x), std::fabs(p.y)) <= 0.5f
-                                                 : p.x * p.x + p.y * p.y <= 1.0f;
-        if (!inside || t <= 0.0f) return 0.0f;
+        if (kind == sh::LTC_CYLINDER) {
+            const float a = d.y * d.y + d.z * d.z, b = o.y * d.y + o.z * d.z,
+                        c = o.y * o.y + o.z * o.z - 1.0f, root = b * b - a * c;
+            if (a < 1e-12f || root < 0.0f) return 0.0f;
+            t = (-b - std::sqrt(root)) / a;
+            if (std::fabs(o.x + d.x * t) > 0.5f) return 0.0f;
+        } else {
+            t = std::fabs(d.z) > 1e-9f ? -o.z / d.z : -1.0f;
+            const vec3 p = o + d * t;
+            const bool inside = kind == sh::LTC_RECT
+                                    ? std::max(std::fabs(p.x), std::fabs(p.y)) <= 0.5f
+                                    : p.x * p.x + p.y * p.y <= 1.0f;
+            if (!inside) return 0.0f;
+        }
+        if (t <= 0.0f) return 0.0f;
+        const vec3 p = wi * t, local = o + d * t;
         vec3 n, unused;
         at(vec2(0.5f), n);
-        return density(wi * t, n, unused);
+        if (kind == sh::LTC_CYLINDER)
+            n = glm::length(n) * glm::normalize(y * local.y + z * local.z);
+        return density(p, n, unused);
     }
 };
 

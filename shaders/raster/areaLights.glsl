@@ -50,7 +50,7 @@ float shareAbove(Light l, vec3 n) {
     float width = max(round ? length(reach.yz) : abs(reach.y), 1e-20), sum = 0.0;
     for (int i = 0; i < lines; ++i) {
         float t = (h + reach.x * ((float(i) + 0.5) / float(lines) - 0.5)) / width;
-        sum += clamp(0.5 + (round ? 0.5 : 1.0) * t, 0.0, 1.0);
+        sum += round ? 1.0 - acos(clamp(t, -1.0, 1.0)) * INV_PI : clamp(0.5 + t, 0.0, 1.0);
     }
     return sum / float(lines);
 }

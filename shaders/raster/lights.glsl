@@ -1,6 +1,6 @@
 // Lights as a pass knows them, and their shapes. See hdDelegate/raster/rasterLight.h.
 
-#include "shaders/lib/roundLight.glsl"
+#include "shaders/lib/sphereLight.glsl"
 
 struct Light {
     vec4 sampled;  // xyz: position, or direction to the light; w: 1 position, 0 direction
@@ -103,6 +103,11 @@ vec3 fromShape(Light l, vec3 v) {
     return l.axis0.xyz * v.x + l.axis1.xyz * v.y + l.axis2.xyz * v.z;
 }
 
+// World normal of a normal in the shape's coordinates; its length is that of the inverse transpose.
+vec3 shapeNormal(Light l, vec3 n) {
+    return vec3(dot(l.inverse0.xyz, n), dot(l.inverse1.xyz, n), dot(l.inverse2.xyz, n));
+}
+
 // A rect's image at a position in the shape's coordinates: radiance factor, and density of samples
 // relative to uniform.
 vec4 imageOfRect(Light l, vec2 q) {
@@ -137,7 +142,16 @@ bool lightHit(Light l, vec3 origin, vec3 direction, out float t, out float densi
         return true;
     }
     float volume = abs(dot(cross(l.axis0.xyz, l.axis1.xyz), l.axis2.xyz));
-    return roundLightHit(kind == LIGHT_SPHERE, o, d, volume, t, density);
+    if (kind == LIGHT_SPHERE) return sphereLightHit(o, d, volume, t, density);
+    float a = dot(d.yz, d.yz), b = dot(o.yz, d.yz), c = dot(o.yz, o.yz) - 1.0;
+    float discriminant = b * b - a * c;
+    if (discriminant <= 0.0 || a <= 0.0 || c <= 0.0) return false;
+    t = (-b - sqrt(discriminant)) / a;
+    vec3 q = o + d * t;
+    if (t <= 0.0 || abs(q.x) > 0.5) return false;
+    vec3 wide = shapeNormal(l, vec3(0.0, q.yz)); // as long as the area is small
+    density = 0.5 * INV_PI / volume * t * t / max(-dot(wide, direction), 1e-10);
+    return true;
 }
 
 // A light's sample as a point meets it. wi: to it; reach: how far it is; density: of all samples of the
@@ -155,7 +169,7 @@ vec3 lightSample(Light l, vec3 p, out vec3 wi, out float density, out float reac
     float d2 = max(dot(d, d), 1e-20);
     reach = sqrt(d2);
     wi = d / reach;
-    if (kind == LIGHT_SPHERE || kind == LIGHT_CYLINDER) {
+    if (kind == LIGHT_SPHERE) {
         vec3 image;
         if (!lightHit(l, p, wi, reach, density, image)) return vec3(0.0);
         return radiance * shapingFactor(l, -wi);

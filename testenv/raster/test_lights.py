@@ -166,7 +166,7 @@ INSIDE = """    def Sphere "bulb"
 
 @pytest.mark.parametrize("kind", ["SphereLight", "CylinderLight"])
 def test_what_is_inside_of_a_light_casts_nothing(kind, tmp_path):
-    """Samples of round lights lie inside of the light, but it shines from its surface."""
+    """Samples of a sphere light lie inside of it, but it shines from its surface."""
     place = '        double3 xformOp:translate = (-1, 2, 0)\n        uniform token[] xformOpOrder = ["xformOp:translate"]\n'
     lamp = light(kind, "        float inputs:radius = 0.4\n        float inputs:intensity = 4", place=place)
     (tmp_path / "with").mkdir()

@@ -175,7 +175,7 @@ def test_what_is_inside_of_a_light_casts_nothing(kind, tmp_path):
     empty, _ = pair(tmp_path / "without", lamp)
     found = bothBackEnds.numbers(full, traced)
     assert abs(found["bias"]) <= 0.01 and found["worst"] <= 0.1, found
-    np.testing.assert_allclose(full, empty, atol=2e-4)
+    np.testing.assert_allclose(full, empty, atol=2e-3)
 
 
 def test_few_samples_of_a_ball_are_even(tmp_path):

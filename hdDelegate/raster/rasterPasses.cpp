@@ -37,12 +37,12 @@ RasterPasses::RasterPasses(std::string& error)
          {GL_FRAGMENT_SHADER, "shadow", "#include \"shaders/raster/shadow.frag.glsl\"\n"}},
         error);
     if (!_shadow) return;
-    _shadowAround = GlProgram::make(
-        {{GL_VERTEX_SHADER, "shadow",
-          "#define AROUND_LIGHT\n#include \"shaders/raster/shadow.vert.glsl\"\n"},
-         {GL_FRAGMENT_SHADER, "shadow",
-          "#define AROUND_LIGHT\n#include \"shaders/raster/shadow.frag.glsl\"\n"}},
-        error);
+    _shadowAround =
+        GlProgram::make({{GL_VERTEX_SHADER, "shadow",
+                          "#define AROUND_LIGHT\n#include \"shaders/raster/shadow.vert.glsl\"\n"},
+                         {GL_FRAGMENT_SHADER, "shadow",
+                          "#define AROUND_LIGHT\n#include \"shaders/raster/shadow.frag.glsl\"\n"}},
+                        error);
     if (!_shadowAround) return;
     _depthOnly = GlProgram::make(
         {{GL_VERTEX_SHADER, "surface",
@@ -109,9 +109,9 @@ void RasterPasses::drawRuns(const RasterDraw& draw, const RasterSurface& surface
     }
 }
 
-/// Hairs lie over each other many times, and only what is in front has to be shaded.
+/// Only what is in front has to be shaded, which takes far longer than to find it.
 static bool isDrawnByDepth(const RasterDraw& d) {
-    return (d.flags & RasterShape::strip) && !d.material->glsl.presence &&
+    return !d.material->glsl.presence && !d.material->glsl.volumeOnly &&
            !d.material->glsl.transmits;
 }
 
@@ -158,7 +158,7 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
     }
 }
 
-void RasterPasses::drawDepthOfStrips(const RasterScene& scene, const RasterVisible& visible) const {
+void RasterPasses::drawDepths(const RasterScene& scene, const RasterVisible& visible) const {
     bool used = false;
     for (const RasterDraw& d : scene.draws()) {
         if (!isDrawnByDepth(d)) continue;
@@ -404,7 +404,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     gl.DepthFunc(GL_LESS);
     const RasterVisible visible = scene.visible(view.worldToClip);
-    drawDepthOfStrips(scene, visible);
+    drawDepths(scene, visible);
     drawSurfaces(scene, visible, Solid);
     drawTransmitting(scene, visible);
     gl.DepthMask(GL_FALSE);

@@ -68,7 +68,7 @@ private:
                      int layer) const;
     enum Which { AllForAovs, Solid, Transmitting, Tints };
     void drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which) const;
-    void drawDepthOfStrips(const RasterScene& scene, const RasterVisible& visible) const;
+    void drawDepths(const RasterScene& scene, const RasterVisible& visible) const;
     void drawTransmitting(const RasterScene& scene, const RasterVisible& visible);
     void drawVolumes(const RasterScene& scene);
     void needBehind();

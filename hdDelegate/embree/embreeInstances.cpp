@@ -2,29 +2,16 @@
 
 #include "hdDelegate/embree/cameraRays.h"
 #include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/scene/instancerCheck.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace patina {
-
-namespace {
-
-bool hasInverse(const mat4& m) {
-    const mat4 inverse = glm::inverse(m);
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(m[column][row]) || !std::isfinite(inverse[column][row]))
-                return false;
-    const float determinant = glm::determinant(mat3(m));
-    return std::isfinite(determinant) && determinant != 0.0f;
-}
-
-} // namespace
 
 std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Instancer>& prim) {
     auto result = std::make_shared<InstancerNode>();
     result->prim = prim;
+    warnOfInstancePrimvars(*prim, _diagnostics);
     std::vector<std::vector<mat4>> sampled(prim->transforms.size());
     for (size_t i = 0; i < sampled.size(); ++i) {
         sampled[i] = resample(prim->transforms[i], _shutterOpen, _shutterClose);

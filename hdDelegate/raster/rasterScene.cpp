@@ -1,5 +1,6 @@
 #include "hdDelegate/raster/rasterScene.h"
 
+#include "hdDelegate/scene/instancerCheck.h"
 #include "hdDelegate/scene/lightUnits.h"
 
 #include <algorithm>
@@ -253,9 +254,12 @@ void RasterScene::update(const SceneState& state, const vec3& origin, const Rast
     _volumes.begin();
     RasterInstances places(state, settings, camera.timeCode(0.5f), origin);
     settings.edgeLength = planSubdivision(state, camera, settings, places);
-    for (const auto& item : state.instancers)
+    for (const auto& item : state.instancers) {
+        warnOfInstancePrimvars(*item.second, _diagnostics);
+        warnOfInstances(*item.second, camera.timeCode(0.5f), _diagnostics);
         for (const MotionTransform& transform : item.second->transforms)
             _moves |= transform.moves();
+    }
     int rank = 0;
     for (const auto& item : state.geometry) {
         if (stop) return;

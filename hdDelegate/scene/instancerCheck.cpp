@@ -1,0 +1,43 @@
+#include "hdDelegate/scene/instancerCheck.h"
+
+#include "hdDelegate/scene/lightUnits.h"
+
+#include <cmath>
+
+namespace patina {
+
+bool hasInverse(const mat4& m) {
+    const mat4 inverse = glm::inverse(m);
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(m[column][row]) || !std::isfinite(inverse[column][row]))
+                return false;
+    const float determinant = glm::determinant(mat3(m));
+    return std::isfinite(determinant) && determinant != 0.0f;
+}
+
+void warnOfInstancePrimvars(const Instancer& instancer, Diagnostics& diagnostics) {
+    for (const Primvar& primvar : instancer.primvars)
+        if (primvar.interpolation != Interpolation::Constant)
+            diagnostics.warn(instancer.path, "primvars:" + primvar.name,
+                             "values per instance are not supported; instances show those of their "
+                             "prototypes");
+}
+
+void warnOfInstances(const Instancer& instancer, float timeCode, Diagnostics& diagnostics) {
+    bool outside = false, flat = false;
+    for (size_t i = 0; i < instancer.transforms.size(); ++i) {
+        const int prototype =
+            i < instancer.prototypeIndices.size() ? instancer.prototypeIndices[i] : -1;
+        outside |= prototype < 0 || size_t(prototype) >= instancer.prototypes.size();
+        flat |= !hasInverse(transformAt(instancer.transforms[i], timeCode));
+    }
+    if (outside)
+        diagnostics.warn(instancer.path, "protoIndices",
+                         "index out of range; the instance is not drawn");
+    if (flat)
+        diagnostics.warn(instancer.path, "transform",
+                         "an instance has a transform without an inverse and is not drawn");
+}
+
+} // namespace patina

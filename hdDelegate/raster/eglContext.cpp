@@ -142,11 +142,13 @@ bool isEnough(std::string& error) {
     for (const Limit& limit :
          {Limit{GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 2, "storage buffers in vertex shaders"},
           Limit{GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS, 8, "storage buffers in fragment shaders"},
-          Limit{GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, 12, "bindings of storage buffers"}}) {
+          Limit{GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, 12, "bindings of storage buffers"},
+          Limit{GL_MAX_UNIFORM_BLOCK_SIZE, 63232, "bytes in a uniform block"}}) {
         GLint there = 0;
         gl.GetIntegerv(limit.name, &there);
         const std::string fault = glFault("storageBlocks");
-        if (!fault.empty()) there = std::atoi(fault.c_str());
+        if (!fault.empty() && limit.name != GL_MAX_UNIFORM_BLOCK_SIZE)
+            there = std::atoi(fault.c_str());
         if (there >= limit.needed) continue;
         error = "the driver has " + std::to_string(there) + " " + limit.what + ", not the " +
                 std::to_string(limit.needed) + " that are needed";

@@ -130,9 +130,16 @@ RasterLights::choose(uint32_t pass, const ShadowBounds& bounds, int room) const 
         }
     }
     room = std::max(room, 7);
+    const int others = int(out.size()) * std::max(_domeSamples, 1) + mostCoarseSamples;
+    const int left = std::max(mostTaken - others, 3);
     const int ones = int(groups[1].size()), sixes = int(groups[2].size());
     const int forSixes = std::min(sixes, std::max(1, (room - std::min(ones, room / 4)) / 6));
-    const int most[3] = {maxUnshadowed, sixes > 0 ? room - 6 * forSixes : room, forSixes};
+    int most[3] = {maxUnshadowed, sixes > 0 ? room - 6 * forSixes : room, forSixes};
+    for (int k = 0, given = left; k < 3; ++k) { // a third each at least
+        const int wanted = std::min(most[k], int(groups[k].size()));
+        most[k] = std::min(wanted, given / (3 - k));
+        given -= most[k];
+    }
     const vec3 center = 0.5f * (bounds.receiverMin + bounds.receiverMax);
     const float radius = 0.25f * glm::length(bounds.receiverMax - bounds.receiverMin);
     for (int k = 0; k < 3; ++k) {
@@ -203,6 +210,7 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
         }
     }
     takeEmitters(pass, emitterSamples, emitters, bounds, most, out);
+    if (out.lights.size() > size_t(mostTaken)) out.lights.resize(size_t(mostTaken));
     out.taken = int(out.lights.size());
     for (size_t i = 0; i < _sources.size(); ++i)
         if (!taken[i] && _sources[i].fixed.inverse[2].w != 0.0f)

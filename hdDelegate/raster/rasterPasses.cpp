@@ -353,7 +353,10 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     std::vector<mat4> matrices;
     for (const ShadowView& v : sampled.shadows)
         matrices.push_back(v.worldToMap);
-    const GlBuffer lightBuffer(sampled.lights), matrixBuffer(matrices);
+    static_assert(RasterLights::mostTaken * sizeof(GpuLight) <= 63232, "see isEnough()");
+    std::vector<GpuLight> taken(sampled.lights.begin(), sampled.lights.begin() + sampled.taken);
+    taken.resize(RasterLights::mostTaken, GpuLight::none());
+    const GlBuffer lightBuffer(sampled.lights), takenBuffer(taken), matrixBuffer(matrices);
 
     const RasterView view = camera.view(sample.offset, sample.lens, sample.time, scene.boundsMin(),
                                         scene.boundsMax(), _border);
@@ -391,6 +394,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     lights.tables().buffer().bindStorage(8);
     _timer.mark(Surfaces);
     lightBuffer.bindStorage(4);
+    takenBuffer.bindUniform(4);
     matrixBuffer.bindStorage(5);
     _shadowMaps.bind(18);
 

@@ -1,8 +1,18 @@
 // What the camera sees where no surface is: area lights as solid shapes, and domes.
 #include "shaders/compat/glsl.glsl"
+#define ALL_LIGHTS
 #include "shaders/raster/pass.glsl"
 in vec2 vWindow;
 layout(location = 0) out vec4 outColor;
+
+// All domes together, as the camera sees them.
+vec4 skyRadiance(vec3 w, float lod) {
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < lightInfo.x; ++i)
+        if (int(lights[i].radiance.w) == LIGHT_DOME && lights[i].inverse2.w != 0.0)
+            sum += vec4(radianceOfDome(lights[i], w, lod), 1.0);
+    return vec4(sum.rgb, min(sum.a, 1.0));
+}
 
 void main() {
     vec4 near = clipToWorld * vec4(vWindow, -1.0, 1.0);

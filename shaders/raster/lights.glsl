@@ -21,7 +21,12 @@ struct Light {
     vec4 shapingX;  // local x across the axis; w: thetas of the profile
     vec4 shapingY;  // w: phis
 };
+#ifdef ALL_LIGHTS
 layout(std430, binding = 4) readonly buffer Lights { Light lights[]; };
+#else
+// Those that the pass takes: drivers read uniform blocks faster than storage.
+layout(std140, binding = 4) uniform Lights { Light lights[208]; }; // RasterLights::mostTaken
+#endif
 layout(std430, binding = 8) readonly buffer LightTables { vec4 lightTables[]; };
 
 const int LIGHT_RECT = 0;
@@ -59,15 +64,6 @@ float domePdf(Light l, vec3 w, float lod) {
     float finer = 0.5 * log2(2.0 * max(extra.x, 1.0)) - log2(float(textureSize(domeDensities, 0).x));
     return textureLod(domeDensities, vec3(latlong(toDome(l, w)), l.cone.x), max(lod - finer, 0.0)).x;
 }
-// All domes together, as the camera sees them.
-vec4 skyRadiance(vec3 w, float lod) {
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < lightInfo.x; ++i)
-        if (int(lights[i].radiance.w) == LIGHT_DOME && lights[i].inverse2.w != 0.0)
-            sum += vec4(radianceOfDome(lights[i], w, lod), 1.0);
-    return vec4(sum.rgb, min(sum.a, 1.0));
-}
-
 // The profile in a direction away from the light, as LightShaping::factor().
 float profileFactor(Light l, vec3 away, float theta) {
     float phi = atan(-dot(away, l.shapingY.xyz), -dot(away, l.shapingX.xyz)) / TWO_PI;

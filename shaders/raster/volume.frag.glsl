@@ -1,6 +1,5 @@
 // A volume prim over what is drawn already: one place where light scatters is drawn from each ray's
-// steps and lit. Light on its way in is weakened by what absorbs, but by little of what scatters: that
-// stands for scattering of higher orders, without which dense smoke would be black inside.
+// steps and lit, by light that is scattered there for the first time and by what diffuses.
 #include "shaders/compat/glsl.glsl"
 #include "shaders/raster/pass.glsl"
 in vec2 vWindow;
@@ -33,7 +32,6 @@ vec3 departure(vec3 wi) {
 
 const int CAMERA_STEPS = 48;
 const int LIGHT_STEPS = 10;
-const float SCATTERED_AWAY = 0.15; // share of what scatters that light on its way in loses
 
 // Where a ray is inside the box.
 bool boxAlong(vec3 origin, vec3 direction, inout float near, inout float far) {
@@ -50,16 +48,46 @@ vec3 inMaps(vec3 p) {
     return ((worldToObject * vec4(p, 1.0)).xyz - boundsMin) / (boundsMax - boundsMin);
 }
 
-vec3 lightArrives(vec3 p, vec3 direction, float reach, float jitter) {
+// Optical depth on a way through the volume, and how much of it scatters, where forward scattering counts
+// as none (similarity).
+void opticalDepth(vec3 p, vec3 direction, float reach, float jitter, inout vec3 depth, inout vec3 scattering) {
     float near = 0.0, far = reach;
-    if (!boxAlong(p, direction, near, far)) return vec3(1.0);
+    if (!boxAlong(p, direction, near, far)) return;
     float dt = (far - near) / float(LIGHT_STEPS);
-    vec3 depth = vec3(0.0);
     for (int i = 0; i < LIGHT_STEPS; ++i) {
         vec3 at = inMaps(p + direction * (near + (float(i) + jitter) * dt));
-        depth += textureLod(extinctionMap, at, 0.0).rgb - (1.0 - SCATTERED_AWAY) * textureLod(scatteringMap, at, 0.0).rgb;
+        vec4 s = textureLod(scatteringMap, at, 0.0);
+        depth += (textureLod(extinctionMap, at, 0.0).rgb - s.w * s.rgb) * dt;
+        scattering += (1.0 - s.w) * s.rgb * dt;
     }
-    return exp(-depth * dt);
+}
+
+// Fluence of light that was scattered before, per irradiance, at a depth in a layer with light from
+// above: diffusion with Marshak's boundaries (Ishimaru 1978). Grows from 0 in thin layers to 5 deep in thick white ones.
+vec3 diffused(vec3 depth, vec3 layer, vec3 albedo) {
+    vec3 k = sqrt(clamp(3.0 * (1.0 - albedo), 0.001, 3.0));
+    k = mix(k, vec3(0.98), lessThan(abs(k - 1.0), vec3(0.02))); // 1 is a removable pole
+    vec3 source = (k * k - 3.0) / (1.0 - k * k);
+    vec3 m = 1.0 + k * (2.0 / 3.0), through = exp(-k * layer), n = (1.0 - k * (2.0 / 3.0)) * through;
+    vec3 top = source * (-5.0 / 3.0), bottom = source * exp(-layer) * (-1.0 / 3.0);
+    vec3 det = m * m - n * n;
+    return max((m * top - n * bottom) / det * exp(-k * depth) +
+                   (m * bottom - n * top) / det * exp(-k * (layer - depth)) + source * exp(-depth),
+               vec3(0.0));
+}
+
+// What scatters towards the camera of irradiance from a direction, per scattering coefficient: once, by the
+// phase function, and many times, as in a layer across that direction. What leaves at the sides of
+// clouds, which are no layers, is in the root: without it light from everywhere would be gathered.
+vec3 lightInside(vec3 p, vec3 direction, float reach, float jitter, float phase) {
+    vec3 depth = vec3(0.0), scattering = vec3(0.0);
+    opticalDepth(p, direction, reach, jitter, depth, scattering);
+    vec3 layer = depth;
+    opticalDepth(p, -direction, 1e30, jitter, layer, scattering);
+    vec3 albedo = scattering / max(layer, vec3(1e-20));
+    vec3 both = exp(-depth) + diffused(depth, layer, vec3(1.0)) + exp(depth - layer) +
+                diffused(layer - depth, layer, vec3(1.0));
+    return (phase * exp(-depth) + diffused(depth, layer, albedo) * (0.25 * INV_PI)) / sqrt(0.5 * both);
 }
 
 vec3 evenDirection(vec2 u) {
@@ -81,7 +109,8 @@ vec3 litAt(vec3 p, vec3 direction, float g, float jitter) {
         if (kind == LIGHT_DISTANT && l.origin.w > 0.0 && l.cone.x != 0.0) continue; // a dome's
         if (kind == LIGHT_DOME && l.cone.y == 0.0) { // nobody samples it: its mean
             sum += radianceOfDome(l, direction, max(float(lightInfo.y) - 1.0, 0.0)) * l.fade.w *
-                   lightArrives(p, evenDirection(vec2(jitter, fract(17.0 * jitter))), 1e30, jitter) * l.inverse1.w;
+                   lightInside(p, evenDirection(vec2(jitter, fract(17.0 * jitter))), 1e30, jitter, 0.25 * INV_PI) *
+                   (4.0 * PI * l.inverse1.w);
             continue;
         }
         vec3 wi;
@@ -89,8 +118,8 @@ vec3 litAt(vec3 p, vec3 direction, float g, float jitter) {
         vec3 radiance = lightSample(l, p, wi, density, reach);
         if (radiance == vec3(0.0)) continue;
         point.geometricNormal = wi;
-        sum += radiance / density * henyeyGreenstein(g, dot(direction, wi)) * shadowAt(l, wi) *
-               lightArrives(p, wi, reach, jitter) * l.inverse1.w;
+        sum += radiance / density * shadowAt(l, wi) *
+               lightInside(p, wi, reach, jitter, henyeyGreenstein(g, dot(direction, wi))) * l.inverse1.w;
     }
     return sum;
 }

@@ -13,17 +13,17 @@ PATINA_FN vec3 sphereLightPlace(vec3 u) {
 // The first point that a ray from outside meets. o, d: the ray in the sphere's coordinates, d as long as
 // the map makes a unit vector; volume: determinant of the map to the world.
 // t: distance; density: of the places above along the ray, by solid angle. Their density by volume, one
-// over pi^2 sqrt(1 - r^2), is integrated over the ray's chord with t^2.
+// over pi^2 sqrt(1 - r^2), is integrated over the ray's chord with t^2. Both are also set for rays that
+// miss by rounding alone; density is 0 from inside, and of what is behind.
 PATINA_FN bool sphereLightHit(vec3 o, vec3 d, float volume, PATINA_OUT(float) t, PATINA_OUT(float) density) {
     float a = dot(d, d);
-    float b = dot(o, d);
-    float c = dot(o, o) - 1.0f;
-    float root = b * b - a * c;
-    t = 0.0f;
+    float middle = -dot(o, d) / max(a, 1e-30f);
+    vec3 nearest = o + d * middle; // not the difference of squares, which small lights far away would be lost in
+    float chord = 1.0f - dot(nearest, nearest);
+    float h2 = max(chord, 0.0f) / max(a, 1e-30f);
+    t = middle - sqrt(h2);
     density = 0.0f;
-    if (root <= 0.0f || a <= 0.0f || c <= 0.0f) return false;
-    t = (-b - sqrt(root)) / a;
-    float middle = -b / a;
-    density = INV_PI * (middle * middle + 0.5f * root / (a * a)) / (volume * sqrt(a));
-    return t > 0.0f;
+    if (dot(o, o) <= 1.0f || t <= 0.0f) return false;
+    density = INV_PI * (middle * middle + 0.5f * h2) / (volume * sqrt(a));
+    return chord > 0.0f;
 }

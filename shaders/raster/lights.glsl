@@ -139,10 +139,11 @@ bool lightHit(Light l, vec3 origin, vec3 direction, out float t, out float densi
     }
     float volume = abs(dot(cross(l.axis0.xyz, l.axis1.xyz), l.axis2.xyz));
     if (kind == LIGHT_SPHERE) return sphereLightHit(o, d, volume, t, density);
-    float a = dot(d.yz, d.yz), b = dot(o.yz, d.yz), c = dot(o.yz, o.yz) - 1.0;
-    float discriminant = b * b - a * c;
-    if (discriminant <= 0.0 || a <= 0.0 || c <= 0.0) return false;
-    t = (-b - sqrt(discriminant)) / a;
+    float a = dot(d.yz, d.yz), middle = -dot(o.yz, d.yz) / max(a, 1e-30);
+    vec2 nearest = o.yz + d.yz * middle;
+    float chord = 1.0 - dot(nearest, nearest);
+    if (chord <= 0.0 || dot(o.yz, o.yz) <= 1.0) return false;
+    t = middle - sqrt(chord / max(a, 1e-30));
     vec3 q = o + d * t;
     if (t <= 0.0 || abs(q.x) > 0.5) return false;
     vec3 wide = shapeNormal(l, vec3(0.0, q.yz)); // as long as the area is small
@@ -166,8 +167,9 @@ vec3 lightSample(Light l, vec3 p, out vec3 wi, out float density, out float reac
     reach = sqrt(d2);
     wi = d / reach;
     if (kind == LIGHT_SPHERE) {
-        vec3 image;
-        if (!lightHit(l, p, wi, reach, density, image)) return vec3(0.0);
+        float volume = abs(dot(cross(l.axis0.xyz, l.axis1.xyz), l.axis2.xyz));
+        sphereLightHit(toShape(l, p - l.origin.xyz), toShape(l, wi), volume, reach, density);
+        if (density <= 0.0) return vec3(0.0);
         return radiance * shapingFactor(l, -wi);
     }
     radiance *= shapingFactor(l, -wi);

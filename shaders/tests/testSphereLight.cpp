@@ -106,3 +106,16 @@ TEST(SphereLight, nothingShinesInwards) {
     EXPECT_FALSE(sh::sphereLightHit(vec3(0.2f, 0.0f, 0.0f), vec3(1, 0, 0), 1.0f, t, density));
     EXPECT_FALSE(sh::sphereLightHit(vec3(2.0f, 0.0f, 0.0f), vec3(1, 0, 0), 1.0f, t, density));
 }
+
+// A lamp of a centimetre, ten kilometres away.
+TEST(SphereLight, smallOnesFarAwayAreNotLost) {
+    const Pose p{vec3(8000.0f, 5000.0f, 3000.0f), glm::mat3(0.01f)};
+    const float solidAngle = sh::PI * 0.01f * 0.01f / glm::dot(p.origin, p.origin);
+    std::mt19937 random(13);
+    std::uniform_real_distribution<float> u(0.0f, 1.0f);
+    for (int i = 0; i < 1000; ++i) {
+        float t, density;
+        p.hit(glm::normalize(p.place(vec3(u(random), u(random), u(random)))), t, density);
+        ASSERT_NEAR(density * solidAngle, 1.0f, 0.001f);
+    }
+}

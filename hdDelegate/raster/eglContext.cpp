@@ -146,9 +146,9 @@ bool isEnough(std::string& error) {
           Limit{GL_MAX_UNIFORM_BLOCK_SIZE, 63232, "bytes in a uniform block"}}) {
         GLint there = 0;
         gl.GetIntegerv(limit.name, &there);
-        const std::string fault = glFault("storageBlocks");
-        if (!fault.empty() && limit.name != GL_MAX_UNIFORM_BLOCK_SIZE)
-            there = std::atoi(fault.c_str());
+        const bool uniforms = limit.name == GL_MAX_UNIFORM_BLOCK_SIZE;
+        const std::string fault = glFault(uniforms ? "uniformBlock" : "storageBlocks");
+        if (!fault.empty()) there = std::atoi(fault.c_str());
         if (there >= limit.needed) continue;
         error = "the driver has " + std::to_string(there) + " " + limit.what + ", not the " +
                 std::to_string(limit.needed) + " that are needed";

@@ -12,6 +12,7 @@ namespace patina {
 /// shadow)
 /// - `material:PATH` that of a material does not
 /// - `storageBlocks:N` shaders may read N buffers
+/// - `uniformBlock:N` uniform blocks hold N bytes
 /// - `textureSize:N` textures of materials may have N x N pixels
 /// @returns what stands behind the colon; empty without such a fault
 std::string glFault(const std::string& kind);

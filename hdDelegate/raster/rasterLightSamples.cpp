@@ -3,20 +3,12 @@
 #include "hdDelegate/film/sampler.h"
 #include "hdDelegate/raster/lightChoice.h"
 #include "hdDelegate/raster/rasterLights.h"
-#include "shaders/shaders.h"
+#include "shaders/areaLights.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace patina {
-
-namespace sh {
-#define PATINA_FN inline
-#define PATINA_OUT(T) T&
-#include "shaders/lib/sphereLight.glsl"
-#undef PATINA_OUT
-#undef PATINA_FN
-} // namespace sh
 
 namespace {
 
@@ -120,14 +112,20 @@ std::vector<std::pair<size_t, float>>
 RasterLights::choose(uint32_t pass, const ShadowBounds& bounds, int room) const {
     std::vector<std::pair<size_t, float>> out;
     std::vector<size_t> groups[3]; // no maps, one, six
+    std::vector<size_t> domes;
     for (size_t i = 0; i < _sources.size(); ++i) {
         const int maps = mapsOf(_sources[i], bounds);
-        if (_sources[i].kind == Dome) {
-            out.emplace_back(i, 1.0f); // what domes light shows everywhere: none is ever missing
-            room -= maps;
-        } else {
+        if (_sources[i].kind == Dome)
+            domes.push_back(i);
+        else
             groups[maps == 0 ? 0 : maps == 1 ? 1 : 2].push_back(i);
-        }
+    }
+    // What domes light shows everywhere: up to `mostDomes` none is ever missing.
+    const float turn = passNumbers(_seed, pass, 23).x;
+    for (const ChosenLight& c :
+         chooseLights(std::vector<float>(domes.size(), 1.0f), mostDomes, turn)) {
+        out.emplace_back(domes[c.index], c.share);
+        room -= mapsOf(_sources[domes[c.index]], bounds);
     }
     room = std::max(room, 7);
     const int others = int(out.size()) * std::max(_domeSamples, 1) + mostCoarseSamples;

@@ -25,6 +25,7 @@ public:
     static constexpr int maxSmallMaps = 128;      ///< in half of it, where lights need more
     static constexpr int maxTinyMaps = 512;       ///< smaller still, for as few pixels a side
     static constexpr int maxUnshadowed = 64;      ///< lights without shadows per pass
+    static constexpr int mostDomes = 24;          ///< per pass
     static constexpr int mostTaken = 208;         ///< samples per pass, see Lights in lights.glsl
 
     /// @param domeSamples per pass, where domes are sampled

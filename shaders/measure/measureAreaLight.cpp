@@ -1,22 +1,10 @@
+#include "shaders/areaLights.h"
 #include "shaders/measure/measure.h"
 #include "shaders/measure/reflector.h"
 
 #include <random>
 
 #include <glm/glm.hpp>
-
-namespace patina {
-namespace sh {
-#define PATINA_FN inline
-#include "shaders/lib/ltcFit.glsl"
-
-#include "shaders/lib/ltc.glsl"
-#define PATINA_OUT(T) T&
-#include "shaders/lib/sphereLight.glsl"
-#undef PATINA_OUT
-#undef PATINA_FN
-} // namespace sh
-} // namespace patina
 
 namespace patina::measure {
 

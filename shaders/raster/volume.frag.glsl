@@ -63,7 +63,8 @@ void opticalDepth(vec3 p, vec3 direction, float reach, float jitter, inout vec3 
 }
 
 // Fluence of light that was scattered before, per irradiance, at a depth in a layer with light from
-// above: diffusion with Marshak's boundaries (Ishimaru 1978). Grows from 0 in thin layers to 5 deep in thick white ones.
+// above: diffusion with Marshak's boundaries (Ishimaru 1978, Wave Propagation and Scattering in Random
+// Media, chapter 9). Grows from 0 in thin layers to 5 deep in thick white ones.
 vec3 diffused(vec3 depth, vec3 layer, vec3 albedo) {
     vec3 k = sqrt(clamp(3.0 * (1.0 - albedo), 0.001, 3.0));
     k = mix(k, vec3(0.98), lessThan(abs(k - 1.0), vec3(0.02))); // 1 is a removable pole
@@ -78,7 +79,8 @@ vec3 diffused(vec3 depth, vec3 layer, vec3 albedo) {
 
 // What scatters towards the camera of irradiance from a direction, per scattering coefficient: once, by the
 // phase function, and many times, as in a layer across that direction. What leaves at the sides of
-// clouds, which are no layers, is in the root: without it light from everywhere would be gathered.
+// clouds, which are no layers, is in the root: `both` is what a white cloud would gather from everywhere,
+// which must not be above 1; the exponent was fitted to the cloud of testenv/scenes/volume.usda.
 vec3 lightInside(vec3 p, vec3 direction, float reach, float jitter, float phase) {
     vec3 depth = vec3(0.0), scattering = vec3(0.0);
     opticalDepth(p, direction, reach, jitter, depth, scattering);

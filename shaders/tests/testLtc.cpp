@@ -7,17 +7,8 @@
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
+#include "shaders/areaLights.h"
 #include "shaders/tests/lobeCase.h"
-
-namespace patina {
-namespace sh {
-#define PATINA_FN inline
-#include "shaders/lib/ltcFit.glsl"
-
-#include "shaders/lib/ltc.glsl"
-#undef PATINA_FN
-} // namespace sh
-} // namespace patina
 
 using namespace patina;
 using sh::vec3;

@@ -7,17 +7,8 @@
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
+#include "shaders/areaLights.h"
 #include "shaders/tests/lobeCase.h"
-
-namespace patina {
-namespace sh {
-#define PATINA_FN inline
-#define PATINA_OUT(T) T&
-#include "shaders/lib/sphereLight.glsl"
-#undef PATINA_OUT
-#undef PATINA_FN
-} // namespace sh
-} // namespace patina
 
 using namespace patina;
 using sh::vec2;

@@ -50,6 +50,7 @@ NO_START = {
 }
 FAILS = {
     "tooFewBuffers": ("storageBlocks:0", "0 storage buffers"),
+    "smallBlocks": ("uniformBlock:16384", "16384 bytes in a uniform block, not the 63232"),
     "shaderRefused": ("program:background", "asked for by PATINA_GL_FAULT"),
     "lostBefore": ("lost:0", "has reset the OpenGL context"),
     "lostMidway": ("lost:2", "has reset the OpenGL context"),

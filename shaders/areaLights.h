@@ -1,0 +1,20 @@
+#pragma once
+
+// The functions of area lights as C++, in the same namespace as the lobes.
+
+#include "shaders/shaders.h"
+
+#define PATINA_FN inline
+#define PATINA_OUT(T) T&
+
+namespace patina {
+namespace sh {
+#include "shaders/lib/ltcFit.glsl"
+
+#include "shaders/lib/ltc.glsl"
+#include "shaders/lib/sphereLight.glsl"
+} // namespace sh
+} // namespace patina
+
+#undef PATINA_FN
+#undef PATINA_OUT

@@ -33,6 +33,10 @@ namespace sh {
 #undef PATINA_FN_RARE
 #undef PATINA_OUT
 #undef PATINA_UNUSED
+#undef PATINA_ENERGY_KNOWN
+#undef PATINA_COMPENSATE
+#undef PATINA_FILM
+#undef PATINA_FILM_METHOD
 
 namespace sh64 {
 #define float double
@@ -45,5 +49,9 @@ namespace sh64 {
 #undef PATINA_FN_RARE
 #undef PATINA_OUT
 #undef PATINA_UNUSED
+#undef PATINA_ENERGY_KNOWN
+#undef PATINA_COMPENSATE
+#undef PATINA_FILM
+#undef PATINA_FILM_METHOD
 
 } // namespace patina

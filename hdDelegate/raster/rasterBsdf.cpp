@@ -18,7 +18,8 @@ std::string shaderOf(const MaterialProgram& program, const GlslMaterial& glsl) {
         if (program.primvars()[i].type == ValueType::Vec2)
             primvars += "    if (slot == " + std::to_string(i) +
                         ") return probeUv.z != 0.0 ? vec4(probeUv.xy, fallback.zw) : fallback;\n";
-    return "#include \"shaders/raster/material.glsl\"\n"
+    return glsl.definitions +
+           "#include \"shaders/raster/material.glsl\"\n"
            "layout(location = 0) uniform vec4 probeUv;\n" +
            glsl.text + glsl.albedoText + primvars +
            "    return fallback;\n}\n#include \"shaders/raster/bsdf.comp.glsl\"\n";

@@ -170,7 +170,8 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
                              (glsl.holds ? "#define MATERIAL_HOLDS\n" : "") +
                              (glsl.volumeOnly ? "#define MATERIAL_IS_VOLUME\n" : "") +
                              (glsl.fibre ? "#define MATERIAL_IS_FIBRE\n" : "") +
-                             "#define MATERIAL_IS_THIN " + (glsl.thin ? "true\n" : "false\n");
+                             "#define MATERIAL_IS_THIN " + (glsl.thin ? "true\n" : "false\n") +
+                             glsl.definitions;
     const std::string aovs = _aovs.text();
     auto& shared = _programs[head + lighting + aovs + glsl.text + (faulty ? "faulty" : "")];
     if (shared) return shared;

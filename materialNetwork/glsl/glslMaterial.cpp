@@ -58,6 +58,7 @@ public:
         _out.text = head + _text;
         _out.albedoText = glslAlbedo(_code);
         _out.traitsText = glslTraits(_code);
+        _out.definitions = glslDefinitions(_code);
         if (_out.parameters.empty()) _out.parameters.emplace_back(0.0f);
         _out.presence = !_program.isOpaque();
         _out.emission = _program.hasEmission();

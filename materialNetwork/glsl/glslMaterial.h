@@ -37,6 +37,7 @@ struct GlslMaterial {
     bool volumeOnly = false; ///< there is a boundary, but no surface
     bool thin = false;       ///< there is no inside
     bool fibre = false;      ///< lobes stand for the whole width of a curve
+    std::string definitions; ///< may stand before material.glsl: what holds for all lobes
 };
 
 /// What the text may use.

@@ -34,6 +34,21 @@ Trait traitOf(LobeKind kind, const std::string& lobe) {
     return t;
 }
 
+/// A number that may be the same for all lobes.
+struct Common {
+    int value = 0, count = 0;
+    bool same = true;
+
+    void add(int x) {
+        same = same && (count == 0 || x == value);
+        value = x;
+        ++count;
+    }
+    std::string definition(const std::string& name) const {
+        return same && count > 0 ? "#define " + name + " " + number(value) + "\n" : "";
+    }
+};
+
 } // namespace
 
 std::string glslFrameOf(const ProgramCode& code, size_t lobe) {
@@ -112,6 +127,19 @@ std::string glslTraits(const ProgramCode& code) {
            number(int(code.lobes.size())) + ";\n" + kinds + "    return LOBE_OTHER;\n}\n" + alphas +
            "    return 0.0;\n}\n" + rounds + "    return true;\n}\n" + places +
            "    return frames[0];\n}\n";
+}
+
+std::string glslDefinitions(const ProgramCode& code) {
+    Common compensate, film;
+    for (const LobeTemplate& t : code.lobes) {
+        if (t.prebuilt.kind == LobeKind::Conductor || t.prebuilt.kind == LobeKind::Dielectric ||
+            t.prebuilt.kind == LobeKind::Schlick)
+            compensate.add(t.compensate);
+        if (t.film || t.filmDielectric) film.add(t.filmMethod);
+    }
+    return compensate.definition("PATINA_COMPENSATE(compensate)") +
+           (film.count == 0 ? "#define PATINA_FILM(present) false\n"
+                            : film.definition("PATINA_FILM_METHOD(method)"));
 }
 
 std::vector<std::string> glslWalksLeftOut(const ProgramCode& code) {

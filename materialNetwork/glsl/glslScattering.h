@@ -23,6 +23,9 @@ std::string glslAlbedo(const ProgramCode& code);
 /// go through lobes one by one have to know. Only who asks for it takes it in
 std::string glslTraits(const ProgramCode& code);
 
+/// @returns what all lobes have in common, for before the text; see shaders/compat/glsl.glsl
+std::string glslDefinitions(const ProgramCode& code);
+
 /// @returns a line for each method of the program that walks, whose values are random and not
 /// GLSL's
 std::vector<std::string> glslWalksLeftOut(const ProgramCode& code);

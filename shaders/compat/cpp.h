@@ -12,6 +12,12 @@
 // A parameter that is not read; drivers want a name where compilers warn of one.
 #define PATINA_UNUSED(T, name) T
 
+// What a shader may know of all of its lobes when it is compiled, see glsl.glsl.
+#define PATINA_ENERGY_KNOWN(known) (known)
+#define PATINA_COMPENSATE(compensate) (compensate)
+#define PATINA_FILM(present) (present)
+#define PATINA_FILM_METHOD(method) (method)
+
 using vec2 = glm::vec<2, float, glm::defaultp>;
 using vec3 = glm::vec<3, float, glm::defaultp>;
 using vec4 = glm::vec<4, float, glm::defaultp>;

@@ -23,6 +23,21 @@ PATINA_FN vec3 curveMeanAdded(FacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3 f3, 
            a4 * facetMean(p, 10.0f) + a5 * facetMean(p, 20.0f);
 }
 
+// Its cosines. Films are evaluated in loops over them: drivers copy the text of a function to wherever it is
+// called, and a dozen copies of a film took one two minutes to compile.
+PATINA_FN float curveCos(int j) {
+    float low = select(select(CONDUCTOR_COS.y, CONDUCTOR_COS.x, j == 2), 0.0f, j >= 1);
+    return select(select(select(1.0f, CONDUCTOR_COS3, j == 5), CONDUCTOR_COS.z, j >= 4), low, j >= 3);
+}
+
+// Gauss's rule with three points in the squared cosine.
+PATINA_FN float gaussCos(int j) {
+    return select(select(0.941965145f, 0.707106781f, j == 2), 0.335710687f, j >= 1);
+}
+PATINA_FN float gaussShare(int j) {
+    return select(8.0f / 18.0f, 5.0f / 18.0f, j == 1);
+}
+
 PATINA_FN vec3 curveMean(FacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3 f3, vec3 f4, vec3 f5) {
     return min(max(curveMeanAdded(p, f0, f1, f2, f3, f4, f5), vec3(0.0f)), vec3(1.0f));
 }
@@ -37,16 +52,17 @@ PATINA_FN vec3 conductorMean(FacetPlace p, vec3 n, vec3 k) {
 // The same of a conductor, or dielectric with k = 0, under a film. Within 2e-2: films of many
 // hundred nm wave between the cosines.
 PATINA_FN vec3 filmMean(FacetPlace p, Film film, vec3 n, vec3 k) {
-    return curveMean(
-        p, vec3(1.0f), filmReflectance(film, CONDUCTOR_COS.x, n, k),
-        filmReflectance(film, CONDUCTOR_COS.y, n, k), filmReflectance(film, CONDUCTOR_COS.z, n, k),
-        filmReflectance(film, CONDUCTOR_COS3, n, k), filmReflectance(film, 1.0f, n, k));
+    vec3 f[6];
+    for (int j = 1; j < 6; ++j)
+        f[j] = filmReflectance(film, curveCos(j), n, k);
+    return curveMean(p, vec3(1.0f), f[1], f[2], f[3], f[4], f[5]);
 }
 
 PATINA_FN vec3 filmAverage(Film film, vec3 n, vec3 k) {
-    return (filmReflectance(film, 0.335710687f, n, k) + filmReflectance(film, 0.941965145f, n, k)) *
-               (5.0f / 18.0f) +
-           filmReflectance(film, 0.707106781f, n, k) * (8.0f / 18.0f);
+    vec3 sum = vec3(0.0f);
+    for (int j = 0; j < 3; ++j)
+        sum += filmReflectance(film, gaussCos(j), n, k) * gaussShare(j);
+    return sum;
 }
 
 // Hemispherical average of the reflectance: three point Gauss rule in c^2, within 1e-2.

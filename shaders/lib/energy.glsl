@@ -9,7 +9,7 @@ const int COMPENSATE_ADD = 2;
 // Whether a lobe takes the second lobe; where it would not do, COMPENSATE_ADD scales too. thinner:
 // wo is on the thinner side.
 PATINA_FN bool energyAdds(int compensate, bool rough, bool thinner, int mode) {
-    return compensate == COMPENSATE_ADD && rough && thinner && mode == SCATTER_R;
+    return PATINA_COMPENSATE(compensate) == COMPENSATE_ADD && rough && thinner && mode == SCATTER_R;
 }
 
 // Turquin 2019, "Practical multiple scattering compensation for microfacet models": 1 + favg (1 -
@@ -17,7 +17,7 @@ PATINA_FN bool energyAdds(int compensate, bool rough, bool thinner, int mode) {
 // 1 as long as the lobe's own albedo is at most ess.
 PATINA_FN float energyReflect(float ess, float favg, int compensate) {
     float k = 1.0f + favg * (1.0f - ess) / max(ess, ALBEDO_MIN);
-    return select(k, 1.0f, compensate != 0);
+    return select(k, 1.0f, PATINA_COMPENSATE(compensate) != COMPENSATE_NONE);
 }
 
 // The transmitted lobe takes the rest, so that a lossless interface loses nothing. er and et:

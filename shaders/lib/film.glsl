@@ -26,6 +26,10 @@ PATINA_FN Film makeFilm(float thickness, float ior) {
     return f;
 }
 
+PATINA_FN bool filmIsThere(Film f) {
+    return PATINA_FILM(f.thickness > 0.0f);
+}
+
 // One Gaussian. phase: 2 PI times the path difference in um.
 PATINA_FN vec2 filmTerm(float phase, float amplitude, float wavenumber, float width) {
     float w = width * phase;
@@ -140,7 +144,8 @@ PATINA_FN vec3 filmReflectance(Film film, float c, vec3 n, vec3 k) {
     vec4 x = filmBase(ec, e * e, s2, n.x, k.x);
     vec4 y = filmBase(ec, e * e, s2, n.y, k.y);
     vec4 z = filmBase(ec, e * e, s2, n.z, k.z);
-    if (film.method == FILM_SPECTRAL)
+    int method = PATINA_FILM_METHOD(film.method);
+    if (method == FILM_SPECTRAL)
         return filmSpectral(2.0f * film.thickness * ec, s12, p12, x, y, z);
     FilmSum s = filmSum(s12, vec3(x.x, y.x, z.x), vec3(x.y, y.y, z.y));
     FilmSum p = filmSum(p12, vec3(x.z, y.z, z.z), vec3(x.w, y.w, z.w));
@@ -151,7 +156,7 @@ PATINA_FN vec3 filmReflectance(Film film, float c, vec3 n, vec3 k) {
     vec3 pi = p.qi;
     vec3 sum = s.constant + p.constant;
     for (int m = 1; m <= FILM_ORDERS; ++m) {
-        FilmSensitivity f = filmSensitivityBy(film.method, float(m) * phase);
+        FilmSensitivity f = filmSensitivityBy(method, float(m) * phase);
         sum +=
             s.factor * (sr * f.re - si * f.im) * 2.0f + p.factor * (pr * f.re - pi * f.im) * 2.0f;
         vec3 nextS = sr * s.qr - si * s.qi;

@@ -52,7 +52,7 @@ PATINA_FN ConductorLobe conductorMethods(ConductorLobe l, int albedo, int sampli
 // The lobe with a curve in place of the exact reflectance.
 PATINA_FN ConductorLobe conductorFresnel(ConductorLobe l, int model) {
     l.fresnel = model;
-    if (model == FRESNEL_EXACT || l.film.thickness > 0.0f) return l;
+    if (model == FRESNEL_EXACT || filmIsThere(l.film)) return l;
     l.curve = fresnelCurve(model, fresnelConductor(1.0f, l.ior, l.extinction),
                            fresnelConductor(1.0f / 7.0f, l.ior, l.extinction));
     l.favg = fresnelSchlickAverage(l.curve);
@@ -62,12 +62,12 @@ PATINA_FN ConductorLobe conductorFresnel(ConductorLobe l, int model) {
 // The lobe under a film (makeFilm), whose reflectance is exact whatever the model.
 PATINA_FN ConductorLobe conductorFilm(ConductorLobe l, float thickness, float ior) {
     l.film = makeFilm(thickness, ior);
-    if (l.film.thickness > 0.0f) l.favg = filmAverage(l.film, l.ior, l.extinction);
+    if (filmIsThere(l.film)) l.favg = filmAverage(l.film, l.ior, l.extinction);
     return l;
 }
 
 PATINA_FN vec3 conductorReflectance(ConductorLobe l, float c) {
-    if (l.film.thickness > 0.0f) return filmReflectance(l.film, c, l.ior, l.extinction);
+    if (filmIsThere(l.film)) return filmReflectance(l.film, c, l.ior, l.extinction);
     if (l.fresnel != FRESNEL_EXACT) return min(fresnelSchlick(c, l.curve), vec3(1.0f));
     return fresnelConductor(c, l.ior, l.extinction);
 }
@@ -80,7 +80,8 @@ PATINA_FN bool conductorAdds(ConductorLobe l) {
 // times at the same wo saves the table look-up.
 PATINA_FN ConductorLobe conductorAt(ConductorLobe l, vec3 wo) {
     l.known = true;
-    if (l.compensate == COMPENSATE_NONE || l.alpha.x == 0.0f || conductorAdds(l)) return l;
+    if (PATINA_COMPENSATE(l.compensate) == COMPENSATE_NONE || l.alpha.x == 0.0f || conductorAdds(l))
+        return l;
     float ess = albedoWhite(wo, l.alpha, l.facets, l.albedo);
     l.k = vec3(1.0f) + l.favg * ((1.0f - ess) / max(ess, ALBEDO_MIN));
     return l;
@@ -90,7 +91,7 @@ PATINA_FN LobeEval conductorEval(ConductorLobe l, vec3 wo, vec3 wi) {
     if (l.alpha.x == 0.0f || wo.z < 0.0f || wi.z <= 0.0f) return lobeEvalNone();
     vec3 i = vec3(wi.x * l.retro, wi.y * l.retro, wi.z);
     FacetPair p = facetPair(wo, i, l.alpha, 1.0f, l.facets);
-    if (!l.known) l = conductorAt(l, wo);
+    if (!PATINA_ENERGY_KNOWN(l.known)) l = conductorAt(l, wo);
     LobeEval e;
     e.value = conductorReflectance(l, p.c) * l.k * p.value;
     int sampling = facetSampling(l.sampling, l.facets, SCATTER_R);
@@ -130,7 +131,7 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
     float c = clamp(dot(wo, m), 0.0f, 1.0f);
     FacetBounce b = facetBounce(wo, m, c, l.alpha, 1.0f, true, l.facets);
     if (!b.valid) return lobeSampleNone();
-    if (!l.known) l = conductorAt(l, wo);
+    if (!PATINA_ENERGY_KNOWN(l.known)) l = conductorAt(l, wo);
     LobeSample s;
     s.wi = vec3(b.wi.x * l.retro, b.wi.y * l.retro, b.wi.z);
     if (sampling == FACETS_ALL && c <= 0.0f) return lobeSampleNone();
@@ -150,7 +151,7 @@ PATINA_FN bool conductorSteepChannel(float n, float k) {
 }
 
 PATINA_FN bool conductorSteep(ConductorLobe l) {
-    return (l.fresnel == FRESNEL_EXACT || l.film.thickness > 0.0f) &&
+    return (l.fresnel == FRESNEL_EXACT || filmIsThere(l.film)) &&
            (conductorSteepChannel(l.ior.x, l.extinction.x) ||
             conductorSteepChannel(l.ior.y, l.extinction.y) ||
             conductorSteepChannel(l.ior.z, l.extinction.z));
@@ -185,7 +186,7 @@ PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
     }
     FacetPlace p = facetPlace(wo, l.alpha, l.facets);
     vec3 mean = conductorMean(p, l.ior, l.extinction);
-    if (l.film.thickness > 0.0f)
+    if (filmIsThere(l.film))
         mean = filmMean(p, l.film, l.ior, l.extinction);
     else if (l.fresnel != FRESNEL_EXACT)
         mean = schlickMean(p, l.curve);

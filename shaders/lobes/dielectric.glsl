@@ -143,7 +143,7 @@ PATINA_FN DielectricEnergy dielectricRough(DielectricLobe l, vec3 wo) {
     }
     e.kr = energyReflect(ess, l.favg, l.compensate);
     e.kt = 1.0f;
-    if (l.compensate != COMPENSATE_NONE && !l.full) {
+    if (PATINA_COMPENSATE(l.compensate) != COMPENSATE_NONE && !l.full) {
         float both = energyBoth(er, et);
         e.kr = select(e.kr, both, eta >= 1.0f);
         e.kt = select(energyTransmit(er, et, e.kr), both, eta >= 1.0f);
@@ -169,7 +169,8 @@ PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, vec3 wo) {
 // several times at the same wo saves the table look-ups.
 PATINA_FN DielectricLobe dielectricAt(DielectricLobe l, vec3 wo) {
     l.known = true;
-    bool plain = (l.compensate == COMPENSATE_NONE || l.alpha.x == 0.0f) && !l.fused;
+    bool bare = PATINA_COMPENSATE(l.compensate) == COMPENSATE_NONE || l.alpha.x == 0.0f;
+    bool plain = bare && !l.fused;
     if (plain || l.matched || dielectricAdds(l, wo.z)) return l;
     if (l.mode == SCATTER_R && (l.full || dielectricEta(l, wo.z) >= 1.0f)) {
         float ess = albedoWhite(wo, l.alpha, l.facets, l.albedo);
@@ -195,7 +196,7 @@ PATINA_FN LobeEval dielectricEval(DielectricLobe l, vec3 wo, vec3 wi) {
     FacetPair p = facetPair(o, i, l.alpha, select(1.0f, eta, reflects), l.facets);
     float f = dielectricFresnel(l, p.c, eta);
     float share = select(f, 1.0f - f, reflects);
-    if (!l.known) l = dielectricAt(l, wo);
+    if (!PATINA_ENERGY_KNOWN(l.known)) l = dielectricAt(l, wo);
     LobeEval e;
     e.value = l.tint * (p.value * share * select(l.kr, l.kt, reflects));
     int sampling = facetSampling(l.sampling, l.facets, l.mode);
@@ -247,7 +248,7 @@ PATINA_FN LobeSample dielectricSample(DielectricLobe l, vec3 wo, vec3 u) {
     float density = 1.0f;
     if (!mirror) density = facetDensity(o, l.alpha, m.z, c, l.facets, sampling);
     if (!b.valid || share <= 0.0f || (sampling == FACETS_ALL && c <= 0.0f)) return lobeSampleNone();
-    if (!l.known) l = dielectricAt(l, wo);
+    if (!PATINA_ENERGY_KNOWN(l.known)) l = dielectricAt(l, wo);
     bool isDelta = mirror || (!reflects && l.deltaT);
     bool both = l.mode == SCATTER_RT;
     float ratio = select(1.0f, b.ratio / density, l.matched);

@@ -78,18 +78,20 @@ PATINA_FN vec3 schlickBare(vec3 n, float c) {
 // changes a dielectric of the same color0: the curve itself knows no phases.
 PATINA_FN vec3 schlickOutside(SchlickLobe l, float c) {
     vec3 curve = min(fresnelSchlick(c, l.fresnel), vec3(1.0f));
-    if (l.film.thickness <= 0.0f) {
-        if (l.exact) return schlickBare(l.filmBase, c);
+    if (!filmIsThere(l.film)) {
+        if (PATINA_FILM(l.exact)) return schlickBare(l.filmBase, c);
         return curve;
     }
     vec3 coated = filmReflectance(l.film, c, l.filmBase, vec3(0.0f));
-    if (l.exact) return coated;
+    if (PATINA_FILM(l.exact)) return coated;
     return min(max(curve + coated - schlickBare(l.filmBase, c), vec3(0.0f)), vec3(1.0f));
 }
 
 PATINA_FN vec3 schlickAverage(SchlickLobe l) {
-    return (schlickOutside(l, 0.335710687f) + schlickOutside(l, 0.941965145f)) * (5.0f / 18.0f) +
-           schlickOutside(l, 0.707106781f) * (8.0f / 18.0f);
+    vec3 sum = vec3(0.0f);
+    for (int j = 0; j < 3; ++j)
+        sum += schlickOutside(l, gaussCos(j)) * gaussShare(j);
+    return sum;
 }
 
 // The lobe under a film (makeFilm).
@@ -97,7 +99,7 @@ PATINA_FN SchlickLobe schlickFilm(SchlickLobe l, float thickness, float ior) {
     l.film = makeFilm(thickness, ior);
     vec3 r = sqrt(min(l.fresnel.f0, vec3(F0_MAX)));
     l.filmBase = (vec3(1.0f) + r) / (vec3(1.0f) - r);
-    if (l.film.thickness > 0.0f) l.favg = schlickAverage(l);
+    if (filmIsThere(l.film)) l.favg = schlickAverage(l);
     return l;
 }
 
@@ -145,13 +147,13 @@ PATINA_FN vec3 schlickFused(vec3 r, bool fused) {
 
 // Reflectance at normal incidence.
 PATINA_FN vec3 schlickNormal(SchlickLobe l) {
-    if (l.exact || l.film.thickness > 0.0f) return schlickOutside(l, 1.0f);
+    if (PATINA_FILM(l.exact) || filmIsThere(l.film)) return schlickOutside(l, 1.0f);
     return l.fresnel.f0;
 }
 
 // What a film adds to Schlick's curve, or the reflectance of a dielectric under one.
 PATINA_FN vec3 schlickSmoothPart(SchlickLobe l, float c, float eta) {
-    if (l.exact) return schlickReflectance(l, c, eta);
+    if (PATINA_FILM(l.exact)) return schlickReflectance(l, c, eta);
     return filmReflectance(l.film, c, l.filmBase, vec3(0.0f)) - schlickBare(l.filmBase, c);
 }
 
@@ -159,12 +161,13 @@ PATINA_FN vec3 schlickSmoothPart(SchlickLobe l, float c, float eta) {
 // curve has moments of its own, however steep it is; what a film adds is smooth.
 PATINA_FN vec3 schlickTabled(SchlickLobe l, FacetPlace p, float eta) {
     vec3 mean = vec3(0.0f);
-    if (!l.exact) mean = schlickMean(p, l.fresnel);
-    if (l.exact || l.film.thickness > 0.0f)
-        mean += curveMeanAdded(
-            p, schlickSmoothPart(l, 0.0f, eta), schlickSmoothPart(l, CONDUCTOR_COS.x, eta),
-            schlickSmoothPart(l, CONDUCTOR_COS.y, eta), schlickSmoothPart(l, CONDUCTOR_COS.z, eta),
-            schlickSmoothPart(l, CONDUCTOR_COS3, eta), schlickSmoothPart(l, 1.0f, l.ior));
+    if (!PATINA_FILM(l.exact)) mean = schlickMean(p, l.fresnel);
+    if (PATINA_FILM(l.exact) || filmIsThere(l.film)) {
+        vec3 f[6];
+        for (int j = 0; j < 6; ++j)
+            f[j] = schlickSmoothPart(l, curveCos(j), select(l.ior, eta, j == 5));
+        mean += curveMeanAdded(p, f[0], f[1], f[2], f[3], f[4], f[5]);
+    }
     return min(max(mean, vec3(0.0f)), vec3(1.0f));
 }
 
@@ -172,7 +175,7 @@ PATINA_FN vec3 schlickTabled(SchlickLobe l, FacetPlace p, float eta) {
 PATINA_FN bool schlickOdd(SchlickLobe l) {
     SchlickFresnel s = l.fresnel;
     float dip = s.dip.x + s.dip.y + s.dip.z;
-    return !l.exact && (dip > 0.0f || lobeMean(s.f90) < 1.0f || s.exponent != 5.0f);
+    return !PATINA_FILM(l.exact) && (dip > 0.0f || lobeMean(s.f90) < 1.0f || s.exponent != 5.0f);
 }
 
 // What such a curve lets through over what a dielectric of that ior does, over all facets seen: T
@@ -258,7 +261,7 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
         e.r = mean * ess + multiLobe(l.favg, ess, l.alpha, l.facets).color;
         return e;
     }
-    bool compensates = l.compensate != COMPENSATE_NONE;
+    bool compensates = PATINA_COMPENSATE(l.compensate) != COMPENSATE_NONE;
     vec3 gain = select(l.favg, vec3(0.0f), compensates);
     e.kr = vec3(1.0f) + gain * ((1.0f - ess) / max(ess, ALBEDO_MIN));
     e.r = mean * e.kr * ess;
@@ -294,7 +297,8 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
 // The lobe with its energy factors for one wo, as dielectricAt.
 PATINA_FN SchlickLobe schlickAt(SchlickLobe l, vec3 wo) {
     l.known = true;
-    bool plain = (l.compensate == COMPENSATE_NONE || l.alpha.x == 0.0f) && !l.fused;
+    bool bare = PATINA_COMPENSATE(l.compensate) == COMPENSATE_NONE || l.alpha.x == 0.0f;
+    bool plain = bare && !l.fused;
     if (plain || schlickAdds(l, wo.z)) return l;
     SchlickEnergy e = schlickEnergy(l, wo);
     l.kr = e.kr;
@@ -320,7 +324,7 @@ PATINA_FN LobeEval schlickEval(SchlickLobe l, vec3 wo, vec3 wi) {
     FacetPair p = facetPair(o, i, l.alpha, select(1.0f, eta, reflects), l.facets);
     vec3 f = schlickReflectance(l, p.c, eta);
     float chance = schlickChance(l, f);
-    if (!l.known) l = schlickAt(l, wo);
+    if (!PATINA_ENERGY_KNOWN(l.known)) l = schlickAt(l, wo);
     LobeEval e;
     e.value = l.tint * select(f * l.kr, (vec3(1.0f) - f) * l.kt, reflects) * p.value;
     int sampling = facetSampling(l.sampling, l.facets, l.mode);
@@ -372,7 +376,7 @@ PATINA_FN LobeSample schlickSample(SchlickLobe l, vec3 wo, vec3 u) {
     if (!b.valid || p <= 0.0f || (sampling == FACETS_ALL && c <= 0.0f)) return lobeSampleNone();
     float density = 1.0f;
     if (!mirror) density = facetDensity(o, l.alpha, m.z, c, l.facets, sampling);
-    if (!l.known) l = schlickAt(l, wo);
+    if (!PATINA_ENERGY_KNOWN(l.known)) l = schlickAt(l, wo);
     bool isDelta = mirror || (!reflects && l.deltaT);
     float turn = select(l.retro, 1.0f, reflects);
     LobeSample s;

@@ -1,5 +1,6 @@
 // What the text of a generated material stands on: the shading point, frames, and how lobes become
 // a whole. The same steps as materialNetwork/cpu (bsdf, bsdfBuilder, shadingFrame), in GLSL.
+#define PATINA_ENERGY_KNOWN(known) true // by the ...Fix() functions below
 #include "shaders/compat/glsl.glsl"
 #include "shaders/lobes.glsl"
 #include "shaders/patterns.glsl"

@@ -140,7 +140,8 @@ std::string shaderOf(const MaterialProgram& program, const GlslMaterial& glsl) {
             primvars +=
                 "    if (slot == " + std::to_string(i) + ") return vec4(0.4, 0.6, 0.0, 0.0);\n";
     primvars += "    return fallback;\n}\n";
-    return "#include \"shaders/raster/material.glsl\"\n" + glsl.text + primvars + R"(
+    return glsl.definitions + "#include \"shaders/raster/material.glsl\"\n" + glsl.text + primvars +
+           R"(
 layout(local_size_x = 1) in;
 layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };
 layout(std430, binding = 6) writeonly buffer Answers { vec4 answers[]; };

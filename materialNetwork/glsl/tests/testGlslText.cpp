@@ -54,7 +54,9 @@ std::string whole(const GlslMaterial& glsl) {
     std::string error;
     const std::string text =
         flattenShader("material",
-                      "#include \"shaders/raster/material.glsl\"\n" + glsl.text + around, error)
+                      glsl.definitions + "#include \"shaders/raster/material.glsl\"\n" + glsl.text +
+                          around,
+                      error)
             .text;
     EXPECT_EQ(error, "");
     return "#version 450 core\n" + text;
@@ -102,6 +104,23 @@ TEST_P(GlslText, IsTakenByTheReferenceCompiler) {
 
 INSTANTIATE_TEST_SUITE_P(Materials, GlslText,
                          ::testing::Values("coatedPlastic", "texturedBumps", "flakesUnderGlass"));
+
+TEST(GlslDefinitions, SayWhatAllLobesHaveInCommon) {
+    const std::string none = "#define PATINA_FILM(present) false\n";
+    const auto definitions = [](float thickness, const MethodChoices& methods) {
+        const Network network = bsdfNetwork(
+            {makeNode("bsdf", "ND_conductor_bsdf", {{"thinfilm_thickness", number(thickness)}})});
+        FakeTextures textures;
+        Diagnostics diagnostics;
+        return makeGlslMaterial(*compileMaterial(network, textures, diagnostics, methods, -1.0))
+            .definitions;
+    };
+    EXPECT_EQ(definitions(0.0f, {}), "#define PATINA_COMPENSATE(compensate) 1\n" + none);
+    EXPECT_EQ(definitions(0.0f, {{"energyCompensation", "kullaConty"}}),
+              "#define PATINA_COMPENSATE(compensate) 2\n" + none);
+    EXPECT_EQ(definitions(400.0f, {}),
+              "#define PATINA_COMPENSATE(compensate) 1\n#define PATINA_FILM_METHOD(method) 0\n");
+}
 
 TEST(GlslTextStrings, NeverReachTheText) {
     const auto textOf = [](const std::string& word) {

@@ -197,21 +197,23 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
                               surface + aovs + (_aovs.albedo ? glsl.albedoText : std::string()) +
                                   "#include \"shaders/raster/aovs.frag.glsl\"\n"}},
                             error);
-    if (programs->aovs && glsl.presence)
+    const bool lets = glsl.presence || !glsl.passesText.empty();
+    if (programs->aovs && lets)
         programs->shadow = GlProgram::make(
             {{GL_VERTEX_SHADER, "shadow",
               "#define SHADOW\n" + head + "#include \"shaders/raster/surface.vert.glsl\"\n"},
              {GL_FRAGMENT_SHADER, "material",
-              surface + "#include \"shaders/raster/presence.frag.glsl\"\n"}},
+              surface + (glsl.passesText.empty() ? "" : "#define MATERIAL_PASSES\n") +
+                  glsl.passesText + "#include \"shaders/raster/presence.frag.glsl\"\n"}},
             error);
-    if (programs->shadow && glsl.tints)
+    if (programs->shadow && glsl.presence && glsl.tints)
         programs->tint =
             GlProgram::make({vertex,
                              {GL_FRAGMENT_SHADER, "material",
                               surface + "#include \"shaders/raster/tint.frag.glsl\"\n"}},
                             error);
     ++_built;
-    if (!programs->aovs || (glsl.presence && !programs->shadow) ||
+    if (!programs->aovs || (lets && !programs->shadow) ||
         (glsl.tints && glsl.presence && !programs->tint)) {
         _diagnostics.warn(user, "",
                           "the driver does not take the material's shader; displayColor is "

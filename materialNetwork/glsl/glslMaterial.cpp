@@ -57,6 +57,7 @@ public:
                 "]; };\nvec4 materialParameter(int i) { return parameters[i]; }\n" + textures;
         _out.text = head + _text;
         _out.albedoText = glslAlbedo(_code);
+        _out.passesText = glslPasses(_code);
         _out.traitsText = glslTraits(_code);
         _out.definitions = glslDefinitions(_code);
         if (_out.parameters.empty()) _out.parameters.emplace_back(0.0f);

@@ -25,6 +25,7 @@ namespace patina {
 struct GlslMaterial {
     std::string text;
     std::string albedoText;            ///< may follow: vec3 materialAlbedo(), as Bsdf::albedo()
+    std::string passesText;            ///< may follow: vec3 materialPasses(), what lobes refract
     std::string traitsText;            ///< may follow: see glslTraits()
     std::vector<glm::vec4> parameters; ///< `vec4 parameters[]` of the text
     std::vector<GlslTexture> textures; ///< those of `texture0`...

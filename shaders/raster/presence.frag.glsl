@@ -5,5 +5,14 @@ layout(location = 6) uniform vec4 towardsLight; // position of the light, or dir
 void main() {
     if (isInsideLight(vPosition)) discard;
     setPoint(towardsLight.w != 0.0 ? normalize(towardsLight.xyz - vPosition) : towardsLight.xyz, 0.0);
+#ifdef PRESENCE
     if (!isPresent()) discard;
+#endif
+#ifdef MATERIAL_PASSES
+    // What is refracted goes straight on here, with the luminance of its share as a chance. It leaves as
+    // it enters: straight ways out would be reflected where those that refraction turned are not.
+    if (!woOutside()) setPoint(-point.view, 0.0);
+    materialSetup();
+    if (ownRandom(32u) < luminance(materialPasses())) discard;
+#endif
 }

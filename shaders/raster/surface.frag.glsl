@@ -138,11 +138,13 @@ void setPointFromCamera() {
 
 // Whether this pass shows the surface at all: presence as a chance (stochastic transparency).
 // passes: colour of the light that passes where it does not.
-bool isPresent(out vec3 passes) {
-    uvec2 pixel = uvec2(gl_FragCoord.xy);
-    float x = materialPresence(passes);
+// Numbers of one triangle in one pixel, so that what lies behind each other is drawn apart.
+float ownRandom(uint set) {
     uint id = hash(uint(gl_PrimitiveID) + 4099u * uint(drawInfo.y));
-    return randomAt(pixel + uvec2(id & 1023u, id >> 22u), uint(counts.z), 31u).x < x;
+    return randomAt(uvec2(gl_FragCoord.xy) + uvec2(id & 1023u, id >> 22u), uint(counts.z), set).x;
+}
+bool isPresent(out vec3 passes) {
+    return ownRandom(31u) < materialPresence(passes);
 }
 bool isPresent() {
     vec3 passes;

@@ -1,0 +1,98 @@
+"""Light that reaches a floor through refracting things, which cast a part of a shadow: closed forms with a sun overhead."""
+import numpy as np
+import pytest
+
+import bothBackEnds
+from materialText import material
+from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
+
+# The camera sees the floor below the slab, and not the slab.
+STAGE = """#usda 1.0
+(
+    upAxis = "Y"
+)
+def Camera "camera"
+{
+    float focalLength = 50
+    float horizontalAperture = 20
+    float verticalAperture = 20
+    float2 clippingRange = (0.1, 4)
+    token projection = "orthographic"
+    double3 xformOp:translate = (0, 2, 0)
+    float3 xformOp:rotateXYZ = (-90, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+}
+def DistantLight "sun"
+{
+    float inputs:angle = 0
+    float3 xformOp:rotateXYZ = (%(turn)s, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
+}
+def Mesh "floor"
+{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-9, 0, 9), (9, 0, 9), (9, 0, -9), (-9, 0, -9)]
+    uniform token subdivisionScheme = "none"
+    color3f[] primvars:displayColor = [(0.5, 0.5, 0.5)]
+}
+%(object)s
+%(materials)s
+"""
+
+SLAB = """def Cube "slab" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
+{
+    rel material:binding = </material>
+    double3 xformOp:translate = (0, 5, 0)
+    float3 xformOp:scale = (20, 0.1, 20)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
+}
+"""
+
+
+def floor(folder, thing, turn=-90, **inputs):
+    """:returns: what the floor reflects, shape (3,), of the rasterizer"""
+    nodes = {"ior": ("float", "1.5"), "roughness": ("float2", "(0, 0)"), "scatter_mode": ("string", '"RT"'), **inputs}
+    glass = material("material", {"mtlx:surface": "surface"}, {
+        "glass": ("ND_dielectric_bsdf", {f"{kind} {name}": value for name, (kind, value) in nodes.items()}),
+        "surface": ("ND_surface", {"token bsdf": "<glass>"}),
+    })
+    (folder / "stage.usda").write_text(STAGE % {"object": thing, "materials": glass, "turn": turn})
+    image = str(folder / "image.exr")
+    bothBackEnds.record(str(folder / "stage.usda"), image, "--backend", "raster", "--samples", "64", "-w", "32",
+                        "--disableCameraLight")
+    return bothBackEnds.pixels(image).mean(axis=(0, 1))
+
+
+def fresnel(cosine, ior):
+    """:returns: unpolarised reflectance of a dielectric, from outside"""
+    inside = np.sqrt(1 - (1 - cosine ** 2) / ior ** 2)
+    s = (cosine - ior * inside) / (cosine + ior * inside)
+    p = (ior * cosine - inside) / (ior * cosine + inside)
+    return (s * s + p * p) / 2
+
+
+# Inputs, angle of the sun from the zenith in degrees, share of both faces for an index of refraction of 1.5.
+CASES = {
+    "clear": ({}, 0, 1.0),
+    "slanting": ({}, 60, 1.0),
+    "tinted": ({"tint": ("color3f", "(0.5, 0.5, 0.5)")}, 0, 0.25),
+    "rough": ({"roughness": ("float2", "(0.1, 0.1)")}, 0, 1.0),
+}
+
+
+@pytest.mark.parametrize("name", sorted(CASES))
+def test_a_slab_of_glass_lets_light_through(opengl, tmp_path, name):  # noqa: F811
+    """1024 pixels of 64 passes: the chances leave 0.2 % of standard deviation, the limit is 1 %."""
+    inputs, degrees, share = CASES[name]
+    (tmp_path / "without").mkdir()
+    open_sky = floor(tmp_path / "without", "", degrees - 90)
+    found = floor(tmp_path, SLAB, degrees - 90, **inputs) / open_sky
+    expected = share * (1 - fresnel(np.cos(np.radians(degrees)), 1.5)) ** 2
+    np.testing.assert_allclose(found, expected, atol=0.01)
+
+
+def test_what_only_reflects_casts_a_whole_shadow(opengl, tmp_path):  # noqa: F811
+    assert floor(tmp_path, SLAB, scatter_mode=("string", '"R"')).max() == 0.0

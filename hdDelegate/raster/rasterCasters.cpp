@@ -19,10 +19,15 @@ void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<Shado
         drawCasters(scene, views[i], _shadowMaps, int(i));
 }
 
-/// The first pass of a small scene draws all cells; a large one gets them by and by.
+/// The first pass of a small scene draws all cells; a large one gets them by and by, and one whose
+/// casters let light pass, too, since their materials are evaluated for every texel.
 int RasterPasses::skyCells(const RasterScene& scene) {
+    const auto& draws = scene.draws();
+    const bool slow = std::any_of(draws.begin(), draws.end(), [](const RasterDraw& d) {
+        return d.prim->visibility.shadow && d.material->programs->shadow;
+    });
     const size_t triangles = std::max<size_t>(1, scene.trianglesDrawn());
-    return int(std::clamp<size_t>(2000000 / triangles, 4, 1000));
+    return int(std::clamp<size_t>(2000000 / triangles, 4, slow ? 24 : 1000));
 }
 
 void RasterPasses::drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass) {

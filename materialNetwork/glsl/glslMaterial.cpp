@@ -38,6 +38,8 @@ public:
         line("vec3 lobeWeight[" + number(lobes) + "];");
         line("vec3 lobeAlbedo[" + number(lobes) + "];");
         line("float lobeChance[" + number(lobes) + "];");
+        if (std::any_of(_code.lobes.begin(), _code.lobes.end(), glslRefracts))
+            line("vec3 lobePassed[" + number(lobes) + "];");
         line("Frame frames[" + number(std::max(1, int(_code.frames.size()))) + "];");
         line("vec3 straight;");
         for (const std::string& walks : glslWalksLeftOut(_code))
@@ -233,6 +235,7 @@ private:
                             (reflects || kind == LobeKind::Sheen);
         line("    vec3 kept" + n + " = " + fixed + ";");
         line("    kept" + n + " = " + share(tinted ? "lobeAlbedo[" + n + "]" : "kept" + n) + ";");
+        if (glslRefracts(t)) line("    lobePassed[" + n + "] = fixPassed;");
         if (!t.straight) return;
         line("    vec3 wallPassed" + n + ", wallReflected" + n + ";");
         line("    " + prefix + "Wall(" + lobe + ", " + glslFrameOf(_code, i) + ".wo, lobeAlbedo[" +

@@ -110,20 +110,19 @@ std::string glslAlbedo(const ProgramCode& code) {
     return text + "    return sum;\n}\n";
 }
 
+bool glslRefracts(const LobeTemplate& t) {
+    return (t.prebuilt.kind == LobeKind::Dielectric || t.prebuilt.kind == LobeKind::Schlick) &&
+           !t.straight && (t.mode & sh::SCATTER_T) != 0;
+}
+
 std::string glslPasses(const ProgramCode& code) {
-    std::string text;
+    std::string sum;
     for (size_t i = 0; i < code.lobes.size(); ++i) {
-        const LobeTemplate& t = code.lobes[i];
-        const bool interface =
-            t.prebuilt.kind == LobeKind::Dielectric || t.prebuilt.kind == LobeKind::Schlick;
-        if (!interface || t.straight || (t.mode & sh::SCATTER_T) == 0) continue;
         const std::string n = number(int(i));
-        text += "    if (luminance(lobeWeight[" + n + "]) > 0.0) sum += lobeWeight[" + n + "] * " +
-                glslLobePrefix(t.prebuilt.kind) + "AlbedoTransmit(lobe" + n + ", " +
-                glslFrameOf(code, i) + ".wo);\n";
+        if (glslRefracts(code.lobes[i]))
+            sum += (sum.empty() ? "" : " + ") + ("lobeWeight[" + n + "] * lobePassed[" + n + "]");
     }
-    if (text.empty()) return "";
-    return "vec3 materialPasses() {\n    vec3 sum = vec3(0.0);\n" + text + "    return sum;\n}\n";
+    return sum.empty() ? sum : "vec3 materialPasses() { return " + sum + "; }\n";
 }
 
 std::string glslTraits(const ProgramCode& code) {

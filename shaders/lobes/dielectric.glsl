@@ -266,10 +266,6 @@ PATINA_FN vec3 dielectricAlbedoReflect(DielectricLobe l, vec3 wo) {
     return l.tint * select(dielectricEnergy(l, wo).r, 0.0f, (l.mode & SCATTER_R) != 0);
 }
 
-PATINA_FN vec3 dielectricAlbedoTransmit(DielectricLobe l, vec3 wo) {
-    return l.tint * select(dielectricEnergy(l, wo).t, 0.0f, (l.mode & SCATTER_T) != 0);
-}
-
 PATINA_FN vec3 dielectricAlbedo(DielectricLobe l, vec3 wo) {
     DielectricEnergy e = dielectricEnergy(l, wo);
     return l.tint * (select(e.r, 0.0f, (l.mode & SCATTER_R) != 0) +

@@ -393,10 +393,6 @@ PATINA_FN vec3 schlickAlbedoReflect(SchlickLobe l, vec3 wo) {
     return l.tint * select(schlickEnergy(l, wo).r, vec3(0.0f), (l.mode & SCATTER_R) != 0);
 }
 
-PATINA_FN vec3 schlickAlbedoTransmit(SchlickLobe l, vec3 wo) {
-    return l.tint * select(schlickEnergy(l, wo).t, vec3(0.0f), (l.mode & SCATTER_T) != 0);
-}
-
 PATINA_FN vec3 schlickAlbedo(SchlickLobe l, vec3 wo) {
     SchlickEnergy e = schlickEnergy(l, wo);
     return l.tint * (select(e.r, vec3(0.0f), (l.mode & SCATTER_R) != 0) +

@@ -194,7 +194,8 @@ SchlickEnergy schlickEnergyBy(SchlickLobe l, vec3 wo, int curve) {
 }
 
 // lobeFixWo() of materialNetwork/cpu/lobeOps.h: looks up what depends on wo alone, and returns the
-// share that the lobe keeps from the base of a layer.
+// share that the lobe keeps from the base of a layer. fixPassed: what it refracts.
+vec3 fixPassed;
 vec3 orenNayarFix(inout OrenNayarLobe l, vec3 wo, int curve, out vec3 albedo) {
     albedo = l.color;
     return vec3(1.0);
@@ -219,6 +220,7 @@ vec3 dielectricFix(inout DielectricLobe l, vec3 wo, int curve, out vec3 albedo) 
     l.kt = e.kt;
     float kept = ((l.mode & SCATTER_R) != 0 ? e.r : 0.0) + ((l.mode & SCATTER_T) != 0 ? e.t : 0.0);
     albedo = l.tint * kept;
+    fixPassed = l.tint * e.t;
     return vec3(l.mode == SCATTER_T ? 1.0 : kept);
 }
 vec3 schlickFix(inout SchlickLobe l, vec3 wo, int curve, out vec3 albedo) {
@@ -229,6 +231,7 @@ vec3 schlickFix(inout SchlickLobe l, vec3 wo, int curve, out vec3 albedo) {
     vec3 kept = ((l.mode & SCATTER_R) != 0 ? e.r : vec3(0.0)) +
                 ((l.mode & SCATTER_T) != 0 ? e.t : vec3(0.0));
     albedo = l.tint * kept;
+    fixPassed = l.tint * e.t;
     return l.mode == SCATTER_T ? vec3(1.0) : kept;
 }
 vec3 sheenFix(inout SheenLobe l, vec3 wo, int curve, out vec3 albedo) {

@@ -14,6 +14,7 @@ ConductorLobe lobe1;
 vec3 lobeWeight[2];
 vec3 lobeAlbedo[2];
 float lobeChance[2];
+vec3 lobePassed[2];
 Frame frames[2];
 vec3 straight;
 void place() {
@@ -30,6 +31,7 @@ void place() {
     lobe0 = dielectricSetup(parameters[3].xyz, parameters[4].x, parameters[5].xy, false, 3, false, 1);
     vec3 kept0 = dielectricFix(lobe0, frames[0].wo, 6, lobeAlbedo[0]);
     kept0 = shareLargest(kept0);
+    lobePassed[0] = fixPassed;
     lobe1 = conductorSetup(parameters[71].xyz, parameters[72].xyz, parameters[73].xy, false, 1);
     vec3 kept1 = conductorFix(lobe1, frames[1].wo, -1, lobeAlbedo[1]);
     kept1 = shareLargest(kept1);

@@ -22,7 +22,7 @@ class Progress:
         self.stream = stream or sys.stderr
         self.label, self.quiet = label, quiet
         self.terminal = not quiet and self.stream.isatty()
-        self.last = time.monotonic()
+        self.started = self.last = time.monotonic()
 
     def show(self, state):
         """:param state: what Renderer.progress() says"""
@@ -34,7 +34,9 @@ class Progress:
         self.last = now
         fraction = min(max(state["fraction"], 0.0), 1.0)
         text = f"{100 * fraction:3.0f} %  {state['samplesDone']} samples"
-        if state["secondsLeft"] > 0.5:
+        if fraction == 0.0 and state["samplesDone"] == 0:  # shapes, textures, and what drivers compile
+            text = f"preparing for {_clock(now - self.started)}"
+        elif state["secondsLeft"] > 0.5:
             text += f"  {_clock(state['secondsLeft'])} left"
         if self.terminal:
             filled = int(BAR * fraction + 0.5)

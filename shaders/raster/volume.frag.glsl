@@ -141,7 +141,7 @@ void main() {
     vec2 u = randomAt(uvec2(pixel), uint(counts.z), 40u + 2u * uint(volumeIndex));
     vec2 v = randomAt(uvec2(pixel), uint(counts.z), 41u + 2u * uint(volumeIndex));
     float dt = (far - near) / float(CAMERA_STEPS);
-    vec3 passed = vec3(1.0), emitted = vec3(0.0), scattered = vec3(0.0), drawn = vec3(0.0);
+    vec3 passed = vec3(1.0), glowing = vec3(1.0), emitted = vec3(0.0), scattered = vec3(0.0), drawn = vec3(0.0);
     float total = 0.0, own = 0.0, where = near, g = 0.0, choice = u.y;
     for (int i = 0; i < CAMERA_STEPS; ++i) {
         float t = near + (float(i) + u.x) * dt;
@@ -151,7 +151,13 @@ void main() {
         vec3 next = passed * exp(-sigma * dt);
         vec3 stretch = mix((passed - next) / max(sigma, vec3(1e-20)), passed * dt,
                            lessThan(sigma * dt, vec3(1e-4)));
-        emitted += textureLod(emissionMap, at, 0.0).rgb * stretch;
+        // What glows inside comes out scattered, too: only as much is lost as where it diffuses.
+        vec3 lost = max(sigma - s.rgb, vec3(0.0));
+        lost = min(sqrt(3.0 * lost * (sigma - s.w * s.rgb)), sigma);
+        vec3 dimmed = glowing * exp(-lost * dt);
+        emitted += textureLod(emissionMap, at, 0.0).rgb *
+                   mix((glowing - dimmed) / max(lost, vec3(1e-20)), glowing * dt, lessThan(lost * dt, vec3(1e-4)));
+        glowing = dimmed;
         vec3 part = s.rgb * stretch;
         float weight = part.x + part.y + part.z;
         total += weight;

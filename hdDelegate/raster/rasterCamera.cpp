@@ -93,6 +93,11 @@ RasterView RasterCamera::view(vec2 offset, vec2 lens, float time, const vec3& lo
     v.perspective = !_camera.orthographic;
     v.forward = -glm::normalize(vec3(toWorld[2]));
     v.pixelSpread = pixel.x;
+    const float own = std::min(n, std::max(_camera.clipNear, 0.0f));
+    v.fitted = n - own;
+    v.reach = std::max(_camera.clipFar - own, 0.0f);
+    for (const vec4& plane : _camera.clippingPlanes)
+        v.planes.push_back(glm::transpose(toCamera) * plane);
     return v;
 }
 

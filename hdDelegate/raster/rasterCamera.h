@@ -4,6 +4,7 @@
 #include "hdDelegate/scene/settings.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace patina {
 
@@ -13,6 +14,9 @@ struct RasterView {
     vec3 eye{0.0f}, forward{0, 0, -1}; ///< world
     bool perspective = true;
     float pixelSpread = 0.0f; ///< angle of a pixel; its width when orthographic
+    float fitted = 0.0f;      ///< from the camera's near plane to that of worldToClip
+    float reach = 0.0f;       ///< from the camera's near plane to its far plane
+    std::vector<vec4> planes; ///< world; what is behind one is not seen
 };
 
 /// The camera of a rasterized image, as hdDelegate/embree/cameraRays has it: the same window,

@@ -46,11 +46,10 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
     gl.NamedFramebufferTextureLayer(_shadowTarget, GL_DEPTH_ATTACHMENT, maps.id(), 0, layer);
     gl.ClearNamedFramebufferfv(_shadowTarget, GL_DEPTH, 0, &far);
     const vec4& to = view.towards;
-    const bool parallel = to.w == 0.0f; // see distantShadow()
-    const RasterVisible visible = scene.visible(view.worldToMap, parallel);
+    const RasterVisible visible = scene.visible(view.worldToMap, view.clampsNear);
     // Few lights have anything inside.
     const RasterVisible inside = view.sphere ? scene.visible(view.worldToLight) : RasterVisible();
-    if (parallel) gl.Enable(GL_DEPTH_CLAMP);
+    if (view.clampsNear) gl.Enable(GL_DEPTH_CLAMP);
     const GlProgram* last = nullptr;
     for (const RasterDraw& d : scene.draws()) {
         if (!d.prim->visibility.shadow || d.material->glsl.volumeOnly) continue;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float pi = 3.14159265f;
 constexpr int mostSides = 63, mostSteps = 64;
-constexpr float largestTurn = 0.3f; ///< of a curve's direction or a ribbon's normal in a step
+constexpr float largestTurn = 0.15f; ///< of a curve's direction or a ribbon's normal in a step
 
 using Rate = MeshAttribute::Rate;
 
@@ -33,9 +33,9 @@ float widestOf(const CurveSet& set) {
 
 class CurveBuilder {
 public:
-    CurveBuilder(const CurveSet& set, const RasterFineness& fineness, bool strips)
+    CurveBuilder(const CurveSet& set, const RasterFineness& fineness, bool strips, bool vaulted)
         : _set(set), _gap(fineness.gap), _linear(set.basis == CurveBasis::Linear),
-          _ribbon(!set.normals.empty()), _strips(strips && !_ribbon) {
+          _ribbon(!set.normals.empty()), _strips(strips && !_ribbon), _vaulted(vaulted && _strips) {
         for (const MeshAttribute& a : set.attributes) {
             MeshAttribute copy = a;
             if (a.rate == Rate::PerCorner) copy.data.clear();
@@ -45,9 +45,9 @@ public:
 
     RasterTriangles build() {
         const float widest = widestOf(_set);
-        _sides = _strips || _ribbon ? 1 : sidesFor(widest);
+        _sides = _vaulted ? 3 : _strips || _ribbon ? 1 : sidesFor(widest);
         // As wide as the circle in the mean over all directions.
-        _wider = _sides > 1 ? pi / float(_sides) / std::sin(pi / float(_sides)) : 1.0f;
+        _wider = !_strips && _sides > 1 ? pi / float(_sides) / std::sin(pi / float(_sides)) : 1.0f;
         for (size_t s = 0; s < _set.segments.size(); ++s)
             segment(s);
         TriangleMesh& mesh = _out.mesh;
@@ -67,7 +67,7 @@ public:
         size_t steps = 0;
         for (size_t s = 0; s < _set.segments.size(); ++s)
             steps += size_t(stepsOf(s));
-        return 2 * steps * size_t(_strips || _ribbon ? 1 : sidesFor(widestOf(_set)));
+        return 2 * steps * size_t(_vaulted ? 3 : _strips || _ribbon ? 1 : sidesFor(widestOf(_set)));
     }
 
 private:
@@ -189,11 +189,13 @@ private:
     /// @returns the first vertex of the ring
     uint32_t addVertices(size_t s, const Ring& ring) {
         if (_strips) {
-            _out.aside.push_back(ring.radius);
-            _out.aside.push_back(-ring.radius);
-            _out.ends.insert(_out.ends.end(), 2, float(ring.end));
-            vertex(ring.position, ring.along);
-            return vertex(ring.position, ring.along) - 1;
+            for (int k = 0; k <= _sides; ++k) {
+                const bool edge = k == 0 || k == _sides;
+                _out.aside.push_back(2 * k < _sides ? ring.radius : -ring.radius);
+                _out.ends.push_back(float(ring.end) + (edge ? 0.0f : StripVault));
+                vertex(ring.position, ring.along);
+            }
+            return uint32_t(_positions.size()) - uint32_t(_sides) - 1;
         }
         if (_ribbon) {
             const vec3 wide = acrossRibbon(s, ring);
@@ -260,15 +262,14 @@ private:
         _x = vec3(0.0f);
         for (const Ring& ring : rings)
             first.push_back(addVertices(s, ring));
-        const int across = _strips || _ribbon ? 1 : _sides;
+        const bool open = _strips || _ribbon;
         for (size_t i = 0; i + 1 < rings.size(); ++i) {
             const vec3 middle = rings[i].along + rings[i + 1].along;
             const float length = std::max(glm::length(middle), 1e-6f);
             const float radius = std::max(0.5f * (rings[i].radius + rings[i + 1].radius), 1e-20f);
             const vec3 along = middle * (radius / length);
-            for (int k = 0; k < across; ++k) {
-                const uint32_t own = uint32_t(k),
-                               next = uint32_t(across == 1 ? 1 : (k + 1) % across);
+            for (int k = 0; k < _sides; ++k) {
+                const uint32_t own = uint32_t(k), next = uint32_t(open ? k + 1 : (k + 1) % _sides);
                 const uint32_t a = first[i] + own, b = first[i] + next;
                 const uint32_t c = first[i + 1] + own, d = first[i + 1] + next;
                 const float u0 = rings[i].u, u1 = rings[i + 1].u;
@@ -282,7 +283,7 @@ private:
 
     const CurveSet& _set;
     float _gap, _wider = 1.0f;
-    bool _linear, _ribbon, _strips;
+    bool _linear, _ribbon, _strips, _vaulted;
     int _sides = 1;
     vec3 _x{0.0f}; ///< across the ring before
     RasterTriangles _out;
@@ -295,15 +296,20 @@ bool fitCurves(const CurveSet& set, RasterFineness& fineness, size_t most) {
     const float widest = widestOf(set);
     for (int i = 0; i < 24 && fineness.gap > 0.0f; ++i) {
         const bool thin = widest <= fineness.thick;
-        if (CurveBuilder(set, fineness, thin).expected() <= most) break;
+        if (CurveBuilder(set, fineness, thin, false).expected() <= most) break;
         fineness.gap *= 2.0f;
         fineness.thick *= 2.0f;
     }
     return widest <= fineness.thick;
 }
 
-RasterTriangles curveTriangles(const CurveSet& set, const RasterFineness& fineness, bool strips) {
-    return CurveBuilder(set, fineness, strips).build();
+bool vaultsFit(const CurveSet& set, const RasterFineness& fineness, size_t most) {
+    return CurveBuilder(set, fineness, true, true).expected() <= most;
+}
+
+RasterTriangles curveTriangles(const CurveSet& set, const RasterFineness& fineness, bool strips,
+                               bool vaulted) {
+    return CurveBuilder(set, fineness, strips, vaulted).build();
 }
 
 } // namespace patina

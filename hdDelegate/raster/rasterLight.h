@@ -30,6 +30,7 @@ struct ShadowView {
     glm::mat4 worldToMap{1.0f};
     glm::vec4 towards{0.0f};      ///< position of the light; direction to it where w is 0
     int category = -1;            ///< of what casts; -1: everything
+    bool clampsNear = false;      ///< what is nearer casts from the near plane
     bool sphere = false;          ///< a sphere light: what is inside of it casts nothing
     glm::mat4 worldToLight{1.0f}; ///< to the coordinates of the sphere, see AreaShape
 };
@@ -38,6 +39,14 @@ struct ShadowView {
 struct ShadowBounds {
     glm::vec3 sceneMin{0.0f}, sceneMax{0.0f};       ///< all that casts
     glm::vec3 receiverMin{0.0f}, receiverMax{0.0f}; ///< all that the camera sees
+    /// The fibres among it, where they lie much closer together; else low is above high.
+    glm::vec3 fibresMin{1.0f}, fibresMax{0.0f};
+
+    bool hasFibres() const { return fibresMin.x <= fibresMax.x; }
+    /// Fitted to the fibres alone.
+    ShadowBounds ofFibres() const {
+        return {sceneMin, sceneMax, fibresMin, fibresMax, fibresMin, fibresMax};
+    }
 };
 
 /// The view from infinitely far in a direction onto all receivers.

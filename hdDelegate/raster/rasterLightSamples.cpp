@@ -166,6 +166,13 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
     int wanted = 0;
     for (const Source& s : _sources)
         wanted += mapsOf(s, bounds);
+    if (bounds.hasFibres()) {
+        int more = 0;
+        for (const Source& s : _sources)
+            more += mapsOf(s, bounds.ofFibres());
+        out.fibres = wanted + more + (emitters.empty() ? 0 : 6 * leastEmitterSamples) <= maxMaps;
+        if (out.fibres) wanted += more;
+    }
     // Maps of half the size are still finer than a small image, and more samples gain more.
     const bool coarse = mapSize / 2 >= 4 * pixels;
     const int emitterSamples =

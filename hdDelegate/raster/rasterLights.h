@@ -42,6 +42,7 @@ public:
         int taken = 0;
         std::vector<ShadowView> shadows; ///< in the order of the layers of the shadow maps
         int mapSize = 0;
+        bool fibres = false; ///< lights have maps for fibres, too
     };
     /// @param mapSize of shadow maps, when there are not too many
     /// @param pixels along the longer side of the image
@@ -88,6 +89,9 @@ private:
     /// @param most maps that there is room for; a light that needs more is not shadowed
     void castShadow(GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds, int most,
                     Sampled& out) const;
+    /// @returns how many maps show the receivers; 0 without room
+    int castOnto(const GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds,
+                 int most, Sampled& out) const;
 
     RasterLightTables _tables;
     std::vector<Source> _sources;

@@ -18,7 +18,29 @@ struct RasterPasses::PassBlock {
     int counts[4] = {0, 0, 0, 0};
     vec4 extra{0.0f};
     int lightInfo[4] = {0, 0, 0, 0};
-    vec4 origin{0.0f};
+    vec4 origin{0.0f}, range{0.0f};
+    vec4 clipPlanes[RasterPasses::mostPlanes];
+};
+
+/// Clips what is drawn while it lives.
+class RasterPasses::Clipping {
+public:
+    explicit Clipping(const RasterView& view) : _planes(planesOf(view)) {
+        for (int i = 0; i < _planes; ++i)
+            gl.Enable(GL_CLIP_DISTANCE0 + GLenum(i));
+    }
+    ~Clipping() {
+        for (int i = 0; i < _planes; ++i)
+            gl.Disable(GL_CLIP_DISTANCE0 + GLenum(i));
+    }
+    Clipping(const Clipping&) = delete;
+    Clipping& operator=(const Clipping&) = delete;
+    static int planesOf(const RasterView& view) {
+        return std::min(int(view.planes.size()), mostPlanes);
+    }
+
+private:
+    int _planes;
 };
 
 RasterPasses::RasterPasses(std::string& error)
@@ -89,6 +111,9 @@ RasterPasses::PassBlock RasterPasses::block(const RasterScene& scene,
                                             const RasterView& view) const {
     PassBlock b;
     b.origin = vec4(scene.origin(), 0.0f);
+    const int planes = Clipping::planesOf(view);
+    b.range = vec4(view.fitted, view.reach, float(planes), 0.0f);
+    std::copy_n(view.planes.begin(), planes, b.clipPlanes);
     b.worldToClip = view.worldToClip;
     b.clipToWorld = view.clipToWorld;
     b.eye = vec4(view.eye, view.perspective ? 1.0f : 0.0f);
@@ -212,7 +237,10 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
     gl.DepthFunc(GL_LESS);
     gl.DepthMask(GL_TRUE);
     gl.BindVertexArray(_vertexArray);
-    drawSurfaces(scene, scene.visible(view.worldToClip), AllForAovs);
+    {
+        const Clipping clipping(view);
+        drawSurfaces(scene, scene.visible(view.worldToClip), AllForAovs);
+    }
 
     _timer.mark(ReadBack);
     const size_t pixels = size_t(_width) * size_t(_height);
@@ -243,8 +271,12 @@ void RasterPasses::writeAovs(const RasterScene& scene, const RasterCamera& camer
 /// What the camera sees, which is all that shadows have to be found on.
 void RasterPasses::measureReceivers(const RasterScene& scene, const RasterCamera& camera,
                                     const RasterView& view) {
-    vec3 low(INFINITY), high(-INFINITY);
-    for (const vec4& p : _seen.positions) {
+    vec3 low(INFINITY), high(-INFINITY), fibresLow = low, fibresHigh = high;
+    std::set<int> fibres;
+    for (const RasterDraw& d : scene.draws())
+        if (d.flags & RasterShape::strip) fibres.insert(d.primId);
+    for (size_t i = 0; i < _seen.positions.size(); ++i) {
+        const vec4& p = _seen.positions[i];
         if (!(p.w > 0.0f) || !std::isfinite(p.x + p.y + p.z)) continue;
         // What is beside the pixel's centre, through the lens too.
         const float away = glm::length(vec3(p) - view.eye);
@@ -252,6 +284,9 @@ void RasterPasses::measureReceivers(const RasterScene& scene, const RasterCamera
             2.0f * (view.perspective ? away : 1.0f) * view.pixelSpread + camera.blurAt(away);
         low = glm::min(low, vec3(p) - beside);
         high = glm::max(high, vec3(p) + beside);
+        if (fibres.count(_seen.ids[4 * i]) == 0) continue;
+        fibresLow = glm::min(fibresLow, vec3(p) - beside);
+        fibresHigh = glm::max(fibresHigh, vec3(p) + beside);
     }
     _bounds.sceneMin = scene.boundsMin();
     _bounds.sceneMax = scene.boundsMax();
@@ -264,6 +299,10 @@ void RasterPasses::measureReceivers(const RasterScene& scene, const RasterCamera
     const vec3 margin = 0.02f * (high - low) + 1e-4f * glm::length(high - low);
     _bounds.receiverMin = glm::max(low - margin, _bounds.sceneMin);
     _bounds.receiverMax = glm::min(high + margin, _bounds.sceneMax);
+    // Texels of maps for all that is seen would be wider than fibres are apart.
+    const bool closer = 2.0f * glm::length(fibresHigh - fibresLow) < glm::length(high - low);
+    _bounds.fibresMin = closer ? fibresLow : vec3(1.0f);
+    _bounds.fibresMax = closer ? fibresHigh : vec3(0.0f);
     _sky.reset();
 }
 
@@ -408,13 +447,16 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     gl.DepthFunc(GL_LESS);
     const RasterVisible visible = scene.visible(view.worldToClip);
-    drawDepths(scene, visible);
-    drawSurfaces(scene, visible, Solid);
-    drawTransmitting(scene, visible);
-    gl.DepthMask(GL_FALSE);
-    gl.Enable(GL_BLEND);
-    gl.BlendFunc(GL_ZERO, GL_SRC_COLOR);
-    drawSurfaces(scene, visible, Tints);
+    {
+        const Clipping clipping(view);
+        drawDepths(scene, visible);
+        drawSurfaces(scene, visible, Solid);
+        drawTransmitting(scene, visible);
+        gl.DepthMask(GL_FALSE);
+        gl.Enable(GL_BLEND);
+        gl.BlendFunc(GL_ZERO, GL_SRC_COLOR);
+        drawSurfaces(scene, visible, Tints);
+    }
     gl.Disable(GL_BLEND);
     drawVolumes(scene);
     gl.DepthMask(GL_TRUE);

@@ -56,9 +56,11 @@ public:
 
     static constexpr int shadowMapSize = 1024;
     static constexpr int bsdfSamples = 2; ///< per pixel and pass
+    static constexpr int mostPlanes = 8;  ///< that a camera clips with; see passBlock.glsl
 
 private:
     struct PassBlock;
+    class Clipping;
     void makeAovTarget(const RasterAovWish& wish);
     PassBlock block(const RasterScene& scene, const RasterView& view) const;
     void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);

@@ -209,6 +209,10 @@ private:
 
     void render(const SceneState& state, const Camera& cameraPrim) {
         RasterCamera camera = cameraFrom(cameraPrim);
+        if (cameraPrim.clippingPlanes.size() > size_t(RasterPasses::mostPlanes))
+            _scene->diagnostics().warn(cameraPrim.path, "clippingPlanes",
+                                       "the rasterizer clips by the first " +
+                                           std::to_string(RasterPasses::mostPlanes) + " alone");
         checkDevice(0);
         build(state, camera);
         if (_stop) return;

@@ -57,14 +57,24 @@ ShadowView distantShadow(const vec3& toLight, vec2 turn, const ShadowBounds& bou
     out.worldToMap =
         glm::ortho(c.x - h, c.x + h, c.y - h, c.y + h, -high.z - pad, -low.z + pad) * view;
     out.towards = vec4(toLight, 0.0f);
+    out.clampsNear = true;
     return out;
 }
 
 void RasterLights::castShadow(GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds,
                               int most, Sampled& out) const {
+    const float first = float(out.shadows.size());
+    const int maps = castOnto(light, category, turn, bounds, most, out);
+    if (maps == 0) return;
+    const int more = out.fibres ? castOnto(light, category, turn, bounds.ofFibres(), most, out) : 0;
+    light.shadow = vec4(first, float(maps), float(more), light.sampled.w == 0.0f ? 0.0f : 1.0f);
+}
+
+int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
+                           const ShadowBounds& bounds, int most, Sampled& out) const {
     const auto full = [&](int more) { return int(out.shadows.size()) + more > most; };
-    const auto cast = [&](const mat4& worldToMap) {
-        ShadowView view{worldToMap, light.sampled, category};
+    const auto cast = [&](const mat4& worldToMap, bool clampsNear) {
+        ShadowView view{worldToMap, light.sampled, category, clampsNear};
         view.sphere = int(light.radiance.w) == Sphere;
         if (view.sphere) {
             const mat3 inverse(vec3(light.inverse[0]), vec3(light.inverse[1]),
@@ -73,39 +83,38 @@ void RasterLights::castShadow(GpuLight& light, int category, vec2 turn, const Sh
         }
         out.shadows.push_back(view);
     };
-    const float first = float(out.shadows.size());
     if (light.sampled.w == 0.0f) {
-        if (full(1)) return;
-        light.shadow = vec4(first, 1.0f, 0.0f, 0.0f);
-        cast(distantShadow(vec3(light.sampled), turn, bounds, out.mapSize).worldToMap);
-        return;
+        if (full(1)) return 0;
+        cast(distantShadow(vec3(light.sampled), turn, bounds, out.mapSize).worldToMap, true);
+        return 1;
     }
     const vec3 from = vec3(light.sampled);
     const vec3 center = 0.5f * (bounds.receiverMin + bounds.receiverMax);
     const float radius = 0.5f * glm::length(bounds.receiverMax - bounds.receiverMin);
     const float distance = glm::length(center - from);
-    const float reach = distance + radius;
-    const float nearest = std::max(1e-3f * reach, 1e-6f);
-    const auto frustum = [&](float n) {
+    const float reach = distance + radius, least = std::max(1e-3f * reach, 1e-6f);
+    const auto frustum = [&](float tangent, float nearest) {
+        const float n = nearest * tangent;
         const vec2 shift = 2.0f * n * shiftOf(turn, out.mapSize);
         return glm::frustum(shift.x - n, shift.x + n, shift.y - n, shift.y + n, nearest,
                             reach * 1.01f);
     };
     if (distance > 1.3f * radius) {
-        if (full(1)) return;
+        if (full(1)) return 0;
         const float tangent = 1.02f * radius / std::sqrt(distance * distance - radius * radius);
-        const float n = nearest * tangent;
-        light.shadow = vec4(first, 1.0f, 0.0f, 1.0f);
-        cast(frustum(n) * looking(from, (center - from) / distance, turn.x));
-        return;
+        // Numbers are for where shadows fall, but of fading shadows, which are looked for on all of
+        // the way.
+        const bool clamps = !(light.fade.x > 0.0f);
+        const float nearest = clamps ? distance - 1.05f * radius : least;
+        cast(frustum(tangent, nearest) * looking(from, (center - from) / distance, turn.x), clamps);
+        return 1;
     }
-    if (full(6)) return;
-    light.shadow = vec4(first, 6.0f, 0.0f, 1.0f);
+    if (full(6)) return 0;
     const vec3 directions[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     // A little wider than a face of the cube, for offsets and filters at its edges.
-    const float n = nearest * 1.02f;
     for (const vec3& d : directions)
-        cast(frustum(n) * looking(from, d, 0.0f));
+        cast(frustum(1.02f, least) * looking(from, d, 0.0f), false);
+    return 6;
 }
 
 } // namespace patina

@@ -87,8 +87,8 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Wish& wish) {
     shape->boundsMin = mesh.boundsMin;
     shape->boundsMax = mesh.boundsMax;
     shape->flags = mesh.normals.empty() ? RasterShape::faceted : 0;
-    if (!form.seen.aside.empty()) shape->flags = RasterShape::strip;
     if (!form.casting.mesh.triangles.empty()) shape->flags = RasterShape::tube;
+    if (!form.seen.aside.empty()) shape->flags = RasterShape::strip;
     shape->triangles = mesh.triangles.size();
     const auto fill = [&](const RasterTriangles& triangles, std::vector<RasterSurface>& surfaces) {
         if (triangles.mesh.triangles.empty()) return;

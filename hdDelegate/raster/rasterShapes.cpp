@@ -132,8 +132,10 @@ RasterForm rasterTriangles(const Geometry& prim, const TessellationOptions& opti
         if (set.segments.empty()) break;
         RasterFineness own = fineness;
         const bool thin = fitCurves(set, own, mostCurveTriangles);
-        form.seen = curveTriangles(set, own, thin);
-        if (!thin && set.normals.empty()) form.casting = curveTriangles(set, own, true);
+        const bool vaulted = thin && vaultsFit(set, own, mostCurveTriangles);
+        form.seen = curveTriangles(set, own, thin, vaulted);
+        if ((vaulted || !thin) && set.normals.empty())
+            form.casting = curveTriangles(set, own, true);
         break;
     }
     case GeometryKind::Points: {

@@ -26,8 +26,10 @@ glm::vec3 fromOctahedral(glm::vec2 u) {
 } // namespace
 
 const GlTexture& RasterSky::maps() {
-    if (!_maps) {
-        _maps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT16, mapSize, mapSize, cells);
+    const int layers = _fibres ? 2 * cells : cells;
+    if (layers > _layers) {
+        _maps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT16, mapSize, mapSize, layers);
+        _layers = layers;
         _maps.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         _maps.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
@@ -37,7 +39,10 @@ const GlTexture& RasterSky::maps() {
 std::vector<RasterSky::Task> RasterSky::begin(uint32_t pass, uint32_t seed,
                                               const ShadowBounds& bounds, int most) {
     const bool first = _drawn.empty();
-    if (first) _drawn.assign(cells, Cell());
+    if (first) {
+        _drawn.assign(cells, Cell());
+        _fibres = bounds.hasFibres();
+    }
     const bool missing =
         std::any_of(_drawn.begin(), _drawn.end(), [](const Cell& c) { return c.map[0] < 0; });
     std::vector<Task> out;
@@ -55,13 +60,15 @@ std::vector<RasterSky::Task> RasterSky::begin(uint32_t pass, uint32_t seed,
         const glm::vec2 in = numbers.next2();
         const glm::vec3 direction =
             fromOctahedral((glm::vec2(float(at % side), float(at / side)) + in) / float(side));
-        Task task;
-        task.view = distantShadow(direction, numbers.next2(), bounds, mapSize);
-        task.layer = at;
-        cell.worldToMap = task.view.worldToMap;
+        const glm::vec2 turned = numbers.next2();
+        const auto take = [&](const ShadowBounds& onto, int layer, int& map) {
+            out.push_back({layer, distantShadow(direction, turned, onto, mapSize)});
+            map = layer;
+            return out.back().view.worldToMap;
+        };
         cell.towards = glm::vec4(direction, 0.0f);
-        cell.map[0] = at;
-        out.push_back(task);
+        cell.worldToMap = take(bounds, at, cell.map[0]);
+        if (_fibres) cell.worldToFibres = take(bounds.ofFibres(), cells + at, cell.map[1]);
         if (missing &&
             std::none_of(_drawn.begin(), _drawn.end(), [](const Cell& c) { return c.map[0] < 0; }))
             break;

@@ -29,16 +29,17 @@ public:
     void bind(GLuint buffer, GLuint texture);
 
     const GlTexture& maps();
-    int layers() const { return int(_drawn.size()); }
 
 private:
     struct Cell {
-        glm::mat4 worldToMap{1.0f};
+        glm::mat4 worldToMap{1.0f}, worldToFibres{1.0f};
         glm::vec4 towards{0.0f};
-        int map[4] = {-1, 0, 0, 0};
+        int map[4] = {-1, -1, 0, 0};
     };
     std::vector<Cell> _drawn; ///< all cells, map[0] -1 where nothing was drawn
     GlTexture _maps;
+    int _layers = 0;      ///< of _maps
+    bool _fibres = false; ///< maps for fibres lie behind the others
     GlBuffer _buffer;
 };
 

@@ -2,7 +2,7 @@
 #include "shaders/compat/glsl.glsl"
 #define ALL_LIGHTS
 #include "shaders/raster/pass.glsl"
-in vec2 vWindow;
+#include "shaders/raster/cameraRay.glsl"
 layout(location = 0) out vec4 outColor;
 
 // All domes together, as the camera sees them.
@@ -15,10 +15,8 @@ vec4 skyRadiance(vec3 w, float lod) {
 }
 
 void main() {
-    vec4 near = clipToWorld * vec4(vWindow, -1.0, 1.0);
-    vec4 far = clipToWorld * vec4(vWindow, 1.0, 1.0);
-    vec3 origin = near.xyz / near.w;
-    vec3 direction = normalize(far.xyz / far.w - origin);
+    vec3 start, direction;
+    vec2 range = cameraRay(start, direction);
     vec4 color = skyRadiance(direction, 0.0);
     float nearest = 1e30;
     float depth = 1.0;
@@ -28,10 +26,12 @@ void main() {
         if (l.inverse2.w == 0.0) continue;
         float t, density;
         vec3 image;
-        if (!lightHit(l, origin, direction, t, density, image) || t >= nearest) continue;
+        if (!lightHit(l, start + direction * range.x, direction, t, density, image)) continue;
+        t += range.x;
+        if (t >= min(nearest, range.y)) continue;
         nearest = t;
         shape = vec4(l.radiance.xyz * image * shapingFactor(l, -direction), 1.0);
-        vec4 clip = worldToClip * vec4(origin + direction * t, 1.0);
+        vec4 clip = worldToClip * vec4(start + direction * t, 1.0);
         depth = clamp(clip.z / clip.w * 0.5 + 0.5, 0.0, 1.0);
     }
     if (shape.a > 0.0) color = shape;

@@ -19,6 +19,13 @@ vec3 worldPosition() {
 vec3 alongStrip() {
     return mat3(inColumn0.xyz, inColumn1.xyz, inColumn2.xyz) * inNormal;
 }
+// Of a strip's vertex: places on the cross-section of the tube, in radii; x is across, y towards who looks. A
+// vault is as high as the tube in the mean.
+vec2 onStrip() {
+    if (inPosition.w == 0.0) return vec2(0.0);
+    vec2 at = length(inNormal) > 7.0 ? vec2(0.6, 0.98) : vec2(1.0, 0.0);
+    return vec2(inPosition.w < 0.0 ? -at.x : at.x, at.y);
+}
 // Where a vertex is for one who looks: a strip faces him, as wide as the outline of the tube.
 // viewer: position, or direction to it where w is 0.
 vec3 positionFor(vec4 viewer) {
@@ -32,6 +39,7 @@ vec3 positionFor(vec4 viewer) {
     // The outline of an open tube has half an ellipse beyond its end, that of a round one half a circle:
     // a strip gets as much longer.
     float kind = round(length(inNormal));
+    if (kind > 7.0) kind -= 8.0;
     if (kind > 1.0) {
         vec3 along = normalize(alongStrip()), towards = d * inversesqrt(max(away, 1e-30));
         float c = dot(along, towards);
@@ -39,5 +47,8 @@ vec3 positionFor(vec4 viewer) {
         float more = 0.785398 * abs(r) * (kind > 3.5 ? 1.0 : abs(c));
         p += beyond * (kind == 2.0 || kind == 4.0 ? more : -more);
     }
-    return p + across * (r / l);
+    vec2 at = onStrip();
+    p += across * (abs(r) * at.x / l);
+    if (at.y > 0.0) p += normalize(cross(across, alongStrip())) * (abs(r) * at.y);
+    return p;
 }

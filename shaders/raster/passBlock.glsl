@@ -11,4 +11,6 @@ layout(std140, binding = 0) uniform Pass {
     vec4 extra;     // x: texels of a dome's image, y: exposure factor, z: passes that will have been taken, w: extent of the scene
     ivec4 lightInfo; // x: lights that the background shows, y: highest level of domes, z: cells of the sky along a side (0 none), w: samples of filtered domes
     vec4 origin;     // all positions are relative to this place in the world
+    vec4 range;      // along the camera's axis: x, from its near plane to that of worldToClip, y, to its far plane; z: planes
+    vec4 clipPlanes[8]; // of the camera: what is behind one is not seen
 };

@@ -2,9 +2,9 @@
 // Defined before: isTube(), planeTowards() and departure() as surface.frag.glsl has them.
 layout(std430, binding = 5) readonly buffer ShadowMatrices { mat4 shadowMatrices[]; };
 struct SkyCell {
-    mat4 worldToMap;
+    mat4 worldToMap, worldToFibres;
     vec4 towards; // the direction drawn
-    ivec4 map;    // x: layer
+    ivec4 map;    // layers: x, of all; y, of the fibres, -1: none
 };
 layout(std430, binding = 10) readonly buffer SkyCells { SkyCell skyCells[]; };
 layout(binding = 18) uniform sampler2DArray shadowMaps;
@@ -35,10 +35,23 @@ float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n,
     return 0.5 * depth + 0.5 <= texelFetch(maps, ivec3(ivec2(texel), layer), 0).x + bias ? 1.0 : 0.0;
 }
 
+// Whether a map of the fibres alone shows a point.
+bool isShown(mat4 worldToMap, vec3 p) {
+    vec4 clip = worldToMap * vec4(p, 1.0);
+    return all(lessThan(abs(clip.xyz), vec3(clip.w)));
+}
+
 // Whether a light's sample reaches a point, as far as its maps tell.
 float reaches(Light l, vec3 p) {
-    int map = int(l.shadow.x);
-    if (l.shadow.y > 1.0) {
+    int map = int(l.shadow.x), maps = int(l.shadow.y);
+    if (isTube() && l.shadow.z > 0.0) {
+        int finer = map + maps;
+        if (l.shadow.z > 1.0 || isShown(shadowMatrices[finer], p)) {
+            map = finer;
+            maps = int(l.shadow.z);
+        }
+    }
+    if (maps > 1) {
         vec3 d = p - l.sampled.xyz;
         vec3 a = abs(d);
         map += a.x >= a.y && a.x >= a.z ? (d.x > 0.0 ? 0 : 1)
@@ -94,6 +107,10 @@ float skyReaches(vec3 wi) {
     mat4 m = skyCells[cell].worldToMap;
     int layer = skyCells[cell].map.x;
     vec3 towards = skyCells[cell].towards.xyz, p = departure(towards);
+    if (isTube() && skyCells[cell].map.y >= 0 && isShown(skyCells[cell].worldToFibres, p)) {
+        m = skyCells[cell].worldToFibres;
+        layer = skyCells[cell].map.y;
+    }
     float seen = isInFront(skyMaps, m, layer, p, isTube() ? planeTowards(towards) : up, 3e-5);
     if (seen == 0.0 || isTube()) return seen;
     // These texels are wide: the plane of what is small or round reaches through what is near.

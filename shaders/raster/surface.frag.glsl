@@ -3,7 +3,7 @@
 in vec3 vPosition;
 in vec3 vObjectPosition;
 in vec3 vNormal;
-in float vAcross;
+in vec2 vAcross;
 flat in mat3 vNormalMatrix;
 flat in float vScale;
 flat in ivec2 vInstance; // id, row of links
@@ -53,10 +53,10 @@ float tubeRadius = 0.0;
 void setOnStrip(vec3 view) {
     vec3 along = unitOr(vNormal, vTangent);
     vec3 across = unitOr(cross(along, view), anyTangent(along));
-    float h = clamp(vAcross, -1.0, 1.0);
+    float h = clamp(vAcross.x, -1.0, 1.0);
     // Interpolated over parts of a pixel it is only as exact as corners are, which drivers round: below an
     // eighth of a pixel any place across is taken, which are all as likely.
-    if (fwidth(vAcross) > 16.0) {
+    if (fwidth(vAcross.x) > 16.0) {
         uvec2 strip = uvec2(gl_PrimitiveID & 1023, drawInfo.y & 1023);
         float there = 2.0 * randomAt(uvec2(gl_FragCoord.xy) + strip, uint(counts.z), 30u).x - 1.0;
         point.position += across * ((there - h) * tubeRadius);
@@ -65,7 +65,7 @@ void setOnStrip(vec3 view) {
     float front = sqrt(1.0 - h * h) * tubeRadius;
     vec3 facing = cross(across, along);
     point.normal = point.geometricNormal = across * h + facing * sqrt(1.0 - h * h);
-    point.position += facing * front;
+    point.position += facing * (front - vAcross.y * tubeRadius);
     point.objectPosition += point.normal * tubeRadius * vNormalMatrix;
     vTangent = along;
 }

@@ -12,11 +12,14 @@ layout(std430, binding = 6) readonly buffer Primvars { vec4 primvars[]; };
 #endif
 
 invariant gl_Position; // depths that were drawn before are met again
+#ifndef SHADOW
+out float gl_ClipDistance[8];
+#endif
 
 out vec3 vPosition;
 out vec3 vObjectPosition;
 out vec3 vNormal; // of strips: along the curve
-out float vAcross; // of strips: -1 to 1
+out vec2 vAcross; // of strips, see onStrip()
 flat out mat3 vNormalMatrix;
 flat out float vScale;
 flat out ivec2 vInstance; // id, row of links
@@ -33,7 +36,7 @@ void main() {
 #else
     vPosition = positionFor(eye.w != 0.0 ? vec4(eye.xyz, 1.0) : vec4(-forward.xyz, 0.0));
 #endif
-    vAcross = sign(inPosition.w);
+    vAcross = onStrip();
     vNormal = inPosition.w != 0.0 ? alongStrip() : vNormalMatrix * inNormal;
     vInstance = inIds.xy;
 #if PRIMVARS > 0
@@ -45,5 +48,7 @@ void main() {
     if (!isLinked(inIds.y, category)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // clipped
 #else
     gl_Position = worldToClip * vec4(vPosition, 1.0);
+    for (int i = 0; i < 8; ++i)
+        gl_ClipDistance[i] = i < int(range.z) ? dot(clipPlanes[i], vec4(vPosition, 1.0)) : 1.0;
 #endif
 }

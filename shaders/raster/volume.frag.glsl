@@ -2,7 +2,7 @@
 // steps and lit, by light that is scattered there for the first time and by what diffuses.
 #include "shaders/compat/glsl.glsl"
 #include "shaders/raster/pass.glsl"
-in vec2 vWindow;
+#include "shaders/raster/cameraRay.glsl"
 layout(location = 0) out vec4 outColor;
 layout(location = 10) uniform mat4 worldToObject;
 layout(location = 14) uniform vec3 boundsMin;
@@ -127,15 +127,13 @@ vec3 litAt(vec3 p, vec3 direction, float g, float jitter) {
 }
 
 void main() {
-    vec4 nearPoint = clipToWorld * vec4(vWindow, -1.0, 1.0);
-    vec4 farPoint = clipToWorld * vec4(vWindow, 1.0, 1.0);
-    vec3 origin = nearPoint.xyz / nearPoint.w;
-    vec3 direction = normalize(farPoint.xyz / farPoint.w - origin);
+    vec3 origin, direction;
+    vec2 seen = cameraRay(origin, direction);
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float near = 0.0, far = 1e30, depth = texelFetch(behindDepth, pixel, 0).x;
+    float near = seen.x, far = seen.y, depth = texelFetch(behindDepth, pixel, 0).x;
     if (depth < 1.0) {
         vec4 world = clipToWorld * vec4(vWindow, depth * 2.0 - 1.0, 1.0);
-        far = dot(world.xyz / world.w - origin, direction);
+        far = min(far, dot(world.xyz / world.w - origin, direction));
     }
     if (!boxAlong(origin, direction, near, far)) discard;
     vec2 u = randomAt(uvec2(pixel), uint(counts.z), 40u + 2u * uint(volumeIndex));

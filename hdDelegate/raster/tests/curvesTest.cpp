@@ -73,6 +73,31 @@ TEST(RasterCurves, StripsFollowTheCurveAsFarAsIsSeen) {
     }
 }
 
+TEST(RasterCurves, VaultsAreStripsWithMoreColumns) {
+    const CurveSet set = bent(0.01f);
+    const RasterFineness fine = fineness(0.05f);
+    const RasterTriangles flat = curveTriangles(set, fine, true);
+    const RasterTriangles vaulted = curveTriangles(set, fine, true, true);
+    EXPECT_EQ(vaulted.mesh.triangles.size(), 3 * flat.mesh.triangles.size());
+    EXPECT_EQ(vaulted.aside.size(), 2 * flat.aside.size());
+    ASSERT_EQ(vaulted.aside.size() % 4, 0u);
+    for (size_t i = 0; i < vaulted.aside.size(); i += 4) {
+        EXPECT_GT(vaulted.aside[i], 0.0f);
+        EXPECT_EQ(vaulted.aside[i], vaulted.aside[i + 1]);
+        EXPECT_EQ(vaulted.aside[i], -vaulted.aside[i + 2]);
+        EXPECT_EQ(vaulted.aside[i], -vaulted.aside[i + 3]);
+        EXPECT_EQ(vaulted.ends[i] + StripVault, vaulted.ends[i + 1]);
+        EXPECT_EQ(vaulted.ends[i + 1], vaulted.ends[i + 2]);
+        EXPECT_EQ(vaulted.ends[i], vaulted.ends[i + 3]);
+    }
+    for (const uvec3& t : vaulted.mesh.triangles)
+        for (int k = 0; k < 3; ++k)
+            ASSERT_LT(t[k], vaulted.mesh.positions[0].size());
+    const size_t needs = vaulted.mesh.triangles.size();
+    EXPECT_TRUE(vaultsFit(set, fine, needs));
+    EXPECT_FALSE(vaultsFit(set, fine, needs - 1));
+}
+
 TEST(RasterCurves, StripsEndWhereTheCurveDoes) {
     CurveSet set = bent(0.01f);
     const auto endsOf = [](const CurveSet& curves) {

@@ -63,7 +63,7 @@ def test_hair_is_as_wide_and_as_bright_as_traced(tmp_path, width, turn):
     stage.write_text(STAGE % {"width": width, "turn": turn})
     found = {}
     thin = width < 0.01  # what one sample in 100 meets
-    for backend, samples in (("raster", 1024 if thin else 64), ("embree", 8192 if thin else 256)):
+    for backend, samples in (("raster", 4096 if thin else 64), ("embree", 8192 if thin else 256)):
         image = str(tmp_path / (backend + ".exr"))
         pairs.record(str(stage), image, "--backend", backend, "--samples", str(samples), "--maxDepth", "1", "-w", "64")
         import _patina

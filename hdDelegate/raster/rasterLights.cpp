@@ -106,6 +106,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
         const float gap = 2.0f * sine * sine;
         g.cone = vec4(0.0f, 0.0f, gap, 2.0f * pi * gap);
         s.delta = !(g.cone.z > 0.0f);
+        _hasWideSun |= g.cone.z > narrowSun && s.radiance != vec3(0.0f);
         g.origin = vec4(s.toLight, 0.0f);
         s.weight = luminance(s.radiance) * (s.delta ? 1.0f : std::min(g.cone.w, pi));
         break;

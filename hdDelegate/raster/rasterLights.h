@@ -50,8 +50,8 @@ public:
                    int mapSize, int pixels) const;
 
     uint32_t seed() const { return _seed; }
-    bool hasDome() const { return _hasDome; }
-    bool shadows() const { return _shadows; }
+    /// Whether shadows are asked for in directions that are no light's samples.
+    bool needsSky() const { return _shadows && (_hasDome || _hasWideSun); }
     const RasterLightTables& tables() const { return _tables; }
 
 private:
@@ -98,7 +98,8 @@ private:
     std::set<std::string> _domeMethods;
     int _domeSamples = 1; ///< 0: no material looks at samples of domes
     uint32_t _seed = 0;
-    bool _shadows = true, _hasDome = false;
+    bool _shadows = true, _hasDome = false, _hasWideSun = false;
+    static constexpr float narrowSun = 0.003f; ///< see lighting.frag.glsl
 };
 
 } // namespace patina

@@ -318,7 +318,7 @@ vec3 RasterPasses::originOfSeen(const RasterScene& scene) const {
 
 void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights, uint32_t taken,
                             const std::function<void(uint32_t)>& moveTo) {
-    if (!lights.hasDome() || !lights.shadows()) return;
+    if (!lights.needsSky()) return;
     std::map<int, std::pair<uint32_t, RasterSky::Task>> last; // by cell
     for (uint32_t pass = 0; pass < taken; ++pass)
         for (const RasterSky::Task& task :
@@ -414,7 +414,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
         b.lightInfo[1] = map.levels() - 1;
         b.extra.x = float(map.width()) * float(map.height());
     }
-    const bool sky = lights.hasDome() && lights.shadows();
+    const bool sky = lights.needsSky();
     if (sky) b.lightInfo[2] = RasterSky::side;
     b.lightInfo[3] = std::clamp(environmentSamples, 4, 1024);
     _passBuffer.write(&b, sizeof b);

@@ -13,6 +13,9 @@ const float lightTrust = 3.0; // what light through a fibre makes of few directi
 const float lightTrust = 8.0;
 #endif
 
+// Less than the cells of the sky's maps are wide; as RasterLights has it. 1 - cosine of half the angle.
+const float NARROW_SUN = 0.003;
+
 float heuristic(float a, float b) {
     return a * a / max(a * a + b * b, 1e-30);
 }
@@ -102,12 +105,13 @@ vec3 along(MaterialSample s) {
         }
         vec3 shadow = vec3(1.0);
         if (l.shadow.x >= 0.0) {
-            if (kind == LIGHT_DOME || kind == LIGHT_DISTANT) {
+            if (kind == LIGHT_DOME || (kind == LIGHT_DISTANT && l.cone.z > NARROW_SUN)) {
                 if (sky < 0.0) sky = skyReaches(s.wi);
                 shadow = mix(l.shadowColor.rgb, vec3(1.0), sky);
             } else {
                 // The light's own sample tells how much of it the point sees.
-                shadow = shadowAt(l, normalize(l.sampled.xyz - point.position));
+                vec3 there = l.sampled.xyz;
+                shadow = shadowAt(l, l.sampled.w != 0.0 ? normalize(there - point.position) : there);
             }
         }
         float weight = l.fade.w * (delta ? 1.0 : heuristic(pdf, lightTrust * density));

@@ -138,8 +138,8 @@ def opengl():
         pytest.skip(reason)
 
 
-def pair(folder, lights, *arguments, samples=48):
-    (folder / "stage.usda").write_text(STAGE % lights)
+def pair(folder, lights, *arguments, samples=48, stage=STAGE):
+    (folder / "stage.usda").write_text(stage % lights)
     (folder / "lamp.ies").write_text(PROFILE)
     _image(str(folder))
     images = []
@@ -160,6 +160,34 @@ def test_light_is_the_path_tracers(name, tmp_path):
     found = bothBackEnds.numbers(raster, traced)
     assert abs(found["bias"]) <= bias, found
     assert found["worst"] <= worst, found
+
+
+GLOSSY = """    def Material "metal"
+    {
+        token outputs:surface.connect = </World/metal/surface.outputs:surface>
+        def Shader "surface"
+        {
+            uniform token info:id = "UsdPreviewSurface"
+            color3f inputs:diffuseColor = (0.9, 0.9, 0.9)
+            float inputs:metallic = 1
+            float inputs:roughness = 0.35
+            token outputs:surface
+        }
+    }
+"""
+
+
+@pytest.mark.parametrize("angle", [4, 30, 120])
+def test_wide_suns_are_shadowed_where_samples_of_the_material_find_them(angle, tmp_path):
+    """Without a dome nothing else asks what hides far away light from such samples. The block stands in its mirror image."""
+    sun = light("DistantLight", f"        float inputs:intensity = 10\n        float inputs:angle = {angle}",
+                place="        float3 xformOp:rotateXYZ = (-50, 170, 0)\n"
+                      '        uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]\n')
+    stage = STAGE.replace('def Mesh "floor"', 'def Mesh "floor" (prepend apiSchemas = ["MaterialBindingAPI"])')
+    stage = stage.replace('        point3f[] points', "        rel material:binding = </World/metal>\n        point3f[] points", 1)
+    raster, traced = pair(tmp_path, sun + GLOSSY, samples=96, stage=stage)
+    found = bothBackEnds.numbers(raster, traced)
+    assert abs(found["bias"]) <= 0.02 and found["worst"] <= 0.12, found
 
 
 INSIDE = """    def Sphere "bulb"

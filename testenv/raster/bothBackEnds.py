@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Renders test scenes by both back ends and writes one HTML page: a table of RMSE, FLIP, bias and times, then the images.
 
-    bothBackEnds.py OUTPUT_FOLDER [SCENE...] [--samples N] [--width PIXELS] [--update quick|full [--reason TEXT]]
+    bothBackEnds.py OUTPUT_FOLDER [SCENE...] [--samples N] [--width PIXELS] [--truth N] [--update quick|full [--reason TEXT]]
 
 Without names all of testenv/scenes. The page also shows what earlier runs with the same samples and width left in the
 folder, so that it can be made in pieces. The path tracer renders twice: stopped after direct light, which is what the
 rasterizer draws, and whole. --update sets the budgets of testenv/raster/budgets.json (quick and full name its settings);
-they may only go down, unless --reason says why one rises. --table prints the rows of the README's table.
+they may only go down, unless --reason says why one rises. --table prints the rows of the README's table. --truth also
+holds both direct images against so many path traced samples; pairs that the folder holds are not rendered again then.
 """
 import argparse
 import os
@@ -61,6 +62,7 @@ def main():
     parser.add_argument("scenes", nargs="*")
     parser.add_argument("--samples", type=int)
     parser.add_argument("--width", type=int)
+    parser.add_argument("--truth", type=int, metavar="N")
     parser.add_argument("--update", choices=["quick", "full"])
     parser.add_argument("--reason")
     parser.add_argument("--table", action="store_true")
@@ -87,9 +89,16 @@ def main():
         remarks[name] = entry.get("why", "")
         try:
             depths = (pairs.depth_of(entry),) if a.update == "quick" else (pairs.DIRECT, pairs.WHOLE)
-            row = pairs.pair(name, a.folder, samples, width, depths)
-            pairs.keep(row, a.folder)
+            row = pairs.kept(name, a.folder, samples, width) if a.truth else None
+            if not row or any(depth not in row["traced"] for depth in depths):
+                row = pairs.pair(name, a.folder, samples, width, depths)
+                pairs.keep(row, a.folder)
             print(report(row), flush=True)
+            if a.truth:
+                found = pairs.beside_truth(row, pairs.truth_of(name, a.folder, a.truth, width), a.truth)
+                print(f"{name:22} beside {a.truth} samples: FLIP {found['raster']:.4f} rasterized, {found['traced']:.4f} traced")
+                if a.update == "full":
+                    entry["truth"] = {**{key: budgets.rounded(value) for key, value in found.items()}, "samples": a.truth}
             if a.update:
                 found = spread(row, a.folder, samples, width) if a.update == "quick" else measured(row)
                 for line in budgets.settle(entry, a.update, found, a.reason):

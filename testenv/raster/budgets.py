@@ -10,6 +10,8 @@ budgets.json: `quick` and `full` are settings (samples, width); `scenes` maps a 
           a budget is the largest of SEEDS seeds of the rasterizer, and the test looks at the first
   full    what was measured: FLIP against direct light and against all light, RMSE, bias, seconds; `flipSeeds` between two
           seeds of the path tracer
+  truth   the same direct light beside many more path traced samples: how many, and FLIP of both back ends' images from
+          them. Where FLIP is above LARGEST_FLIP the rasterizer's has to be below it, or no larger than the path tracer's
   raised  reasons of the budgets that rose
 """
 import json
@@ -49,15 +51,15 @@ def settle(entry, kind, found, reason=None):
         if key.startswith("seconds"):
             held[key] = round(wanted, 1)
         elif key not in held or abs(wanted) <= abs(held[key]):
-            held[key] = _rounded(wanted)
-        elif abs(_rounded(wanted)) > abs(held[key]):
+            held[key] = rounded(wanted)
+        elif abs(rounded(wanted)) > abs(held[key]):
             if reason is None:
-                refused.append(f"{kind} {key}: {_rounded(wanted)} above {held[key]}")
+                refused.append(f"{kind} {key}: {rounded(wanted)} above {held[key]}")
             else:
-                entry.setdefault("raised", []).append(f"{kind} {key} {held[key]} -> {_rounded(wanted)}: {reason}")
-                held[key] = _rounded(wanted)
+                entry.setdefault("raised", []).append(f"{kind} {key} {held[key]} -> {rounded(wanted)}: {reason}")
+                held[key] = rounded(wanted)
     return refused
 
 
-def _rounded(value):
+def rounded(value):
     return float(f"{value:.3g}")

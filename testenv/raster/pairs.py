@@ -13,6 +13,7 @@ ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 SCENES = os.path.join(ROOT, "testenv", "scenes")
 DIRECT, WHOLE = 1, 16  # longest paths of the path tracer: what the rasterizer draws, and what there is
 TRACED_SEED = 7        # the back ends share no random numbers
+TRUTH_SEED = 991
 
 
 def names():
@@ -105,6 +106,24 @@ def pair(name, folder, samples, width, depths=(DIRECT, WHOLE), seed=0):
         image, seconds = render("embree", "--maxDepth", str(depth), "--seed", str(TRACED_SEED))
         row["traced"][depth] = {"image": image, "seconds": seconds, **numbers(row["raster"], image)}
     return row
+
+
+def beside_truth(row, truth, samples):
+    """How far both back ends' direct light is from nearly converged pixels, which tells their noise from a difference.
+
+    :param row: of pair()
+    :param truth: array of `samples` path traced samples, see truth_of()
+    :returns: a dict: `samples`, and FLIP of the `raster` and of the `traced` image of the row"""
+    images = {"raster": row["raster"], "traced": row["traced"][DIRECT]["image"]}
+    return {"samples": samples, **{name: imageMetrics.mean_flip(image, truth, True) for name, image in images.items()}}
+
+
+def truth_of(name, folder, samples, width):
+    """:returns: direct light by so many path traced samples, with a seed of its own"""
+    image = os.path.join(folder, f"{name.replace('/', '-')}.truth{samples}.exr")
+    record(os.path.join(SCENES, *name.split("/")) + ".usda", image, "--backend", "embree", "--samples", str(samples),
+           "-w", str(width), "--maxDepth", str(DIRECT), "--seed", str(TRUTH_SEED))
+    return pixels(image)
 
 
 def keep(row, folder):

@@ -60,10 +60,14 @@ def test_every_scene_has_more_than_a_picture():
 
 
 def test_recorded_pairs_with_the_same_answer_look_alike():
-    """What 1024 samples gave, where that was measured; `why` excuses a scene by name."""
-    above = {name: entry["full"]["flip"] for name, entry in HELD["scenes"].items()
-             if entry["same"] and entry.get("full", {}).get("flip", 0) > budgets.LARGEST_FLIP and not entry.get("why")}
-    assert not above
+    """What 1024 samples gave, where that was measured. Where the path tracer's own noise is above the bound, both are held
+    against many more of its samples: the rasterizer is within the bound there, or not farther off than the path tracer."""
+    for name, entry in HELD["scenes"].items():
+        if not entry["same"] or entry.get("full", {}).get("flip", 0) <= budgets.LARGEST_FLIP:
+            continue
+        truth = entry["truth"]
+        assert entry["why"] and truth["samples"] >= 16384, name
+        assert truth["raster"] <= max(budgets.LARGEST_FLIP, truth["traced"]), (name, truth)
 
 
 def test_budgets_only_go_down():

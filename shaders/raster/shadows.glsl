@@ -41,24 +41,24 @@ bool isShown(mat4 worldToMap, vec3 p) {
     return all(lessThan(abs(clip.xyz), vec3(clip.w)));
 }
 
+// Which of one or six maps around a place shows a direction from there.
+int faceOf(float maps, vec3 d) {
+    if (maps <= 1.0) return 0;
+    vec3 a = abs(d);
+    return a.x >= a.y && a.x >= a.z ? (d.x > 0.0 ? 0 : 1)
+           : a.y >= a.z            ? (d.y > 0.0 ? 2 : 3)
+                                   : (d.z > 0.0 ? 4 : 5);
+}
+
 // Whether a light's sample reaches a point, as far as its maps tell.
 float reaches(Light l, vec3 p) {
-    int map = int(l.shadow.x), maps = int(l.shadow.y);
+    vec3 d = p - l.sampled.xyz;
+    int map = int(l.shadow.x) + faceOf(l.shadow.y, d);
     if (isTube() && l.shadow.z > 0.0) {
-        int finer = map + maps;
-        if (l.shadow.z > 1.0 || isShown(shadowMatrices[finer], p)) {
-            map = finer;
-            maps = int(l.shadow.z);
-        }
+        int finer = int(l.shadow.x + l.shadow.y) + faceOf(l.shadow.z, d);
+        if (isShown(shadowMatrices[finer], p)) map = finer;
     }
-    if (maps > 1) {
-        vec3 d = p - l.sampled.xyz;
-        vec3 a = abs(d);
-        map += a.x >= a.y && a.x >= a.z ? (d.x > 0.0 ? 0 : 1)
-               : a.y >= a.z            ? (d.y > 0.0 ? 2 : 3)
-                                       : (d.z > 0.0 ? 4 : 5);
-    }
-    vec3 towards = l.sampled.w != 0.0 ? l.sampled.xyz - p : l.sampled.xyz;
+    vec3 towards = l.sampled.w != 0.0 ? -d : l.sampled.xyz;
     return isInFront(shadowMaps, shadowMatrices[map], map, p, planeTowards(normalize(towards)), 1e-6);
 }
 

@@ -1,4 +1,9 @@
 """Colour spaces of values and textures: on attributes, inherited from prims, defined by the stage."""
+import ast
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -106,3 +111,27 @@ def test_colours_of_lights_are_converted_too(read, numbers):
     assert "color" not in reading.prim("/w/white")
     assert [w for w in reading.warnings if "colour space" in w] == [
         "/w/unknown inputs:color: unknown colour space 'nobody knows'; the value is used as it is"]
+
+
+def test_values_know_the_spaces_of_the_users_configuration(tmp_path):
+    """In a process of its own: the configuration is read once."""
+    pytest.importorskip("_patina")
+    (tmp_path / "config.ocio").write_text("""ocio_profile_version: 2
+roles: {aces_interchange: AP0, scene_linear: AP0, default: AP0}
+file_rules: [!<Rule> {name: Default, colorspace: AP0}]
+displays: {Mine: [!<View> {name: Plain, colorspace: AP0}]}
+colorspaces:
+  - !<ColorSpace> {name: AP0}
+  - !<ColorSpace>
+    name: half of AP0
+    to_scene_reference: !<MatrixTransform> {matrix: [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1]}
+""")
+    program = ("import _patina\nfor s in ('half of AP0', 'lin_ap0_scene', 'gamma22', 'nobody knows'):\n"
+               "    print(_patina.color_to_rendering([0.5, 0.5, 0.25], s))")
+    told = subprocess.run([sys.executable, "-c", program], env={**os.environ, "OCIO": str(tmp_path / "config.ocio")},
+                          capture_output=True, text=True, check=True).stdout.splitlines()
+    half, whole, gamma, unknown = (ast.literal_eval(line) for line in told)
+    assert whole != pytest.approx([0.5, 0.5, 0.25], abs=0.01)
+    assert half == pytest.approx([0.5 * x for x in whole], abs=1e-4)
+    assert gamma == pytest.approx([v ** 2.2 for v in (0.5, 0.5, 0.25)], abs=1e-6)
+    assert unknown is None

@@ -26,15 +26,18 @@ float tenths(float sceneUnits, double unit) {
     return guess;
 }
 
-/// HdCamera takes what it does not know for perspective; scene indices still have the name.
-void reportProjection(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id) {
+/// HdCamera takes what it does not know for orthographic; scene indices still have the name.
+/// @returns false, after a warning, for what is neither of the two
+bool knowsProjection(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id) {
     const HdSceneIndexBaseRefPtr scene = delegate.GetRenderIndex().GetTerminalSceneIndex();
-    if (!scene) return;
+    if (!scene) return true;
     HdCameraSchema camera = HdCameraSchema::GetFromParent(scene->GetPrim(id).dataSource);
     const HdTokenDataSourceHandle source = camera ? camera.GetProjection() : nullptr;
-    const std::string name = source ? source->GetTypedValue(0.0f).GetString() : std::string();
-    if (!name.empty() && name != "perspective" && name != "orthographic")
-        param.warn(id, "projection", name + " is not known; perspective is used");
+    if (!source) return true;
+    const std::string name = source->GetTypedValue(0.0f).GetString();
+    if (name == "perspective" || name == "orthographic") return true;
+    param.warn(id, "projection", "'" + name + "' is not known; perspective is used");
+    return false;
 }
 
 MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
@@ -71,8 +74,8 @@ void HdPatinaCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     auto camera = std::make_shared<Camera>();
     camera->path = GetId().GetString();
     camera->transform = transformOf(*delegate, param, GetId());
-    camera->orthographic = GetProjection() == Orthographic;
-    reportProjection(*delegate, param, GetId());
+    camera->orthographic =
+        GetProjection() == Orthographic && knowsProjection(*delegate, param, GetId());
     // Apertures of a camera that has none (a host gave matrices) keep the schema's fallback.
     if (GetHorizontalAperture() > 0.0f && GetVerticalAperture() > 0.0f) {
         camera->horizontalAperture = tenths(GetHorizontalAperture(), GfCamera::APERTURE_UNIT);

@@ -118,23 +118,23 @@ void readNetwork(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const Sd
                  Light& light) {
     const VtValue resource = delegate.GetMaterialResource(id);
     if (!resource.IsHolding<HdMaterialNetworkMap>()) return;
-    for (const auto& terminal : resource.UncheckedGet<HdMaterialNetworkMap>().map) {
-        const HdMaterialNetwork& network = terminal.second;
-        if (network.nodes.empty()) continue;
-        const HdMaterialNode& node = network.nodes.back();
-        convertColor(node, "color", param, id, light.color);
-        convertColor(node, "shadow:color", param, id, light.shadowColor);
-        convertColor(node, "shaping:focusTint", param, id, light.shapingFocusTint);
-        if (node.identifier.GetString().compare(0, 3, "ND_") == 0)
-            param.warn(id, "light:shaderId",
-                       "is " + node.identifier.GetString() +
-                           ", which is not evaluated; the light is drawn by its type");
-        for (const HdMaterialRelationship& relation : network.relationships)
-            if (relation.outputId == node.path)
-                param.warn(id, "inputs:" + relation.outputName.GetString(),
-                           "is connected to " + relation.inputId.GetString() +
-                               ", which is not evaluated for lights; its own value is used");
-    }
+    const HdMaterialNetworkMap& map = resource.UncheckedGet<HdMaterialNetworkMap>();
+    const auto found = map.map.find(HdMaterialTerminalTokens->light);
+    if (found == map.map.end() || found->second.nodes.empty()) return;
+    const HdMaterialNetwork& network = found->second;
+    const HdMaterialNode& node = network.nodes.back();
+    convertColor(node, "color", param, id, light.color);
+    convertColor(node, "shadow:color", param, id, light.shadowColor);
+    convertColor(node, "shaping:focusTint", param, id, light.shapingFocusTint);
+    if (node.identifier.GetString().compare(0, 3, "ND_") == 0)
+        param.warn(id, "light:shaderId",
+                   "is " + node.identifier.GetString() +
+                       ", which is not evaluated; the light is drawn by its type");
+    for (const HdMaterialRelationship& relation : network.relationships)
+        if (relation.outputId == node.path)
+            param.warn(id, "inputs:" + relation.outputName.GetString(),
+                       "is connected to " + relation.inputId.GetString() +
+                           ", which is not evaluated for lights; its own value is used");
 }
 
 } // namespace

@@ -97,5 +97,5 @@ def test_cameras_and_prims_without_a_usable_transform(read):
 def test_a_projection_that_is_not_known_is_told(read, projection, told):
     reading = read(f'def Camera "c" {{ token projection = "{projection}" }}')
     assert (reading.prim("/c").get("orthographic") == "true") == (projection == "orthographic")
-    assert ("/c projection: fisheye is not known; perspective is used" in reading.warnings) == told
+    assert ("/c projection: 'fisheye' is not known; perspective is used" in reading.warnings) == told
     assert told or not any("projection" in w for w in reading.warnings)

@@ -66,6 +66,9 @@ public:
     void array(const std::string& name, const std::vector<float>& v) {
         array(name, v.data(), v.size());
     }
+    void array(const std::string& name, const std::vector<double>& v) {
+        array(name, std::vector<float>(v.begin(), v.end()));
+    }
     void names(const std::string& name, const std::vector<std::string>& v) {
         if (v.empty()) return;
         std::string all;
@@ -133,6 +136,12 @@ void writeVisibility(Writer& w, const Visibility& v) {
     w.field("visibility shadow", v.shadow, true);
 }
 
+void writeDirection(Writer& w, const std::string& name, const NurbsDirection& d) {
+    w.line(name, std::to_string(d.vertexCount) + " order " + std::to_string(d.order));
+    w.array(name + " knots", d.knots);
+    if (d.low < d.high) w.array(name + " range", std::vector<double>{d.low, d.high});
+}
+
 void writeMesh(Writer& w, const Mesh& m) {
     const Mesh d;
     w.points(m.points);
@@ -150,6 +159,10 @@ void writeMesh(Writer& w, const Mesh& m) {
     w.array("cornerIndices", m.cornerIndices);
     w.array("cornerSharpnesses", m.cornerSharpnesses);
     w.field("refineLevel", m.refineLevel, d.refineLevel);
+    if (!m.patch) return;
+    writeDirection(w, "patch u", m.patch->u);
+    writeDirection(w, "patch v", m.patch->v);
+    w.array("patch weights", m.patch->weights);
 }
 
 void writeImplicit(Writer& w, const Implicit& i) {

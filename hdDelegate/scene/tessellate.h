@@ -33,6 +33,12 @@ struct TessellationOptions {
 /// vertices lie on the limit surface and have its normals (bilinear: flat faces). Level 0 draws the
 /// control cage with smooth normals. Authored normals are ignored, as UsdGeomMesh says.
 ///
+/// A NURBS patch has its vertices on the surface, with the surface's normals, and is cut as
+/// subdivision surfaces are, each span of knots by itself. Vertex primvars are rational like
+/// points; a segment, from one knot to the next, counts as a face: uniform primvars have a value
+/// for each, varying ones one at each of its corners. Without a primvar `st` there is one, 0..1
+/// over what is drawn.
+///
 /// Primvars: vertex ones are subdivided like points, varying ones linearly, faceVarying ones by
 /// faceVaryingLinearInterpolation with seams where values differ, uniform ones stay on their face.
 ///

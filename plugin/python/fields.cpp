@@ -107,6 +107,9 @@ void convert(py::handle from, std::vector<int>& to) {
 void convert(py::handle from, std::vector<float>& to) {
     to = elements<float, 1, float>(from);
 }
+void convert(py::handle from, std::vector<double>& to) {
+    to = elements<double, 1, double>(from);
+}
 void convert(py::handle from, std::vector<vec3>& to) {
     to = elements<vec3, 3, float>(from);
 }

@@ -21,3 +21,26 @@ def test_before_the_first_sample_it_says_that_it_prepares(monkeypatch):
 
 def test_then_it_says_what_is_done_and_left(monkeypatch):
     assert shown(monkeypatch, fraction=0.25, samplesDone=16, secondsLeft=75.0) == "shot.exr:  25 %  16 samples  1:15 min left\n"
+
+
+def stepped(monkeypatch, stream):
+    clock = [100.0]
+    monkeypatch.setattr(progress.time, "monotonic", lambda: clock[0])
+    line = progress.Progress("check", stream=stream)
+    clock[0] += 25.0
+    line.step(1, 6, "material 2 of 6, gold")
+    clock[0] += 1.0
+    line.step(2, 6, "material 3 of 6, iron")
+    return stream.getvalue()
+
+
+def test_steps_tell_the_time_that_is_left(monkeypatch):
+    text = stepped(monkeypatch, io.StringIO())
+    assert text == "check:  17 %  material 2 of 6, gold  2:05 min left\n"  # 25 s for each of five; the next is too soon
+
+
+def test_steps_move_on_a_terminal(monkeypatch):
+    stream = io.StringIO()
+    stream.isatty = lambda: True
+    text = stepped(monkeypatch, stream)
+    assert text.count("\r\033[K") == 2 and text.endswith(" 33 %  material 3 of 6, iron  52 s left") and "\n" not in text

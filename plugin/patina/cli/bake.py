@@ -51,8 +51,7 @@ def run(arguments):
     inputs = evaluate(translated, arguments.to, arguments.resolution, warnings)
     base = re.sub(r"\W+", "_", name.rpartition("/")[2]) or "material"
     write(arguments, base, inputs, warnings)
-    for line in statistics.lines(warnings):
-        print("warning: " + line, file=sys.stderr)
+    statistics.tell(warnings, sys.stderr)
 
 
 def evaluate(network, target, resolution, warnings):

@@ -51,8 +51,7 @@ def run(arguments):
     chosen = methods.parse(arguments.method)
     found, warnings = materials.load(arguments.material, arguments.set)
     probe = _probe(arguments.backend, found[0][1], chosen)
-    for line in statistics.lines(warnings + probe.warnings):
-        print("warning: " + line, file=sys.stderr)
+    statistics.tell(warnings + probe.warnings, sys.stderr)
     if getattr(probe, "stochastic", False):
         print("note: a method walks at random; values are means over walks, densities are estimates", file=sys.stderr)
     out = sys.stdout

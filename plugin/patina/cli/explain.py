@@ -42,7 +42,7 @@ def run(arguments):
                                          for (name, text), (_, plan) in zip(texts, plans)],
                            "error": max(plan["error"] for _, plan in plans),
                            "scene": [dict(choice) for choice in choices], "lit": planText.lit(lit),
-                           "warnings": warnings}, indent=2)
+                           "causes": statistics.Causes(warnings).groups, "warnings": warnings}, indent=2)
         if arguments.json == "-":
             print(text)
         else:
@@ -58,8 +58,7 @@ def run(arguments):
         print("\n" + "\n".join(planText.scene_lines(plans, tolerance)))
     if choices or lit:
         print("\n".join(planText.choice_lines(choices) + planText.lit_lines(lit)))
-    for line in statistics.lines(warnings):
-        print("warning: " + line, file=sys.stderr)
+    statistics.tell(warnings, sys.stderr)
 
 
 def _of_scene(arguments, chosen, tolerance):

@@ -1,4 +1,4 @@
-"""Shows how far a render is: one line that moves on a terminal, a line now and then elsewhere."""
+"""Shows how far a command is: one line that moves on a terminal, a line now and then elsewhere."""
 import sys
 import time
 
@@ -26,18 +26,38 @@ class Progress:
 
     def show(self, state):
         """:param state: what Renderer.progress() says"""
-        if self.quiet:
+        if not self._due():
             return
-        now = time.monotonic()
-        if now - self.last < (0.1 if self.terminal else SPARSE_SECONDS):
-            return
-        self.last = now
         fraction = min(max(state["fraction"], 0.0), 1.0)
         text = f"{100 * fraction:3.0f} %  {state['samplesDone']} samples"
         if fraction == 0.0 and state["samplesDone"] == 0:  # shapes, textures, and what drivers compile
-            text = f"preparing for {_clock(now - self.started)}"
+            text = f"preparing for {_clock(self.last - self.started)}"
         elif state["secondsLeft"] > 0.5:
             text += f"  {_clock(state['secondsLeft'])} left"
+        self._write(fraction, text)
+
+    def step(self, done, total, what):
+        """Of work in equal steps; the time left follows from what they took so far.
+
+        :param done, total: numbers of steps, of which the total may still be a guess
+        :param what: is done now"""
+        if done >= total > 0 or not self._due():
+            return
+        fraction = max(done / total, 0.0) if total > 0 else 0.0
+        text = f"{100 * fraction:3.0f} %  {what}"
+        if fraction > 0.0:
+            text += f"  {_clock((self.last - self.started) * (1.0 - fraction) / fraction)} left"
+        self._write(fraction, text)
+
+    def _due(self):
+        """:returns: whether it is time for the next line"""
+        now = time.monotonic()
+        if self.quiet or now - self.last < (0.1 if self.terminal else SPARSE_SECONDS):
+            return False
+        self.last = now
+        return True
+
+    def _write(self, fraction, text):
         if self.terminal:
             filled = int(BAR * fraction + 0.5)
             self.stream.write(f"\r\033[K{self.label} [{'#' * filled}{'.' * (BAR - filled)}] {text}")

@@ -14,7 +14,6 @@ from patina.cli.progress import Progress
 
 add_arguments = recordFlags.add_arguments
 DEFAULT_WIDTH = 960
-MOST_WARNINGS = 20  # lines on the terminal; all of them are in --json
 
 
 def run(arguments):
@@ -42,7 +41,7 @@ class _Job:
         self.module, self.arguments, self.settings, self.purposes = module, arguments, settings, purposes
         self.statistics = statistics.Statistics(arguments)
         self.interrupted = False
-        self.shown = 0
+        self.told = {}  # causes of warnings that were shown
 
     def open(self):
         a = self.arguments
@@ -119,8 +118,13 @@ class _Job:
         with self.statistics.phase("render"), Interrupts() as interrupts:
             self.renderer.start(self.scene, camera, settings, film)
             self._check_warnings()  # of a back end that cannot start
+            built = False
             while not self.renderer.wait(0.1) and not interrupts.met:
-                progress.show(self.renderer.progress())
+                state = self.renderer.progress()
+                if state["samplesDone"] and not built:
+                    built = True
+                    self._check_warnings()  # of shapes, materials and textures, before the long wait
+                progress.show(state)
             self.renderer.stop()
         progress.clear()
         state = self.renderer.progress()
@@ -145,15 +149,16 @@ class _Job:
         """Shows what is new; with --strict the render ends here."""
         self.statistics.collect(self.scene)
         warnings = self.statistics.warnings()
-        if not self.arguments.quiet:
-            for text in statistics.lines(warnings)[self.shown:MOST_WARNINGS]:
-                Progress("").say("warning: " + text)
-            if len(warnings) > MOST_WARNINGS > self.shown:
-                Progress("").say("warning: more of them are in --json")
-        self.shown = len(warnings)
+        self._tell(warnings)
         if self.arguments.strict and warnings:
-            raise CommandError(f"--strict: {len(warnings)} warnings, the first: {statistics.lines(warnings)[0]}")
+            raise CommandError(f"--strict: {len(warnings)} warnings, the worst: {statistics.lines(warnings)[0]}")
+
+    def _tell(self, warnings, last=False):
+        if not self.arguments.quiet:
+            for text in statistics.Causes(warnings).lines(self.told, last):
+                Progress("").say(text)
 
     def report(self):
+        self._tell(self.statistics.warnings(), last=True)
         if self.arguments.json:
             self.statistics.write(self.arguments.json)

@@ -6,7 +6,7 @@ the materials. It needs Node and npm once, to fetch and bundle what the page is 
 import os
 import sys
 
-from patina.cli import materials, methods
+from patina.cli import materials, methods, statistics
 from patina.cli.errors import CommandError, UsageError
 
 DEMOS = {"classic": "the classic reflectance models as steel and hematite, and what each cannot show",
@@ -58,8 +58,7 @@ def run(arguments):
     if not 16 <= arguments.compareWidth <= 2048 or not 1 <= arguments.compareSamples <= 65536:
         raise UsageError("patina view: --compareWidth is 16 to 2048, --compareSamples 1 to 65536")
     text, warnings = build.page_of(arguments)
-    for line in warnings:
-        print("warning: " + line, file=sys.stderr)
+    statistics.tell(warnings, sys.stderr)
     temporary = f"{arguments.output}.{os.getpid()}.tmp"
     try:
         with open(temporary, "w", encoding="utf-8") as file:

@@ -11,11 +11,19 @@ holds both direct images against so many path traced samples; pairs that the fol
 """
 import argparse
 import os
+import sys
 
-import budgets
-import pairs
-import pairsPage
-from pairs import SCENES, numbers, pixels, record, without_opengl  # noqa: F401  (for tests beside this)
+if __name__ == "__main__":
+    folder = os.path.dirname(os.path.abspath(__file__))
+    sys.path[:0] = [folder, os.path.join(folder, "..")]
+    import checkout
+
+    checkout.enter()
+
+import budgets  # noqa: E402
+import pairs  # noqa: E402
+import pairsPage  # noqa: E402
+from pairs import SCENES, numbers, pixels, record, without_opengl  # noqa: E402, F401  (for tests beside this)
 
 
 def report(row):

@@ -82,7 +82,7 @@ def depth_of(entry):
 
 
 def command(name, samples, width):
-    return f"python testenv/raster/bothBackEnds.py OUTPUT {name} --samples {samples} --width {width}"
+    return f"./patina python testenv/raster/bothBackEnds.py OUTPUT {name} --samples {samples} --width {width}"
 
 
 def pair(name, folder, samples, width, depths=(DIRECT, WHOLE), seed=0):

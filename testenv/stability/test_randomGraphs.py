@@ -1,6 +1,6 @@
 """Random legal graphs, and those that failed once: no crash, finite, not negative, no energy gained, both back ends equal.
 
-More of them: python testenv/stability/randomGraphs.py --seed N --count M --keep FOLDER
+More of them: ./patina python testenv/stability/randomGraphs.py --seed N --count M --keep FOLDER
 """
 import os
 import types

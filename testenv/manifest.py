@@ -1,0 +1,74 @@
+"""Which tier and which rooms each test belongs to: the one place that says so.
+
+A test's name is its place: `testenv/cli/test_frames.py::test_x`, or for a suite of a googletest program the folder that its
+CMakeLists.txt lies in, `hdDelegate/film::testFilm::Checkpoint`. FOLDERS gives every test below a folder a tier and rooms (the
+longest folder counts), so that a new file needs no entry; OVERRIDES, read in order, change either for tests whose names
+match a pattern (`*` also matches `/`); the last that says something counts.
+
+A test runs in its own tier and in those that hold it (RUNS). Aims, on two quiet cores: unit 30 s, smoke 3 minutes, full 15.
+"""
+import fnmatch
+
+TIERS = ("lint", "unit", "smoke", "full", "long")
+RUNS = {  # --tier: the tiers of the tests that it runs
+    "lint": ("lint",),
+    "unit": ("lint", "unit"),
+    "smoke": ("lint", "unit", "smoke"),
+    "full": ("lint", "unit", "smoke", "full"),
+    "long": ("long",),
+    "all": TIERS,
+}
+ROOMS = ("shaders", "materialNetwork", "scene", "film", "lights", "embree", "raster", "backends", "hydra", "python", "stage",
+         "cli", "view", "chart", "testenv")
+
+FOLDERS = {  # folder: tier, rooms
+    "shaders/": ("unit", "shaders"),
+    "materialNetwork/": ("unit", "materialNetwork"),
+    "hdDelegate/scene/": ("unit", "scene"),
+    "hdDelegate/film/": ("unit", "film"),
+    "hdDelegate/lights/": ("unit", "lights"),
+    "hdDelegate/embree/": ("smoke", "embree"),
+    "hdDelegate/raster/": ("full", "raster"),
+    "hdDelegate/backends/": ("smoke", "backends"),
+    "hdDelegate/hydra/": ("unit", "hydra"),
+    "plugin/patina/stage/": ("smoke", "stage"),
+    "plugin/": ("full", "cli"),
+    "testenv/cli/": ("full", "cli"),
+    "testenv/film/": ("smoke", "film python"),
+    "testenv/hydra/": ("full", "hydra"),
+    "testenv/mitsuba/": ("long", "embree lights shaders"),
+    "testenv/raster/": ("full", "raster"),
+    "testenv/render/": ("full", "embree lights scene"),
+    "testenv/stability/": ("full", "shaders materialNetwork raster"),
+    "testenv/view/": ("full", "view"),
+    "testenv/tests/": ("full", "testenv"),
+    "testenv/": ("full", "testenv"),
+}
+
+OVERRIDES = (  # pattern, tier or None, rooms or None
+    # What reads files that are committed, and renders nothing: it does not fail when the renderer does.
+    ("testenv/tests/test_manifest.py::*", "lint", None),
+    # Chi-squared, grids of directions and parameters, agreement of C++ and GLSL.
+    ("shaders/tests::testLobeSampling::*", "full", None),
+    ("shaders/tests::testLobeAlbedo::*", "full", None),
+    ("shaders/tests::testLobeDegenerate::*", "full", None),
+    ("hdDelegate/raster/tests::testGlsl*", "full", "raster shaders materialNetwork"),
+    ("hdDelegate/raster/measure/tests::testDomeMethods::*", "full", "raster lights"),
+    ("hdDelegate/embree/media/tests::testMedia::*", "smoke", "embree scene"),
+    ("hdDelegate/raster/tests::testRaster*", "smoke", None),
+    ("hdDelegate/raster/tests::testLightChoice::*", "unit", "raster lights"),
+    ("hdDelegate/raster/tests::testProgramCache::*", "smoke", None),
+)
+
+
+def place_of(name):
+    """:param name: a test's name
+    :returns: (tier, frozenset of rooms), or None where no folder holds it"""
+    folders = [folder for folder in FOLDERS if (name.partition("::")[0] + "/").startswith(folder)]
+    if not folders:
+        return None
+    tier, rooms = FOLDERS[max(folders, key=len)]
+    for pattern, other_tier, other_rooms in OVERRIDES:
+        if fnmatch.fnmatchcase(name, pattern):
+            tier, rooms = other_tier or tier, other_rooms or rooms
+    return tier, frozenset(rooms.split())

@@ -56,7 +56,7 @@ class Browser:
         return self._browser
 
     def open(self, path, query="", width=640, height=480, touch=False, gl=True):
-        if self._page is not None and not self._page.is_closed():
+        if self._browser is not None and self._browser.is_connected() and self._page is not None:
             self._page.context.close()
         context = self._started().new_context(viewport={"width": width, "height": height}, has_touch=touch,
                                               accept_downloads=True, offline=True)

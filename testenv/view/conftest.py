@@ -1,4 +1,4 @@
-"""The page's tests run in a headless Chromium; without one, Node or npm's packages they are left out,
+"""The page's tests run in a headless Chromium; without one, playwright, Node or npm's packages they are left out,
 and test_found.py says so."""
 import os
 import sys

@@ -7,7 +7,7 @@ import sys
 
 from patina.chart import machine, sceneCharts, sceneLadder, scenePage, sceneResults
 from patina.chart.sceneRenders import BACKENDS, DEFAULT_WIDTH, WORDS
-from patina.cli import compiled, methods, overrides, recordFlags
+from patina.cli import compiled, imageMetrics, methods, overrides, recordFlags
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.progress import Progress
 
@@ -58,6 +58,8 @@ def run(arguments):
     _make_folder(a.out)
     command = shown(shlex.join(["patina", *sys.argv[1:]]))
     here = machine.describe()
+    if imageMetrics.flip_missing():
+        print(f"patina: {imageMetrics.flip_missing()}", file=sys.stderr)
     progress = Progress("", a.quiet)
     results = []
     for stage in dict.fromkeys(a.stages):

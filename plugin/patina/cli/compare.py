@@ -44,6 +44,8 @@ def run(arguments):
     result = measure(a, b, _is_linear(arguments.a) and _is_linear(arguments.b),
                      not arguments.no_flip)
     _show(result, arguments)
+    if result["channels"] == 3 and not arguments.no_flip and imageMetrics.flip_missing():
+        print(f"patina: {imageMetrics.flip_missing()}", file=sys.stderr)
     over = [f"{name} {value:.6g} > {limit:.6g}" for name, limit in limits.items()
             for value in [_metric(result, name)] if not abs(value) <= limit]
     if over:
@@ -78,7 +80,8 @@ def _metric(result, name):
     value = result[name]
     if value is None:
         raise CommandError(f"{name} could not be measured" +
-                           (": pip install flip-evaluator" if name == "flip" else ": no pixel is a number"))
+                           (f": {imageMetrics.flip_missing() or 'the reference is black'}" if name == "flip"
+                            else ": no pixel is a number"))
     return value
 
 
@@ -131,5 +134,3 @@ def _show(result, arguments):
           ("" if relative is None else f" ({100 * relative:+.4g} %)"))
     where = result["maxAt"]
     print(f"largest difference  {result['maxDifference']:.6g}" + (f" at {where[0]}, {where[1]}" if where else ""))
-    if result["flip"] is None and result["channels"] == 3 and not arguments.no_flip:
-        print("FLIP needs the PyPI package flip-evaluator", file=sys.stderr)

@@ -374,7 +374,16 @@ TriangleMesh drawPatch(const Mesh& mesh, const PointSteps& points,
         return nothing;
     }
     PatchDrawer drawer(mesh, points, usableWeights(patch.weights, needed, mesh.path, diagnostics));
-    return drawer.draw(options, diagnostics);
+    TriangleMesh out = drawer.draw(options, diagnostics);
+    for (const auto& step : out.positions)
+        for (const vec3& p : step)
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+                diagnostics.warn(mesh.path, "points",
+                                 "give places that are not finite, with these knots and weights; "
+                                 "the patch is not drawn");
+                return nothing;
+            }
+    return out;
 }
 
 } // namespace patina

@@ -236,6 +236,9 @@ TEST(Patch, badInputIsReportedAndNotDrawn) {
     check("points", [](Mesh& m, NurbsPatch&) { m.points.values[0].pop_back(); });
     check("points", [](Mesh& m, NurbsPatch&) { m.points.values[0][3].x = INFINITY; });
     check("points", [](Mesh& m, NurbsPatch&) { m.points = {}; });
+    check("points", [](Mesh&, NurbsPatch& p) {
+        p.weights.assign(45, 5e-324); /* their sums underflow */
+    });
 }
 
 TEST(Patch, badWeightsCountAsOne) {

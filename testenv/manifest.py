@@ -41,13 +41,13 @@ FOLDERS = {  # folder: tier, rooms
     "testenv/render/": ("full", "embree lights scene"),
     "testenv/stability/": ("full", "shaders materialNetwork raster"),
     "testenv/view/": ("full", "view"),
-    "testenv/tests/": ("full", "testenv"),
+    "testenv/lint/": ("lint", "testenv"),  # reads files that are committed, and renders nothing
+    "testenv/tests/": ("unit", "testenv"),
     "testenv/": ("full", "testenv"),
 }
 
 OVERRIDES = (  # pattern, tier or None, rooms or None
-    # What reads files that are committed, and renders nothing: it does not fail when the renderer does.
-    ("testenv/tests/test_manifest.py::*", "lint", None),
+    ("materialNetwork/tests::testMaterialNetwork::MethodTable", "lint", None),
     # Chi-squared, grids of directions and parameters, agreement of C++ and GLSL.
     ("shaders/tests::testLobeSampling::*", "full", None),
     ("shaders/tests::testLobeAlbedo::*", "full", None),
@@ -58,6 +58,26 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("hdDelegate/raster/tests::testRaster*", "smoke", None),
     ("hdDelegate/raster/tests::testLightChoice::*", "unit", "raster lights"),
     ("hdDelegate/raster/tests::testProgramCache::*", "smoke", None),
+    # Commands and stages: quick, but for what renders or measures.
+    ("testenv/cli/*", "smoke", None),
+    ("testenv/cli/test_frames.py::*", "unit", None),
+    ("testenv/cli/test_overrides.py::*", "unit", None),
+    ("testenv/cli/test_usage.py::*", "unit", None),
+    ("testenv/cli/test_imageMetrics.py::*", "unit", None),
+    ("testenv/cli/test_progress.py::*", "unit", None),
+    ("plugin/patina/stage/*", "unit", None),
+    ("testenv/cli/test_chart.py::*", "full", "chart materialNetwork"),
+    ("testenv/cli/test_chartScenes.py::*", "full", "chart"),
+    ("testenv/cli/test_subdivisionPlan.py::*", "full", "scene materialNetwork"),
+    ("testenv/cli/test_predictions.py::*", "full", "chart materialNetwork"),
+    ("testenv/cli/test_check.py::*", "full", "cli materialNetwork shaders"),
+    ("testenv/cli/test_bsdf.py::*", "full", "cli materialNetwork raster shaders"),
+    ("testenv/cli/test_layers.py::*", None, "cli materialNetwork shaders"),
+    ("testenv/stability/test_atlas.py::*", None, "chart shaders"),
+    # Every test scene to the noise of thousands of samples.
+    ("testenv/render/test_convergence.py::test_error_falls_with_samples*", "long", None),
+    ("testenv/raster/test_bothBackEnds.py::*", None, "raster embree lights shaders"),
+    ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same_looked_at_closely*", "long", None),
 )
 
 

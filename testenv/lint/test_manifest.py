@@ -61,6 +61,8 @@ def test_no_rule_is_left_over():
             function = test.partition("[")[0]
             with open(os.path.join(ROOT, place), encoding="utf-8") as file:
                 assert "*" in function or f"def {function}(" in file.read(), pattern
+        elif not test:
+            assert os.path.isdir(os.path.join(ROOT, place.rstrip("*"))), pattern
         elif known:
             program = test.partition("::")[0]
             assert any(fnmatch.fnmatchcase(name, f"{place}::{program}::*") for name in known), pattern

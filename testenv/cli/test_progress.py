@@ -42,5 +42,8 @@ def test_steps_tell_the_time_that_is_left(monkeypatch):
 def test_steps_move_on_a_terminal(monkeypatch):
     stream = io.StringIO()
     stream.isatty = lambda: True
+    progress.Progress("check", stream=stream).step(0, 6, "material 1 of 6, clay")
+    assert stream.getvalue().endswith("  0 %  material 1 of 6, clay")  # at once
+    stream.truncate(stream.seek(0))
     text = stepped(monkeypatch, stream)
     assert text.count("\r\033[K") == 2 and text.endswith(" 33 %  material 3 of 6, iron  52 s left") and "\n" not in text

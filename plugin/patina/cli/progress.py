@@ -22,7 +22,8 @@ class Progress:
         self.stream = stream or sys.stderr
         self.label, self.quiet = label, quiet
         self.terminal = not quiet and self.stream.isatty()
-        self.started = self.last = time.monotonic()
+        self.started = time.monotonic()
+        self.last = self.started - (1.0 if self.terminal else 0.0)  # on a terminal the first line comes at once
 
     def show(self, state):
         """:param state: what Renderer.progress() says"""

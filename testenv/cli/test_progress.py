@@ -45,6 +45,11 @@ def test_a_line_never_wraps_on_a_terminal(monkeypatch):
     stream.isatty = lambda: True
     progress.Progress("check", stream=stream).step(0, 6, "material 1 of 6, " + "x" * 200)
     assert len(stream.getvalue()) == len("\r\033[K") + 49
+    monkeypatch.setenv("COLUMNS", "80")
+    stream.truncate(stream.seek(0))
+    progress.Progress("/a/" + "b" * 100 + "/shot.exr", stream=stream).show({"fraction": 0.5, "samplesDone": 16, "secondsLeft": 9.0})
+    assert len(stream.getvalue()) == len("\r\033[K") + 79 and "/shot.exr [" in stream.getvalue()
+    assert stream.getvalue().endswith(" 50 %  16 samples  9 s left")
 
 
 def test_steps_move_on_a_terminal(monkeypatch):

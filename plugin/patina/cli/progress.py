@@ -60,9 +60,12 @@ class Progress:
     def _write(self, fraction, text):
         if self.terminal:
             filled = int(BAR * fraction + 0.5)
-            line = f"{self.label} [{'#' * filled}{'.' * (BAR - filled)}] {text}"
-            # A line that wraps would stay.
-            self.stream.write("\r\033[K" + line[:shutil.get_terminal_size().columns - 1])
+            bar = f" [{'#' * filled}{'.' * (BAR - filled)}] "
+            # A line that wraps would stay: long labels, which are paths, show their ends.
+            room = shutil.get_terminal_size().columns - 1
+            most = max(room - len(bar) - len(text), 12)
+            label = self.label if len(self.label) <= most else "..." + self.label[3 - most:]
+            self.stream.write("\r\033[K" + (label + bar + text)[:room])
         else:
             self.stream.write(f"{self.label}: {text}\n")
         self.stream.flush()

@@ -36,11 +36,28 @@ def stepped(monkeypatch, stream):
 
 def test_steps_tell_the_time_that_is_left(monkeypatch):
     text = stepped(monkeypatch, io.StringIO())
-    assert text == "check:  17 %  material 2 of 6, gold  2:05 min left\n"  # 25 s for each of five; the next is too soon
+    assert text == "check:  17 %  2:05 min left  material 2 of 6, gold\n"  # 25 s for each of five; the next is too soon
+
+
+def test_a_line_never_wraps_on_a_terminal(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "50")
+    stream = io.StringIO()
+    stream.isatty = lambda: True
+    progress.Progress("check", stream=stream).step(0, 6, "material 1 of 6, " + "x" * 200)
+    assert len(stream.getvalue()) == len("\r\033[K") + 49
+    monkeypatch.setenv("COLUMNS", "80")
+    stream.truncate(stream.seek(0))
+    progress.Progress("/a/" + "b" * 100 + "/shot.exr", stream=stream).show({"fraction": 0.5, "samplesDone": 16, "secondsLeft": 9.0})
+    assert len(stream.getvalue()) == len("\r\033[K") + 79 and "/shot.exr [" in stream.getvalue()
+    assert stream.getvalue().endswith(" 50 %  16 samples  9 s left")
 
 
 def test_steps_move_on_a_terminal(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
     stream = io.StringIO()
     stream.isatty = lambda: True
+    progress.Progress("check", stream=stream).step(0, 6, "material 1 of 6, clay")
+    assert stream.getvalue().endswith("  0 %  material 1 of 6, clay")  # at once
+    stream.truncate(stream.seek(0))
     text = stepped(monkeypatch, stream)
-    assert text.count("\r\033[K") == 2 and text.endswith(" 33 %  material 3 of 6, iron  52 s left") and "\n" not in text
+    assert text.count("\r\033[K") == 2 and text.endswith(" 33 %  52 s left  material 3 of 6, iron") and "\n" not in text

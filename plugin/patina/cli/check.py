@@ -9,7 +9,8 @@
   reciprocity  f(a, b) = f(b, a) where both directions are above the surface; reported, and a failure
                only with --reciprocal, since layers by albedo and media inside are not reciprocal
 
-Materials that vary are checked at points of uv 0 to 1. Exit status 1 when a check fails.
+Materials that vary are checked at points of uv 0 to 1. Each material is shown when it is done; warnings come last, by their
+causes as `patina record` tells them. Exit status 1 when a check fails.
 
 --layers takes no material: it prints how far the albedo of layers, which scale what is below by what the top lets
 through, is from a random walk between the interfaces.

@@ -1,6 +1,7 @@
 """Shows what becomes of a material: its network as authored, the simplified graph, the plan of
 lobes, what was left out, the method at each choice point that matters, and the error and time that
 these methods are expected to take. Of a stage without a named material all materials are shown.
+Warnings come last, by their causes as `patina record` tells them.
 
   patina explain shot.usda --tolerance 0.01    what the planner would choose for 1 % of error
 

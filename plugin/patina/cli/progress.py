@@ -1,4 +1,5 @@
 """Shows how far a command is: one line that moves on a terminal, a line now and then elsewhere."""
+import shutil
 import sys
 import time
 
@@ -22,7 +23,8 @@ class Progress:
         self.stream = stream or sys.stderr
         self.label, self.quiet = label, quiet
         self.terminal = not quiet and self.stream.isatty()
-        self.started = self.last = time.monotonic()
+        self.started = time.monotonic()
+        self.last = self.started - (1.0 if self.terminal else 0.0)  # on a terminal the first line comes at once
 
     def show(self, state):
         """:param state: what Renderer.progress() says"""
@@ -44,10 +46,8 @@ class Progress:
         if done >= total > 0 or not self._due():
             return
         fraction = max(done / total, 0.0) if total > 0 else 0.0
-        text = f"{100 * fraction:3.0f} %  {what}"
-        if fraction > 0.0:
-            text += f"  {_clock((self.last - self.started) * (1.0 - fraction) / fraction)} left"
-        self._write(fraction, text)
+        left = f"{_clock((self.last - self.started) * (1.0 - fraction) / fraction)} left  " if fraction > 0.0 else ""
+        self._write(fraction, f"{100 * fraction:3.0f} %  {left}{what}")
 
     def _due(self):
         """:returns: whether it is time for the next line"""
@@ -60,7 +60,12 @@ class Progress:
     def _write(self, fraction, text):
         if self.terminal:
             filled = int(BAR * fraction + 0.5)
-            self.stream.write(f"\r\033[K{self.label} [{'#' * filled}{'.' * (BAR - filled)}] {text}")
+            bar = f" [{'#' * filled}{'.' * (BAR - filled)}] "
+            # A line that wraps would stay: long labels, which are paths, show their ends.
+            room = shutil.get_terminal_size().columns - 1
+            most = max(room - len(bar) - len(text), 12)
+            label = self.label if len(self.label) <= most else "..." + self.label[3 - most:]
+            self.stream.write("\r\033[K" + (label + bar + text)[:room])
         else:
             self.stream.write(f"{self.label}: {text}\n")
         self.stream.flush()

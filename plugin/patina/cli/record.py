@@ -4,6 +4,9 @@
   patina record shot.usda shot.###.exr --frames 101:110 --samples 256 --aov all
   patina record shot.usda shot.exr --tolerance 0.01 --seconds 600 --json
 
+Warnings are told by their causes: first errors (something that was authored is missing from the image), then warnings (a
+default or an approximation is used), those that are met most often first, 20 at most. --json has all of them.
+
 Ctrl+C ends a render early: the image is written with the samples that are there, and
 IMAGE.checkpoint stays for --resume. An image that was there before is replaced only by a whole one.
 """
@@ -41,7 +44,8 @@ class _Job:
         self.module, self.arguments, self.settings, self.purposes = module, arguments, settings, purposes
         self.statistics = statistics.Statistics(arguments)
         self.interrupted = False
-        self.told = {}  # causes of warnings that were shown
+        self.told = {}  # causes of warnings that were shown ...
+        self.reported = 0  # ... and how many warnings there were then
 
     def open(self):
         a = self.arguments
@@ -154,7 +158,8 @@ class _Job:
             raise CommandError(f"--strict: {len(warnings)} warnings, the worst: {statistics.lines(warnings)[0]}")
 
     def _tell(self, warnings, last=False):
-        if not self.arguments.quiet:
+        fresh, self.reported = len(warnings) != self.reported, len(warnings)
+        if not self.arguments.quiet and (fresh or last):
             for text in statistics.Causes(warnings).lines(self.told, last):
                 Progress("").say(text)
 

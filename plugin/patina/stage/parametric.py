@@ -17,7 +17,7 @@ def emit_patch(context, found, common, points):
             fields[f"{side}_{key}"] = _integer(context, prim, side + name)
         fields[f"{side}_knots"] = _doubles(context, prim, f"{side}Knots")
         fields[f"{side}_range"] = _range(context, prim, f"{side}Range")
-    if len(get(prim, "trimCurve:counts", time, [])) or len(get(prim, "trimCurve:vertexCounts", time, [])):
+    if len(array(context, prim, "trimCurve:counts", get(prim, "trimCurve:counts", time), 1, np.int32)):
         context.warn(prim.GetPath(), "trimCurve:counts", "is not supported: nothing is cut out of the patch")
     context.edit.set_nurbs_patch(found.path, points=points, weights=_doubles(context, prim, "pointWeights"),
                                  refine_level=context.options.refine_level, **fields, **common)
@@ -72,6 +72,15 @@ def _integer(context, prim, name):
 
 
 def _range(context, prim, name):
+    """:returns: the ends of what is drawn; None, after a warning where something is authored, for all that knots span"""
     value = get(prim, name, context.time)
-    found = np.array([] if value is None else value, dtype=np.float64)
-    return found if found.shape == (2,) and np.isfinite(found).all() and found[0] < found[1] else None
+    if value is None:
+        return None
+    try:
+        found = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        found = np.zeros(0)
+    if found.shape == (2,) and np.isfinite(found).all() and found[0] < found[1]:
+        return found
+    context.warn(prim.GetPath(), name, "is not two numbers that ascend; all that the knots span is drawn")
+    return None

@@ -86,10 +86,12 @@ def test_what_is_broken_is_named(read):
     def NurbsCurves "n" { int[] curveVertexCounts = [4]  point3f[] points = [(0,0,0), (1,0,0), (2,0,0), (3,0,0)]
         int[] order = [4]  double[] knots = [0, 1] }
     def HermiteCurves "h" { int[] curveVertexCounts = [2]  point3f[] points = [(0,0,0), (1,0,0)] }
-    def NurbsPatch "types" { string uOrder = "x"  point3f[] uKnots = [(0,0,0)]  int2 uRange = (1, 2) }""")
+    def NurbsPatch "types" { string uOrder = "x"  point3f[] uKnots = [(0,0,0)]  int2 uRange = (1, 2)
+        string vRange = "x"  string trimCurve:counts = "x" }""")
     assert any(w.startswith("/n knots: has 2 values where 8 are needed") for w in reading.warnings)
     assert any(w.startswith("/h tangents:") for w in reading.warnings)
     assert any(w.startswith("/types uKnots:") for w in reading.warnings)
+    assert any(w.startswith("/types vRange:") for w in reading.warnings) and reading.has("/types")
 
 
 def test_both_back_ends_draw_them(read):

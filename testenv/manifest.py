@@ -76,6 +76,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/stability/test_atlas.py::*", None, "chart shaders"),
     # Every test scene to the noise of thousands of samples.
     ("testenv/render/test_convergence.py::test_error_falls_with_samples*", "long", None),
+    ("testenv/tests/test_runner.py::*", "smoke", None),
     ("testenv/raster/test_bothBackEnds.py::*", None, "raster embree lights shaders"),
     ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same_looked_at_closely*", "long", None),
 )

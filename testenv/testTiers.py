@@ -1,4 +1,4 @@
-"""pytest plugin: `--tier` and `--room` choose tests by manifest.py, and shares tests among processes."""
+"""pytest plugin: `--tier` and `--room` choose tests by manifest.py."""
 import os
 import sys
 
@@ -20,7 +20,6 @@ def name_of(item):
     return getattr(item, "manifest_name", item.nodeid)
 
 
-@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items):
     tiers, rooms = manifest.RUNS[config.getoption("--tier")], set(config.getoption("--room"))
     kept, left, lost = [], [], []
@@ -35,23 +34,6 @@ def pytest_collection_modifyitems(config, items):
     if left:
         config.hook.pytest_deselected(items=left)
         items[:] = kept
-    if hasattr(config, "workerinput"):
-        share(items)
-
-
-CHEAP = {"opengl"}  # fixtures that each process may make again
-
-
-def share(items):
-    """Tests of a module that make something together stay in one process; all others go wherever there is room. What takes
-    longest begins first, so that no process is left alone at the end."""
-    for item in items:
-        info = getattr(item, "_fixtureinfo", None)
-        scopes = {found[-1].scope for name, found in info.name2fixturedefs.items()
-                  if name not in CHEAP and found[-1].baseid} if info else set()
-        if scopes - {"function"}:
-            item.add_marker(pytest.mark.xdist_group(item.nodeid.partition("::")[0]))
-    items.sort(key=lambda item: -manifest.TIERS.index(manifest.place_of(name_of(item))[0]))
 
 
 def pytest_report_header(config):

@@ -25,8 +25,8 @@ class Case:
     tier: str = "full"
 
 
-# Costly (hundreds of lights, strands, glass): held together by the long tier alone.
-LONG = {"manyLights", "hair", "lightMesh"}
+# Costly (hundreds of lights or glowing triangles, strands): held together by the long tier alone.
+LONG = {"manyLights", "hair", "lightMesh", "outOfView/glowingSphere", "outOfView/glowingPoints"}
 
 ASSETS = (  # file below the assets, further arguments
     "SubdivisionSurfaces/Creases_SpinningPyramids.usda",
@@ -62,12 +62,11 @@ ASSETS = (  # file below the assets, further arguments
 
 def cases():
     """:returns: list of Case"""
-    made = [Case(name, "scene", name, tier="long" if name in LONG else "full") for name in pairs.names()
-            if name not in byDesign.SCENES]
+    made = [Case(name, "scene", name) for name in pairs.names() if name not in byDesign.SCENES]
     made += [Case(f"outOfView/{name}", "emitter", name) for name in outOfView.EMITTERS]
     made += [Case(f"outOfView/{name}/all", "alone", name, WHOLE) for name in outOfView.WITHOUT_BLOCK]
     made += [Case("assets/" + os.path.splitext(os.path.basename(file))[0], "asset", file) for file in ASSETS]
-    return made
+    return [dataclasses.replace(case, tier="long") if case.name in LONG else case for case in made]
 
 
 def path_of(case, folder):

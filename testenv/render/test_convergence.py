@@ -54,7 +54,7 @@ def test_error_falls_with_samples(name):
     falls(name, *slope(name, 48, LATER.get(name, COUNTS), SEEDS), -0.45)
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name not in LATER])
+@pytest.mark.parametrize("name", [name for name in NAMES if name not in LATER and name != "furnace"])
 def test_error_falls_from_few_samples_on(name):
     """Small images, whose slopes scatter by 0.05 (standard deviation over seeds); 0.1 more allow for rare light that four
     samples miss. What does not converge (a bias, samples that repeat) has a slope near 0."""

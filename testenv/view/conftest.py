@@ -14,7 +14,7 @@ if browser.missing():
     collect_ignore_glob = ["test_[!f]*.py"]
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")  # what ends badly fails a test of its own file
 def chromium():
     started = browser.Browser()
     yield started

@@ -64,8 +64,8 @@ def _rooms(rooms, testenv):
 
 
 def _workers(passed_on):
-    """:returns: arguments that let several processes share the tests, in groups as testTiers.py makes them; none where
-    pytest-xdist is missing, there is one core, or the user says how many or wants to look into a test"""
+    """:returns: arguments that let several processes share the tests; none where pytest-xdist is missing, there is one
+    core, or the user says how many or wants to look into a test"""
     alone = ("-n", "--numprocesses", "--pdb", "-s", "--capture=no", "--collect-only", "--co")
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     if cores < 2 or importlib.util.find_spec("xdist") is None:
@@ -73,4 +73,6 @@ def _workers(passed_on):
     if any(a == name or a.startswith(name + "=") or (name == "-n" and a[:2] == "-n" and a[2:].isalnum())
            for a in passed_on for name in alone):
         return []
-    return ["-n", str(min(cores, 4)), "--dist", "loadgroup"]
+    # Neighbours stay together, and so do tests of a module. (By modules, pytest-xdist runs a test that takes its process
+    # down again and again.)
+    return ["-n", str(min(cores, 4)), "--dist", "worksteal"]

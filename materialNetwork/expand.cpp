@@ -1,6 +1,8 @@
 #include "materialNetwork/expand.h"
 
 #include "materialNetwork/geomprop.h"
+#include "materialNetwork/graph.h"
+#include "materialNetwork/simplify.h"
 #include "materialNetwork/value.h"
 
 #include <deque>
@@ -10,8 +12,7 @@ namespace patina {
 
 namespace {
 
-constexpr int maxDepth = 16;        ///< of models within models
-constexpr size_t maxNodes = 200000; ///< a network that grows beyond this is cut off
+constexpr int maxDepth = 16; ///< of models within models
 
 class Expander {
 public:
@@ -25,17 +26,29 @@ public:
         _result.path = _network.path;
         for (const auto& [name, c] : _network.terminals)
             request(c.node, 0);
-        while (!_queue.empty()) {
+        while (!_queue.empty() && _nodes <= mostExpandedNodes) {
             const auto [path, depth] = _queue.front();
             _queue.pop_front();
             const auto found = _source.find(path);
             if (found != _source.end()) visit(*found->second, depth);
         }
+        if (_nodes > mostExpandedNodes) {
+            // Definitions that use others twice, those others twice, and so on.
+            _diagnostics.warn(_network.path, "",
+                              "the material comes to more than " +
+                                  std::to_string(mostExpandedNodes) + " nodes; it is left out");
+            Network nothing;
+            nothing.path = _network.path;
+            return nothing;
+        }
         for (NetworkNode& node : _result.nodes)
-            for (auto& [input, c] : node.connections)
-                c = resolved(c);
-        for (const auto& [name, c] : _network.terminals)
-            _result.terminals[name] = resolved(c);
+            for (auto it = node.connections.begin(); it != node.connections.end();)
+                if (resolve(it->second))
+                    ++it;
+                else
+                    it = node.connections.erase(it);
+        for (auto [name, c] : _network.terminals)
+            if (resolve(c)) _result.terminals[name] = c;
         return std::move(_result);
     }
 
@@ -51,13 +64,17 @@ private:
 
     void visit(const NetworkNode& node, int depth) {
         const ShadingModel* model = _models(node.id);
-        if (model && (depth >= maxDepth || _result.nodes.size() > maxNodes)) {
-            _diagnostics.warn(node.path, "",
-                              "models are nested too deeply (does " + node.id +
-                                  " contain itself?); the node is left out");
-            model = nullptr;
+        if (model && depth >= maxDepth) {
+            // Of many such nodes one is named.
+            if (_tooDeep.empty())
+                _diagnostics.warn(node.path, "",
+                                  "models are nested too deeply (does " + node.id +
+                                      " contain itself?); the node is left out");
+            _tooDeep.insert(node.path);
+            return;
         }
         if (!model) {
+            ++_nodes;
             for (const auto& [input, c] : node.connections)
                 request(c.node, depth);
             _result.nodes.push_back(node);
@@ -65,7 +82,9 @@ private:
         }
         const std::string prefix = node.path + "/";
         _instances[node.path] = {model, prefix};
-        reportUnknownInputs(node, *model);
+        _nodes += 1 + model->nodes.size();
+        if (_nodes > mostExpandedNodes) return;
+        reportInputs(node, *model);
         for (const NetworkNode& inner : model->nodes) {
             _owned.push_back(instantiate(inner, node, *model, prefix, depth));
             _source[_owned.back().path] = &_owned.back();
@@ -74,15 +93,42 @@ private:
             request(prefix + c.node, depth + 1);
     }
 
-    void reportUnknownInputs(const NetworkNode& node, const ShadingModel& model) {
-        const auto check = [&](const std::string& input) {
-            if (model.def.findInput(input) < 0)
+    /// Inputs that the model does not have, and those of what is not modelled.
+    void reportInputs(const NetworkNode& node, const ShadingModel& model) {
+        const auto check = [&](const std::string& input, const Value* value) {
+            const int i = model.def.findInput(input);
+            if (i < 0) {
                 _diagnostics.warn(node.path, input, node.id + " has no such input; it is ignored");
+                return;
+            }
+            const InputDef& def = model.def.inputs[size_t(i)];
+            if (def.notModelled.empty() || !_asked) return;
+            const auto c = node.connections.find(input);
+            if (!(value ? value->numbers == def.value.numbers : foldsTo(c->second, def.value)))
+                _diagnostics.warn(node.path, input,
+                                  def.notModelled + " is not modelled; the input is ignored");
         };
         for (const auto& [input, value] : node.inputs)
-            check(input);
+            if (!node.connections.count(input)) check(input, &value);
         for (const auto& [input, c] : node.connections)
-            if (!node.inputs.count(input)) check(input);
+            check(input, nullptr);
+    }
+
+    /// Whether what is connected is this constant: translations connect every input.
+    bool foldsTo(const Connection& c, const Value& value) {
+        Network part;
+        part.path = _network.path;
+        for (const auto& [path, node] : _source)
+            part.nodes.push_back(*node);
+        part.terminals["value"] = c;
+        Diagnostics unheard;
+        Expander inner(part, _models, unheard);
+        inner._asked = false; // connections may form a cycle
+        std::vector<std::string> cuts;
+        const Graph graph = simplify(buildGraph(inner.run(), unheard), cuts);
+        const auto found = graph.terminals.find("value");
+        return found != graph.terminals.end() && found->second.isConstant() &&
+               found->second.value.numbers == value.numbers;
     }
 
     NetworkNode instantiate(const NetworkNode& inner, const NetworkNode& outer,
@@ -130,7 +176,9 @@ private:
         if (v == outer.inputs.end()) return def.value;
         Value value;
         std::string problem;
-        if (coerceValue(v->second, def, value, problem)) return value;
+        const bool usable = coerceValue(v->second, def, value, problem);
+        if (usable && !problem.empty()) _diagnostics.warn(outer.path, def.name, problem);
+        if (usable) return value;
         _diagnostics.warn(outer.path, def.name, problem + "; the default is used");
         return def.value;
     }
@@ -150,10 +198,11 @@ private:
     }
 
     /// Follows a connection through the outputs of models.
-    Connection resolved(Connection c) const {
+    /// @returns false when it ends at a node that was left out
+    bool resolve(Connection& c) const {
         for (int guard = 0; guard <= maxDepth + 1; ++guard) {
             const auto found = _instances.find(c.node);
-            if (found == _instances.end()) return c;
+            if (found == _instances.end()) return !_tooDeep.count(c.node);
             const ShadingModel& model = *found->second.model;
             const int i = model.def.findOutput(c.output);
             const auto out =
@@ -161,11 +210,12 @@ private:
             if (out == model.outputs.end()) {
                 _diagnostics.warn(c.node, c.output,
                                   model.def.category + " has no such output; the default is used");
-                return {};
+                c = {};
+                return true;
             }
             c = {found->second.prefix + out->second.node, out->second.output};
         }
-        return c;
+        return true;
     }
 
     const Network& _network;
@@ -175,6 +225,9 @@ private:
     std::deque<NetworkNode> _owned; ///< nodes that come from models; addresses must stay
     std::map<std::string, Instance> _instances;
     std::set<std::string> _seen;
+    std::set<std::string> _tooDeep; ///< nodes that are left out
+    bool _asked = true;             ///< whether inputs in vain are looked for
+    size_t _nodes = 0;              ///< of the result and of all models taken in
     std::deque<std::pair<std::string, int>> _queue;
     Network _result;
 };

@@ -140,6 +140,7 @@ private:
         if (v != node.inputs.end()) {
             std::string problem;
             if (coerceValue(v->second, input, operand.value, problem)) {
+                if (!problem.empty()) warn(node.path, input.name, problem);
                 authored = true;
                 return operand;
             }

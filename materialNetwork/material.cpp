@@ -18,15 +18,24 @@ Graph simplifyMaterial(const Graph& graph, std::vector<std::string>& cuts,
     return mergeWholeShaders(simple, diagnostics) ? simplify(simple, cuts) : simple;
 }
 
+/// Whether nothing is known of a surface: grey or the prim's own colour is better than a black
+/// hole.
+bool isLost(const Graph& graph, const Network& network, Diagnostics& diagnostics) {
+    if (graph.terminals.count("surface") || graph.terminals.count("volume") ||
+        network.path == displayColorPath)
+        return false;
+    diagnostics.warn(network.path, "outputs:surface",
+                     "the material has no usable surface; displayColor is shown");
+    return true;
+}
+
 Plan planMaterial(const Network& network, Diagnostics& diagnostics, const MethodChoices& methods) {
     const Network expanded = expand(network, diagnostics);
     const Graph graph = buildGraph(expanded, diagnostics);
-    // Nothing is known of this surface; grey or the prim's own colour is better than a black hole.
-    const bool lost = !graph.terminals.count("surface") && !graph.terminals.count("volume");
-    if (lost && network.path != displayColorPath) {
-        diagnostics.warn(network.path, "outputs:surface",
-                         "the material has no usable surface; displayColor is shown");
-        return planMaterial(makeDisplayColorNetwork(), diagnostics, methods);
+    if (isLost(graph, network, diagnostics)) {
+        Plan plan = planMaterial(makeDisplayColorNetwork(), diagnostics, methods);
+        plan.planned.fallback = true;
+        return plan;
     }
     std::vector<std::string> cuts;
     Graph simple = simplifyMaterial(graph, cuts, diagnostics);
@@ -51,7 +60,10 @@ compileMaterial(const Network& network, TextureSource& textures, Diagnostics& di
 MethodPlan planMaterialMethods(const Network& network, TextureSource& textures,
                                Diagnostics& diagnostics, const MethodChoices& methods,
                                double tolerance) {
-    return planMethods(planMaterial(network, diagnostics, methods), {methods, tolerance}, textures);
+    const Plan plan = planMaterial(network, diagnostics, methods);
+    MethodPlan planned = planMethods(plan, {methods, tolerance}, textures);
+    planned.fallback = plan.planned.fallback;
+    return planned;
 }
 
 std::string explainMaterial(const Network& network, Diagnostics& diagnostics,
@@ -59,6 +71,12 @@ std::string explainMaterial(const Network& network, Diagnostics& diagnostics,
     const Network expanded = expand(network, diagnostics);
     std::vector<std::string> cuts;
     const Graph graph = buildGraph(expanded, diagnostics);
+    if (isLost(graph, network, diagnostics))
+        return dumpNetwork(network) +
+               "\nThis material has no usable surface and is not shown. displayColor is shown in "
+               "its "
+               "place; what follows is of that fallback.\n\n" +
+               explainMaterial(makeDisplayColorNetwork(), diagnostics, methods);
     Graph simple = simplifyMaterial(graph, cuts, diagnostics);
     const size_t before = graph.nodes.size();
     std::string text = dumpNetwork(network) + "\n" + dumpGraph(simple);

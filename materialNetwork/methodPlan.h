@@ -24,6 +24,7 @@ struct MethodPlan {
     double error = 0.0;      ///< of all points; more than methodShare allows only where forced
     double albedo = 0.0;     ///< largest directional albedo that was seen, luminance
     bool varies = false;     ///< parameters vary; the worst that was seen counts
+    bool fallback = false;   ///< the material has no usable surface: displayColor was planned
     double facets = 0.0;     ///< largest share of the light that mirrors, smooth or rough, give
     double smoothest = 1.0;  ///< roughness (root of alpha) of the smoothest of them
     /// Place by place and angle by angle, as it was planned by (sightings.h); null: not at all.

@@ -2,11 +2,11 @@
 
 #include "materialNetwork/mtlx/document.h"
 #include "materialNetwork/nodeTable.h"
+#include "materialNetwork/regularFile.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace patina {
@@ -31,10 +31,11 @@ ModelLibrary::ModelLibrary() {
                                   "the folder cannot be read; it is left out");
             std::sort(files.begin(), files.end());
             for (const fs::path& file : files) {
-                std::ifstream stream(file);
-                std::ostringstream text;
-                text << stream.rdbuf();
-                add(text.str(), file.string());
+                std::string text, problem;
+                if (readRegularFile(file.string(), mostDocumentBytes, text, problem))
+                    add(text, file.string());
+                else
+                    _diagnostics.warn(file.string(), "", "the file " + problem);
             }
         }
     }

@@ -47,8 +47,9 @@ enum class ClosureKind {
 struct InputDef {
     std::string name;
     ValueType type = ValueType::Unknown;
-    Value value;          ///< default; empty for closures
-    std::string geomprop; ///< default taken from the geometry: "Nworld", "Tworld", "UV0"...
+    Value value;             ///< default; empty for closures
+    std::string geomprop;    ///< default taken from the geometry: "Nworld", "Tworld", "UV0"...
+    std::string notModelled; ///< what values other than the default ask for in vain; mostly empty
     /// Names that stand for numbers when a string is authored on a numeric input.
     std::vector<std::string> enumNames;
     std::vector<float> enumValues;

@@ -1,6 +1,6 @@
 #include "materialNetwork/value.h"
 
-#include "shaders/patterns.h"
+#include "materialNetwork/color/colorSpaces.h"
 
 #include <cmath>
 #include <cstdio>
@@ -17,37 +17,6 @@ bool isScalar(ValueType type) {
 }
 bool isMatrix(ValueType type) {
     return type == ValueType::Matrix33 || type == ValueType::Matrix44;
-}
-
-/// @returns false for a colour space that is not known here
-bool toLinearRec709(float* c, const std::string& space) {
-    if (space.empty() || space == "lin_rec709" || space == "none" || space == "raw" ||
-        space == "auto" || space == "lin_srgb" || space == "linear")
-        return true;
-    float gamma = 0.0f;
-    if (space == "srgb_texture" || space == "sRGB" || space == "srgb") {
-        for (int i = 0; i < 3; ++i)
-            c[i] = sh::srgbToLinear(c[i]);
-        return true;
-    }
-    if (space == "g22_rec709")
-        gamma = 2.2f;
-    else if (space == "g18_rec709")
-        gamma = 1.8f;
-    if (gamma > 0.0f) {
-        for (int i = 0; i < 3; ++i)
-            c[i] = std::pow(std::max(c[i], 0.0f), gamma);
-        return true;
-    }
-    if (space == "acescg" || space == "lin_ap1") {
-        // ACEScg primaries (AMPAS S-2014-004) to Rec.709, white adapted by Bradford.
-        const float r = c[0], g = c[1], b = c[2];
-        c[0] = 1.7050510f * r - 0.6217921f * g - 0.0832589f * b;
-        c[1] = -0.1302564f * r + 1.1408048f * g - 0.0105484f * b;
-        c[2] = -0.0240034f * r - 0.1289690f * g + 1.1529724f * b;
-        return true;
-    }
-    return false;
 }
 
 } // namespace
@@ -67,6 +36,7 @@ Coercion coercion(ValueType from, ValueType to) {
 }
 
 bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string& problem) {
+    problem.clear();
     out = from;
     out.type = to.type;
     if (from.type == ValueType::String && isNumeric(to.type)) {
@@ -86,11 +56,12 @@ bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string&
         return false;
     }
     if (!isNumeric(to.type)) return true;
-    for (const float x : from.numbers)
-        if (!std::isfinite(x)) {
-            problem = "the value is not a finite number";
-            return false;
-        }
+    const auto finite = [&](const std::vector<float>& numbers) {
+        for (const float x : numbers)
+            if (!std::isfinite(x)) problem = "the value is not a finite number";
+        return problem.empty();
+    };
+    if (!finite(from.numbers)) return false;
     const size_t n = size_t(valueTypeComponents(to.type));
     if (from.numbers.empty()) {
         problem = "no value given";
@@ -100,10 +71,12 @@ bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string&
                        : c == Coercion::AppendOne ? 1.0f
                                                   : 0.0f;
     out.numbers.resize(n, fill);
-    if ((to.type == ValueType::Color3 || to.type == ValueType::Color4) &&
-        !toLinearRec709(out.numbers.data(), from.colorSpace)) {
-        problem = "unknown colour space '" + from.colorSpace + "'";
-        return false;
+    if (to.type == ValueType::Color3 || to.type == ValueType::Color4) {
+        const bool known =
+            ColorSpaces::shared().valueToRendering(from.colorSpace, out.numbers.data());
+        if (!finite(out.numbers)) return false; // curves may overflow
+        if (!known)
+            problem = "unknown colour space '" + from.colorSpace + "'; the value is used as it is";
     }
     if (to.type != ValueType::Filename) out.colorSpace.clear();
     return true;

@@ -19,7 +19,8 @@ Coercion coercion(ValueType from, ValueType to);
 
 /// Brings an authored value to the type of an input: components (1 to all, 3 to 4 by appending 1, 4
 /// to 3), names of an enumeration to numbers, colours to linear Rec.709.
-/// @param problem says what is wrong when false is returned
+/// @param problem says what is wrong when false is returned; with true it is empty, or says that
+/// the colour space is not known and the value is used as it is
 bool coerceValue(const Value& from, const InputDef& to, Value& out, std::string& problem);
 
 /// Registers that a value of this type takes: one per row of a matrix, else one.

@@ -1,6 +1,6 @@
 #include "hdDelegate/film/imageOutput.h"
 #include "hdDelegate/parallel.h"
-#include "hdDelegate/scene/colorSpaces.h"
+#include "materialNetwork/color/colorSpaces.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,9 +4,11 @@
 #include "hdDelegate/hydra/values.h"
 
 #include <pxr/base/gf/camera.h>
+#include <pxr/imaging/hd/cameraSchema.h>
 #include <pxr/imaging/hd/changeTracker.h>
 #include <pxr/imaging/hd/renderIndex.h>
 #include <pxr/imaging/hd/sceneDelegate.h>
+#include <pxr/imaging/hd/sceneIndex.h>
 #include <pxr/imaging/hd/timeSampleArray.h>
 
 #include <cmath>
@@ -22,6 +24,17 @@ float tenths(float sceneUnits, double unit) {
     for (const float x : {guess, std::nextafter(guess, -INFINITY), std::nextafter(guess, INFINITY)})
         if (x * factor == sceneUnits) return x;
     return guess;
+}
+
+/// HdCamera takes what it does not know for perspective; scene indices still have the name.
+void reportProjection(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id) {
+    const HdSceneIndexBaseRefPtr scene = delegate.GetRenderIndex().GetTerminalSceneIndex();
+    if (!scene) return;
+    HdCameraSchema camera = HdCameraSchema::GetFromParent(scene->GetPrim(id).dataSource);
+    const HdTokenDataSourceHandle source = camera ? camera.GetProjection() : nullptr;
+    const std::string name = source ? source->GetTypedValue(0.0f).GetString() : std::string();
+    if (!name.empty() && name != "perspective" && name != "orthographic")
+        param.warn(id, "projection", name + " is not known; perspective is used");
 }
 
 MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
@@ -59,6 +72,7 @@ void HdPatinaCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     camera->path = GetId().GetString();
     camera->transform = transformOf(*delegate, param, GetId());
     camera->orthographic = GetProjection() == Orthographic;
+    reportProjection(*delegate, param, GetId());
     // Apertures of a camera that has none (a host gave matrices) keep the schema's fallback.
     if (GetHorizontalAperture() > 0.0f && GetVerticalAperture() > 0.0f) {
         camera->horizontalAperture = tenths(GetHorizontalAperture(), GfCamera::APERTURE_UNIT);

@@ -2,7 +2,10 @@
 
 #include "hdDelegate/hydra/values.h"
 
+#include "materialNetwork/color/colorSpaces.h"
+
 #include <pxr/imaging/hd/light.h>
+#include <pxr/imaging/hd/material.h>
 #include <pxr/imaging/hd/tokens.h>
 #include <pxr/usd/sdf/assetPath.h>
 
@@ -97,6 +100,43 @@ void readShadow(const Params& p, Light& light) {
     p.number("shadow:falloffGamma", light.shadowFalloffGamma);
 }
 
+void convertColor(const HdMaterialNode& node, const char* input, HdPatinaRenderParam& param,
+                  const SdfPath& id, vec3& color) {
+    const auto given = node.parameters.find(TfToken(std::string("colorSpace:") + input));
+    if (given == node.parameters.end()) return;
+    const std::string space = textOf(given->second);
+    if (!ColorSpaces::shared().valueToRendering(space, &color.x))
+        param.warn(id, std::string("inputs:") + input,
+                   "unknown colour space '" + space + "'; the value is used as it is");
+    else if (!ColorSpaces::isData(space))
+        color = glm::max(color, vec3(0.0f)); // of what Rec.709 does not reach
+}
+
+/// Lights are nodes of networks, which tell the colour spaces of their inputs. Other nodes are not
+/// evaluated.
+void readNetwork(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
+                 Light& light) {
+    const VtValue resource = delegate.GetMaterialResource(id);
+    if (!resource.IsHolding<HdMaterialNetworkMap>()) return;
+    for (const auto& terminal : resource.UncheckedGet<HdMaterialNetworkMap>().map) {
+        const HdMaterialNetwork& network = terminal.second;
+        if (network.nodes.empty()) continue;
+        const HdMaterialNode& node = network.nodes.back();
+        convertColor(node, "color", param, id, light.color);
+        convertColor(node, "shadow:color", param, id, light.shadowColor);
+        convertColor(node, "shaping:focusTint", param, id, light.shapingFocusTint);
+        if (node.identifier.GetString().compare(0, 3, "ND_") == 0)
+            param.warn(id, "light:shaderId",
+                       "is " + node.identifier.GetString() +
+                           ", which is not evaluated; the light is drawn by its type");
+        for (const HdMaterialRelationship& relation : network.relationships)
+            if (relation.outputId == node.path)
+                param.warn(id, "inputs:" + relation.outputName.GetString(),
+                           "is connected to " + relation.inputId.GetString() +
+                               ", which is not evaluated for lights; its own value is used");
+    }
+}
+
 } // namespace
 
 void readLightParams(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
@@ -132,6 +172,7 @@ void readLightParams(HdSceneDelegate& delegate, HdPatinaRenderParam& param, cons
     light.lightLink = textOf(delegate.GetLightParamValue(id, HdTokens->lightLink));
     light.shadowLink = textOf(delegate.GetLightParamValue(id, HdTokens->shadowLink));
 
+    readNetwork(delegate, param, id, light);
     const VtValue filters = delegate.GetLightParamValue(id, HdTokens->filters);
     if (filters.IsHolding<SdfPathVector>() && !filters.UncheckedGet<SdfPathVector>().empty())
         param.warn(id, "light:filters", "light filters are not applied");

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hdDelegate/scene/colorSpaces.h"
 #include "hdDelegate/scene/imageTexture.h"
+#include "materialNetwork/color/colorSpaces.h"
 #include "materialNetwork/diagnostics.h"
 
 #include <memory>

@@ -4,20 +4,23 @@
 #include "materialNetwork/mtlx/include.h"
 #include "materialNetwork/mtlx/parser.h"
 #include "materialNetwork/mtlx/upgrade.h"
-
-#include <fstream>
-#include <sstream>
+#include "materialNetwork/mtlx/xmlFile.h"
+#include "materialNetwork/regularFile.h"
 
 namespace patina {
+
+namespace {
+
+constexpr size_t mostNodes = 5 * mostExpandedNodes; ///< of all materials of a document
+
+} // namespace
 
 bool parseMtlx(const std::string& text, const std::string& path, bool wantMaterials,
                MtlxDocument& out, Diagnostics& diagnostics) {
     pugi::xml_document xml;
-    const pugi::xml_parse_result result = xml.load_buffer(text.data(), text.size());
-    if (!result) {
-        diagnostics.warn(path, "",
-                         std::string("not readable as XML: ") + result.description() +
-                             "; the document is ignored");
+    std::string problem;
+    if (!loadXml(text, xml, problem)) {
+        diagnostics.warn(path, "", problem + "; the document is ignored");
         return false;
     }
     pugi::xml_node root = xml.child("materialx");
@@ -32,23 +35,38 @@ bool parseMtlx(const std::string& text, const std::string& path, bool wantMateri
 }
 
 std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics) {
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) {
-        diagnostics.warn(path, "", "the file cannot be opened");
+    std::string text, problem;
+    if (!readRegularFile(path, mostDocumentBytes, text, problem)) {
+        diagnostics.warn(path, "", "the file " + problem);
         return {};
     }
-    std::ostringstream text;
-    text << stream.rdbuf();
     MtlxDocument document;
-    if (!parseMtlx(text.str(), path, true, document, diagnostics)) return {};
+    if (!parseMtlx(text, path, true, document, diagnostics)) return {};
+    std::map<std::string, const ShadingModel*> models;
+    for (const ShadingModel& model : document.models)
+        models.emplace(model.def.id, &model);
     const auto find = [&](const std::string& id) -> const ShadingModel* {
-        for (const ShadingModel& model : document.models)
-            if (model.def.id == id) return &model;
-        return nullptr;
+        const auto found = models.find(id);
+        return found == models.end() ? nullptr : found->second;
     };
-    for (Network& network : document.materials)
-        network = expand(network, find, diagnostics);
-    return document.materials;
+    // Many materials of many nodes each would take as much as one that is given up.
+    size_t nodes = 0, leftOut = 0;
+    for (Network& network : document.materials) {
+        Network expanded;
+        expanded.path = network.path;
+        if (nodes <= mostNodes)
+            expanded = expand(network, find, diagnostics);
+        else
+            ++leftOut;
+        const bool givenUp = expanded.empty() && !network.empty();
+        nodes += givenUp ? mostExpandedNodes : expanded.nodes.size();
+        network = std::move(expanded);
+    }
+    if (leftOut)
+        diagnostics.warn(path, "",
+                         "the materials come to more than " + std::to_string(mostNodes) +
+                             " nodes; the last " + std::to_string(leftOut) + " are left out");
+    return std::move(document.materials);
 }
 
 } // namespace patina

@@ -1,10 +1,11 @@
 #include "materialNetwork/mtlx/include.h"
 
+#include "materialNetwork/mtlx/xmlFile.h"
+#include "materialNetwork/regularFile.h"
+
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <vector>
 
 namespace patina {
@@ -14,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t maxDocuments = 1000;
+constexpr uint64_t maxBytes = mostDocumentBytes; ///< of all included documents together
 
 std::string canonical(const fs::path& path) {
     std::error_code error;
@@ -53,20 +55,15 @@ private:
             _diagnostics.warn(path, "", "too many included documents; " + name + " is left out");
             return;
         }
-        std::ifstream stream(target, std::ios::binary);
-        if (name.empty() || !stream) {
-            _diagnostics.warn(path, "", "the included document " + name + " cannot be opened");
-            return;
-        }
-        std::ostringstream text;
-        text << stream.rdbuf();
+        std::string text, problem;
         pugi::xml_document xml;
-        const pugi::xml_parse_result result = xml.load_string(text.str().c_str());
+        if (readRegularFile(target, maxBytes - _bytes, text, problem)) loadXml(text, xml, problem);
+        _bytes += text.size();
         const pugi::xml_node included = xml.child("materialx");
-        if (!result || !included) {
-            _diagnostics.warn(path, "",
-                              "the included document " + name +
-                                  " is no MaterialX document; it is left out");
+        if (problem.empty() && !included) problem = "is no MaterialX document";
+        if (!problem.empty()) {
+            _diagnostics.warn(
+                path, "", "the included document '" + name + "' " + problem + "; it is left out");
             return;
         }
         run(included, target);
@@ -80,7 +77,7 @@ private:
                      const std::string& path) {
         if (element.attribute(sourceAttribute)) return; // of a document that this one included
         element.append_attribute(sourceAttribute).set_value(path.c_str());
-        for (const char* name : {"colorspace", "version", "fileprefix"}) {
+        for (const char* name : {"colorspace", "version", "fileprefix", "namespace"}) {
             const pugi::xml_attribute outer = document.attribute(name);
             if (!outer) continue;
             if (const pugi::xml_attribute own = element.attribute(name)) {
@@ -91,11 +88,14 @@ private:
                 element.append_attribute(name).set_value(outer.value());
             }
         }
+        if (pugi::xml_attribute name = element.attribute("name"))
+            name.set_value(qualifiedName(element, name.value()).c_str());
     }
 
     Diagnostics& _diagnostics;
     std::set<std::string> _open;
     size_t _documents = 0;
+    uint64_t _bytes = 0;
 };
 
 } // namespace

@@ -14,7 +14,8 @@ inline constexpr const char* sourceAttribute = "patina-source";
 
 /// Replaces every `xi:include` of a document by the elements of the document that it names,
 /// relative to the including one. Included elements keep their own colour space, file prefix and
-/// version. What cannot be read and documents that include themselves are reported and left out.
+/// version; those of a namespace are named "namespace:name" from then on. What cannot be read and
+/// documents that include themselves are reported and left out.
 void includeDocuments(pugi::xml_node root, const std::string& path, Diagnostics& diagnostics);
 
 } // namespace patina

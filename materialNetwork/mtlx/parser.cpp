@@ -1,6 +1,7 @@
 #include "materialNetwork/mtlx/parser.h"
 
 #include "materialNetwork/mtlx/include.h"
+#include "materialNetwork/mtlx/xmlFile.h"
 #include "materialNetwork/nodeTable.h"
 
 #include <algorithm>
@@ -20,6 +21,10 @@ const std::set<std::string> otherElements = {
     "unittypedef", "targetdef",  "xi:include",     "input",    "output",      "token",
     "backdrop",    "comment",    "attributedef",   "parameter"};
 
+bool isNode(const pugi::xml_node& element) {
+    return element.type() == pugi::node_element && !otherElements.count(element.name());
+}
+
 bool isPort(const char* name) {
     return !std::strcmp(name, "input") || !std::strcmp(name, "parameter");
 }
@@ -33,6 +38,32 @@ std::vector<std::string> splitList(std::string text) {
         parts.push_back(first == std::string::npos ? "" : part.substr(first, last - first + 1));
     }
     return parts;
+}
+
+/// Gives each material the nodes that its terminals reach, in the order of the document.
+void giveNodes(const std::vector<NetworkNode>& nodes, std::vector<Network>& materials) {
+    std::map<std::string, size_t> places;
+    for (size_t i = 0; i < nodes.size(); ++i)
+        places.emplace(nodes[i].path, i);
+    for (Network& material : materials) {
+        std::set<size_t> reached;
+        std::vector<size_t> open;
+        const auto reach = [&](const Connection& c) {
+            const auto found = places.find(c.node);
+            if (found != places.end() && reached.insert(found->second).second)
+                open.push_back(found->second);
+        };
+        for (const auto& [name, c] : material.terminals)
+            reach(c);
+        while (!open.empty()) {
+            const NetworkNode& node = nodes[open.back()];
+            open.pop_back();
+            for (const auto& [input, c] : node.connections)
+                reach(c);
+        }
+        for (const size_t i : reached)
+            material.nodes.push_back(nodes[i]);
+    }
 }
 
 } // namespace
@@ -96,7 +127,7 @@ Value MtlxParser::readValue(const Element& port) const {
 
 void MtlxParser::readDef(const Element& element, NodeDef& def) const {
     def.id = element.attribute("name").value();
-    def.category = element.attribute("node").value();
+    def.category = qualifiedName(element, element.attribute("node").value());
     for (const Element& child : element.children()) {
         if (isPort(child.name())) {
             InputDef input;
@@ -104,6 +135,7 @@ void MtlxParser::readDef(const Element& element, NodeDef& def) const {
             input.type = valueTypeFromName(child.attribute("type").value());
             input.value = readValue(child);
             input.geomprop = child.attribute("defaultgeomprop").value();
+            input.notModelled = child.attribute("patina-not-modelled").value();
             if (const auto values = child.attribute("enumvalues")) {
                 const auto names = splitList(child.attribute("enum").value());
                 const auto numbers = splitList(values.value());
@@ -123,15 +155,35 @@ void MtlxParser::readDef(const Element& element, NodeDef& def) const {
         def.outputs.push_back({"out", valueTypeFromName(element.attribute("type").value())});
 }
 
+/// What an element means by a name: one of its own namespace before one without.
+std::string MtlxParser::referenced(const Element& element, const std::string& name,
+                                   const std::map<std::string, Element>& known) const {
+    for (const std::string& wish : {qualifiedName(element, name), name}) {
+        const auto found = known.find(wish);
+        if (found != known.end()) return found->second.attribute("name").value();
+    }
+    return name;
+}
+
 std::string MtlxParser::resolveId(const Element& element,
                                   const std::map<std::string, ValueType>& inputTypes) const {
-    if (const auto def = element.attribute("nodedef")) return def.value();
-    const std::string category = element.name();
+    if (const auto def = element.attribute("nodedef"))
+        return referenced(element, def.value(), _defs);
+    const std::string category = element.name(), qualified = qualifiedName(element, category);
     const ValueType type = valueTypeFromName(element.attribute("type").value());
+    std::string id = findDefinition(qualified, type, inputTypes);
+    if (id.empty() && qualified != category) id = findDefinition(category, type, inputTypes);
+    // A category is enough: graph() looks models up by it and reports what nobody knows.
+    return id.empty() ? category : id;
+}
+
+std::string MtlxParser::findDefinition(const std::string& category, ValueType type,
+                                       const std::map<std::string, ValueType>& inputTypes) const {
     const ShadingModel* best = nullptr;
     int bestFit = -1;
-    for (const ShadingModel& model : *_models) {
-        if (model.def.category != category) continue;
+    const auto [begin, end] = _models.equal_range(category);
+    for (auto it = begin; it != end; ++it) {
+        const ShadingModel& model = *it->second;
         const bool several = model.def.outputs.size() > 1;
         const int fit = nodeDefFit(model.def, several ? ValueType::Unknown : type, inputTypes);
         if (fit > bestFit) {
@@ -146,19 +198,20 @@ std::string MtlxParser::resolveId(const Element& element,
     if (_useLibrary)
         if (const ShadingModel* model = ModelLibrary::get().resolve(category, type, inputTypes))
             return model->def.id;
-    // A category is enough: graph() looks models up by it and reports what nobody knows.
-    return category;
+    return "";
 }
 
 bool MtlxParser::connect(const Element& port, const Scope& scope, Connection& out) {
     const std::string output = port.attribute("output").value();
     if (const auto node = port.attribute("nodename")) {
-        out = {scope.prefix + node.value(), output};
+        const bool topmost = scope.prefix == "/";
+        out = {scope.prefix + (topmost ? referenced(port, node.value(), _topmost) : node.value()),
+               output};
         return true;
     }
     const auto graphName = port.attribute("nodegraph");
     if (!graphName) return false;
-    const auto graph = _graphs.find(graphName.value());
+    const auto graph = _graphs.find(referenced(port, graphName.value(), _graphs));
     if (graph == _graphs.end()) {
         _diagnostics.warn(where(port.parent()), port.attribute("name").value(),
                           std::string("node graph '") + graphName.value() +
@@ -233,8 +286,7 @@ void MtlxParser::readNode(const Element& element, const Scope& scope,
 
 void MtlxParser::readNodes(const Scope& scope, std::vector<NetworkNode>& nodes) {
     for (const Element& child : scope.element.children())
-        if (child.type() == pugi::node_element && !otherElements.count(child.name()))
-            readNode(child, scope, nodes);
+        if (isNode(child)) readNode(child, scope, nodes);
 }
 
 void MtlxParser::readModel(const Element& graph, const NodeDef& def, ShadingModel& model) {
@@ -247,27 +299,38 @@ void MtlxParser::readModel(const Element& graph, const NodeDef& def, ShadingMode
     }
 }
 
-void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocument& out) {
-    _models = &out.models;
-    _useLibrary = wantMaterials;
-    std::map<std::string, Element> defs, functional;
+void MtlxParser::indexNames(const Element& root) {
     for (const Element& child : root.children()) {
-        const std::string kind = child.name();
         const std::string name = child.attribute("name").value();
-        if (kind == "nodedef")
-            defs[name] = child;
-        else if (kind == "nodegraph" && child.attribute("nodedef"))
-            functional[child.attribute("nodedef").value()] = child;
-        else if (kind == "nodegraph")
+        if (!std::strcmp(child.name(), "nodedef"))
+            _defs[name] = child;
+        else if (!std::strcmp(child.name(), "nodegraph") && !child.attribute("nodedef"))
             _graphs[name] = child;
+        else if (isNode(child))
+            _topmost.emplace(name, child);
     }
+    for (const Element& child : root.children("nodedef"))
+        _defs.emplace(qualifiedName(child, child.attribute("name").value()), child);
+}
+
+void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocument& out) {
+    _useLibrary = wantMaterials;
+    indexNames(root);
+    std::map<std::string, Element> functional;
+    for (const Element& child : root.children("nodegraph"))
+        if (const auto def = child.attribute("nodedef"))
+            functional[referenced(child, def.value(), _defs)] = child;
     for (const Element& child : root.children("implementation")) {
-        const auto graph = _graphs.find(child.attribute("nodegraph").value());
-        if (graph != _graphs.end()) functional[child.attribute("nodedef").value()] = graph->second;
+        const auto graph =
+            _graphs.find(referenced(child, child.attribute("nodegraph").value(), _graphs));
+        if (graph != _graphs.end())
+            functional[referenced(child, child.attribute("nodedef").value(), _defs)] =
+                graph->second;
     }
     // The interfaces come first, because graphs use each other's definitions.
     std::vector<Element> bodies;
-    for (const auto& [name, element] : defs) {
+    for (const auto& [name, element] : _defs) {
+        if (name != element.attribute("name").value()) continue; // known by another name as well
         const auto body = functional.find(name);
         if (body == functional.end()) continue;
         ShadingModel model;
@@ -275,32 +338,38 @@ void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocum
         out.models.push_back(std::move(model));
         bodies.push_back(body->second);
     }
+    for (const ShadingModel& model : out.models)
+        _models.emplace(model.def.category, &model);
     for (size_t i = 0; i < bodies.size(); ++i) {
         const NodeDef def = out.models[i].def;
         readModel(bodies[i], def, out.models[i]);
     }
-    if (!wantMaterials) return;
+    if (wantMaterials) readMaterials(root, out);
+}
 
-    Network all;
-    readNodes({root, "/", false}, all.nodes);
+void MtlxParser::readMaterials(const Element& root, MtlxDocument& out) {
+    std::vector<NetworkNode> nodes;
+    readNodes({root, "/", false}, nodes);
     for (const auto& [name, element] : _graphs)
-        readNodes({element, "/" + name + "/", false}, all.nodes);
+        readNodes({element, "/" + name + "/", false}, nodes);
     const auto addMaterial = [&](const std::string& name) -> Network& {
-        Network network;
-        network.path = _path + ":" + name;
-        network.nodes = all.nodes;
-        out.materials.push_back(std::move(network));
+        out.materials.emplace_back();
+        out.materials.back().path = _path + ":" + name;
         return out.materials.back();
     };
     // Nodes of other definitions may be materials too.
-    for (const Element& child : root.children())
-        if (!std::strcmp(child.attribute("type").value(), "material") &&
-            !otherElements.count(child.name()) && std::strcmp(child.name(), "surfacematerial") &&
-            std::strcmp(child.name(), "volumematerial")) {
-            const std::string name = child.attribute("name").value();
+    for (const Element& child : root.children()) {
+        const std::string type = child.attribute("type").value();
+        const std::string name = child.attribute("name").value();
+        if (!isNode(child)) continue;
+        if (type == "lightshader")
+            _diagnostics.warn(where(child), "",
+                              "lights of documents are not drawn; the node is ignored");
+        if (type == "material" && std::strcmp(child.name(), "surfacematerial") != 0 &&
+            std::strcmp(child.name(), "volumematerial") != 0)
             addMaterial(name).terminals["surface"] = {"/" + name, ""};
-        }
-    for (const NetworkNode& node : all.nodes) {
+    }
+    for (const NetworkNode& node : nodes) {
         if (node.id != "ND_surfacematerial" && node.id != "ND_volumematerial") continue;
         Network& material = addMaterial(node.path.substr(1));
         for (const auto& [input, terminal] : {std::pair{"surfaceshader", "surface"},
@@ -313,13 +382,13 @@ void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocum
         if (node.connections.count("backsurfaceshader"))
             material.terminals["surface"] = {node.path, ""};
     }
-    if (!out.materials.empty()) return;
-    for (const Element& child : root.children())
-        if (!std::strcmp(child.attribute("type").value(), "surfaceshader") &&
-            !otherElements.count(child.name())) {
-            const std::string name = child.attribute("name").value();
-            addMaterial(name).terminals["surface"] = {"/" + name, ""};
-        }
+    if (out.materials.empty())
+        for (const Element& child : root.children())
+            if (!std::strcmp(child.attribute("type").value(), "surfaceshader") && isNode(child)) {
+                const std::string name = child.attribute("name").value();
+                addMaterial(name).terminals["surface"] = {"/" + name, ""};
+            }
+    giveNodes(nodes, out.materials);
 }
 
 } // namespace patina

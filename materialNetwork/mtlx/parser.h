@@ -37,14 +37,22 @@ private:
                           const std::string& name);
     std::string resolveId(const Element& element,
                           const std::map<std::string, ValueType>& inputTypes) const;
+    std::string findDefinition(const std::string& category, ValueType type,
+                               const std::map<std::string, ValueType>& inputTypes) const;
+    std::string referenced(const Element& element, const std::string& name,
+                           const std::map<std::string, Element>& known) const;
+    void readMaterials(const Element& root, MtlxDocument& out);
+    void indexNames(const Element& root);
     Value readValue(const Element& port) const;
     std::string inherited(const Element& element, const char* attribute) const;
     std::string where(const Element& element) const;
 
     std::string _path;
     Diagnostics& _diagnostics;
-    const std::vector<ShadingModel>* _models = nullptr;
-    std::map<std::string, Element> _graphs; ///< compound graphs of the document by name
+    std::multimap<std::string, const ShadingModel*> _models; ///< of the document, by category
+    std::map<std::string, Element> _defs;    ///< node definitions by name, with namespace or not
+    std::map<std::string, Element> _graphs;  ///< compound graphs of the document by name
+    std::map<std::string, Element> _topmost; ///< nodes outside of graphs by name
     bool _useLibrary = false;
     int _depth = 0;
 };

@@ -1,9 +1,12 @@
 #include "materialNetwork/mtlx/upgrade.h"
 
+#include "materialNetwork/mtlx/include.h"
+#include "materialNetwork/mtlx/xmlFile.h"
 #include "materialNetwork/network.h"
 
 #include <cstring>
 #include <set>
+#include <unordered_map>
 #include <vector>
 
 namespace patina {
@@ -24,10 +27,6 @@ Node inputOf(const Node& node, const char* name) {
     return {};
 }
 
-Node siblingNamed(const Node& node, const char* name) {
-    return node.parent().find_child_by_attribute("name", name);
-}
-
 void set(Node node, const char* attribute, const std::string& value) {
     if (!node.attribute(attribute)) node.append_attribute(attribute);
     node.attribute(attribute).set_value(value.c_str());
@@ -38,13 +37,6 @@ Node addInput(Node node, const char* name, const char* type) {
     set(input, "name", name);
     set(input, "type", type);
     return input;
-}
-
-Node addNode(Node before, const char* category, const std::string& name, const char* type) {
-    Node node = before.parent().insert_child_before(category, before);
-    set(node, "name", name);
-    set(node, "type", type);
-    return node;
 }
 
 /// The same source for another input: a copy under a new name.
@@ -62,6 +54,16 @@ public:
         : _path(path), _diagnostics(diagnostics) {}
 
     void run(Node scope) {
+        const auto around = std::move(_siblings);
+        _siblings.clear();
+        for (const Node& child : scope.children())
+            if (const auto name = child.attribute("name")) _siblings.emplace(name.value(), child);
+        upgradeScope(scope);
+        _siblings = around;
+    }
+
+private:
+    void upgradeScope(Node scope) {
         std::vector<Node> nodes;
         for (const Node& child : scope.children())
             if (child.type() == pugi::node_element && !is(child, "nodedef")) nodes.push_back(child);
@@ -80,14 +82,34 @@ public:
         }
     }
 
-private:
+    /// What an element of the scope means by a name. Documents may hold very many.
+    Node siblingNamed(const Node& from, const std::string& name) const {
+        for (const std::string& wish : {qualifiedName(from, name), name}) {
+            const auto found = _siblings.find(wish);
+            if (found != _siblings.end()) return found->second;
+        }
+        return Node();
+    }
+
+    Node addNode(Node before, const char* category, const std::string& name, const char* type) {
+        Node node = before.parent().insert_child_before(category, before);
+        set(node, "name", name);
+        set(node, "type", type);
+        // It belongs to the same document.
+        for (const char* attribute : {"namespace", "colorspace", "fileprefix", sourceAttribute})
+            if (const pugi::xml_attribute own = before.attribute(attribute))
+                set(node, attribute, own.value());
+        _siblings.emplace(name, node);
+        return node;
+    }
+
     std::string where(const Node& node) const {
         return _path + ":/" + node.attribute("name").value();
     }
 
-    std::string freeName(const Node& node, const std::string& wish) {
+    std::string freeName(const std::string& wish) {
         std::string name = wish;
-        for (int i = 2; siblingNamed(node, name.c_str()); ++i)
+        for (int i = 2; _siblings.count(name); ++i)
             name = wish + std::to_string(i);
         return name;
     }
@@ -98,7 +120,7 @@ private:
             const pugi::xml_attribute channels = child.attribute("channels");
             if (!channels || is(child, "output")) continue;
             // A swizzle made from the type of the source, as far as it is in sight.
-            const Node source = siblingNamed(node, child.attribute("nodename").value());
+            const Node source = siblingNamed(child, child.attribute("nodename").value());
             const std::string type = source ? source.attribute("type").value() : "";
             if (!source || valueTypeComponents(valueTypeFromName(type)) < 1) {
                 _diagnostics.warn(where(node), child.attribute("name").value(),
@@ -107,8 +129,8 @@ private:
                 continue;
             }
             Node pick = addNode(node, "swizzle",
-                                freeName(node, std::string(node.attribute("name").value()) + "_" +
-                                                   child.attribute("name").value()),
+                                freeName(std::string(node.attribute("name").value()) + "_" +
+                                         child.attribute("name").value()),
                                 child.attribute("type").value());
             copyInput(child, pick, "in", type.c_str());
             Node which = addInput(pick, "channels", "string");
@@ -145,7 +167,7 @@ private:
             } else if (available == 1) {
                 copyInput(source, part, "in", "float");
             } else {
-                Node extract = addNode(node, "extract", freeName(node, name + "_" + c), "float");
+                Node extract = addNode(node, "extract", freeName(name + "_" + c), "float");
                 copyInput(source, extract, "in", from.c_str());
                 set(addInput(extract, "index", "integer"), "value", std::to_string(place % 4));
                 set(part, "nodename", extract.attribute("name").value());
@@ -187,10 +209,10 @@ private:
         const Node in = inputOf(node, "in");
         if (!object || !in) return;
         const std::string name = node.attribute("name").value();
-        Node twice = addNode(node, "multiply", freeName(node, name + "_twice"), "vector3");
+        Node twice = addNode(node, "multiply", freeName(name + "_twice"), "vector3");
         copyInput(in, twice, "in1", "vector3");
         set(addInput(twice, "in2", "float"), "value", "2");
-        Node less = addNode(node, "subtract", freeName(node, name + "_less"), "vector3");
+        Node less = addNode(node, "subtract", freeName(name + "_less"), "vector3");
         set(addInput(less, "in1", "vector3"), "nodename", twice.attribute("name").value());
         set(addInput(less, "in2", "float"), "value", "1");
         node.remove_children();
@@ -201,10 +223,9 @@ private:
     /// A film on top of a layer becomes inputs of the microfacet closures under it.
     void thinFilm(Node layer) {
         const Node top = inputOf(layer, "top"), base = inputOf(layer, "base");
-        const Node film = siblingNamed(layer, top.attribute("nodename").value());
+        const Node film = siblingNamed(top, top.attribute("nodename").value());
         if (!top || !film || !is(film, "thin_film_bsdf")) return;
-        std::set<std::string> seen;
-        coat(siblingNamed(layer, base.attribute("nodename").value()), film, seen);
+        coat(siblingNamed(base, base.attribute("nodename").value()), film);
         // The layer is its base from now on: a mix that takes all of it.
         pugi::xml_document scratch;
         Node kept = scratch.append_copy(base);
@@ -214,20 +235,27 @@ private:
         set(addInput(layer, "mix", "float"), "value", "1");
     }
 
-    void coat(Node node, const Node& film, std::set<std::string>& seen) {
-        if (!node || !seen.insert(node.attribute("name").value()).second) return;
-        if (is(node, "dielectric_bsdf") || is(node, "conductor_bsdf") ||
-            is(node, "generalized_schlick_bsdf")) {
-            const Node mode = inputOf(node, "scatter_mode");
-            if (mode && !std::strcmp(mode.attribute("value").value(), "T")) return;
-            giveFilm(node, film, "thickness", "thinfilm_thickness", "550");
-            giveFilm(node, film, "ior", "thinfilm_ior", "1.5");
-            return;
+    /// Gives the film to all closures below a node; chains of them may be of any length.
+    void coat(const Node& base, const Node& film) {
+        std::vector<Node> open = {base};
+        std::set<std::string> seen;
+        while (!open.empty()) {
+            const Node node = open.back();
+            open.pop_back();
+            if (!node || !seen.insert(node.attribute("name").value()).second) continue;
+            if (is(node, "dielectric_bsdf") || is(node, "conductor_bsdf") ||
+                is(node, "generalized_schlick_bsdf")) {
+                const Node mode = inputOf(node, "scatter_mode");
+                if (mode && !std::strcmp(mode.attribute("value").value(), "T")) continue;
+                giveFilm(node, film, "thickness", "thinfilm_thickness", "550");
+                giveFilm(node, film, "ior", "thinfilm_ior", "1.5");
+                continue;
+            }
+            for (const Node& child : node.children())
+                if (!std::strcmp(child.attribute("type").value(), "BSDF") &&
+                    child.attribute("nodename"))
+                    open.push_back(siblingNamed(child, child.attribute("nodename").value()));
         }
-        for (const Node& child : node.children())
-            if (!std::strcmp(child.attribute("type").value(), "BSDF") &&
-                child.attribute("nodename"))
-                coat(siblingNamed(node, child.attribute("nodename").value()), film, seen);
     }
 
     static void giveFilm(Node node, const Node& film, const char* from, const char* to,
@@ -247,7 +275,7 @@ private:
         Node back = inputOf(node, "back_bsdf"), backLight = inputOf(node, "back_edf");
         if (back || backLight) {
             const std::string name = node.attribute("name").value();
-            Node other = addNode(node, "surface", freeName(node, name + "_back"), "surfaceshader");
+            Node other = addNode(node, "surface", freeName(name + "_back"), "surfaceshader");
             if (back) copyInput(back, other, "bsdf", "BSDF");
             if (backLight) copyInput(backLight, other, "edf", "EDF");
             if (const Node opacity = inputOf(node, "opacity"))
@@ -257,7 +285,7 @@ private:
             node.remove_child(backLight);
             for (Node material : node.parent().children("surfacematerial")) {
                 const Node shader = inputOf(material, "surfaceshader");
-                if (name != shader.attribute("nodename").value()) continue;
+                if (siblingNamed(shader, shader.attribute("nodename").value()) != node) continue;
                 set(addInput(material, "backsurfaceshader", "surfaceshader"), "nodename",
                     other.attribute("name").value());
             }
@@ -267,6 +295,7 @@ private:
 
     std::string _path;
     Diagnostics& _diagnostics;
+    std::unordered_map<std::string, Node> _siblings; ///< of the scope by name, the first of each
 };
 
 } // namespace

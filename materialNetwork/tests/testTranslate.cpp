@@ -67,7 +67,7 @@ TEST(Translate, AllPairsAreWellTyped) {
             SCOPED_TRACE(from + " to " + to);
             Inputs inputs;
             for (const InputDef& input : ModelLibrary::get().find(from)->def.inputs)
-                if (input.geomprop.empty() && input.name != "normal" &&
+                if (input.geomprop.empty() && input.name != "normal" && input.notModelled.empty() &&
                     (input.type == ValueType::Float || input.type == ValueType::Color3)) {
                     Value value = input.value;
                     value.numbers.assign(value.numbers.size(), 0.37f);

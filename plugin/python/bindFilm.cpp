@@ -3,7 +3,7 @@
 
 #include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/film/relativeError.h"
-#include "hdDelegate/scene/colorSpaces.h"
+#include "materialNetwork/color/colorSpaces.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -240,6 +240,16 @@ void bindFilm(py::module_& m) {
         "views", [](const std::string& display) { return ColorSpaces::shared().views(display); },
         py::arg("display"));
     m.def("color_spaces", [] { return ColorSpaces::shared().names(); });
+    m.def(
+        "color_to_rendering",
+        [](std::vector<float> numbers, const std::string& space) -> py::object {
+            if (numbers.size() < 3) throw py::value_error("a colour has at least three numbers");
+            if (!ColorSpaces::shared().valueToRendering(space, numbers.data())) return py::none();
+            return py::cast(numbers);
+        },
+        py::arg("numbers"), py::arg("color_space"),
+        "A colour value in linear Rec.709, as materials take it: three numbers are converted, what "
+        "follows them stays. None for an unknown space.");
 }
 
 } // namespace patina

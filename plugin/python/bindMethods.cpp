@@ -20,6 +20,7 @@ py::dict planDict(const MethodPlan& plan) {
     dict["error"] = plan.error;
     dict["albedo"] = plan.albedo;
     dict["varies"] = plan.varies;
+    dict["fallback"] = plan.fallback;
     dict["choices"] = choiceList(plan.choices);
     return dict;
 }
@@ -134,7 +135,8 @@ void bindMethods(py::module_& m) {
     m.def("plan_material", &planned, py::arg("network"), py::arg("methods") = MethodChoices(),
           py::arg("tolerance") = -1.0,
           "How the methods of a material are chosen for a tolerance (0: truths, negative: "
-          "defaults): dict of tolerance, error (relative luminance), albedo, varies, and choices.");
+          "defaults): dict of tolerance, error (relative luminance), albedo, varies, fallback (of "
+          "displayColor, which is shown in place of the material), and choices.");
     m.def("measure_methods", &measured, py::arg("point") = "", py::arg("timed") = true,
           "Measures the methods of a choice point, or of all, here and now, on one thread.");
 }

@@ -8,9 +8,13 @@ MATERIAL_HELP = "FILE[:/prim/path] of a stage or FILE.mtlx[:name]; without a pat
 
 
 def split(text):
-    """:returns: the file, and the path or name behind its last colon ('' when there is none)"""
+    """:returns: the file, and the path or name behind it and a colon ('' when there is none); a name may hold colons itself,
+    of namespaces"""
     if os.path.exists(text):
         return text, ""
+    for at in (i for i in range(len(text) - 1, 0, -1) if text[i] == ":"):
+        if os.path.isfile(text[:at]):
+            return text[:at], text[at + 1:]
     file, colon, name = text.rpartition(":")
     if not colon:
         return text, ""
@@ -54,7 +58,7 @@ def _list(found):
 
 def _of_document(file, warnings):
     networks = compiled.load().read_mtlx(file, warnings)
-    return [(network.path.rpartition(":")[2], network) for network in networks]
+    return [(network.path[len(file) + 1:], network) for network in networks]
 
 
 def _of_stage(file, set_texts, warnings):

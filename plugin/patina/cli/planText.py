@@ -11,11 +11,13 @@ def lines(plan):
 
     :returns: list of lines
     """
+    whose = "plan of the fallback" if plan["fallback"] else "plan"
     if not plan["choices"]:
-        return ["plan: no choice point with a truth or with noise matters to this material"]
+        return [f"{whose}: no choice point with a truth or with noise matters to "
+                + ("displayColor" if plan["fallback"] else "this material")]
     tolerance = plan["tolerance"]
     head = "default methods" if tolerance < 0.0 else f"tolerance {tolerance:g}"
-    result = [f"plan: {head}; albedo {plan['albedo']:.2f} at most" +
+    result = [f"{whose}: {head}; albedo {plan['albedo']:.2f} at most" +
               (", parameters vary: the worst that they show counts" if plan["varies"] else ""),
               f"  {'choice point':<20}{'method':<14}{'predicted error':>16}{'ns':>9}{'of truth':>10}{'of default':>12}"]
     for choice in plan["choices"]:

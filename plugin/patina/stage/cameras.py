@@ -73,9 +73,12 @@ def emit(context, found):
     if any(abs(np.linalg.det(m[:3, :3].astype(np.float64))) < 1e-30 for m in matrices):
         context.warn(prim.GetPath(), "xformOpOrder", "makes the camera flat; no transform is used")
         transform = np.eye(4, dtype=np.float32)
+    projection = get(prim, "projection", time) or "perspective"
+    if projection not in ("perspective", "orthographic"):
+        context.warn(prim.GetPath(), "projection", f"{projection} is not known; perspective is used")
     context.edit.set_camera(
         found.path, transform=transform,
-        orthographic=get(prim, "projection", time) == "orthographic",
+        orthographic=projection == "orthographic",
         clip_near=near, clip_far=far, clipping_planes=planes,
         shutter_open=opens, shutter_close=closes,
         exposure_scale=compat.exposure_scale(UsdGeom.Camera(prim), time), **fields)

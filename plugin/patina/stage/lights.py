@@ -1,7 +1,7 @@
 """UsdLux lights."""
-from pxr import Gf, UsdGeom, UsdLux
+from pxr import Gf, UsdGeom, UsdLux, UsdShade
 
-from . import assets
+from . import assets, colorSpaces
 from .context import number, vector
 from .kinds import LIGHTS
 from .transforms import transform_of
@@ -26,6 +26,7 @@ def emit(context, found, linking):
     fields["light_link"], fields["shadow_link"] = linking.links_of(prim)
     if prim.HasRelationship("light:filters") and prim.GetRelationship("light:filters").GetTargets():
         context.warn(prim.GetPath(), "light:filters", "light filters are not applied")
+    _report_network(context, prim, is_mesh)
 
     after = None
     if type_ == "dome":
@@ -51,22 +52,75 @@ def emit(context, found, linking):
     context.count("lights")
 
 
+def _report_network(context, prim, is_mesh):
+    """Lights may be nodes of networks; those are not evaluated."""
+    for name in ("light:shaderId", "mtlx:light:shaderId"):
+        attribute = prim.GetAttribute(name)
+        if attribute and attribute.HasAuthoredValue() and str(attribute.Get()) != prim.GetTypeName() and not is_mesh:
+            context.warn(prim.GetPath(), name, f"is {attribute.Get()}, which is not evaluated; the light is drawn by its type")
+    for attribute in prim.GetAuthoredAttributes():
+        name = attribute.GetName()
+        if name.startswith("inputs:"):
+            target = _source_of(attribute)[1]
+        else:
+            target = next(iter(attribute.GetConnections()), None)
+        if target is None or not name.startswith(("inputs:", "outputs:light", "outputs:mtlx:light")):
+            continue
+        context.warn(prim.GetPath(), name, f"is connected to {target}, which is not evaluated for lights; "
+                     + ("its own value is used" if name.startswith("inputs:") else "the light is drawn by its type"))
+
+
 def is_mesh_light(prim):
     return prim.HasAPI(UsdLux.MeshLightAPI)
 
 
 def _input(context, prim, name, authored=False):
     """:returns: value of an input, also under the name that it had before OpenUSD 21.02"""
+    attribute = _attribute_of(context, prim, name, authored)
+    return attribute.Get(context.time) if attribute else None
+
+
+def _attribute_of(context, prim, name, authored=False):
+    """:returns: the attribute that has the value of an input, None where there is no value"""
     for full in ("inputs:" + name, name):
         attribute = prim.GetAttribute(full)
         if attribute and (attribute.HasAuthoredValue() or full.startswith("inputs:") and not authored):
             old = prim.GetAttribute(name)
             if not attribute.HasAuthoredValue() and old and old.HasAuthoredValue():
                 continue
-            value = attribute.Get(context.time)
-            if value is not None:
-                return value
+            source = _source_of(attribute)[0]
+            if source.Get(context.time) is not None:
+                return source
     return None
+
+
+def _set_color(context, prim, name, key, fallback, fields):
+    attribute = _attribute_of(context, prim, name)
+    if attribute is None:
+        return
+    color = vector(context, prim, "inputs:" + name, fallback, attribute.Get(context.time))
+    space = colorSpaces.ColorSpaces().space_of(attribute) if attribute.HasAuthoredValue() else ""
+    if space:
+        import _patina
+
+        converted = _patina.color_to_rendering([float(x) for x in color], space)
+        if converted is None:
+            context.warn(prim.GetPath(), "inputs:" + name, f"unknown colour space '{space}'; the value is used as it is")
+        else:
+            color = tuple(max(x, 0.0) for x in converted)  # of what Rec.709 does not reach
+    fields[key] = color
+
+
+def _source_of(attribute):
+    """Follows connections of an input to where its value is.
+
+    :returns: (attribute, None), or the attribute itself and the path of an output that it is connected to"""
+    if not attribute.GetName().startswith("inputs:") or not attribute.HasAuthoredConnections():
+        return attribute, None
+    sources = UsdShade.Utils.GetValueProducingAttributes(UsdShade.Input(attribute))
+    if sources and UsdShade.Utils.GetType(sources[0].GetName()) == UsdShade.AttributeType.Input:
+        return sources[0], None
+    return attribute, sources[0].GetPath() if sources else attribute.GetConnections()[0]
 
 
 def _plain(context, prim, name):
@@ -90,9 +144,7 @@ def _read(context, prim, fields):
         value = _input(context, prim, name)
         if value is not None:
             fields[_snake(name)] = bool(value)
-    color = _input(context, prim, "color")
-    if color is not None:
-        fields["color"] = vector(context, prim, "inputs:color", (1.0, 1.0, 1.0), color)
+    _set_color(context, prim, "color", "color", (1.0, 1.0, 1.0), fields)
 
 
 def _read_texture(context, prim, fields):
@@ -101,7 +153,7 @@ def _read_texture(context, prim, fields):
         attribute = prim.GetAttribute("texture:file")
     if attribute and attribute.HasAuthoredValue():
         fields["texture_file"] = assets.resolve(context, attribute)
-        fields["texture_color_space"] = attribute.GetColorSpace()
+        fields["texture_color_space"] = colorSpaces.ColorSpaces().space_of(attribute)
 
 
 def _read_shaping(context, prim, fields):
@@ -113,9 +165,7 @@ def _read_shaping(context, prim, fields):
         value = _input(context, prim, name)
         if value is not None:
             _set_number(context, prim, name, key, value, fields)
-    tint = _input(context, prim, "shaping:focusTint")
-    if tint is not None:
-        fields["shaping_focus_tint"] = vector(context, prim, "inputs:shaping:focusTint", (0.0, 0.0, 0.0), tint)
+    _set_color(context, prim, "shaping:focusTint", "shaping_focus_tint", (0.0, 0.0, 0.0), fields)
     fields["ies_normalize"] = bool(_input(context, prim, "shaping:ies:normalize") or False)
     attribute = prim.GetAttribute("inputs:shaping:ies:file")
     if attribute and attribute.HasAuthoredValue():
@@ -127,9 +177,7 @@ def _read_shadow(context, prim, fields):
     enable = _input(context, prim, "shadow:enable")
     if enable is not None:
         fields["shadow_enable"] = bool(enable)
-    color = _input(context, prim, "shadow:color")
-    if color is not None:
-        fields["shadow_color"] = vector(context, prim, "inputs:shadow:color", (0.0, 0.0, 0.0), color)
+    _set_color(context, prim, "shadow:color", "shadow_color", (0.0, 0.0, 0.0), fields)
     for name, key in _SHADOW.items():
         value = _input(context, prim, name)
         if value is not None:

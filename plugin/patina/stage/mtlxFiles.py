@@ -83,7 +83,7 @@ def _layer_of(context, prim, file, module):
         context.warn(warning["prim"], warning["input"], warning["message"])
     layer = Sdf.Layer.CreateAnonymous(os.path.basename(file) + ".usda")
     for network in networks:
-        name = network.path.rpartition(":")[2]
+        name = network.path[len(file) + 1:]  # may hold colons, of namespaces
         _networks[(file, name)] = network
         spec = Sdf.CreatePrimInLayer(layer, Sdf.Path("/MaterialX/Materials").AppendChild(_valid(name)))
         spec.specifier, spec.typeName = Sdf.SpecifierDef, "Material"

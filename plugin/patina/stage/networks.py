@@ -2,7 +2,7 @@
 import numpy as np
 from pxr import Sdf, UsdShade
 
-from . import assets, mtlxFiles
+from . import assets, colorSpaces, mtlxFiles
 
 _TERMINALS = (("surface", "ComputeSurfaceSource"), ("displacement", "ComputeDisplacementSource"),
               ("volume", "ComputeVolumeSource"))
@@ -38,6 +38,7 @@ class _Translation:
         self.network = module.Network(path)
         self._names = {}  # path on the stage -> path in the network
         self._todo = []
+        self._spaces = colorSpaces.ColorSpaces()
 
     def run(self):
         for terminal, compute in _TERMINALS:
@@ -48,6 +49,10 @@ class _Translation:
                     self.network.set_terminal(terminal, node, output)
         while self._todo:
             self._inputs(*self._todo.pop())
+        for output in self.material.GetOutputs():
+            if output.GetBaseName() in ("light", "mtlx:light") and output.HasConnectedSource():
+                self._warn(self.material.GetPrim(), output.GetFullName(), "light shaders of materials are not drawn; "
+                           "it is ignored")
         if self.network.empty:
             others = sorted(o.GetFullName() for o in self.material.GetOutputs() if o.HasConnectedSource())
             self._warn(self.material.GetPrim(), "", "has no surface, displacement or volume that can be shown"
@@ -127,7 +132,7 @@ class _Translation:
 
     def _value(self, node, name, attribute, prim):
         type_ = attribute.GetTypeName()
-        space = attribute.GetColorSpace() if attribute.HasColorSpace() else ""
+        space = self._spaces.space_of(attribute, _reads_colors(prim))
         value = attribute.Get(self.time)
         if value is None:
             return
@@ -142,6 +147,14 @@ class _Translation:
             self.network.set_input(node, name, str(type_), value, space)
         except (ValueError, TypeError) as error:
             self._warn(prim, name, f"{error}; the default is used")
+
+
+def _reads_colors(prim):
+    """Whether a node of MaterialX gives colours, which images have their colour space for. What UsdUVTexture reads
+    follows its sourceColorSpace."""
+    shader = UsdShade.Shader(prim)
+    return (shader.GetShaderId() or "").startswith("ND_") and any(
+        str(output.GetTypeName()).startswith("color") for output in shader.GetOutputs())
 
 
 def _numbers(value):

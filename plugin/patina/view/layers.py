@@ -3,6 +3,7 @@ import os
 import re
 
 from patina.cli.materials import is_document
+from patina.view import live
 
 _TYPES = {"boolean": "bool", "integer": "int", "float": "float", "vector2": "float2", "vector3": "float3",
           "vector4": "float4", "color3": "color3f", "color4": "color4f", "string": "string", "filename": "asset",
@@ -65,7 +66,7 @@ def whole_material(name, network, moved, folder):
         for key, value in node["inputs"].items():
             if (node["path"], key) in open_inputs or value["type"] not in _TYPES or not _NAME.fullmatch(key):
                 continue
-            own.append(f"{_TYPES[value['type']]} inputs:{key} = {_value(value['type'], value['value'], folder)}")
+            own.append(f"{_TYPES[value['type']]} inputs:{key} = {_value(value['type'], live.linear(value), folder)}")
         for key, (source, output) in node["connections"].items():
             if source in paths and _NAME.fullmatch(key) and _NAME.fullmatch(output or "out"):
                 own.append(f"token inputs:{key}.connect = <{paths[source]}.outputs:{output or 'out'}>")

@@ -22,6 +22,14 @@ def _numbers(value):
     return [float(f"{float(x):.7g}") for x in numbers]
 
 
+def linear(value):
+    """:param value: an input of Network.nodes()
+    :returns: its value, a colour's in linear Rec.709"""
+    if not value["type"].startswith("color") or not value["color_space"]:
+        return value["value"]
+    return compiled.load().color_to_rendering(value["value"], value["color_space"]) or value["value"]
+
+
 def reachable(network):
     """Nodes that the surface is made of, the surface first."""
     nodes = {node["path"]: node for node in network.nodes()}
@@ -49,7 +57,7 @@ def live_inputs(network, limit=LIMIT):
             authored = node["inputs"].get(name)
             if authored is None and name not in defaults:
                 continue
-            value = _numbers(authored["value"] if authored else defaults[name])
+            value = _numbers(linear(authored) if authored else defaults[name])
             if len(value) == COMPONENTS[kind]:
                 found.append(LiveInput(node["path"], node["id"], name, kind, value, authored is not None))
     found = _without_plans(network, found)

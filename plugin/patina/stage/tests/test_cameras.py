@@ -91,3 +91,11 @@ def test_cameras_and_prims_without_a_usable_transform(read):
     assert "transform" not in reading.prim("/flat") and "transform" not in reading.prim("/nan")
     assert any(w.startswith("/flat xformOpOrder:") for w in reading.warnings)
     assert any(w.startswith("/nan xformOpOrder:") for w in reading.warnings)
+
+
+@pytest.mark.parametrize("projection, told", [("perspective", False), ("orthographic", False), ("fisheye", True)])
+def test_a_projection_that_is_not_known_is_told(read, projection, told):
+    reading = read(f'def Camera "c" {{ token projection = "{projection}" }}')
+    assert (reading.prim("/c").get("orthographic") == "true") == (projection == "orthographic")
+    assert ("/c projection: fisheye is not known; perspective is used" in reading.warnings) == told
+    assert told or not any("projection" in w for w in reading.warnings)

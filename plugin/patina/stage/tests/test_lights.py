@@ -117,3 +117,30 @@ def test_headlight_only_without_lights(read):
     assert any("headlight" in note for note in dark.info.notes)
     assert not read('def Sphere "s" { }  def DistantLight "l" { }', headlight=True).info.headlight
     assert not read('def Sphere "s" { }').info.headlight
+
+
+def test_networks_of_lights_are_told(read):
+    reading = read("""
+    def Material "rig" {
+        color3f inputs:tint = (0.25, 0.5, 1)
+        token outputs:mtlx:light.connect = </rig/shader.outputs:out>
+        def Shader "shader" {
+            uniform token info:id = "ND_light"
+            token outputs:out
+        }
+    }
+    def Sphere "ball" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </rig> }
+    def SphereLight "shaded" {
+        color3f inputs:color = (1, 0, 0)
+        color3f inputs:color.connect = </rig/shader.outputs:out>
+    }
+    def SphereLight "tinted" { color3f inputs:color.connect = </rig.inputs:tint> }
+    def RectLight "other" { uniform token light:shaderId = "ND_light" }
+    def RectLight "plain" { uniform token light:shaderId = "RectLight" }""")
+    about = [w for w in reading.warnings if w.startswith(("/shaded", "/tinted", "/other", "/plain"))]
+    assert about == [
+        "/shaded inputs:color: is connected to /rig/shader.outputs:out, which is not evaluated for lights; its own value is used",
+        "/other light:shaderId: is ND_light, which is not evaluated; the light is drawn by its type"]
+    assert any(w.startswith("/rig outputs:mtlx:light: light shaders of materials are not drawn") for w in reading.warnings)
+    assert reading.prim("/shaded")["color"] == "1 0 0"
+    assert reading.prim("/tinted")["color"] == "0.25 0.5 1"

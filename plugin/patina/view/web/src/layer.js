@@ -40,7 +40,9 @@ export function layerText(state) {
         if (!isPath(path) || !isName(name)) return;
         if (!whole && String(value) === String(input.value)) return;
         const node = nodeAt(tree, path), declared = `${types[input.kind]} inputs:${name}`;
-        node.lines.push(`${declared} = ${valueText(value)}`);
+        // The author's value may have a colour space; the page's are linear.
+        const space = !whole && input.kind.startsWith("color") ? ' (colorSpace = "lin_rec709_scene")' : "";
+        node.lines.push(`${declared} = ${valueText(value)}${space}`);
         if (!whole) node.lines.push(`${declared}.connect = None`);
     });
     material.choices.forEach((choice, i) => {

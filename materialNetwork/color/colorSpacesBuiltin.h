@@ -3,6 +3,7 @@
 #include <OpenColorIO/OpenColorIO.h>
 
 #include <array>
+#include <string>
 
 namespace patina {
 
@@ -14,6 +15,10 @@ struct Primaries {
 /// Row-major matrix from linear RGB of the primaries to linear Rec.709; another white is adapted by
 /// Bradford's transform (Lam 1985).
 std::array<double, 9> matrixToRec709(const Primaries& primaries);
+
+/// The way to linear Rec.709 from a space written as ColorSpaces says.
+/// @returns null for what is not written so, or describes no space
+OCIO_NAMESPACE::ConstTransformRcPtr parseChromaticities(const std::string& text);
 
 /// The configuration that is used where the user brings none. Its reference space is lin_rec709.
 OCIO_NAMESPACE::ConstConfigRcPtr builtinColorConfig();

@@ -1,8 +1,12 @@
-#include "hdDelegate/scene/colorSpacesBuiltin.h"
+#include "materialNetwork/color/colorSpacesBuiltin.h"
 
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <initializer_list>
+#include <locale>
+#include <sstream>
+#include <vector>
 
 namespace ocio = OCIO_NAMESPACE;
 
@@ -52,8 +56,8 @@ const Space spaces[] = {
      Curve::Srgb,
      2.4},
     {"g22_rec709",
-     {"g22_rec709_scene", "g22_rec709_tx", "gamma22", "Gamma 2.2 Rec.709 - Texture",
-      "Utility - Gamma 2.2 - Rec.709 - Texture"},
+     {"g22_rec709_scene", "g22_rec709_display", "g22_rec709_tx", "gamma22",
+      "Gamma 2.2 Rec.709 - Texture", "Utility - Gamma 2.2 - Rec.709 - Texture"},
      &rec709,
      Curve::Gamma,
      2.2},
@@ -63,7 +67,8 @@ const Space spaces[] = {
      Curve::Gamma,
      1.8},
     {"rec709_display",
-     {"g24_rec709", "g24_rec709_tx", "gamma24", "Gamma 2.4 Rec.709 - Texture"},
+     {"g24_rec709", "g24_rec709_scene", "g24_rec709_display", "g24_rec709_tx", "gamma24",
+      "Gamma 2.4 Rec.709 - Texture"},
      &rec709,
      Curve::Gamma,
      2.4},
@@ -90,7 +95,8 @@ const Space spaces[] = {
      Curve::Linear,
      1.0},
     {"srgb_displayp3",
-     {"srgb_p3d65_scene", "srgb_encoded_p3d65_tx", "sRGB Encoded P3-D65 - Texture"},
+     {"srgb_p3d65_scene", "srgb_p3d65_display", "srgb_encoded_p3d65_tx",
+      "sRGB Encoded P3-D65 - Texture"},
      &displayP3,
      Curve::Srgb,
      2.4},
@@ -124,28 +130,36 @@ glm::dmat3 bradford(const double (&fromWhite)[2], const double (&toWhite)[2]) {
     return glm::inverse(cone) * diagonal * cone;
 }
 
-ocio::TransformRcPtr toReference(const Space& space) {
-    ocio::GroupTransformRcPtr group = ocio::GroupTransform::Create();
-    if (space.curve == Curve::Srgb) {
+/// @param offset of an exponent that becomes linear towards black, as that of sRGB; 0: a plain one
+void appendCurve(ocio::GroupTransformRcPtr& group, double gamma, double offset) {
+    if (offset > 0.0) {
         auto curve = ocio::ExponentWithLinearTransform::Create();
-        curve->setGamma({space.gamma, space.gamma, space.gamma, 1.0});
-        curve->setOffset({0.055, 0.055, 0.055, 0.0});
+        curve->setGamma({gamma, gamma, gamma, 1.0});
+        curve->setOffset({offset, offset, offset, 0.0});
         curve->setNegativeStyle(ocio::NEGATIVE_LINEAR);
         group->appendTransform(curve);
-    } else if (space.curve == Curve::Gamma) {
+    } else if (gamma != 1.0) {
         auto curve = ocio::ExponentTransform::Create();
-        curve->setValue({space.gamma, space.gamma, space.gamma, 1.0});
+        curve->setValue({gamma, gamma, gamma, 1.0});
         curve->setNegativeStyle(ocio::NEGATIVE_MIRROR);
         group->appendTransform(curve);
     }
-    if (space.primaries != &rec709) {
-        std::array<double, 9> m = matrixToRec709(*space.primaries);
-        auto matrix = ocio::MatrixTransform::Create();
-        matrix->setMatrix(std::array<double, 16>{m[0], m[1], m[2], 0, m[3], m[4], m[5], 0, m[6],
-                                                 m[7], m[8], 0, 0, 0, 0, 1}
-                              .data());
-        group->appendTransform(matrix);
-    }
+}
+
+void appendMatrix(ocio::GroupTransformRcPtr& group, const Primaries& primaries) {
+    std::array<double, 9> m = matrixToRec709(primaries);
+    auto matrix = ocio::MatrixTransform::Create();
+    matrix->setMatrix(std::array<double, 16>{m[0], m[1], m[2], 0, m[3], m[4], m[5], 0, m[6], m[7],
+                                             m[8], 0, 0, 0, 0, 1}
+                          .data());
+    group->appendTransform(matrix);
+}
+
+ocio::TransformRcPtr toReference(const Space& space) {
+    ocio::GroupTransformRcPtr group = ocio::GroupTransform::Create();
+    if (space.curve != Curve::Linear)
+        appendCurve(group, space.gamma, space.curve == Curve::Srgb ? 0.055 : 0.0);
+    if (space.primaries != &rec709) appendMatrix(group, *space.primaries);
     return group;
 }
 
@@ -159,6 +173,31 @@ std::array<double, 9> matrixToRec709(const Primaries& primaries) {
         for (int column = 0; column < 3; ++column)
             rows[size_t(row * 3 + column)] = m[column][row];
     return rows;
+}
+
+ocio::ConstTransformRcPtr parseChromaticities(const std::string& text) {
+    const std::string start = "chromaticities(";
+    if (text.compare(0, start.size(), start) != 0 || text.back() != ')') return nullptr;
+    std::istringstream stream(text.substr(start.size(), text.size() - start.size() - 1));
+    stream.imbue(std::locale::classic());
+    std::vector<double> n;
+    for (double x; stream >> x;)
+        n.push_back(x);
+    if (!stream.eof() || n.size() != 10) return nullptr;
+    const Primaries primaries = {{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}, {n[6], n[7]}};
+    const double gamma = n[8], offset = n[9];
+    const double area = (n[2] - n[0]) * (n[5] - n[1]) - (n[3] - n[1]) * (n[4] - n[0]);
+    if (!(std::abs(area) > 1e-4)) return nullptr; // that of Rec.709 is 0.22
+    // OCIO takes exponents of 1 to 10 and offsets of up to 0.9 with them.
+    if (!(n[7] > 0.0) || !(gamma >= 0.01 && gamma <= 10.0) || !(offset >= 0.0 && offset <= 0.9) ||
+        (offset > 0.0 && !(gamma > 1.0)))
+        return nullptr;
+    for (const double x : matrixToRec709(primaries))
+        if (!std::isfinite(x) || std::abs(x) > 1e6) return nullptr;
+    ocio::GroupTransformRcPtr group = ocio::GroupTransform::Create();
+    appendCurve(group, gamma, offset);
+    appendMatrix(group, primaries);
+    return group;
 }
 
 ocio::ConstConfigRcPtr builtinColorConfig() {

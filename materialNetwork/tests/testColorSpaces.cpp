@@ -1,11 +1,11 @@
-#include "hdDelegate/film/tests/tempFolder.h"
-#include "hdDelegate/scene/colorSpaces.h"
-#include "hdDelegate/scene/colorSpacesBuiltin.h"
+#include "materialNetwork/color/colorSpaces.h"
+#include "materialNetwork/color/colorSpacesBuiltin.h"
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <stdexcept>
 
@@ -93,6 +93,7 @@ TEST(ColorSpaces, AliasesOfMaterialXAndOfUsdAreKnownInAnyCase) {
                              "lin_rec709_scene",
                              "g22_rec709_scene",
                              "g18_rec709_scene",
+                             "g24_rec709_scene",
                              "lin_ap0_scene",
                              "lin_ap1_scene",
                              "acescg",
@@ -150,9 +151,9 @@ TEST(ColorSpaces, DefaultDisplayIsSrgbWithoutToneCurve) {
 }
 
 TEST(ColorSpaces, AConfigurationOfTheUsersComesFirstAndIsBridged) {
-    TempFolder temp;
+    const std::string file = testing::TempDir() + "patinaConfig.ocio";
     // Its scene_linear is ACEScg; one space is its own, and "sRGB" is not defined by it at all.
-    std::ofstream(temp.file("config.ocio"))
+    std::ofstream(file)
         << "ocio_profile_version: 2\n"
            "roles: {aces_interchange: AP0, scene_linear: Working, default: AP0}\n"
            "file_rules: [!<Rule> {name: Default, colorspace: AP0}]\n"
@@ -164,7 +165,8 @@ TEST(ColorSpaces, AConfigurationOfTheUsersComesFirstAndIsBridged) {
            "  - !<ColorSpace>\n    name: Twice\n"
            "    to_scene_reference: !<MatrixTransform> {matrix: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, "
            "0, 0, 0, 0, 1]}\n";
-    ColorSpaces user(temp.file("config.ocio")), builtin;
+    ColorSpaces user(file), builtin;
+    std::remove(file.c_str());
     ASSERT_TRUE(user.toRendering("Twice"));
     glm::vec3 c(0.2f, 0.4f, 0.6f);
     expectNear(converted(user.toRendering("Twice"), c),

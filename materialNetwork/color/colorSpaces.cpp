@@ -1,10 +1,12 @@
-#include "hdDelegate/scene/colorSpaces.h"
+#include "materialNetwork/color/colorSpaces.h"
 
-#include "hdDelegate/scene/colorSpacesBuiltin.h"
+#include "materialNetwork/color/colorSpacesBuiltin.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 
 namespace ocio = OCIO_NAMESPACE;
@@ -69,6 +71,8 @@ struct ColorSpaces::Impl {
     ocio::ConstConfigRcPtr builtin, user; ///< user is null without a configuration of the user's
     std::string userRendering; ///< the user's name of linear Rec.709, or what stands for it
     bool bridge = false;       ///< go through the interchange role instead of that name
+    mutable std::mutex mutex;  ///< of what follows
+    mutable std::map<std::string, ColorTransformPtr> ofValues;
 
     const ocio::ConstConfigRcPtr& active() const { return user ? user : builtin; }
     void findRenderingSpace();
@@ -99,6 +103,9 @@ void ColorSpaces::Impl::findRenderingSpace() {
 ColorTransformPtr ColorSpaces::Impl::convert(const std::string& name, bool toRendering) const {
     if (isData(name)) return transformOf({});
     try {
+        if (const ocio::ConstTransformRcPtr own = parseChromaticities(name))
+            return transformOf({builtin->getProcessor(
+                own, toRendering ? ocio::TRANSFORM_DIR_FORWARD : ocio::TRANSFORM_DIR_INVERSE)});
         if (user && user->getColorSpace(name.c_str())) {
             if (user->getColorSpace(name.c_str())->isData()) return transformOf({});
             if (bridge)
@@ -173,6 +180,23 @@ bool ColorSpaces::isData(const std::string& name) {
 
 ColorTransformPtr ColorSpaces::toRendering(const std::string& name) const {
     return _impl->convert(name, true);
+}
+
+bool ColorSpaces::valueToRendering(const std::string& name, float rgb[3]) const {
+    if (isData(name) || lower(name) == "auto") return true;
+    ColorTransformPtr transform;
+    {
+        const std::lock_guard<std::mutex> lock(_impl->mutex);
+        const auto known = _impl->ofValues.find(name);
+        // Names come from documents: there may be any number of them.
+        if (known == _impl->ofValues.end() && _impl->ofValues.size() >= 1000)
+            _impl->ofValues.clear();
+        transform = known != _impl->ofValues.end()
+                        ? known->second
+                        : _impl->ofValues[name] = _impl->convert(name, true);
+    }
+    if (transform) transform->apply(rgb, 1, 3);
+    return bool(transform);
 }
 
 ColorTransformPtr ColorSpaces::fromRendering(const std::string& name) const {

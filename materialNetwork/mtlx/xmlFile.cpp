@@ -1,0 +1,44 @@
+#include "materialNetwork/mtlx/xmlFile.h"
+
+namespace patina {
+
+namespace {
+
+bool nestsTooDeeply(const pugi::xml_node& root) {
+    int depth = 0;
+    for (pugi::xml_node node = root.first_child(); node;) {
+        if (const pugi::xml_node child = node.first_child()) {
+            if (++depth > mostNesting) return true;
+            node = child;
+            continue;
+        }
+        while (node && !node.next_sibling()) {
+            node = node.parent();
+            if (--depth < 0) return false; // back at the root
+        }
+        node = node.next_sibling();
+    }
+    return false;
+}
+
+} // namespace
+
+bool loadXml(const std::string& text, pugi::xml_document& out, std::string& problem) {
+    const pugi::xml_parse_result result = out.load_buffer(text.data(), text.size());
+    if (!result)
+        problem = std::string("is not readable as XML: ") + result.description();
+    else if (nestsTooDeeply(out))
+        problem = "has elements nested more than " + std::to_string(mostNesting) + " deep";
+    return problem.empty();
+}
+
+std::string qualifiedName(const pugi::xml_node& element, const std::string& name) {
+    for (pugi::xml_node e = element; e; e = e.parent()) {
+        const std::string space = e.attribute("namespace").value();
+        if (space.empty()) continue;
+        return name.compare(0, space.size() + 1, space + ":") == 0 ? name : space + ":" + name;
+    }
+    return name;
+}
+
+} // namespace patina

@@ -1,0 +1,135 @@
+// Colour values know the colour spaces that textures know.
+#include "materialNetwork/tests/materialTest.h"
+
+#include "materialNetwork/color/colorSpaces.h"
+#include "materialNetwork/value.h"
+
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+/// What an input of colours makes of a value, or NaN where it is refused.
+glm::vec3 linear(const std::string& space, glm::vec3 c, std::string& problem) {
+    InputDef def;
+    def.type = ValueType::Color3;
+    Value value = color(c.x, c.y, c.z), out;
+    value.colorSpace = space;
+    if (!coerceValue(value, def, out, problem)) return glm::vec3(NAN);
+    return {out.numbers[0], out.numbers[1], out.numbers[2]};
+}
+
+void expectNear(glm::vec3 a, glm::vec3 b, float tolerance, const std::string& of) {
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(a[i], b[i], tolerance) << of << ", channel " << i;
+}
+
+double srgb(double v) { // IEC 61966-2-1
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+} // namespace
+
+TEST(ColorValues, CurvesOfRec709AreTheClosedForms) {
+    const glm::vec3 c(0.8f, 0.25f, 0.02f);
+    const struct {
+        double gamma; // 0: sRGB
+        std::vector<const char*> names;
+    } curves[] = {
+        {0.0, {"srgb_texture", "srgb_rec709_scene", "sRGB", "srgb", "SRGB_Texture"}},
+        {1.0,
+         {"lin_rec709", "lin_rec709_scene", "lin_srgb", "linear", "data", "identity", "raw", "none",
+          "unknown", "auto", "Auto", ""}},
+        {1.8, {"g18_rec709", "g18_rec709_scene", "gamma18"}},
+        {2.2, {"g22_rec709", "g22_rec709_scene", "gamma22"}},
+        {2.4, {"rec709_display", "gamma24", "g24_rec709", "g24_rec709_scene"}},
+    };
+    for (const auto& curve : curves)
+        for (const char* name : curve.names) {
+            glm::vec3 expected;
+            for (int i = 0; i < 3; ++i)
+                expected[i] =
+                    float(curve.gamma > 0.0 ? std::pow(double(c[i]), curve.gamma) : srgb(c[i]));
+            std::string problem;
+            expectNear(linear(name, c, problem), expected, 2e-6f, name);
+            EXPECT_EQ(problem, "") << name;
+        }
+}
+
+// The published matrices themselves are tested with ColorSpaces; white stays white in all but XYZ.
+TEST(ColorValues, WideGamutsAreThoseOfTextures) {
+    const glm::vec3 c(0.8f, 0.25f, 0.1f);
+    for (const char* name :
+         {"acescg", "lin_ap1", "lin_ap1_scene", "g22_ap1", "g22_ap1_scene", "srgb_ap1_scene",
+          "lin_ap0_scene", "lin_displayp3", "lin_p3d65_scene", "srgb_displayp3", "srgb_p3d65_scene",
+          "lin_rec2020", "lin_rec2020_scene", "lin_adobergb", "lin_adobergb_scene", "adobergb",
+          "g22_adobergb_scene", "lin_ciexyzd65_scene"}) {
+        std::string problem;
+        const glm::vec3 value = linear(name, c, problem);
+        EXPECT_EQ(problem, "") << name;
+        glm::vec3 texel = c;
+        const ColorTransformPtr transform = ColorSpaces::shared().toRendering(name);
+        ASSERT_TRUE(transform) << name;
+        transform->apply(&texel.x, 1, 3);
+        expectNear(value, texel, 1e-6f, name);
+        EXPECT_GT(glm::length(value - c), 0.01f) << name << " is not converted";
+        if (std::string(name) != "lin_ciexyzd65_scene")
+            expectNear(linear(name, glm::vec3(1.0f), problem), glm::vec3(1.0f), 2e-5f, name);
+    }
+}
+
+TEST(ColorValues, AnUnknownSpaceKeepsTheValueAndIsNamed) {
+    std::string problem;
+    expectNear(linear("camera log 7", {0.8f, 0.25f, 0.1f}, problem), {0.8f, 0.25f, 0.1f}, 0.0f, "");
+    EXPECT_EQ(problem, "unknown colour space 'camera log 7'; the value is used as it is");
+
+    Value red = color(0.9f, 0.1f, 0.1f);
+    red.colorSpace = "camera log 7";
+    for (const bool inModel : {true, false}) {
+        const Compiled c(inModel
+                             ? previewNetwork({{"diffuseColor", red}, {"ior", number(1.0f)}})
+                             : bsdfNetwork({makeNode("bsdf", "ND_oren_nayar_diffuse_bsdf",
+                                                     {{"weight", number(1.0f)}, {"color", red}})}));
+        const std::string told = warnings(c.diagnostics);
+        EXPECT_NE(told.find(inModel ? "/m/surface [diffuseColor] unknown colour space"
+                                    : "/m/bsdf [color] unknown colour space"),
+                  std::string::npos)
+            << told;
+        ShadingPoint point;
+        Bsdf bsdf;
+        c.program->evaluate(point, bsdf);
+        EXPECT_NEAR(bsdf.albedo().x, 0.9f, 1e-4f);
+        EXPECT_NEAR(bsdf.albedo().y, 0.1f, 1e-4f);
+    }
+}
+
+TEST(ColorValues, SpacesMayBeWrittenOut) {
+    const glm::vec3 c(0.8f, 0.25f, 0.02f);
+    std::string problem;
+    // Rec.709 with sRGB's curve, and AP1, which is adapted from its own white.
+    expectNear(
+        linear("chromaticities(0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329 2.4 0.055)", c, problem),
+        linear("srgb_texture", c, problem), 2e-6f, "sRGB");
+    expectNear(linear("chromaticities(0.713 0.293 0.165 0.83 0.128 0.044 0.32168 0.33767 1 0)", c,
+                      problem),
+               linear("lin_ap1_scene", c, problem), 2e-6f, "AP1");
+    EXPECT_EQ(problem, "");
+    for (const char* numbers :
+         {"", "0.64 0.33", "0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329 2.4 x",
+          "0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329 0 0",
+          "0.64 0.33 0.64 0.33 0.64 0.33 0.3 0.3 1 0", "0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0 1 0",
+          "nan 0 0 0 0 0 0 1 1 0"}) {
+        const std::string name = std::string("chromaticities(") + numbers + ")";
+        expectNear(linear(name, c, problem), c, 0.0f, name);
+        EXPECT_NE(problem, "") << name;
+    }
+}
+
+TEST(ColorValues, WhatACurveMakesInfiniteIsRefused) {
+    std::string problem;
+    EXPECT_TRUE(std::isnan(linear("g22_rec709", {1e30f, 0.0f, 0.0f}, problem).x));
+    EXPECT_EQ(problem, "the value is not a finite number");
+}
+
+} // namespace patina

@@ -1,0 +1,227 @@
+// MaterialX documents that ask for more stack, memory or time than there is.
+#include "materialNetwork/tests/materialTest.h"
+
+#include "materialNetwork/mtlx/document.h"
+#include "materialNetwork/nodeTable.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <stdlib.h>
+#include <sys/stat.h>
+
+namespace patina {
+
+namespace {
+
+std::string repeated(const std::string& text, size_t times) {
+    std::string all;
+    all.reserve(text.size() * times);
+    for (size_t i = 0; i < times; ++i)
+        all += text;
+    return all;
+}
+
+std::string nested(const std::string& element, size_t depth) {
+    return repeated("<" + element + ">", depth) + repeated("</" + element + ">", depth);
+}
+
+const std::string material =
+    "<standard_surface name='s' type='surfaceshader'/><surfacematerial name='M' type='material'>"
+    "<input name='surfaceshader' type='surfaceshader' nodename='s'/></surfacematerial>";
+
+class MtlxHostile : public testing::Test {
+protected:
+    void SetUp() override {
+        std::string pattern = testing::TempDir() + "patinaHostileXXXXXX";
+        ASSERT_NE(::mkdtemp(&pattern[0]), nullptr);
+        folder = pattern + "/";
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    std::vector<Network> read(const std::string& body) {
+        write("main.mtlx", body);
+        return readMtlx(folder + "main.mtlx", diagnostics);
+    }
+    void write(const std::string& name, const std::string& body) {
+        std::ofstream(folder + name) << "<materialx version=\"1.39\">" << body << "</materialx>";
+    }
+    bool told(const std::string& text) const {
+        return warnings(diagnostics).find(text) != std::string::npos;
+    }
+
+    std::string folder;
+    Diagnostics diagnostics;
+};
+
+/// Definitions of which each uses the one below twice, or once; the lowest is a constant.
+std::string doublings(int levels, bool twice = true) {
+    std::string text;
+    for (int i = 0; i < levels; ++i) {
+        const std::string n = std::to_string(i), below = std::to_string(i - 1);
+        text += "<nodedef name='ND_l" + n + "' node='l" + n +
+                "'><output name='out' type='float'/></nodedef><nodegraph name='NG_l" + n +
+                "' nodedef='ND_l" + n + "'>";
+        if (i == 0)
+            text += "<constant name='c' type='float'/>";
+        else
+            text += "<l" + below + " name='a' type='float'/>" +
+                    (twice ? "<l" + below + " name='b' type='float'/>"
+                           : "<constant name='b' type='float'/>") +
+                    "<add name='c' type='float'>"
+                    "<input name='in1' type='float' nodename='a'/>"
+                    "<input name='in2' type='float' nodename='b'/></add>";
+        text += "<output name='out' type='float' nodename='c'/></nodegraph>";
+    }
+    return text;
+}
+
+std::string shown(const std::string& category) {
+    return "<" + category +
+           " name='top' type='float'/><surface name='s' type='surfaceshader'>"
+           "<input name='opacity' type='float' nodename='top'/></surface>"
+           "<surfacematerial name='M' type='material'>"
+           "<input name='surfaceshader' type='surfaceshader' nodename='s'/></surfacematerial>";
+}
+
+} // namespace
+
+TEST_F(MtlxHostile, GraphsNestedTooDeeplyAreNoDocument) {
+    EXPECT_TRUE(read(nested("nodegraph", 20000) + material).empty());
+    EXPECT_TRUE(
+        told("main.mtlx [] has elements nested more than 64 deep; the document is ignored"));
+    EXPECT_EQ(read(nested("nodegraph", 60) + material).size(), 1u);
+}
+
+TEST_F(MtlxHostile, IncludesNestedTooDeeplyAreLeftOut) {
+    const size_t depth = 400000; // each takes tens of bytes of an 8 MiB stack where it is freed
+    // In what is included, and in the element that includes.
+    write("deep.mtlx", nested("a", depth));
+    EXPECT_EQ(read("<xi:include href='deep.mtlx'/>" + material).size(), 1u);
+    EXPECT_TRUE(told("'deep.mtlx' has elements nested more than 64 deep; it is left out"));
+    EXPECT_TRUE(
+        read("<xi:include href='deep.mtlx'>" + nested("a", depth) + "</xi:include>").empty());
+    EXPECT_EQ(diagnostics.count(), 2) << warnings(diagnostics);
+}
+
+TEST_F(MtlxHostile, LongChainsOfClosuresTakeAFilm) {
+    std::string body = "<thin_film_bsdf name='film' type='BSDF'/><layer name='top' type='BSDF'>"
+                       "<input name='top' type='BSDF' nodename='film'/>"
+                       "<input name='base' type='BSDF' nodename='m0'/></layer>";
+    const int links = 100000; // a step of recursion each would not fit the stack
+    for (int i = 0; i < links; ++i)
+        body += "<multiply name='m" + std::to_string(i) +
+                "' type='BSDF'><input name='in1' type='BSDF' "
+                "nodename='m" +
+                std::to_string(i + 1) + "'/></multiply>";
+    body += "<dielectric_bsdf name='m" + std::to_string(links) + "' type='BSDF'/>";
+    MtlxDocument document;
+    ASSERT_TRUE(
+        parseMtlx("<materialx version='1.38'>" + body +
+                      "<surface name='s' type='surfaceshader'>"
+                      "<input name='bsdf' type='BSDF' nodename='top'/></surface></materialx>",
+                  "x.mtlx", true, document, diagnostics));
+    ASSERT_EQ(document.materials.size(), 1u);
+    const NetworkNode* last = document.materials[0].find("/m" + std::to_string(links));
+    ASSERT_NE(last, nullptr);
+    EXPECT_EQ(last->inputs.count("thinfilm_thickness"), 1u);
+}
+
+TEST_F(MtlxHostile, OnlyRegularFilesAreDocuments) {
+    ASSERT_EQ(::mkfifo((folder + "pipe.mtlx").c_str(), 0600), 0);
+    EXPECT_EQ(read("<xi:include href='/dev/zero'/><xi:include href='pipe.mtlx'/>"
+                   "<xi:include href='.'/><xi:include href='none.mtlx'/>" +
+                   material)
+                  .size(),
+              1u);
+    EXPECT_TRUE(told("'/dev/zero' is a device, not a regular file; it is left out"));
+    EXPECT_TRUE(told("'pipe.mtlx' is a named pipe, not a regular file; it is left out"));
+    EXPECT_TRUE(told("'.' is a folder, not a regular file; it is left out"));
+    EXPECT_TRUE(told("'none.mtlx' does not exist; it is left out"));
+    EXPECT_TRUE(readMtlx("/dev/zero", diagnostics).empty());
+    EXPECT_TRUE(readMtlx(folder + "pipe.mtlx", diagnostics).empty());
+    EXPECT_TRUE(told("/dev/zero [] the file is a device, not a regular file"));
+}
+
+TEST_F(MtlxHostile, MaterialsHoldTheNodesThatTheyReach) {
+    constexpr size_t materials = 300, sums = 8;
+    std::string body =
+        "<constant name='shared' type='color3'/><constant name='idle' type='color3'/>";
+    for (size_t i = 0; i < materials; ++i) {
+        const std::string n = std::to_string(i);
+        std::string last = "shared";
+        for (size_t k = 0; k < sums; ++k) {
+            const std::string name = "n" + n + "_" + std::to_string(k);
+            body += "<add name='" + name +
+                    "' type='color3'><input name='in1' type='color3' nodename='" + last +
+                    "'/></add>";
+            last = name;
+        }
+        body += "<standard_surface name='s" + n +
+                "' type='surfaceshader'>"
+                "<input name='base_color' type='color3' nodename='" +
+                last +
+                "'/></standard_surface>"
+                "<surfacematerial name='M" +
+                n +
+                "' type='material'>"
+                "<input name='surfaceshader' type='surfaceshader' nodename='s" +
+                n + "'/></surfacematerial>";
+    }
+    MtlxDocument document;
+    ASSERT_TRUE(parseMtlx("<materialx version='1.39'>" + body + "</materialx>", "x.mtlx", true,
+                          document, diagnostics));
+    ASSERT_EQ(document.materials.size(), materials);
+    // The terminal leads past the material itself to the shader, its sums and the shared constant.
+    for (const Network& network : document.materials)
+        ASSERT_EQ(network.nodes.size(), 1 + sums + 1) << network.path;
+    EXPECT_EQ(document.materials[7].nodes.front().path, "/shared"); // in the document's order
+    EXPECT_EQ(diagnostics.count(), 0) << warnings(diagnostics);
+}
+
+TEST_F(MtlxHostile, DefinitionsThatMultiplyAreGivenUp) {
+    const auto networks = read(doublings(40) + shown("l39"));
+    ASSERT_EQ(networks.size(), 1u);
+    EXPECT_TRUE(networks[0].empty());
+    EXPECT_TRUE(networks[0].nodes.empty());
+    EXPECT_TRUE(
+        told("main.mtlx:M [] the material comes to more than 200000 nodes; it is left out"));
+    EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
+}
+
+TEST_F(MtlxHostile, MaterialsThatMultiplyAreGivenUpTogether) {
+    std::string body = doublings(40) + shown("l39");
+    constexpr size_t materials = 1000;
+    for (size_t i = 1; i < materials; ++i)
+        body += "<surfacematerial name='M" + std::to_string(i) +
+                "' type='material'><input name='surfaceshader' type='surfaceshader' nodename='s'/>"
+                "</surfacematerial>";
+    const auto networks = read(body);
+    ASSERT_EQ(networks.size(), materials);
+    for (const Network& network : networks)
+        EXPECT_TRUE(network.empty() && network.nodes.empty());
+    // Six times 200000 is beyond the bound of the document.
+    EXPECT_TRUE(told("the materials come to more than 1000000 nodes; the last 994 are left out"));
+    EXPECT_EQ(diagnostics.count(), 6 + 1);
+}
+
+TEST_F(MtlxHostile, DefinitionsThatMultiplyALittleAreNot) {
+    const auto networks = read(doublings(12) + shown("l11"));
+    ASSERT_EQ(networks.size(), 1u);
+    EXPECT_EQ(diagnostics.count(), 0) << warnings(diagnostics);
+    // 2^11 constants, 2^11 - 1 sums and the surface.
+    EXPECT_EQ(networks[0].nodes.size(), size_t(2048 + 2047 + 1));
+}
+
+TEST_F(MtlxHostile, DefinitionsNestedTooDeeplyAreToldOnce) {
+    // Sixteen levels are taken in; what is below of the last is left out, and its sum has a
+    // default.
+    const auto networks = read(doublings(40, false) + shown("l39"));
+    ASSERT_EQ(networks.size(), 1u);
+    EXPECT_EQ(networks[0].nodes.size(), size_t(16 * 2 + 1));
+    EXPECT_TRUE(told("does ND_l23 contain itself?); the node is left out"));
+    const Compiled c(networks[0]);
+    EXPECT_EQ(diagnostics.count() + c.diagnostics.count(), 1) << warnings(c.diagnostics);
+}
+
+} // namespace patina

@@ -1,0 +1,105 @@
+// What a material asks for and does not get is told, by prim and input.
+#include "materialNetwork/tests/materialTest.h"
+
+#include "materialNetwork/mtlx/document.h"
+
+#include <cstdio>
+#include <fstream>
+
+namespace patina {
+
+namespace {
+
+std::string toldOf(const char* model, Inputs inputs, Connections connections = {}) {
+    return warnings(
+        Compiled(makeNetwork({makeNode("surface", model, std::move(inputs), std::move(connections)),
+                              makeNode("map", "ND_image_float")}))
+            .diagnostics);
+}
+
+} // namespace
+
+TEST(NotShown, DispersionIsTold) {
+    const struct {
+        const char *model, *input;
+    } cases[] = {
+        {"ND_open_pbr_surface_surfaceshader", "transmission_dispersion_scale"},
+        {"ND_standard_surface_surfaceshader", "transmission_dispersion"},
+        {"ND_standard_surface_surfaceshader_100", "transmission_dispersion"},
+        {"ND_gltf_pbr_surfaceshader", "dispersion"},
+    };
+    for (const auto& c : cases) {
+        const std::string expected =
+            std::string("/m/surface [") + c.input +
+            "] chromatic dispersion is not modelled; the input is ignored\n";
+        EXPECT_EQ(toldOf(c.model, {{c.input, number(0.5f)}}), expected);
+        EXPECT_EQ(toldOf(c.model, {}, {{c.input, {"map", "out"}}}), expected);
+        EXPECT_EQ(toldOf(c.model, {{c.input, number(0.0f)}}), "") << "0 asks for none";
+    }
+    // What is connected may turn out to be a constant.
+    for (const float scale : {0.0f, 0.25f}) {
+        const NetworkNode product = makeNode("product", "ND_multiply_float",
+                                             {{"in1", number(2.0f)}, {"in2", number(scale)}});
+        const Compiled c(
+            makeNetwork({makeNode("surface", "ND_open_pbr_surface_surfaceshader", {},
+                                  {{"transmission_dispersion_scale", {"product", ""}}}),
+                         product}));
+        EXPECT_EQ(c.diagnostics.count(), scale > 0.0f ? 1 : 0) << warnings(c.diagnostics);
+    }
+    // Nor does a circle go on for ever.
+    EXPECT_NE(toldOf("ND_open_pbr_surface_surfaceshader", {},
+                     {{"transmission_dispersion_scale", {"surface", ""}}}),
+              "");
+    // An Abbe number alone disperses nothing: the scale beside it is 0.
+    EXPECT_EQ(toldOf("ND_open_pbr_surface_surfaceshader",
+                     {{"transmission_dispersion_abbe_number", number(40.0f)}}),
+              "");
+}
+
+TEST(NotShown, LightsOfDocumentsAreTold) {
+    const std::string path = testing::TempDir() + "patinaLights.mtlx";
+    std::ofstream(path) << R"(<materialx version="1.39">
+      <uniform_edf name="e" type="EDF"/>
+      <light name="lamp" type="lightshader"><input name="edf" type="EDF" nodename="e"/></light>
+      <standard_surface name="s" type="surfaceshader"/>
+      <surfacematerial name="M" type="material">
+        <input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
+      </materialx>)";
+    Diagnostics diagnostics;
+    EXPECT_EQ(readMtlx(path, diagnostics).size(), 1u);
+    std::remove(path.c_str());
+    EXPECT_EQ(warnings(diagnostics),
+              path + ":/lamp [] lights of documents are not drawn; the node is ignored\n");
+}
+
+TEST(NotShown, AFallbackIsExplainedAsOne) {
+    const auto explained = [](const char* shader, Diagnostics& diagnostics) {
+        return explainMaterial(makeNetwork({makeNode("surface", shader)}), diagnostics);
+    };
+    const std::string sentence = "This material has no usable surface and is not shown.";
+    Diagnostics diagnostics, clean;
+    FakeTextures textures;
+    for (const char* shader : {"ND_light", "ND_nobody_knows"}) {
+        const std::string text = explained(shader, diagnostics);
+        const size_t at = text.find(sentence);
+        ASSERT_NE(at, std::string::npos) << shader << "\n" << text;
+        // The network comes before it, and displayColor's plan after it.
+        EXPECT_LT(text.find("network /m"), at);
+        EXPECT_EQ(text.find("material /m"), std::string::npos);
+        EXPECT_GT(text.find("material /displayColor"), at);
+        EXPECT_NE(text.find("lobe 0"), std::string::npos);
+        EXPECT_TRUE(planMaterialMethods(makeNetwork({makeNode("surface", shader)}), textures,
+                                        diagnostics, {}, 0.0)
+                        .fallback);
+    }
+    EXPECT_NE(warnings(diagnostics)
+                  .find("/m [surface] node /m/surface has the unknown type 'ND_light'; "
+                        "the terminal is ignored"),
+              std::string::npos)
+        << warnings(diagnostics);
+    EXPECT_EQ(explained("UsdPreviewSurface", clean).find(sentence), std::string::npos);
+    EXPECT_EQ(clean.count(), 0);
+    EXPECT_FALSE(planMaterialMethods(previewNetwork(), textures, clean, {}, 0.0).fallback);
+}
+
+} // namespace patina

@@ -1,0 +1,58 @@
+"""`explain` of what cannot be shown, and names of materials with namespaces."""
+import json
+
+import pytest
+
+pytest.importorskip("_patina")
+
+from patina.cli import main, materials  # noqa: E402
+
+STAGE = """#usda 1.0
+def Material "lamp" {
+    token outputs:mtlx:surface.connect = </lamp/light.outputs:out>
+    def Shader "light" { uniform token info:id = "ND_light"
+        token outputs:out
+    }
+}
+def Material "red" {
+    token outputs:surface.connect = </red/s.outputs:surface>
+    def Shader "s" { uniform token info:id = "UsdPreviewSurface"
+        token outputs:surface
+    }
+}
+"""
+
+
+def test_a_fallback_is_told_as_one(tmp_path, capsys):
+    stage = tmp_path / "lamp.usda"
+    stage.write_text(STAGE)
+    assert main.main(["explain", f"{stage}:/lamp"]) == 0
+    told = capsys.readouterr()
+    assert "This material has no usable surface and is not shown." in told.out
+    assert "material /lamp" not in told.out and "material /displayColor" in told.out
+    assert "\nplan of the fallback: " in told.out
+    assert "/lamp/light has the unknown type 'ND_light'" in told.err
+    assert main.main(["explain", f"{stage}:/red"]) == 0
+    told = capsys.readouterr()
+    assert "no usable surface" not in told.out and "\nplan: " in told.out
+    assert main.main(["explain", str(stage), "--json"]) == 0
+    found = {m["name"]: m["plan"]["fallback"] for m in json.loads(capsys.readouterr().out)["materials"]}
+    assert found == {"/lamp": True, "/red": False}
+
+
+def test_names_may_hold_namespaces(tmp_path):
+    (tmp_path / "library.mtlx").write_text("""<materialx version="1.39" namespace="lib">
+        <standard_surface name="s" type="surfaceshader"/>
+        <surfacematerial name="gold" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>
+        </surfacematerial></materialx>""")
+    document = tmp_path / "main.mtlx"
+    document.write_text("""<materialx version="1.39"><xi:include href="library.mtlx"/>
+        <standard_surface name="s" type="surfaceshader"/>
+        <surfacematerial name="gold" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>
+        </surfacematerial></materialx>""")
+    found, warnings = materials.load(str(document), every=True)
+    assert sorted(name for name, _ in found) == ["gold", "lib:gold"] and not warnings
+    (name, network), = materials.load(f"{document}:lib:gold")[0]
+    assert name == "lib:gold" and network.nodes()[0]["path"] == "/lib:s"
+    (name, network), = materials.load(f"{document}:gold")[0]
+    assert name == "gold" and network.nodes()[0]["path"] == "/s"

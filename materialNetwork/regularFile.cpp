@@ -1,0 +1,84 @@
+#include "materialNetwork/regularFile.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace patina {
+
+namespace {
+
+const char* kindOf(mode_t mode) {
+    if (S_ISDIR(mode)) return "a folder";
+    if (S_ISFIFO(mode)) return "a named pipe";
+    if (S_ISSOCK(mode)) return "a socket";
+    return S_ISBLK(mode) || S_ISCHR(mode) ? "a device" : "something else";
+}
+
+std::string problemOf(const struct stat& found, uint64_t mostBytes) {
+    if (!S_ISREG(found.st_mode))
+        return std::string("is ") + kindOf(found.st_mode) + ", not a regular file";
+    if (uint64_t(found.st_size) > mostBytes)
+        return "holds " + std::to_string(found.st_size) + " bytes; at most " +
+               std::to_string(mostBytes) + " are read";
+    return {};
+}
+
+std::string problemOf(int error) {
+    if (error == ENOENT || error == ENOTDIR) return "does not exist";
+    return "cannot be opened: " + std::string(std::strerror(error));
+}
+
+struct Descriptor {
+    int number;
+    ~Descriptor() {
+        if (number >= 0) ::close(number);
+    }
+};
+
+} // namespace
+
+std::string whyUnreadable(const std::string& path, uint64_t mostBytes) {
+    struct stat found;
+    if (::stat(path.c_str(), &found) != 0) return problemOf(errno);
+    const std::string problem = problemOf(found, mostBytes);
+    return problem.empty() && ::access(path.c_str(), R_OK) != 0 ? problemOf(errno) : problem;
+}
+
+bool readRegularFile(const std::string& path, uint64_t mostBytes, std::string& bytes,
+                     std::string& problem) {
+    bytes.clear();
+    problem = whyUnreadable(path, mostBytes);
+    if (!problem.empty()) return false;
+    // Looked at once more when it is open: what a name stands for may change in between. Without
+    // O_NONBLOCK a pipe would wait for its writer.
+    const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
+    struct stat found;
+    if (file.number < 0 || ::fstat(file.number, &found) != 0) {
+        problem = errno == ENXIO ? "is a socket or a device, not a regular file" : problemOf(errno);
+        return false;
+    }
+    problem = problemOf(found, mostBytes);
+    if (!problem.empty()) return false;
+    bytes.reserve(size_t(found.st_size) + 1);
+    char part[1 << 16];
+    for (;;) { // to its end, whatever its size said: it may grow, and /proc tells none
+        const ssize_t got = ::read(file.number, part, sizeof part);
+        if (got == 0) return true;
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0)
+            problem = "cannot be read: " + std::string(std::strerror(errno));
+        else if (uint64_t(got) > mostBytes - bytes.size())
+            problem = "holds more than the " + std::to_string(mostBytes) + " bytes that are read";
+        if (!problem.empty()) {
+            bytes.clear();
+            return false;
+        }
+        bytes.append(part, size_t(got));
+    }
+}
+
+} // namespace patina

@@ -14,13 +14,12 @@ Materials that vary are checked at points of uv 0 to 1. Exit status 1 when a che
 --layers takes no material: it prints how far the albedo of layers, which scale what is below by what the top lets
 through, is from a random walk between the interfaces.
 """
-import json
 import math
 import sys
 
 import numpy as np
 
-from patina.cli import compiled, layers, materials, methods, statistics
+from patina.cli import compiled, layers, materials, methods, outputs, statistics
 from patina.cli.errors import CommandError, UsageError
 
 CHECKS = ("finite", "energy", "pdf", "weight", "chi2", "reciprocity")
@@ -55,10 +54,12 @@ def run(arguments):
     if arguments.layers == bool(arguments.material):
         raise UsageError("patina check: name a material, or --layers without one")
     chosen = methods.parse(arguments.method)
+    outputs.check_all([arguments.json])
     if arguments.layers:
         _report_layers(layers.report(chosen, arguments.samples, arguments.seed), arguments.json)
         return
     found, warnings = materials.load(arguments.material, arguments.set, every=True)
+    outputs.check_all([arguments.json])  # now that it is known what is read
     results = []
     for name, network in found:
         probe = compiled.load().MaterialProbe(network, chosen)
@@ -316,27 +317,14 @@ def _reciprocity(probe, generator, place):
             f", uv {place[0]:.3f} {place[1]:.3f}" if place else "")
 
 
-def _write_json(value, target):
-    """:returns: whether it took standard output"""
-    if not target:
-        return False
-    text = json.dumps(value, indent=2)
-    if target == "-":
-        print(text)
-        return True
-    with open(target, "w", encoding="utf-8") as file:
-        file.write(text + "\n")
-    return False
-
-
 def _report_layers(rows, target):
-    if not _write_json({"layers": rows}, target):
+    if not outputs.write_json(target, {"layers": rows}):
         print(layers.table(rows))
 
 
 def _report(results, target):
     named = [{"name": name, "checks": outcomes} for name, outcomes in results]
-    if _write_json({"materials": named}, target):
+    if outputs.write_json(target, {"materials": named}):
         return
     width = max(len(name) for name, _ in results)
     for name, outcomes in results:

@@ -157,7 +157,11 @@ void EmbreeRenderer::maybeCheckpoint() {
     if (_settings.checkpointFile.empty() ||
         secondsSince(_lastCheckpoint) < _settings.checkpointSeconds)
         return;
-    _film->saveCheckpoint(_settings.checkpointFile);
+    try {
+        _film->saveCheckpoint(_settings.checkpointFile);
+    } catch (const std::exception& e) { // a full disk: the render is worth more
+        _scene->diagnostics().warn("", "", e.what());
+    }
     _lastCheckpoint = Clock::now();
 }
 
@@ -225,7 +229,8 @@ void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) 
 
 void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     const auto buildStart = Clock::now();
-    Arena arena(_settings.threads);
+    constexpr int mostThreads = 4096;
+    Arena arena(std::min(_settings.threads, mostThreads));
     arena.execute([&] { updateScene(state, camera); });
     if (_stop) return;
     ScenePlan plan = _embree->plan();

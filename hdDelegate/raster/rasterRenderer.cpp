@@ -284,7 +284,11 @@ private:
             }
             if (!_settings.checkpointFile.empty() &&
                 secondsSince(saved) > _settings.checkpointSeconds) {
-                _film->saveCheckpoint(_settings.checkpointFile);
+                try {
+                    _film->saveCheckpoint(_settings.checkpointFile);
+                } catch (const std::exception& e) { // a full disk: the render is worth more
+                    _scene->diagnostics().warn("", "", e.what());
+                }
                 saved = Clock::now();
             }
             if (!waitWhilePaused()) return;

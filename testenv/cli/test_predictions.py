@@ -97,7 +97,6 @@ def test_states_are_counted_as_they_are(tmp_path):
     assert "methods within it on 5 of 5" in text and "whole error within it on 1 of 3 (2 more ended by time)" in text
     assert "0.50x of the truth's, 2.00x of the default's" in text
     table = predictionsCommand.Table(str(tmp_path))
-    with table:
-        for row in rows:
-            table.add(row)
+    for row in rows:
+        table.add(row)
     assert predictions.read(str(tmp_path / "predictions.csv")) == rows

@@ -15,13 +15,12 @@ causes as `patina record` tells them. Exit status 1 when a check fails.
 --layers takes no material: it prints how far the albedo of layers, which scale what is below by what the top lets
 through, is from a random walk between the interfaces.
 """
-import json
 import math
 import sys
 
 import numpy as np
 
-from patina.cli import compiled, layers, materials, methods, statistics
+from patina.cli import compiled, layers, materials, methods, outputs, statistics
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.progress import Progress
 
@@ -57,10 +56,12 @@ def run(arguments):
     if arguments.layers == bool(arguments.material):
         raise UsageError("patina check: name a material, or --layers without one")
     chosen = methods.parse(arguments.method)
+    outputs.check_all([arguments.json])
     if arguments.layers:
         _report_layers(chosen, arguments)
         return
     found, warnings = materials.load(arguments.material, arguments.set, every=True)
+    outputs.check_all([arguments.json])  # now that it is known what is read
     results, work = [], _Work(len(found))
     width = max(len(name) for name, _ in found)
     try:
@@ -76,8 +77,8 @@ def run(arguments):
     finally:  # also of what was not checked any more
         work.progress.clear()
         statistics.tell(warnings, sys.stderr)
-    _write_json({"materials": [{"name": name, "checks": outcomes} for name, outcomes in results],
-                 "causes": statistics.Causes(warnings).groups, "warnings": warnings}, arguments.json)
+    outputs.write_json(arguments.json, {"materials": [{"name": name, "checks": outcomes} for name, outcomes in results],
+                 "causes": statistics.Causes(warnings).groups, "warnings": warnings})
     failures = [(name, kind, outcome) for name, outcomes in results for kind, outcome in outcomes.items()
                 if outcome["failed"]]
     if failures:
@@ -363,19 +364,6 @@ def _reciprocity(probe, generator, place):
             f", uv {place[0]:.3f} {place[1]:.3f}" if place else "")
 
 
-def _write_json(value, target):
-    """:returns: whether it took standard output"""
-    if not target:
-        return False
-    text = json.dumps(value, indent=2)
-    if target == "-":
-        print(text)
-        return True
-    with open(target, "w", encoding="utf-8") as file:
-        file.write(text + "\n")
-    return False
-
-
 def _report_layers(chosen, arguments):
     progress, rows = Progress("check"), []
     for row in layers.rows(chosen, arguments.samples, arguments.seed):
@@ -385,7 +373,7 @@ def _report_layers(chosen, arguments):
         rows.append(row)
         progress.step(len(rows), len(layers.STACKS) * len(layers.ANGLES), row["stack"])
     progress.clear()
-    _write_json({"layers": rows}, arguments.json)
+    outputs.write_json(arguments.json, {"layers": rows})
 
 
 def _print(name, outcomes, width):

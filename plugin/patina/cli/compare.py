@@ -11,11 +11,11 @@ are left out of the numbers. FLIP comes from NVIDIA's flip-evaluator, where it i
   signed mean error    mean of a-b: energy won or lost; also relative to the mean of B
   largest difference   with the pixel, counted from the upper left corner
 """
-import json
 import os
 import sys
 
-from patina.cli import compiled, imageMetrics
+from patina import inputs
+from patina.cli import compiled, imageMetrics, outputs
 from patina.cli.errors import CommandError, UsageError
 
 LINEAR = (".exr", ".hdr", ".pfm")
@@ -38,6 +38,9 @@ def add_arguments(parser):
 
 def run(arguments):
     limits = _limits(arguments.fail)
+    for path in (arguments.a, arguments.b):
+        inputs.note(path)
+    outputs.check_all([arguments.json])
     a, b = (_read(path, arguments.aov) for path in (arguments.a, arguments.b))
     if a.shape != b.shape:
         raise CommandError(f"{arguments.a} is {_size(a)}, but {arguments.b} is {_size(b)}")
@@ -112,12 +115,7 @@ def _read(path, aov):
 
 def _show(result, arguments):
     if arguments.json:
-        text = json.dumps(result, indent=2)
-        if arguments.json == "-":
-            print(text)
-        else:
-            with open(arguments.json, "w", encoding="utf-8") as file:
-                file.write(text + "\n")
+        outputs.write_json(arguments.json, result)
         return
     for label, path in (("a", arguments.a), ("b", arguments.b)):
         bad = result["notFinite"][label]

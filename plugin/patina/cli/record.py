@@ -10,7 +10,9 @@ default or an approximation is used), those that are met most often first, 20 at
 Ctrl+C ends a render early: the image is written with the samples that are there, and
 IMAGE.checkpoint stays for --resume. An image that was there before is replaced only by a whole one.
 """
-from patina.cli import checkpoints, compiled, frames, openStage, overrides, recordFlags, statistics
+import os
+
+from patina.cli import checkpoints, compiled, frames, openStage, outputs, overrides, recordFlags, statistics
 from patina.cli.errors import CommandError
 from patina.cli.interrupts import Interrupts
 from patina.cli.progress import Progress
@@ -52,10 +54,13 @@ class _Job:
         pattern = a.image
         # Before anything slow: will the image have a place to go to?
         self.module.check_image_path(pattern, ["color", "alpha"] + self.settings["aovs"])
+        outputs.check_all([pattern, a.json])
         with self.statistics.phase("open"):
             self.stage = openStage.open_stage(a.stage, a.mask, a.sessionLayer)
             overrides.apply(self.stage, a.set)
         self.plan = frames.plan(a, self.stage)
+        for _, image in self.plan:
+            self._check_outputs(image)
         self.renderer = self.module.make_renderer(a.backend)
         self.scene = self.module.Scene()
 
@@ -63,7 +68,8 @@ class _Job:
         self.statistics.begin_frame(frame, image)
         with self.statistics.phase("translate"):
             info = self._translate(frame)
-        for note in self.statistics.note(info.notes):
+        self._check_outputs(image)  # once more: now it is known which textures are read
+        for note in self.statistics.note(info.notes + self._left_over(image)):
             Progress("", self.arguments.quiet).say(note)
         self._check_warnings()
         settings = dict(self.settings, **self._size(info))
@@ -75,6 +81,18 @@ class _Job:
         with self.statistics.phase("write"):
             self._write(film, image, settings, info)
         self.statistics.end_frame()
+
+    def _check_outputs(self, image):
+        outputs.check_all([image, self.arguments.json])
+        if self.arguments.checkpointSeconds > 0.0 or self.arguments.keepCheckpoint or self.arguments.resume:
+            outputs.check(checkpoints.path_of(image))
+
+    def _left_over(self, image):
+        """What a render that was killed has left; it goes when this image is written."""
+        path = checkpoints.path_of(image)
+        if self.arguments.resume or not os.path.isfile(path):
+            return []
+        return [f"{path} of an earlier render is given up (--resume would have continued it)"]
 
     def _translate(self, frame):
         from patina import stage as reader

@@ -1,11 +1,10 @@
 """What --json shows of a render: times by phase, rays, samples, memory, warnings."""
 import contextlib
-import json
 import sys
 import time
 
 from patina import __version__
-from patina.cli import planText
+from patina.cli import outputs, planText
 from patina.cli.causes import Causes
 
 PHASES = ("open", "translate", "build", "render", "write", "total")
@@ -140,12 +139,7 @@ class Statistics:
         result["causes"] = Causes(self.warnings()).groups
         result["warnings"] = self.warnings()
         result["frames"] = self._frames
-        text = json.dumps(result, indent=2)
-        if file == "-":
-            print(text)
-        else:
-            with open(file, "w", encoding="utf-8") as out:
-                out.write(text + "\n")
+        outputs.write_json(file, result)
 
 
 def _mean_relative_error(film):

@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from patina.cli import materials as reader
-from patina.cli import methods, statistics
+from patina.cli import methods, outputs, statistics
 from patina.cli.errors import CommandError
 from patina.view import blobs, compareImages, controls, layers, materials, page, shapes, stageScene, surroundings
 
@@ -99,13 +99,15 @@ def page_of(arguments):
     """:returns: the page's text, and warnings"""
     if not os.path.isdir(os.path.dirname(os.path.abspath(arguments.output))):
         raise CommandError(f"there is no folder for {arguments.output}")
+    outputs.check_all([arguments.output, arguments.writeControls])
     builder = Builder(arguments)
     builder.read()
     builder.surround()
-    text = page.document(builder.data(), builder.lobes)
+    outputs.check_all([arguments.output, arguments.writeControls])  # now that it is known what is read
+    text, warnings = page.document(builder.data(), builder.lobes)
     if arguments.writeControls:
         _write_controls(builder.materials, arguments.writeControls)
-    return text, builder.warnings
+    return text, builder.warnings + warnings
 
 
 def _write_controls(found, path):
@@ -117,8 +119,4 @@ def _write_controls(found, path):
     whole = {"controls": list(entries.values()),
              "presets": [{"name": name, "values": values} for name, values in presets.items()],
              "sentences": {m["name"]: m["sentence"] for m in found if m["sentence"]}}
-    try:
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(json.dumps(whole, indent=1) + "\n")
-    except OSError as error:
-        raise CommandError(f"--writeControls: {path} cannot be written ({error.strerror})") from error
+    outputs.write_text(path, json.dumps(whole, indent=1) + "\n")

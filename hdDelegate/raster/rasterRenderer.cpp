@@ -6,6 +6,7 @@
 #include "hdDelegate/raster/eglContext.h"
 #include "hdDelegate/raster/glFaults.h"
 #include "hdDelegate/raster/rasterPasses.h"
+#include "hdDelegate/scene/instancerCheck.h"
 
 #include <algorithm>
 #include <atomic>
@@ -133,12 +134,10 @@ private:
             const auto camera = state->cameras.find(cameraPath);
             if (camera == state->cameras.end())
                 throw std::runtime_error("there is no camera " + cameraPath);
-            for (const mat4& transform : camera->second->transform.values) {
-                const float volume = glm::determinant(mat3(transform));
-                if (!std::isfinite(volume) || volume == 0.0f)
+            for (const dmat4& transform : camera->second->transform.values)
+                if (!hasInverse(mat4(transform)))
                     throw std::runtime_error("the camera " + cameraPath +
                                              " has a transform without an inverse");
-            }
             try {
                 render(*state, *camera->second);
             } catch (const DeviceError& error) {
@@ -202,8 +201,8 @@ private:
 
     /// With places as seen from the origin.
     RasterCamera cameraFrom(Camera camera) const {
-        for (mat4& transform : camera.transform.values)
-            transform[3] -= vec4(_origin, 0.0f);
+        for (dmat4& transform : camera.transform.values)
+            transform[3] -= glm::dvec4(_origin, 0.0f);
         return RasterCamera(camera, _settings);
     }
 

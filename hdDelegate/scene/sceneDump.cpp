@@ -77,9 +77,11 @@ public:
         line(name, all);
     }
     void transform(const std::string& name, const MotionTransform& m) {
-        if (!m.moves() && !m.empty() && m.first() == mat4(1.0f)) return;
-        for (size_t i = 0; i < m.values.size(); ++i)
-            array(timed(name, m.times, i), &m.values[i][0][0], 16, 4);
+        if (!m.moves() && !m.empty() && m.first() == dmat4(1.0)) return;
+        for (size_t i = 0; i < m.values.size(); ++i) {
+            const mat4 value(m.values[i]);
+            array(timed(name, m.times, i), &value[0][0], 16, 4);
+        }
     }
     void points(const Sampled<std::vector<vec3>>& p) {
         for (size_t i = 0; i < p.values.size(); ++i)

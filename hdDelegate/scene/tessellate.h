@@ -55,6 +55,11 @@ TriangleMesh tessellate(const Mesh& mesh, const TessellationOptions& options,
 TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& options,
                         Diagnostics& diagnostics);
 
+/// By how much fewer segments a round prim takes for TessellationOptions::roundEdge: 1, 2, 4 or 8.
+int roundCoarseness(const Implicit& prim, float roundEdge);
+/// A roundEdge that gives a prim of this radius so many times fewer segments.
+float roundEdgeOf(float radius, int coarser);
+
 /// Prepares curves. Phantom points of pinned curves and wrapped points of periodic ones are added.
 /// Widths (diameters) may have any interpolation; without them they are 1, the fallback that
 /// OpenUSD's own renderer uses. Curves with a vertex count that their basis cannot use are left out

@@ -202,7 +202,8 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
             if (settings.enableSceneLights && group.shape->mesh)
                 for (const uint32_t i : group.places)
                     _emitters.add(group.shape->mesh, subset, draw.material->program, draw.meshLight,
-                                  places[i].groupToWorld * toGroup, lit, _origin);
+                                  places[i].groupToWorld * toGroup, lit,
+                                  (draw.flags & RasterShape::tube) != 0, _origin);
             draw.subset = int(subset);
             draw.show(*group.shape);
             if (draw.surface->triangles == 0) continue;

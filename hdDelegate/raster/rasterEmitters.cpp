@@ -147,7 +147,7 @@ float RasterEmitters::brightness(const Source& source, unsigned triangle, bool c
 void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t subset,
                          const std::shared_ptr<const MaterialProgram>& program,
                          const RasterMeshLight& light, const mat4& toWorld, int category,
-                         const vec3& origin) {
+                         bool closed, const vec3& origin) {
     Source source;
     source.glows = program->hasEmission();
     if (!source.glows && light.mode == RasterMeshLight::None) return;
@@ -180,7 +180,8 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
         e.edge2 = p[2] - p[0];
         e.area = 0.5f * glm::length(glm::cross(e.edge1, e.edge2));
         if (!(e.area > 0.0f) || !std::isfinite(e.area)) continue;
-        e.twoSided = source.glows &&
+        e.twoSided =
+            source.glows && !closed &&
                      (light.mode == RasterMeshLight::None || light.mode == RasterMeshLight::Adds);
         e.mirrored = mirrored;
         e.category = category;

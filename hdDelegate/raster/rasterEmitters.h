@@ -49,10 +49,11 @@ public:
     void clear();
     /// Adds the triangles of one subset of a mesh at one place.
     /// @param category as of RasterEmitter
+    /// @param closed no light from inside gets out: of tubes, whose maps show strips alone
     /// @param origin that `toWorld` is relative to
     void add(const std::shared_ptr<const TriangleMesh>& mesh, size_t subset,
              const std::shared_ptr<const MaterialProgram>& program, const RasterMeshLight& light,
-             const mat4& toWorld, int category, const vec3& origin = vec3(0.0f));
+             const mat4& toWorld, int category, bool closed, const vec3& origin);
     bool empty() const { return _emitters.empty(); }
 
     /// @returns a triangle; `within` a number in [0,1) that is left of u, `chance` the probability

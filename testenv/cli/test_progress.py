@@ -61,3 +61,12 @@ def test_steps_move_on_a_terminal(monkeypatch):
     stream.truncate(stream.seek(0))
     text = stepped(monkeypatch, stream)
     assert text.count("\r\033[K") == 2 and text.endswith(" 33 %  52 s left  material 3 of 6, iron") and "\n" not in text
+
+
+def test_while_the_driver_compiles_it_says_how_far_it_is(monkeypatch):
+    compiling = {"materialsReady": 12.0, "materialsWanted": 47.0}
+    assert shown(monkeypatch, statistics=compiling, secondsLeft=20.0) == (
+        "shot.exr: compiled 12 of 47 materials, about 20 s left\n")
+    assert shown(monkeypatch, statistics=compiling) == "shot.exr: compiled 12 of 47 materials\n"
+    ready = {"materialsReady": 47.0, "materialsWanted": 47.0}
+    assert shown(monkeypatch, statistics=ready) == "shot.exr: preparing for 25 s\n"

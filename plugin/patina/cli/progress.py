@@ -33,7 +33,7 @@ class Progress:
         fraction = min(max(state["fraction"], 0.0), 1.0)
         text = f"{100 * fraction:3.0f} %  {state['samplesDone']} samples"
         if fraction == 0.0 and state["samplesDone"] == 0:  # shapes, textures, and what drivers compile
-            text = f"preparing for {_clock(self.last - self.started)}"
+            text = self._preparing(state, self.last)
         elif state["secondsLeft"] > 0.5:
             text += f"  {_clock(state['secondsLeft'])} left"
         self._write(fraction, text)
@@ -69,6 +69,14 @@ class Progress:
         else:
             self.stream.write(f"{self.label}: {text}\n")
         self.stream.flush()
+
+    def _preparing(self, state, now):
+        statistics = state.get("statistics", {})
+        ready, wanted = (int(statistics.get(name, 0)) for name in ("materialsReady", "materialsWanted"))
+        if ready >= wanted:
+            return f"preparing for {_clock(now - self.started)}"
+        left = f", about {_clock(state['secondsLeft'])} left" if state["secondsLeft"] > 0.5 else ""
+        return f"compiled {ready} of {wanted} materials{left}"
 
     def clear(self):
         """Leaves an empty line for what is printed next."""

@@ -68,7 +68,7 @@ def compare(drawn, traced, depth, *arguments):
 
 def same(*arguments):
     verdict = compare(*arguments)
-    assert not verdict.differs.any() and not verdict.undecided.any(), verdict.text()
+    assert not verdict.differs.any() and not verdict.open, verdict.text()
 
 
 def differences(*arguments):
@@ -94,7 +94,7 @@ def test_mirrors_show_the_environment(tmp_path):
 
 
 def test_glass_shows_what_is_behind(tmp_path):
-    """A thin pane over the whole floor of the view: direct light alone ends there, the rasterizer goes on behind it."""
+    """A pane over the whole floor of the view: direct light alone ends there, the rasterizer goes on behind it."""
     pane = surface("pane", "ND_dielectric_bsdf", {"float ior": "1.0001", "float2 roughness": "(0, 0)",
                                                   "string scatter_mode": '"RT"'})
     glass = """    def Cube "pane"
@@ -119,24 +119,21 @@ def test_subsurface_shows_as_diffuse(tmp_path):
 
 
 def test_volumes_cast_no_shadow(tmp_path):
-    """The floor below the smoke, without the tiles where smoke or its outline is seen."""
-    from pxr import Usd
-
-    stage = os.path.join(inProcess.SCENES, "volume.usda")
-    without = Usd.Stage.Open(stage)
-    clear = str(tmp_path / "clear.usda")
-    without.GetPrimAtPath("/World/puff").SetActive(False)
-    without.Flatten().Export(clear)
-    for light in ("/World/sky",):
-        without.GetPrimAtPath(light)
-    drawn, bare = compare(stage, clear, 1), compare(clear, clear, 1)
-    assert not bare.differs.any(), bare.text()
-    floor = np.abs(drawn.difference) <= np.abs(bare.difference) + drawn.half + equivalence.MARGIN
-    shaded = differences(stage, stage, 16)
-    assert ((shaded > 0.05) & floor).any()  # brighter there than what the smoke shades
+    """Somewhere on the floor smoke takes a twentieth of the traced light, and the rasterizer's floor is as without smoke."""
+    stage, clear = inProcess.scene("volume"), str(tmp_path / "clear.usda")
+    with open(clear, "w", encoding="utf-8") as out:
+        out.write('#usda 1.0\n(\n    subLayers = [@%s@]\n)\nover "World"\n{\n    over "puff" (\n        active = false\n    )'
+                  '\n    {\n    }\n}\n' % stage)
+    smoke = inProcess.Stage(stage, "-w", WIDTH, "--samples", 1)
+    smoke.image()
+    if smoke.warnings():
+        pytest.skip(smoke.warnings()[0])  # a build without OpenVDB
+    shaded, drawn = differences(clear, stage, 16), compare(stage, clear, 1)
+    assert ((shaded > 0.05) & ~drawn.differs & (drawn.half < equivalence.FULL.widest)).any(), drawn.text()
 
 
 def test_lights_do_not_move_while_the_shutter_is_open(tmp_path):
+    """They are where they are in the middle of it."""
     moving = LAMP.replace("double3 xformOp:translate = (-0.4, 2.2, 0.2)", "double3 xformOp:translate.timeSamples = "
                           "{ 0: (-0.4, 2.2, 0.2), 1: (1.6, 2.2, 0.2) }")
     assert moving != LAMP
@@ -151,7 +148,7 @@ def test_lights_do_not_move_while_the_shutter_is_open(tmp_path):
         return path
 
     moves = stage("moving", moving)
-    same(moves, stage("still", LAMP), 1, "--frames", "0")
+    same(moves, stage("still", LAMP.replace("(-0.4, 2.2, 0.2)", "(0.6, 2.2, 0.2)")), 1, "--frames", "0")
     assert np.abs(differences(moves, moves, 1, "--frames", "0")).max() > 0.1
 
 

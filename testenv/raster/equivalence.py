@@ -37,7 +37,7 @@ class Power:
     spare: float = 0.0
 
 
-FULL = Power(widest=5 * MARGIN, samples=16, traced=64, looks=(12, 24), spare=0.1)
+FULL = Power(widest=5 * MARGIN, samples=16, traced=64, looks=(12, 24), spare=0.25)
 LONG = Power(widest=MARGIN, samples=128, traced=512, looks=(12, 24, 48, 96))
 
 

@@ -1,6 +1,7 @@
 """Each feature that the rasterizer draws otherwise by design (byDesign.py): it draws what is said there, and that is not
 what the path tracer draws. Both by the test of equivalence.py: the rasterizer's image is the path tracer's of the stage
 without the feature, with the same margin as everywhere, and differs from the path tracer's image of the stage itself."""
+import functools
 import os
 
 import numpy as np
@@ -56,14 +57,19 @@ def write(folder, name, contents, materials="", lights=LAMP):
     return path
 
 
+@functools.lru_cache(maxsize=2)
+def rasterized(path, arguments):
+    """:returns: function of a list of seeds -> images; each is rendered once"""
+    stage = inProcess.Stage(path, "--backend", "raster", "-w", WIDTH, "--samples", equivalence.FULL.samples, *arguments)
+    image = functools.lru_cache(maxsize=None)(stage.image)
+    return lambda seeds: [image(seed) for seed in seeds]
+
+
 def compare(drawn, traced, depth, *arguments):
     """:returns: the Verdict of the rasterizer's images of one stage and the path tracer's of another"""
-    power = equivalence.FULL
-    stage = inProcess.Stage(drawn, "--backend", "raster", "-w", WIDTH, "--samples", power.samples, *arguments)
-    return equivalence.decide(
-        lambda seeds: [stage.image(seed) for seed in seeds],
-        lambda seeds: inProcess.references(traced, seeds, "-w", WIDTH, "--samples", power.traced, "--maxDepth", depth, *arguments),
-        power)[0]
+    flags = ["-w", WIDTH, "--samples", equivalence.FULL.traced, "--maxDepth", depth, *arguments]
+    return equivalence.decide(rasterized(drawn, arguments), lambda seeds: inProcess.references(traced, seeds, *flags),
+                              equivalence.FULL)[0]
 
 
 def same(*arguments):

@@ -43,6 +43,7 @@ def patina(*arguments, check=True):
 
 
 def record(stage, image, *arguments, check=True):
+    _as_on_disk(stage)
     return patina("record", stage, image, "--quiet", *arguments, check=check)
 
 
@@ -56,6 +57,7 @@ class Stage:
         from patina import stage as reader
         from patina.cli import openStage, overrides, recordFlags
 
+        _as_on_disk(stage)
         parser = argparse.ArgumentParser(allow_abbrev=False)
         recordFlags.add_arguments(parser)
         a = parser.parse_args([str(stage), "none.exr", *map(str, arguments)])
@@ -134,6 +136,14 @@ def references(stage, seeds, *arguments):
         np.save(temporary, images)
         os.replace(temporary, file)
     return images
+
+
+def _as_on_disk(stage):
+    """:raises AssertionError: where a test has changed the stage's file in this process's memory, which renders would show"""
+    from pxr import Sdf
+
+    found = Sdf.Layer.Find(str(stage))
+    assert not (found and found.dirty), f"{stage} was changed in memory: edit a layer above it"
 
 
 def _folder():

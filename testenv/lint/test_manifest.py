@@ -41,6 +41,13 @@ def test_every_test_has_a_tier_and_rooms():
         assert place[1] <= set(manifest.ROOMS), name
 
 
+def test_the_command_knows_the_tiers():
+    from patina.cli import testRun
+
+    assert set(testRun.TIERS) == set(manifest.RUNS)
+    assert all(set(tiers) <= set(manifest.TIERS) for tiers in manifest.RUNS.values())
+
+
 def test_every_folder_with_tests_of_its_own_room_has_a_rule():
     """The rule for all of testenv is there for new folders, not for those that stay."""
     for file in files(".py"):

@@ -30,7 +30,7 @@ FEATURES = {
         "volume prims cast no shadow on surfaces, and are marched with light that diffuses as in a layer",
         "test_byDesign.py::test_volumes_cast_no_shadow", ("volume",)),
     "motionOfLights": Feature(
-        "lights stand still while the shutter is open",
+        "while the shutter is open lights stand where they are in the middle of that",
         "test_byDesign.py::test_lights_do_not_move_while_the_shutter_is_open"),
 }
 SCENES = {scene: [name for name, feature in FEATURES.items() if scene in feature.scenes]

@@ -6,7 +6,8 @@ their own (batch means), of the rasterizer as of the path tracer. For each tile 
 the difference of the means. Its significance is SIGNIFICANCE for the stage, by Šidák over tiles, channels and looks.
 
     differs     the interval lies outside of MARGIN times the value: the back ends differ by more than the margin
-    undecided   the interval is wider than the power that is asked for: more seeds are taken, up to a cap
+    undecided   the interval is wider than the power that is asked for: more seeds are taken, up to a cap. A highlight or
+                an outline may need thousands: a Power may leave a share of the tiles so, for another to decide
     same        neither: what differs by more than margin and power together would have been found
 
 A tile's value is the path tracer's mean, and FLOOR of the image's: a relative difference in the dark is not seen.
@@ -27,14 +28,16 @@ class Power:
     """How closely a stage is looked at.
 
     `widest`: half of the widest interval, as a part of the tile's value; `samples`: passes of the rasterizer per render;
-    `traced`: samples of the path tracer per render; `looks`: renders of each back end at which is looked, the last the cap"""
+    `traced`: samples of the path tracer per render; `looks`: renders of each back end at which is looked, the last the cap;
+    `spare`: share of tiles and channels that may stay undecided there (one that differs never may)"""
     widest: float
     samples: int
     traced: int
     looks: tuple
+    spare: float = 0.0
 
 
-FULL = Power(widest=5 * MARGIN, samples=16, traced=64, looks=(12, 24, 48))
+FULL = Power(widest=5 * MARGIN, samples=16, traced=64, looks=(12, 24), spare=0.25)
 LONG = Power(widest=MARGIN, samples=128, traced=512, looks=(12, 24, 48, 96))
 
 
@@ -51,7 +54,7 @@ def tiles(images):
 class Verdict:
     difference: np.ndarray  # (rows, columns, 3), the rasterizer's mean less the path tracer's, as a part of the value
     half: np.ndarray        # of the interval, likewise
-    widest: float
+    power: Power
 
     @property
     def differs(self):
@@ -59,7 +62,12 @@ class Verdict:
 
     @property
     def undecided(self):
-        return ~self.differs & (self.half > self.widest)
+        return ~self.differs & (self.half > self.power.widest)
+
+    @property
+    def open(self):
+        """:returns: whether too much is undecided"""
+        return self.undecided.mean() > self.power.spare
 
     def text(self):
         """:returns: the tiles that differ or are undecided, the worst first, in words"""
@@ -88,7 +96,7 @@ def compare(raster, traced, power, significance=SIGNIFICANCE):
     freedom = np.where(np.isfinite(freedom), freedom, n + m - 2)  # where nothing varies
     half = stats.t.ppf(1.0 - each / 2.0, freedom) * np.sqrt(total)
     value = np.abs(b) + FLOOR * np.abs(b).mean() + 1e-12
-    return Verdict((a - b) / value, half / value, power.widest)
+    return Verdict((a - b) / value, half / value, power)
 
 
 def decide(render_raster, render_traced, power):
@@ -102,6 +110,6 @@ def decide(render_raster, render_traced, power):
         first += list(render_raster([1 + i for i in range(len(first), number)]))
         second += list(render_traced([100001 + i for i in range(len(second), number)]))
         verdict = compare(tiles(first), tiles(second), power)
-        if verdict.differs.any() or not verdict.undecided.any():
+        if verdict.differs.any() or not verdict.open:
             break
     return verdict, np.array(first), np.array(second)

@@ -26,7 +26,7 @@ class Case:
 
 
 # Costly (hundreds of lights or glowing triangles, strands): held together by the long tier alone.
-LONG = {"manyLights", "hair", "lightMesh", "outOfView/glowingSphere", "outOfView/glowingPoints"}
+LONG = {"manyLights", "hair", "lightMesh", "assets/standard_shader_ball_scene", "outOfView/glowingSphere", "outOfView/glowingPoints"}
 
 ASSETS = (  # file below the assets, further arguments
     "SubdivisionSurfaces/Creases_SpinningPyramids.usda",

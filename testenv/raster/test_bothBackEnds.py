@@ -38,7 +38,7 @@ def hold(case, folder, power):
         lambda seeds: inProcess.references(path, seeds, *flags), power)
     print(f"{case.name}: {len(raster)} renders, largest difference {100 * np.abs(verdict.difference).max():.2f} %, half "
           f"intervals {100 * np.median(verdict.half):.2f} % (median) to {100 * verdict.half.max():.2f} %")
-    if verdict.differs.any() or verdict.undecided.any():
+    if verdict.differs.any() or verdict.open:
         _fail(case, verdict.text(), raster.mean(axis=0), traced.mean(axis=0), folder)
 
 

@@ -1,6 +1,7 @@
 """Each feature that the rasterizer draws otherwise by design (byDesign.py): it draws what is said there, and that is not
 what the path tracer draws. Both by the test of equivalence.py: the rasterizer's image is the path tracer's of the stage
 without the feature, with the same margin as everywhere, and differs from the path tracer's image of the stage itself."""
+import functools
 import os
 
 import numpy as np
@@ -56,19 +57,24 @@ def write(folder, name, contents, materials="", lights=LAMP):
     return path
 
 
+@functools.lru_cache(maxsize=2)
+def rasterized(path, arguments):
+    """:returns: function of a list of seeds -> images; each is rendered once"""
+    stage = inProcess.Stage(path, "--backend", "raster", "-w", WIDTH, "--samples", equivalence.FULL.samples, *arguments)
+    image = functools.lru_cache(maxsize=None)(stage.image)
+    return lambda seeds: [image(seed) for seed in seeds]
+
+
 def compare(drawn, traced, depth, *arguments):
     """:returns: the Verdict of the rasterizer's images of one stage and the path tracer's of another"""
-    power = equivalence.FULL
-    stage = inProcess.Stage(drawn, "--backend", "raster", "-w", WIDTH, "--samples", power.samples, *arguments)
-    return equivalence.decide(
-        lambda seeds: [stage.image(seed) for seed in seeds],
-        lambda seeds: inProcess.references(traced, seeds, "-w", WIDTH, "--samples", power.traced, "--maxDepth", depth, *arguments),
-        power)[0]
+    flags = ["-w", WIDTH, "--samples", equivalence.FULL.traced, "--maxDepth", depth, *arguments]
+    return equivalence.decide(rasterized(drawn, arguments), lambda seeds: inProcess.references(traced, seeds, *flags),
+                              equivalence.FULL)[0]
 
 
 def same(*arguments):
     verdict = compare(*arguments)
-    assert not verdict.differs.any() and not verdict.undecided.any(), verdict.text()
+    assert not verdict.differs.any() and not verdict.open, verdict.text()
 
 
 def differences(*arguments):
@@ -94,7 +100,7 @@ def test_mirrors_show_the_environment(tmp_path):
 
 
 def test_glass_shows_what_is_behind(tmp_path):
-    """A thin pane over the whole floor of the view: direct light alone ends there, the rasterizer goes on behind it."""
+    """A pane over the whole floor of the view: direct light alone ends there, the rasterizer goes on behind it."""
     pane = surface("pane", "ND_dielectric_bsdf", {"float ior": "1.0001", "float2 roughness": "(0, 0)",
                                                   "string scatter_mode": '"RT"'})
     glass = """    def Cube "pane"
@@ -119,24 +125,21 @@ def test_subsurface_shows_as_diffuse(tmp_path):
 
 
 def test_volumes_cast_no_shadow(tmp_path):
-    """The floor below the smoke, without the tiles where smoke or its outline is seen."""
-    from pxr import Usd
-
-    stage = os.path.join(inProcess.SCENES, "volume.usda")
-    without = Usd.Stage.Open(stage)
-    clear = str(tmp_path / "clear.usda")
-    without.GetPrimAtPath("/World/puff").SetActive(False)
-    without.Flatten().Export(clear)
-    for light in ("/World/sky",):
-        without.GetPrimAtPath(light)
-    drawn, bare = compare(stage, clear, 1), compare(clear, clear, 1)
-    assert not bare.differs.any(), bare.text()
-    floor = np.abs(drawn.difference) <= np.abs(bare.difference) + drawn.half + equivalence.MARGIN
-    shaded = differences(stage, stage, 16)
-    assert ((shaded > 0.05) & floor).any()  # brighter there than what the smoke shades
+    """Somewhere on the floor smoke takes a twentieth of the traced light, and the rasterizer's floor is as without smoke."""
+    stage, clear = inProcess.scene("volume"), str(tmp_path / "clear.usda")
+    with open(clear, "w", encoding="utf-8") as out:
+        out.write('#usda 1.0\n(\n    subLayers = [@%s@]\n)\nover "World"\n{\n    over "puff" (\n        active = false\n    )'
+                  '\n    {\n    }\n}\n' % stage)
+    smoke = inProcess.Stage(stage, "-w", WIDTH, "--samples", 1)
+    smoke.image()
+    if smoke.warnings():
+        pytest.skip(smoke.warnings()[0])  # a build without OpenVDB
+    shaded, drawn = differences(clear, stage, 16), compare(stage, clear, 1)
+    assert ((shaded > 0.05) & ~drawn.differs & (drawn.half < equivalence.FULL.widest)).any(), drawn.text()
 
 
 def test_lights_do_not_move_while_the_shutter_is_open(tmp_path):
+    """They are where they are in the middle of it."""
     moving = LAMP.replace("double3 xformOp:translate = (-0.4, 2.2, 0.2)", "double3 xformOp:translate.timeSamples = "
                           "{ 0: (-0.4, 2.2, 0.2), 1: (1.6, 2.2, 0.2) }")
     assert moving != LAMP
@@ -151,7 +154,7 @@ def test_lights_do_not_move_while_the_shutter_is_open(tmp_path):
         return path
 
     moves = stage("moving", moving)
-    same(moves, stage("still", LAMP), 1, "--frames", "0")
+    same(moves, stage("still", LAMP.replace("(-0.4, 2.2, 0.2)", "(0.6, 2.2, 0.2)")), 1, "--frames", "0")
     assert np.abs(differences(moves, moves, 1, "--frames", "0")).max() > 0.1
 
 

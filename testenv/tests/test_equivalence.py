@@ -72,6 +72,17 @@ def test_what_does_not_vary_is_compared_too():
     assert not compare(0 * still, 0 * still, POWER).undecided.any()
 
 
+def test_what_may_stay_undecided_still_may_not_differ():
+    generator = np.random.default_rng(11)
+    spare = Power(widest=0.02, samples=1, traced=1, looks=(12,), spare=0.2)
+    noise = lambda seeds: noisy(generator, 0.001)(seeds) * (1 + np.where(changed(1.0) > 1, 1.0, 0.0)
+                                                           * generator.normal(0.0, 0.3, (len(seeds), 1, 1, 1)))  # noqa: E731
+    verdict = decide(noise, noisy(generator, 0.001), spare)[0]
+    assert verdict.undecided.sum() == 1 and not verdict.open and not verdict.differs.any()
+    verdict = decide(lambda seeds: 3 * noise(seeds), noisy(generator, 0.001), spare)[0]
+    assert verdict.differs.any()
+
+
 def test_tiles_cover_every_pixel():
     images = np.random.default_rng(1).random((2, 27, 50, 3))
     found = tiles(images)

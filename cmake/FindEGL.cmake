@@ -4,8 +4,7 @@ find_path(EGL_INCLUDE_DIR EGL/egl.h)
 find_path(EGL_GL_INCLUDE_DIR GL/glcorearb.h)
 find_library(EGL_LIBRARY EGL)
 include(FindPackageHandleStandardArgs)
-find_package_handle_standard_args(EGL REQUIRED_VARS EGL_LIBRARY EGL_INCLUDE_DIR EGL_GL_INCLUDE_DIR
-    REASON_FAILURE_MESSAGE "the rasterizer is not built")
+find_package_handle_standard_args(EGL REQUIRED_VARS EGL_LIBRARY EGL_INCLUDE_DIR EGL_GL_INCLUDE_DIR)
 if(EGL_FOUND AND NOT TARGET EGL::EGL)
     add_library(EGL::EGL UNKNOWN IMPORTED)
     set_target_properties(EGL::EGL PROPERTIES

@@ -4,8 +4,7 @@ find_path(OpenVDB_INCLUDE_DIR openvdb/openvdb.h)
 find_library(OpenVDB_LIBRARY openvdb)
 find_package(Imath CONFIG QUIET)
 include(FindPackageHandleStandardArgs)
-find_package_handle_standard_args(OpenVDB REQUIRED_VARS OpenVDB_LIBRARY OpenVDB_INCLUDE_DIR
-    REASON_FAILURE_MESSAGE "volumes are not drawn")
+find_package_handle_standard_args(OpenVDB REQUIRED_VARS OpenVDB_LIBRARY OpenVDB_INCLUDE_DIR)
 if(OpenVDB_FOUND AND NOT TARGET OpenVDB::openvdb)
     add_library(OpenVDB::openvdb UNKNOWN IMPORTED)
     set_target_properties(OpenVDB::openvdb PROPERTIES

@@ -30,7 +30,7 @@ function(patina_add_library name)
 endfunction()
 
 # patina_add_test(name SOURCES... LIBS libraries...): a googletest program in <build>/tests, where
-# the test runner collects every program.
+# the test runner collects every program. NAME.folder beside it names the folder that it tests.
 function(patina_add_test name)
     if(NOT PATINA_BUILD_TESTS)
         return()
@@ -40,5 +40,7 @@ function(patina_add_test name)
     target_link_libraries(${name} PRIVATE ${arg_LIBS} GTest::gtest_main)
     _patina_flags(${name})
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+    file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+    file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/tests/${name}.folder CONTENT "${folder}\n")
     add_test(NAME ${name} COMMAND ${name})
 endfunction()

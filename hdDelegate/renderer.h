@@ -27,7 +27,8 @@ struct RenderProgress {
     /// "rays", "paths", "secondsBuild" (of this start), "trianglesStored", "instances", "bytes" (of
     /// meshes and acceleration structures); and counts since the renderer was made, which tell what
     /// edits cost: "surfacesBuilt", "surfacesTessellated" (the others were only moved),
-    /// "groupsBuilt" (acceleration structures), "programsBuilt", "lightsBuilt".
+    /// "groupsBuilt" (acceleration structures), "programsBuilt", "lightsBuilt". While programs are
+    /// compiled "materialsReady" and "materialsWanted", with secondsLeft of that.
     std::map<std::string, double> statistics;
     std::map<std::string, MethodPlan> plans; ///< of materials in use, by path ("": displayColor);
                                              ///< without choices when there is no tolerance

@@ -1,9 +1,13 @@
 #include "materialNetwork/diagnostics.h"
 
+#include "materialNetwork/utf8.h"
+
 namespace patina {
 
-void Diagnostics::warn(const std::string& prim, const std::string& input,
-                       const std::string& message) {
+void Diagnostics::warn(const std::string& primBytes, const std::string& inputBytes,
+                       const std::string& messageBytes) {
+    const std::string prim = validUtf8(primBytes), input = validUtf8(inputBytes),
+                      message = validUtf8(messageBytes);
     const std::lock_guard<std::mutex> lock(_mutex);
     for (Diagnostic& d : _list)
         if (d.prim == prim && d.input == input && d.message == message) {

@@ -15,6 +15,12 @@ import subprocess
 import sys
 import tempfile
 
+if __name__ == "__main__":
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    import checkout
+
+    checkout.enter()
+
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 ROOM = os.path.join(ROOT, "testenv", "scenes")
 # All of them to 5 and 1 %. A tenth of a percent takes a hundred times the samples of one percent: of few pixels, where that is

@@ -30,10 +30,20 @@ class _GoogleTestFailure(Exception):
     pass
 
 
+def _folder(program):
+    """:returns: the folder whose CMakeLists.txt made a program, as the build noted it; else that of Hydra's own tests"""
+    try:
+        with open(program + ".folder", encoding="utf-8") as file:
+            return file.read().strip()
+    except OSError:
+        return "hdDelegate/hydra"
+
+
 class _Suite(pytest.Item):
     def __init__(self, *, program, suite, **keywords):
         super().__init__(**keywords)
         self.program, self.suite = program, suite
+        self.manifest_name = f"{_folder(program)}::{self.name}"
 
     def runtest(self):
         if self.suite is None:
@@ -81,7 +91,3 @@ def pytest_pycollect_makemodule(module_path):
     for folder in (str(module_path.parent), os.path.dirname(os.path.abspath(__file__))):
         if folder not in sys.path:
             sys.path.append(folder)
-
-
-def pytest_collection_modifyitems(items):
-    items.sort(key=lambda item: not isinstance(item, _Suite))  # stable: the programs first

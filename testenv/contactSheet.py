@@ -1,11 +1,10 @@
 """Renders every stage under a folder and pastes the images into one sheet.
 
-    python testenv/contactSheet.py FOLDER SHEET.png [--width 240] [--samples 32] [--record FLAGS...]
-    python testenv/contactSheet.py FOLDER SHEET.png --host usdrecord [--sceneIndex] [--gl]
+    ./patina python testenv/contactSheet.py FOLDER SHEET.png [--width 240] [--samples 32] [--record FLAGS...]
+    ./patina python testenv/contactSheet.py FOLDER SHEET.png --host usdrecord [--sceneIndex] [--gl]
 
 With usdrecord as host the images come through Hydra, with as many samples as the delegate takes.
 Prints a table: stage, seconds, warnings. Stages that fail are black tiles with a line that says why.
-Run it with the environment that ./patina makes (PYTHONPATH=plugin:build/python).
 """
 import argparse
 import json
@@ -16,7 +15,13 @@ import sys
 import tempfile
 import time
 
-import numpy as np
+if __name__ == "__main__":
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    import checkout
+
+    checkout.enter()
+
+import numpy as np  # noqa: E402
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "hydra"))
 HYDRA_TIMEOUT = 120

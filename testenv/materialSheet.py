@@ -1,9 +1,8 @@
 """Renders every material of the MaterialX documents under a folder on a ball, as one sheet.
 
-    python testenv/materialSheet.py FOLDER SHEET.png [--width 200] [--samples 64] [--columns 7]
+    ./patina python testenv/materialSheet.py FOLDER SHEET.png [--width 200] [--samples 64] [--columns 7]
 
-Prints a table: material, seconds, warnings. Run it with the environment that ./patina makes
-(PYTHONPATH=plugin:build/python).
+Prints a table: material, seconds, warnings.
 """
 import argparse
 import math
@@ -11,9 +10,15 @@ import os
 import sys
 import tempfile
 
-import numpy as np
+if __name__ == "__main__":
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    import checkout
 
-from contactSheet import paste, render
+    checkout.enter()
+
+import numpy as np  # noqa: E402
+
+from contactSheet import paste, render  # noqa: E402
 
 SKY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "scenes", "textures", "sky.exr")
 STAGE = """#usda 1.0

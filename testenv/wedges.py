@@ -1,14 +1,18 @@
 """Renders the wedge pictures of the README: rows of balls along which one parameter goes.
 
-    python testenv/wedges.py [roughness|anisotropy|film|sheen|classic ...] [--out docs/pictures] [--samples 256]
-
-Run it with the environment that ./patina makes (PYTHONPATH=plugin:build/python).
+    ./patina python testenv/wedges.py [roughness|anisotropy|film|sheen|classic ...] [--out docs/pictures] [--samples 256]
 """
 import argparse
 import os
 import subprocess
 import sys
 import tempfile
+
+if __name__ == "__main__":
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    import checkout
+
+    checkout.enter()
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SKY = os.path.join(HERE, "scenes", "textures", "sky.exr")

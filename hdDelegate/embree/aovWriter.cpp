@@ -29,7 +29,7 @@ void writeAovs(const std::vector<AovSpec>& aovs, const AovTarget& target, const 
             const vec3 n = mat3(camera.worldToCamera()) * s.normal;
             put3(n / std::max(1e-30f, glm::length(n)));
         } else if (name == "position")
-            put3(s.position);
+            put3(s.worldPosition());
         else if (name == "albedo")
             put3(bsdf.albedo());
         else if (name == "primId")

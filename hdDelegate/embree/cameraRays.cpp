@@ -5,14 +5,15 @@
 
 namespace patina {
 
-mat4 interpolate(const MotionTransform& transform, float time) {
+mat4 interpolate(const MotionTransform& transform, float time, const dvec3& origin) {
     const auto& times = transform.times;
-    if (transform.values.empty()) return mat4(1.0f);
-    if (transform.values.size() == 1 || time <= times.front()) return transform.values.front();
-    if (time >= times.back()) return transform.values.back();
+    const auto value = [&](size_t i) { return seenFrom(origin, transform.values[i]); };
+    if (transform.values.empty()) return seenFrom(origin, dmat4(1.0));
+    if (transform.values.size() == 1 || time <= times.front()) return value(0);
+    if (time >= times.back()) return value(transform.values.size() - 1);
     const size_t i = std::upper_bound(times.begin(), times.end(), time) - times.begin();
     const float f = (time - times[i - 1]) / (times[i] - times[i - 1]);
-    return transform.values[i - 1] * (1.0f - f) + transform.values[i] * f;
+    return value(i - 1) * (1.0f - f) + value(i) * f;
 }
 
 namespace {
@@ -48,7 +49,8 @@ vec2 conform(vec2 aperture, float imageAspect, const std::string& policy) {
 
 } // namespace
 
-CameraRays::CameraRays(const Camera& camera, const RenderSettings& settings) : _camera(camera) {
+CameraRays::CameraRays(const Camera& camera, const RenderSettings& settings, const dvec3& origin)
+    : _camera(camera), _origin(origin) {
     const float shutterOpen = float(camera.shutterOpen), shutterClose = float(camera.shutterClose);
     _shutterOpen = shutterOpen;
     _shutterLength = settings.enableMotionBlur ? std::max(0.0f, shutterClose - shutterOpen) : 0.0f;
@@ -79,7 +81,7 @@ CameraRays::CameraRays(const Camera& camera, const RenderSettings& settings) : _
 }
 
 mat4 CameraRays::transformAt(float time) const {
-    return interpolate(_camera.transform, _shutterOpen + time * _shutterLength);
+    return interpolate(_camera.transform, _shutterOpen + time * _shutterLength, _origin);
 }
 
 CameraRay CameraRays::ray(vec2 pixel, vec2 lens, float time) const {
@@ -91,9 +93,8 @@ CameraRay CameraRays::ray(vec2 pixel, vec2 lens, float time) const {
         origin = vec3(window, 0.0f);
         direction = vec3(0, 0, -1);
     } else if (_dof) {
-        const vec3 focus = direction * _camera.focusDistance;
         origin = vec3(concentricDisc(lens) * _lensRadius, 0.0f);
-        direction = focus - origin;
+        direction -= origin / _camera.focusDistance;
     }
     const float length = glm::length(direction);
     direction /= length;

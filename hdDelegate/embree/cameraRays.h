@@ -19,14 +19,17 @@ struct CameraRay {
 /// yields when the image has another shape.
 class CameraRays {
 public:
-    CameraRays(const Camera& camera, const RenderSettings& settings);
+    /// @param origin of the space that rays are wanted in, see seenFrom()
+    CameraRays(const Camera& camera, const RenderSettings& settings,
+               const dvec3& origin = dvec3(0.0));
 
     /// @param pixel image position in pixels, (0,0) is the top left corner of the top left pixel
     /// @param lens two numbers for the lens, in [0,1)
     /// @param time in [0,1)
     CameraRay ray(vec2 pixel, vec2 lens, float time) const;
 
-    const mat4& worldToCamera() const { return _worldToCamera; } ///< at the middle of the shutter
+    /// At the middle of the shutter, from the space with that origin.
+    const mat4& worldToCamera() const { return _worldToCamera; }
     /// Depth in [0,1] as OpenGL's default window depth, of a camera space point.
     float windowDepth(const vec3& cameraPoint) const;
     /// The angle (radians; world units when orthographic) that one pixel covers.
@@ -38,6 +41,7 @@ private:
     mat4 transformAt(float time) const;
 
     Camera _camera;
+    dvec3 _origin;
     bool _dof, _moves;
     float _shutterOpen, _shutterLength;
     vec2 _imageSize;
@@ -48,6 +52,7 @@ private:
 };
 
 /// Value of a sampled quantity at a time, linear between samples and constant outside.
-mat4 interpolate(const MotionTransform& transform, float time);
+/// @param origin of the space that it is wanted in, see seenFrom()
+mat4 interpolate(const MotionTransform& transform, float time, const dvec3& origin = dvec3(0.0));
 
 } // namespace patina

@@ -97,6 +97,7 @@ void instanceIntersect(const RTCIntersectFunctionNArguments* args) {
     local.ray = transformRay(rayHit->ray, inverse);
     local.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     local.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    if (!isTraceable(local.ray, target->rayLimit)) return;
     Descent descent(context, record, instance, target);
     embreeIntersect(target->scene, &context.base, &local);
     if (local.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
@@ -120,6 +121,7 @@ void instanceOccluded(const RTCOccludedFunctionNArguments* args) {
     const int instance = record->instances[args->primID];
     const EmbreeGroup* target = record->node->targets[instance];
     RTCRay local = transformRay(*ray, glm::inverse(record->node->transformAt(instance, ray->time)));
+    if (!isTraceable(local, target->rayLimit)) return;
     Descent descent(context, record, instance, target);
     embreeOccluded(target->scene, &context.base, &local);
     if (local.tfar < 0.0f) ray->tfar = -INFINITY;
@@ -190,7 +192,18 @@ RTCGeometry makePoints(RTCDevice device, const PointSet& points) {
     return geometry;
 }
 
+RTCGeometry makeInstance(RTCDevice device, const Surface& surface) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, surface.shared->scene);
+    rtcSetGeometryTimeStepCount(geometry, unsigned(surface.places.size()));
+    for (size_t step = 0; step < surface.places.size(); ++step)
+        rtcSetGeometryTransform(geometry, unsigned(step), RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
+                                &surface.places[step]);
+    return geometry;
+}
+
 RTCGeometry makeGeometry(RTCDevice device, const Surface& surface) {
+    if (surface.shared) return makeInstance(device, surface);
     if (surface.shape == Surface::Shape::Triangles && !surface.mesh.triangles.empty())
         return makeTriangles(device, surface.mesh);
     if (surface.shape == Surface::Shape::Curves && !surface.curves.segments.empty())
@@ -199,6 +212,20 @@ RTCGeometry makeGeometry(RTCDevice device, const Surface& surface) {
         !surface.points.points[0].empty())
         return makePoints(device, surface.points);
     return nullptr;
+}
+
+/// How large coordinates of rays may be for Embree to take them into an instance.
+/// @param at the transform at a time
+template <class At> float rayLimitOf(const At& at, bool moves) {
+    constexpr int times = 16; // between them a transform is not far from one of them
+    float largest = 1.0f;
+    for (int t = 0; t <= (moves ? times : 0); ++t) {
+        const mat4 inverse = glm::inverse(at(float(t) / times));
+        for (int c = 0; c < 3; ++c)
+            largest = std::max({largest, std::abs(inverse[c].x), std::abs(inverse[c].y),
+                                std::abs(inverse[c].z)});
+    }
+    return largestTraced / (6.0f * largest);
 }
 
 bool goesOn(void* stop, double) {
@@ -274,6 +301,9 @@ void EmbreeGroup::updateSurfaces(RTCDevice device,
         const bool free = old != _surfaces.end() && !records[old->second.id];
         SurfaceMember member{surface, maskOf(surface->prim->visibility),
                              free ? old->second.id : freeId()};
+        if (surface->shared)
+            member.rayLimit = rayLimitOf([&](float time) { return surface->placeAt(time); },
+                                         surface->places.size() > 1);
         GroupRecord record;
         record.surface = surface.get();
         attach(geometry, member.id, member.mask, std::move(record));
@@ -291,13 +321,15 @@ void EmbreeGroup::attachNode(RTCDevice device, NodeMember& member) {
     for (int i = 0; i < int(node.targets.size()); ++i) {
         EmbreeGroup* target = node.targets[i];
         if (!target || target->empty()) continue;
-        if (target->hasInstances) {
+        if (target->hasInstances || node.collapses[size_t(i)]) {
             nested.push_back(i);
             continue;
         }
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, target->scene);
         rtcSetGeometryTimeStepCount(geometry, unsigned(node.steps));
+        const auto at = [&](float time) { return node.transformAt(i, time); };
+        member.rayLimit = std::min(member.rayLimit, rayLimitOf(at, node.steps > 1));
         for (int step = 0; step < node.steps; ++step)
             rtcSetGeometryTransform(geometry, unsigned(step), RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
                                     &node.transforms[size_t(i) * node.steps + step]);
@@ -336,6 +368,11 @@ void EmbreeGroup::updateNodes(RTCDevice device,
     }
     _nodes = std::move(next);
     hasInstances = !_nodes.empty();
+    rayLimit = largestTraced;
+    for (const auto& item : _nodes)
+        rayLimit = std::min(rayLimit, item.second.rayLimit);
+    for (const auto& item : _surfaces)
+        rayLimit = std::min(rayLimit, item.second.rayLimit);
 }
 
 void EmbreeGroup::update(RTCDevice device, const std::vector<std::shared_ptr<Surface>>& surfaces,

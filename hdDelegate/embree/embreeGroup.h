@@ -4,6 +4,7 @@
 #include "hdDelegate/embree/surface.h"
 
 #include <atomic>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -12,6 +13,8 @@
 namespace patina {
 
 struct EmbreeGroup;
+
+constexpr float largestTraced = 1e18f; ///< coordinates of rays and of what they meet
 
 /// The instances of one instancer, ready for rays.
 struct InstancerNode {
@@ -23,6 +26,7 @@ struct InstancerNode {
     std::vector<EmbreeGroup*> targets; ///< per instance; null is not drawn
     std::vector<uint64_t> versions; ///< per prototype of the prim: EmbreeGroup::version it is for
     std::vector<std::vector<int>> categories;
+    std::vector<bool> collapses; ///< per instance: (nearly) flat at some time; rays are checked
 
     mat4 transformAt(int instance, float time) const;
     /// @param outer id of the instance around, negative when there is none
@@ -50,6 +54,8 @@ struct EmbreeGroup {
     bool hasInstances = false;
     bool changed = false; ///< by the last update
     uint64_t version = 0; ///< no two states of any two groups have the same; never 0
+    /// Coordinates of rays up to which those of no instance in it are too large, see isTraceable().
+    float rayLimit = largestTraced;
 
     ~EmbreeGroup();
     bool empty() const { return _surfaces.empty() && _nodes.empty(); }
@@ -66,10 +72,12 @@ private:
     struct SurfaceMember {
         std::shared_ptr<Surface> surface;
         unsigned mask = 0, id = 0;
+        float rayLimit = largestTraced;
     };
     struct NodeMember {
         std::shared_ptr<InstancerNode> node;
         std::vector<unsigned> ids;
+        float rayLimit = largestTraced;
     };
 
     void clear();
@@ -85,6 +93,18 @@ private:
     size_t _firstFree = 0;                          ///< no id below is free
     bool _interactive = false, _cancelled = false;
 };
+
+/// What Embree takes, in debugging builds on pain of death: no NaN, no distance below 0, numbers
+/// up to 1.8e18. Asked of every ray before it gets there.
+/// @param limit of the coordinates of the origin
+inline bool isTraceable(const RTCRay& ray, float limit) {
+    const auto within = [](float x, float y, float z, float most) {
+        return std::abs(x) <= most && std::abs(y) <= most && std::abs(z) <= most;
+    };
+    return within(ray.org_x, ray.org_y, ray.org_z, limit) &&
+           within(ray.dir_x, ray.dir_y, ray.dir_z, largestTraced) && ray.tnear >= 0.0f &&
+           ray.tnear <= INFINITY && ray.tfar >= 0.0f && ray.time >= 0.0f && ray.time <= 1.0f;
+}
 
 /// Ray context with the stack of instances that user geometry went through.
 struct TraceContext {

@@ -14,18 +14,34 @@ std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Ins
     warnOfInstancePrimvars(*prim, _diagnostics);
     std::vector<std::vector<mat4>> sampled(prim->transforms.size());
     for (size_t i = 0; i < sampled.size(); ++i) {
-        sampled[i] = resample(prim->transforms[i], _shutterOpen, _shutterClose);
+        sampled[i] = resample(prim->transforms[i], _shutterOpen, _shutterClose,
+                              originOf(prim->group));
         result->steps = std::max(result->steps, int(sampled[i].size()));
     }
     result->transforms.resize(sampled.size() * result->steps);
     result->targets.assign(sampled.size(), nullptr);
+    result->collapses.assign(sampled.size(), false);
     for (size_t i = 0; i < sampled.size(); ++i) {
         bool usable = true;
+        bool wide = true;
+        float volumes[2] = {INFINITY, 0.0f}; // least and largest
+        const auto measure = [&](const mat4& m) {
+            const float volume = std::abs(glm::determinant(mat3(m)));
+            volumes[0] = std::min(volumes[0], volume);
+            volumes[1] = std::max(volumes[1], volume);
+        };
         for (int s = 0; s < result->steps; ++s) {
             const mat4 m = transformAtStep(sampled[i], s, result->steps);
             result->transforms[i * result->steps + s] = m;
             usable &= hasInverse(m);
+            wide &= isWideEnough(m);
+            measure(m);
+            if (s > 0)
+                for (const float f : {0.25f, 0.5f, 0.75f})
+                    measure(result->transforms[i * result->steps + s - 1] * (1.0f - f) + m * f);
         }
+        // Half a turn from one step to the next, say: there is no inverse in the middle of it.
+        result->collapses[i] = !wide || volumes[0] < 1e-3f * volumes[1];
         const int prototype = i < prim->prototypeIndices.size() ? prim->prototypeIndices[i] : -1;
         if (prototype < 0 || size_t(prototype) >= prim->prototypes.size()) {
             _diagnostics.warn(prim->path, "protoIndices",
@@ -107,8 +123,10 @@ void EmbreeScene::gatherTransforms(const std::string& group, const mat4& tail, i
                     i < instancer->prototypeIndices.size() ? instancer->prototypeIndices[i] : -1;
                 if (prototype >= 0 && size_t(prototype) < instancer->prototypes.size() &&
                     instancer->prototypes[prototype] == group)
-                    gatherTransforms(item.first, interpolate(instancer->transforms[i], 0.0f) * tail,
-                                     depth + 1, out);
+                    gatherTransforms(
+                        item.first,
+                        interpolate(instancer->transforms[i], 0.0f, originOf(item.first)) * tail,
+                        depth + 1, out);
             }
 }
 

@@ -1,6 +1,8 @@
 #include "hdDelegate/embree/embreeRenderer.h"
 
+#include "hdDelegate/embree/seenOrigin.h"
 #include "hdDelegate/parallel.h"
+#include "hdDelegate/scene/instancerCheck.h"
 
 #include <cmath>
 
@@ -123,12 +125,10 @@ void EmbreeRenderer::run(std::shared_ptr<const SceneState> state, std::string ca
         const auto camera = state->cameras.find(cameraPath);
         if (camera == state->cameras.end())
             throw std::runtime_error("there is no camera " + cameraPath);
-        for (const mat4& transform : camera->second->transform.values) {
-            const float volume = glm::determinant(mat3(transform));
-            if (!std::isfinite(volume) || volume == 0.0f)
+        for (const dmat4& transform : camera->second->transform.values)
+            if (!hasInverse(mat4(transform)))
                 throw std::runtime_error("the camera " + cameraPath +
                                          " has a transform without an inverse");
-        }
         render(*state, *camera->second);
     } catch (const std::exception& error) {
         finish(error.what());
@@ -157,7 +157,11 @@ void EmbreeRenderer::maybeCheckpoint() {
     if (_settings.checkpointFile.empty() ||
         secondsSince(_lastCheckpoint) < _settings.checkpointSeconds)
         return;
-    _film->saveCheckpoint(_settings.checkpointFile);
+    try {
+        _film->saveCheckpoint(_settings.checkpointFile);
+    } catch (const std::exception& e) { // a full disk: the render is worth more
+        _scene->diagnostics().warn("", "", e.what());
+    }
     _lastCheckpoint = Clock::now();
 }
 
@@ -212,9 +216,18 @@ void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) 
         _lightImages = std::make_unique<LightImages>(_scene->diagnostics());
         _embree = std::make_unique<EmbreeScene>(_scene->diagnostics());
         _builtFor = _scene;
+        _origin = dvec3(0.0);
     }
-    _embree->update(state, camera, _settings, *_textures, _stop);
-    if (_stop) return;
+    // Few scenes are seen so far from the origin that they are built once more; while the camera
+    // stays there, the origin does too.
+    constexpr int mostMoves = 2;
+    for (int i = 0; i <= mostMoves; ++i) {
+        _embree->update(state, camera, _settings, *_textures, _stop, _origin);
+        if (_stop) return;
+        const dvec3 origin = originOfSeen(*_embree, camera, _settings);
+        if (origin == _origin || i == mostMoves) break;
+        _origin = origin;
+    }
     LightsKey key = makeLightsKey(state, *_embree, camera, _settings);
     if (_lights && key == _lightsKey) return;
     _lights = std::make_unique<SceneLights>(state, *_embree, camera, _settings, *_lightImages,
@@ -225,7 +238,8 @@ void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) 
 
 void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     const auto buildStart = Clock::now();
-    Arena arena(_settings.threads);
+    constexpr int mostThreads = 4096;
+    Arena arena(std::min(_settings.threads, mostThreads));
     arena.execute([&] { updateScene(state, camera); });
     if (_stop) return;
     ScenePlan plan = _embree->plan();
@@ -250,7 +264,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
             aovs.push_back(standardAov(name));
     _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
 
-    const CameraRays rays(camera, _settings);
+    const CameraRays rays(camera, _settings, _origin);
     RenderSettings sampled = _settings;
     sampled.tolerance = plan.noise(_settings.tolerance);
     sampled.maxDepth = plan.depth(_settings);

@@ -60,6 +60,7 @@ private:
     std::unique_ptr<SceneLights> _lights;
     std::map<std::string, double> _builtBefore; ///< counts of scenes rendered earlier
     size_t _lightsBuilt = 0;
+    dvec3 _origin{0.0}; ///< of all that is built, see originOfSeen()
 
     std::thread _thread;
     std::mutex _control; ///< start, stop and wait exclude each other

@@ -39,6 +39,8 @@ EmbreeScene::EmbreeScene(Diagnostics& diagnostics) : _diagnostics(diagnostics) {
 
 EmbreeScene::~EmbreeScene() {
     _groups.clear();
+    _surfaces.clear();
+    _shapes.clear();
     rtcSetDeviceMemoryMonitorFunction(_device, nullptr, nullptr);
     rtcReleaseDevice(_device);
 }
@@ -61,16 +63,18 @@ int EmbreeScene::category(const std::string& name) const {
 }
 
 void EmbreeScene::update(const SceneState& state, const Camera& camera, const RenderSettings& asked,
-                         TextureSource& textures, const std::atomic<bool>& stop) {
+                         TextureSource& textures, const std::atomic<bool>& stop,
+                         const dvec3& origin) {
     RenderSettings settings = asked;
     const float open = float(camera.shutterOpen);
     const float close = settings.enableMotionBlur ? float(camera.shutterClose) : open;
-    if (open != _shutterOpen || close != _shutterClose) {
+    if (open != _shutterOpen || close != _shutterClose || origin != _origin) {
         _surfaces.clear();
         _nodes.clear();
     }
     _shutterOpen = open;
     _shutterClose = close;
+    _origin = origin;
     _instancersOf.clear();
     _surfacesOf.clear();
     _finished.clear();
@@ -84,15 +88,22 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera, const Re
             _instancers.push_back(item.second);
         }
 
-    const CameraRays rays(camera, settings);
+    const CameraRays rays(camera, settings, origin);
     struct Work {
         std::shared_ptr<const Geometry> prim;
         CachedSurface* cached;
         float edge;
         int rank; ///< among all paths, drawn or not
         Programs displacers;
+        std::optional<ShapeKey> key;
+        std::shared_ptr<const SharedShape> shared = nullptr;
     };
     std::vector<Work> work;
+    std::map<ShapeKey, int> uses;
+    std::map<ShapeKey, const Implicit*> examples;
+    std::set<std::string> meshLights;
+    for (const auto& item : state.lights)
+        if (item.second->type == LightType::Mesh) meshLights.insert(item.second->geometry);
     std::vector<std::shared_ptr<const Volume>> volumes;
     std::set<std::string> drawn;
     size_t primRank = 0;
@@ -108,8 +119,21 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera, const Re
         }
         drawn.insert(item.first);
         Programs moved = displacers(*prim, state, settings, textures);
-        const float edge = targetEdge(*prim, !moved.empty(), camera, rays, settings, transformsOf);
-        work.push_back({prim, &_surfaces[item.first], edge, rank, std::move(moved)});
+        float edge = targetEdge(*prim, !moved.empty(), camera, rays, settings, transformsOf);
+        std::optional<ShapeKey> key;
+        // Prims of prototypes are shared already, and Embree may know a single level of instances.
+        // Lights are made of the triangles that there are, and displacement of many.
+        if (prim->kind == GeometryKind::Implicit && prim->group.empty() && moved.empty() &&
+            !meshLights.count(item.first) && !glows(*prim, state, settings, textures)) {
+            const Implicit& shape = static_cast<const Implicit&>(*prim);
+            edge = roundEdge(shape, camera, rays);
+            key = SharedShapes::keyOf(shape, edge);
+            if (key) {
+                ++uses[*key];
+                examples[*key] = &shape;
+            }
+        }
+        work.push_back({prim, &_surfaces[item.first], edge, rank, std::move(moved), key});
     }
     for (auto it = _surfaces.begin(); it != _surfaces.end();)
         it = drawn.count(it->first) ? std::next(it) : _surfaces.erase(it);
@@ -117,13 +141,18 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera, const Re
         it = it->first.empty() || state.materials.count(it->first) ? std::next(it)
                                                                    : _programs.erase(it);
 
+    _shapes.update(_device, uses, examples, _diagnostics);
+    for (Work& item : work)
+        if (item.key && (item.shared = _shapes.find(*item.key))) item.edge = 0.0f;
     parallelFor(size_t(0), work.size(), [&](size_t i) {
         if (stop) return;
         CachedSurface& cached = *work[i].cached;
         if (cached.prim == work[i].prim && cached.edgeLength == work[i].edge &&
-            cached.displacers == work[i].displacers && cached.surface)
+            cached.displacers == work[i].displacers && cached.shared == work[i].shared &&
+            cached.surface)
             return;
-        updateSurface(cached, work[i].prim, work[i].edge, work[i].displacers, settings.interactive);
+        updateSurface(cached, work[i].prim, work[i].edge, work[i].displacers, work[i].shared,
+                      settings.interactive);
     });
     if (stop) return;
 
@@ -132,6 +161,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera, const Re
     for (const Work& item : work) {
         Surface& surface = *item.cached->surface;
         surface.primId = surface.prim->id >= 0 ? surface.prim->id : item.rank;
+        surface.worldOrigin = vec3(origin);
         surface.categories = intern(surface.prim->categories);
         surface.materials.clear();
         surface.materials.push_back(
@@ -147,6 +177,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera, const Re
         _surfacesOf[surface.prim->group].push_back(item.cached->surface);
         _trianglesStored += surface.mesh.triangles.size();
     }
+    _trianglesStored += _shapes.triangles();
     _world = buildGroup("", 0, settings, stop);
     if (stop) return;
     for (auto it = _groups.begin(); it != _groups.end();)
@@ -170,7 +201,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera, const Re
     };
     _volumes.update(
         volumes, volumeProgram, [&](const std::string& group) { return groupTransforms(group); },
-        _shutterOpen, _diagnostics);
+        _shutterOpen, _origin, _diagnostics);
     if (!_volumes.empty()) {
         _boundsMin = glm::min(_boundsMin, _volumes.boundsMin());
         _boundsMax = glm::max(_boundsMax, _volumes.boundsMax());
@@ -226,7 +257,7 @@ ScenePlan EmbreeScene::plan() const {
 }
 
 size_t EmbreeScene::bytes() const {
-    size_t total = size_t(std::max<int64_t>(0, _embreeBytes));
+    size_t total = size_t(std::max<int64_t>(0, _embreeBytes)) + _shapes.bytes();
     for (const auto& item : _surfaces) {
         const Surface& s = *item.second.surface;
         const auto add = [&](const auto& steps) {

@@ -49,8 +49,12 @@ public:
     /// Brings the structures to a state of the scene. Prims, materials and prototypes that did not
     /// change since the last call are kept.
     /// @param stop is polled; the build gives up early when it becomes true
+    /// @param origin in the world: all places and rays are relative to it, those of instances
+    /// inside of groups aside
     void update(const SceneState& state, const Camera& camera, const RenderSettings& settings,
-                TextureSource& textures, const std::atomic<bool>& stop);
+                TextureSource& textures, const std::atomic<bool>& stop,
+                const dvec3& origin = dvec3(0.0));
+    const dvec3& origin() const { return _origin; }
 
     /// The nearest hit. @param far in: largest distance
     bool intersect(const vec3& origin, const vec3& direction, float near, float far, float time,
@@ -89,9 +93,12 @@ private:
         std::shared_ptr<const Geometry> prim;
         float edgeLength = 0.0f;
         Programs displacers;
+        std::shared_ptr<const SharedShape> shared;
         std::shared_ptr<Surface> surface;
         std::shared_ptr<const RestShape> rest; ///< for interactive renders
     };
+    /// Of the space that the members of a group are placed in.
+    dvec3 originOf(const std::string& group) const { return group.empty() ? _origin : dvec3(0.0); }
     int intern(const std::string& category);
     std::vector<int> intern(const std::vector<std::string>& categories);
     MaterialSlot makeSlot(const Surface& surface, const std::string& materialPath,
@@ -115,11 +122,20 @@ private:
     float targetEdge(const Geometry& prim, bool displaced, const Camera& camera,
                      const CameraRays& rays, const RenderSettings& settings,
                      std::map<std::string, std::vector<mat4>>& transformsOf) const;
+    /// The roundEdge of an implicit prim of the world, see TessellationOptions. 0: all segments.
+    float roundEdge(const Implicit& prim, const Camera& camera, const CameraRays& rays) const;
+    /// Whether a material of a prim makes it a light.
+    bool glows(const Geometry& prim, const SceneState& state, const RenderSettings& settings,
+               TextureSource& textures);
     /// Not baked yet.
     std::shared_ptr<Surface> shape(const std::shared_ptr<const Geometry>& prim, float edgeLength,
                                    const Programs& displacers) const;
+    /// Among equal ones.
+    std::shared_ptr<Surface> shape(const std::shared_ptr<const Geometry>& prim,
+                                   const std::shared_ptr<const SharedShape>& shared) const;
     void updateSurface(CachedSurface& cached, const std::shared_ptr<const Geometry>& prim,
-                       float edgeLength, const Programs& displacers, bool keepRest);
+                       float edgeLength, const Programs& displacers,
+                       const std::shared_ptr<const SharedShape>& shared, bool keepRest);
     std::shared_ptr<InstancerNode> node(const std::shared_ptr<const Instancer>& prim);
     std::shared_ptr<InstancerNode> currentNode(const std::shared_ptr<const Instancer>& prim);
     EmbreeGroup* finishedGroup(const std::string& name) const; ///< by this update; or null
@@ -128,6 +144,8 @@ private:
     void gatherTransforms(const std::string& group, const mat4& tail, int depth,
                           std::vector<mat4>& out) const;
     void collectEmissive();
+    /// Whether a ray may be traced. Tells once of one that may not.
+    bool accepts(const RTCRay& ray) const;
     bool finishHit(const RTCRayHit& rayHit, const TraceContext& context, Hit& hit) const;
 
     struct CachedProgram {
@@ -139,6 +157,7 @@ private:
 
     Diagnostics& _diagnostics;
     RTCDevice _device = nullptr;
+    SharedShapes _shapes;
     std::map<std::string, CachedSurface> _surfaces;
     std::map<std::string, CachedProgram> _programs;
     PlannedMethod _subdivision; ///< of this update; without a name where nothing was planned
@@ -159,7 +178,9 @@ private:
     VolumeScene _volumes;
     std::shared_ptr<const MaterialProgram> _plainVolume;
     float _shutterOpen = 0.0f, _shutterClose = 0.0f;
+    dvec3 _origin{0.0};
     bool _allOpaque = true, _hasMedia = false;
+    mutable std::atomic<bool> _toldOfRays{false};
     vec3 _boundsMin{0.0f}, _boundsMax{0.0f};
     size_t _trianglesStored = 0, _instanceCount = 0;
 };

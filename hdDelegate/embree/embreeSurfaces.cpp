@@ -6,6 +6,7 @@
 #include "hdDelegate/embree/surfaceSpace.h"
 #include "hdDelegate/scene/displace.h"
 #include "hdDelegate/scene/primCompare.h"
+#include "hdDelegate/scene/primvarExpand.h"
 #include "hdDelegate/scene/splitTriangles.h"
 #include "hdDelegate/scene/tessellate.h"
 #include "materialNetwork/material.h"
@@ -34,7 +35,7 @@ float EmbreeScene::planSubdivision(const SceneState& state, const CameraRays& ra
         if (!plan.looks() || !subdivides(prim) || !isDrawn(prim, settings)) continue;
         std::vector<mat4> places = groupTransforms(prim.group);
         for (mat4& place : places)
-            place = place * interpolate(prim.transform, 0.0f);
+            place = place * interpolate(prim.transform, 0.0f, originOf(prim.group));
         plan.add(CageSize(static_cast<const Mesh&>(prim)), places,
                  program(prim.material, prim.path, state, settings, textures)->planned());
     }
@@ -66,7 +67,7 @@ float EmbreeScene::targetEdge(const Geometry& prim, bool displaced, const Camera
     const vec3 eye = vec3(glm::inverse(rays.worldToCamera())[3]);
     float edge = 0.0f;
     for (const mat4& place : places->second) {
-        const mat4 m = place * interpolate(prim.transform, 0.0f);
+        const mat4 m = place * interpolate(prim.transform, 0.0f, originOf(prim.group));
         const float scale = maxScale(m);
         const vec3 center = vec3(m * vec4(0.5f * (lower + upper), 1.0f));
         const float radius = 0.5f * glm::length(upper - lower) * scale;
@@ -92,6 +93,7 @@ std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry
     options.shutterOpen = _shutterOpen;
     options.shutterClose = _shutterClose;
     options.targetEdge = edgeLength;
+    if (displacers.empty()) options.roundEdge = edgeLength;
     switch (prim->kind) {
     case GeometryKind::Mesh:
         surface->mesh = tessellate(static_cast<const Mesh&>(*prim), options, _diagnostics);
@@ -118,19 +120,73 @@ std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry
     return surface;
 }
 
+float EmbreeScene::roundEdge(const Implicit& prim, const Camera& camera,
+                             const CameraRays& rays) const {
+    constexpr float gap = 0.005f; // pixels between an outline and its segments
+    const float radius = std::max({prim.radius, prim.radiusTop, 0.0f});
+    const float across = std::max({radius, 0.5f * prim.height, 0.5f * prim.size});
+    const vec3 eye = vec3(glm::inverse(rays.worldToCamera())[3]);
+    const mat4 m = interpolate(prim.transform, 0.0f, _origin);
+    const float scale = maxScale(m);
+    const float away = glm::length(vec3(m[3]) - eye) - 2.0f * across * scale;
+    const float distance = rays.orthographic() ? 1.0f : std::max(camera.clipNear, away);
+    const float pixel = rays.pixelSpread() * distance / scale;
+    // A segment of length s lies s^2 / 8 r inside of a circle.
+    const float edge = std::sqrt(8.0f * gap * std::max(pixel, 0.0f) * radius);
+    // What makes no difference is no reason to draw anew.
+    const int coarser = std::isfinite(edge) ? roundCoarseness(prim, edge) : 1;
+    return coarser > 1 ? roundEdgeOf(radius, coarser) : 0.0f;
+}
+
+bool EmbreeScene::glows(const Geometry& prim, const SceneState& state,
+                        const RenderSettings& settings, TextureSource& textures) {
+    const auto material = [&](const std::string& path) {
+        return state.materials.count(path) > 0 &&
+               program(path, prim.path, state, settings, textures)->hasEmission();
+    };
+    return material(prim.material) ||
+           std::any_of(prim.subsets.begin(), prim.subsets.end(), [&](const GeomSubset& subset) {
+               return !subset.material.empty() && material(subset.material);
+           });
+}
+
+std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry>& prim,
+                                            const std::shared_ptr<const SharedShape>& shared) const {
+    auto surface = std::make_shared<Surface>();
+    surface->prim = prim;
+    surface->shared = shared;
+    const mat4 placement = SharedShapes::placement(static_cast<const Implicit&>(*prim));
+    for (const mat4& m :
+         resample(prim->transform, _shutterOpen, _shutterClose, originOf(prim->group)))
+        surface->places.push_back(m * placement);
+    surface->groupToObject = placement;
+    for (const Primvar& primvar : prim->primvars) {
+        MeshAttribute attribute;
+        if (primvar.name != "normals" &&
+            expandConstant(primvar, prim->path, _diagnostics, attribute))
+            surface->mesh.attributes.push_back(std::move(attribute));
+    }
+    surface->stAttribute = surface->findAttribute("st");
+    return surface;
+}
+
 void EmbreeScene::updateSurface(CachedSurface& cached, const std::shared_ptr<const Geometry>& prim,
-                                float edgeLength, const Programs& displacers, bool keepRest) {
+                                float edgeLength, const Programs& displacers,
+                                const std::shared_ptr<const SharedShape>& shared, bool keepRest) {
     const bool moved = cached.prim && !sameTransform(cached.prim->transform, prim->transform);
     // Displacement reads the world.
     const bool reshape = !cached.surface || cached.edgeLength != edgeLength ||
                          cached.displacers != displacers || (moved && !displacers.empty()) ||
                          !sameShape(*cached.prim, *prim);
-    if (!reshape && !moved) {
+    if (!reshape && !moved && cached.shared == shared) {
         cached.prim = cached.surface->prim = prim;
         return;
     }
     std::shared_ptr<Surface> surface;
-    if (reshape || !cached.rest) {
+    if (shared) {
+        surface = shape(prim, shared);
+        cached.rest = nullptr;
+    } else if (reshape || cached.shared || !cached.rest) {
         surface = shape(prim, edgeLength, displacers);
         cached.rest = keepRest ? std::make_shared<const RestShape>(restOf(*surface)) : nullptr;
         ++_counts.tessellated;
@@ -139,10 +195,13 @@ void EmbreeScene::updateSurface(CachedSurface& cached, const std::shared_ptr<con
         surface->prim = prim;
         restore(*cached.rest, *surface);
     }
-    bake(*surface, resample(prim->transform, _shutterOpen, _shutterClose));
+    if (!shared)
+        bake(*surface,
+             resample(prim->transform, _shutterOpen, _shutterClose, originOf(prim->group)));
     ++_counts.surfaces;
     cached.surface = std::move(surface);
     cached.edgeLength = edgeLength;
+    cached.shared = shared;
     cached.displacers = displacers;
     cached.prim = prim;
 }

@@ -32,11 +32,26 @@ bool EmbreeScene::finishHit(const RTCRayHit& rayHit, const TraceContext& context
     }
     if (native != RTC_INVALID_GEOMETRY_ID) {
         const GroupRecord& record = *group->records[native];
+        if (record.surface) { // one of many implicit prims that share their triangles
+            hit.instanced = true;
+            hit.groupToWorld = hit.groupToWorld * record.surface->placeAt(hit.time);
+            hit.surface = record.surface;
+            return true;
+        }
         enter(*record.node, record.instance);
         group = record.node->targets[record.instance];
     }
     hit.surface = group->records[rayHit.hit.geomID]->surface;
     return hit.surface != nullptr;
+}
+
+bool EmbreeScene::accepts(const RTCRay& ray) const {
+    if (isTraceable(ray, _world->rayLimit)) return true;
+    const bool clipped = ray.tfar < 0.0f; // there is nothing wrong with such a ray
+    if (!clipped && !_toldOfRays.exchange(true))
+        _diagnostics.warn("", "rays",
+                          "some start too far away, or have no direction; they meet nothing");
+    return false;
 }
 
 bool EmbreeScene::intersect(const vec3& origin, const vec3& direction, float near, float far,
@@ -47,6 +62,7 @@ bool EmbreeScene::intersect(const vec3& origin, const vec3& direction, float nea
     RTCRayHit rayHit;
     rayHit.ray = {origin.x,    origin.y, origin.z, near, direction.x, direction.y,
                   direction.z, time,     far,      mask, 0,           0};
+    if (!accepts(rayHit.ray)) return false;
     rayHit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embreeIntersect(_world->scene, &context.base, &rayHit);
@@ -60,6 +76,7 @@ bool EmbreeScene::occluded(const vec3& origin, const vec3& direction, float near
     context.group = _world;
     RTCRay ray = {origin.x,    origin.y, origin.z, near, direction.x, direction.y,
                   direction.z, time,     far,      mask, 0,           0};
+    if (!accepts(ray)) return true;
     embreeOccluded(_world->scene, &context.base, &ray);
     return ray.tfar < 0.0f;
 }

@@ -119,12 +119,6 @@ bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& h
     const ShadingPoint& s = point.shading;
     const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
     const vec3 outside = back ? -s.geometricNormal : s.geometricNormal;
-    // Cosine about the geometric normal: beneath the surface there is no shading normal.
-    const vec3 w = sh::sampleCosineHemisphere(path.sampler.next2());
-    vec3 x, y;
-    completeBasis(-outside, x, y);
-    const vec3 inwards = x * w.x + y * w.y - outside * w.z;
-
     WalkExit exit;
     // A walk that is too short to be told from staying where it is ends as on an open mesh:
     // diffuse.
@@ -133,8 +127,17 @@ bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& h
     if (!exit.open) {
         const bool flat = hit.surface->shape == Surface::Shape::Triangles;
         const vec3 start = flat ? s.position : s.position - outside * point.offset;
-        exit = walkBeneath(_scene, walkMedium(entry, point.offset), hit, back, start, inwards,
-                           path.sampler, counters.rays);
+        const WalkMedium medium = walkMedium(entry, point.offset);
+        // About the geometric normal: beneath the surface there is no shading normal.
+        const vec2 u = path.sampler.next2();
+        const WalkStart first = startWalk(medium, u, path.sampler.random());
+        const vec3& w = first.direction;
+        vec3 x, y;
+        completeBasis(-outside, x, y);
+        const vec3 inwards = x * w.x + y * w.y - outside * w.z;
+        exit = walkBeneath(_scene, medium, hit, back, outside, start, inwards, path.sampler,
+                           counters.rays);
+        exit.weight *= first.weight;
     }
     path.throughput *= exit.open ? entry.color * exit.weight : exit.weight;
     if (!(luminance(path.throughput) > 0.0f)) return false;

@@ -10,6 +10,9 @@ LightsKey makeLightsKey(const SceneState& state, const EmbreeScene& scene, const
                    double(settings.enableMotionBlur),
                    camera.shutterOpen,
                    camera.shutterClose,
+                   scene.origin().x,
+                   scene.origin().y,
+                   scene.origin().z,
                    double(scene.categoryCount())};
     bool inGroups = false;
     for (const auto& item : state.lights) {

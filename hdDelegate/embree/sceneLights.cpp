@@ -63,6 +63,7 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
                          const RenderSettings& settings, LightImages& images,
                          Diagnostics& diagnostics) {
     LightSetInput input;
+    input.origin = scene.origin();
     input.shutterOpen = float(camera.shutterOpen);
     input.shutterClose = settings.enableMotionBlur ? float(camera.shutterClose) : input.shutterOpen;
     std::map<std::string, std::vector<mat4>> places;

@@ -40,7 +40,7 @@ struct Local {
 
 Local triangleLocal(const Hit& hit) {
     const Surface& surface = *hit.surface;
-    const TriangleMesh& mesh = surface.mesh;
+    const TriangleMesh& mesh = surface.triangles();
     const uvec3 tri = mesh.triangles[hit.primitive];
     const auto positions = stepsAt(mesh.positions, hit.time);
     const vec3 p[3] = {positions.at(tri.x), positions.at(tri.y), positions.at(tri.z)};
@@ -119,7 +119,23 @@ int Surface::findAttribute(const std::string& name) const {
     const auto& list = attributes();
     for (size_t i = 0; i < list.size(); ++i)
         if (list[i].name == name) return int(i);
+    if (shared)
+        for (size_t i = 0; i < shared->mesh.attributes.size(); ++i)
+            if (shared->mesh.attributes[i].name == name) return int(list.size() + i);
     return -1;
+}
+
+const MeshAttribute& Surface::attribute(int index) const {
+    const auto& list = attributes();
+    return size_t(index) < list.size() ? list[size_t(index)]
+                                       : shared->mesh.attributes[size_t(index) - list.size()];
+}
+
+mat4 Surface::placeAt(float time) const {
+    const float x = std::clamp(time, 0.0f, 1.0f) * float(places.size() - 1);
+    const size_t i = std::min(size_t(x), places.size() - 1);
+    const float f = x - float(i);
+    return f == 0.0f ? places[i] : places[i] * (1.0f - f) + places[i + 1] * f;
 }
 
 const MaterialSlot& Surface::material(unsigned primitive) const {
@@ -131,17 +147,17 @@ const MaterialSlot& Surface::material(unsigned primitive) const {
 }
 
 int Surface::element(unsigned primitive) const {
-    if (shape == Shape::Triangles) return mesh.triangleFace[primitive];
+    if (shape == Shape::Triangles) return triangles().triangleFace[primitive];
     return shape == Shape::Curves ? curves.segmentCurve[primitive] : points.pointIndex[primitive];
 }
 
 bool readAttribute(const Surface& surface, int attribute, unsigned primitive, float u, float v,
                    float out[4]) {
-    const MeshAttribute& a = surface.attributes()[attribute];
+    const MeshAttribute& a = surface.attribute(attribute);
     switch (surface.shape) {
     case Surface::Shape::Curves: return evalAttribute(surface.curves, a, primitive, u, out);
     case Surface::Shape::Points: return evalAttribute(surface.points, a, primitive, out);
-    default: return evalAttribute(surface.mesh, a, primitive, u, v, out);
+    default: return evalAttribute(surface.triangles(), a, primitive, u, v, out);
     }
 }
 
@@ -177,6 +193,7 @@ void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& directi
     out.slot = &surface.material(hit.primitive);
     s.primvars = &out;
     s.position = position;
+    s.worldOrigin = surface.worldOrigin;
     s.objectPosition = vec3(surface.groupToObject * vec4(local.position, 1.0f));
     s.geometricNormal = local.geometricNormal;
     s.normal = local.normal;
@@ -216,7 +233,12 @@ void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& directi
     s.uvFootprint = local.uvPerLength * coneWidth / (std::max(scale, 1e-20f) * std::sqrt(cosine));
 
     const vec3 magnitude = glm::abs(s.position);
-    const float largest = std::max({magnitude.x, magnitude.y, magnitude.z, hit.distance * 0.25f});
+    float largest = std::max({magnitude.x, magnitude.y, magnitude.z, hit.distance * 0.25f});
+    if (hit.instanced) {
+        // Rounding in the space of the group, where a prototype may be far from its origin.
+        const vec3 inGroup = glm::abs(local.position);
+        largest = std::max(largest, 0.25f * scale * std::max({inGroup.x, inGroup.y, inGroup.z}));
+    }
     const bool analytic = surface.shape != Surface::Shape::Triangles;
     out.offset = largest * (analytic ? 1e-4f : 4e-6f);
     out.fibreRadius = out.fibre && !flat ? local.radius * scale : 0.0f;

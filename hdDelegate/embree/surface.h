@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hdDelegate/embree/sharedShapes.h"
 #include "hdDelegate/scene/geometry.h"
 #include "hdDelegate/scene/triangleMesh.h"
 #include "materialNetwork/cpu/materialProgram.h"
@@ -23,8 +24,13 @@ struct Surface {
     TriangleMesh mesh;
     CurveSet curves;
     PointSet points;
+    /// Of one implicit prim among many: the triangles stand here, `mesh` has no more than what is
+    /// the prim's own, and its hits are those of an instance.
+    std::shared_ptr<const SharedShape> shared;
+    std::vector<mat4> places; ///< from the shared shape to the group, at uniform steps
     std::vector<MaterialSlot> materials; ///< [0] the prim's, [i + 1] that of subset i
     mat4 groupToObject{1.0f};            ///< at the middle of the shutter
+    vec3 worldOrigin{0.0f};              ///< of the space that rays are traced in
     bool flipNormals = false;            ///< the baked transform mirrors: windings turn
     int primId = 0;                      ///< for the AOV: rank of the prim's path
     std::vector<int> categories;         ///< interned names, sorted
@@ -37,7 +43,10 @@ struct Surface {
                : shape == Shape::Curves  ? curves.attributes
                                          : points.attributes;
     }
+    const TriangleMesh& triangles() const { return shared ? shared->mesh : mesh; }
+    mat4 placeAt(float time) const; ///< of a shared shape. @param time 0..1 over the shutter
     int findAttribute(const std::string& name) const;
+    const MeshAttribute& attribute(int index) const; ///< of findAttribute()
     const MaterialSlot& material(unsigned primitive) const;
     int element(unsigned primitive) const; ///< authored face, curve or point index
 };

@@ -29,7 +29,8 @@ std::vector<T> valuesAtStep(const std::vector<std::vector<T>>& steps, int step, 
 
 } // namespace
 
-std::vector<mat4> resample(const MotionTransform& transform, float open, float close) {
+std::vector<mat4> resample(const MotionTransform& transform, float open, float close,
+                           const dvec3& origin) {
     size_t inside = 0;
     for (float t : transform.times)
         inside += t > open && t < close;
@@ -37,8 +38,8 @@ std::vector<mat4> resample(const MotionTransform& transform, float open, float c
     const int steps = moves ? int(std::min<size_t>(8, 2 + inside)) : 1;
     std::vector<mat4> result(steps);
     for (int i = 0; i < steps; ++i)
-        result[i] =
-            interpolate(transform, steps == 1 ? 0.0f : open + (close - open) * i / (steps - 1));
+        result[i] = interpolate(
+            transform, steps == 1 ? 0.0f : open + (close - open) * i / (steps - 1), origin);
     return result;
 }
 

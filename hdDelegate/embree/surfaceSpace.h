@@ -17,7 +17,9 @@ RestShape restOf(const Surface& surface);              ///< before bake()
 void restore(const RestShape& rest, Surface& surface); ///< undoes bake()
 
 /// A motion transform at uniform steps over the shutter; a single step where it stands still.
-std::vector<mat4> resample(const MotionTransform& transform, float open, float close);
+/// @param origin of the space that it is wanted in, see seenFrom()
+std::vector<mat4> resample(const MotionTransform& transform, float open, float close,
+                           const dvec3& origin = dvec3(0.0));
 
 /// Step `step` of `count` of transforms that resample() made.
 mat4 transformAtStep(const std::vector<mat4>& transforms, int step, int count);

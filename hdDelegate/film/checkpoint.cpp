@@ -3,6 +3,7 @@
 
 #include "hdDelegate/film/atomicFile.h"
 #include "hdDelegate/film/film.h"
+#include "materialNetwork/regularFile.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -167,6 +168,9 @@ void Film::saveCheckpoint(const std::string& file) const {
 }
 
 void Film::loadCheckpoint(const std::string& file) {
+    const std::string problem = whyUnreadable(file, mostImageBytes);
+    if (!problem.empty())
+        throw std::runtime_error("cannot read checkpoint '" + file + "': it " + problem);
     FilePtr stream(std::fopen(file.c_str(), "rb"), &std::fclose);
     if (!stream)
         throw std::runtime_error("cannot read checkpoint '" + file + "': " + std::strerror(errno));

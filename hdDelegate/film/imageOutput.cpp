@@ -1,11 +1,13 @@
 #include "hdDelegate/film/imageOutput.h"
 
 #include "hdDelegate/film/atomicFile.h"
+#include "hdDelegate/film/watchedFile.h"
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <stdexcept>
+#include <vector>
 
 namespace patina {
 
@@ -20,6 +22,16 @@ std::string extensionOf(const std::string& path) {
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
     throw std::runtime_error("cannot write '" + path + "': " + firstLine(reason));
+}
+
+/// Writers of rare formats do not tell when a disk is full.
+void readBack(const std::string& path, const std::string& temporary) {
+    auto input = OIIO::ImageInput::open(temporary);
+    if (!input) fail(path, "what was written cannot be read: " + OIIO::geterror());
+    const OIIO::ImageSpec spec = input->spec();
+    std::vector<float> pixels(size_t(spec.width) * size_t(spec.height) * size_t(spec.nchannels));
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeFloat, pixels.data()))
+        fail(path, "what was written cannot be read: " + input->geterror());
 }
 
 } // namespace
@@ -100,10 +112,21 @@ void writeAtomically(const std::string& path, const OIIO::ImageSpec& spec,
                      const std::function<bool(OIIO::ImageOutput&)>& write) {
     auto output = createOutput(path);
     AtomicFile file(path);
-    if (!output->open(file.temporaryPath(), spec)) fail(path, output->geterror());
-    bool good = write(*output);
-    std::string reason = output->geterror();
-    if (!output->close() || !good) fail(path, reason.empty() ? output->geterror() : reason);
+    std::unique_ptr<WatchedFile> watched;
+    if (output->supports("ioproxy")) {
+        watched = std::make_unique<WatchedFile>(file.temporaryPath());
+        output->set_ioproxy(watched.get());
+    }
+    bool good = output->open(file.temporaryPath(), spec);
+    std::string reason = good ? std::string() : output->geterror();
+    if (good && !write(*output)) good = false;
+    if (reason.empty()) reason = output->geterror();
+    if (!output->close()) good = false;
+    if (reason.empty()) reason = output->geterror();
+    const std::string problem = watched ? watched->finish() : std::string();
+    if (!problem.empty()) fail(path, problem);
+    if (!good) fail(path, reason);
+    if (!watched) readBack(path, file.temporaryPath());
     file.commit();
 }
 

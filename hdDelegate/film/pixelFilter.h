@@ -15,7 +15,8 @@ namespace patina {
 /// a standard deviation of half the radius.
 class PixelFilter {
 public:
-    explicit PixelFilter(float radius) : _radius(std::max(0.0f, radius)), _box(radius <= 0.5f) {
+    static constexpr float largestRadius = 1000.0f; ///< pixels; larger ones count as this
+    explicit PixelFilter(float radius) : _radius(std::min(std::max(0.0f, radius), largestRadius)), _box(radius <= 0.5f) {
         double sum = 0.0;
         for (int i = 0; i < fine; ++i) {
             const double x = ((i + 0.5) / fine * 2.0 - 1.0) * 2.0; // in standard deviations

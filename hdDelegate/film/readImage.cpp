@@ -1,11 +1,11 @@
 #include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/film/imageOutput.h"
+#include "materialNetwork/regularFile.h"
 
 #include <OpenImageIO/half.h>
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
 #include <stdexcept>
 
 namespace patina {
@@ -57,8 +57,8 @@ bool hasIntegers(const OIIO::ImageSpec& spec) {
 } // namespace
 
 ImageData readImage(const std::string& path) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) fail(path, "the file does not exist");
+    const std::string problem = whyUnreadable(path, mostImageBytes);
+    if (!problem.empty()) fail(path, "it " + problem);
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);
     auto input = OIIO::ImageInput::open(path, &hints);

@@ -1,5 +1,7 @@
 #include "hdDelegate/hydra/basisCurves.h"
 
+#include "hdDelegate/hydra/sourceForms.h"
+
 #include <pxr/imaging/hd/basisCurvesTopology.h>
 
 namespace patina {
@@ -36,6 +38,14 @@ void HdPatinaBasisCurves::syncShape(HdSceneDelegate& delegate, HdPatinaRenderPar
     curves.wrap = wrapOf(topology);
     _indices = toVector(topology.GetCurveIndices());
     expandPoints(curves);
+}
+
+std::shared_ptr<const Geometry>
+HdPatinaBasisCurves::shownAs(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                             const std::shared_ptr<const Curves>& curves) const {
+    if (curves->basis != CurveBasis::Linear) return curves;
+    const auto bezier = bezierOf(delegate, GetId(), *curves, param.scene()->diagnostics());
+    return bezier ? std::shared_ptr<const Geometry>(bezier) : curves;
 }
 
 void HdPatinaBasisCurves::setPoints(Curves& curves, Sampled<std::vector<vec3>> points) {

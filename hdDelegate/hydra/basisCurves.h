@@ -6,7 +6,8 @@
 
 namespace patina {
 
-/// Curves of every type, basis and wrap; ribbons where they have normals, tubes elsewhere.
+/// Curves of every type, basis and wrap; ribbons where they have normals, tubes elsewhere. Also
+/// NURBS and Hermite curves, which UsdImaging hands on as straight lines between their points.
 class HdPatinaBasisCurves final : public HdPatinaGprim<HdBasisCurves, Curves> {
 public:
     using HdPatinaGprim::HdPatinaGprim;
@@ -15,6 +16,9 @@ protected:
     void syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam& param, HdDirtyBits dirtyBits,
                    bool all, const TfToken& repr, Curves& curves) override;
     void setPoints(Curves& curves, Sampled<std::vector<vec3>> points) override;
+    std::shared_ptr<const Geometry>
+    shownAs(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+            const std::shared_ptr<const Curves>& curves) const override;
 
 private:
     void expandPoints(Curves& curves) const;

@@ -45,10 +45,10 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
     MatrixSamples samples;
     sampleTransform(delegate, param, id, samples);
     std::vector<float> times;
-    std::vector<mat4> values;
+    std::vector<dmat4> values;
     for (size_t i = 0; i < samples.count; ++i) {
-        const mat4 m = toMat4(samples.values[i]);
-        const float volume = glm::determinant(mat3(m));
+        const dmat4 m = toMat4(samples.values[i]);
+        const float volume = glm::determinant(mat3(mat4(m)));
         if (!std::isfinite(volume) || volume == 0.0f) {
             param.warn(id, "transform", "has no inverse; none is used");
             return MotionTransform(mat4(1.0f));

@@ -1,10 +1,12 @@
 #include "hdDelegate/hydra/commands.h"
 
+#include "hdDelegate/film/atomicFile.h"
 #include "hdDelegate/scene/sceneDump.h"
 
 #include <pxr/base/tf/diagnostic.h>
 
 #include <fstream>
+#include <stdexcept>
 
 namespace patina {
 
@@ -34,11 +36,18 @@ bool invokeCommand(HdPatinaDelegateState& state, const TfToken& command,
     }
     const std::string file = textArgument(args, "file");
     state.param.commit();
-    std::ofstream out(file);
-    out << dumpScene(*state.param.scene()->snapshot());
-    out.close();
-    if (!out) TF_WARN("%s: the scene cannot be written to '%s'", dumpSceneName, file.c_str());
-    return bool(out);
+    try {
+        AtomicFile target(file);
+        std::ofstream out(target.temporaryPath());
+        out << dumpScene(*state.param.scene()->snapshot());
+        out.close();
+        if (!out) throw std::runtime_error("cannot write '" + file + "'");
+        target.commit();
+        return true;
+    } catch (const std::exception& e) {
+        TF_WARN("%s: %s", dumpSceneName, e.what());
+        return false;
+    }
 }
 
 } // namespace patina

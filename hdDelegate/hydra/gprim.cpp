@@ -17,12 +17,12 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
     MatrixSamples samples;
     sampleTransform(delegate, param, id, samples);
     std::vector<float> times;
-    std::vector<mat4> values;
+    std::vector<dmat4> values;
     for (size_t i = 0; i < samples.count; ++i) {
-        const mat4 m = toMat4(samples.values[i]);
+        const dmat4 m = toMat4(samples.values[i]);
         for (int c = 0; c < 4; ++c)
             for (int r = 0; r < 4; ++r)
-                if (!std::isfinite(m[c][r])) {
+                if (!std::isfinite(float(m[c][r]))) {
                     param.warn(id, "transform", "is not finite; none is used");
                     return MotionTransform(mat4(1.0f));
                 }

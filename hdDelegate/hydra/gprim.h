@@ -67,7 +67,7 @@ public:
         _prim = prim;
         // What is not seen is no part of the scene; it comes back as it was.
         if (this->IsVisible())
-            param.set(std::shared_ptr<const Geometry>(_prim));
+            param.set(shownAs(*delegate, param, _prim));
         else
             param.removeGeometry(prim->path);
         *dirtyBits &= ~HdChangeTracker::AllSceneDirtyBits;
@@ -87,7 +87,7 @@ public:
         auto prim = std::make_shared<Prim>(*_prim);
         prim->categories = std::move(categories);
         _prim = prim;
-        if (this->IsVisible()) param.set(std::shared_ptr<const Geometry>(_prim));
+        if (this->IsVisible()) param.set(shownAs(delegate, param, _prim));
     }
 
     void updateRenderTag(HdSceneDelegate& delegate, HdPatinaRenderParam& param) override {
@@ -96,7 +96,7 @@ public:
         auto prim = std::make_shared<Prim>(*_prim);
         prim->renderTag = tag;
         _prim = prim;
-        if (this->IsVisible()) param.set(std::shared_ptr<const Geometry>(_prim));
+        if (this->IsVisible()) param.set(shownAs(delegate, param, _prim));
     }
 
 protected:
@@ -104,12 +104,17 @@ protected:
     virtual void syncShape(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
                            HdDirtyBits dirtyBits, bool all, const TfToken& repr, Prim& prim) = 0;
     virtual void setPoints(Prim& prim, Sampled<std::vector<vec3>> points) = 0;
+    /// What becomes part of the scene, where that is not the prim as Hydra has it.
+    virtual std::shared_ptr<const Geometry> shownAs(HdSceneDelegate&, HdPatinaRenderParam&,
+                                                    const std::shared_ptr<const Prim>& prim) const {
+        return prim;
+    }
 
     HdDirtyBits _PropagateDirtyBits(HdDirtyBits bits) const override { return bits; }
     void _InitRepr(const TfToken&, HdDirtyBits*) override {}
 
 private:
-    std::shared_ptr<const Prim> _prim;
+    std::shared_ptr<const Prim> _prim; ///< as Hydra has it
 };
 
 } // namespace patina

@@ -146,7 +146,7 @@ std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, c
     result.reserve(count);
     bool broken = false;
     for (size_t i = 0; i < count; ++i) {
-        std::vector<mat4> values;
+        std::vector<dmat4> values;
         for (const float time : times) {
             GfMatrix4d m(1.0);
             for (const Part& part : parts)
@@ -155,9 +155,9 @@ std::vector<MotionTransform> readInstanceTransforms(HdSceneDelegate& delegate, c
             values.push_back(toMat4(m));
             for (int c = 0; c < 4; ++c)
                 for (int r = 0; r < 4; ++r)
-                    if (!std::isfinite(values.back()[c][r])) {
+                    if (!std::isfinite(float(values.back()[c][r]))) {
                         broken = true;
-                        values.back() = mat4(0.0f); // drawn by none
+                        values.back() = dmat4(0.0); // drawn by none
                     }
         }
         result.push_back(sampledOf({times.begin(), times.end()}, std::move(values)));

@@ -35,9 +35,9 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
     MatrixSamples samples;
     sampleTransform(delegate, param, id, samples);
     std::vector<float> times;
-    std::vector<mat4> values;
+    std::vector<dmat4> values;
     for (size_t i = 0; i < samples.count; ++i) {
-        const mat4 m = toMat4(turn * samples.values[i]);
+        const dmat4 m = toMat4(turn * samples.values[i]);
         if (!isFinite(m)) {
             param.warn(id, "transform", "is not finite; none is used");
             return MotionTransform(mat4(1.0f));

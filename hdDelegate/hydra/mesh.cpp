@@ -1,6 +1,7 @@
 #include "hdDelegate/hydra/mesh.h"
 
 #include "hdDelegate/hydra/materialBinding.h"
+#include "hdDelegate/hydra/sourceForms.h"
 
 #include <pxr/imaging/hd/meshTopology.h>
 #include <pxr/imaging/pxOsd/tokens.h>
@@ -48,6 +49,12 @@ void HdPatinaMesh::readTopology(HdSceneDelegate& delegate, HdPatinaRenderParam& 
     mesh.holeIndices = toVector(topology.GetHoleIndices());
     for (const int face : topology.GetInvisibleFaces())
         mesh.holeIndices.push_back(face);
+    mesh.patch = nullptr;
+    _tets.clear();
+    // UsdImaging makes subdivision surfaces of both.
+    if (_authored == SubdivisionScheme::CatmullClark &&
+        !readPatch(delegate, GetId(), param.scene()->diagnostics(), mesh))
+        readTets(delegate, GetId(), _tets, _surface);
     mesh.subsets.clear();
     for (const HdGeomSubset& subset : topology.GetGeomSubsets()) {
         if (subset.type != HdGeomSubset::TypeFaceSet) {
@@ -60,6 +67,17 @@ void HdPatinaMesh::readTopology(HdSceneDelegate& delegate, HdPatinaRenderParam& 
     }
     std::sort(mesh.subsets.begin(), mesh.subsets.end(),
               [](const GeomSubset& a, const GeomSubset& b) { return a.path < b.path; });
+}
+
+std::shared_ptr<const Geometry>
+HdPatinaMesh::shownAs(HdSceneDelegate&, HdPatinaRenderParam& param,
+                      const std::shared_ptr<const Mesh>& mesh) const {
+    if (_tets.empty()) return mesh;
+    TetMesh tets;
+    static_cast<Mesh&>(tets) = *mesh;
+    tets.tets = _tets;
+    tets.surface = _surface;
+    return surfaceOf(tets, param.scene()->diagnostics());
 }
 
 void HdPatinaMesh::readTags(HdSceneDelegate& delegate, Mesh& mesh) const {

@@ -1,6 +1,7 @@
 #include "hdDelegate/hydra/primvars.h"
 
 #include "hdDelegate/hydra/sampling.h"
+#include "hdDelegate/hydra/sourceForms.h"
 #include "hdDelegate/hydra/values.h"
 
 #include <pxr/base/tf/stringUtils.h>
@@ -90,7 +91,8 @@ Sampled<std::vector<vec3>> pointsFrom(const HdTimeSampleArray<VtValue, CAPACITY>
 }
 
 bool isLeftOut(const std::string& name) {
-    return TfStringStartsWith(name, "skel:") || name == "points" || name == "velocities" ||
+    return TfStringStartsWith(name, "skel:") || TfStringStartsWith(name, sourcePrefix) ||
+           name == "pointWeights" || name == "points" || name == "velocities" ||
            name == "accelerations";
 }
 

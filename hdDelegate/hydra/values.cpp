@@ -113,11 +113,11 @@ template <class T> bool copyPoints(const VtValue& value, std::vector<vec3>& poin
 
 } // namespace
 
-mat4 toMat4(const GfMatrix4d& m) {
-    mat4 result;
+dmat4 toMat4(const GfMatrix4d& m) {
+    dmat4 result;
     for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j)
-            result[i][j] = float(m[i][j]);
+            result[i][j] = m[i][j];
     return result;
 }
 

@@ -14,7 +14,7 @@
 namespace patina {
 
 /// Gf's matrices multiply row vectors, GLM's column vectors: same memory, same meaning.
-mat4 toMat4(const GfMatrix4d& matrix);
+dmat4 toMat4(const GfMatrix4d& matrix);
 
 /// Numbers of a value or an array of any numeric type as floats.
 /// @param components floats per element; 0 when the value is not numeric or empty

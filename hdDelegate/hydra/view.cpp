@@ -13,11 +13,11 @@ namespace {
 
 constexpr double apertureUnit = 0.1; // cameras give tenths of a scene unit
 
-mat4 toMat4(const GfMatrix4d& m) {
-    mat4 result;
+dmat4 toMat4(const GfMatrix4d& m) {
+    dmat4 result;
     for (int row = 0; row < 4; ++row) // Gf's rows are GLM's columns
         for (int column = 0; column < 4; ++column)
-            result[row][column] = float(m[row][column]);
+            result[row][column] = m[row][column];
     return result;
 }
 

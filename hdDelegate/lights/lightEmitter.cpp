@@ -10,7 +10,7 @@ namespace patina {
 
 const LightEmitter::Pose& LightEmitter::poseAt(float time, Pose& scratch) const {
     if (!_moves) return _pose;
-    scratch = makePose(_group * transformAt(_light.transform, time));
+    scratch = makePose(_group * transformAt(_light.transform, time, _origin));
     return scratch;
 }
 

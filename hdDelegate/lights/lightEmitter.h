@@ -28,8 +28,10 @@ public:
     LightEmitter() = default;
     /// A light that gives no light, for whatever reason, becomes Kind::None. Reasons that look
     /// like mistakes are warned about.
-    LightEmitter(const Light& light, const mat4& groupToWorld, float shutterOpen,
-                 float shutterClose, LightImages& images, Diagnostics& diagnostics);
+    /// @param origin of the space that the light's own transform is wanted in, see seenFrom()
+    LightEmitter(const Light& light, const mat4& groupToWorld, const dvec3& origin,
+                 float shutterOpen, float shutterClose, LightImages& images,
+                 Diagnostics& diagnostics);
 
     Kind kind() const { return _kind; }
     bool atInfinity() const { return _kind == Kind::Distant || _kind == Kind::Dome; }
@@ -84,6 +86,7 @@ private:
     bool _delta = false, _moves = false;
     Light _light;
     mat4 _group{1.0f};
+    dvec3 _origin{0.0};
     std::vector<float> _times; ///< at which the motion has corners, in the shutter
     Pose _pose;                ///< at the shutter's opening
     vec3 _radiance{0.0f};      ///< points: intensity; lines: intensity across per length

@@ -45,9 +45,10 @@ bool rotationOf(const mat4& m, mat3& out) {
 
 } // namespace
 
-LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, float shutterOpen,
-                           float shutterClose, LightImages& images, Diagnostics& diagnostics)
-    : _light(light), _group(groupToWorld) {
+LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const dvec3& origin,
+                           float shutterOpen, float shutterClose, LightImages& images,
+                           Diagnostics& diagnostics)
+    : _light(light), _group(groupToWorld), _origin(origin) {
     if (!light.visible || light.type == LightType::Mesh) return;
     const auto warn = [&](const std::string& input, const char* message) {
         diagnostics.warn(light.path, input, message);
@@ -60,11 +61,11 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, float s
         _moves = true;
     }
     for (float time : _times)
-        if (!isFinite(_group * transformAt(light.transform, time))) {
+        if (!isFinite(_group * transformAt(light.transform, time, origin))) {
             warn("xformOpOrder", "the transform is not finite; the light is off");
             return;
         }
-    const mat4 toWorld = _group * transformAt(light.transform, shutterOpen);
+    const mat4 toWorld = _group * transformAt(light.transform, shutterOpen, origin);
     if (!isFinite(lightBaseRadiance(light))) {
         warn("inputs:intensity", "the light's colour or intensity is not finite; the light is off");
         return;
@@ -93,7 +94,7 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, float s
     _pose = makePose(toWorld);
     for (float time : _times)
         if (_kind == Kind::Area &&
-            !makePose(_group * transformAt(light.transform, time)).shape.valid) {
+            !makePose(_group * transformAt(light.transform, time, origin)).shape.valid) {
             warn(lightSizeInput(_light),
                  "the light has no size or is flattened to nothing; it is off");
             _kind = Kind::None;
@@ -208,7 +209,7 @@ LightTreeLeaf LightEmitter::leaf(int id) const {
                        _light.type == LightType::Cylinder;
     DirectionCone cone;
     for (size_t i = 0; i < _times.size(); ++i) {
-        const Pose pose = makePose(_group * transformAt(_light.transform, _times[i]));
+        const Pose pose = makePose(_group * transformAt(_light.transform, _times[i], _origin));
         if (_kind == Kind::Area) {
             growBounds(pose.shape, leaf.low, leaf.high);
         } else {

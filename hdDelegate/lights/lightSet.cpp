@@ -14,8 +14,10 @@ LightSet::LightSet(LightSetInput input, LightImages& images, Diagnostics& diagno
     for (int i = 0; i < _lightCount; ++i) {
         const LightInstance& instance = _input.lights[i];
         if (!instance.light) continue;
-        _emitters[i] = LightEmitter(*instance.light, instance.groupToWorld, _input.shutterOpen,
-                                    _input.shutterClose, images, diagnostics);
+        const dvec3 origin = instance.light->group.empty() ? _input.origin : dvec3(0.0);
+        _emitters[i] =
+            LightEmitter(*instance.light, instance.groupToWorld, origin, _input.shutterOpen,
+                         _input.shutterClose, images, diagnostics);
         const LightEmitter& emitter = _emitters[i];
         if (emitter.kind() == LightEmitter::Kind::None) continue;
         if (emitter.atInfinity()) {

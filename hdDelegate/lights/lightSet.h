@@ -30,6 +30,8 @@ struct LightSetInput {
     std::vector<LightInstance> lights; ///< mesh lights may be in the list; they are left out here
     std::vector<LightTriangle> triangles;
     float shutterOpen = 0.0f, shutterClose = 0.0f; ///< time codes relative to the frame
+    dvec3 origin{0.0}; ///< of the space that all places are in; lights of prototypes are in it by
+                       ///< their groupToWorld
 };
 
 /// A direction in which light comes to a point.

@@ -91,7 +91,7 @@ std::string versionThere(EGLDisplay display, EGLConfig config) {
     return found;
 }
 
-EGLContext createOn(EGLDisplay display, std::string& error) {
+EGLContext createOn(EGLDisplay display, std::string& error, EGLContext shared = EGL_NO_CONTEXT) {
     const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
     if (!has(extensions, "EGL_KHR_surfaceless_context")) {
         error = "EGL cannot make a context without a surface";
@@ -116,11 +116,11 @@ EGLContext createOn(EGLDisplay display, std::string& error) {
         attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT,
                                              EGL_LOSE_CONTEXT_ON_RESET_EXT});
     attributes.push_back(EGL_NONE);
-    EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+    EGLContext context = eglCreateContext(display, config, shared, attributes.data());
     if (context == EGL_NO_CONTEXT && attributes.size() > plain + 1) {
         attributes.resize(plain);
         attributes.push_back(EGL_NONE);
-        context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+        context = eglCreateContext(display, config, shared, attributes.data());
     }
     if (context == EGL_NO_CONTEXT)
         error = "the driver has no OpenGL 4.5 core profile" + versionThere(display, config);
@@ -192,6 +192,22 @@ std::unique_ptr<EglContext> EglContext::create(std::string& error) {
     error = result ? "" : problem.empty() ? "EGL finds no display that it can initialize" : problem;
     eglBindAPI(api);
     return result;
+}
+
+std::unique_ptr<EglContext> EglContext::sharing(const EglContext& other, std::string& error) {
+    const EGLenum api = eglQueryAPI();
+    const EGLContext context = createOn(other._display, error, other._context);
+    eglBindAPI(api);
+    if (context == EGL_NO_CONTEXT) {
+        if (error.empty()) error = "the driver makes no context that shares its objects";
+        return nullptr;
+    }
+    std::unique_ptr<EglContext> made(new EglContext);
+    made->_display = other._display;
+    made->_context = context;
+    made->_renderer = other._renderer;
+    made->_version = other._version;
+    return made;
 }
 
 bool EglContext::hasHardware() {

@@ -14,6 +14,9 @@ class EglContext {
 public:
     /// @returns null with a one-line reason in `error`
     static std::unique_ptr<EglContext> create(std::string& error);
+    /// A context that shares objects with another one, for another thread.
+    /// @returns null with a one-line reason in `error`
+    static std::unique_ptr<EglContext> sharing(const EglContext& other, std::string& error);
     /// Whether EGL knows a device that is not software (and may use it, see PATINA_EGL_PLATFORM).
     static bool hasHardware();
     ~EglContext(); ///< must not be current on another thread

@@ -11,6 +11,7 @@ namespace patina {
 /// - `program:NAME`  a program whose first stage has that name does not compile (background,
 /// shadow)
 /// - `material:PATH` that of a material does not
+/// - `compiling:N`   programs of a material take N milliseconds more
 /// - `storageBlocks:N` shaders may read N buffers
 /// - `uniformBlock:N` uniform blocks hold N bytes
 /// - `textureSize:N` textures of materials may have N x N pixels

@@ -15,7 +15,8 @@ struct GlStage {
     std::string text; ///< without #version: that is put in front
 };
 
-/// A linked program. Made, used and destroyed with the same context current.
+/// A linked program. Made, used and destroyed with the same context current, or with those that
+/// share its objects.
 class GlProgram {
 public:
     /// Takes it from the ProgramCache where it is in there.

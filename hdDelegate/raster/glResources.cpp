@@ -4,12 +4,21 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 
 namespace patina {
 
-GlBuffer::GlBuffer(size_t size, const void* data) : _size(std::max<size_t>(size, 16)) {
+GlBuffer::GlBuffer(size_t size, const void* data) : _size(std::max(size, leastSize)) {
     gl.CreateBuffers(1, &_id);
-    gl.NamedBufferStorage(_id, GLsizeiptr(_size), size ? data : nullptr, GL_DYNAMIC_STORAGE_BIT);
+    // The driver reads as much as the buffer holds, which may be more than there is.
+    unsigned char padded[leastSize] = {};
+    const bool pads = size < leastSize && size > 0 && data;
+    if (pads) std::memcpy(padded, data, size);
+    gl.NamedBufferStorage(_id, GLsizeiptr(_size),
+                          size == 0 ? nullptr
+                          : pads    ? padded
+                                    : data,
+                          GL_DYNAMIC_STORAGE_BIT);
 }
 
 GlBuffer::~GlBuffer() {

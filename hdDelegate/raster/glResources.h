@@ -13,8 +13,9 @@ namespace patina {
 class GlBuffer {
 public:
     GlBuffer() = default;
-    /// @param data null leaves the contents open. Sizes in bytes; 0 makes a buffer of 16, since
-    /// OpenGL knows no empty one.
+    static constexpr size_t leastSize = 16; ///< bytes, since OpenGL knows no empty buffer
+    /// @param data null leaves the contents open. Sizes in bytes; what is smaller than leastSize
+    /// is followed by zeros.
     GlBuffer(size_t size, const void* data);
     template <typename T> explicit GlBuffer(const std::vector<T>& v)
         : GlBuffer(v.size() * sizeof(T), v.data()) {}

@@ -47,8 +47,10 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
     gl.ClearNamedFramebufferfv(_shadowTarget, GL_DEPTH, 0, &far);
     const vec4& to = view.towards;
     const RasterVisible visible = scene.visible(view.worldToMap, view.clampsNear);
-    // Few lights have anything inside.
-    const RasterVisible inside = view.sphere ? scene.visible(view.worldToLight) : RasterVisible();
+    // Few lights have anything inside, and in few planes of emitters there is more than the
+    // emitter.
+    const RasterVisible inside =
+        view.own != ShadowView::Nothing ? scene.visible(view.worldToLight) : RasterVisible();
     if (view.clampsNear) gl.Enable(GL_DEPTH_CLAMP);
     const GlProgram* last = nullptr;
     for (const RasterDraw& d : scene.draws()) {
@@ -64,7 +66,7 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
             gl.Uniform4f(6, to.x, to.y, to.z, to.w);
             if (own || around) {
                 gl.UniformMatrix4fv(11, 1, GL_FALSE, &view.worldToLight[0][0]);
-                gl.Uniform1i(12, view.sphere);
+                gl.Uniform1i(12, int(view.own));
             }
         }
         last = program;

@@ -31,8 +31,13 @@ struct ShadowView {
     glm::vec4 towards{0.0f};      ///< position of the light; direction to it where w is 0
     int category = -1;            ///< of what casts; -1: everything
     bool clampsNear = false;      ///< what is nearer casts from the near plane
-    bool sphere = false;          ///< a sphere light: what is inside of it casts nothing
-    glm::mat4 worldToLight{1.0f}; ///< to the coordinates of the sphere, see AreaShape
+    /// What casts nothing, as shaders/raster/lightShape.glsl has it: what is inside of a sphere
+    /// light, and what lies in the plane of the emitter, which rounding else puts before a sample.
+    enum Own { Nothing, Sphere, Plane };
+    Own own = Nothing;
+    /// Sphere: to its coordinates, see AreaShape. Plane: what is near the sample and within
+    /// rounding of its plane to -1..1 each way.
+    glm::mat4 worldToLight{1.0f};
 };
 
 /// Boxes that shadows are fitted to.

@@ -235,7 +235,21 @@ void RasterLights::takeEmitters(uint32_t pass, int samples, const RasterEmitters
         GpuLight g = GpuLight::none();
         g.sampled = vec4(e.corner + e.edge1 * (root * (1.0f - u.y)) + e.edge2 * (root * u.y), 1.0f);
         g.normal = vec4(glm::normalize(glm::cross(e.edge1, e.edge2)), chance / e.area);
-        g.radiance = vec4(e.radiance, float(Triangle));
+        if (e.mirrored) g.normal = vec4(-vec3(g.normal), g.normal.w);
+        const RasterEmission glow = emitters.emission(e, vec2(root * (1.0f - u.y), root * u.y));
+        g.radiance = vec4(glow.radiance, float(Triangle));
+        if (!glow.values.empty()) {
+            g.radiance = vec4(1.0f, 1.0f, 1.0f, float(Triangle));
+            g.table = vec4(float(_tables.firstOfPass() + int(out.tables.size())),
+                           float(glow.stepsOfTheta), float(glow.stepsOfTurn), -1.0f);
+            g.shaping = vec4(glow.axis, 0.0f);
+            g.shapingX = vec4(glow.x, 0.0f);
+            g.shapingY = vec4(glow.y, 0.0f);
+            for (const vec3& value : glow.values)
+                out.tables.emplace_back(value, 0.0f);
+        }
+        g.axis[0] = vec4(e.edge1, 0.0f);
+        g.axis[1] = vec4(e.edge2, 0.0f);
         g.cone = vec4(0.0f, 0.0f, e.twoSided ? 1.0f : 0.0f, 0.0f);
         g.fade.w = 1.0f / float(samples);
         g.axis[2].w = float(e.category);

@@ -123,9 +123,18 @@ int RasterLightTables::add(const std::vector<vec4>& values) {
     return first;
 }
 
-void RasterLightTables::upload() {
+void RasterLightTables::upload(int room) {
+    _firstOfPass = int(_values.size());
+    _room = room;
+    _values.resize(_values.size() + size_t(room), vec4(0.0f));
     _buffer = GlBuffer(_values);
     _values = {};
+}
+
+void RasterLightTables::writePass(const std::vector<vec4>& values) const {
+    const size_t count = std::min(values.size(), size_t(_room));
+    if (count > 0)
+        _buffer.write(values.data(), count * sizeof(vec4), size_t(_firstOfPass) * sizeof(vec4));
 }
 
 } // namespace patina

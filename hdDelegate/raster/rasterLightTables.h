@@ -42,14 +42,20 @@ public:
     int add(const std::vector<vec4>& values);
 
     /// Makes the buffer of all that was added.
-    void upload();
+    /// @param room for values of a pass behind them
+    void upload(int room = 0);
+    /// Where the values of a pass begin.
+    int firstOfPass() const { return _firstOfPass; }
+    /// Replaces them; those beyond the room are left out.
+    void writePass(const std::vector<vec4>& values) const;
     const GlBuffer& buffer() const { return _buffer; }
 
 private:
     Diagnostics& _diagnostics;
     std::vector<vec4> _values;
     std::vector<std::unique_ptr<RectImage>> _rects;
-    GlBuffer _buffer;
+    mutable GlBuffer _buffer; ///< of which passes write the end
+    int _firstOfPass = 0, _room = 0;
 };
 
 } // namespace patina

@@ -7,6 +7,7 @@
 #include "hdDelegate/raster/rasterLight.h"
 #include "hdDelegate/raster/rasterLightTables.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -40,6 +41,7 @@ public:
     struct Sampled {
         std::vector<GpuLight> lights; ///< taken ones first, then those that are only looked at
         int taken = 0;
+        std::vector<vec4> tables;        ///< see RasterLightTables::writePass()
         std::vector<ShadowView> shadows; ///< in the order of the layers of the shadow maps
         int mapSize = 0;
         bool fibres = false; ///< lights have maps for fibres, too
@@ -53,6 +55,9 @@ public:
     /// Whether shadows are asked for in directions that are no light's samples.
     bool needsSky() const { return _shadows && (_hasDome || _hasWideSun); }
     const RasterLightTables& tables() const { return _tables; }
+    static constexpr int mostTables = ///< values of a pass in tables
+        mostCoarseSamples *
+        std::max(RasterEmission::thetas, RasterEmission::turnThetas* RasterEmission::turns);
 
 private:
     /// The numbers are those of lights.glsl.

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
+#include <thread>
 
 namespace patina {
 
@@ -32,8 +34,9 @@ std::string lightingText(const std::string& dome, const std::string& area) {
 
 } // namespace
 
-RasterMaterials::RasterMaterials(Diagnostics& diagnostics)
-    : _diagnostics(diagnostics), _textures(diagnostics), _uploaded(_textures, diagnostics) {}
+RasterMaterials::RasterMaterials(Diagnostics& diagnostics, ProgramCompiler* compiler)
+    : _compiler(compiler), _diagnostics(diagnostics), _textures(diagnostics),
+      _uploaded(_textures, diagnostics) {}
 
 void RasterMaterials::update(const SceneState& state, const RenderSettings& settings,
                              const RasterLightPlan& lights) {
@@ -48,6 +51,7 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
                                   std::to_string(RasterAovWish::mostPrimvars) + " primvars");
     }
     _domeMethods.clear();
+    _standIns = 0;
     _environmentSamples = std::max(settings.environmentSamples, 0);
     for (auto it = _materials.begin(); it != _materials.end();) {
         const auto found = state.materials.find(it->first);
@@ -94,16 +98,17 @@ const MethodPlan& RasterMaterials::planned(const std::string& path, const std::s
     return compiled(path, user, state, settings).material.program->planned();
 }
 
-const RasterMaterial& RasterMaterials::get(const std::string& path, const std::string& user,
-                                           const SceneState& state,
-                                           const RenderSettings& settings) {
+RasterMaterials::Cached& RasterMaterials::asked(const std::string& path, const std::string& user,
+                                                const SceneState& state,
+                                                const RenderSettings& settings) {
     Cached& cached = compiled(path, user, state, settings);
     RasterMaterial& m = cached.material;
     const bool first = !cached.built;
     if (first) m.glsl = makeGlslMaterial(*m.program);
     const bool relit = !cached.lit && light(cached, settings);
-    if (!first && !relit) return m;
+    if (!first && !relit) return cached;
     cached.built = true;
+    cached.taken = false;
     const std::string key = cached.prim ? path : std::string();
     if (first)
         for (const std::string& line : m.glsl.leftOut)
@@ -112,19 +117,85 @@ const RasterMaterial& RasterMaterials::get(const std::string& path, const std::s
     for (const MaterialPrimvar& p : m.program->primvars())
         primvars.push_back(p.name);
     m.primvars = _aovs.with(primvars);
-    m.programs = build(m.glsl, int(m.primvars.size()), cached.lighting, key);
-    if (!m.programs && key.empty())
-        throw DeviceError("the driver does not take the shader of displayColor");
+    cached.pending = build(m.glsl, int(m.primvars.size()), cached.lighting, key);
+    return cached;
+}
+
+void RasterMaterials::prepare(const std::string& path, const SceneState& state,
+                              const RenderSettings& settings) {
+    if (path.empty() || state.materials.count(path) > 0)
+        asked(path, std::string(), state, settings);
+}
+
+void RasterMaterials::copyDisplayColor(RasterMaterial& to, const std::string& user,
+                                       const SceneState& state, const RenderSettings& settings) {
+    const RasterMaterial& shown = get(std::string(), user, state, settings);
+    to.program = shown.program;
+    to.glsl = shown.glsl;
+    to.programs = shown.programs;
+    to.primvars = shown.primvars;
+    to.parameters = GlBuffer(to.glsl.parameters);
+    to.textures = _uploaded.units(to.glsl.textures);
+}
+
+const RasterMaterial& RasterMaterials::get(const std::string& path, const std::string& user,
+                                           const SceneState& state,
+                                           const RenderSettings& settings) {
+    Cached& cached = asked(path, user, state, settings);
+    if (cached.taken) return cached.material;
+    const std::string key = cached.prim ? path : std::string();
+    if (!cached.pending->done && _showStandIns && !key.empty()) {
+        ++_standIns;
+        if (cached.standIn.programs != get(std::string(), user, state, settings).programs)
+            copyDisplayColor(cached.standIn, user, state, settings);
+        return cached.standIn;
+    }
+    await(*cached.pending);
+    cached.taken = true;
+    RasterMaterial& m = cached.material;
+    m.programs = cached.pending->programs;
     if (!m.programs) {
-        const RasterMaterial& shown = get(std::string(), user, state, settings);
-        m.program = shown.program;
-        m.glsl = shown.glsl;
-        m.programs = shown.programs;
-        m.primvars = shown.primvars;
+        _diagnostics.warn(key, "",
+                          "the driver does not take the material's shader; displayColor is "
+                          "shown: " +
+                              cached.pending->error);
+        if (key.empty()) throw DeviceError("the driver does not take the shader of displayColor");
+        copyDisplayColor(m, user, state, settings);
+        return m;
     }
     m.parameters = GlBuffer(m.glsl.parameters);
     m.textures = _uploaded.units(m.glsl.textures);
     return m;
+}
+
+void RasterMaterials::await(const PendingPrograms& pending) {
+    while (!pending.done)
+        if (!_compiler->help()) _compiler->wait(std::chrono::milliseconds(50));
+}
+
+RasterMaterials::Ready RasterMaterials::ready() const {
+    std::set<const PendingPrograms*> wanted;
+    for (const auto& item : _materials)
+        if (item.second.pending) wanted.insert(item.second.pending.get());
+    Ready count;
+    count.wanted = wanted.size();
+    for (const PendingPrograms* pending : wanted)
+        count.ready += pending->done ? 1 : 0;
+    return count;
+}
+
+void RasterMaterials::finish(const std::atomic<bool>& stop,
+                             const std::function<void(const Ready&)>& told) {
+    while (!stop) {
+        const Ready now = ready();
+        if (told) told(now);
+        if (now.ready == now.wanted) return;
+        if (!_compiler->help()) _compiler->wait(std::chrono::milliseconds(50));
+    }
+}
+
+void RasterMaterials::waitForMore(std::chrono::milliseconds most) {
+    if (_compiler->hasThreads() || !_compiler->help()) _compiler->wait(most);
 }
 
 bool RasterMaterials::light(Cached& cached, const RenderSettings& settings) {
@@ -159,9 +230,36 @@ ScenePlan RasterMaterials::plan() const {
     return plan;
 }
 
-std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial& glsl, int primvars,
-                                                             const std::string& lighting,
-                                                             const std::string& user) {
+namespace {
+
+/// The texts of a material's programs, for any thread with a context.
+struct ProgramTexts {
+    GlStage vertex, color, aovs, shadowVertex, shadow, tint;
+    bool lets = false, tints = false; ///< light may pass; and is coloured
+};
+
+std::shared_ptr<const RasterPrograms> makePrograms(const ProgramTexts& texts, std::string& error) {
+    auto programs = std::make_shared<RasterPrograms>();
+    programs->color = GlProgram::make({texts.vertex, texts.color}, error);
+    if (programs->color) programs->aovs = GlProgram::make({texts.vertex, texts.aovs}, error);
+    if (!programs->aovs) return nullptr;
+    if (texts.lets) {
+        programs->shadow = GlProgram::make({texts.shadowVertex, texts.shadow}, error);
+        if (!programs->shadow) return nullptr;
+    }
+    if (texts.tints) {
+        programs->tint = GlProgram::make({texts.vertex, texts.tint}, error);
+        if (!programs->tint) return nullptr;
+    }
+    return programs;
+}
+
+} // namespace
+
+std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial& glsl,
+                                                              int primvars,
+                                                              const std::string& lighting,
+                                                              const std::string& user) {
     const bool faulty = !user.empty() && glFault("material") == user;
     const std::string head = "#define PRIMVARS " + std::to_string(primvars) + "\n" +
                              (glsl.presence ? "#define PRESENCE\n" : "") +
@@ -175,53 +273,45 @@ std::shared_ptr<const RasterPrograms> RasterMaterials::build(const GlslMaterial&
     const std::string aovs = _aovs.text();
     auto& shared = _programs[head + lighting + aovs + glsl.text + (faulty ? "faulty" : "")];
     if (shared) return shared;
-    const GlStage vertex{GL_VERTEX_SHADER, "surface",
-                         head + "#include \"shaders/raster/surface.vert.glsl\"\n"};
+    ++_built;
     const std::string surface = head +
                                 "#include \"shaders/raster/material.glsl\"\n"
                                 "#include \"shaders/raster/pass.glsl\"\n" +
                                 glsl.text + "#include \"shaders/raster/surface.frag.glsl\"\n" +
                                 (faulty ? "#error asked for by PATINA_GL_FAULT\n" : "");
-    auto programs = std::make_shared<RasterPrograms>();
-    std::string error;
-    programs->color =
-        GlProgram::make({vertex,
-                         {GL_FRAGMENT_SHADER, "material",
-                          surface + lighting + (lighting.empty() ? "" : glsl.traitsText) +
-                              "#include \"shaders/raster/lighting.frag.glsl\"\n"}},
-                        error);
-    if (programs->color)
-        programs->aovs =
-            GlProgram::make({vertex,
-                             {GL_FRAGMENT_SHADER, "material",
-                              surface + aovs + (_aovs.albedo ? glsl.albedoText : std::string()) +
-                                  "#include \"shaders/raster/aovs.frag.glsl\"\n"}},
-                            error);
-    const bool lets = glsl.presence || !glsl.passesText.empty();
-    if (programs->aovs && lets)
-        programs->shadow = GlProgram::make(
-            {{GL_VERTEX_SHADER, "shadow",
-              "#define SHADOW\n" + head + "#include \"shaders/raster/surface.vert.glsl\"\n"},
-             {GL_FRAGMENT_SHADER, "material",
-              surface + (glsl.passesText.empty() ? "" : "#define MATERIAL_PASSES\n") +
-                  glsl.passesText + "#include \"shaders/raster/presence.frag.glsl\"\n"}},
-            error);
-    if (programs->shadow && glsl.presence && glsl.tints)
-        programs->tint =
-            GlProgram::make({vertex,
-                             {GL_FRAGMENT_SHADER, "material",
-                              surface + "#include \"shaders/raster/tint.frag.glsl\"\n"}},
-                            error);
-    ++_built;
-    if (!programs->aovs || (lets && !programs->shadow) ||
-        (glsl.tints && glsl.presence && !programs->tint)) {
-        _diagnostics.warn(user, "",
-                          "the driver does not take the material's shader; displayColor is "
-                          "shown: " +
-                              oneLine(error));
-        return nullptr;
-    }
-    return shared = programs;
+    const auto fragment = [&](const std::string& more) {
+        return GlStage{GL_FRAGMENT_SHADER, "material", surface + more};
+    };
+    ProgramTexts texts;
+    texts.vertex = {GL_VERTEX_SHADER, "surface",
+                    head + "#include \"shaders/raster/surface.vert.glsl\"\n"};
+    texts.color = fragment(lighting + (lighting.empty() ? "" : glsl.traitsText) +
+                           "#include \"shaders/raster/lighting.frag.glsl\"\n");
+    texts.aovs = fragment(aovs + (_aovs.albedo ? glsl.albedoText : std::string()) +
+                          "#include \"shaders/raster/aovs.frag.glsl\"\n");
+    texts.shadowVertex = {GL_VERTEX_SHADER, "shadow",
+                          "#define SHADOW\n" + head +
+                              "#include \"shaders/raster/surface.vert.glsl\"\n"};
+    texts.shadow = fragment((glsl.passesText.empty() ? "" : "#define MATERIAL_PASSES\n") +
+                            glsl.passesText + "#include \"shaders/raster/presence.frag.glsl\"\n");
+    texts.tint = fragment("#include \"shaders/raster/tint.frag.glsl\"\n");
+    texts.lets = glsl.presence || !glsl.passesText.empty();
+    texts.tints = glsl.presence && glsl.tints;
+    shared = std::make_shared<PendingPrograms>();
+    const auto make = [pending = shared, texts = std::move(texts)] {
+        if (const std::string slow = glFault("compiling"); !slow.empty())
+            std::this_thread::sleep_for(std::chrono::milliseconds(std::atoi(slow.c_str())));
+        std::string error;
+        pending->programs = makePrograms(texts, error);
+        if (!pending->programs) pending->error = oneLine(error);
+        pending->done = true;
+    };
+    // displayColor stands in for all others.
+    if (_compiler && !user.empty())
+        _compiler->add(make);
+    else
+        make();
+    return shared;
 }
 
 } // namespace patina

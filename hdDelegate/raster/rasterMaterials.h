@@ -2,6 +2,7 @@
 
 #include "hdDelegate/raster/glProgram.h"
 #include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/programCompiler.h"
 #include "hdDelegate/raster/rasterAovWish.h"
 #include "hdDelegate/raster/rasterLightPlan.h"
 #include "hdDelegate/raster/rasterTextures.h"
@@ -11,6 +12,9 @@
 #include "hdDelegate/scene/textureSystem.h"
 #include "materialNetwork/glsl/glslMaterial.h"
 
+#include <atomic>
+#include <chrono>
+#include <functional>
 #include <map>
 
 namespace patina {
@@ -20,6 +24,13 @@ struct RasterPrograms {
     std::unique_ptr<GlProgram> color, aovs;
     std::unique_ptr<GlProgram> shadow; ///< only of what light may pass
     std::unique_ptr<GlProgram> tint;   ///< only of what colours the light that passes
+};
+
+/// Programs that may still be compiled.
+struct PendingPrograms {
+    std::atomic<bool> done{false};
+    std::shared_ptr<const RasterPrograms> programs; ///< null where the driver does not take them
+    std::string error;
 };
 
 /// A material on the GPU.
@@ -36,7 +47,26 @@ struct RasterMaterial {
 /// parameter writes a buffer.
 class RasterMaterials {
 public:
-    explicit RasterMaterials(Diagnostics& diagnostics);
+    /// How far the programs are that a scene asks for.
+    struct Ready {
+        size_t ready = 0, wanted = 0;
+    };
+
+    /// @param compiler of programs; null: this thread compiles them
+    explicit RasterMaterials(Diagnostics& diagnostics, ProgramCompiler* compiler = nullptr);
+
+    /// Lets a material be compiled that get() will be asked for.
+    void prepare(const std::string& path, const SceneState& state, const RenderSettings& settings);
+    /// Waits for the programs of all materials that are in use.
+    /// @param told how far they are, again and again
+    void finish(const std::atomic<bool>& stop, const std::function<void(const Ready&)>& told);
+    /// The same until one more is ready, or for so long.
+    void waitForMore(std::chrono::milliseconds most);
+    Ready ready() const;
+    /// Whether get() gives displayColor in place of what is not ready, instead of waiting for it.
+    void showStandIns(bool show) { _showStandIns = show; }
+    /// How often get() has done so since update().
+    size_t standIns() const { return _standIns; }
 
     /// @param path of a material, or empty for displayColor
     /// @param user who is told about in messages
@@ -73,17 +103,27 @@ private:
         std::vector<PlannedMethod> light; ///< how it is lit
         std::string lighting;             ///< text in front of the lighting: methods in force
         bool lit = false;                 ///< `light` is of this update
-        bool built = false;               ///< its text and its GPU objects
+        bool built = false;               ///< its text, and its programs are asked for
+        bool taken = false;               ///< its GPU objects are there
+        std::shared_ptr<const PendingPrograms> pending;
+        RasterMaterial standIn; ///< until it is taken
     };
 
     Cached& compiled(const std::string& path, const std::string& user, const SceneState& state,
                      const RenderSettings& settings);
-    std::shared_ptr<const RasterPrograms> build(const GlslMaterial& glsl, int primvars,
-                                                const std::string& lighting,
-                                                const std::string& user);
+    Cached& asked(const std::string& path, const std::string& user, const SceneState& state,
+                  const RenderSettings& settings);
+    std::shared_ptr<const PendingPrograms> build(const GlslMaterial& glsl, int primvars,
+                                                 const std::string& lighting,
+                                                 const std::string& user);
+    void await(const PendingPrograms& pending);
+    /// Shows displayColor in place of a material.
+    void copyDisplayColor(RasterMaterial& to, const std::string& user, const SceneState& state,
+                          const RenderSettings& settings);
     /// Chooses how a material is lit. @returns whether that is new
     bool light(Cached& cached, const RenderSettings& settings);
 
+    ProgramCompiler* _compiler;
     RasterLightPlan _lights;
     RasterAovWish _aovs;
     std::set<std::string> _domeMethods;
@@ -91,7 +131,9 @@ private:
     Diagnostics& _diagnostics;
     TextureSystem _textures;
     std::map<std::string, Cached> _materials;
-    std::map<std::string, std::shared_ptr<const RasterPrograms>> _programs; ///< by text
+    std::map<std::string, std::shared_ptr<PendingPrograms>> _programs; ///< by text
+    bool _showStandIns = false;
+    size_t _standIns = 0;
     RasterTextures _uploaded;
     size_t _built = 0;
 };

@@ -430,6 +430,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
         drawSky(scene, lights, pass);
         _sky.bind(10, 19);
     }
+    lights.tables().writePass(sampled.tables);
     lights.tables().buffer().bindStorage(8);
     _timer.mark(Surfaces);
     lightBuffer.bindStorage(4);

@@ -5,7 +5,9 @@
 #include "hdDelegate/film/relativeError.h"
 #include "hdDelegate/raster/eglContext.h"
 #include "hdDelegate/raster/glFaults.h"
+#include "hdDelegate/raster/programCompiler.h"
 #include "hdDelegate/raster/rasterPasses.h"
+#include "hdDelegate/scene/instancerCheck.h"
 
 #include <algorithm>
 #include <atomic>
@@ -45,6 +47,7 @@ public:
             {
                 const EglContext::Use use(*_context);
                 release();
+                _compiler.reset();
             }
             _context.reset();
         });
@@ -68,6 +71,7 @@ public:
             _idle = false;
         }
         _running = true;
+        _compiling = false;
         _started = Clock::now();
         _thread = std::thread(&RasterRenderer::run, this, _scene->snapshot(), camera);
     }
@@ -133,17 +137,16 @@ private:
             const auto camera = state->cameras.find(cameraPath);
             if (camera == state->cameras.end())
                 throw std::runtime_error("there is no camera " + cameraPath);
-            for (const mat4& transform : camera->second->transform.values) {
-                const float volume = glm::determinant(mat3(transform));
-                if (!std::isfinite(volume) || volume == 0.0f)
+            for (const dmat4& transform : camera->second->transform.values)
+                if (!hasInverse(mat4(transform)))
                     throw std::runtime_error("the camera " + cameraPath +
                                              " has a transform without an inverse");
-            }
             try {
                 render(*state, *camera->second);
             } catch (const DeviceError& error) {
                 _deviceFailure = error.what();
                 release(); // another back end needs the memory
+                _compiler.reset();
                 throw;
             }
         } catch (const DeviceError& error) {
@@ -155,19 +158,25 @@ private:
         finish(failure, deviceFailed);
     }
 
-    void build(const SceneState& state, const RasterCamera& camera) {
+    /// @param standIns shows displayColor where programs are not ready, instead of waiting
+    void build(const SceneState& state, const RasterCamera& camera, bool standIns) {
         if (_builtFor != _scene) {
             release();
             std::string error;
             _passes = std::make_unique<RasterPasses>(error);
             if (!_passes->ok())
                 throw DeviceError("the driver does not take the shaders: " + oneLine(error));
-            _raster = std::make_unique<RasterScene>(_scene->diagnostics());
+            if (!_compiler) _compiler = std::make_unique<ProgramCompiler>(*_context, helpers());
+            _raster = std::make_unique<RasterScene>(_scene->diagnostics(), _compiler.get());
             _images = std::make_unique<LightImages>(_scene->diagnostics());
             _domes = std::make_unique<RasterDomes>();
             _builtFor = _scene;
         }
-        _raster->update(state, _origin, camera, _settings, lightPlan(state), _stop);
+        std::function<void(const RasterMaterials::Ready&)> compiling;
+        if (!standIns)
+            compiling = [this](const RasterMaterials::Ready& ready) { tellCompiling(ready); };
+        _raster->update(state, _origin, camera, _settings, lightPlan(state), _stop, compiling);
+        if (standIns) tellCompiling(_raster->programsReady());
         if (_stop) return;
         // Every sample of a dome costs a shadow map: few of them where that takes long.
         const int domeSamples = _raster->trianglesDrawn() > 1000000 ? 1 : 4;
@@ -175,6 +184,29 @@ private:
         _lights = std::make_unique<RasterLights>(
             state, _settings, places, camera.timeCode(0.5f), domeSamples, _raster->domeMethods(),
             *_images, *_domes, _raster->categories(), _scene->diagnostics());
+    }
+
+    /// Threads that compile beside this one.
+    int helpers() const {
+        const int threads =
+            _settings.threads > 0 ? _settings.threads : int(std::thread::hardware_concurrency());
+        return std::clamp(threads - 1, 0, 7);
+    }
+
+    void tellCompiling(const RasterMaterials::Ready& ready) {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        if (!_compiling) {
+            _compiling = true;
+            _readyAtStart = ready.ready;
+            _compileStarted = Clock::now();
+        }
+        _progress.statistics["materialsWanted"] = double(ready.wanted);
+        _progress.statistics["materialsReady"] = double(ready.ready);
+        // Those that were ready before tell nothing of how long the others take.
+        if (_progress.samplesDone == 0 && ready.ready > _readyAtStart)
+            _progress.secondsLeft = secondsSince(_compileStarted) *
+                                    double(ready.wanted - ready.ready) /
+                                    double(ready.ready - _readyAtStart);
     }
 
     /// What lights there are for the planner to look at; without a tolerance it does not.
@@ -202,8 +234,8 @@ private:
 
     /// With places as seen from the origin.
     RasterCamera cameraFrom(Camera camera) const {
-        for (mat4& transform : camera.transform.values)
-            transform[3] -= vec4(_origin, 0.0f);
+        for (dmat4& transform : camera.transform.values)
+            transform[3] -= glm::dvec4(_origin, 0.0f);
         return RasterCamera(camera, _settings);
     }
 
@@ -214,7 +246,9 @@ private:
                                        "the rasterizer clips by the first " +
                                            std::to_string(RasterPasses::mostPlanes) + " alone");
         checkDevice(0);
-        build(state, camera);
+        // Somebody looks on: images of what there is until all is there.
+        const bool early = _settings.interactive && _listener && _film->resumeToken.empty();
+        build(state, camera, early);
         if (_stop) return;
         const PixelFilter filter(_settings.filterRadius);
         int border = filter.reach();
@@ -232,8 +266,16 @@ private:
         if (const vec3 origin = _passes->originOfSeen(*_raster); origin != _origin) {
             _origin = origin;
             camera = cameraFrom(cameraPrim);
-            build(state, camera);
+            build(state, camera, early);
             if (_stop) return;
+            _passes->drawAovs(*_raster, camera);
+        }
+        while (early && _raster->standIns() > 0) {
+            showEarly(state, camera, aovs, sampleOf(0, filter, border));
+            if (!waitForPrograms() || !waitWhilePaused()) return;
+            build(state, camera, true);
+            if (_stop) return;
+            _passes->clearSeconds();
             _passes->drawAovs(*_raster, camera);
         }
         _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
@@ -284,12 +326,47 @@ private:
             }
             if (!_settings.checkpointFile.empty() &&
                 secondsSince(saved) > _settings.checkpointSeconds) {
-                _film->saveCheckpoint(_settings.checkpointFile);
+                try {
+                    _film->saveCheckpoint(_settings.checkpointFile);
+                } catch (const std::exception& e) { // a full disk: the render is worth more
+                    _scene->diagnostics().warn("", "", e.what());
+                }
                 saved = Clock::now();
             }
             if (!waitWhilePaused()) return;
             if (_settings.seconds > 0.0 && secondsSince(_started) > _settings.seconds) break;
         }
+    }
+
+    /// Until an image with more of them is worth its time. @returns false when the render is
+    /// stopped
+    bool waitForPrograms() {
+        const auto began = Clock::now();
+        const size_t before = _raster->programsReady().ready;
+        while (!_stop) {
+            const RasterMaterials::Ready now = _raster->programsReady();
+            tellCompiling(now);
+            if (now.ready == now.wanted ||
+                (now.ready > before && secondsSince(began) > earlySeconds))
+                break;
+            _raster->waitForPrograms(std::chrono::milliseconds(50));
+        }
+        return !_stop;
+    }
+
+    /// One pass with what is ready, in a film of its own: nothing of it reaches the final image.
+    void showEarly(const SceneState& state, const RasterCamera& camera,
+                   const std::vector<AovSpec>& aovs, const RasterSample& sample) {
+        Film film;
+        film.reset(_settings.width, _settings.height, aovs, false);
+        _passes->writeAovs(*_raster, camera, aovs, film);
+        _raster->moveTo(state, _settings, camera.timeCode(sample.time));
+        _passes->draw(*_raster, *_lights, *_domes, _raster->environmentSamples(), camera, sample,
+                      film);
+        checkDevice(0);
+        RenderProgress told = progress();
+        told.samplesDone = 1;
+        if (!_stop) _listener(film, told);
     }
 
     /// @param border of the image, as RasterPasses::resize() has left it
@@ -374,6 +451,7 @@ private:
     }
 
     std::unique_ptr<EglContext> _context;
+    std::unique_ptr<ProgramCompiler> _compiler; ///< goes before its context
     std::shared_ptr<Scene> _scene, _builtFor;
     std::shared_ptr<Film> _film;
     RenderSettings _settings;
@@ -396,6 +474,10 @@ private:
     vec3 _origin{0.0f};         ///< see RasterScene::update()
     std::string _deviceFailure; ///< what was made with the context is gone
     Clock::time_point _started;
+    static constexpr double earlySeconds = 0.5; ///< between early images
+    bool _compiling = false;                    ///< tellCompiling() was called in this render
+    size_t _readyAtStart = 0;                   ///< programs
+    Clock::time_point _compileStarted;
 };
 
 } // namespace

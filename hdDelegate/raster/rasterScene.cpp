@@ -201,8 +201,9 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
             if (!draw.material->programs) continue;
             if (settings.enableSceneLights && group.shape->mesh)
                 for (const uint32_t i : group.places)
-                    _emitters.add(*group.shape->mesh, subset, *draw.material->program,
-                                  draw.meshLight, places[i].groupToWorld * toGroup, lit, _origin);
+                    _emitters.add(group.shape->mesh, subset, draw.material->program, draw.meshLight,
+                                  places[i].groupToWorld * toGroup, lit,
+                                  (draw.flags & RasterShape::tube) != 0, _origin);
             draw.subset = int(subset);
             draw.show(*group.shape);
             if (draw.surface->triangles == 0) continue;
@@ -232,9 +233,24 @@ float RasterScene::planSubdivision(const SceneState& state, const RasterCamera& 
     return plan.edgeLength();
 }
 
+/// Asks for all programs before the first is waited for.
+void RasterScene::prepareMaterials(const SceneState& state, const RenderSettings& settings,
+                                   RasterInstances& places) {
+    for (const auto& item : state.geometry) {
+        const Geometry& prim = *item.second;
+        if (prim.kind == GeometryKind::Volume || !isDrawnInRaster(prim, settings) ||
+            places.places(prim.group).empty())
+            continue;
+        _materials.prepare(prim.material, state, settings);
+        for (const GeomSubset& subset : prim.subsets)
+            if (!subset.material.empty()) _materials.prepare(subset.material, state, settings);
+    }
+}
+
 void RasterScene::update(const SceneState& state, const vec3& origin, const RasterCamera& camera,
                          const RenderSettings& asked, const RasterLightPlan& lights,
-                         const std::atomic<bool>& stop) {
+                         const std::atomic<bool>& stop,
+                         const std::function<void(const RasterMaterials::Ready&)>& compiling) {
     RenderSettings settings = asked;
     _draws.clear();
     _groups.clear();
@@ -254,6 +270,9 @@ void RasterScene::update(const SceneState& state, const vec3& origin, const Rast
     _volumes.begin();
     RasterInstances places(state, settings, camera.timeCode(0.5f), origin);
     settings.edgeLength = planSubdivision(state, camera, settings, places);
+    prepareMaterials(state, settings, places);
+    _materials.showStandIns(!compiling);
+    if (compiling) _materials.finish(stop, compiling);
     for (const auto& item : state.instancers) {
         warnOfInstancePrimvars(*item.second, _diagnostics);
         warnOfInstances(*item.second, camera.timeCode(0.5f), _diagnostics);

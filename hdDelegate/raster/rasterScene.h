@@ -51,16 +51,26 @@ class RasterScene {
 public:
     static constexpr int deformationSteps = 8;
 
-    explicit RasterScene(Diagnostics& diagnostics)
-        : _diagnostics(diagnostics), _materials(diagnostics), _shapes(diagnostics),
+    /// @param compiler see RasterMaterials
+    explicit RasterScene(Diagnostics& diagnostics, ProgramCompiler* compiler = nullptr)
+        : _diagnostics(diagnostics), _materials(diagnostics, compiler), _shapes(diagnostics),
           _volumes(diagnostics) {}
 
     /// @param origin that all places are relative to, those of the camera too: numbers of 32 bits
     /// are too coarse for shadows where places are large beside what is seen
     /// @param lights that materials are lit by: with a tolerance they decide how
+    /// @param compiling is told how far the programs are; empty: what is not ready is shown as
+    /// displayColor, instead of being waited for
     void update(const SceneState& state, const vec3& origin, const RasterCamera& camera,
                 const RenderSettings& settings, const RasterLightPlan& lights,
-                const std::atomic<bool>& stop);
+                const std::atomic<bool>& stop,
+                const std::function<void(const RasterMaterials::Ready&)>& compiling);
+    /// How far the programs are that update() has asked for.
+    RasterMaterials::Ready programsReady() const { return _materials.ready(); }
+    /// How many materials displayColor stands in for since update().
+    size_t standIns() const { return _materials.standIns(); }
+    /// Waits until one more is ready, or for so long.
+    void waitForPrograms(std::chrono::milliseconds most) { _materials.waitForMore(most); }
     /// Moves to another time of the shutter: transforms exactly, points that move to the nearest of
     /// deformationSteps times. @returns false when nothing moves
     bool moveTo(const SceneState& state, const RenderSettings& settings, float timeCode);
@@ -102,6 +112,8 @@ private:
     /// Chooses how long edges of subdivision surfaces are on screen. @returns pixels
     float planSubdivision(const SceneState& state, const RasterCamera& camera,
                           const RenderSettings& settings, RasterInstances& places);
+    void prepareMaterials(const SceneState& state, const RenderSettings& settings,
+                          RasterInstances& places);
     void addPrim(const std::shared_ptr<const Geometry>& prim, int rank, const SceneState& state,
                  const RasterCamera& camera, const RenderSettings& settings,
                  RasterInstances& places);

@@ -27,6 +27,31 @@ mat4 looking(const vec3& from, const vec3& direction, float turn) {
     return glm::lookAt(from, from + direction, x * std::cos(angle) + y * std::sin(angle));
 }
 
+/// @returns what ShadowView::worldToLight is for a sample of a flat emitter
+mat4 planeOf(const GpuLight& light, const ShadowBounds& bounds) {
+    const vec3 n(light.normal), from(light.sampled);
+    const vec3 x =
+        glm::normalize(glm::cross(n, std::fabs(n.x) < 0.7f ? vec3(1, 0, 0) : vec3(0, 1, 0)));
+    const vec3 y = glm::cross(n, x);
+    // A few roundings of the numbers that corners are computed from.
+    const auto largest = [](const vec3& v) {
+        const vec3 a = glm::abs(v);
+        return std::max({a.x, a.y, a.z});
+    };
+    const float place = std::max(
+        {largest(from), glm::length(vec3(light.axis[0])), glm::length(vec3(light.axis[1]))});
+    const float thin = std::max(4e-6f * place, 1e-30f);
+    // Further away the same error is too small an angle to be seen.
+    const vec3 receivers = 0.5f * (bounds.receiverMin + bounds.receiverMax);
+    const float wide = std::max(1e-2f * (place + glm::length(receivers - from)), 1e-30f);
+    mat4 m(1.0f);
+    for (int i = 0; i < 3; ++i)
+        m[i] = vec4(x[i] / wide, y[i] / wide, n[i] / thin, 0.0f);
+    m[3] =
+        vec4(-glm::dot(x, from) / wide, -glm::dot(y, from) / wide, -glm::dot(n, from) / thin, 1.0f);
+    return m;
+}
+
 /// @returns up to half a texel each way, as a part of the map's width
 vec2 shiftOf(vec2 turn, int mapSize) {
     return (vec2(turn.y, glm::fract(turn.y * 89.0f)) - 0.5f) / float(mapSize);
@@ -73,13 +98,18 @@ void RasterLights::castShadow(GpuLight& light, int category, vec2 turn, const Sh
 int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
                            const ShadowBounds& bounds, int most, Sampled& out) const {
     const auto full = [&](int more) { return int(out.shadows.size()) + more > most; };
+    const int kind = int(light.radiance.w);
+    const bool flat = kind == Rect || kind == Disk || kind == Triangle;
     const auto cast = [&](const mat4& worldToMap, bool clampsNear) {
         ShadowView view{worldToMap, light.sampled, category, clampsNear};
-        view.sphere = int(light.radiance.w) == Sphere;
-        if (view.sphere) {
+        if (kind == Sphere) {
+            view.own = ShadowView::Sphere;
             const mat3 inverse(vec3(light.inverse[0]), vec3(light.inverse[1]),
                                vec3(light.inverse[2]));
             view.worldToLight = mat4(inverse) * glm::translate(mat4(1.0f), -vec3(light.origin));
+        } else if (flat) {
+            view.own = ShadowView::Plane;
+            view.worldToLight = planeOf(light, bounds);
         }
         out.shadows.push_back(view);
     };
@@ -111,9 +141,10 @@ int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
     }
     if (full(6)) return 0;
     const vec3 directions[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    // A little wider than a face of the cube, for offsets and filters at its edges.
+    // A little wider than a face of the cube, for offsets and filters at its edges. A small body
+    // that glows hides its own far side, however near.
     for (const vec3& d : directions)
-        cast(frustum(1.02f, least) * looking(from, d, 0.0f), false);
+        cast(frustum(1.02f, least) * looking(from, d, 0.0f), kind == Triangle);
     return 6;
 }
 

@@ -25,6 +25,41 @@ bool serves(const RasterShapeCache::Wish& old, const RasterShapeCache::Wish& wis
            sameShape(*old.prim, *wish.prim);
 }
 
+/// What tells entries of the cache apart: the path of a prim, but for implicit prims all that their
+/// shape is made of, so that equal ones share it.
+std::string nameOf(const RasterShapeCache::Wish& wish) {
+    const Geometry& prim = *wish.prim;
+    if (prim.kind != GeometryKind::Implicit || !prim.subsets.empty() || displaces(wish) ||
+        wish.needsMesh)
+        return prim.path;
+    std::string name = "implicit";
+    const auto add = [&](const auto* data, size_t count) {
+        name.append(reinterpret_cast<const char*>(&count), sizeof count);
+        name.append(reinterpret_cast<const char*>(data), count * sizeof *data);
+    };
+    const auto text = [&](const std::string& word) { add(word.data(), word.size()); };
+    const Implicit& shape = static_cast<const Implicit&>(prim);
+    const int kinds[] = {int(shape.shape), shape.axis, int(prim.leftHanded), int(wish.strips)};
+    const float sizes[] = {shape.radius, shape.radiusTop, shape.height,
+                           shape.size,   shape.width,     shape.length};
+    add(kinds, std::size(kinds));
+    add(sizes, std::size(sizes));
+    text(prim.group);
+    for (const auto& surface : wish.primvars) {
+        text("");
+        for (const std::string& primvar : surface)
+            text(primvar);
+    }
+    for (const Primvar& primvar : prim.primvars) {
+        text(primvar.name);
+        const int form[] = {int(primvar.interpolation), primvar.components};
+        add(form, std::size(form));
+        add(primvar.values.data(), primvar.values.size());
+        add(primvar.indices.data(), primvar.indices.size());
+    }
+    return name;
+}
+
 size_t storageLimit() {
     GLint64 limit = 0;
     gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
@@ -35,7 +70,7 @@ size_t storageLimit() {
 } // namespace
 
 std::shared_ptr<const RasterShape> RasterShapeCache::get(const Wish& wish) {
-    Entry& entry = _entries[{wish.prim->path, wish.edge, wish.timeCode}];
+    Entry& entry = _entries[{nameOf(wish), wish.edge, wish.timeCode}];
     entry.used = true;
     if (!entry.shape || !serves(entry.wish, wish)) {
         entry.shape = nullptr; // the old buffers make room for the new ones

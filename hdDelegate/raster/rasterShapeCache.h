@@ -63,7 +63,7 @@ private:
     std::shared_ptr<const RasterShape> build(const Wish& wish);
 
     Diagnostics& _diagnostics;
-    std::map<std::tuple<std::string, float, float>, Entry> _entries; ///< by path, edge and time
+    std::map<std::tuple<std::string, float, float>, Entry> _entries; ///< by name, edge and time
     size_t _built = 0;
 };
 

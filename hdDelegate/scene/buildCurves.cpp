@@ -18,7 +18,9 @@ CurveBatch takeApart(const Curves& curves, const PointSteps& points, Diagnostics
     size_t tooShort = 0, truncated = 0, notFinite = 0;
     for (int authored : curves.curveVertexCounts) {
         const int count = std::max(authored, 0);
-        CurveLayout layout = curveLayout(count, curves.basis, curves.wrap);
+        // Nothing is made as large as a count claims to be.
+        const bool fits = point + size_t(count) <= points.count();
+        CurveLayout layout = curveLayout(count, curves.basis, curves.wrap, fits);
         batch.firstPoint.push_back(point);
         batch.firstVarying.push_back(varying);
         batch.firstShortVarying.push_back(batch.shortVarying);
@@ -26,7 +28,7 @@ CurveBatch takeApart(const Curves& curves, const PointSteps& points, Diagnostics
         batch.shortVarying += size_t(std::max(count - 4, 0) + 2);
         unused += layout.unused > 0;
         tooShort += layout.segments == 0;
-        if (point + size_t(count) > points.count()) {
+        if (!fits) {
             truncated += layout.segments > 0;
             layout.segments = 0;
         }

@@ -4,7 +4,7 @@
 
 namespace patina {
 
-CurveLayout curveLayout(int pointCount, CurveBasis basis, CurveWrap wrap) {
+CurveLayout curveLayout(int pointCount, CurveBasis basis, CurveWrap wrap, bool lists) {
     CurveLayout layout;
     const bool periodic = wrap == CurveWrap::Periodic;
     const bool phantoms = wrap == CurveWrap::Pinned &&
@@ -26,6 +26,7 @@ CurveLayout curveLayout(int pointCount, CurveBasis basis, CurveWrap wrap) {
         return layout;
     }
     layout.unused = n - used;
+    if (!lists) return layout;
     const int last = (layout.segments - 1) * layout.step + (basis == CurveBasis::Linear ? 2 : 4);
     if (phantoms) layout.points.push_back({0, 1});
     for (int i = 0; int(layout.points.size()) < last && i < used; ++i)

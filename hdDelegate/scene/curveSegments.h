@@ -20,7 +20,8 @@ struct CurveLayout {
 
 /// Takes a curve of some number of points apart, as UsdGeomBasisCurves says. A curve that has too
 /// few points has no segments.
-CurveLayout curveLayout(int pointCount, CurveBasis basis, CurveWrap wrap);
+/// @param lists whether the points are listed, too
+CurveLayout curveLayout(int pointCount, CurveBasis basis, CurveWrap wrap, bool lists = true);
 
 /// How many varying values such a curve has: one at each end of its segments. OpenUSD counts a
 /// curve that is too short as one segment.

@@ -118,6 +118,10 @@ void finishMesh(const Mesh& mesh, Diagnostics& diagnostics, TriangleMesh& out) {
         for (size_t t = 0; t < out.triangles.size(); ++t)
             out.triangleSubset[t] = subsetOf[out.triangleFace[t]];
     }
+    growBounds(out);
+}
+
+void growBounds(TriangleMesh& out) {
     if (out.triangles.empty()) return;
     out.boundsMin = vec3(INFINITY);
     out.boundsMax = vec3(-INFINITY);

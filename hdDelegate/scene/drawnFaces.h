@@ -31,6 +31,9 @@ std::vector<float> gatherCorners(const DrawnTriangles& drawn, const std::vector<
 /// Fills triangleSubset and the bounds, which both ways of drawing a mesh share.
 void finishMesh(const Mesh& mesh, Diagnostics& diagnostics, TriangleMesh& out);
 
+/// Makes the bounds those of the vertices of all triangles; leaves them where there are none.
+void growBounds(TriangleMesh& out);
+
 /// Which subset each element (face, curve or point) is in: 0 none, else i + 1. Empty when the prim
 /// has no subsets. Indices out of range are reported; of several subsets the first counts.
 std::vector<uint16_t> subsetOfElements(const Geometry& prim, size_t elements,

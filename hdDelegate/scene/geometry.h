@@ -45,7 +45,21 @@ struct Geometry {
     const Primvar* primvar(const std::string& name) const;
 };
 
-/// UsdGeomMesh.
+/// One direction of a NURBS surface.
+struct NurbsDirection {
+    int vertexCount = 0;
+    int order = 0;                ///< degree + 1
+    std::vector<double> knots;    ///< vertexCount + order of them, ascending
+    double low = 0.0, high = 0.0; ///< part that is drawn; all of it where low is not below high
+};
+
+/// What makes a mesh a UsdGeomNurbsPatch.
+struct NurbsPatch {
+    NurbsDirection u, v;
+    std::vector<double> weights; ///< one per control point, not multiplied into it; empty: all 1
+};
+
+/// UsdGeomMesh, or a UsdGeomNurbsPatch.
 struct Mesh : Geometry {
     Sampled<std::vector<vec3>> points;
     std::vector<int> faceVertexCounts;
@@ -60,6 +74,9 @@ struct Mesh : Geometry {
     std::vector<int> cornerIndices;
     std::vector<float> cornerSharpnesses;
     int refineLevel = 0; ///< floor of the refinement (usdview complexity low 0 .. veryhigh 3)
+    /// If given, `points` are the control points, u fastest, and the faces are their grid (see
+    /// setNurbsCage), which nothing draws: it tells how large the surface is.
+    std::shared_ptr<const NurbsPatch> patch;
 
     Mesh() { kind = GeometryKind::Mesh; }
 };

@@ -1,10 +1,10 @@
 #include "hdDelegate/scene/iesProfile.h"
 
+#include "materialNetwork/regularFile.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 namespace patina {
 
@@ -67,14 +67,8 @@ bool bracket(const std::vector<float>& values, float x, size_t& index, float& fr
 
 bool IesProfile::load(const std::string& file, std::string& error) {
     *this = IesProfile();
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        error = "cannot be opened";
-        return false;
-    }
-    std::ostringstream text;
-    text << in.rdbuf();
-    return parse(text.str(), error);
+    std::string text;
+    return readRegularFile(file, mostDocumentBytes, text, error) && parse(text, error);
 }
 
 bool IesProfile::parse(const std::string& text, std::string& error) {

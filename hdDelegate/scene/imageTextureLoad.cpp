@@ -1,6 +1,7 @@
 #include "hdDelegate/scene/imageTextureLoad.h"
 
 #include "hdDelegate/parallel.h"
+#include "materialNetwork/regularFile.h"
 
 #include <OpenImageIO/half.h>
 #include <OpenImageIO/imageio.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 namespace patina {
@@ -32,9 +32,9 @@ struct OpenImage {
     TexelLayout layout = TexelLayout::Rgb;
 
     explicit OpenImage(const std::string& file) {
-        std::error_code ignored;
-        if (file.empty() || !std::filesystem::exists(file, ignored)) {
-            error = "the file does not exist";
+        const std::string problem = whyUnreadable(file, mostImageBytes);
+        if (!problem.empty()) {
+            error = "the file " + problem;
             return;
         }
         OIIO::ImageSpec hints;

@@ -201,8 +201,15 @@ void cube(ShapeBuilder& shape, float size) {
         }
 }
 
-/// How many times longer segments can be without being longer than asked for.
-int coarserBy(const Implicit& prim, float roundEdge) {
+float checked(float value, const char* input, const Implicit& prim, Diagnostics& diagnostics) {
+    if (std::isfinite(value) && value >= 0.0f) return value;
+    diagnostics.warn(prim.path, input, "is negative or not finite; 0 is used");
+    return 0.0f;
+}
+
+} // namespace
+
+int roundCoarseness(const Implicit& prim, float roundEdge) {
     if (!(roundEdge > 0.0f) || !prim.subsets.empty()) return 1;
     const float radius = std::max(prim.radius, prim.radiusTop);
     const float segment = glm::two_pi<float>() * radius / float(aroundSegments);
@@ -212,18 +219,14 @@ int coarserBy(const Implicit& prim, float roundEdge) {
     return coarser;
 }
 
-float checked(float value, const char* input, const Implicit& prim, Diagnostics& diagnostics) {
-    if (std::isfinite(value) && value >= 0.0f) return value;
-    diagnostics.warn(prim.path, input, "is negative or not finite; 0 is used");
-    return 0.0f;
+float roundEdgeOf(float radius, int coarser) {
+    return 1.01f * float(coarser) * glm::two_pi<float>() * radius / float(aroundSegments);
 }
-
-} // namespace
 
 TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& options,
                         Diagnostics& diagnostics) {
     TriangleMesh out;
-    ShapeBuilder shape(out, coarserBy(implicit, options.roundEdge));
+    ShapeBuilder shape(out, roundCoarseness(implicit, options.roundEdge));
     const auto size = [&](float value, const char* input) {
         return checked(value, input, implicit, diagnostics);
     };

@@ -2,18 +2,39 @@
 
 #include "hdDelegate/scene/lightUnits.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace patina {
 
-bool hasInverse(const mat4& m) {
-    const mat4 inverse = glm::inverse(m);
+namespace {
+
+template <class Matrix> bool within(const Matrix& m) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(m[column][row]) || !std::isfinite(inverse[column][row]))
-                return false;
+            if (!(std::abs(double(m[column][row])) <= largestPlace)) return false;
+    return true;
+}
+
+} // namespace
+
+bool isPlace(const MotionTransform& transform) {
+    return std::all_of(transform.values.begin(), transform.values.end(), within<dmat4>);
+}
+
+bool hasInverse(const mat4& m) {
+    if (!within(m) || !within(glm::inverse(m))) return false;
     const float determinant = glm::determinant(mat3(m));
     return std::isfinite(determinant) && determinant != 0.0f;
+}
+
+bool isWideEnough(const mat4& m) {
+    constexpr float most = 1e6f;
+    const mat3 inverse(glm::inverse(m));
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (!(std::abs(inverse[column][row]) <= most)) return false;
+    return hasInverse(m);
 }
 
 void warnOfInstancePrimvars(const Instancer& instancer, Diagnostics& diagnostics) {

@@ -5,8 +5,17 @@
 
 namespace patina {
 
-/// Whether something can be drawn under a transform.
+/// Numbers of transforms, and of their inverses, up to which rays can follow them: those that rays
+/// are made of end at 1e18.
+inline constexpr double largestPlace = 1e15;
+
+/// Whether something may stand under a transform: all of it is finite and within largestPlace.
+bool isPlace(const MotionTransform& transform);
+/// Whether something can be drawn under a transform: its inverse is a place too.
 bool hasInverse(const mat4& m);
+
+/// Whether rays that go into the space of a transform stay so small that none has to be checked.
+bool isWideEnough(const mat4& m);
 
 /// Warns of primvars with a value per instance, which no renderer draws.
 void warnOfInstancePrimvars(const Instancer& instancer, Diagnostics& diagnostics);

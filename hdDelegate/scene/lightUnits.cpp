@@ -92,13 +92,14 @@ vec3 blackbodyColor(float kelvin) {
     return glm::max(rgb / y, vec3(0.0f));
 }
 
-mat4 transformAt(const MotionTransform& transform, float time) {
-    if (transform.empty()) return mat4(1.0f);
-    if (!transform.moves()) return transform.first();
+mat4 transformAt(const MotionTransform& transform, float time, const dvec3& origin) {
+    if (transform.empty()) return seenFrom(origin, dmat4(1.0));
+    if (!transform.moves()) return seenFrom(origin, transform.first());
     const SampleSpan span = sampleSpan(transform.times, time);
-    const mat4& a = transform.values[span.index];
+    const mat4 a = seenFrom(origin, transform.values[span.index]);
     if (span.fraction <= 0.0f) return a;
-    return a * (1.0f - span.fraction) + transform.values[span.index + 1] * span.fraction;
+    return a * (1.0f - span.fraction) +
+           seenFrom(origin, transform.values[span.index + 1]) * span.fraction;
 }
 
 std::string lightSizeInput(const Light& light) {

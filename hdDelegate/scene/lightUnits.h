@@ -10,7 +10,8 @@ namespace patina {
 vec3 blackbodyColor(float kelvin);
 
 /// Transform of something that moves, at a time; interpolated element by element.
-mat4 transformAt(const MotionTransform& transform, float time);
+/// @param origin of the space that it is wanted in, see seenFrom()
+mat4 transformAt(const MotionTransform& transform, float time, const dvec3& origin = dvec3(0.0));
 
 /// World-space area that `normalize` divides by: rect and disk one side, sphere and cylinder
 /// (without its caps) all of the outside, under any affine transform. Distant lights: the projected

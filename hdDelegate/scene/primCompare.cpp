@@ -24,10 +24,21 @@ template <class T> bool same(const std::vector<T>& a, const std::vector<T>& b) {
                                               [](const T& x, const T& y) { return same(x, y); });
 }
 
+bool same(const NurbsDirection& a, const NurbsDirection& b) {
+    return a.vertexCount == b.vertexCount && a.order == b.order && a.knots == b.knots &&
+           a.low == b.low && a.high == b.high;
+}
+
+bool same(const std::shared_ptr<const NurbsPatch>& a, const std::shared_ptr<const NurbsPatch>& b) {
+    if (!a || !b || a == b) return a == b;
+    return same(a->u, b->u) && same(a->v, b->v) && a->weights == b->weights;
+}
+
 bool sameKind(const Mesh& a, const Mesh& b) {
-    return same(a.points, b.points) && a.faceVertexCounts == b.faceVertexCounts &&
-           a.faceVertexIndices == b.faceVertexIndices && a.holeIndices == b.holeIndices &&
-           a.scheme == b.scheme && a.interpolateBoundary == b.interpolateBoundary &&
+    return same(a.patch, b.patch) && same(a.points, b.points) &&
+           a.faceVertexCounts == b.faceVertexCounts && a.faceVertexIndices == b.faceVertexIndices &&
+           a.holeIndices == b.holeIndices && a.scheme == b.scheme &&
+           a.interpolateBoundary == b.interpolateBoundary &&
            a.faceVaryingLinearInterpolation == b.faceVaryingLinearInterpolation &&
            a.triangleSubdivisionRule == b.triangleSubdivisionRule &&
            a.creaseIndices == b.creaseIndices && a.creaseLengths == b.creaseLengths &&

@@ -1,5 +1,8 @@
 #include "hdDelegate/scene/scene.h"
 
+#include "hdDelegate/scene/cameraCheck.h"
+#include "hdDelegate/scene/instancerCheck.h"
+
 #include <cmath>
 #include <utility>
 
@@ -52,8 +55,19 @@ SceneEdit::SceneEdit(SceneEdit&& other) noexcept
       _metersPerUnit(other._metersPerUnit), _changes(std::move(other._changes)),
       _removed(std::move(other._removed)) {}
 
+template <class T> bool SceneEdit::stands(const T& prim, PrimKind kind, const char* consequence) {
+    if (isPlace(prim.transform)) return true;
+    if (_scene)
+        _scene->diagnostics().warn(
+            prim.path, "transform",
+            std::string("has numbers that are not finite or beyond 1e15; ") + consequence);
+    remove(prim.path, kind);
+    return false;
+}
+
 void SceneEdit::set(std::shared_ptr<const Geometry> prim) {
-    if (prim) _changes.geometry[prim->path] = std::move(prim);
+    if (prim && stands(*prim, PrimKind::Geometry, "the prim is not drawn"))
+        _changes.geometry[prim->path] = std::move(prim);
 }
 
 void SceneEdit::set(std::shared_ptr<const Instancer> prim) {
@@ -61,10 +75,12 @@ void SceneEdit::set(std::shared_ptr<const Instancer> prim) {
 }
 
 void SceneEdit::set(std::shared_ptr<const Light> prim) {
-    if (prim) _changes.lights[prim->path] = std::move(prim);
+    if (prim && stands(*prim, PrimKind::Light, "the light is off"))
+        _changes.lights[prim->path] = std::move(prim);
 }
 
 void SceneEdit::set(std::shared_ptr<const Camera> prim) {
+    if (prim && _scene) prim = checkedCamera(std::move(prim), _scene->diagnostics());
     if (prim) _changes.cameras[prim->path] = std::move(prim);
 }
 

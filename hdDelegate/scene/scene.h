@@ -63,6 +63,8 @@ public:
     SceneEdit& operator=(const SceneEdit&) = delete;
     ~SceneEdit() { commit(); }
 
+    /// Prims whose transform no ray could follow are left out with a warning, see isPlace(); of
+    /// cameras what cannot be used is replaced, see checkedCamera().
     void set(std::shared_ptr<const Geometry> prim);
     void set(std::shared_ptr<const Instancer> prim);
     void set(std::shared_ptr<const Light> prim);
@@ -75,6 +77,8 @@ public:
     void commit();
 
 private:
+    template <class T> bool stands(const T& prim, PrimKind kind, const char* consequence);
+
     Scene* _scene;
     bool _clear = false;
     double _metersPerUnit = -1.0;

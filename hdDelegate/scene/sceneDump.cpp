@@ -66,6 +66,9 @@ public:
     void array(const std::string& name, const std::vector<float>& v) {
         array(name, v.data(), v.size());
     }
+    void array(const std::string& name, const std::vector<double>& v) {
+        array(name, std::vector<float>(v.begin(), v.end()));
+    }
     void names(const std::string& name, const std::vector<std::string>& v) {
         if (v.empty()) return;
         std::string all;
@@ -74,9 +77,11 @@ public:
         line(name, all);
     }
     void transform(const std::string& name, const MotionTransform& m) {
-        if (!m.moves() && !m.empty() && m.first() == mat4(1.0f)) return;
-        for (size_t i = 0; i < m.values.size(); ++i)
-            array(timed(name, m.times, i), &m.values[i][0][0], 16, 4);
+        if (!m.moves() && !m.empty() && m.first() == dmat4(1.0)) return;
+        for (size_t i = 0; i < m.values.size(); ++i) {
+            const mat4 value(m.values[i]);
+            array(timed(name, m.times, i), &value[0][0], 16, 4);
+        }
     }
     void points(const Sampled<std::vector<vec3>>& p) {
         for (size_t i = 0; i < p.values.size(); ++i)
@@ -133,6 +138,12 @@ void writeVisibility(Writer& w, const Visibility& v) {
     w.field("visibility shadow", v.shadow, true);
 }
 
+void writeDirection(Writer& w, const std::string& name, const NurbsDirection& d) {
+    w.line(name, std::to_string(d.vertexCount) + " order " + std::to_string(d.order));
+    w.array(name + " knots", d.knots);
+    if (d.low < d.high) w.array(name + " range", std::vector<double>{d.low, d.high});
+}
+
 void writeMesh(Writer& w, const Mesh& m) {
     const Mesh d;
     w.points(m.points);
@@ -150,6 +161,10 @@ void writeMesh(Writer& w, const Mesh& m) {
     w.array("cornerIndices", m.cornerIndices);
     w.array("cornerSharpnesses", m.cornerSharpnesses);
     w.field("refineLevel", m.refineLevel, d.refineLevel);
+    if (!m.patch) return;
+    writeDirection(w, "patch u", m.patch->u);
+    writeDirection(w, "patch v", m.patch->v);
+    w.array("patch weights", m.patch->weights);
 }
 
 void writeImplicit(Writer& w, const Implicit& i) {

@@ -1,6 +1,7 @@
 #include "hdDelegate/scene/tessellate.h"
 
 #include "hdDelegate/scene/drawnFaces.h"
+#include "hdDelegate/scene/nurbs.h"
 #include "hdDelegate/scene/refineLevel.h"
 
 namespace patina {
@@ -8,6 +9,7 @@ namespace patina {
 TriangleMesh tessellate(const Mesh& mesh, const TessellationOptions& options,
                         Diagnostics& diagnostics) {
     PointSteps points = resamplePoints(mesh.points, mesh.path, options, diagnostics);
+    if (mesh.patch) return drawPatch(mesh, points, options, diagnostics);
     if (points.count() == 0)
         diagnostics.warn(mesh.path, "points", "the mesh has none and is not drawn");
     else if (mesh.faceVertexCounts.empty())

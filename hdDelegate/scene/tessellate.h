@@ -33,6 +33,12 @@ struct TessellationOptions {
 /// vertices lie on the limit surface and have its normals (bilinear: flat faces). Level 0 draws the
 /// control cage with smooth normals. Authored normals are ignored, as UsdGeomMesh says.
 ///
+/// A NURBS patch has its vertices on the surface, with the surface's normals, and is cut as
+/// subdivision surfaces are, each span of knots by itself. Vertex primvars are rational like
+/// points; a segment, from one knot to the next, counts as a face: uniform primvars have a value
+/// for each, varying ones one at each of its corners. Without a primvar `st` there is one, 0..1
+/// over what is drawn.
+///
 /// Primvars: vertex ones are subdivided like points, varying ones linearly, faceVarying ones by
 /// faceVaryingLinearInterpolation with seams where values differ, uniform ones stay on their face.
 ///
@@ -48,6 +54,11 @@ TriangleMesh tessellate(const Mesh& mesh, const TessellationOptions& options,
 /// Sizes that are negative or not finite become 0 with a warning; a prim of size 0 is not drawn.
 TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& options,
                         Diagnostics& diagnostics);
+
+/// By how much fewer segments a round prim takes for TessellationOptions::roundEdge: 1, 2, 4 or 8.
+int roundCoarseness(const Implicit& prim, float roundEdge);
+/// A roundEdge that gives a prim of this radius so many times fewer segments.
+float roundEdgeOf(float radius, int coarser);
 
 /// Prepares curves. Phantom points of pinned curves and wrapped points of periodic ones are added.
 /// Widths (diameters) may have any interpolation; without them they are 1, the fallback that

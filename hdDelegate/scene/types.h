@@ -7,6 +7,8 @@
 
 namespace patina {
 
+using glm::dmat4;
+using glm::dvec3;
 using glm::ivec2;
 using glm::ivec3;
 using glm::mat3;
@@ -43,6 +45,20 @@ struct Primvar {
 
 /// Transforms are column vectors as in GLM: world = transform * local. The local frame is scene
 /// units; a motion transform is interpolated linearly, element by element, between its samples.
-using MotionTransform = Sampled<mat4>;
+/// They are kept in double, so that a renderer can look at what is far away from near by: see
+/// seenFrom().
+struct MotionTransform : Sampled<dmat4> {
+    MotionTransform() = default;
+    MotionTransform(const dmat4& value) : Sampled<dmat4>(value) {}
+    MotionTransform(const mat4& value) : Sampled<dmat4>(dmat4(value)) {}
+    MotionTransform(Sampled<dmat4> samples) : Sampled<dmat4>(std::move(samples)) {}
+};
+
+/// A transform into the world, as one into a space whose origin is that place in the world. From
+/// the world's own origin nothing changes.
+inline mat4 seenFrom(const dvec3& origin, dmat4 toWorld) {
+    toWorld[3] -= glm::dvec4(origin, 0.0);
+    return mat4(toWorld);
+}
 
 } // namespace patina

@@ -5,6 +5,9 @@
 #include "materialNetwork/cpu/microsurface.h"
 #include "materialNetwork/cpu/shadingFrame.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace patina {
 
 namespace {
@@ -176,6 +179,29 @@ void Bsdf::walkSubsurface() {
     _nonDelta = false;
     for (int i = 0; i < _lobeCount; ++i)
         _nonDelta |= _lobes[i].kind != LobeKind::Subsurface && lobeNonDelta(_lobes[i]);
+    preferWalks();
+}
+
+/// Light samples find all other lobes, walks are found by being drawn alone, and what they bring
+/// varies the more the darker they are: they are drawn as the root of their colour, up to half of
+/// the time.
+void Bsdf::preferWalks() {
+    const auto walks = [](const BsdfLobe& l) { return l.kind == LobeKind::Subsurface; };
+    const auto wanted = [](const BsdfLobe& l) {
+        const glm::vec3& c = l.subsurface.diffuse.color;
+        return l.probability / std::sqrt(std::clamp(std::max({c.x, c.y, c.z}), 1e-6f, 1.0f));
+    };
+    float before = 0.0f, after = 0.0f, others = 0.0f;
+    for (int i = 0; i < _lobeCount; ++i) {
+        (walks(_lobes[i]) ? before : others) += _lobes[i].probability;
+        if (walks(_lobes[i])) after += wanted(_lobes[i]);
+    }
+    if (!(before > 0.0f) || !(others > 0.0f)) return;
+    const float share = std::max(before / (before + others),
+                                 std::min(after / (after + others), 0.5f));
+    for (int i = 0; i < _lobeCount; ++i)
+        _lobes[i].probability = walks(_lobes[i]) ? wanted(_lobes[i]) * (share / after)
+                                                 : _lobes[i].probability * ((1.0f - share) / others);
 }
 
 SubsurfaceEntry Bsdf::subsurface(const BsdfSample& sample) const {

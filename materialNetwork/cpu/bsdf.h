@@ -184,6 +184,7 @@ private:
                             const glm::vec3& local) const;
     BsdfSample sampleLobe(const BsdfLobe& lobe, const glm::vec3& u, glm::vec3& local) const;
     glm::vec3 sampledAlbedo() const;
+    void preferWalks();
 
     int _lobeCount = 0;
     bool _nonDelta = false;

@@ -28,17 +28,21 @@ glm::vec3 bendNormal(glm::vec3 n, const glm::vec3& v, const glm::vec3& g) {
         const glm::vec3 turned = n + v * (margin - nv);
         const float length = glm::length(turned);
         n = usable(length) ? turned / length : g;
-        nv = glm::dot(n, v);
+        nv = usable(length) ? margin / length : glm::dot(n, v);
     }
     const glm::vec3 mirror = n * (2.0f * nv) - v;
     const float above = glm::dot(mirror, g);
     // Near grazing even the geometric normal's own mirror direction lies below the margin.
     const float wanted = std::min(margin, glm::dot(v, g));
     if (above >= wanted) return n;
-    const glm::vec3 lifted = mirror + g * (wanted - above);
-    const float length = glm::length(lifted);
+    // Half way from v to the mirror direction lifted by `lift`. At grazing angles the two are
+    // nearly opposite, so that their sum holds few digits: it is put together from what is left of
+    // it.
+    const float lift = wanted - above;
+    const float length = glm::length(mirror + g * lift);
     if (!usable(length)) return g;
-    const glm::vec3 half = v + lifted / length;
+    const float longer = lift * (2.0f * above + lift) / (length + 1.0f); // length - 1
+    const glm::vec3 half = n * (2.0f * nv) + g * lift + v * longer;
     const float halfLength = glm::length(half);
     return usable(halfLength) ? half / halfLength : g;
 }

@@ -16,6 +16,7 @@ public:
 /// Where a material is evaluated. World space, unit vectors.
 struct ShadingPoint {
     glm::vec3 position{0.0f};
+    glm::vec3 worldOrigin{0.0f}; ///< what `position` is relative to
     glm::vec3 objectPosition{0.0f};
     glm::vec3 geometricNormal{0, 0, 1}; ///< points out of the front side
     glm::vec3 normal{0, 0, 1};          ///< interpolated; same hemisphere as geometricNormal
@@ -27,6 +28,8 @@ struct ShadingPoint {
     float lengthPerUv = 1.0f; ///< world length of one unit of the default uv set
     float uvFootprint = 0.0f; ///< width of the ray cone in units of the default uv set
     const PrimvarReader* primvars = nullptr;
+
+    glm::vec3 worldPosition() const { return position + worldOrigin; }
 };
 
 } // namespace patina

@@ -1,5 +1,7 @@
 #include "materialNetwork/glsl/glslClosures.h"
 
+#include <cmath>
+
 namespace patina {
 
 namespace {
@@ -15,9 +17,14 @@ void line(std::string& text, const std::string& more) {
 } // namespace
 
 std::string glslLinearClosure(const std::vector<ClosureOp>& ops, const std::string& prefix,
-                              const GlslRegister& reg, std::string& result) {
+                              const GlslRegister& reg,
+                              const std::function<std::string(const ClosureOp&)>& profile,
+                              std::string& result) {
     std::string text;
-
+    const auto axis = [&](const ClosureOp& op) {
+        return op.normal >= 0 ? "unitOr(" + reg(op.normal) + ".xyz, point.normal)"
+                              : std::string("point.normal");
+    };
     const int count = int(ops.size());
     const auto of = [&](int i) { return i < 0 ? "vec3(0.0)" : prefix + number(i); };
     for (int i = 0; i < count; ++i) {
@@ -35,9 +42,13 @@ std::string glslLinearClosure(const std::vector<ClosureOp>& ops, const std::stri
             value = "emitted(" + reg(op.factor) + ".xyz) * edfConical(";
             value += reg(op.first) + ".x, ";
             value += reg(op.second) + ".x, abs(dot(wo, ";
-            value += op.normal >= 0 ? "unitOr(" + reg(op.normal) + ".xyz, point.normal)"
-                                    : std::string("point.normal");
-            value += ")))";
+            value += axis(op) + ")))";
+            break;
+        }
+        case ClosureKind::MeasuredEdf: {
+            value = "emitted(" + reg(op.factor) + ".xyz)";
+            const std::string name = profile(op);
+            if (!name.empty()) value += " * " + name + "(wo, " + axis(op) + ")";
             break;
         }
         case ClosureKind::SchlickEdf:
@@ -50,6 +61,51 @@ std::string glslLinearClosure(const std::vector<ClosureOp>& ops, const std::stri
         line(text, "    vec3 " + of(i) + " = emitted(" + value + ");");
     }
     result = of(count - 1);
+    return text;
+}
+
+GlslProfileTable::GlslProfileTable(const EmissionProfile& profile) : angles(91), turns(25) {
+    const float quarter = 1.57079633f;
+    std::vector<float> found;
+    bool round = true;
+    for (int k = 0; k < turns; ++k)
+        for (int i = 0; i < angles; ++i) {
+            const float amount = profile.factor(quarter * float(i) / float(angles - 1),
+                                                4.0f * quarter * float(k) / float(turns - 1));
+            found.push_back(amount > 0.0f ? amount : 0.0f);
+            round &= std::fabs(found.back() - found[size_t(i)]) <= 1e-4f * found[size_t(i)];
+        }
+    if (round) {
+        turns = 1;
+        found.resize(size_t(angles));
+    }
+    values.assign((found.size() + 3) / 4, glm::vec4(0.0f));
+    for (size_t i = 0; i < found.size(); ++i)
+        values[i / 4][int(i % 4)] = found[i];
+}
+
+std::string glslProfile(const std::string& name, const GlslProfileTable& table, size_t first) {
+    const std::string angles = number(table.angles), steps = number(table.angles - 1) + ".0";
+    std::string text;
+    line(text, "float " + name + "At(int i) {");
+    line(text, "    return materialParameter(" + number(int(first)) + " + i / 4)[i % 4];");
+    line(text, "}");
+    line(text, "float " + name + "(vec3 wo, vec3 n) {");
+    line(text, "    float t = acos(min(abs(dot(wo, n)), 1.0)) * 0.636619772 * " + steps + ";");
+    line(text, "    int i = min(int(t), " + number(table.angles - 2) + ");");
+    line(text, "    t -= float(i);");
+    if (table.turns < 2) {
+        line(text, "    return mix(" + name + "At(i), " + name + "At(i + 1), t);");
+    } else {
+        line(text, "    float u = turnAbout(wo, n) * " + number(table.turns - 1) + ".0;");
+        line(text, "    int k = min(int(u), " + number(table.turns - 2) + ");");
+        line(text, "    i += k * " + angles + ";");
+        line(text, "    float low = mix(" + name + "At(i), " + name + "At(i + 1), t);");
+        line(text, "    i += " + angles + ";");
+        line(text, "    return mix(low, mix(" + name + "At(i), " + name +
+                       "At(i + 1), t), u - float(k));");
+    }
+    line(text, "}");
     return text;
 }
 

@@ -350,16 +350,31 @@ private:
 
     /// As linearClosure().
     void emissionFunction() {
-        for (const ClosureOp& op : _code.edf)
-            if (op.profile) {
+        // Nodes of one file share its table.
+        std::vector<std::pair<const EmissionProfile*, std::string>> profiles;
+        const auto profile = [&](const ClosureOp& op) {
+            const auto known =
+                std::find_if(profiles.begin(), profiles.end(),
+                             [&](const auto& item) { return item.first == op.profile.get(); });
+            return known != profiles.end() ? known->second : std::string();
+        };
+        for (const ClosureOp& op : _code.edf) {
+            if (!op.profile || !profile(op).empty()) continue;
+            const GlslProfileTable table(*op.profile);
+            const size_t first = _out.parameters.size();
+            if (first + table.values.size() > maxWithCurves) {
                 _out.leftOut.push_back(
-                    "the profile of a measured_edf is not shown: it emits evenly");
+                    "there is no room for the profile of a measured_edf: it emits evenly");
                 break;
             }
+            _out.parameters.insert(_out.parameters.end(), table.values.begin(), table.values.end());
+            profiles.emplace_back(op.profile.get(), "profile" + number(int(profiles.size())));
+            _text += glslProfile(profiles.back().second, table, first);
+        }
         line("vec3 materialEmission(vec3 wo) {");
         instructions(_code.emissionCode);
         std::string result;
-        _text += glslLinearClosure(_code.edf, "e", registers(), result);
+        _text += glslLinearClosure(_code.edf, "e", registers(), profile, result);
         line("    return " + result + ";");
         line("}");
     }
@@ -372,7 +387,8 @@ private:
         _text += glslVdf(_code.vdf, registers());
         line("    vec3 wo = vec3(0.0);");
         std::string result;
-        _text += glslLinearClosure(_code.volumeEdf, "g", registers(), result);
+        const auto even = [](const ClosureOp&) { return std::string(); };
+        _text += glslLinearClosure(_code.volumeEdf, "g", registers(), even, result);
         line("    m.emission = " + result + ";");
         line("    return m;");
         line("}");

@@ -37,7 +37,8 @@ vec3 tangentTo(Call c, const vec3& t) {
 }
 
 void position(Call c) {
-    c.out() = vec4(c.data.mode == SpaceWorld ? c.point().position : c.point().objectPosition, 0.0f);
+    c.out() = vec4(c.data.mode == SpaceWorld ? c.point().worldPosition() : c.point().objectPosition,
+                   0.0f);
 }
 void normal(Call c) {
     c.out() = vec4(normalTo(c, c.point().normal), 0.0f);

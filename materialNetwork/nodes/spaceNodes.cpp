@@ -39,10 +39,11 @@ void transformPoint(Call c) {
         c.out() = c.in(0);
     } else if (c.data.mode == ToWorld) {
         c.out() =
-            vec4(objectToWorld(c) * (p - c.point().objectPosition) + c.point().position, 0.0f);
+            vec4(objectToWorld(c) * (p - c.point().objectPosition) + c.point().worldPosition(),
+                 0.0f);
     } else {
         const mat3 inverse = glm::transpose(c.point().objectToWorldNormal);
-        c.out() = vec4(inverse * (p - c.point().position) + c.point().objectPosition, 0.0f);
+        c.out() = vec4(inverse * (p - c.point().worldPosition()) + c.point().objectPosition, 0.0f);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "plugin/hydra/meshLightSceneIndex.h"
 #include "plugin/hydra/relinkedLightSceneIndex.h"
+#include "plugin/hydra/sourceFormsSceneIndex.h"
 
 #include <pxr/imaging/hd/retainedDataSource.h>
 #include <pxr/imaging/hd/sceneIndexPlugin.h>
@@ -24,7 +25,8 @@ public:
 protected:
     HdSceneIndexBaseRefPtr _AppendSceneIndex(const HdSceneIndexBaseRefPtr& input,
                                              const HdContainerDataSourceHandle&) override {
-        HdSceneIndexBaseRefPtr scene = HdsiNurbsApproximatingSceneIndex::New(input);
+        HdSceneIndexBaseRefPtr scene = HdPatinaSourceFormsSceneIndex::New(input);
+        scene = HdsiNurbsApproximatingSceneIndex::New(scene);
 #if PATINA_HAS_TET_MESHES
         scene = HdsiTetMeshConversionSceneIndex::New(scene);
 #endif

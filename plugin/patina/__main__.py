@@ -1,5 +1,12 @@
 import sys
 
-from patina.cli.main import main
+try:
+    from patina.cli import interrupts
+
+    interrupts.hold_standard_streams()
+    from patina.cli.main import main
+except KeyboardInterrupt:  # before there is anything that would handle it
+    print("patina: interrupted", file=sys.stderr)
+    sys.exit(1)
 
 sys.exit(main())

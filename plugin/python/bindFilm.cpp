@@ -1,6 +1,7 @@
 // Film, image files and colour of the Python module. Names are PEP 8's; options of images are the
 // fields of ImageOptions in snake case.
 
+#include "hdDelegate/film/atomicFile.h"
 #include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/film/relativeError.h"
 #include "materialNetwork/color/colorSpaces.h"
@@ -223,6 +224,16 @@ void bindFilm(py::module_& m) {
             "Float array of height x width x channels, top row first, without a copy.")
         .def_property_readonly("metadata",
                                [](const ImageData& image) { return metadataTo(image.metadata); });
+
+    py::class_<AtomicFile>(m, "AtomicFile",
+                           "A file that appears all at once: written to temporary_path, and "
+                           "renamed by commit(). RuntimeError where the path is no regular file.")
+        .def(py::init<const std::string&>(), py::arg("path"))
+        .def_property_readonly("temporary_path", &AtomicFile::temporaryPath)
+        .def("commit", &AtomicFile::commit, py::call_guard<py::gil_scoped_release>())
+        .def("discard", &AtomicFile::discard, "Ends without the file, unless it was committed.");
+    m.def("check_output", &checkOutput, py::arg("path"),
+          "RuntimeError says early why a file could not be written; its folder is not touched.");
 
     m.def("read_image", &readImage, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
           "Reads any image; RuntimeError says in one line why not.");

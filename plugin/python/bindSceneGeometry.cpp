@@ -1,6 +1,9 @@
 // Geometry of a scene edit.
 
 #include "plugin/python/sceneEdit.h"
+#include "hdDelegate/scene/curveForms.h"
+#include "hdDelegate/scene/nurbs.h"
+#include "hdDelegate/scene/tetSurface.h"
 #include "plugin/python/fields.h"
 
 namespace py = pybind11;
@@ -55,6 +58,71 @@ void setCurves(PythonEdit& edit, const std::string& path, const py::kwargs& valu
         .read("wrap", curves->wrap)
         .finish();
     edit.set(std::shared_ptr<const Geometry>(std::move(curves)));
+}
+
+void setNurbsPatch(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
+    auto mesh = std::make_shared<Mesh>();
+    auto patch = std::make_shared<NurbsPatch>();
+    mesh->path = path;
+    std::vector<double> rangeU, rangeV;
+    Fields fields("set_nurbs_patch", path, values);
+    readCommon(fields, *mesh)
+        .read("points", mesh->points)
+        .read("u_vertex_count", patch->u.vertexCount)
+        .read("v_vertex_count", patch->v.vertexCount)
+        .read("u_order", patch->u.order)
+        .read("v_order", patch->v.order)
+        .read("u_knots", patch->u.knots)
+        .read("v_knots", patch->v.knots)
+        .read("u_range", rangeU)
+        .read("v_range", rangeV)
+        .read("weights", patch->weights)
+        .read("refine_level", mesh->refineLevel)
+        .finish();
+    if (rangeU.size() == 2) patch->u.low = rangeU[0], patch->u.high = rangeU[1];
+    if (rangeV.size() == 2) patch->v.low = rangeV[0], patch->v.high = rangeV[1];
+    mesh->patch = std::move(patch);
+    setNurbsCage(*mesh);
+    edit.set(std::shared_ptr<const Geometry>(std::move(mesh)));
+}
+
+void setTetMesh(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
+    TetMesh mesh;
+    mesh.path = path;
+    Fields fields("set_tet_mesh", path, values);
+    readCommon(fields, mesh)
+        .read("points", mesh.points)
+        .read("tets", mesh.tets)
+        .read("surface", mesh.surface)
+        .finish();
+    edit.set(std::shared_ptr<const Geometry>(surfaceOf(mesh, edit.scene->diagnostics())));
+}
+
+void setHermiteCurves(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
+    HermiteCurves curves;
+    curves.path = path;
+    Fields fields("set_hermite_curves", path, values);
+    readCommon(fields, curves)
+        .read("points", curves.points)
+        .read("tangents", curves.tangents)
+        .read("curve_vertex_counts", curves.curveVertexCounts)
+        .finish();
+    edit.set(std::shared_ptr<const Geometry>(toBezier(curves, edit.scene->diagnostics())));
+}
+
+void setNurbsCurves(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
+    NurbsCurves curves;
+    curves.path = path;
+    Fields fields("set_nurbs_curves", path, values);
+    readCommon(fields, curves)
+        .read("points", curves.points)
+        .read("curve_vertex_counts", curves.curveVertexCounts)
+        .read("orders", curves.orders)
+        .read("knots", curves.knots)
+        .read("ranges", curves.ranges)
+        .read("weights", curves.weights)
+        .finish();
+    edit.set(std::shared_ptr<const Geometry>(toBezier(curves, edit.scene->diagnostics())));
 }
 
 void setPoints(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
@@ -124,6 +192,13 @@ void setInstancer(PythonEdit& edit, const std::string& path, const py::kwargs& v
 void bindSceneGeometry(py::class_<PythonEdit>& edit) {
     edit.def("set_mesh", &setMesh, "A UsdGeomMesh; keywords are the fields of Mesh.")
         .def("set_curves", &setCurves, "A UsdGeomBasisCurves; keywords are the fields of Curves.")
+        .def("set_nurbs_patch", &setNurbsPatch,
+             "A UsdGeomNurbsPatch; weights are one per point, ranges two numbers.")
+        .def("set_tet_mesh", &setTetMesh,
+             "A UsdGeomTetMesh; tets are four indices of points each, surface three or nothing.")
+        .def("set_hermite_curves", &setHermiteCurves, "A UsdGeomHermiteCurves, as Bezier curves.")
+        .def("set_nurbs_curves", &setNurbsCurves,
+             "A UsdGeomNurbsCurves, as Bezier curves; ranges are two numbers per curve.")
         .def("set_points", &setPoints, "A UsdGeomPoints; keywords are the fields of Points.")
         .def("set_implicit", &setImplicit, "Sphere, cube, cone, cylinder, capsule or plane.")
         .def("set_volume", &setVolume,

@@ -47,9 +47,9 @@ bool splitTimes(py::handle from, std::vector<float>& times, py::sequence& values
     return true;
 }
 
-std::vector<mat4> matrices(py::handle from) {
+std::vector<dmat4> matrices(py::handle from) {
     // Row vectors row by row are column vectors column by column.
-    return elements<mat4, 16, float>(arrayOf<float>(from).reshape({-1}));
+    return elements<dmat4, 16, double>(arrayOf<double>(from).reshape({-1}));
 }
 
 template <class T> void fromName(py::handle from, T& to, const std::map<std::string, T>& names) {
@@ -107,6 +107,9 @@ void convert(py::handle from, std::vector<int>& to) {
 void convert(py::handle from, std::vector<float>& to) {
     to = elements<float, 1, float>(from);
 }
+void convert(py::handle from, std::vector<double>& to) {
+    to = elements<double, 1, double>(from);
+}
 void convert(py::handle from, std::vector<vec3>& to) {
     to = elements<vec3, 3, float>(from);
 }
@@ -117,7 +120,7 @@ void convert(py::handle from, std::vector<vec4>& to) {
 void convert(py::handle from, MotionTransform& to) {
     std::vector<float> times;
     py::sequence samples;
-    std::vector<mat4> values;
+    std::vector<dmat4> values;
     if (splitTimes(from, times, samples)) {
         values = matrices(samples);
         if (values.size() != times.size()) throw py::value_error("needs a matrix for each time");
@@ -133,7 +136,7 @@ void convert(py::handle from, MotionTransform& to) {
 void convert(py::handle from, std::vector<MotionTransform>& to) {
     std::vector<float> times;
     py::sequence samples;
-    std::vector<std::vector<mat4>> values;
+    std::vector<std::vector<dmat4>> values;
     if (splitTimes(from, times, samples)) {
         for (size_t i = 0; i < times.size(); ++i)
             values.push_back(matrices(py::object(samples[i])));

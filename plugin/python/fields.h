@@ -17,6 +17,7 @@ namespace patina {
 void convert(pybind11::handle from, vec3& to);
 void convert(pybind11::handle from, std::vector<int>& to);
 void convert(pybind11::handle from, std::vector<float>& to);
+void convert(pybind11::handle from, std::vector<double>& to);
 void convert(pybind11::handle from, std::vector<vec3>& to);
 void convert(pybind11::handle from, std::vector<vec4>& to);
 void convert(pybind11::handle from, MotionTransform& to);

@@ -1,8 +1,28 @@
+#include "materialNetwork/utf8.h"
+
 #include <pybind11/pybind11.h>
+
+#include <exception>
+#include <stdexcept>
+#include <typeinfo>
 
 namespace py = pybind11;
 
 namespace patina {
+
+namespace {
+
+/// Messages quote names in files, which are bytes of any kind; pybind11 takes UTF-8 alone.
+void translateRuntimeError(std::exception_ptr pointer) {
+    try {
+        if (pointer) std::rethrow_exception(pointer);
+    } catch (const std::runtime_error& error) {
+        if (typeid(error) != typeid(std::runtime_error)) throw; // pybind11 knows the others
+        PyErr_SetString(PyExc_RuntimeError, validUtf8(error.what()).c_str());
+    }
+}
+
+} // namespace
 
 void bindMachine(py::module_& m);
 void bindNetwork(py::module_& m);
@@ -72,6 +92,7 @@ Network(path)
 
 Film, images and colour; Renderer and its settings; materials: see the classes' own help.)";
 
+    py::register_exception_translator(&patina::translateRuntimeError);
     patina::bindMachine(m);
     patina::bindNetwork(m);
     patina::bindScene(m);

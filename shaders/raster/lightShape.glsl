@@ -1,9 +1,10 @@
-// What is inside of a sphere light is drawn in none of its maps: its samples are inside, too, but it
-// shines from its surface.
-layout(location = 11) uniform mat4 worldToLight; // to the sphere's coordinates
-layout(location = 12) uniform int isSphereLight;
+// What is drawn in none of a light's maps, see ShadowView::Own. What is inside of a sphere light: its
+// samples are inside, too, but it shines from its surface. And what lies in the plane of a flat
+// emitter: seen from a place on it, it is a line, which rounding makes a half of all that is seen.
+layout(location = 11) uniform mat4 worldToLight;
+layout(location = 12) uniform int ownShape; // 1 sphere, 2 plane
 
-bool isInsideLight(vec3 p) {
+bool isOfLight(vec3 p) {
     vec3 q = (worldToLight * vec4(p, 1.0)).xyz;
-    return isSphereLight != 0 && dot(q, q) < 1.0;
+    return ownShape == 1 ? dot(q, q) < 1.0 : ownShape == 2 && abs(q.z) < 1.0;
 }

@@ -18,6 +18,7 @@ struct Light {
     vec4 shadowColor; // w: density by area of a rect or disk without an image
     vec4 fade;      // of shadows: distance, falloff, gamma; w: how often the light counts
     vec4 table;     // x first value of an image (-1 none), y width, z height; w first of a profile (-1)
+                    // Of triangles: x first of RasterEmission (-1 even), y steps of the angle, z of the turn
     vec4 shapingX;  // local x across the axis; w: thetas of the profile
     vec4 shapingY;  // w: phis
 };
@@ -118,6 +119,23 @@ vec4 imageOfRect(Light l, vec2 q) {
     return vec4(value.rgb, lightTables[first + cell.y * w + cell.x].w);
 }
 
+// What a glowing triangle gives in a direction away from it, see RasterEmission.
+vec3 emissionOfTriangle(Light l, vec3 away) {
+    if (l.table.x < 0.0) return vec3(1.0);
+    int steps = int(l.table.y);
+    float x = acos(clamp(dot(away, l.shaping.xyz), -1.0, 1.0)) * INV_PI * (l.table.y - 1.0);
+    int i = min(int(x), steps - 2), at = int(l.table.x) + i;
+    float share = x - float(i);
+    vec3 low = mix(lightTables[at].rgb, lightTables[at + 1].rgb, share);
+    if (l.table.z < 2.0) return low;
+    float y = fract(atan(dot(away, l.shapingY.xyz), dot(away, l.shapingX.xyz)) / TWO_PI) * (l.table.z - 1.0);
+    int k = min(int(y), int(l.table.z) - 2);
+    at += k * steps;
+    low = mix(lightTables[at].rgb, lightTables[at + 1].rgb, share);
+    vec3 high = mix(lightTables[at + steps].rgb, lightTables[at + steps + 1].rgb, share);
+    return mix(low, high, y - float(k));
+}
+
 // First point of the emitting side that a ray meets; density by solid angle of what samples draw, and
 // the factor of the radiance there that is not the shaping's.
 bool lightHit(Light l, vec3 origin, vec3 direction, out float t, out float density, out vec3 image) {
@@ -181,7 +199,10 @@ vec3 lightSample(Light l, vec3 p, out vec3 wi, out float density, out float reac
     if (kind == LIGHT_RECT && l.table.x >= 0.0)
         radiance *= imageOfRect(l, toShape(l, l.sampled.xyz - l.origin.xyz).xy).rgb;
     float c = -dot(l.normal.xyz, wi);
-    if (kind == LIGHT_TRIANGLE && l.cone.z != 0.0) c = abs(c);
+    if (kind == LIGHT_TRIANGLE) {
+        if (l.cone.z != 0.0) c = abs(c);
+        radiance *= emissionOfTriangle(l, -wi);
+    }
     if (c <= 0.0) return vec3(0.0);
     density *= d2 / c;
     return radiance;

@@ -123,6 +123,16 @@ vec3 toWorld(Frame f, vec3 v) {
     return f.tangent * v.x + f.bitangent * v.y + f.normal * v.z;
 }
 
+// Of a direction about an axis, 0 to 1 from the tangent on, as measured() of
+// materialNetwork/cpu/bsdfBuilder.cpp.
+float turnAbout(vec3 wo, vec3 n) {
+    vec3 x = point.tangent - n * dot(point.tangent, n);
+    float l = length(x);
+    x = l > 1e-6 ? x / l : anyTangent(n);
+    vec2 at = vec2(dot(wo, x), dot(wo, cross(n, x)));
+    return dot(at, at) > 0.0 ? fract(atan(at.y, at.x) / TWO_PI) : 0.0;
+}
+
 bool woOutside() {
     return dot(point.view, point.geometricNormal) >= 0.0;
 }
@@ -132,16 +142,20 @@ vec3 bendNormal(vec3 n, vec3 v, vec3 g) {
     const float margin = 1e-3;
     float nv = dot(n, v);
     if (nv <= 0.0) {
-        n = unitOr(n + v * (margin - nv), g);
-        nv = dot(n, v);
+        vec3 turned = n + v * (margin - nv);
+        n = unitOr(turned, vec3(0.0));
+        nv = margin / max(length(turned), 1e-12);
+        if (n == vec3(0.0)) n = g, nv = dot(g, v);
     }
     vec3 mirror = n * (2.0 * nv) - v;
     float above = dot(mirror, g);
     float wanted = min(margin, dot(v, g));
     if (above >= wanted) return n;
-    vec3 lifted = unitOr(mirror + g * (wanted - above), vec3(0.0));
-    if (lifted == vec3(0.0)) return g;
-    return unitOr(v + lifted, g);
+    float lift = wanted - above;
+    float l = length(mirror + g * lift);
+    if (l <= 1e-12 || l >= 1e30) return g;
+    float longer = lift * (2.0 * above + lift) / (l + 1.0); // l - 1
+    return unitOr(n * (2.0 * nv) + g * lift + v * longer, g);
 }
 
 // normal, tangent: zero for those of the point.

@@ -3,7 +3,7 @@ layout(location = 6) uniform vec4 towardsLight; // position of the light, or dir
 #include "shaders/raster/lightShape.glsl"
 
 void main() {
-    if (isInsideLight(vPosition)) discard;
+    if (isOfLight(vPosition)) discard;
     setPoint(towardsLight.w != 0.0 ? normalize(towardsLight.xyz - vPosition) : towardsLight.xyz, 0.0);
 #ifdef PRESENCE
     if (!isPresent()) discard;

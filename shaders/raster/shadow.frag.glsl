@@ -3,7 +3,7 @@
 in vec3 vPosition;
 
 void main() {
-    if (isInsideLight(vPosition)) discard;
+    if (isOfLight(vPosition)) discard;
 }
 #else
 void main() {}

@@ -7,7 +7,7 @@ import pytest
 _patina = pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
-from patina.cli import bake, main, materials  # noqa: E402
+from patina.cli import bake, bakeOutput, main, materials  # noqa: E402
 
 PATTERNS = """<?xml version="1.0"?>
 <materialx version="1.39">
@@ -123,7 +123,7 @@ def _direct_network(document, tmp_path):
         for name, value in node["inputs"].items():
             if value["type"] in ("float", "color3", "vector2", "vector3"):
                 number = value["value"]
-                shader.CreateInput(name, bake._sdf(value["type"])).Set(
+                shader.CreateInput(name, bakeOutput._sdf(value["type"])).Set(
                     number if isinstance(number, float) else tuple(number))
         for name, (source, output) in node["connections"].items():
             token = Sdf.ValueTypeNames.Token

@@ -316,15 +316,3 @@ def test_the_projects_own_charts():
             found = parser.parse_args(flags)
             assert all(os.path.exists(os.path.join(charts.ROOT, stage)) for stage in found.stages)
         assert kept
-
-
-def test_charts_of_the_readme():
-    """All are there, are SVG, come from testenv/charts.py, and take less than 1 MiB."""
-    root = os.path.normpath(os.path.join(os.path.dirname(__file__), "..", ".."))
-    with open(os.path.join(root, "README.md"), encoding="utf-8") as file:
-        shown = re.findall(r"\]\((docs/charts/[^)]+)\)", file.read())
-    assert len(shown) >= 4
-    for path in shown:
-        ElementTree.parse(os.path.join(root, path))
-    folder = os.path.join(root, "docs", "charts")
-    assert sum(os.path.getsize(os.path.join(folder, name)) for name in os.listdir(folder)) < 1 << 20

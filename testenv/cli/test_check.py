@@ -104,5 +104,28 @@ def test_command(document, capsys):
     found = json.loads(captured.out)["materials"]
     assert [m["name"] for m in found] == ["plastic"]
     assert found[0]["checks"]["reciprocity"]["failed"]
-    assert "reciprocity" in captured.err and len(captured.err.splitlines()) == 1
+    told = [line for line in captured.err.splitlines() if not line.startswith("check: ")]  # progress, on a slow machine
+    assert len(told) == 1 and "reciprocity" in told[0]
     assert main.main(["check", document, "--samples", "10"]) == 2
+
+
+def test_results_come_as_they_are_found(document, capsys, monkeypatch):
+    """When the second material is looked at, the first one's lines have been printed."""
+    shown, real = [], check.check
+
+    def looked_at(*arguments):
+        shown.append(capsys.readouterr().out)
+        return real(*arguments)
+
+    monkeypatch.setattr(check, "check", looked_at)
+    assert main.main(["check", document, "--samples", "1024"]) == 0
+    assert [len(text.splitlines()) for text in shown] == [0, len(check.CHECKS)]
+
+
+def test_every_step_is_counted():
+    """So that the time left, which follows from steps, is right."""
+    for probe in (Lambert(), type("Varying", (Lambert,), {"constant": False, "move_to": lambda *_: None})()):
+        steps = []
+        arguments = types.SimpleNamespace(samples=1024, places=2, tolerance=0.01, reciprocal=False, seed=0)
+        check.check(probe, arguments, lambda: steps.append(1))
+        assert len(steps) == check._steps(probe, arguments)

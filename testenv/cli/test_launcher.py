@@ -45,7 +45,8 @@ class Checkout:
         self.root, self.calls, self.tools = root, calls, tools
         for folder in FOLDERS:
             write(root / folder / "a.txt", "text")
-        for name in ("patina", "requirements.txt", "requirements-test.txt", "CMakeLists.txt"):
+        for name in ("patina", "requirements.txt", "requirements-test.txt", "requirements-compare.txt",
+                     "requirements-browser.txt", "CMakeLists.txt"):
             shutil.copy(os.path.join(ROOT, name), root / name)
         write(root / ".venv" / "bin" / "python", PYTHON, program=True)
         write(tools / "cmake", CMAKE, program=True)
@@ -150,3 +151,17 @@ def test_it_is_found_through_a_link(checkout, tmp_path):
     os.symlink(checkout.root / "patina", tmp_path / "link")
     process, _ = checkout.run("compare", program=tmp_path / "link")
     assert process.stdout == "ran -m patina compare\n"
+
+
+@pytest.mark.parametrize("command", ["compare", "chart"])
+def test_what_a_command_needs_is_installed_by_it(checkout, command):
+    calls = checkout.run("record")[1]
+    assert not any("requirements-compare.txt" in call for call in calls)
+    calls = checkout.run(command, "a.exr", "b.exr")[1]
+    assert any(call.startswith("pip") and "requirements-compare.txt" in call for call in calls)
+    assert checkout.run(command, "a.exr", "b.exr")[1] == []
+
+
+def test_what_is_left_out_is_told_once_it_is_known(checkout):
+    write(checkout.tools / "cmake", CMAKE.replace("*) echo", '*) echo "-- Left out: volumes (no headers)"; echo'), program=True)
+    assert "patina: Left out: volumes (no headers)" in checkout.run("record")[0].stderr

@@ -1,14 +1,12 @@
 """Every command has help; wrong usage has exit status 2 and one line."""
-import subprocess
-import sys
-
 import pytest
 
+import inProcess
 from patina.cli import main
 
 
 def run(*arguments):
-    return subprocess.run([sys.executable, "-m", "patina", *arguments], capture_output=True, text=True)
+    return inProcess.patina(*arguments, check=False)
 
 
 @pytest.mark.parametrize("command", sorted(main.COMMANDS))

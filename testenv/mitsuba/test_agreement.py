@@ -7,7 +7,6 @@ with Šidák's correction. A scene fails only if two of three seed sets are reje
 """
 import json
 import os
-import subprocess
 import sys
 import tempfile
 
@@ -20,6 +19,7 @@ from pxr import Sdf, Usd  # noqa: E402
 
 sys.path.insert(0, os.path.dirname(__file__))
 import exportScene  # noqa: E402
+import inProcess  # noqa: E402
 
 SCENES = os.path.join(os.path.dirname(__file__), "..", "scenes")
 WIDTH, HEIGHT, TILE = 96, 64, 8
@@ -71,18 +71,9 @@ def tiles(image):
     return image[:h, :w].reshape(h // TILE, TILE, w // TILE, TILE, -1).mean(axis=(1, 3))
 
 
-def render_patina(path, samples, seeds, folder):
-    import _patina
-
-    images = []
-    for seed in seeds:
-        out = os.path.join(folder, f"patina{seed}.exr")
-        subprocess.run([sys.executable, "-m", "patina", "record", path, out, "--imageWidth", str(WIDTH),
-                        "--imageHeight", str(HEIGHT), "--samples", str(samples), "--seed", str(seed),
-                        "--filterRadius", "0.5", "--method", "energyCompensation=none", "--quiet"], check=True)
-        image = _patina.read_image(out)
-        images.append(np.array(image.pixels)[..., [image.channels.index(c) for c in "RGB"]])
-    return np.array(images)
+def render_patina(path, samples, seeds):
+    return inProcess.references(path, seeds, "--imageWidth", WIDTH, "--imageHeight", HEIGHT, "--samples", samples,
+                                "--filterRadius", 0.5, "--method", "energyCompensation=none")
 
 
 def render_mitsuba(path, samples, seeds, folder):
@@ -111,7 +102,7 @@ def test_agrees_with_mitsuba(name):
         path, samples = make_stage(name, folder)
         for attempt in range(3):
             seeds = [1000 * attempt + k for k in range(6)]
-            ours = render_patina(path, samples, seeds, folder)
+            ours = render_patina(path, samples, seeds)
             theirs = render_mitsuba(path, samples, [s + 500 for s in seeds], folder)
             p, count = smallest_p(ours, theirs)
             limit = 1.0 - (1.0 - SIGNIFICANCE) ** (1.0 / count)

@@ -1,21 +1,29 @@
 #!/usr/bin/env python3
 """Renders test scenes by both back ends and writes one HTML page: a table of RMSE, FLIP, bias and times, then the images.
 
-    bothBackEnds.py OUTPUT_FOLDER [SCENE...] [--samples N] [--width PIXELS] [--truth N] [--update quick|full [--reason TEXT]]
+    bothBackEnds.py OUTPUT_FOLDER [SCENE...] [--samples N] [--width PIXELS] [--truth N] [--update]
 
 Without names all of testenv/scenes. The page also shows what earlier runs with the same samples and width left in the
 folder, so that it can be made in pieces. The path tracer renders twice: stopped after direct light, which is what the
-rasterizer draws, and whole. --update sets the budgets of testenv/raster/budgets.json (quick and full name its settings);
-they may only go down, unless --reason says why one rises. --table prints the rows of the README's table. --truth also
+rasterizer draws, and whole. --update writes what was measured to recordedPairs.json, from which --table prints the rows
+of the README's table; they are no bounds (those are equivalence.py's). --truth also
 holds both direct images against so many path traced samples; pairs that the folder holds are not rendered again then.
 """
 import argparse
 import os
+import sys
 
-import budgets
-import pairs
-import pairsPage
-from pairs import SCENES, numbers, pixels, record, without_opengl  # noqa: F401  (for tests beside this)
+if __name__ == "__main__":
+    folder = os.path.dirname(os.path.abspath(__file__))
+    sys.path[:0] = [folder, os.path.join(folder, "..")]
+    import checkout
+
+    checkout.enter()
+
+import pairs  # noqa: E402
+import pairsPage  # noqa: E402
+import recordedPairs  # noqa: E402
+from pairs import SCENES, numbers, pixels, record, without_opengl  # noqa: E402, F401  (for tests beside this)
 
 
 def report(row):
@@ -26,17 +34,8 @@ def report(row):
     return text + f" {row['rasterSeconds']:.1f} s, {found['seconds']:.1f} s"
 
 
-def spread(row, folder, samples, width):
-    """:returns: what budgets.settle() takes for `quick`: the largest of budgets.SEEDS seeds, of which the row is the first"""
-    ((depth, found),) = row["traced"].items()
-    every = [found]
-    for seed in range(1, budgets.SEEDS):
-        every += pairs.pair(row["name"], folder, samples, width, (depth,), seed)["traced"].values()
-    return {key: max(abs(one[key]) for one in every) for key in ("bias", "worst")}
-
-
 def measured(row):
-    """:returns: what budgets.settle() takes for `full`"""
+    """:returns: what recordedPairs.json holds of a row"""
     direct = row["traced"][pairs.DIRECT]
     whole = row["traced"][pairs.WHOLE]
     return {"flip": direct["flip"], "rmse": direct["rmse"], "bias": direct["bias"], "flipWhole": whole["flip"],
@@ -45,7 +44,7 @@ def measured(row):
 
 
 def table(held):
-    """Prints the README's table from the full budgets."""
+    """Prints the README's table."""
     print("| scene | RMSE | FLIP | bias | all light: FLIP | bias | seconds, raster : traced |\n|---|---|---|---|---|---|---|")
     for name, entry in held["scenes"].items():
         f = entry.get("full")
@@ -63,19 +62,18 @@ def main():
     parser.add_argument("--samples", type=int)
     parser.add_argument("--width", type=int)
     parser.add_argument("--truth", type=int, metavar="N")
-    parser.add_argument("--update", choices=["quick", "full"])
-    parser.add_argument("--reason")
+    parser.add_argument("--update", action="store_true")
     parser.add_argument("--table", action="store_true")
     a = parser.parse_args()
-    held = budgets.load()
+    held = recordedPairs.load()
     if a.table:
         return table(held)
     if not a.folder:
         parser.error("a folder is needed")
-    settings = held[a.update or "quick"]
+    settings = held["settings"] if a.update else {"samples": 32, "width": 64}
     samples, width = a.samples or settings["samples"], a.width or settings["width"]
     if a.update and (samples, width) != (settings["samples"], settings["width"]):
-        parser.error("--update goes with the samples and width of budgets.json")
+        parser.error("--update goes with the samples and width of recordedPairs.json")
     os.makedirs(a.folder, exist_ok=True)
     rows, remarks = {}, {}
     chosen = a.scenes or pairs.names()
@@ -88,7 +86,7 @@ def main():
         entry = held["scenes"].setdefault(name, {})
         remarks[name] = entry.get("why", "")
         try:
-            depths = (pairs.depth_of(entry),) if a.update == "quick" else (pairs.DIRECT, pairs.WHOLE)
+            depths = (pairs.DIRECT, pairs.WHOLE)
             row = pairs.kept(name, a.folder, samples, width) if a.truth else None
             if not row or any(depth not in row["traced"] for depth in depths):
                 row = pairs.pair(name, a.folder, samples, width, depths)
@@ -97,13 +95,11 @@ def main():
             if a.truth:
                 found = pairs.beside_truth(row, pairs.truth_of(name, a.folder, a.truth, width), a.truth)
                 print(f"{name:22} beside {a.truth} samples: FLIP {found['raster']:.4f} rasterized, {found['traced']:.4f} traced")
-                if a.update == "full":
-                    entry["truth"] = {**{key: budgets.rounded(value) for key, value in found.items()}, "samples": a.truth}
+                if a.update:
+                    entry["truth"] = {**{key: recordedPairs.rounded(value) for key, value in found.items()}, "samples": a.truth}
             if a.update:
-                found = spread(row, a.folder, samples, width) if a.update == "quick" else measured(row)
-                for line in budgets.settle(entry, a.update, found, a.reason):
-                    print(f"{name}: not raised without --reason: {line}")
-                budgets.save(held)
+                entry["full"] = {key: recordedPairs.rounded(value) for key, value in measured(row).items() if value is not None}
+                recordedPairs.save(held)
         except RuntimeError as error:
             row = {"name": name, "error": str(error)}
             print(f"{name:22} {error}", flush=True)

@@ -1,13 +1,16 @@
 """One scene through both back ends, and the numbers of the pair."""
 import json
 import os
-import subprocess
 import sys
 import time
 
 import numpy as np
 
-from patina.cli import imageMetrics
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+
+import inProcess  # noqa: E402
+from inProcess import pixels, without_opengl  # noqa: E402, F401
+from patina.cli import imageMetrics  # noqa: E402
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 SCENES = os.path.join(ROOT, "testenv", "scenes")
@@ -30,31 +33,10 @@ def record(stage, image, *arguments):
     """:returns: seconds that the command took
     :raises RuntimeError: with the command's own words"""
     start = time.monotonic()
-    process = subprocess.run([sys.executable, "-m", "patina", "record", stage, image, "--quiet", *arguments],
-                             capture_output=True, text=True)
+    process = inProcess.record(stage, image, *arguments, check=False)
     if process.returncode != 0:
         raise RuntimeError(process.stderr.strip())
     return time.monotonic() - start
-
-
-def without_opengl():
-    """:returns: why the rasterizer cannot run here, or an empty text"""
-    import _patina
-
-    renderer = _patina.make_renderer("raster")
-    if renderer.progress()["backend"] == "raster":
-        return ""
-    scene = _patina.Scene()
-    renderer.start(scene, "/none", {}, _patina.Film())
-    return scene.warnings()[0]["message"]
-
-
-def pixels(image):
-    """:returns: linear float array (height, width, 3)"""
-    import _patina
-
-    found = _patina.read_image(str(image))
-    return np.array(found.pixels)[..., [found.channels.index(c) for c in "RGB"]]
 
 
 def numbers(raster, traced):
@@ -76,13 +58,8 @@ def numbers(raster, traced):
             "worst": float(np.max(np.abs(a - b) / (b + 0.05 * max(traced.mean(), 1e-9))))}
 
 
-def depth_of(entry):
-    """:returns: the paths that an entry of budgets.json is held against"""
-    return DIRECT if entry.get("same", True) else WHOLE
-
-
 def command(name, samples, width):
-    return f"python testenv/raster/bothBackEnds.py OUTPUT {name} --samples {samples} --width {width}"
+    return f"./patina python testenv/raster/bothBackEnds.py OUTPUT {name} --samples {samples} --width {width}"
 
 
 def pair(name, folder, samples, width, depths=(DIRECT, WHOLE), seed=0):

@@ -1,91 +1,73 @@
-"""Every test scene through both back ends, beside the path tracer's direct light.
+"""Both back ends draw the same picture of every stage, tile by tile (equivalence.py says how that is decided).
 
-The budgets (budgets.json) are what was measured with these very settings and seeds, and a little more: a failure is a
-change of the code. A failing pair leaves a page with both images, their difference and the command that makes it again.
+Test scenes, emitters out of view, and stages that were not made for this. All seeds are fixed, so that the same comes every
+time. A failing pair leaves a page with both images and their difference.
 """
 import os
 
 import numpy as np
 import pytest
 
-import budgets
-import pairs
-import pairsPage
+pytest.importorskip("scipy.stats", reason="SciPy is not installed")
 
-HELD = budgets.load()
+import equivalence  # noqa: E402
+import equivalentStages  # noqa: E402
+import inProcess  # noqa: E402
+import pairs  # noqa: E402
+import pairsPage  # noqa: E402
+
+CASES = {case.name: case for case in equivalentStages.cases()}
 
 
 @pytest.fixture(scope="module", autouse=True)
 def opengl():
-    reason = pairs.without_opengl()
+    reason = inProcess.without_opengl()
     if reason:
         pytest.skip(reason)
 
 
-def _fail(row, folder, said):
-    page = pairsPage.write([row], str(folder), f"{row['name']}: {said}")
-    pytest.fail(f"{said}\n{row['command']}\n{page}")
+def hold(case, folder, power):
+    """Fails where the back ends differ, and where that cannot be said."""
+    path = equivalentStages.path_of(case, folder)
+    if path is None:
+        pytest.skip("no such file in $PATINA_ASSETS")
+    drawn = inProcess.Stage(path, "--backend", "raster", "-w", equivalentStages.WIDTH, "--samples", power.samples, *case.arguments)
+    flags = ["-w", equivalentStages.WIDTH, "--samples", power.traced, "--maxDepth", case.depth, *case.arguments]
+    verdict, raster, traced = equivalence.decide(
+        lambda seeds: [drawn.image(seed) for seed in seeds],
+        lambda seeds: inProcess.references(path, seeds, *flags), power)
+    print(f"{case.name}: {len(raster)} renders, largest difference {100 * np.abs(verdict.difference).max():.2f} %, half "
+          f"intervals {100 * np.median(verdict.half):.2f} % (median) to {100 * verdict.half.max():.2f} %")
+    if verdict.differs.any() or verdict.open:
+        _fail(case, verdict.text(), raster.mean(axis=0), traced.mean(axis=0), folder)
 
 
-@pytest.mark.parametrize("name", pairs.names())
-def test_each_scene_is_within_its_budget(name, tmp_path):
-    entry = HELD["scenes"].get(name)
-    assert entry and "quick" in entry, f"{name} has no budget: bothBackEnds.py FOLDER {name} --update quick"
-    row = pairs.pair(name, str(tmp_path), **HELD["quick"], depths=(pairs.depth_of(entry),))
-    (found,) = row["traced"].values()
-    for key, most in entry["quick"].items():
-        if abs(found[key]) > most:
-            _fail(row, tmp_path, f"{key} is {found[key]:+.4f}, the budget {most}")
+def _fail(case, said, raster, traced, folder):
+    row = {"name": case.name, "raster": raster, "rasterSeconds": 0.0, "command": f"./patina test testenv/raster -k {case.name}",
+           "traced": {case.depth: {"image": traced, "seconds": 0.0, **pairs.numbers(raster, traced)}}}
+    page = pairsPage.write([row], str(folder), f"{case.name}: {said}")
+    pytest.fail(f"{case.name}: {said}\n{page}")
 
 
-@pytest.mark.parametrize("name", ["lightDistant", "texturedDiffuse"])
-def test_many_samples_look_alike(name, tmp_path):
-    """Two scenes that hold the bound and take little time; not all do (budgets.json)."""
-    row = pairs.pair(name, str(tmp_path), 1024, 64, depths=(pairs.DIRECT,))
-    found = row["traced"][pairs.DIRECT]["flip"]
-    if found is None:
-        pytest.skip("flip-evaluator is not installed")
-    if found > budgets.LARGEST_FLIP:
-        _fail(row, tmp_path, f"FLIP is {found:.4f}, above {budgets.LARGEST_FLIP}")
+@pytest.mark.parametrize("name", [name for name, case in CASES.items() if case.tier == "full"])
+def test_both_draw_the_same(name, tmp_path):
+    hold(CASES[name], tmp_path, equivalence.FULL)
 
 
-def test_every_scene_has_more_than_a_picture():
-    """A budget says that the back ends agree, not that they are right."""
-    assert sorted(HELD["scenes"]) == pairs.names()
-    for name, entry in HELD["scenes"].items():
-        assert entry["checks"], name
-        assert entry["same"] or entry.get("why"), name
-        for check in entry["checks"]:
-            assert os.path.isfile(os.path.join(pairs.ROOT, *check.split("/"))), (name, check)
+@pytest.mark.parametrize("name", CASES)
+def test_both_draw_the_same_looked_at_closely(name, tmp_path):
+    hold(CASES[name], tmp_path, equivalence.LONG)
 
 
-def test_recorded_pairs_with_the_same_answer_look_alike():
-    """What 1024 samples gave, where that was measured. Where the path tracer's own noise is above the bound, both are held
-    against many more of its samples: the rasterizer is within the bound there, or not farther off than the path tracer."""
-    for name, entry in HELD["scenes"].items():
-        if not entry["same"] or entry.get("full", {}).get("flip", 0) <= budgets.LARGEST_FLIP:
-            continue
-        truth = entry["truth"]
-        assert entry["why"] and truth["samples"] >= 16384, name
-        assert truth["raster"] <= max(budgets.LARGEST_FLIP, truth["traced"]), (name, truth)
-
-
-def test_budgets_only_go_down():
-    entry = {"quick": {"bias": 0.02}}
-    assert budgets.settle(entry, "quick", {"bias": 0.5})  # refused
-    assert entry["quick"]["bias"] == 0.02
-    assert not budgets.settle(entry, "quick", {"bias": -0.001})
-    assert entry["quick"]["bias"] < 0.02
-    assert not budgets.settle(entry, "quick", {"bias": 0.5}, reason="a light was wrong before")
-    assert entry["quick"]["bias"] > 0.5 and "a light was wrong before" in entry["raised"][0]
+def test_a_third_of_the_stages_were_not_made_for_this():
+    sorts = [case.sort for case in CASES.values()]
+    assert 3 * sorts.count("asset") >= len(sorts)
 
 
 def test_a_failing_pair_leaves_a_page(tmp_path):
     white = np.ones((8, 8, 3))
-    row = {"name": "<b>x", "command": pairs.command("x", 1, 8), "raster": white, "rasterSeconds": 1.0,
-           "traced": {pairs.DIRECT: {"image": 0 * white, "seconds": 1.0, **pairs.numbers(white, 0 * white)}}}
-    with pytest.raises(pytest.fail.Exception, match="bothBackEnds.py OUTPUT x"):
-        _fail(row, tmp_path, "FLIP is 1")
+    with pytest.raises(pytest.fail.Exception, match="1 of 3: tile row 0"):
+        _fail(equivalentStages.Case("<b>x", "scene", "x"), "1 of 3: tile row 0", white, 0 * white, tmp_path)
     text = (tmp_path / "index.html").read_text()
     assert text.count("<img") == 3 and "&lt;b&gt;x" in text and "<b>x" not in text
 
@@ -96,7 +78,7 @@ def test_aovs_are_the_path_tracers(tmp_path):
     stage = pairs.SCENES + "/texturedMesh.usda"
     found = {}
     for backend in ("raster", "embree"):
-        image = str(tmp_path / (backend + ".exr"))
+        image = os.path.join(str(tmp_path), backend + ".exr")
         aovs = [x for name in ("depth", "normal", "primId", "instanceId") for x in ("--aov", name)]
         pairs.record(stage, image, "--backend", backend, "--samples", "2", "--filterRadius", "0", "-w", "96", *aovs)
         read = _patina.read_image(image)

@@ -1,11 +1,10 @@
 """What a camera does not see: before its near plane, beyond its far plane and behind its clipping planes; lights have a place,
 too, also where no surface is near them."""
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 
+import inProcess
 import pairs
 from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
 
@@ -107,7 +106,5 @@ def test_more_planes_than_are_taken_are_told(tmp_path):
     stage = tmp_path / "stage.usda"
     planes = ", ".join(f"(0, 0, -1, {-1 - i})" for i in range(9))
     stage.write_text(STAGE % {"projection": "perspective", "aperture": 20, "near": 0.1, "far": 100, "planes": planes} + SURFACES)
-    found = subprocess.run([sys.executable, "-m", "patina", "record", str(stage), str(tmp_path / "image.exr"), "--backend",
-                            "raster", "--samples", "1", "-w", "16"], capture_output=True, text=True)
-    assert found.returncode == 0, found.stderr
+    found = inProcess.patina("record", stage, tmp_path / "image.exr", "--backend", "raster", "--samples", "1", "-w", "16")
     assert "/camera" in found.stderr + found.stdout and "clippingPlanes" in found.stderr + found.stdout

@@ -13,7 +13,8 @@ import os
 import numpy as np
 import pytest
 
-from rendering import SCENES, color, record, scene
+import inProcess
+from rendering import SCENES, scene
 
 NAMES = sorted(os.path.splitext(os.path.basename(path))[0] for path in glob.glob(os.path.join(SCENES, "*.usda")))
 COUNTS, SEEDS = (16, 64, 256), (11, 12, 13)
@@ -27,21 +28,34 @@ def trimmed_rmse(image, reference):
     return np.sqrt(squares[: int(len(squares) * 0.999)].mean())
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_error_falls_with_samples(tmp_path, name):
-    image = tmp_path / "image.exr"
-    counts = LATER.get(name, COUNTS)
+FEW = (4, 16, 64)  # of all but LATER, which need the counts above
 
-    def render(samples, seed):
-        record(scene(name), image, "--imageWidth", 48, "--imageHeight", 27, "--samples", samples, "--seed", seed)
-        return color(image)
 
-    reference = render(counts[-1] * 16, 1)
+def slope(name, width, counts, seeds):
+    """:returns: of log RMSE over log samples, and the errors; no slope where next to nothing is random"""
+    stage = inProcess.Stage(scene(name), "--imageWidth", width, "--imageHeight", round(width * 9 / 16))
+    reference = stage.image(1, samples=counts[-1] * 16)
     if np.ptp(reference) == 0 or name == "furnace":
-        errors = [trimmed_rmse(render(samples, 2), reference) for samples in counts]
-        assert errors[-1] < 1e-3  # next to no noise to have a slope
-        return
-    errors = [np.mean([trimmed_rmse(render(samples, seed), reference) for seed in SEEDS]) for samples in counts]
-    slope = np.polyfit(np.log(counts), np.log(errors), 1)[0]
-    print(f"{name}: slope {slope:.3f}, RMSE {errors}")
-    assert slope <= -0.45, errors
+        return None, [trimmed_rmse(stage.image(2, samples=samples), reference) for samples in counts]
+    errors = [np.mean([trimmed_rmse(stage.image(seed, samples=samples), reference) for seed in seeds]) for samples in counts]
+    return np.polyfit(np.log(counts), np.log(errors), 1)[0], errors
+
+
+def falls(name, found, errors, bound):
+    print(f"{name}: slope {found}, RMSE {errors}")
+    if found is None:
+        assert errors[-1] < 1e-3, errors
+    else:
+        assert found <= bound, (found, errors)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_error_falls_with_samples(name):
+    falls(name, *slope(name, 48, LATER.get(name, COUNTS), SEEDS), -0.45)
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name not in LATER and name != "furnace"])
+def test_error_falls_from_few_samples_on(name):
+    """Small images, whose slopes scatter by 0.05 (standard deviation over seeds); 0.1 more allow for rare light that four
+    samples miss. What does not converge (a bias, samples that repeat) has a slope near 0."""
+    falls(name, *slope(name, 24, FEW, SEEDS), -0.3)

@@ -1,4 +1,5 @@
-"""Graphs that failed once, kept as documents: what may be expected of one stands in a comment, with what failed."""
+"""Graphs that failed once, kept as documents: what may be expected of one stands in a comment, with what failed. The word
+`raster` there has both back ends compared."""
 import os
 import re
 from types import SimpleNamespace

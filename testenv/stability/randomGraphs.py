@@ -1,10 +1,9 @@
 """Makes random legal material graphs and looks for what breaks.
 
-    python testenv/stability/randomGraphs.py --seed 1 --count 1000 --keep FOLDER [--raster 20]
+    ./patina python testenv/stability/randomGraphs.py --seed 1 --count 1000 --keep FOLDER [--raster 20]
 
 Every graph is compiled, evaluated and sampled at its worst places (graphChecks.py); each that fails is kept in FOLDER
-as a document with a comment that says what failed. Run it with the environment that ./patina makes
-(PYTHONPATH=plugin:build/python).
+as a document with a comment that says what failed.
 """
 import argparse
 import os
@@ -12,9 +11,16 @@ import sys
 import tempfile
 import time
 
-import graphChecks
-import graphText
-import kept
+if __name__ == "__main__":
+    folder = os.path.dirname(os.path.abspath(__file__))
+    sys.path[:0] = [folder, os.path.join(folder, "..")]
+    import checkout
+
+    checkout.enter()
+
+import graphChecks  # noqa: E402
+import graphText  # noqa: E402
+import kept  # noqa: E402
 
 # Of the path tracer alone, and with values that are estimates.
 WALKS = ("randomWalk", "positionFree")

@@ -1,13 +1,12 @@
-"""A headless Chromium that shows pages of `patina view`."""
+"""A headless Chromium that shows pages of `patina view`, driven by PyPI's playwright, which brings the Node that it needs."""
 import functools
-import json
 import os
 import shutil
-import subprocess
 
 import numpy as np
 
-HERE = os.path.dirname(os.path.abspath(__file__))
+ARGUMENTS = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox", "--disable-gpu-watchdog"]
+TIMEOUT = 120000.0  # milliseconds for one step: software rendering is slow
 
 
 def chromium():
@@ -26,6 +25,10 @@ def missing():
     from patina.cli.errors import CommandError
     from patina.view import bundle
 
+    try:
+        import playwright.sync_api  # noqa: F401
+    except ImportError:
+        return "PyPI's playwright is not installed"
     if not chromium():
         return "there is no Chromium (Debian: apt install chromium)"
     try:
@@ -36,30 +39,42 @@ def missing():
 
 
 class Browser:
+    """Starts with the first page, and again after its process ended, so that a crash fails one test and no other."""
+
     def __init__(self):
-        from patina.view import bundle
+        self._driver = self._browser = self._page = None
+        self._messages = []
 
-        modules = os.path.join(bundle.packages(), "node_modules")
-        self._process = subprocess.Popen(["node", os.path.join(HERE, "drive.mjs"), modules, chromium()],
-                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    def _started(self):
+        from playwright import sync_api
 
-    def call(self, name, **arguments):
-        self._process.stdin.write(json.dumps({"do": name, **arguments}) + "\n")
-        self._process.stdin.flush()
-        line = self._process.stdout.readline()
-        if not line:
-            raise RuntimeError("the browser's driver ended")
-        answer = json.loads(line)
-        if "error" in answer:
-            raise RuntimeError(f"{name}: {answer['error']}")
-        return answer["value"]
+        if self._browser is not None and self._browser.is_connected():
+            return self._browser
+        self.close()
+        self._driver = sync_api.sync_playwright().start()
+        self._browser = self._driver.chromium.launch(executable_path=chromium(), headless=True, args=ARGUMENTS)
+        return self._browser
 
-    def open(self, path, query="", **arguments):
-        self.call("open", url=f"file://{os.path.abspath(path)}{query}", **arguments)
+    def open(self, path, query="", width=640, height=480, touch=False, gl=True):
+        if self._browser is not None and self._browser.is_connected() and self._page is not None:
+            self._page.context.close()
+        context = self._started().new_context(viewport={"width": width, "height": height}, has_touch=touch,
+                                              accept_downloads=True, offline=True)
+        self._messages = told = []
+        self._page = page = context.new_page()
+        page.set_default_timeout(TIMEOUT)
+        page.on("console", lambda m: told.append(f"{m.type}: {m.text}"))
+        page.on("pageerror", lambda e: told.append(f"error: {e.message}"))
+        page.on("dialog", lambda d: (told.append(f"dialog: {d.message}"), d.dismiss()))
+        page.on("request", lambda r: r.url.startswith(("file:", "data:", "blob:")) or told.append(f"request: {r.url}"))
+        if not gl:
+            page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null;")
+        page.goto(f"file://{os.path.abspath(path)}{query}")
 
     def evaluate(self, code):
         """Runs statements in the page, where `page` is the page and `viewer` its viewer; `return` gives JSON."""
-        return self.call("evaluate", code="const page = await window.patina.ready, viewer = page?.viewer;" + code)
+        return self._page.evaluate("(async () => { const page = await window.patina.ready, viewer = page?.viewer;"
+                                   + code + " })()")
 
     def picture(self, change=""):
         """What the page computes after a change: linear colours, top row first."""
@@ -67,9 +82,29 @@ class Browser:
                              "return [viewer.width, viewer.height, Array.from(viewer.accumulator.read())];")
         return np.array(flat[2], np.float32).reshape(flat[1], flat[0], 4)[::-1, :, :3]
 
+    def press(self, key):
+        self._page.keyboard.press(key)
+
+    def download(self, selector, path):
+        """Clicks what downloads a file, and saves it.
+
+        :returns: the name that the page suggests
+        """
+        with self._page.expect_download() as download:
+            self._page.click(selector)
+        download.value.save_as(path)
+        return download.value.suggested_filename
+
     def messages(self):
-        return self.call("messages")
+        """:returns: what the page has told since it was opened: console, errors, dialogs, requests to a network"""
+        return list(self._messages)
 
     def close(self):
-        self._process.stdin.close()
-        self._process.wait(timeout=30)
+        """Ends browser and driver; one that has ended already is no error."""
+        for ends in (getattr(self._browser, "close", None), getattr(self._driver, "stop", None)):
+            try:
+                if ends:
+                    ends()
+            except Exception as error:  # whatever a dead process makes of it: the next page starts a new one
+                print(f"the browser had ended: {error}")
+        self._driver = self._browser = self._page = None

@@ -1,4 +1,4 @@
-"""The page's tests run in a headless Chromium; without one, Node or npm's packages they are left out,
+"""The page's tests run in a headless Chromium; without one, playwright, Node or npm's packages they are left out,
 and test_found.py says so."""
 import os
 import sys
@@ -14,7 +14,7 @@ if browser.missing():
     collect_ignore_glob = ["test_[!f]*.py"]
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")  # what ends badly fails a test of its own file
 def chromium():
     started = browser.Browser()
     yield started

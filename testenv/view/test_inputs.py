@@ -49,7 +49,7 @@ def test_choices_are_saved_and_linked(page, chromium, tmp_path, capsys):
     chromium.open(page, "?width=48")
     link = chromium.evaluate(CONTROL.format("distribution") + ".setValue(1); return page.state.toText()")
     path = os.path.join(os.path.dirname(page), "chosen.usda")
-    chromium.call("download", selector="[data-action=layer] button", path=path)
+    chromium.download("[data-action=layer] button", path)
     assert 'string inputs:distribution = "beckmann"' in open(path, encoding="utf-8").read()
     assert main.main(["explain", path + ":/plastic"]) == 0
     assert "beckmann" in capsys.readouterr().out

@@ -84,7 +84,7 @@ def test_presets_and_reset(shown):
 
 def test_the_exported_picture_is_the_canvas(shown, tmp_path):
     path = str(tmp_path / "out.png")
-    assert shown.call("download", selector="[data-action=png] button", path=path) == "red.png"
+    assert shown.download("[data-action=png] button", path) == "red.png"
     import _patina
 
     saved = np.asarray(_patina.read_image(path).pixels)[..., :3]
@@ -134,7 +134,7 @@ def test_a_saved_layer_opens_again(shown, page, tmp_path, capsys):
 
     shown.evaluate(f"{COLOR}[0] = 0.25; {COLOR}[1] = 0.5; viewer.invalidate();")
     path = os.path.join(os.path.dirname(page), "saved.usda")
-    assert shown.call("download", selector="[data-action=layer] button", path=path) == "red.usda"
+    assert shown.download("[data-action=layer] button", path) == "red.usda"
     assert main.main(["explain", path + ":/look/red"]) == 0
     told = capsys.readouterr().out
     assert "0.25" in told and "0.5" in told and "ND_oren_nayar_diffuse_bsdf" in told
@@ -151,8 +151,8 @@ def test_a_link_holds_the_values(shown, page, chromium):
 def test_keys_turn_the_shape_and_change_exposure(shown):
     before = shown.evaluate("return page.state.eye")
     shown.evaluate("viewer.canvas.focus()")
-    shown.call("press", key="ArrowLeft")
-    shown.call("press", key="]")
+    shown.press("ArrowLeft")
+    shown.press("]")
     eye, exposure = shown.evaluate("page.beforeStep(); return [page.state.eye, page.state.exposure]")
     assert np.linalg.norm(np.subtract(eye, before)) > 0.1 and exposure == 0.5
     assert abs(np.linalg.norm(eye) - np.linalg.norm(before)) < 1e-3

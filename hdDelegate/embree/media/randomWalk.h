@@ -8,6 +8,7 @@ namespace patina {
 /// The medium beneath a surface whose thick slabs have a given albedo.
 struct WalkMedium {
     vec3 extinction{0.0f}, scattering{0.0f};
+    vec3 color{0.0f}; ///< share of the light that comes out again
     float anisotropy = 0.0f;
 };
 
@@ -28,15 +29,33 @@ struct WalkExit {
     vec3 weight{1.0f};
 };
 
+/// A direction in which light goes on beneath a surface that it enters as through a diffuse one.
+struct WalkStart {
+    vec3 direction{0, 0, 1}; ///< about +z inwards, unit
+    float weight = 1.0f;
+};
+
+/// What a dark medium gives back is light that goes along close to the surface and leaves by the
+/// next turn of it, unscattered. The cosine finds such directions seldom; the darker the colour,
+/// the more samples look for them.
+/// @param u direction; uPart which strategy; in [0, 1)
+WalkStart startWalk(const WalkMedium& medium, const vec2& u, float uPart);
+
 /// Walks from just beneath a surface until the walk comes out of the same object (after Chiang,
 /// Kutz and Burley 2016, Practical and Controllable Subsurface Scattering for Production Path
 /// Tracing). The boundary bends nothing; other objects inside are not met; where parts of the
-/// object overlap it ends at the outermost.
+/// object overlap it ends at the outermost. The first steps choose between leaving and scattering
+/// by what is likely to come of either: physical chances would end most walks in a dark medium
+/// inside, and give the rest weights from its colour up to 1. There, directions also turn to the
+/// surface where light went in (after Krivanek and d'Eon 2014, A Zero-Variance-Based Sampling
+/// Scheme for Monte Carlo Subsurface Scattering).
 /// @param entry where light went in; its side seen by the path counts as outside
 /// @param back the path saw the back side
+/// @param outside unit, out of the object where light went in
 /// @param origin on the surface, or beneath it where it is a curve or a point
 /// @param rays is counted up
 WalkExit walkBeneath(const EmbreeScene& scene, const WalkMedium& medium, const Hit& entry,
-                     bool back, vec3 origin, vec3 direction, Sampler& sampler, uint64_t& rays);
+                     bool back, const vec3& outside, vec3 origin, vec3 direction, Sampler& sampler,
+                     uint64_t& rays);
 
 } // namespace patina

@@ -21,8 +21,10 @@ public:
 
     /// Takes over the volumes of a scene. What did not change is kept.
     /// @param open time of the shutter's opening; volumes stand still
+    /// @param origin of the space that they are wanted in, see seenFrom(); places are in it already
     void update(const std::vector<std::shared_ptr<const Volume>>& prims, const ProgramOf& programOf,
-                const PlacesOf& placesOf, float open, Diagnostics& diagnostics);
+                const PlacesOf& placesOf, float open, const dvec3& origin,
+                Diagnostics& diagnostics);
 
     bool empty() const { return _placed.empty(); }
     vec3 boundsMin() const { return _min; } ///< world

@@ -170,8 +170,8 @@ TEST(EmbreeScene, MotionOfTransformAndInstance) {
     edit.set(std::shared_ptr<const Geometry>(makeQuad("/leaf", "A")));
     auto instancer = makeInstancer("/i", "", "A", {mat4(1.0f)});
     MotionTransform far = motion;
-    for (mat4& m : far.values)
-        m = translate(0, 50, 0) * m;
+    for (dmat4& m : far.values)
+        m = dmat4(translate(0, 50, 0)) * m;
     instancer->transforms[0] = far;
     edit.set(std::shared_ptr<const Instancer>(instancer));
     edit.commit();

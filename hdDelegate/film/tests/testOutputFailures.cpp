@@ -1,3 +1,4 @@
+#include "hdDelegate/film/atomicFile.h"
 #include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/film/tests/tempFolder.h"
 
@@ -8,6 +9,14 @@
 #include <functional>
 #include <iterator>
 
+#include <csignal>
+
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <sys/un.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace patina {
@@ -107,6 +116,154 @@ TEST(OutputFailures, ReplacedImagesKeepTheirPermissionsAndLinks) {
     EXPECT_TRUE(std::filesystem::is_symlink(temp.file("link.png")));
     EXPECT_EQ(std::filesystem::status(temp.file("real.png")).permissions(),
               std::filesystem::perms(0640));
+}
+
+TEST(OutputFailures, WhatIsNoRegularFileStaysAsItIs) {
+    TempFolder temp;
+    Film film;
+    smallFilm(film);
+    namespace fs = std::filesystem;
+    ASSERT_EQ(::mkfifo(temp.file("pipe.png").c_str(), 0600), 0);
+    fs::create_symlink("pipe.png", temp.file("toPipe.png"));
+    fs::create_symlink("/dev/null", temp.file("toDevice.png"));
+    fs::create_symlink("absent.png", temp.file("dangling.png"));
+    fs::create_symlink("loop.png", temp.file("loop.png"));
+    fs::create_symlink(".", temp.file("toFolder.png"));
+    size_t expected = 6;
+    if (::mknod(temp.file("device.png").c_str(), S_IFCHR | 0600, makedev(1, 3)) == 0)
+        ++expected; // root alone may
+    const int listener = ::socket(AF_UNIX, SOCK_STREAM, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    temp.file("socket.png").copy(address.sun_path, sizeof address.sun_path - 1);
+    ASSERT_EQ(::bind(listener, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    ++expected;
+    struct Before {
+        std::string file;
+        ino_t number;
+    };
+    std::vector<Before> all;
+    for (auto& entry : fs::directory_iterator(temp.path())) {
+        struct stat found;
+        ASSERT_EQ(::lstat(entry.path().c_str(), &found), 0);
+        all.push_back({entry.path().string(), found.st_ino});
+    }
+    ASSERT_EQ(all.size(), expected);
+    for (const Before& before : all) {
+        for (const std::string& reason : {reasonOf([&] { checkImagePath(before.file); }),
+                                          reasonOf([&] { writeImage(film, before.file); })})
+            EXPECT_TRUE(has(reason, before.file + "': it is a ")) << reason;
+        EXPECT_THROW(film.saveCheckpoint(before.file), std::runtime_error);
+        struct stat found;
+        ASSERT_EQ(::lstat(before.file.c_str(), &found), 0);
+        EXPECT_EQ(found.st_ino, before.number) << before.file << " was replaced";
+    }
+    EXPECT_EQ(temp.fileCount(), expected);
+    ::close(listener);
+}
+
+TEST(OutputFailures, AFullDiskKeepsTheOldImage) {
+    TempFolder temp;
+    Film film;
+    film.reset(64, 64, {});
+    ImageOptions options;
+    options.compression = "none";
+    const std::string file = temp.file("a.exr");
+    std::ofstream(file) << "old";
+    // Beyond this size writing fails, as it does on a disk that is full.
+    rlimit before;
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    rlimit full = before;
+    full.rlim_cur = 4096;
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
+    EXPECT_THROW(writeImage(film, file, options), std::runtime_error);
+    EXPECT_THROW(film.saveCheckpoint(file), std::runtime_error);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(contentOf(file), "old");
+    EXPECT_EQ(temp.fileCount(), 1u);
+    writeImage(film, file, options);
+    EXPECT_GT(std::filesystem::file_size(file), 4096u) << "the size that was too large";
+}
+
+TEST(OutputFailures, EveryFormatTellsOfAFullDisk) {
+    TempFolder temp;
+    ImageData image;
+    image.width = image.height = 64;
+    image.channels = {"R", "G", "B"};
+    for (int i = 0; i < 64 * 64 * 3; ++i) // noise: nothing that packs well
+        image.pixels.push_back(float((i * 7919) % 1009) / 1009.0f);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    for (const char* format : {"exr", "png", "jpg", "tif", "hdr", "bmp", "tga", "webp", "gif",
+                               "jp2", "ppm", "sgi", "rla"}) {
+        const std::string file = temp.file(std::string("a.") + format);
+        writePixels(image, file);
+        const std::string whole = contentOf(file);
+        ASSERT_GT(whole.size(), 64u) << format;
+        rlimit before;
+        ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+        for (const size_t room : {size_t(16), whole.size() / 2}) {
+            rlimit full = before;
+            full.rlim_cur = rlim_t(room);
+            ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
+            const std::string reason = reasonOf([&] { writePixels(image, file); });
+            ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+            EXPECT_TRUE(has(reason, file)) << format << " " << room << " " << reason;
+            EXPECT_EQ(contentOf(file), whole) << format;
+        }
+        std::filesystem::remove(file);
+    }
+    std::signal(SIGXFSZ, handler);
+    EXPECT_EQ(temp.fileCount(), 0u);
+}
+
+TEST(OutputFailures, TemporariesOfKilledProcessesAreRemoved) {
+    TempFolder temp;
+    // A process that is killed while it writes.
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        new AtomicFile(temp.file("a.exr"));
+        ::raise(SIGKILL);
+    }
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+    ASSERT_EQ(temp.fileCount(), 1u);
+    const std::string dead = std::to_string(child);
+    std::ofstream(temp.file(".b." + dead + "-0.exr")) << "of another image";
+    std::ofstream(temp.file(".a." + std::to_string(::getppid()) + "-0.exr")) << "still written";
+    std::ofstream(temp.file(".a.2026-draft.exr")) << "no temporary";
+    std::ofstream(temp.file("a." + dead + "-0.exr")) << "no temporary";
+    {
+        AtomicFile file(temp.file("a.exr"));
+        EXPECT_EQ(temp.fileCount(), 5u); // this one's, and the four that are nobody's business
+        AtomicFile second(temp.file("a.exr"));
+        EXPECT_EQ(temp.fileCount(), 6u) << "two writers of a process live side by side";
+    }
+    EXPECT_EQ(temp.fileCount(), 4u);
+    EXPECT_FALSE(std::filesystem::exists(temp.file(".a." + dead + "-0.exr")));
+}
+
+TEST(OutputFailures, LongNamesAreWritten) {
+    TempFolder temp;
+    Film film;
+    smallFilm(film);
+    const std::string file = temp.file(std::string(251, 'n') + ".png"); // 255: the longest
+    writeImage(film, file);
+    EXPECT_FALSE(contentOf(file).empty());
+    EXPECT_EQ(temp.fileCount(), 1u);
+}
+
+TEST(OutputFailures, OnlyRegularFilesAreRead) {
+    TempFolder temp;
+    ASSERT_EQ(::mkfifo(temp.file("pipe.png").c_str(), 0600), 0);
+    std::filesystem::create_symlink("/dev/zero", temp.file("zero.png"));
+    Film film;
+    for (const char* name : {"pipe.png", "zero.png"}) { // would wait, and would never end
+        EXPECT_TRUE(has(reasonOf([&] { readImage(temp.file(name)); }), "not a regular file"));
+        EXPECT_TRUE(
+            has(reasonOf([&] { film.loadCheckpoint(temp.file(name)); }), "not a regular file"));
+    }
 }
 
 TEST(OutputFailures, UnwritableFolder) {

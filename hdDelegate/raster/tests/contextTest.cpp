@@ -39,6 +39,18 @@ TEST(RasterContext, ComputesWithALobe) {
     EXPECT_EQ(gl.GetError(), GLenum(GL_NO_ERROR));
 }
 
+TEST(RasterContext, ASmallBufferHoldsNothingOfWhatFollowsItsData) {
+    PATINA_NEED_CONTEXT();
+    const unsigned char data[GlBuffer::leastSize] = {
+        1, 2, 3, 4, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa};
+    const GlBuffer buffer(4, data);
+    ASSERT_EQ(buffer.size(), GlBuffer::leastSize);
+    unsigned char held[GlBuffer::leastSize] = {};
+    buffer.read(held, sizeof held);
+    for (size_t i = 0; i < sizeof held; ++i)
+        EXPECT_EQ(held[i], i < 4 ? data[i] : 0) << i;
+}
+
 TEST(RasterContext, NamesFileAndLineOfAnError) {
     PATINA_NEED_CONTEXT();
     std::string error;

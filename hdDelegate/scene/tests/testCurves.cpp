@@ -3,9 +3,11 @@
 #include "hdDelegate/scene/tests/meshFixtures.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <limits>
 #include <numeric>
+#include <set>
 
 namespace patina {
 namespace {
@@ -360,6 +362,29 @@ TEST(Points, badOnesAreLeftOutWithTheirValues) {
     EXPECT_EQ(set.points[0][1].w, 0.0f);
     EXPECT_TRUE(warned(diagnostics, "/points", "points"));
     EXPECT_TRUE(warned(diagnostics, "/points", "widths"));
+}
+
+long mostMemory() { // kB that the process ever took
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
+
+// A layout of a billion points would take 8 GB, one of a million 8 MB.
+TEST(Curves, CountsBeyondThePointsTakeNoMemory) {
+    for (CurveBasis basis : {CurveBasis::Linear, CurveBasis::Bezier, CurveBasis::CatmullRom}) {
+        const Curves curves = makeCurves(basis, CurveWrap::Nonperiodic, {4, 1000000000, 4, -1, 4},
+                                         line(4));
+        Diagnostics diagnostics;
+        const long before = mostMemory();
+        const CurveSet set = buildCurves(curves, {}, diagnostics);
+        EXPECT_LT(mostMemory() - before, 8192);
+        EXPECT_EQ(std::set<int>(set.segmentCurve.begin(), set.segmentCurve.end()),
+                  std::set<int>{0});
+        ASSERT_GE(diagnostics.count(), 1);
+        EXPECT_EQ(diagnostics.all()[0].prim, "/curves");
+        EXPECT_EQ(diagnostics.all()[0].input, "curveVertexCounts");
+    }
 }
 
 } // namespace

@@ -9,8 +9,36 @@
 #endif
 
 #include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <sys/stat.h>
 
 using namespace patina;
+
+namespace {
+
+#ifdef PATINA_HAS_OPENVDB
+/// A file of a sparse grid of numbers and one of vectors. @returns its bytes
+std::string writeGrids(const std::string& file) {
+    openvdb::initialize();
+    auto density = openvdb::FloatGrid::create(0.0f);
+    density->setName("density");
+    for (int i = 0; i < 12; ++i)
+        density->tree().setValue(openvdb::Coord(i * 5, i * 3, i), 1.0f + float(i));
+    auto color = openvdb::Vec3SGrid::create(openvdb::Vec3f(0.0f));
+    color->setName("color");
+    color->tree().setValue(openvdb::Coord(1, 2, 3), openvdb::Vec3f(1, 2, 3));
+    openvdb::io::File(file).write({density, color});
+    std::ifstream in(file, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+}
+#endif
+
+} // namespace
 
 TEST(FieldFile, MissingFilesAreReported) {
     Diagnostics diagnostics;
@@ -68,4 +96,77 @@ TEST(FieldFile, ValuesTilesAndTransforms) {
     EXPECT_EQ(readFieldGrid(file, "density", "/volume", diagnostics), nullptr);
     std::remove(file.c_str());
 #endif
+}
+
+TEST(FieldFile, DamagedFilesAreReportedAndEndNothing) {
+#ifndef PATINA_HAS_OPENVDB
+    GTEST_SKIP() << "this build has no OpenVDB";
+#else
+    const std::string file = testing::TempDir() + "patinaDamaged.vdb";
+    const std::string good = writeGrids(file);
+    ASSERT_GT(good.size(), 12000u);
+    const auto readDamaged = [&](const std::string& bytes) {
+        std::ofstream(file, std::ios::binary) << bytes;
+        Diagnostics diagnostics;
+        const bool whole = bool(readFieldGrid(file, "density", "/volume", diagnostics));
+        EXPECT_EQ(diagnostics.count(), whole ? 0 : 1);
+        const std::string message = whole ? "" : diagnostics.all()[0].message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        return message;
+    };
+    EXPECT_EQ(readDamaged(good), "");
+    // Where nodes are counted: OpenVDB 10 overruns its memory on one of these, and aborts.
+    for (size_t at = 8500; at <= 10500; at += 250) {
+        std::string bytes = good;
+        bytes.replace(at, 256, 256, '\xff');
+        readDamaged(bytes);
+    }
+    for (size_t part : {8, 5, 3})
+        EXPECT_NE(readDamaged(good.substr(0, good.size() * part / 9)), "") << "broken off";
+    EXPECT_EQ(readDamaged(good), "") << "reading goes on working";
+    std::remove(file.c_str());
+#endif
+}
+
+TEST(FieldFile, GridsAreReadOnManyThreadsAtOnce) {
+#ifndef PATINA_HAS_OPENVDB
+    GTEST_SKIP() << "this build has no OpenVDB";
+#else
+    const std::string file = testing::TempDir() + "patinaThreads.vdb";
+    writeGrids(file);
+    Diagnostics diagnostics;
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i)
+        threads.emplace_back([&] {
+            const auto grid = readFieldGrid(file, "density", "/volume", diagnostics);
+            ASSERT_NE(grid, nullptr);
+            EXPECT_NEAR(grid->sample(vec3(55, 33, 11)).x, 12.0f, 1e-4f);
+            EXPECT_NE(readFieldGrid(file, "color", "/volume", diagnostics), nullptr);
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    EXPECT_EQ(diagnostics.count(), 0);
+    std::remove(file.c_str());
+#endif
+}
+
+TEST(FieldFile, OnlyRegularFilesAreReadAndNamesMayBeAnyBytes) {
+    const std::string pipe = testing::TempDir() + "patinaPipe.vdb";
+    std::remove(pipe.c_str());
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    Diagnostics diagnostics;
+    EXPECT_EQ(readFieldGrid(pipe, "density", "/volume", diagnostics), nullptr); // would wait
+    EXPECT_EQ(readFieldGrid("/dev/zero", "density", "/volume", diagnostics), nullptr);
+    std::remove(pipe.c_str());
+#ifdef PATINA_HAS_OPENVDB
+    for (const Diagnostic& found : diagnostics.all())
+        EXPECT_NE(found.message.find("not a regular file"), std::string::npos) << found.message;
+    const std::string file = testing::TempDir() + "patinaNames.vdb";
+    writeGrids(file);
+    EXPECT_EQ(readFieldGrid(file, "\xff\xfe", "/volume", diagnostics), nullptr);
+    EXPECT_NE(diagnostics.all().back().message.find("\xEF\xBF\xBD"), std::string::npos)
+        << "what is told is UTF-8";
+    std::remove(file.c_str());
+#endif
+    EXPECT_GE(diagnostics.count(), 2);
 }

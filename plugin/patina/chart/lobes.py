@@ -5,6 +5,7 @@ import re
 from collections import defaultdict
 
 from patina.chart import svg
+from patina.cli import outputs
 
 COLUMNS = ("point", "method", "subject", "errorOf", "ns", "nsLow", "nsHigh", "cost", "mean", "largest", "rms")
 
@@ -81,7 +82,7 @@ def with_times(rows, table):
 
 
 def write_csv(rows, path):
-    with open(path, "w", newline="", encoding="utf-8") as file:
+    with outputs.writing(path, newline="") as file:
         writer = csv.DictWriter(file, COLUMNS)
         writer.writeheader()
         for row in rows:
@@ -98,7 +99,7 @@ def write_table(rows, path):
     def cells(values):
         return "{" + ", ".join("0" if value == 0.0 else number(float(f"{value:.3g}")) for value in values) + "}"
 
-    with open(path, "w", encoding="utf-8") as file:
+    with outputs.writing(path) as file:
         file.write(_TABLE_HEAD)
         for row in rows:
             texts = ", ".join(f'"{row[name]}"' for name in ("point", "method", "subject", "errorOf"))
@@ -122,7 +123,7 @@ def write_charts(rows, folder):
         points = [(row["ns"], row["mean"], row["method"]) for row in group]
         name = "".join(c if c.isalnum() else "_" for c in f"{point}_{subject}") + ".svg"
         path = os.path.join(folder, name)
-        with open(path, "w", encoding="utf-8") as file:
+        with outputs.writing(path) as file:
             file.write(svg.scatter(f"{point}, {subject}", points, "ns per evaluation, one thread",
                                    f"mean error ({group[0]['errorOf']})"))
         paths.append(path)

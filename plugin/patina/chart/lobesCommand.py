@@ -3,7 +3,7 @@ import json
 import os
 
 from patina.chart import lobes
-from patina.cli import compiled
+from patina.cli import compiled, outputs
 from patina.cli.errors import CommandError, UsageError
 
 
@@ -23,6 +23,7 @@ def run(arguments):
     names = [point for point, _ in points]
     if arguments.point and arguments.point not in names:
         raise UsageError(f"patina chart: there is no choice point '{arguments.point}' (there are: {', '.join(names)})")
+    outputs.check_all([arguments.table, arguments.json])
     rows = lobes.measure(arguments.point, not arguments.errors)
     if not rows:
         raise CommandError(f"nothing is measured at '{arguments.point}': its methods differ in meaning, not in accuracy")
@@ -39,8 +40,7 @@ def run(arguments):
             lobes.write_charts(rows, arguments.out)
         text = json.dumps(rows, indent=1) if arguments.json else ""
         if arguments.json and arguments.json != "-":
-            with open(arguments.json, "w", encoding="utf-8") as file:
-                file.write(text + "\n")
+            outputs.write_text(arguments.json, text + "\n")
     except OSError as error:
         raise CommandError(f"cannot write {error.filename}: {error.strerror}") from error
     print(text if arguments.json == "-" else lobes.listing(rows))

@@ -1,10 +1,10 @@
 """patina chart --predictions STAGE...: what the planner predicts against what comes."""
 import csv
-import json
 import os
 
+from patina import inputs
 from patina.chart import predictions
-from patina.cli import recordFlags
+from patina.cli import outputs, recordFlags
 from patina.cli.errors import CommandError
 from patina.cli.progress import Progress
 
@@ -30,20 +30,20 @@ def run(arguments):
     given = a.tolerances or DEFAULT_TOLERANCES
     most = a.maxSamples or recordFlags.MOST_SAMPLES
     rows = []
+    for stage in a.stages:
+        inputs.note(stage)
+    outputs.check_all([a.json])
     progress = Progress("", a.quiet)
-    with Table(a.out) as table:
-        for stage in dict.fromkeys(a.stages):
-            for backend in (["embree", "raster"] if a.backend == "both" else [a.backend]):
-                for row in _rows(stage, a, backend, given, most):
-                    rows.append(row)
-                    table.add(row)
-                    progress.say(f"{row.stage} {row.backend} {row.tolerance:g}: "
-                                 f"{row.problem or f'{row.methodError:.2g}, {row.error:.2g}, {row.state}'}")
-    text = json.dumps([row.as_dict() for row in rows], indent=1) if a.json else ""
-    if a.json and a.json != "-":
-        with open(a.json, "w", encoding="utf-8") as file:
-            file.write(text + "\n")
-    print(text if a.json == "-" else predictions.listing(rows))
+    table = Table(a.out)
+    for stage in dict.fromkeys(a.stages):
+        for backend in (["embree", "raster"] if a.backend == "both" else [a.backend]):
+            for row in _rows(stage, a, backend, given, most):
+                rows.append(row)
+                table.add(row)
+                progress.say(f"{row.stage} {row.backend} {row.tolerance:g}: "
+                             f"{row.problem or f'{row.methodError:.2g}, {row.error:.2g}, {row.state}'}")
+    if not outputs.write_json(a.json, [row.as_dict() for row in rows]):
+        print(predictions.listing(rows))
     return 0
 
 
@@ -55,25 +55,22 @@ def _rows(stage, a, backend, tolerances, most):
 
 
 class Table:
-    """predictions.csv in a folder, or nothing; each row is written when it is there, for the whole takes long."""
+    """predictions.csv in a folder, or nothing; it is there after each row, for the whole takes long."""
 
     def __init__(self, folder):
-        self.file = None
+        self.path, self.rows = os.path.join(folder, "predictions.csv") if folder else "", []
         if folder:
             os.makedirs(folder, exist_ok=True)
-            self.file = open(os.path.join(folder, "predictions.csv"), "w", newline="", encoding="utf-8")
-            self.writer = csv.DictWriter(self.file, predictions.COLUMNS)
-            self.writer.writeheader()
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        if self.file:
-            self.file.close()
+            self._write()
 
     def add(self, row):
-        if self.file:
-            self.writer.writerow({name: f"{value:.4g}" if isinstance(value, float) else value
-                                  for name, value in row.as_dict().items()})
-            self.file.flush()
+        self.rows.append({name: f"{value:.4g}" if isinstance(value, float) else value
+                          for name, value in row.as_dict().items()})
+        if self.path:
+            self._write()
+
+    def _write(self):
+        with outputs.writing(self.path, newline="") as file:
+            writer = csv.DictWriter(file, predictions.COLUMNS)
+            writer.writeheader()
+            writer.writerows(self.rows)

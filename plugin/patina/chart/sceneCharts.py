@@ -5,6 +5,7 @@ from patina.chart import front, sceneMeasures
 from patina.chart.plot import Plot
 from patina.chart.sceneRenders import WORDS
 from patina.chart.sceneResults import NAMES
+from patina.cli import outputs
 
 COLOURS = {"embree": "#1b6ca8", "raster": "#c8452b"}
 KINDS = {"embree": "circle", "raster": "square"}
@@ -76,8 +77,7 @@ def write(results, folder, foot=""):
         name = file_name(result.stage, taken)
         for measure, plot in plots(result, foot).items():
             path = os.path.join(folder, f"{name}-{measure}.svg")
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(plot.svg())
+            outputs.write_text(path, plot.svg())
             paths.append(path)
     return paths
 

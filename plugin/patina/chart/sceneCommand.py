@@ -1,13 +1,13 @@
 """patina chart STAGE...: seconds against error of both back ends."""
-import json
 import math
 import os
 import shlex
 import sys
 
+from patina import inputs
 from patina.chart import machine, sceneCharts, sceneLadder, scenePage, sceneResults
 from patina.chart.sceneRenders import BACKENDS, DEFAULT_WIDTH, WORDS
-from patina.cli import compiled, methods, overrides, recordFlags
+from patina.cli import compiled, imageMetrics, methods, outputs, overrides, recordFlags
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.progress import Progress
 
@@ -57,15 +57,19 @@ def run(arguments):
     overrides.parse(a.set)
     _make_folder(a.out)
     command = shown(shlex.join(["patina", *sys.argv[1:]]))
+    for stage in a.stages:
+        inputs.note(stage)
+    outputs.check_all([a.json])
     here = machine.describe()
+    if imageMetrics.flip_missing():
+        print(f"patina: {imageMetrics.flip_missing()}", file=sys.stderr)
     progress = Progress("", a.quiet)
     results = []
     for stage in dict.fromkeys(a.stages):
         results.append(_chart(stage, a, chosen, progress))
         if a.out:  # after each: what an interrupted run has measured stays
             _write(results, a.out, here, command, a.seed)
-    if a.json:
-        _write_json(json.dumps(sceneResults.as_json(results, here, command), indent=1), a.json)
+    outputs.write_json(a.json, sceneResults.as_json(results, here, command) if a.json else None)
     if a.json != "-":
         texts = [listing(result) for result in results if not result.problem]
         if a.out:
@@ -120,17 +124,6 @@ def _write(results, folder, here, command, seed):
         scenePage.write(results, os.path.join(folder, "index.html"), here, command, seed)
     except OSError as error:
         raise CommandError(f"cannot write {error.filename}: {error.strerror}") from error
-
-
-def _write_json(text, file):
-    if file == "-":
-        print(text)
-        return
-    try:
-        with open(file, "w", encoding="utf-8") as out:
-            out.write(text + "\n")
-    except OSError as error:
-        raise CommandError(f"cannot write {file}: {error.strerror}") from error
 
 
 def listing(result):

@@ -7,6 +7,7 @@ import numpy as np
 from patina.chart import png, sceneCharts, sceneResults
 from patina.chart.sceneMeasures import LUMINANCE, seconds_text
 from patina.chart.sceneRenders import WORDS
+from patina.cli import outputs
 
 STYLE = """
 body{font:15px/1.45 system-ui,sans-serif;color:#222;background:#fafafa;margin:0 auto;max-width:1320px;padding:24px}
@@ -32,8 +33,7 @@ def write(results, path, machine, command, seed):
     for result in results:
         if not result.problem:
             lines += _stage(result)
-    with open(path, "w", encoding="utf-8") as file:
-        file.write("\n".join([*lines, "</body></html>"]) + "\n")
+    outputs.write_text(path, "\n".join([*lines, "</body></html>"]) + "\n")
 
 
 def _short(stage):

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 from patina.chart import sceneMeasures
 from patina.chart.sceneRenders import WORDS
+from patina.cli import outputs
 
 COLUMNS = ("stage", "backend", "samples", "tolerance", "toleranceMet", "repeats", "seed", "seconds", "secondsInAll", "cores",
            "relMSE", "rmse", "flip", "meanError", "relative", "relMSEDirect", "rmseDirect", "flipDirect", "meanErrorDirect")
@@ -97,7 +98,7 @@ def _crossover(rows, measure):
 
 
 def write_csv(results, path):
-    with open(path, "w", newline="", encoding="utf-8") as file:
+    with outputs.writing(path, newline="") as file:
         writer = csv.DictWriter(file, COLUMNS, extrasaction="ignore")
         writer.writeheader()
         for row in (row for result in results for row in result.rows):

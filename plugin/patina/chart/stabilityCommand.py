@@ -5,6 +5,7 @@ import os
 
 from patina.chart import stabilityPage, sweepsClassic, sweepsDiffuse, sweepsEnergy, sweepsFacets, sweepsFilm, sweepsFrames
 from patina.chart import sweepsFresnel, sweepsLayers, sweepsPlan, sweepsSky
+from patina.cli import outputs
 from patina.cli.errors import CommandError, UsageError
 
 FAMILIES = {"Fresnel": sweepsFresnel, "facets": sweepsFacets, "energy": sweepsEnergy, "diffuse": sweepsDiffuse,
@@ -30,20 +31,20 @@ def run(arguments):
         raise UsageError("patina chart: --points is 4 or more")
     if arguments.family and arguments.family not in FAMILIES:
         raise UsageError(f"patina chart: there is no family '{arguments.family}' (there are: {', '.join(FAMILIES)})")
+    outputs.check_all([arguments.json])
     found = sweeps(arguments.points, arguments.family)
     rows = [row for sweep in found for row in sweep.rows()]
     text = json.dumps(rows, indent=1) if arguments.json else ""
     try:
         if arguments.out:
             os.makedirs(arguments.out, exist_ok=True)
-            with open(os.path.join(arguments.out, "stability.csv"), "w", newline="", encoding="utf-8") as file:
+            with outputs.writing(os.path.join(arguments.out, "stability.csv"), newline="") as file:
                 writer = csv.DictWriter(file, COLUMNS)
                 writer.writeheader()
                 writer.writerows(rows)
             stabilityPage.write(found, arguments.out)
         if arguments.json and arguments.json != "-":
-            with open(arguments.json, "w", encoding="utf-8") as file:
-                file.write(text + "\n")
+            outputs.write_text(arguments.json, text + "\n")
     except OSError as error:
         raise CommandError(f"cannot write {error.filename}: {error.strerror}") from error
     print(text if arguments.json == "-" else stabilityPage.listing(found))

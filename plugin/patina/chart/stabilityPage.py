@@ -5,6 +5,7 @@ from html import escape
 import numpy as np
 
 from patina.chart import svgLines
+from patina.cli import outputs
 
 STYLE = """
 body{font:15px/1.45 system-ui,sans-serif;color:#222;background:#fafafa;margin:0 auto;max-width:1440px;padding:24px}
@@ -62,13 +63,11 @@ def write(sweeps, folder):
             lines.append(f"<figure>{svgLines.lines(sweep)}<figcaption>{escape(caption(sweep))}{notes}{bad}</figcaption></figure>")
         lines.append("</div>")
     paths = [os.path.join(folder, "stability.html")]
-    with open(paths[0], "w", encoding="utf-8") as file:
-        file.write("\n".join([*lines, "</body></html>"]) + "\n")
+    outputs.write_text(paths[0], "\n".join([*lines, "</body></html>"]) + "\n")
     named = {sweep.name: sweep for sweep in sweeps}
     if all(name in named for name in OVERVIEW):
         paths.append(os.path.join(folder, "stability.svg"))
-        with open(paths[1], "w", encoding="utf-8") as file:
-            file.write(overview([named[name] for name in OVERVIEW]))
+        outputs.write_text(paths[1], overview([named[name] for name in OVERVIEW]))
     return paths
 
 

@@ -13,12 +13,13 @@ given as a flag, the line holds the other alone.
 Methods that walk (randomWalk, positionFree) have no formula: f is then the mean of 256 walks, an
 albedo that of 2048, and densities are estimates that weigh strategies against each other.
 """
+import contextlib
 import json
 import sys
 
 import numpy as np
 
-from patina.cli import compiled, materials, methods, statistics
+from patina.cli import compiled, materials, methods, outputs, statistics
 from patina.cli.errors import CommandError, UsageError
 
 BATCH = 65536  # lines that are worked on at once
@@ -51,20 +52,14 @@ def run(arguments):
     chosen = methods.parse(arguments.method)
     found, warnings = materials.load(arguments.material, arguments.set)
     probe = _probe(arguments.backend, found[0][1], chosen)
-    for line in statistics.lines(warnings + probe.warnings):
-        print("warning: " + line, file=sys.stderr)
+    statistics.tell(warnings + probe.warnings, sys.stderr)
     if getattr(probe, "stochastic", False):
         print("note: a method walks at random; values are means over walks, densities are estimates", file=sys.stderr)
-    out = sys.stdout
-    if arguments.json not in (None, "-"):
-        out = open(arguments.json, "w", encoding="utf-8")
+    to_file = arguments.json not in (None, "-")
     generator = np.random.default_rng(arguments.seed)
-    try:
+    with outputs.writing(arguments.json) if to_file else contextlib.nullcontext(sys.stdout) as out:
         for outgoing, incoming in _batches(arguments.action, wo, wi):
             _print(_results(arguments, probe, outgoing, incoming, generator), arguments.json, out)
-    finally:
-        if out is not sys.stdout:
-            out.close()
 
 
 def _probe(backend, network, chosen):

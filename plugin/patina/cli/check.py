@@ -9,19 +9,20 @@
   reciprocity  f(a, b) = f(b, a) where both directions are above the surface; reported, and a failure
                only with --reciprocal, since layers by albedo and media inside are not reciprocal
 
-Materials that vary are checked at points of uv 0 to 1. Exit status 1 when a check fails.
+Materials that vary are checked at points of uv 0 to 1. Each material is shown when it is done; warnings come last, by their
+causes as `patina record` tells them. Exit status 1 when a check fails.
 
 --layers takes no material: it prints how far the albedo of layers, which scale what is below by what the top lets
 through, is from a random walk between the interfaces.
 """
-import json
 import math
 import sys
 
 import numpy as np
 
-from patina.cli import compiled, layers, materials, methods, statistics
+from patina.cli import compiled, layers, materials, methods, outputs, statistics
 from patina.cli.errors import CommandError, UsageError
+from patina.cli.progress import Progress
 
 CHECKS = ("finite", "energy", "pdf", "weight", "chi2", "reciprocity")
 MIRROR = 4  # event of samples that have a probability instead of a density
@@ -55,18 +56,29 @@ def run(arguments):
     if arguments.layers == bool(arguments.material):
         raise UsageError("patina check: name a material, or --layers without one")
     chosen = methods.parse(arguments.method)
+    outputs.check_all([arguments.json])
     if arguments.layers:
-        _report_layers(layers.report(chosen, arguments.samples, arguments.seed), arguments.json)
+        _report_layers(chosen, arguments)
         return
     found, warnings = materials.load(arguments.material, arguments.set, every=True)
-    results = []
-    for name, network in found:
-        probe = compiled.load().MaterialProbe(network, chosen)
-        warnings += probe.warnings
-        results.append((name, check(probe, arguments)))
-    for line in statistics.lines(warnings):
-        print("warning: " + line, file=sys.stderr)
-    _report(results, arguments.json)
+    outputs.check_all([arguments.json])  # now that it is known what is read
+    results, work = [], _Work(len(found))
+    width = max(len(name) for name, _ in found)
+    try:
+        for name, network in found:
+            work.compiling(name)
+            probe = compiled.load().MaterialProbe(network, chosen)
+            warnings += probe.warnings
+            work.begin(_steps(probe, arguments))
+            results.append((name, check(probe, arguments, work.step)))
+            if arguments.json != "-":
+                work.progress.clear()
+                _print(*results[-1], width)
+    finally:  # also of what was not checked any more
+        work.progress.clear()
+        statistics.tell(warnings, sys.stderr)
+    outputs.write_json(arguments.json, {"materials": [{"name": name, "checks": outcomes} for name, outcomes in results],
+                 "causes": statistics.Causes(warnings).groups, "warnings": warnings})
     failures = [(name, kind, outcome) for name, outcomes in results for kind, outcome in outcomes.items()
                 if outcome["failed"]]
     if failures:
@@ -75,11 +87,46 @@ def run(arguments):
                            f"{outcome['text']}")
 
 
-def check(probe, arguments):
-    """:returns: check -> dict of failed, worst (a number), text"""
+class _Work:
+    """How far the command is: one step is a direction, or a material's check of numbers."""
+
+    def __init__(self, materials_in_all):
+        self.progress = Progress("check")
+        self.materials = materials_in_all
+        self.number = self.started = self.done = self.known = 0
+
+    def compiling(self, name):
+        self.number += 1
+        self.name = name
+        self._show()
+
+    def begin(self, steps):
+        self.started += 1
+        self.known += steps
+        self._show()
+
+    def step(self):
+        self.done += 1
+        self._show()
+
+    def _show(self):
+        # Those that are not compiled yet are taken for the mean of those that are.
+        total = self.known * self.materials / max(self.started, 1)
+        self.progress.step(self.done, total, f"material {self.number} of {self.materials}, {self.name}")
+
+
+def _steps(probe, arguments):
+    """:returns: how often check() calls its step"""
+    return 1 + 2 * len(ANGLES) * (1 if probe.constant else arguments.places)
+
+
+def check(probe, arguments, step=lambda: None):
+    """:param step: called after each direction, and after the numbers
+    :returns: check -> dict of failed, worst (a number), text"""
     generator = np.random.default_rng(arguments.seed)
     varies = not probe.constant
     outcomes = {"finite": _finite(probe, arguments, generator, varies)}
+    step()
     places = [(0.5, 0.5)]
     if varies:
         places = [tuple(generator.random(2)) for _ in range(arguments.places)]
@@ -94,6 +141,7 @@ def check(probe, arguments):
                     f", uv {place[0]:.3f} {place[1]:.3f}" if varies else "")
                 wo = _at(180.0 - angle if below else angle)
                 _direction(probe, wo, where, arguments, generator, tests, found)
+                step()
         number, where = _reciprocity(probe, generator, place if varies else None)
         limit = arguments.tolerance if arguments.reciprocal else None
         found["reciprocity"].append((number, limit, where))
@@ -316,31 +364,21 @@ def _reciprocity(probe, generator, place):
             f", uv {place[0]:.3f} {place[1]:.3f}" if place else "")
 
 
-def _write_json(value, target):
-    """:returns: whether it took standard output"""
-    if not target:
-        return False
-    text = json.dumps(value, indent=2)
-    if target == "-":
-        print(text)
-        return True
-    with open(target, "w", encoding="utf-8") as file:
-        file.write(text + "\n")
-    return False
+def _report_layers(chosen, arguments):
+    progress, rows = Progress("check"), []
+    for row in layers.rows(chosen, arguments.samples, arguments.seed):
+        if arguments.json != "-":
+            progress.clear()
+            print(layers.line(row) if rows else layers.HEAD + "\n" + layers.line(row), flush=True)
+        rows.append(row)
+        progress.step(len(rows), len(layers.STACKS) * len(layers.ANGLES), row["stack"])
+    progress.clear()
+    outputs.write_json(arguments.json, {"layers": rows})
 
 
-def _report_layers(rows, target):
-    if not _write_json({"layers": rows}, target):
-        print(layers.table(rows))
-
-
-def _report(results, target):
-    named = [{"name": name, "checks": outcomes} for name, outcomes in results]
-    if _write_json({"materials": named}, target):
-        return
-    width = max(len(name) for name, _ in results)
-    for name, outcomes in results:
-        for kind in CHECKS:
-            outcome = outcomes[kind]
-            state = "FAIL" if outcome["failed"] else "ok"
-            print(f"{name:<{width}}  {kind:<12} {state:<5} {outcome['text']}")
+def _print(name, outcomes, width):
+    """Shows a material as soon as it is checked."""
+    for kind in CHECKS:
+        outcome = outcomes[kind]
+        state = "FAIL" if outcome["failed"] else "ok"
+        print(f"{name:<{width}}  {kind:<12} {state:<5} {outcome['text']}", flush=True)

@@ -11,11 +11,11 @@ are left out of the numbers. FLIP comes from NVIDIA's flip-evaluator, where it i
   signed mean error    mean of a-b: energy won or lost; also relative to the mean of B
   largest difference   with the pixel, counted from the upper left corner
 """
-import json
 import os
 import sys
 
-from patina.cli import compiled, imageMetrics
+from patina import inputs
+from patina.cli import compiled, imageMetrics, outputs
 from patina.cli.errors import CommandError, UsageError
 
 LINEAR = (".exr", ".hdr", ".pfm")
@@ -38,12 +38,17 @@ def add_arguments(parser):
 
 def run(arguments):
     limits = _limits(arguments.fail)
+    for path in (arguments.a, arguments.b):
+        inputs.note(path)
+    outputs.check_all([arguments.json])
     a, b = (_read(path, arguments.aov) for path in (arguments.a, arguments.b))
     if a.shape != b.shape:
         raise CommandError(f"{arguments.a} is {_size(a)}, but {arguments.b} is {_size(b)}")
     result = measure(a, b, _is_linear(arguments.a) and _is_linear(arguments.b),
                      not arguments.no_flip)
     _show(result, arguments)
+    if result["channels"] == 3 and not arguments.no_flip and imageMetrics.flip_missing():
+        print(f"patina: {imageMetrics.flip_missing()}", file=sys.stderr)
     over = [f"{name} {value:.6g} > {limit:.6g}" for name, limit in limits.items()
             for value in [_metric(result, name)] if not abs(value) <= limit]
     if over:
@@ -78,7 +83,8 @@ def _metric(result, name):
     value = result[name]
     if value is None:
         raise CommandError(f"{name} could not be measured" +
-                           (": pip install flip-evaluator" if name == "flip" else ": no pixel is a number"))
+                           (f": {imageMetrics.flip_missing() or 'the reference is black'}" if name == "flip"
+                            else ": no pixel is a number"))
     return value
 
 
@@ -109,12 +115,7 @@ def _read(path, aov):
 
 def _show(result, arguments):
     if arguments.json:
-        text = json.dumps(result, indent=2)
-        if arguments.json == "-":
-            print(text)
-        else:
-            with open(arguments.json, "w", encoding="utf-8") as file:
-                file.write(text + "\n")
+        outputs.write_json(arguments.json, result)
         return
     for label, path in (("a", arguments.a), ("b", arguments.b)):
         bad = result["notFinite"][label]
@@ -131,5 +132,3 @@ def _show(result, arguments):
           ("" if relative is None else f" ({100 * relative:+.4g} %)"))
     where = result["maxAt"]
     print(f"largest difference  {result['maxDifference']:.6g}" + (f" at {where[0]}, {where[1]}" if where else ""))
-    if result["flip"] is None and result["channels"] == 3 and not arguments.no_flip:
-        print("FLIP needs the PyPI package flip-evaluator", file=sys.stderr)

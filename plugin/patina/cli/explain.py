@@ -1,16 +1,16 @@
 """Shows what becomes of a material: its network as authored, the simplified graph, the plan of
 lobes, what was left out, the method at each choice point that matters, and the error and time that
 these methods are expected to take. Of a stage without a named material all materials are shown.
+Warnings come last, by their causes as `patina record` tells them.
 
   patina explain shot.usda --tolerance 0.01    what the planner would choose for 1 % of error
 
 Of a whole stage with a tolerance it also builds the scene, and tells what is chosen for it: the edges of subdivision surfaces
 (of an image of 960 pixels from the first camera), how long paths are, and for the rasterizer how each material is lit.
 """
-import json
 import sys
 
-from patina.cli import compiled, materials, methods, planText, recordFlags, sceneChoices, statistics
+from patina.cli import compiled, materials, methods, outputs, planText, recordFlags, sceneChoices, statistics
 
 
 def add_arguments(parser):
@@ -28,6 +28,7 @@ def add_arguments(parser):
 
 def run(arguments):
     found, warnings = materials.load(arguments.material, arguments.set, every=True)
+    outputs.check_all([arguments.json])
     module = compiled.load()
     chosen = methods.parse(arguments.method)
     tolerance = -1.0 if arguments.tolerance is None else arguments.tolerance
@@ -38,16 +39,11 @@ def run(arguments):
         planned = {choice["point"]: choice["method"] for choice in plan["choices"]}
         texts.append((name, module.explain_material(network, warnings, dict(chosen, **planned))))
     if arguments.json:
-        text = json.dumps({"materials": [{"name": name, "text": text, "plan": plan}
-                                         for (name, text), (_, plan) in zip(texts, plans)],
-                           "error": max(plan["error"] for _, plan in plans),
-                           "scene": [dict(choice) for choice in choices], "lit": planText.lit(lit),
-                           "warnings": warnings}, indent=2)
-        if arguments.json == "-":
-            print(text)
-        else:
-            with open(arguments.json, "w", encoding="utf-8") as file:
-                file.write(text + "\n")
+        outputs.write_json(arguments.json, {
+            "materials": [{"name": name, "text": text, "plan": plan} for (name, text), (_, plan) in zip(texts, plans)],
+            "error": max(plan["error"] for _, plan in plans), "scene": [dict(choice) for choice in choices],
+            "lit": planText.lit(lit), "causes": statistics.Causes(warnings).groups,
+            "warnings": warnings})
         return
     for i, (name, text) in enumerate(texts):
         if len(texts) > 1:
@@ -58,8 +54,7 @@ def run(arguments):
         print("\n" + "\n".join(planText.scene_lines(plans, tolerance)))
     if choices or lit:
         print("\n".join(planText.choice_lines(choices) + planText.lit_lines(lit)))
-    for line in statistics.lines(warnings):
-        print("warning: " + line, file=sys.stderr)
+    statistics.tell(warnings, sys.stderr)
 
 
 def _of_scene(arguments, chosen, tolerance):

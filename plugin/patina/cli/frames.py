@@ -21,11 +21,12 @@ def _decimals(text):
 def _number(text, spec, start, end):
     names = {"STARTTIME": start, "ENDTIME": end, "START": start, "END": end}
     name = text.strip().lstrip("@")
-    if name in names:
-        return names[name]
-    if not _NUMBER.fullmatch(name):
+    value = names.get(name)
+    if value is None:
+        value = float(name) if _NUMBER.fullmatch(name) else math.nan
+    if not math.isfinite(value):
         raise UsageError(f"patina record: --frames {spec}: '{text}' is no frame")
-    return float(name)
+    return value
 
 
 def expand(spec, start, end):
@@ -41,7 +42,8 @@ def expand(spec, start, end):
         if not stride or not math.isfinite(stride):
             raise UsageError(f"patina record: --frames {spec}: a stride of {step} leads nowhere")
         stride = math.copysign(stride, b - a)
-        count = int(math.floor((b - a) / stride + 1e-6)) + 1
+        steps = (b - a) / stride  # infinite where the stride is tiny
+        count = int(math.floor(steps + 1e-6)) + 1 if steps < MOST_FRAMES else MOST_FRAMES + 1
         if len(frames) + count > MOST_FRAMES:
             raise UsageError(f"patina record: --frames {spec} means more than {MOST_FRAMES} frames")
         frames += [a + i * stride for i in range(count)]

@@ -1,4 +1,6 @@
 """Numbers that say how two images differ. Arrays are (height, width, channels) of floats."""
+import importlib.util
+
 import numpy as np
 
 REL_MSE_EPSILON = 0.01  # keeps black pixels of the reference from deciding everything
@@ -39,16 +41,23 @@ def differences(a, b):
     }
 
 
+def flip_missing():
+    """:returns: why FLIP cannot be measured on this machine; empty where it can"""
+    if importlib.util.find_spec("flip_evaluator"):
+        return ""
+    return "FLIP is not measured: PyPI's flip-evaluator is not installed (./patina installs it where it may)"
+
+
 def mean_flip(a, b, high_dynamic_range):
     """Mean of the FLIP error map, by NVIDIA's own implementation (Andersson et al. 2020, 2021).
 
     :param high_dynamic_range: linear radiance rather than display values in [0, 1]
-    :returns: the mean, 0..1; None where flip-evaluator is not installed
+    :returns: the mean, 0..1; None where flip-evaluator is not installed, and beside a linear reference that is black
     """
-    try:
-        import flip_evaluator
-    except ImportError:
+    if flip_missing():
         return None
+    import flip_evaluator
+
     mask = finite_pixels(a, b)[..., None]
     test, reference = (np.ascontiguousarray(np.where(mask, image, 0.0), dtype=np.float32) for image in (a, b))
     if high_dynamic_range:

@@ -1,26 +1,66 @@
-"""Ctrl+C and the end of a batch job, while a render runs: noted first, and not resisted twice."""
+"""Ctrl+C, the end of a batch job and of a terminal: noted, and not resisted twice."""
+import os
 import signal
 import threading
 
+NUMBERS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
-class Interrupts:
-    """Within the block, the first SIGINT or SIGTERM sets `met`; the next does what it always does."""
+
+class _Handlers:
+    """Within the block, signals that are not ignored (as by nohup) come to _note()."""
 
     def __init__(self):
-        self.met = False
         self._before = {}
 
     def __enter__(self):
         if threading.current_thread() is threading.main_thread():
-            for number in (signal.SIGINT, signal.SIGTERM):
-                self._before[number] = signal.signal(number, self._note)
+            for number in NUMBERS:
+                if signal.getsignal(number) not in (signal.SIG_IGN, None):
+                    self._before[number] = signal.signal(number, self._note)
         return self
-
-    def _note(self, number, _frame):
-        self.met = True
-        signal.signal(number, signal.SIG_DFL)
 
     def __exit__(self, *_):
         for number, handler in self._before.items():
             signal.signal(number, handler)
         return False
+
+
+class Interrupts(_Handlers):
+    """While a render runs: the first signal sets `met`; the next does what it always does."""
+
+    def __init__(self):
+        super().__init__()
+        self.met = False
+
+    def _note(self, number, _frame):
+        self.met = True
+        signal.signal(number, signal.SIG_DFL)
+
+
+class Endings(_Handlers):
+    """While a command runs: the first signal ends it as an exception does, so that what it has begun is tidied up.
+
+    `met` stays set, because libraries turn the exception into others: an interrupted import into a missing module."""
+
+    def __init__(self):
+        super().__init__()
+        self.met = 0
+
+    def _note(self, number, _frame):
+        self.met = number
+        signal.signal(number, signal.SIG_DFL)
+        raise KeyboardInterrupt
+
+    def text(self):
+        return {"SIGTERM": "terminated", "SIGHUP": "ended with its terminal"}.get(
+            signal.Signals(self.met).name if self.met else "", "interrupted")
+
+
+def hold_standard_streams():
+    """Opens what was closed (`2>&-`) as /dev/null: else the first file that is written would take its place, and
+    the messages of libraries would go into that file."""
+    for descriptor in (0, 1, 2):
+        try:
+            os.fstat(descriptor)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free

@@ -119,21 +119,26 @@ def compare(interfaces, base, methods, count, generator):
         yield degrees, layered.albedo(wo[None])[0].astype(float), true, error
 
 
-def report(methods, count, seed):
-    """:returns: list of dict: what `patina check --layers` prints"""
+HEAD = f"{'stack':<24}{'degrees':>8}{'scaled':>9}{'walk':>9}{'error':>9}{'noise':>9}"
+
+
+def rows(methods, count, seed):
+    """Yields dicts, the rows of what `patina check --layers` prints: len(STACKS) * len(ANGLES) of them."""
     generator = np.random.default_rng(seed)
-    return [{"stack": name, "degrees": degrees, "scaled": ours.tolist(), "walk": true.tolist(),
-             "noise": error.tolist()}
-            for name, (interfaces, base) in STACKS.items()
-            for degrees, ours, true, error in compare(interfaces, base, methods, count, generator)]
+    for name, (interfaces, base) in STACKS.items():
+        for degrees, ours, true, error in compare(interfaces, base, methods, count, generator):
+            yield {"stack": name, "degrees": degrees, "scaled": ours.tolist(), "walk": true.tolist(),
+                   "noise": error.tolist()}
 
 
-def table(rows):
-    """:returns: the rows as text; the error is that of the channel where it is largest"""
-    lines = [f"{'stack':<24}{'degrees':>8}{'scaled':>9}{'walk':>9}{'error':>9}{'noise':>9}"]
-    for row in rows:
-        errors = [a - b for a, b in zip(row["scaled"], row["walk"])]
-        c = max(range(3), key=lambda i: abs(errors[i]))
-        lines.append(f"{row['stack']:<24}{row['degrees']:>8.0f}{row['scaled'][c]:>9.4f}{row['walk'][c]:>9.4f}"
-                     f"{errors[c]:>+9.4f}{row['noise'][c]:>9.4f}")
-    return "\n".join(lines)
+def report(methods, count, seed):
+    """:returns: list of all rows"""
+    return list(rows(methods, count, seed))
+
+
+def line(row):
+    """:returns: a row as text; the error is that of the channel where it is largest"""
+    errors = [a - b for a, b in zip(row["scaled"], row["walk"])]
+    c = max(range(3), key=lambda i: abs(errors[i]))
+    return (f"{row['stack']:<24}{row['degrees']:>8.0f}{row['scaled'][c]:>9.4f}{row['walk'][c]:>9.4f}"
+            f"{errors[c]:>+9.4f}{row['noise'][c]:>9.4f}")

@@ -4,8 +4,10 @@ import importlib
 import os
 import re
 import sys
+import traceback
 
-from patina import __version__
+from patina import __version__, inputs
+from patina.cli import interrupts, told
 from patina.cli.errors import CommandError, UsageError
 
 # name -> module of patina.cli that has HELP, add_arguments(parser) and run(arguments)
@@ -94,29 +96,61 @@ def _dispatch(argv):
     return module.run(arguments) or 0
 
 
+def _text_of(error):
+    # Errors of pxr name the place in its code; what they say of the matter is the commentary.
+    texts = [str(item.commentary) for item in error.args if hasattr(item, "commentary")]
+    return " ".join((" ".join(texts) or str(error)).split())
+
+
 def _one_line(error):
-    text = " ".join(str(error).split())
-    return text or type(error).__name__
+    try:
+        text = _text_of(error)
+    except UnicodeDecodeError as inner:  # the error quotes what it read
+        error = inner
+    if isinstance(error, UnicodeDecodeError):
+        return f"what was read holds a text that is not UTF-8: {bytes(error.object)[:200]!r}"
+    if not isinstance(error, (UsageError, CommandError, RuntimeError, OSError)):
+        text = f"{type(error).__name__}: {text}" if text else type(error).__name__
+    return (text or type(error).__name__).encode(errors="backslashreplace").decode()
+
+
+def _check_arguments(argv):
+    for argument in argv:
+        try:
+            argument.encode()
+        except UnicodeEncodeError:
+            shown = argument.encode(errors="surrogateescape").decode(errors="replace")
+            raise UsageError(f"patina: {shown}: names that are not UTF-8 are neither read nor written") from None
 
 
 def main(argv=None):
     """:returns: the exit status"""
-    try:
-        return _dispatch(sys.argv[1:] if argv is None else argv)
-    except UsageError as error:
+    with told.Streams(), interrupts.Endings() as endings:
+        try:
+            inputs.forget()
+            argv = sys.argv[1:] if argv is None else argv
+            _check_arguments(argv)
+            status = _dispatch(argv)
+            sys.stdout.flush()
+            return status
+        except BrokenPipeError:  # `patina ... | head`
+            told.silence(sys.stdout)
+            return 1
+        except (Exception, KeyboardInterrupt) as error:
+            return _failed(error, endings)
+
+
+def _failed(error, endings):
+    """:returns: the exit status, after the reason in one line"""
+    if os.environ.get("PATINA_TRACEBACK"):
+        traceback.print_exc()
+    if isinstance(error, KeyboardInterrupt) or (endings.met and not isinstance(error, CommandError)):
+        print(f"patina: {endings.text()}", file=sys.stderr)
+    elif isinstance(error, UsageError):
         print(_one_line(error), file=sys.stderr)
         return 2
-    except CommandError as error:
+    elif endings.met and isinstance(error.__cause__, ImportError):
+        print(f"patina: {endings.text()}", file=sys.stderr)
+    else:
         print(f"patina: {_one_line(error)}", file=sys.stderr)
-        return 1
-    except BrokenPipeError:  # `patina ... | head`
-        sys.stdout = open(os.devnull, "w", encoding="utf-8")
-        return 1
-    except KeyboardInterrupt:
-        print("patina: interrupted", file=sys.stderr)
-        return 1
-    except (ImportError, OSError, RuntimeError, MemoryError) as error:
-        if os.environ.get("PATINA_TRACEBACK"):
-            raise
-        print(f"patina: {_one_line(error)}", file=sys.stderr)
-        return 1
+    return 1

@@ -1,6 +1,7 @@
 """MATERIAL arguments: FILE[:/prim/path] of a stage, or FILE.mtlx[:name]."""
 import os
 
+from patina import inputs
 from patina.cli import compiled, openStage, overrides
 from patina.cli.errors import CommandError
 
@@ -34,6 +35,7 @@ def load(text, set_texts=(), every=False):
     file, name = split(text)
     if not os.path.exists(file):
         raise CommandError(f"there is no file {file}")
+    inputs.check_regular(file)
     warnings = list(compiled.load().model_warnings())
     found = _of_document(file, warnings) if is_document(file) else _of_stage(file, set_texts, warnings)
     if name:
@@ -48,7 +50,16 @@ def load(text, set_texts=(), every=False):
         raise CommandError(f"{file} holds {len(found)} materials, name one" + _list(found))
     if is_document(file) and set_texts:
         found = [(label, _override(network, set_texts)) for label, network in found]
+    for _, network in found:
+        _note_files(network)
     return found, warnings
+
+
+def _note_files(network):
+    for node in network.nodes():
+        for value in node["inputs"].values():
+            if value["type"] == "filename" and isinstance(value["value"], str):
+                inputs.note(value["value"])
 
 
 def _list(found):
@@ -57,6 +68,7 @@ def _list(found):
 
 
 def _of_document(file, warnings):
+    inputs.note_document(file)
     networks = compiled.load().read_mtlx(file, warnings)
     return [(network.path[len(file) + 1:], network) for network in networks]
 

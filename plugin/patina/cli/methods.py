@@ -48,10 +48,13 @@ def _measured(figures):
 def _listing():
     lines = []
     patina = compiled.load()
-    for point, names in patina.choice_points():
+    points = patina.choice_points()
+    indent = 4 + max(len(name) for _, names in points for name, _ in names)
+    for point, names in points:
         lines.append(point)
         for i, (name, description) in enumerate(names):
             text = textwrap.wrap(("(the default) " if i == 0 else "") + description, 90)
             text += _measured(patina.method_figures(point, name))
-            lines += [f"  {name:<14}{text[0] if text else ''}"] + [" " * 16 + more for more in text[1:]]
+            lines += [f"  {name:<{indent - 2}}{text[0] if text else ''}".rstrip()]
+            lines += [" " * indent + more for more in text[1:]]
     return "\n".join(lines)

@@ -1,6 +1,7 @@
 """Opens a stage as the flags say, or gives a one-line reason."""
 import os
 
+from patina import inputs
 from patina.cli.errors import CommandError
 
 
@@ -17,8 +18,7 @@ def open_stage(path, mask=None, session_layer=None):
         path.encode()
     except UnicodeEncodeError:
         raise CommandError(f"{path.encode(errors='replace').decode()}: USD opens no file whose name is not UTF-8") from None
-    if os.path.isdir(path):
-        raise CommandError(f"{path} is a folder")
+    inputs.check_regular(path)
     with compat.QuietDiagnostics() as quiet:
         try:
             stage = _open(path, mask, session_layer, Sdf, Usd)
@@ -27,6 +27,9 @@ def open_stage(path, mask=None, session_layer=None):
             stage, problem = None, errors.one_line(error)
     if not stage:
         raise StageError(f"{path} cannot be opened: {quiet.texts[0] if quiet.texts else problem}")
+    for layer in stage.GetUsedLayers():
+        if not layer.anonymous:
+            inputs.note(layer.realPath)
     return stage
 
 
@@ -36,6 +39,7 @@ def _open(path, mask, session_layer, Sdf, Usd):
         return None
     session = Sdf.Layer.CreateAnonymous("session.usda")
     if session_layer:
+        inputs.check_regular(session_layer)
         if not Sdf.Layer.FindOrOpen(session_layer):
             raise CommandError(f"the session layer {session_layer} cannot be opened")
         # A layer of its own above the given one: overrides never reach the file.

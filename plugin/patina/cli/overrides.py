@@ -1,4 +1,5 @@
 """--set PRIM.INPUT=VALUE: changes inputs of a stage in its session layer, before anything reads it."""
+import math
 import re
 
 from patina.cli.errors import CommandError, UsageError
@@ -32,7 +33,7 @@ def apply(stage, texts):
 
 
 def _apply(stage, path, name, text):
-    from pxr import Sdf, UsdShade
+    from pxr import Sdf, Tf, UsdShade
 
     if not Sdf.Path.IsValidPathString(path):
         raise CommandError(f"--set: {path} is no prim path")
@@ -44,7 +45,10 @@ def _apply(stage, path, name, text):
     attribute = _attribute(prim, name)
     if attribute is None:
         raise CommandError(f"--set: {path} has no input {name}")
-    attribute.Set(_value(attribute.GetTypeName(), text, f"{path}.{name}"))
+    try:
+        attribute.Set(_value(attribute.GetTypeName(), text, f"{path}.{name}"))
+    except (OverflowError, TypeError, ValueError, Tf.ErrorException):  # a byte takes no 300
+        raise CommandError(f"--set {path}.{name}: '{text}' is no {attribute.GetTypeName()}") from None
     if UsdShade.Input.IsInput(attribute):
         attribute.SetConnections([])
 
@@ -106,7 +110,11 @@ def _value(type_name, text, target):
     if isinstance(default, (int, float)):
         if len(numbers) != 1:
             raise CommandError(f"--set {target}: one number is wanted, not '{text}'")
-        return int(numbers[0]) if isinstance(default, int) else numbers[0]
+        if not isinstance(default, int):
+            return numbers[0]
+        if not math.isfinite(numbers[0]):
+            raise CommandError(f"--set {target}: '{text}' is no integer")
+        return int(numbers[0])
     if isinstance(default, (Gf.Vec2f, Gf.Vec3f, Gf.Vec4f, Gf.Vec2d, Gf.Vec3d, Gf.Vec4d, Gf.Vec2h, Gf.Vec3h, Gf.Vec4h)):
         size = len(default)
         if len(numbers) == 1:  # a grey

@@ -1,4 +1,5 @@
-"""Shows how far a render is: one line that moves on a terminal, a line now and then elsewhere."""
+"""Shows how far a command is: one line that moves on a terminal, a line now and then elsewhere."""
+import shutil
 import sys
 import time
 
@@ -22,28 +23,60 @@ class Progress:
         self.stream = stream or sys.stderr
         self.label, self.quiet = label, quiet
         self.terminal = not quiet and self.stream.isatty()
-        self.started = self.last = time.monotonic()
+        self.started = time.monotonic()
+        self.last = self.started - (1.0 if self.terminal else 0.0)  # on a terminal the first line comes at once
 
     def show(self, state):
         """:param state: what Renderer.progress() says"""
-        if self.quiet:
+        if not self._due():
             return
-        now = time.monotonic()
-        if now - self.last < (0.1 if self.terminal else SPARSE_SECONDS):
-            return
-        self.last = now
         fraction = min(max(state["fraction"], 0.0), 1.0)
         text = f"{100 * fraction:3.0f} %  {state['samplesDone']} samples"
         if fraction == 0.0 and state["samplesDone"] == 0:  # shapes, textures, and what drivers compile
-            text = f"preparing for {_clock(now - self.started)}"
+            text = self._preparing(state, self.last)
         elif state["secondsLeft"] > 0.5:
             text += f"  {_clock(state['secondsLeft'])} left"
+        self._write(fraction, text)
+
+    def step(self, done, total, what):
+        """Of work in equal steps; the time left follows from what they took so far.
+
+        :param done, total: numbers of steps, of which the total may still be a guess
+        :param what: is done now"""
+        if done >= total > 0 or not self._due():
+            return
+        fraction = max(done / total, 0.0) if total > 0 else 0.0
+        left = f"{_clock((self.last - self.started) * (1.0 - fraction) / fraction)} left  " if fraction > 0.0 else ""
+        self._write(fraction, f"{100 * fraction:3.0f} %  {left}{what}")
+
+    def _due(self):
+        """:returns: whether it is time for the next line"""
+        now = time.monotonic()
+        if self.quiet or now - self.last < (0.1 if self.terminal else SPARSE_SECONDS):
+            return False
+        self.last = now
+        return True
+
+    def _write(self, fraction, text):
         if self.terminal:
             filled = int(BAR * fraction + 0.5)
-            self.stream.write(f"\r\033[K{self.label} [{'#' * filled}{'.' * (BAR - filled)}] {text}")
+            bar = f" [{'#' * filled}{'.' * (BAR - filled)}] "
+            # A line that wraps would stay: long labels, which are paths, show their ends.
+            room = shutil.get_terminal_size().columns - 1
+            most = max(room - len(bar) - len(text), 12)
+            label = self.label if len(self.label) <= most else "..." + self.label[3 - most:]
+            self.stream.write("\r\033[K" + (label + bar + text)[:room])
         else:
             self.stream.write(f"{self.label}: {text}\n")
         self.stream.flush()
+
+    def _preparing(self, state, now):
+        statistics = state.get("statistics", {})
+        ready, wanted = (int(statistics.get(name, 0)) for name in ("materialsReady", "materialsWanted"))
+        if ready >= wanted:
+            return f"preparing for {_clock(now - self.started)}"
+        left = f", about {_clock(state['secondsLeft'])} left" if state["secondsLeft"] > 0.5 else ""
+        return f"compiled {ready} of {wanted} materials{left}"
 
     def clear(self):
         """Leaves an empty line for what is printed next."""

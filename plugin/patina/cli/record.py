@@ -4,17 +4,21 @@
   patina record shot.usda shot.###.exr --frames 101:110 --samples 256 --aov all
   patina record shot.usda shot.exr --tolerance 0.01 --seconds 600 --json
 
+Warnings are told by their causes: first errors (something that was authored is missing from the image), then warnings (a
+default or an approximation is used), those that are met most often first, 20 at most. --json has all of them.
+
 Ctrl+C ends a render early: the image is written with the samples that are there, and
 IMAGE.checkpoint stays for --resume. An image that was there before is replaced only by a whole one.
 """
-from patina.cli import checkpoints, compiled, frames, openStage, overrides, recordFlags, statistics
+import os
+
+from patina.cli import checkpoints, compiled, frames, openStage, outputs, overrides, recordFlags, statistics
 from patina.cli.errors import CommandError
 from patina.cli.interrupts import Interrupts
 from patina.cli.progress import Progress
 
 add_arguments = recordFlags.add_arguments
 DEFAULT_WIDTH = 960
-MOST_WARNINGS = 20  # lines on the terminal; all of them are in --json
 
 
 def run(arguments):
@@ -42,17 +46,21 @@ class _Job:
         self.module, self.arguments, self.settings, self.purposes = module, arguments, settings, purposes
         self.statistics = statistics.Statistics(arguments)
         self.interrupted = False
-        self.shown = 0
+        self.told = {}  # causes of warnings that were shown ...
+        self.reported = 0  # ... and how many warnings there were then
 
     def open(self):
         a = self.arguments
         pattern = a.image
         # Before anything slow: will the image have a place to go to?
         self.module.check_image_path(pattern, ["color", "alpha"] + self.settings["aovs"])
+        outputs.check_all([pattern, a.json])
         with self.statistics.phase("open"):
             self.stage = openStage.open_stage(a.stage, a.mask, a.sessionLayer)
             overrides.apply(self.stage, a.set)
         self.plan = frames.plan(a, self.stage)
+        for _, image in self.plan:
+            self._check_outputs(image)
         self.renderer = self.module.make_renderer(a.backend)
         self.scene = self.module.Scene()
 
@@ -60,7 +68,8 @@ class _Job:
         self.statistics.begin_frame(frame, image)
         with self.statistics.phase("translate"):
             info = self._translate(frame)
-        for note in self.statistics.note(info.notes):
+        self._check_outputs(image)  # once more: now it is known which textures are read
+        for note in self.statistics.note(info.notes + self._left_over(image)):
             Progress("", self.arguments.quiet).say(note)
         self._check_warnings()
         settings = dict(self.settings, **self._size(info))
@@ -72,6 +81,18 @@ class _Job:
         with self.statistics.phase("write"):
             self._write(film, image, settings, info)
         self.statistics.end_frame()
+
+    def _check_outputs(self, image):
+        outputs.check_all([image, self.arguments.json])
+        if self.arguments.checkpointSeconds > 0.0 or self.arguments.keepCheckpoint or self.arguments.resume:
+            outputs.check(checkpoints.path_of(image))
+
+    def _left_over(self, image):
+        """What a render that was killed has left; it goes when this image is written."""
+        path = checkpoints.path_of(image)
+        if self.arguments.resume or not os.path.isfile(path):
+            return []
+        return [f"{path} of an earlier render is given up (--resume would have continued it)"]
 
     def _translate(self, frame):
         from patina import stage as reader
@@ -119,8 +140,13 @@ class _Job:
         with self.statistics.phase("render"), Interrupts() as interrupts:
             self.renderer.start(self.scene, camera, settings, film)
             self._check_warnings()  # of a back end that cannot start
+            built = False
             while not self.renderer.wait(0.1) and not interrupts.met:
-                progress.show(self.renderer.progress())
+                state = self.renderer.progress()
+                if state["samplesDone"] and not built:
+                    built = True
+                    self._check_warnings()  # of shapes, materials and textures, before the long wait
+                progress.show(state)
             self.renderer.stop()
         progress.clear()
         state = self.renderer.progress()
@@ -145,15 +171,17 @@ class _Job:
         """Shows what is new; with --strict the render ends here."""
         self.statistics.collect(self.scene)
         warnings = self.statistics.warnings()
-        if not self.arguments.quiet:
-            for text in statistics.lines(warnings)[self.shown:MOST_WARNINGS]:
-                Progress("").say("warning: " + text)
-            if len(warnings) > MOST_WARNINGS > self.shown:
-                Progress("").say("warning: more of them are in --json")
-        self.shown = len(warnings)
+        self._tell(warnings)
         if self.arguments.strict and warnings:
-            raise CommandError(f"--strict: {len(warnings)} warnings, the first: {statistics.lines(warnings)[0]}")
+            raise CommandError(f"--strict: {len(warnings)} warnings, the worst: {statistics.lines(warnings)[0]}")
+
+    def _tell(self, warnings, last=False):
+        fresh, self.reported = len(warnings) != self.reported, len(warnings)
+        if not self.arguments.quiet and (fresh or last):
+            for text in statistics.Causes(warnings).lines(self.told, last):
+                Progress("").say(text)
 
     def report(self):
+        self._tell(self.statistics.warnings(), last=True)
         if self.arguments.json:
             self.statistics.write(self.arguments.json)

@@ -10,6 +10,7 @@ MOST_SAMPLES = 65536  # where only --tolerance or --seconds ends the render
 ALL_AOVS = ("depth", "cameraDepth", "normal", "Neye", "position", "albedo", "primvars:st", "primId", "instanceId",
             "elementId", "sampleCount", "variance")
 LARGEST_SIZE = 65536
+MOST_THREADS = 4096
 MOST_PIXELS = 1 << 28
 
 
@@ -54,7 +55,8 @@ def _add_render_flags(group):
                        help="adaptive sampling takes no fewer (default: 16)")
     add_tolerance_flag(group)
     group.add_argument("--seconds", type=_not_negative, default=0.0, metavar="S", help="stop after so many seconds")
-    group.add_argument("--threads", type=_count, default=0, metavar="N", help="default: all cores")
+    group.add_argument("--threads", type=_threads, default=0, metavar="N",
+                       help=f"1 to {MOST_THREADS} (default: all cores)")
     group.add_argument("--seed", type=_seed, default=0, metavar="N",
                        help="another seed, another noise; the same seed gives the same bits (default: 0)")
     group.add_argument("--maxDepth", type=_count, default=-1, metavar="N",
@@ -65,8 +67,8 @@ def _add_render_flags(group):
                        help="bounces before paths are ended by chance (default: 4)")
     group.add_argument("--indirectClamp", type=_not_negative, default=0.0, metavar="L",
                        help="largest luminance of one indirect sample: less noise, too dark (default: 0, off)")
-    group.add_argument("--filterRadius", type=_not_negative, default=1.0, metavar="R",
-                       help="radius of the pixel filter in pixels; 0.5 is a box (default: 1)")
+    group.add_argument("--filterRadius", type=_filter_radius, default=1.0, metavar="R",
+                       help="radius of the pixel filter in pixels, up to 1000; 0.5 is a box (default: 1)")
     group.add_argument("--edgeLength", type=_positive, default=-1.0, metavar="PIXELS",
                        help="subdivision surfaces are refined until edges are this short (default: 4, or as long as the "
                             "tolerance allows)")
@@ -209,6 +211,10 @@ def _count(text):
     return _integer(text, 1, 2**31 - 1)
 
 
+def _threads(text):
+    return _integer(text, 1, MOST_THREADS)
+
+
 def _environment_samples(text):
     return _integer(text, 4, 1024)
 
@@ -232,6 +238,13 @@ def _not_negative(text):
     return value
 
 
+def _filter_radius(text):
+    value = _not_negative(text)
+    if value > 1000.0:
+        raise ValueError
+    return value
+
+
 def _positive(text):
     value = float(text)
     if not (value > 0.0 and math.isfinite(value)):
@@ -248,6 +261,7 @@ def _window(text):
 
 # argparse shows the name of the function in its message about a bad value.
 for _function, _name in ((_complexity, "complexity"), (_count, "count (1 or more)"), (_size, "size in pixels"),
+                         (_threads, f"count of threads (1 to {MOST_THREADS})"),
                          (_seed, "seed"), (_not_negative, "number (0 or more)"), (_positive, "number (above 0)"),
-                         (_window, "window X0,Y0,X1,Y1")):
+                         (_window, "window X0,Y0,X1,Y1"), (_filter_radius, "radius (0 to 1000)")):
     _function.__name__ = _name

@@ -26,7 +26,8 @@ def of_stage(file, set_texts, forced, tolerance, backend):
     renderer.start(scene, info.camera, {"width": WIDTH, "height": max(1, round(WIDTH / aspect)), "dataWindow": (0, 0, 0, 0),
                                         "samples": 1, "tolerance": tolerance, "maxDepth": -1, "methods": forced,
                                         "checkpointSeconds": 0.0}, module.Film())
-    renderer.wait()
+    while not renderer.wait(0.2):  # signals are heard in between
+        pass
     state = renderer.progress()
     if state["failed"]:
         raise CommandError(state["error"])

@@ -1,19 +1,29 @@
 """What --json shows of a render: times by phase, rays, samples, memory, warnings."""
 import contextlib
-import json
 import sys
 import time
 
 from patina import __version__
-from patina.cli import planText
+from patina.cli import outputs, planText
+from patina.cli.causes import Causes
 
 PHASES = ("open", "translate", "build", "render", "write", "total")
 
 
 def lines(warnings):
-    """:returns: each warning as one line"""
-    return [(w["prim"] + ("." + w["input"] if w["input"] else "") + ": " if w["prim"] else "") + w["message"] +
-            (f" ({w['count']} times)" if w["count"] > 1 else "") for w in warnings]
+    """:returns: the causes of warnings, worst first, as lines that begin with how bad they are"""
+    return Causes(warnings).lines()
+
+
+def warning(message, prim="", name=""):
+    """:returns: a warning as those of a scene are"""
+    return {"prim": prim, "input": name, "message": message, "count": 1}
+
+
+def tell(warnings, stream):
+    """Prints those lines."""
+    for text in lines(warnings):
+        print(text, file=stream)
 
 
 def peak_memory():
@@ -77,7 +87,7 @@ class Statistics:
                 self._frame["estimatedError"] = error
 
     def warn(self, prim, name, message):
-        self._own.append({"prim": prim, "input": name, "message": message, "count": 1})
+        self._own.append(warning(message, prim, name))
 
     def note(self, texts):
         """Keeps what was decided for the user. :returns: those that are new"""
@@ -126,14 +136,10 @@ class Statistics:
             result["raysPerSecond"] = result["rays"] / spent
         result["peakMemoryBytes"] = peak_memory()
         result["notes"] = self._notes
+        result["causes"] = Causes(self.warnings()).groups
         result["warnings"] = self.warnings()
         result["frames"] = self._frames
-        text = json.dumps(result, indent=2)
-        if file == "-":
-            print(text)
-        else:
-            with open(file, "w", encoding="utf-8") as out:
-                out.write(text + "\n")
+        outputs.write_json(file, result)
 
 
 def _mean_relative_error(film):

@@ -1,42 +1,71 @@
-"""Runs every test of a checkout in one pytest session: the googletest programs of the build first,
-then the Python tests of testenv and of the package. Further arguments go to pytest
-(`./patina test -k furnace`). Two processes or more share them (`-n 0`: one). ./patina builds what is needed before.
+"""Runs the tests of a checkout in one pytest session: googletest programs of the build and Python tests of testenv and of
+the package. ./patina builds what is needed before.
+
+  patina test                   what CI runs (tier `full`, under 15 minutes on two cores)
+  patina test --tier unit       under 30 seconds; smoke: under 3 minutes; long: what only takes time; lint: committed numbers
+  patina test --room shaders    what a change to one room needs, under 3 minutes (with --tier full: all of the room)
+  patina test -k furnace        further arguments go to pytest; named files and tests run whatever tier they are in
+
+testenv/manifest.py says which tier and rooms a test belongs to. Two processes or more share the tests (`-n 0`: one).
 """
 import importlib.util
 import os
 import subprocess
 import sys
 
-from patina.cli.errors import CommandError
+from patina.cli.errors import CommandError, UsageError
 
-HELP = "run every test of a checkout"
+HELP = "run the tests of a checkout"
 PASSES_ON = True
+TIERS = ("lint", "unit", "smoke", "full", "long", "all")
 
 
 def add_arguments(parser):
-    parser.usage = "patina test [pytest arguments]"
+    parser.usage = "patina test [--tier TIER] [--room ROOM] [pytest arguments]"
+    parser.add_argument("--tier", choices=TIERS, help="default: full, with --room smoke, with named tests all; unit, smoke and "
+                                                      "full hold those before, long holds only what they leave out")
+    parser.add_argument("--room", action="append", default=[], metavar="ROOM", help="only tests of this room (repeatable)")
 
 
 def run(arguments):
     root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-    if not os.path.isfile(os.path.join(root, "testenv", "conftest.py")):
+    testenv = os.path.join(root, "testenv")
+    if not os.path.isfile(os.path.join(testenv, "conftest.py")):
         raise CommandError("the tests are in a checkout only: run ./patina test there")
     environment = dict(os.environ)
     assets = os.path.normpath(os.path.join(root, "..", "shared", "assets"))
     if "PATINA_ASSETS" not in environment and os.path.isdir(assets):
         environment["PATINA_ASSETS"] = assets
     environment.setdefault("PATINA_BUILD_DIR", os.path.join(root, "build"))
+    environment["PYTHONPATH"] = os.pathsep.join(filter(None, [environment.get("PYTHONPATH"), testenv]))
     # pytest runs in the root, where testpaths are meant; paths keep the meaning that they had.
-    passed_on = [os.path.abspath(a) if not a.startswith("-") and os.path.exists(a.partition("::")[0]) else a
-                 for a in arguments.passed_on]
-    command = [sys.executable, "-m", "pytest", *_workers(passed_on), "-q", "-ra", "-c", os.path.join(root, "testenv", "pytest.ini"),
-               "--rootdir", root, *passed_on]
+    passed_on = [os.path.abspath(a) if _named(a) else a for a in arguments.passed_on]
+    tier = arguments.tier or ("all" if any(map(_named, arguments.passed_on)) else "smoke" if arguments.room else "full")
+    command = [sys.executable, "-m", "pytest", *_workers(passed_on), "-q", "-ra", "-c", os.path.join(testenv, "pytest.ini"),
+               "--rootdir", root, "-p", "testTiers", "--tier", tier, *_rooms(arguments.room, testenv), *passed_on]
     return min(1, subprocess.call(command, env=environment, cwd=root))
 
 
+def _named(argument):
+    """:returns: whether an argument for pytest is a file, a folder or a test in one"""
+    return not argument.startswith("-") and os.path.exists(argument.partition("::")[0])
+
+
+def _rooms(rooms, testenv):
+    """:returns: arguments for pytest
+    :raises UsageError: where there is no such room"""
+    specification = importlib.util.spec_from_file_location("manifest", os.path.join(testenv, "manifest.py"))
+    manifest = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(manifest)
+    for room in rooms:
+        if room not in manifest.ROOMS:
+            raise UsageError(f"patina test: there is no room '{room}' (there are: {', '.join(manifest.ROOMS)})")
+    return [part for room in rooms for part in ("--room", room)]
+
+
 def _workers(passed_on):
-    """:returns: arguments that let several processes share the tests, whole files at a time; none where pytest-xdist is
-    missing, there is one core, or the user says how many or wants to look into a test"""
+    """:returns: arguments that let several processes share the tests; none where pytest-xdist is missing, there is one
+    core, or the user says how many or wants to look into a test"""
     alone = ("-n", "--numprocesses", "--pdb", "-s", "--capture=no", "--collect-only", "--co")
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     if cores < 2 or importlib.util.find_spec("xdist") is None:
@@ -44,4 +73,6 @@ def _workers(passed_on):
     if any(a == name or a.startswith(name + "=") or (name == "-n" and a[:2] == "-n" and a[2:].isalnum())
            for a in passed_on for name in alone):
         return []
-    return ["-n", str(min(cores, 4)), "--dist", "loadscope"]
+    # Neighbours stay together, and so do tests of a module. (By modules, pytest-xdist runs a test that takes its process
+    # down again and again.)
+    return ["-n", str(min(cores, 4)), "--dist", "worksteal"]

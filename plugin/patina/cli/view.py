@@ -6,8 +6,8 @@ the materials. It needs Node and npm once, to fetch and bundle what the page is 
 import os
 import sys
 
-from patina.cli import materials, methods
-from patina.cli.errors import CommandError, UsageError
+from patina.cli import materials, methods, outputs, statistics
+from patina.cli.errors import UsageError
 
 DEMOS = {"classic": "the classic reflectance models as steel and hematite, and what each cannot show",
          "layers": "standard_surface with its layers switched on one by one"}
@@ -58,13 +58,6 @@ def run(arguments):
     if not 16 <= arguments.compareWidth <= 2048 or not 1 <= arguments.compareSamples <= 65536:
         raise UsageError("patina view: --compareWidth is 16 to 2048, --compareSamples 1 to 65536")
     text, warnings = build.page_of(arguments)
-    for line in warnings:
-        print("warning: " + line, file=sys.stderr)
-    temporary = f"{arguments.output}.{os.getpid()}.tmp"
-    try:
-        with open(temporary, "w", encoding="utf-8") as file:
-            file.write(text)
-        os.replace(temporary, arguments.output)
-    except OSError as error:
-        raise CommandError(f"cannot write {arguments.output}: {error.strerror}") from error
+    statistics.tell(warnings, sys.stderr)
+    outputs.write_text(arguments.output, text)
     print(f"{arguments.output}: {len(text) / 1e6:.2f} MB")

@@ -8,6 +8,8 @@ import tempfile
 
 from pxr import Ar, Sdf
 
+from patina import inputs
+
 from . import compat
 
 _UDIM = "<UDIM>"
@@ -19,6 +21,12 @@ def resolve(context, attribute):
     """The file that an asset attribute names, as a path that any program can open.
 
     :returns: a path; what the stage says, when there is no such file; empty when nothing is said"""
+    file = _file_of(context, attribute)
+    inputs.note(file)
+    return file
+
+
+def _file_of(context, attribute):
     value = attribute.Get(context.time)
     path = getattr(value, "path", value)
     if not path:

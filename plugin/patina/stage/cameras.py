@@ -72,7 +72,7 @@ def emit(context, found):
     matrices = transform[1] if isinstance(transform, tuple) else [transform]
     if any(abs(np.linalg.det(m[:3, :3].astype(np.float64))) < 1e-30 for m in matrices):
         context.warn(prim.GetPath(), "xformOpOrder", "makes the camera flat; no transform is used")
-        transform = np.eye(4, dtype=np.float32)
+        transform = np.eye(4)
     projection = get(prim, "projection", time, "perspective")
     if projection not in ("perspective", "orthographic"):
         context.warn(prim.GetPath(), "projection", f"'{projection}' is not known; perspective is used")
@@ -148,7 +148,7 @@ def emit_framing(context, gprims):
     distance = max(c[2] + 2.0 * focal * margin * max(abs(c[0]) / aperture[0], abs(c[1]) / aperture[1]) for c in corners)
     matrix.SetTranslateOnly(centre + matrix.TransformDir(Gf.Vec3d(0, 0, distance)))
     reach = max(box.GetSize().GetLength(), distance)
-    context.edit.set_camera(FRAMING, transform=np.array(matrix, dtype=np.float32), horizontal_aperture=aperture[0],
+    context.edit.set_camera(FRAMING, transform=np.array(matrix), horizontal_aperture=aperture[0],
                             vertical_aperture=aperture[1], focal_length=focal, focus_distance=distance,
                             clip_near=reach * 1e-4, clip_far=reach * 100.0)
     context.notes.append("the stage has no camera; it is framed")

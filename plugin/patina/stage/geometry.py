@@ -2,7 +2,7 @@
 import numpy as np
 from pxr import UsdGeom
 
-from . import meshes, skinning, volumes
+from . import meshes, parametric, skinning, volumes
 from .context import array, get, number
 from .primvars import add_builtin, read_primvars
 from .transforms import transform_of
@@ -39,6 +39,14 @@ def emit(context, found, kind, bound, categories):
     elif kind == "points":
         _add_builtins(context, prim, UsdGeom.Points(prim), common["primvars"])
         context.edit.set_points(found.path, points=points_of(context, prim, skin), **common)
+    elif kind == "nurbsPatch":
+        parametric.emit_patch(context, found, common, points_of(context, prim, skin))
+    elif kind == "tetMesh":
+        parametric.emit_tets(context, found, common, points_of(context, prim, skin))
+    elif kind in ("nurbsCurves", "hermiteCurves"):
+        emit_form = parametric.emit_nurbs_curves if kind == "nurbsCurves" else parametric.emit_hermite
+        _add_builtins(context, prim, UsdGeom.Curves(prim), common["primvars"])
+        emit_form(context, found, common, points_of(context, prim, skin))
     elif kind == "volume":
         volumes.emit(context, found, common)
     else:

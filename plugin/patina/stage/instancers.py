@@ -4,7 +4,7 @@ from pxr import UsdGeom
 
 from .context import array, get
 from .primvars import numbers
-from .transforms import matrix_at, sample_times
+from .transforms import is_finite, matrix_at, sample_times
 
 
 def emit_instancer(context, found, names, linking):
@@ -24,13 +24,13 @@ def emit_instancer(context, found, names, linking):
     broken = int(np.count_nonzero((indices < 0) | (indices >= len(names))))
     if broken:
         context.warn(path, "protoIndices", f"has {broken} indices that no prototype has; these are not drawn")
-    finite = np.all([np.isfinite(s).all(axis=(1, 2)) for s in samples], axis=0)
+    finite = np.all([is_finite(s) for s in samples], axis=0)
     if not finite.all():
         context.warn(path, "positions", f"gives {int((~finite).sum())} instances that are not finite; these are not drawn")
     keep = keep & finite
     ids = get(prim, "ids", context.time)
     ids = np.asarray(ids) if ids is not None and len(ids) == len(indices) else np.arange(len(indices))
-    transforms = [np.ascontiguousarray(s[keep], dtype=np.float32) for s in samples]
+    transforms = [np.ascontiguousarray(s[keep]) for s in samples]
     categories = linking.categories(found)
     context.edit.set_instancer(
         found.path, group=group.name, prototypes=names, prototype_indices=indices[keep],
@@ -92,7 +92,7 @@ def emit_instances(context, outer, prototype, founds, linking):
     :param outer: name of the group that they appear in
     :param prototype: name of the prototype's group"""
     moving = {}  # number of instance -> (times, matrices)
-    matrices = np.empty((len(founds), 4, 4), dtype=np.float32)
+    matrices = np.empty((len(founds), 4, 4))
     for i, found in enumerate(founds):
         anchor = found.state.group.anchor
         times = sample_times(context, found.prim, anchor)
@@ -107,10 +107,10 @@ def emit_instances(context, outer, prototype, founds, linking):
             for sample, t in zip(samples, times):
                 sample[i] = np.array(matrix_at(context, founds[i].prim, founds[i].state.group.anchor, t))
         transforms = (times, samples)
-    if not np.isfinite(matrices).all():
+    if not is_finite(matrices).all():
         context.warn(founds[0].prim.GetPath(), "xformOpOrder", "or that of another instance of its prototype gives a "
                      "transform that is not finite; none is used")
-        matrices[~np.isfinite(matrices).all(axis=(1, 2))] = np.eye(4)
+        matrices[~is_finite(matrices)] = np.eye(4)
     categories = [linking.categories(found) for found in founds]
     context.edit.set_instancer(
         founds[0].path, group=outer, prototypes=[prototype],

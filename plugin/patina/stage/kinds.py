@@ -5,16 +5,14 @@ GPRIMS = {
     "Mesh": "mesh", "BasisCurves": "curves", "Points": "points", "Sphere": "sphere", "Cube": "cube",
     "Cone": "cone", "Cylinder": "cylinder", "Cylinder_1": "cylinder", "Capsule": "capsule",
     "Capsule_1": "capsule", "Plane": "plane",
-    "Volume": "volume",
+    "Volume": "volume", "NurbsPatch": "nurbsPatch", "TetMesh": "tetMesh",
+    "NurbsCurves": "nurbsCurves", "HermiteCurves": "hermiteCurves",
 }
 LIGHTS = {
     "DistantLight": "distant", "DomeLight": "dome", "DomeLight_1": "dome", "SphereLight": "sphere",
     "DiskLight": "disk", "RectLight": "rect", "CylinderLight": "cylinder", "GeometryLight": "mesh",
 }
-UNSUPPORTED = {
-    "NurbsPatch", "NurbsCurves", "HermiteCurves", "TetMesh", "PortalLight", "PluginLight",
-    "ParticleField",
-}
+UNSUPPORTED = {"PortalLight", "PluginLight", "ParticleField"}
 OTHER = {"Camera": "camera", "PointInstancer": "instancer", "SkelRoot": "skelRoot"}
 
 
@@ -38,7 +36,8 @@ class Kinds:
                 return table[name] if table is not LIGHTS else "light"
         if name in UNSUPPORTED:
             return "unsupported"
-        for base in ("Mesh", "BasisCurves", "Points", "PointInstancer", "Camera"):
+        for base in ("Mesh", "BasisCurves", "Points", "NurbsPatch", "TetMesh", "NurbsCurves",
+                     "HermiteCurves", "PointInstancer", "Camera"):
             if prim.IsA(Tf.Type.FindByName("UsdGeom" + base)):
                 return GPRIMS.get(base) or OTHER[base]
         if prim.IsA(UsdGeom.Gprim) or prim.HasAPI(UsdLux.LightAPI):

@@ -8,6 +8,8 @@ import os
 
 from pxr import Sdf, Usd
 
+from patina import inputs
+
 from .context import Guard
 
 _KEY = "patinaDocument"
@@ -74,6 +76,8 @@ def _layer_of(context, prim, file, module):
     if not os.path.exists(file):
         context.warn(prim.GetPath(), "references", f"there is no file {file}")
         return None
+    inputs.check_regular(file)
+    inputs.note_document(file)
     stamp = (file, os.path.getmtime(file))
     if stamp in _layers:
         return _layers[stamp]

@@ -36,6 +36,12 @@ def matrix_at(context, prim, anchor, offset):
     return matrix_at(context, parent, anchor, offset)
 
 
+def is_finite(matrices):
+    """:returns: whether a renderer, whose numbers are of 32 bits, can take matrices; per matrix for an array of them"""
+    with np.errstate(over="ignore"):
+        return np.isfinite(matrices.astype(np.float32)).all(axis=(-2, -1))
+
+
 def transform_of(context, prim, anchor, after=None):
     """The transform from a prim to its anchor (None: the world).
 
@@ -50,10 +56,10 @@ def transform_of(context, prim, anchor, after=None):
 
 def as_transform(context, prim, times, matrices):
     """:returns: what `_patina` takes as transform; the identity for what is not finite"""
-    arrays = [np.array(m, dtype=np.float32) for m in matrices]
-    if not all(np.isfinite(a).all() for a in arrays):
+    arrays = [np.array(m, dtype=np.float64) for m in matrices]
+    if not all(is_finite(a) for a in arrays):
         context.warn(prim.GetPath(), "xformOpOrder", "gives a transform that is not finite; none is used")
-        return np.eye(4, dtype=np.float32)
+        return np.eye(4)
     if all(np.array_equal(arrays[0], a) for a in arrays[1:]):
         return arrays[0]
     return (list(times), arrays)

@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from patina.cli import materials as reader
-from patina.cli import methods, statistics
+from patina.cli import methods, outputs, statistics
 from patina.cli.errors import CommandError
 from patina.view import blobs, compareImages, controls, layers, materials, page, shapes, stageScene, surroundings
 
@@ -25,7 +25,7 @@ class Builder:
         wanted = self.wanted = controls.read(self.arguments.controls) if self.arguments.controls else {}
         for argument in self.arguments.material:
             found, reading = reader.load(argument, self.arguments.set, every=True)
-            self.warnings += statistics.lines(reading)
+            self.warnings += reading
             for name, network in found:
                 if len(self.materials) == MOST_MATERIALS:
                     raise CommandError(f"a page shows at most {MOST_MATERIALS} materials")
@@ -37,8 +37,8 @@ class Builder:
         material, used, texts = materials.build(short, network, self.methods, self.textures)
         entries, unknown = controls.merged(material["controls"], wanted, self.arguments.controls)
         if unknown and len(self.arguments.material) == 1:
-            self.warnings.append(f"--controls: {name} has no input {unknown[0]}"
-                                 + (f", nor {len(unknown) - 1} others" if len(unknown) > 1 else ""))
+            self.warnings.append(statistics.warning(f"--controls: {name} has no input {unknown[0]}"
+                                 + (f", nor {len(unknown) - 1} others" if len(unknown) > 1 else "")))
         material["presets"] = controls.presets(wanted, material, self.arguments.controls)
         material["controls"] = entries
         material["sentence"] = wanted.get("sentences", {}).get(short, "")
@@ -47,7 +47,7 @@ class Builder:
         self.lobes += used
         self.networks.append(network)
         self.paths.append(name)
-        self.warnings += [f"{name}: {text}" for text in texts]
+        self.warnings += [statistics.warning(text, name) for text in texts]
 
     def surround(self):
         """Lights, shapes, environments and the camera."""
@@ -69,7 +69,7 @@ class Builder:
         self.lights = scene.lights if scene else []
         self.light_table = scene.light_table if scene else np.zeros((0, 4))
         self.notes = scene.light_notes if scene else []
-        self.warnings += self.notes
+        self.warnings += [statistics.warning(text) for text in self.notes]
 
     def data(self):
         names = [m["name"] for m in self.materials]
@@ -96,16 +96,18 @@ def _share_presets(found):
 
 
 def page_of(arguments):
-    """:returns: the page's text, and warnings as lines"""
+    """:returns: the page's text, and warnings"""
     if not os.path.isdir(os.path.dirname(os.path.abspath(arguments.output))):
         raise CommandError(f"there is no folder for {arguments.output}")
+    outputs.check_all([arguments.output, arguments.writeControls])
     builder = Builder(arguments)
     builder.read()
     builder.surround()
-    text = page.document(builder.data(), builder.lobes)
+    outputs.check_all([arguments.output, arguments.writeControls])  # now that it is known what is read
+    text, warnings = page.document(builder.data(), builder.lobes)
     if arguments.writeControls:
         _write_controls(builder.materials, arguments.writeControls)
-    return text, builder.warnings
+    return text, builder.warnings + warnings
 
 
 def _write_controls(found, path):
@@ -117,8 +119,4 @@ def _write_controls(found, path):
     whole = {"controls": list(entries.values()),
              "presets": [{"name": name, "values": values} for name, values in presets.items()],
              "sentences": {m["name"]: m["sentence"] for m in found if m["sentence"]}}
-    try:
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(json.dumps(whole, indent=1) + "\n")
-    except OSError as error:
-        raise CommandError(f"--writeControls: {path} cannot be written ({error.strerror})") from error
+    outputs.write_text(path, json.dumps(whole, indent=1) + "\n")

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import tempfile
 
+from patina.cli import outputs
 from patina.cli.errors import CommandError
 
 WEB = os.path.join(os.path.dirname(os.path.abspath(__file__)), "web")
@@ -85,14 +86,13 @@ def script():
     out = os.path.join(folder, f"page-{_digest(*_sources())}.js")
     if not os.path.exists(out):
         esbuild = os.path.join(folder, "node_modules", "esbuild", "bin", "esbuild")
-        temporary = f"{out}.{os.getpid()}.tmp"
-        done = subprocess.run([node(), esbuild, os.path.join(WEB, "src", "main.js"), "--bundle", "--minify",
-                               "--format=iife", "--target=es2022", "--legal-comments=inline", "--log-level=error",
-                               f"--outfile={temporary}"],
-                              env={**os.environ, "NODE_PATH": os.path.join(folder, "node_modules")},
-                              capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise CommandError("esbuild could not make the page's script: " + " ".join(done.stderr.split())[:400])
-        os.replace(temporary, out)
+        with outputs.Together() as files:
+            done = subprocess.run([node(), esbuild, os.path.join(WEB, "src", "main.js"), "--bundle", "--minify",
+                                   "--format=iife", "--target=es2022", "--legal-comments=inline", "--log-level=error",
+                                   "--allow-overwrite", f"--outfile={files.add(out)}"],
+                                  env={**os.environ, "NODE_PATH": os.path.join(folder, "node_modules")},
+                                  capture_output=True, text=True, check=False)
+            if done.returncode != 0:
+                raise CommandError("esbuild could not make the page's script: " + " ".join(done.stderr.split())[:400])
     with open(out, encoding="utf-8") as file:
         return file.read()

@@ -52,7 +52,10 @@ def _options(name, kind):
 def _plain(kind, value):
     """An authored value as options have it."""
     if kind in ("boolean", "integer"):
-        return int(value[0] if isinstance(value, (list, tuple)) else value)
+        try:
+            return int(value[0] if isinstance(value, (list, tuple)) else value)
+        except (IndexError, OverflowError, TypeError, ValueError):  # a word, or not finite
+            return str(value)
     return value if isinstance(value, str) else str(value)
 
 

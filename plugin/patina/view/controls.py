@@ -10,6 +10,7 @@
 import json
 import math
 
+from patina import inputs
 from patina.cli.errors import CommandError
 
 # Beginnings and ends of names, with the range that a slider has at least, and a unit.
@@ -86,8 +87,8 @@ def _numbers(value, count):
 def read(path):
     """:returns: the JSON of a --controls file, not yet matched with a material"""
     try:
-        with open(path, encoding="utf-8") as file:
-            found = json.load(file)
+        inputs.note(path)
+        found = json.loads(inputs.read(path).decode())
     except (OSError, UnicodeDecodeError) as error:
         raise CommandError(f"--controls: {path} cannot be read ({error})") from error
     except (json.JSONDecodeError, RecursionError) as error:

@@ -1,14 +1,16 @@
 """What the page needs to save its values as a layer of USD."""
+import math
 import os
 import re
 
+from patina.cli import compiled
 from patina.cli.materials import is_document
 from patina.view import live
 
 _TYPES = {"boolean": "bool", "integer": "int", "float": "float", "vector2": "float2", "vector3": "float3",
           "vector4": "float4", "color3": "color3f", "color4": "color4f", "string": "string", "filename": "asset",
           "matrix33": "matrix3d", "matrix44": "matrix4d"}
-_NAME = re.compile(r"[A-Za-z_]\w*(:[A-Za-z_]\w*)*")
+_NAME = re.compile(r"[A-Za-z_]\w*(:[A-Za-z_]\w*)*", re.ASCII)
 
 
 def asset(path):
@@ -24,13 +26,19 @@ def _quoted(text):
 
 
 def _value(kind, value, folder):
+    """:returns: a value as .usda writes it, or '' where it is none of its kind"""
     if kind == "filename":
         return asset(os.path.relpath(value, folder) if value else "") or "@@"
     if kind == "string":
         return _quoted(value)
+    try:
+        numbers = [float(x) for x in ([value] if isinstance(value, (int, float, str)) else value)]
+    except (TypeError, ValueError):
+        return ""  # a word
+    if not numbers or not all(map(math.isfinite, numbers)):
+        return ""
     if kind in ("boolean", "integer"):
-        return str(int(value))
-    numbers = [value] if isinstance(value, float) else list(value)
+        return str(int(numbers[0]))
     texts = [f"{x:.9g}" for x in numbers]
     if kind.startswith("matrix"):
         side = 3 if kind == "matrix33" else 4
@@ -51,22 +59,28 @@ def whole_material(name, network, moved, folder):
 
     :param moved: the inputs whose values the page writes
     """
-    safe = re.sub(r"\W", "_", name)
+    safe = re.sub(r"[^A-Za-z0-9_]", "_", name)
     safe = safe if safe and not safe[0].isdigit() else "m_" + safe
     root, nodes = f"/{safe}", network.nodes()
     paths = {node["path"]: f"{root}/n{i}" for i, node in enumerate(nodes)}
     open_inputs = {(i.node, i.name) for i in moved}
     terminal = network.terminals().get("surface")
     lines = []
-    if terminal and terminal[0] in paths:
+    # Every name that stands in the layer is checked: a line break in one would begin lines of its own.
+    if terminal and terminal[0] in paths and _NAME.fullmatch(terminal[1] or "out"):
         lines.append(f"token outputs:mtlx:surface.connect = <{paths[terminal[0]]}.outputs:{terminal[1] or 'out'}>")
     prims = [{"path": root, "spec": "def Material", "lines": lines}]
     for node in nodes:
         own = [f"uniform token info:id = {_quoted(node['id'])}"]
+        known = compiled.load().node_inputs(node["id"])
         for key, value in node["inputs"].items():
             if (node["path"], key) in open_inputs or value["type"] not in _TYPES or not _NAME.fullmatch(key):
                 continue
-            own.append(f"{_TYPES[value['type']]} inputs:{key} = {_value(value['type'], live.linear(value), folder)}")
+            if known.get(key, value["type"]) != value["type"]:  # a word where a number should be
+                continue
+            text = _value(value["type"], live.linear(value), folder)
+            if text:
+                own.append(f"{_TYPES[value['type']]} inputs:{key} = {text}")
         for key, (source, output) in node["connections"].items():
             if source in paths and _NAME.fullmatch(key) and _NAME.fullmatch(output or "out"):
                 own.append(f"token inputs:{key}.connect = <{paths[source]}.outputs:{output or 'out'}>")

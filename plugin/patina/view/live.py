@@ -1,6 +1,8 @@
 """Makes the inputs of a network live: each becomes a primvar of its own whose fallback is the
 authored value. So the text of the material keeps them open, the page hands in what its sliders say,
 and every other host, which has no such primvars, shows the material as authored."""
+import math
+
 from patina.cli import compiled
 
 PREFIX = "patinaLive"
@@ -17,9 +19,13 @@ class LiveInput:
 
 
 def _numbers(value):
-    """Floats of single precision in as few digits as tell them."""
-    numbers = [value] if isinstance(value, (int, float)) else value
-    return [float(f"{float(x):.7g}") for x in numbers]
+    """Floats of single precision in as few digits as tell them; none where one of them is no finite number."""
+    numbers = [value] if isinstance(value, (int, float, str)) else value
+    try:
+        found = [float(f"{float(x):.7g}") for x in numbers]
+    except (TypeError, ValueError):
+        return []
+    return found if all(map(math.isfinite, found)) else []
 
 
 def linear(value):

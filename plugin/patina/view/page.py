@@ -1,6 +1,7 @@
 """Puts a page together."""
 import html
 import json
+import math
 import os
 import re
 
@@ -19,9 +20,29 @@ def as_json(data):
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
+def finite(data):
+    """:returns: the data with 0 for every number that is not finite, which JSON does not know; and how many"""
+    count = 0
+
+    def walk(item):
+        nonlocal count
+        if isinstance(item, dict):
+            return {key: walk(value) for key, value in item.items()}
+        if isinstance(item, (list, tuple)):
+            return [walk(value) for value in item]
+        if isinstance(item, float) and not math.isfinite(item):
+            count += 1
+            return 0.0
+        return item
+
+    return walk(data), count
+
+
 def document(data, lobes):
     """:param data: what web/src reads, without what all pages share
-    :returns: the text of the page"""
+    :returns: the text of the page, and warnings as lines"""
+    data, replaced = finite(data)
+    warnings = [f"{replaced} numbers of the page are not finite and shown as 0"] if replaced else []
     texts = {"library": glslText.library(), "programs": [m["programs"] for m in data["materials"]],
              "layers": [m["layer"] for m in data["materials"]]}
     kept = [{k: v for k, v in m.items() if k not in ("programs", "layer")} for m in data["materials"]]
@@ -32,4 +53,5 @@ def document(data, lobes):
         raise CommandError("the page's script cannot stand in a page")
     parts = {"TITLE": html.escape(data["title"]), "STYLE": _web("page.css"), "DATA": as_json(whole), "SCRIPT": script}
     # In one go: what is put in may hold the names of these places.
-    return re.sub("PATINA_(TITLE|STYLE|DATA|SCRIPT)", lambda mark: parts[mark.group(1)], _web("page.html"))
+    page = re.sub("PATINA_(TITLE|STYLE|DATA|SCRIPT)", lambda mark: parts[mark.group(1)], _web("page.html"))
+    return page, warnings

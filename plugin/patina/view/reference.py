@@ -76,8 +76,11 @@ def render(network, mesh, to_world, environment, camera, eye, width, samples, ba
             edit.set_material("/material", network)
             _mesh(edit, mesh, to_world)
         renderer.start(scene, "/camera", settings, film)
-        renderer.wait()
-        renderer.stop()
+        try:
+            while not renderer.wait(0.2):  # signals are heard in between
+                pass
+        finally:
+            renderer.stop()
     state = renderer.progress()
     if state["failed"]:
         raise CommandError(state["error"])

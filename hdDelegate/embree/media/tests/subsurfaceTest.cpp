@@ -192,3 +192,78 @@ TEST(Subsurface, ExtremesStayFinite) {
                     ASSERT_TRUE(x >= 0.0f && x < 100.0f) << x;
             }
 }
+
+namespace {
+
+constexpr int varianceSide = 32, varianceSamples = 64;
+
+/// Of one sample, over the square of the mean; every pixel has the same mean.
+double relativeVariance(const MediaScene::Image& image) {
+    const double error = image.error.x / image.mean.x;
+    return error * error * varianceSide * varianceSide * varianceSamples;
+}
+
+} // namespace
+
+// Of a half space under light from everywhere, (2/3)(1 - ln 2) of what scatters for the first time
+// leaves next. A walk by physical chances has a weight of 0 or the albedo then, so the relative
+// variance of one is 3.89 at least, however its colour is found. Half of it at most is asked for; a
+// variance of 65536 samples is within a tenth of the truth.
+TEST(Subsurface, DarkColoursAreLessNoisyThanPhysicalChances) {
+    const double physical = 1.0 / (2.0 / 3.0 * (1.0 - std::log(2.0))) - 1.0;
+    for (float color : {0.002f, 0.02f}) {
+        MediaScene s;
+        s.material("/m", skin(vec3(color), vec3(0.01f), 0.0f));
+        s.cube("/block", vec3(0, 0, -10), vec3(20, 20, 20), "/m");
+        s.dome(1.0f);
+        s.camera(vec3(0, 0, 5), 0.1f);
+        const auto image = s.render(varianceSide, varianceSamples);
+        EXPECT_NEAR(image.mean.x, color, 5.0f * image.error.x + 0.05f * color);
+        EXPECT_LT(relativeVariance(image), 0.5 * physical) << color;
+    }
+}
+
+// What a black ball lets through along chords of 2 R cos: the mean of exp(-x cos) over the cosine,
+// 2 (1 - (1 + x) exp(-x)) / x^2 with x = 2 R / l. Chances to leave or not have the relative
+// variance 1 / mean - 1; a quarter of it at most is asked for where that is far above 1.
+// Significance as above; 1 % for the ball's facets.
+TEST(Subsurface, BlackBallsLetThroughWhatTheirChordsDo) {
+    for (float radius : {2.0f, 1.0f, 0.2f}) {
+        MediaScene s;
+        s.material("/m", skin(vec3(0), vec3(radius), 0.0f));
+        s.sphere("/ball", vec3(0), 1.0f, "/m");
+        s.dome(1.0f);
+        s.camera(vec3(0, 0, 5), 0.8f);
+        const auto image = s.render(varianceSide, varianceSamples);
+        const double x = 2.0 / radius;
+        const double mean = 2.0 * (1.0 - (1.0 + x) * std::exp(-x)) / (x * x);
+        EXPECT_NEAR(image.mean.x, mean, 5.0 * image.error.x + 0.01 * mean) << radius;
+        if (mean < 0.05) {
+            EXPECT_LT(relativeVariance(image), 0.25 * (1.0 / mean - 1.0)) << radius;
+        }
+    }
+}
+
+// Under a coat that reflects more than it gives back, walks are drawn often enough.
+TEST(Subsurface, DarkColoursUnderACoatAreFoundOften) {
+    const auto variance = [](float specular) {
+        MediaScene s;
+        s.material("/m", {node("/m/surface", "ND_standard_surface_surfaceshader",
+                               {{"base", Value::makeFloat(0.0f)},
+                                {"subsurface", Value::makeFloat(1.0f)},
+                                {"subsurface_color", Value::makeColor3(0.01f, 0.01f, 0.01f)},
+                                {"subsurface_radius", Value::makeColor3(0.01f, 0.01f, 0.01f)},
+                                {"specular", Value::makeFloat(specular)},
+                                {"specular_roughness", Value::makeFloat(0.5f)}})});
+        s.cube("/block", vec3(0, 0, -10), vec3(20, 20, 20), "/m");
+        s.distant(vec3(1.0f), glm::normalize(vec3(1, 0, -0.3f)));
+        s.camera(vec3(0, 0, 5), 0.1f);
+        const auto image = s.render(varianceSide, varianceSamples);
+        // The highlight has no noise: what varies is the walks' part.
+        const double error = image.error.x;
+        return error * error * varianceSide * varianceSide * varianceSamples;
+    };
+    // Drawn half of the time, a sample varies by twice what it would alone, and that it is drawn or
+    // not adds its mean square once more: 4 covers both.
+    EXPECT_LT(variance(1.0f), 4.0 * variance(0.0f));
+}

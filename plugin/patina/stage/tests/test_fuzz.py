@@ -6,8 +6,8 @@ import pytest
 SEED, STAGES = 3, 40
 TYPES = ("Mesh", "BasisCurves", "Points", "Sphere", "Cube", "Cone", "Cylinder", "Capsule", "Plane", "PointInstancer",
          "Camera", "DistantLight", "DomeLight", "SphereLight", "RectLight", "DiskLight", "CylinderLight",
-         "GeometryLight", "SkelRoot", "Skeleton", "SkelAnimation", "BlendShape", "Material", "Shader", "GeomSubset",
-         "Xform")
+         "GeometryLight", "NurbsPatch", "NurbsCurves", "HermiteCurves", "TetMesh", "SkelRoot", "Skeleton",
+         "SkelAnimation", "BlendShape", "Material", "Shader", "GeomSubset", "Xform")
 APIS = ("ShapingAPI", "ShadowAPI", "MeshLightAPI", "MaterialBindingAPI", "SkelBindingAPI", "GeomModelAPI", "LightAPI")
 EXTRA = ("primvars:st", "primvars:normals", "primvars:displayColor", "primvars:st:indices",
          "primvars:skel:jointIndices", "primvars:skel:jointWeights", "model:drawMode", "model:cardTextureXPos",

@@ -137,9 +137,9 @@ def test_wrong_types_and_unknown_tokens_are_warned_of(read):
     reading = read("""
     def Mesh "ints" { int[] faceVertexCounts = [3]  int[] faceVertexIndices = [0, 1, 2]  int[] points = [0, 1, 2] }
     def Mesh "token" { uniform token subdivisionScheme = "nonsense" """ + QUAD + """ }
-    def NurbsPatch "nurbs" { }
+    def PortalLight "portal" { }
     def Sphere "fine" { }""")
     assert any(w.startswith("/ints points:") for w in reading.warnings)
     assert any(w.startswith("/token subdivisionScheme: 'nonsense' is unknown") for w in reading.warnings)
-    assert any(w.startswith("/nurbs : prims of type NurbsPatch") for w in reading.warnings)
+    assert any(w.startswith("/portal : prims of type PortalLight") for w in reading.warnings)
     assert reading.has("/fine") and "scheme" in reading.prim("/token")

@@ -19,17 +19,18 @@ function print(tree, indent) {
     return text;
 }
 
+// Trees have no prototype: a prim may be called __proto__.
 function nodeAt(tree, path) {
     let children = tree, node = null;
     for (const name of path.slice(1).split("/")) {
-        node = children[name] ??= { lines: [], children: {} };
+        node = children[name] ??= { lines: [], children: Object.create(null) };
         children = node.children;
     }
     return node;
 }
 
 export function layerText(state) {
-    const { current: material, material: m } = state, { layer } = material, tree = {};
+    const { current: material, material: m } = state, { layer } = material, tree = Object.create(null);
     const whole = layer.prims.length > 0;
     for (const prim of layer.prims)
         if (isPath(prim.path)) Object.assign(nodeAt(tree, prim.path), { spec: prim.spec, lines: prim.lines.slice() });

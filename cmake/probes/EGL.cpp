@@ -1,0 +1,7 @@
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GL/glcorearb.h>
+
+int main() {
+    return eglGetDisplay(EGL_DEFAULT_DISPLAY) == EGL_NO_DISPLAY;
+}

@@ -1,0 +1,5 @@
+#include <openvdb/openvdb.h>
+
+int main() {
+    openvdb::initialize();
+}

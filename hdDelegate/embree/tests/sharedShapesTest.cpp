@@ -1,0 +1,183 @@
+#include "hdDelegate/embree/embreeScene.h"
+
+#include "hdDelegate/scene/textureSystem.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+using namespace patina;
+
+namespace {
+
+constexpr size_t trianglesOfSphere = 2 * 128 * 63; // 64 rings of 128 cells, those at the poles half
+
+struct Built {
+    Scene scene;
+    Camera camera;
+    RenderSettings settings;
+    TextureSystem textures{scene.diagnostics()};
+    EmbreeScene embree{scene.diagnostics()};
+    std::atomic<bool> stop{false};
+
+    void update() { embree.update(*scene.snapshot(), camera, settings, textures, stop); }
+};
+
+mat4 placeOf(int i) {
+    const mat4 moved = glm::translate(mat4(1.0f), vec3(float(i) - 10.0f, 0.1f * float(i % 3), -6));
+    const mat4 turned = glm::rotate(moved, 0.3f * float(i), glm::normalize(vec3(1, 2, 3)));
+    return glm::scale(turned, vec3(1.0f, i % 4 == 3 ? -0.8f : 0.8f, 1.1f));
+}
+
+std::shared_ptr<Implicit> makePrim(int i, ImplicitShape shape, bool parted) {
+    auto prim = std::make_shared<Implicit>();
+    prim->path = "/prim" + std::to_string(100 + i);
+    prim->shape = shape;
+    const bool scales = shape == ImplicitShape::Sphere || shape == ImplicitShape::Cube;
+    prim->radius = scales ? 0.3f + 0.01f * float(i) : 0.4f;
+    prim->size = scales ? 0.5f + 0.01f * float(i) : 0.6f;
+    prim->height = 0.7f;
+    prim->leftHanded = i % 2 == 1;
+    prim->transform = placeOf(i);
+    Primvar color;
+    color.name = "displayColor";
+    color.components = 3;
+    color.values = {0.1f * float(i), 0.5f, 0.2f};
+    prim->primvars.push_back(color);
+    // With parts of its own a prim is drawn alone.
+    if (parted) prim->subsets.push_back({prim->path + "/part", "", {}});
+    return prim;
+}
+
+void fill(Built& built, ImplicitShape shape, bool parted) {
+    SceneEdit edit = built.scene.edit();
+    for (int i = 0; i < 40; ++i)
+        edit.set(std::shared_ptr<const Geometry>(makePrim(i, shape, parted)));
+    edit.commit();
+    built.update();
+}
+
+void expectNear(const vec3& a, const vec3& b, float tolerance, const char* what) {
+    EXPECT_LT(glm::length(a - b), tolerance) << what;
+}
+
+} // namespace
+
+TEST(SharedShapes, HitsAreThoseOfPrimsThatAreDrawnAlone) {
+    for (ImplicitShape shape : {ImplicitShape::Sphere, ImplicitShape::Cube, ImplicitShape::Cylinder,
+                                ImplicitShape::Capsule}) {
+        Built together, alone;
+        fill(together, shape, false);
+        fill(alone, shape, true);
+        EXPECT_LT(together.embree.trianglesStored(), alone.embree.trianglesStored() / 10);
+        int hits = 0;
+        for (int i = 0; i < 200; ++i) {
+            const vec3 origin(0.11f * float(i) - 10.5f, 0.02f * float(i % 7), 2.0f);
+            const vec3 direction = glm::normalize(vec3(0.01f * float(i % 5), 0.01f, -1.0f));
+            Hit a, b;
+            const bool found = together.embree.intersect(origin, direction, 0.0f, INFINITY, 0.0f,
+                                                         RayCamera, a);
+            ASSERT_EQ(found, alone.embree.intersect(origin, direction, 0.0f, INFINITY, 0.0f,
+                                                    RayCamera, b));
+            if (!found) continue;
+            ++hits;
+            EXPECT_NEAR(a.distance, b.distance, 1e-4f);
+            EXPECT_EQ(a.surface->prim->path, b.surface->prim->path);
+            EXPECT_EQ(a.surface->primId, b.surface->primId);
+            EXPECT_EQ(a.instanceId, -1);
+            SurfacePoint p, q;
+            computeSurfacePoint(a, origin, direction, 0.01f, p);
+            computeSurfacePoint(b, origin, direction, 0.01f, q);
+            expectNear(p.shading.position, q.shading.position, 1e-4f, "position");
+            expectNear(p.shading.objectPosition, q.shading.objectPosition, 1e-4f, "in the object");
+            expectNear(p.shading.normal, q.shading.normal, 2e-3f, "normal");
+            expectNear(p.shading.geometricNormal, q.shading.geometricNormal, 2e-3f, "flat normal");
+            expectNear(p.shading.tangent, q.shading.tangent, 5e-3f, "tangent");
+            EXPECT_EQ(a.surface->element(a.primitive), b.surface->element(b.primitive));
+            for (const char* name : {"st", "displayColor"}) {
+                float x[4] = {0, 0, 0, 0}, y[4] = {0, 0, 0, 0};
+                ASSERT_TRUE(readAttribute(*a.surface, a.surface->findAttribute(name), a.primitive,
+                                          a.u, a.v, x));
+                ASSERT_TRUE(readAttribute(*b.surface, b.surface->findAttribute(name), b.primitive,
+                                          b.u, b.v, y));
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(x[c], y[c], 2e-3f) << name;
+            }
+        }
+        EXPECT_GT(hits, 40);
+        EXPECT_EQ(together.scene.diagnostics().count(), 0);
+    }
+}
+
+TEST(SharedShapes, ThousandsOfSpheresAreTheTrianglesOfOne) {
+    Built built;
+    SceneEdit edit = built.scene.edit();
+    constexpr int count = 3000;
+    for (int i = 0; i < count; ++i) {
+        auto prim = std::make_shared<Implicit>();
+        prim->path = "/ball" + std::to_string(i);
+        prim->radius = 0.01f + 1e-5f * float(i);
+        prim->transform =
+            glm::translate(mat4(1.0f), vec3(0.1f * float(i % 50), 0.1f * float(i / 50), -8));
+        edit.set(std::shared_ptr<const Geometry>(prim));
+    }
+    edit.commit();
+    built.update();
+    EXPECT_LE(built.embree.trianglesStored(), 4 * trianglesOfSphere); // one per fineness at most
+    // Embree keeps less than 4 kB per instance; a sphere of its own takes more than 600 kB.
+    EXPECT_LT(built.embree.bytes(), size_t(count) * 4096 + (8u << 20));
+}
+
+TEST(SharedShapes, ShapesAreAsFineAsTheirSizeOnScreen) {
+    const auto stored = [](float away) {
+        Built built;
+        auto prim = std::make_shared<Implicit>();
+        prim->path = "/ball";
+        prim->transform = glm::translate(mat4(1.0f), vec3(0, 0, -away));
+        built.scene.edit().set(std::shared_ptr<const Geometry>(prim));
+        built.update();
+        return built.embree.trianglesStored();
+    };
+    EXPECT_EQ(stored(5.0f), trianglesOfSphere);
+    EXPECT_EQ(stored(1e5f), 2u * 16u * 7u); // an eighth of the segments either way
+    EXPECT_LE(stored(2000.0f), stored(500.0f));
+}
+
+TEST(SharedShapes, PrimsThatMoveBetweenBothWaysOfBeingDrawn) {
+    Built built;
+    const auto hits = [&](int prims) {
+        int found = 0;
+        for (int i = 0; i < prims; ++i) {
+            Hit hit;
+            const vec3 origin(float(i) - 10.0f, 0.1f * float(i % 3), 2.0f);
+            found += built.embree.intersect(origin, vec3(0, 0, -1), 0.0f, INFINITY, 0.0f, RayCamera,
+                                            hit);
+        }
+        return found;
+    };
+    for (const int prims : {10, 20, 12, 30}) {
+        SceneEdit edit = built.scene.edit();
+        edit.clear();
+        for (int i = 0; i < prims; ++i)
+            edit.set(
+                std::shared_ptr<const Geometry>(makePrim(i, ImplicitShape::Sphere, false)));
+        edit.commit();
+        built.update();
+        EXPECT_EQ(hits(prims), prims);
+    }
+}
+
+TEST(SharedShapes, FlatPrimsAreDrawnAlone) {
+    Built built;
+    SceneEdit edit = built.scene.edit();
+    for (int i = 0; i < 20; ++i) {
+        auto prim = makePrim(i, ImplicitShape::Sphere, false);
+        prim->transform = glm::scale(mat4(1.0f), vec3(1, 1, 0));
+        edit.set(std::shared_ptr<const Geometry>(prim));
+    }
+    edit.commit();
+    built.update();
+    Hit hit;
+    EXPECT_TRUE(built.embree.intersect(vec3(0.01f, 0.02f, 3), vec3(0, 0, -1), 0.0f, INFINITY, 0.0f,
+                                       RayCamera, hit));
+    EXPECT_FALSE(hit.instanced);
+}

@@ -1,0 +1,105 @@
+#include "hdDelegate/hydra/sourceForms.h"
+
+#include "hdDelegate/hydra/values.h"
+#include "hdDelegate/scene/nurbs.h"
+
+#include <pxr/base/gf/vec2d.h>
+#include <pxr/base/gf/vec3i.h>
+#include <pxr/base/gf/vec4i.h>
+#include <pxr/base/tf/token.h>
+
+namespace patina {
+
+namespace {
+
+VtValue sourceOf(HdSceneDelegate& delegate, const SdfPath& id, const std::string& name) {
+    const VtValue handedOn = delegate.Get(id, TfToken(sourcePrefix + name));
+    return handedOn.IsEmpty() ? delegate.Get(id, TfToken(name)) : handedOn;
+}
+
+std::vector<double> doublesOf(const VtValue& value) {
+    if (value.IsHolding<VtArray<double>>()) return toVector(value.UncheckedGet<VtArray<double>>());
+    int components = 0;
+    const std::vector<float> floats = floatsOf(value, components);
+    return std::vector<double>(floats.begin(), floats.end());
+}
+
+std::vector<int> intsOf(const VtValue& value) {
+    return value.IsHolding<VtArray<int>>() ? toVector(value.UncheckedGet<VtArray<int>>())
+                                           : std::vector<int>();
+}
+
+template <class Vector> std::vector<int> flat(const VtValue& value, int components) {
+    std::vector<int> out;
+    if (value.IsHolding<VtArray<Vector>>())
+        for (const Vector& v : value.UncheckedGet<VtArray<Vector>>())
+            for (int k = 0; k < components; ++k)
+                out.push_back(v[k]);
+    return out;
+}
+
+int integerOf(const VtValue& value) {
+    return value.IsHolding<int>() ? value.UncheckedGet<int>() : 0;
+}
+
+NurbsDirection directionOf(HdSceneDelegate& delegate, const SdfPath& id, const std::string& side) {
+    NurbsDirection direction;
+    direction.vertexCount = integerOf(sourceOf(delegate, id, side + "VertexCount"));
+    direction.order = integerOf(sourceOf(delegate, id, side + "Order"));
+    direction.knots = doublesOf(sourceOf(delegate, id, side + "Knots"));
+    const VtValue range = sourceOf(delegate, id, side + "Range");
+    if (range.IsHolding<GfVec2d>()) {
+        direction.low = range.UncheckedGet<GfVec2d>()[0];
+        direction.high = range.UncheckedGet<GfVec2d>()[1];
+    }
+    return direction;
+}
+
+} // namespace
+
+bool readPatch(HdSceneDelegate& delegate, const SdfPath& id, Diagnostics& diagnostics, Mesh& mesh) {
+    if (doublesOf(sourceOf(delegate, id, "uKnots")).empty()) return false;
+    auto patch = std::make_shared<NurbsPatch>();
+    patch->u = directionOf(delegate, id, "u");
+    patch->v = directionOf(delegate, id, "v");
+    patch->weights = doublesOf(sourceOf(delegate, id, "pointWeights"));
+    mesh.patch = std::move(patch);
+    if (!intsOf(sourceOf(delegate, id, "trimCurve:counts")).empty())
+        diagnostics.warn(id.GetString(), "trimCurve:counts",
+                         "is not supported: nothing is cut out of the patch");
+    return true;
+}
+
+bool readTets(HdSceneDelegate& delegate, const SdfPath& id, std::vector<int>& tets,
+              std::vector<int>& surface) {
+    tets = flat<GfVec4i>(sourceOf(delegate, id, "tetVertexIndices"), 4);
+    surface.clear();
+    if (!tets.empty())
+        surface = flat<GfVec3i>(sourceOf(delegate, id, "surfaceFaceVertexIndices"), 3);
+    return !tets.empty();
+}
+
+std::shared_ptr<const Curves> bezierOf(HdSceneDelegate& delegate, const SdfPath& id,
+                                       const Curves& curves, Diagnostics& diagnostics) {
+    const std::vector<int> orders = intsOf(sourceOf(delegate, id, "order"));
+    const std::vector<double> knots = doublesOf(sourceOf(delegate, id, "knots"));
+    if (!orders.empty() && !knots.empty() && !curves.primvar("order") && !curves.primvar("knots")) {
+        NurbsCurves nurbs;
+        static_cast<Curves&>(nurbs) = curves;
+        nurbs.orders = orders;
+        nurbs.knots = knots;
+        nurbs.ranges = doublesOf(sourceOf(delegate, id, "ranges"));
+        nurbs.weights = doublesOf(sourceOf(delegate, id, "pointWeights"));
+        return toBezier(nurbs, diagnostics);
+    }
+    std::vector<vec3> tangents;
+    if (curves.primvar("tangents") || !pointsOf(sourceOf(delegate, id, "tangents"), tangents) ||
+        tangents.empty())
+        return nullptr;
+    HermiteCurves hermite;
+    static_cast<Curves&>(hermite) = curves;
+    hermite.tangents = tangents;
+    return toBezier(hermite, diagnostics);
+}
+
+} // namespace patina

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "hdDelegate/hydra/compat.h"
+#include "hdDelegate/scene/curveForms.h"
+#include "hdDelegate/scene/tetSurface.h"
+
+#include <pxr/imaging/hd/sceneDelegate.h>
+
+namespace patina {
+
+/// What begins the names of primvars that the plugin's scene index makes of attributes for which
+/// Hydra's own prims have no place. They are no primvars of the prim.
+inline constexpr const char* sourcePrefix = "patina:source:";
+
+/// What the stage's prim was before UsdImaging made a mesh or linear curves of its points: the
+/// plugin's scene index hands its attributes on, UsdImagingDelegate gives any attribute by name.
+///
+/// @returns false where it was no NURBS patch; else the mesh is one
+bool readPatch(HdSceneDelegate& delegate, const SdfPath& id, Diagnostics& diagnostics, Mesh& mesh);
+
+/// @returns false where it was no mesh of tetrahedra
+bool readTets(HdSceneDelegate& delegate, const SdfPath& id, std::vector<int>& tets,
+              std::vector<int>& surface);
+
+/// @param curves with points, counts and primvars
+/// @returns Bezier curves, nothing where they were neither NURBS nor Hermite curves
+std::shared_ptr<const Curves> bezierOf(HdSceneDelegate& delegate, const SdfPath& id,
+                                       const Curves& curves, Diagnostics& diagnostics);
+
+} // namespace patina

@@ -1,0 +1,203 @@
+// Images while programs are compiled: what is not ready shows displayColor, and nothing of that
+// reaches the final image.
+
+#include "hdDelegate/raster/glProgram.h"
+#include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/programCompiler.h"
+#include "hdDelegate/raster/rasterRenderer.h"
+#include "hdDelegate/raster/tests/rasterTest.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+
+using namespace patina;
+
+namespace {
+
+/// Makes every material take so long, without the files of earlier runs.
+struct SlowPrograms {
+    explicit SlowPrograms(const char* milliseconds) {
+        setenv("PATINA_GL_FAULT", (std::string("compiling:") + milliseconds).c_str(), 1);
+        setenv("PATINA_CACHE", "", 1);
+    }
+    ~SlowPrograms() {
+        unsetenv("PATINA_GL_FAULT");
+        unsetenv("PATINA_CACHE");
+    }
+};
+
+/// Three squares beside each other, which glow red, green and blue and have a grey displayColor,
+/// without lights.
+std::shared_ptr<Scene> makeScene() {
+    auto scene = std::make_shared<Scene>();
+    SceneEdit edit = scene->edit();
+    for (int i = 0; i < 3; ++i) {
+        const std::string name = std::to_string(i);
+        auto material = std::make_shared<MaterialPrim>();
+        material->path = material->network.path = "/material" + name;
+        // Each has a text of its own, which is compiled quickly.
+        vec3 color(0.0f);
+        color[i] = 2.0f;
+        NetworkNode glow, twice, surface;
+        glow.path = material->path + "/glow";
+        glow.id = i == 0 ? "ND_uniform_edf" : "ND_conical_edf";
+        glow.inputs["color"] = Value::makeColor3(color.x, color.y, color.z);
+        twice.path = material->path + "/twice";
+        twice.id = "ND_multiply_edfF";
+        twice.inputs["in2"] = Value::makeFloat(2.0f);
+        twice.connections["in1"] = {glow.path, ""};
+        surface.path = material->path + "/surface";
+        surface.id = "ND_surface";
+        surface.connections["edf"] = {i == 2 ? twice.path : glow.path, ""};
+        material->network.nodes = {glow, twice, surface};
+        material->network.terminals["surface"] = {surface.path, ""};
+        edit.set(std::shared_ptr<const MaterialPrim>(material));
+        auto mesh = std::make_shared<Mesh>();
+        mesh->path = "/mesh" + name;
+        mesh->material = material->path;
+        const float x = 1.1f * float(i - 1);
+        mesh->points = std::vector<vec3>{vec3(x - 0.5f, -0.5f, 0), vec3(x + 0.5f, -0.5f, 0),
+                                         vec3(x + 0.5f, 0.5f, 0), vec3(x - 0.5f, 0.5f, 0)};
+        mesh->faceVertexCounts = {4};
+        mesh->faceVertexIndices = {0, 1, 2, 3};
+        edit.set(std::shared_ptr<const Geometry>(mesh));
+    }
+    auto camera = std::make_shared<Camera>();
+    camera->path = "/camera";
+    mat4 place(1.0f);
+    place[3] = vec4(0, 0, 8, 1);
+    camera->transform = place;
+    edit.set(std::shared_ptr<const Camera>(camera));
+    return scene;
+}
+
+struct Shown {
+    std::vector<std::vector<float>> images; ///< while it ran, and the last
+    std::vector<RenderProgress> told;
+    std::vector<float> last;
+};
+
+Shown render(bool interactive, int threads, std::string& error) {
+    Shown shown;
+    const auto renderer = makeRasterRenderer(error);
+    if (!renderer) return shown;
+    const auto film = std::make_shared<Film>();
+    RenderSettings settings;
+    settings.width = 24;
+    settings.height = 12;
+    settings.samples = 2;
+    settings.threads = threads;
+    settings.interactive = interactive;
+    renderer->setListener([&](const Film& f, const RenderProgress& p) {
+        shown.images.push_back(f.resolve("color"));
+        shown.told.push_back(p);
+    });
+    renderer->start(makeScene(), "/camera", settings, film);
+    renderer->wait();
+    error = renderer->progress().error;
+    shown.last = film->resolve("color");
+    return shown;
+}
+
+float brightest(const std::vector<float>& image) {
+    return image.empty() ? 0.0f : *std::max_element(image.begin(), image.end());
+}
+
+} // namespace
+
+TEST(EarlyImages, ShowWhatIsReadyAndLeaveNothingInTheLast) {
+    PATINA_NEED_CONTEXT();
+    const SlowPrograms slow("300");
+    std::string error;
+    const Shown batch = render(false, 1, error);
+    ASSERT_EQ(error, "");
+    ASSERT_GT(brightest(batch.last), 1.0f) << "nothing glows";
+    for (const RenderProgress& p : batch.told)
+        EXPECT_EQ(p.statistics.at("materialsReady"), p.statistics.at("materialsWanted"))
+            << "nobody looks on, so the first image has all materials";
+    for (const int threads : {1, 3}) {
+        const Shown shown = render(true, threads, error);
+        ASSERT_EQ(error, "");
+        ASSERT_GT(shown.images.size(), 1u);
+        const auto& first = shown.told.front().statistics;
+        EXPECT_LT(first.at("materialsReady"), first.at("materialsWanted")) << threads;
+        // Grey, which nothing lights.
+        EXPECT_LT(brightest(shown.images.front()), 1.0f) << threads;
+        EXPECT_FALSE(shown.told.front().converged);
+        EXPECT_TRUE(shown.told.back().converged);
+        EXPECT_EQ(shown.last, batch.last) << "the order of programs reached the image: " << threads;
+    }
+}
+
+TEST(EarlyImages, AStoppedRenderDoesNotWaitForPrograms) {
+    PATINA_NEED_CONTEXT();
+    const SlowPrograms slow("300");
+    std::string error;
+    const auto renderer = makeRasterRenderer(error);
+    ASSERT_TRUE(renderer) << error;
+    RenderSettings settings;
+    settings.width = settings.height = 8;
+    settings.threads = 2;
+    const auto film = std::make_shared<Film>();
+    for (int i = 0; i < 3; ++i) {
+        renderer->start(makeScene(), "/camera", settings, film);
+        std::this_thread::sleep_for(std::chrono::milliseconds(40 * i));
+        renderer->stop();
+        EXPECT_FALSE(renderer->isRunning());
+    }
+    renderer->start(makeScene(), "/camera", settings, film);
+    renderer->wait();
+    EXPECT_TRUE(renderer->progress().converged);
+    EXPECT_GT(brightest(film->resolve("color")), 1.0f);
+}
+
+TEST(ProgramCompiler, ProgramsOfOtherThreadsRunHere) {
+    PATINA_NEED_CONTEXT();
+    std::vector<std::unique_ptr<GlProgram>> programs(6);
+    std::vector<std::thread::id> where(6);
+    std::string errors[6];
+    std::atomic<int> done{0};
+    {
+        ProgramCompiler compiler(*context, 2);
+        for (size_t i = 0; i < programs.size(); ++i)
+            compiler.add([&, i] {
+                const std::string text = "layout(local_size_x = 1) in;\n"
+                                         "layout(std430, binding = 0) buffer R { float r[]; };\n"
+                                         "void main() { r[0] = " +
+                                         std::to_string(i) + ".0; }\n";
+                programs[i] = GlProgram::make({{GL_COMPUTE_SHADER, "test", text}}, errors[i]);
+                where[i] = std::this_thread::get_id();
+                ++done;
+            });
+        EXPECT_TRUE(compiler.hasThreads());
+        while (done < 6)
+            compiler.wait(std::chrono::milliseconds(20)); // without help
+        EXPECT_FALSE(compiler.help());
+    }
+    const GlBuffer result(16, nullptr);
+    result.bindStorage(0);
+    for (size_t i = 0; i < programs.size(); ++i) {
+        ASSERT_TRUE(programs[i]) << errors[i];
+        EXPECT_NE(where[i], std::this_thread::get_id());
+        programs[i]->use();
+        gl.DispatchCompute(1, 1, 1);
+        gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        float value = -1.0f;
+        result.read(&value, sizeof value);
+        EXPECT_EQ(value, float(i));
+    }
+}
+
+TEST(ProgramCompiler, WhoeverWaitsDoesTheWorkWhereThereAreNoThreads) {
+    PATINA_NEED_CONTEXT();
+    ProgramCompiler compiler(*context, 0);
+    int count = 0;
+    for (int i = 0; i < 3; ++i)
+        compiler.add([&] { ++count; });
+    EXPECT_FALSE(compiler.hasThreads());
+    EXPECT_EQ(count, 0);
+    while (compiler.help()) {
+    }
+    EXPECT_EQ(count, 3);
+}

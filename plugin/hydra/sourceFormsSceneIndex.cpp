@@ -1,0 +1,98 @@
+#include "plugin/hydra/sourceFormsSceneIndex.h"
+
+#include "hdDelegate/hydra/sourceForms.h"
+
+#include <pxr/imaging/hd/overlayContainerDataSource.h>
+#include <pxr/imaging/hd/primvarSchema.h>
+#include <pxr/imaging/hd/primvarsSchema.h>
+#include <pxr/imaging/hd/retainedDataSource.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+namespace {
+
+struct Attribute {
+    TfToken primvar;
+    HdDataSourceLocator locator;
+};
+
+Attribute attribute(const std::string& name, const HdDataSourceLocator& locator) {
+    return {TfToken(patina::sourcePrefix + name), locator};
+}
+
+/// By type of prim, which is also where its attributes are.
+const std::map<TfToken, std::vector<Attribute>>& attributes() {
+    static const std::map<TfToken, std::vector<Attribute>> all = [] {
+        std::map<TfToken, std::vector<Attribute>> map;
+        const auto plain = [&](const char* type, std::initializer_list<const char*> names) {
+            for (const char* name : names)
+                map[TfToken(type)].push_back(
+                    attribute(name, HdDataSourceLocator(TfToken(type), TfToken(name))));
+        };
+        plain("nurbsPatch", {"uVertexCount", "vVertexCount", "uOrder", "vOrder", "uKnots", "vKnots",
+                             "uRange", "vRange"});
+        map[TfToken("nurbsPatch")].push_back(attribute(
+            "trimCurve:counts",
+            HdDataSourceLocator(TfToken("nurbsPatch"), TfToken("trimCurve"), TfToken("counts"))));
+        plain("nurbsCurves", {"order", "knots", "ranges"});
+        for (const char* name : {"tetVertexIndices", "surfaceFaceVertexIndices"})
+            map[TfToken("tetMesh")].push_back(attribute(
+                name, HdDataSourceLocator(TfToken("tetMesh"), TfToken("topology"), TfToken(name))));
+        return map;
+    }();
+    return all;
+}
+
+} // namespace
+
+HdSceneIndexPrim HdPatinaSourceFormsSceneIndex::GetPrim(const SdfPath& path) const {
+    HdSceneIndexPrim prim = _GetInputSceneIndex()->GetPrim(path);
+    const auto found = attributes().find(prim.primType);
+    if (found == attributes().end() || !prim.dataSource) return prim;
+    std::vector<TfToken> names;
+    std::vector<HdDataSourceBaseHandle> primvars;
+    for (const Attribute& attribute : found->second) {
+        const HdSampledDataSourceHandle value = HdSampledDataSource::Cast(
+            HdContainerDataSource::Get(prim.dataSource, attribute.locator));
+        if (!value) continue;
+        names.push_back(attribute.primvar);
+        primvars.push_back(HdPrimvarSchema::Builder()
+                               .SetPrimvarValue(value)
+                               .SetInterpolation(HdPrimvarSchema::BuildInterpolationDataSource(
+                                   HdPrimvarSchemaTokens->constant))
+                               .Build());
+    }
+    if (names.empty()) return prim;
+    prim.dataSource = HdOverlayContainerDataSource::New(
+        HdRetainedContainerDataSource::New(
+            HdPrimvarsSchemaTokens->primvars,
+            HdRetainedContainerDataSource::New(names.size(), names.data(), primvars.data())),
+        prim.dataSource);
+    return prim;
+}
+
+void HdPatinaSourceFormsSceneIndex::_PrimsAdded(
+    const HdSceneIndexBase&, const HdSceneIndexObserver::AddedPrimEntries& entries) {
+    _SendPrimsAdded(entries);
+}
+
+void HdPatinaSourceFormsSceneIndex::_PrimsRemoved(
+    const HdSceneIndexBase&, const HdSceneIndexObserver::RemovedPrimEntries& entries) {
+    _SendPrimsRemoved(entries);
+}
+
+void HdPatinaSourceFormsSceneIndex::_PrimsDirtied(
+    const HdSceneIndexBase&, const HdSceneIndexObserver::DirtiedPrimEntries& entries) {
+    HdSceneIndexObserver::DirtiedPrimEntries dirtied = entries;
+    for (auto& entry : dirtied)
+        for (const auto& type : attributes())
+            if (entry.dirtyLocators.Intersects(HdDataSourceLocator(type.first)))
+                entry.dirtyLocators.insert(HdPrimvarsSchema::GetDefaultLocator());
+    _SendPrimsDirtied(dirtied);
+}
+
+PXR_NAMESPACE_CLOSE_SCOPE

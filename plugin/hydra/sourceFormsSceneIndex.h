@@ -1,0 +1,37 @@
+#pragma once
+
+#include "hdDelegate/hydra/compat.h"
+
+#include <pxr/imaging/hd/filteringSceneIndex.h>
+
+PXR_NAMESPACE_OPEN_SCOPE
+
+TF_DECLARE_REF_PTRS(HdPatinaSourceFormsSceneIndex);
+
+/// Before scene indices make meshes and lines of NURBS and tetrahedra, hands their attributes on as
+/// constant primvars, from which the delegate makes what the stage says (hydra/sourceForms.h).
+class HdPatinaSourceFormsSceneIndex final : public HdSingleInputFilteringSceneIndexBase {
+public:
+    static HdPatinaSourceFormsSceneIndexRefPtr New(const HdSceneIndexBaseRefPtr& input) {
+        return TfCreateRefPtr(new HdPatinaSourceFormsSceneIndex(input));
+    }
+
+    HdSceneIndexPrim GetPrim(const SdfPath& path) const override;
+    SdfPathVector GetChildPrimPaths(const SdfPath& path) const override {
+        return _GetInputSceneIndex()->GetChildPrimPaths(path);
+    }
+
+protected:
+    void _PrimsAdded(const HdSceneIndexBase& sender,
+                     const HdSceneIndexObserver::AddedPrimEntries& entries) override;
+    void _PrimsRemoved(const HdSceneIndexBase& sender,
+                       const HdSceneIndexObserver::RemovedPrimEntries& entries) override;
+    void _PrimsDirtied(const HdSceneIndexBase& sender,
+                       const HdSceneIndexObserver::DirtiedPrimEntries& entries) override;
+
+private:
+    explicit HdPatinaSourceFormsSceneIndex(const HdSceneIndexBaseRefPtr& input)
+        : HdSingleInputFilteringSceneIndexBase(input) {}
+};
+
+PXR_NAMESPACE_CLOSE_SCOPE

@@ -1,0 +1,235 @@
+"""Writes a baked material: one shader with values and textures, in the words of a shading model. Stage and
+textures appear together, or nothing is changed."""
+import os
+import re
+
+import numpy as np
+
+from patina.cli import compiled, materials, outputs
+from patina.cli.errors import CommandError
+
+EXTENSIONS = (".usda", ".usdc", ".usd")
+# Vectors that are directions.
+NORMALS = ("normal", "coat_normal", "clearcoat_normal", "geometry_normal", "geometry_coat_normal")
+
+
+def write(arguments, name, inputs, warnings):
+    """Writes the stage and its textures.
+
+    :param name: of the material: a path on its stage, or a name in its document
+    :param inputs: what bake.evaluate() gave"""
+    base = re.sub(r"[^A-Za-z0-9_]+", "_", name.rpartition("/")[2]) or "material"
+    base = "_" + base if base[0].isdigit() else base
+    with outputs.Together() as files:
+        stem = os.path.splitext(os.path.basename(arguments.output))[0]
+        if arguments.in_place:  # other materials of the file have textures too
+            stem += "_" + re.sub(r"[^A-Za-z0-9_]+", "_", name).strip("_")
+        made = _layer_of(arguments, base, stem, inputs, warnings, files)
+        if arguments.in_place and os.path.exists(arguments.output):
+            made = _merged(arguments, made, base, name)
+        _export(made, files.add(arguments.output, arguments.in_place, EXTENSIONS), arguments.output)
+
+
+def _layer_of(arguments, base, stem, inputs, warnings, files):
+    """:param stem: of the textures' names
+    :returns: an anonymous layer that holds the material alone, at /base; textures go to `files`"""
+    from pxr import Sdf, Usd, UsdShade
+
+    layer = Sdf.Layer.CreateAnonymous("baked.usda")
+    stage = Usd.Stage.Open(layer)
+    material = UsdShade.Material.Define(stage, f"/{base}")
+    stage.SetDefaultPrim(material.GetPrim())
+    writer = _Preview if arguments.to == "UsdPreviewSurface" else _MaterialX
+    shader = writer(stage, material, arguments.to)
+    for name in sorted(inputs):
+        kind, value = inputs[name]
+        if isinstance(value, np.ndarray) and value.ndim == 3:
+            file, space = _texture(arguments, stem, name, kind, value, warnings, files)
+            shader.texture(name, kind, file, space)
+        elif name in NORMALS:
+            shader.normal(name, value)
+        else:
+            shader.value(name, kind, value)
+    return layer
+
+
+def _merged(arguments, made, base, name):
+    """:returns: the layer of OUT with the material in the place of the one that was baked; not saved"""
+    from pxr import Sdf
+
+    layer = Sdf.Layer.FindOrOpen(arguments.output)
+    if layer is None:
+        raise CommandError(f"{arguments.output} cannot be read")
+    path = Sdf.Path(name) if Sdf.Path.IsValidPathString(name) and name.startswith("/") else Sdf.Path(f"/{base}")
+    changed = Sdf.Layer.CreateAnonymous("merged" + os.path.splitext(arguments.output)[1])
+    changed.TransferContent(layer)
+    Sdf.CreatePrimInLayer(changed, path)
+    if not Sdf.CopySpec(made, Sdf.Path(f"/{base}"), changed, path):
+        raise CommandError(f"{path} cannot be replaced in {arguments.output}")
+    _check_strength(arguments, layer, changed, path)
+    return changed
+
+
+def _check_strength(arguments, layer, changed, path):
+    """:raises CommandError: where what stronger layers say of the material hides what was baked"""
+    from pxr import Sdf, Usd, UsdShade
+
+    file = materials.split(arguments.material)[0]
+    if materials.is_document(file):
+        return
+    before = Sdf.Layer.CreateAnonymous()
+    before.TransferContent(layer)
+    try:
+        layer.TransferContent(changed)
+        stage = Usd.Stage.Open(file)
+        if stage and layer not in stage.GetUsedLayers():
+            return
+        material = UsdShade.Material(stage.GetPrimAtPath(path)) if stage else None
+        context = "" if arguments.to == "UsdPreviewSurface" else "mtlx"
+        found = material.ComputeSurfaceSource(context) if material else ()
+        shader = found[0] if isinstance(found, tuple) and found else found
+        if not shader or shader.GetPath() != path.AppendChild("surface"):
+            raise CommandError(f"--in-place: other layers hide what {arguments.output} says of {path}")
+    finally:
+        layer.TransferContent(before)
+
+
+def _export(layer, temporary, output):
+    from pxr import Tf
+
+    from patina.stage import compat, errors
+
+    with compat.QuietDiagnostics() as quiet:
+        try:
+            good, reason = layer.Export(temporary), ""
+        except Tf.ErrorException as error:
+            good, reason = False, errors.one_line(error)
+    if not good:
+        raise CommandError(f"cannot write '{output}': {reason or (quiet.texts or ['no reason was given'])[0]}")
+
+
+def _texture(arguments, stem, name, kind, image, warnings, files):
+    """Writes an image. :returns: its file name beside the stage, and its colour space"""
+    module = compiled.load()
+    color = kind == "color3"
+    pixels = image
+    if name in NORMALS:
+        pixels = image * 0.5 + 0.5
+    if pixels.shape[2] == 1:
+        pixels = np.repeat(pixels, 3, axis=2)
+    png = arguments.format == "png"
+    if png and (pixels.max() > 1.0 + 1e-4 or pixels.min() < -1e-4):
+        warnings.append({"prim": stem, "input": name, "count": 1,
+                         "message": "numbers outside 0 to 1 are cut off in PNG (take --format exr)"})
+    if png and color:
+        pixels = np.where(pixels <= 0.0031308, 12.92 * pixels,
+                          1.055 * np.power(np.maximum(pixels, 0.0031308), 1 / 2.4) - 0.055)
+    file = f"{stem}_{name}.{arguments.format}"
+    path = os.path.join(os.path.dirname(arguments.output), file)
+    # sRGB is applied above, so that no display transform stands between a colour and its file.
+    options = {"raw": True, "bits": 16 if name in NORMALS else 8} if png else {"half": True}
+    module.write_image(files.add(path, arguments.in_place), np.ascontiguousarray(pixels, np.float32), options=options)
+    return file, "sRGB" if png and color else "raw"
+
+
+def _sdf(kind):
+    from pxr import Sdf
+
+    return {"float": Sdf.ValueTypeNames.Float, "color3": Sdf.ValueTypeNames.Color3f,
+            "vector2": Sdf.ValueTypeNames.Float2, "vector3": Sdf.ValueTypeNames.Float3,
+            "integer": Sdf.ValueTypeNames.Int, "boolean": Sdf.ValueTypeNames.Bool,
+            "string": Sdf.ValueTypeNames.String}[kind]
+
+
+def _plain(kind, value):
+    if kind == "integer":
+        return int(round(value))
+    if kind == "boolean":
+        return bool(value >= 0.5)
+    return tuple(value) if isinstance(value, (list, tuple)) else value
+
+
+class _Network:
+    """A material that is one shader with textures; classes below know how these are spelled."""
+
+    def __init__(self, stage, material, model, identifier, output):
+        from pxr import Sdf, UsdShade
+
+        self.stage, self.material = stage, material
+        self.shader = UsdShade.Shader.Define(stage, material.GetPath().AppendChild("surface"))
+        self.shader.CreateIdAttr(identifier)
+        self.shader.CreateOutput(output, Sdf.ValueTypeNames.Token)
+
+    def node(self, name, identifier):
+        from pxr import UsdShade
+
+        shader = UsdShade.Shader.Define(self.stage, self.material.GetPath().AppendChild(name))
+        shader.CreateIdAttr(identifier)
+        return shader
+
+    def input(self, name, kind):
+        return self.shader.CreateInput(name, _sdf(kind))
+
+    def value(self, name, kind, value):
+        self.input(name, kind).Set(_plain(kind, value))
+
+
+class _Preview(_Network):
+    def __init__(self, stage, material, model):
+        super().__init__(stage, material, model, model, "surface")
+        self.material.CreateSurfaceOutput().ConnectToSource(self.shader.ConnectableAPI(), "surface")
+        self.reader = None
+
+    def normal(self, name, value):
+        from pxr import Sdf
+
+        self.shader.CreateInput(name, Sdf.ValueTypeNames.Normal3f).Set(tuple(value))
+
+    def texture(self, name, kind, file, space):
+        from pxr import Sdf
+
+        types = Sdf.ValueTypeNames
+        if self.reader is None:
+            self.reader = self.node("uv", "UsdPrimvarReader_float2")
+            self.reader.CreateInput("varname", types.String).Set("st")
+            self.reader.CreateOutput("result", types.Float2)
+        node = self.node(name + "_texture", "UsdUVTexture")
+        node.CreateInput("file", types.Asset).Set(Sdf.AssetPath("./" + file))
+        node.CreateInput("sourceColorSpace", types.Token).Set(space)
+        node.CreateInput("wrapS", types.Token).Set("repeat")
+        node.CreateInput("wrapT", types.Token).Set("repeat")
+        node.CreateInput("st", types.Float2).ConnectToSource(self.reader.ConnectableAPI(), "result")
+        if name in NORMALS:
+            node.CreateInput("scale", types.Float4).Set((2, 2, 2, 1))
+            node.CreateInput("bias", types.Float4).Set((-1, -1, -1, 0))
+        output = "r" if kind == "float" else "rgb"
+        node.CreateOutput(output, types.Float if kind == "float" else types.Float3)
+        target = types.Normal3f if name in NORMALS else _sdf(kind)
+        self.shader.CreateInput(name, target).ConnectToSource(node.ConnectableAPI(), output)
+
+
+class _MaterialX(_Network):
+    def __init__(self, stage, material, model):
+        super().__init__(stage, material, model, f"ND_{model}_surfaceshader", "out")
+        self.material.CreateSurfaceOutput("mtlx").ConnectToSource(self.shader.ConnectableAPI(), "out")
+
+    def normal(self, name, value):
+        self._bend(name).CreateInput("in", _sdf("vector3")).Set(tuple(0.5 * x + 0.5 for x in value))
+
+    def _bend(self, name):
+        node = self.node(name + "_map", "ND_normalmap_float")
+        node.CreateOutput("out", _sdf("vector3"))
+        self.input(name, "vector3").ConnectToSource(node.ConnectableAPI(), "out")
+        return node
+
+    def texture(self, name, kind, file, space):
+        from pxr import Sdf
+
+        node = self.node(name + "_texture", f"ND_image_{kind}")
+        asset = node.CreateInput("file", Sdf.ValueTypeNames.Asset)
+        asset.Set(Sdf.AssetPath("./" + file))
+        asset.GetAttr().SetColorSpace("srgb_texture" if space == "sRGB" else "lin_rec709" if kind == "color3"
+                                      else "raw")
+        node.CreateOutput("out", _sdf(kind))
+        target = self._bend(name).CreateInput("in", _sdf("vector3")) if name in NORMALS else self.input(name, kind)
+        target.ConnectToSource(node.ConnectableAPI(), "out")

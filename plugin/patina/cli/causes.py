@@ -1,0 +1,105 @@
+"""Warnings by their causes, worst first.
+
+A cause is the kind of a message and its culprit: the file, prim, node or type that the message names, or where it names none
+the input that it is about. How often comes with the first prim that it was met at. The order is:
+
+  error    something that was authored is missing from the result: a prim, a light, a texture, a material, a file
+  warning  everything is there, but not all as authored: a default, a fallback or an approximation is used
+
+and within each what was met most often first.
+"""
+import re
+
+MOST = 20  # causes on the terminal; all of them are in --json
+SEVERITIES = ("error", "warning")
+
+# What messages say where something is missing.
+_MISSING = re.compile(
+    r"not drawn|nothing is drawn|not written|not read\b|not found|not readable|not shaped by|"
+    r"is left out|are left out|left out$|left out with|cannot be|cannot read|could not|"
+    r"does not exist|do not exist|there is no |there are none|is missing|holds no |"
+    r"no file is given|gives no light|is off$|the light is off|"
+    r"magenta is shown|black is shown|displayColor is shown|can be shown|emits the same everywhere|failed|Failed|"
+    r"path tracer renders instead", re.IGNORECASE)
+_QUOTED = re.compile(r"'[^']*'|\"[^\"]*\"|@[^@]+@|<[^>]+>")
+_PATH = re.compile(r"(?<![\w'\"@<])[^\s'\",;()]*(?:/[^\s'\",;()]+|\.(?:[A-Za-z][A-Za-z0-9]{1,4}))(?![\w])")
+_TYPE = re.compile(r"\bND_\w+|\btype \w+")
+_NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.]*\w)", re.IGNORECASE)
+
+
+def severity(warning):
+    """:returns: `error` or `warning`"""
+    return SEVERITIES[0] if _MISSING.search(warning["message"]) else SEVERITIES[1]
+
+
+def cause(warning):
+    """:returns: (kind, culprit) of a warning; messages that differ in numbers alone are of one kind"""
+    message, found = warning["message"], []
+    if len(warning["prim"]) > 1:
+        message = message.replace(warning["prim"], "it")
+
+    def keep(match):
+        text = match.group().strip("'\"@<>")
+        if text and text not in found:
+            found.append(text)
+        return "..."
+
+    kind = message
+    for pattern in (_QUOTED, _PATH, _TYPE):
+        kind = pattern.sub(keep, kind)
+    kind = _NUMBER.sub("N", kind)
+    return kind, ", ".join(found) or _leaf(warning["input"])
+
+
+def _leaf(name):
+    """:returns: an input without the names of nodes and namespaces before it"""
+    return re.split(r"[.:/]", name)[-1]
+
+
+class Causes:
+    """Groups of warnings. Warnings are dicts of prim, input, message and count, as the scene gives them."""
+
+    def __init__(self, warnings):
+        groups = {}
+        for warning in warnings:
+            kind, culprit = cause(warning)
+            group = groups.get((kind, culprit))
+            if group is None:
+                group = groups[kind, culprit] = {
+                    "severity": severity(warning), "message": warning["message"], "culprit": culprit,
+                    "prim": warning["prim"], "input": warning["input"], "count": 0, "prims": 0, "_prims": set()}
+            group["count"] += warning["count"]
+            group["_prims"].add(warning["prim"])
+        for group in groups.values():
+            group["prims"] = len(group.pop("_prims"))
+        self.groups = sorted(groups.values(), key=lambda g: (SEVERITIES.index(g["severity"]), -g["count"]))
+
+    def __len__(self):
+        return len(self.groups)
+
+    def lines(self, told=None, last=True):
+        """:param told: dict that remembers what was shown before, which is not shown again ...
+        :param last: ... unless this is the last call, and it was met twice as often since
+        :returns: lines of at most MOST causes for all calls with the same dict; the last call says how many there are more"""
+        told = {} if told is None else told
+        out, hidden = [], 0
+        for group in self.groups:
+            key = group["severity"], group["message"], group["prim"], group["input"]
+            if key not in told and len(told) >= MOST:
+                hidden += 1
+            elif key not in told or (last and group["count"] >= 2 * told[key]):
+                told[key] = group["count"]
+                out.append(line(group))
+        if hidden and last:
+            out.append(f"warning: {hidden} more causes are in --json")
+        return out
+
+
+def line(group):
+    """:returns: a group as one line"""
+    where = group["prim"] + ("." + group["input"] if group["input"] else "")
+    text = f"{group['severity']}: " + (where + ": " if where else "") + group["message"]
+    if group["count"] == 1:
+        return text
+    others = f"at {group['prims']} prims, first this" if group["prims"] > 1 else "at this prim"
+    return f"{text} ({group['count']} times {others})"

@@ -1,0 +1,88 @@
+"""The files that a command has read: so that it reads nothing but regular files of a bounded size, and
+writes over none of them."""
+import os
+import re
+import stat
+
+MOST_TEXT = 1 << 28  # bytes of documents that are read as text
+_UDIM = "<UDIM>"
+_INCLUDE = re.compile(rb"""<xi:include\b[^>]*?\bhref\s*=\s*(?:"([^"]+)"|'([^']+)')""")
+_MOST_INCLUDES = 1000
+_noted = set()
+
+
+class InputError(OSError):
+    """A one-line reason why a file is not read."""
+
+
+def forget():
+    """Begins anew: another command of the same process reads other files."""
+    _noted.clear()
+
+
+def note(path):
+    """:param path: of a file that is read; <UDIM> stands for any tile, a file in a package for the package"""
+    if path:
+        _noted.add(os.path.abspath(path.partition("[")[0] if ".usdz[" in path.lower() else path))
+
+
+def note_document(path):
+    """The same for a MaterialX document, with what it includes."""
+    waiting = [os.path.abspath(path)]
+    for file in waiting:  # grows as it goes
+        note(file)
+        try:
+            data = read(file)
+        except OSError:
+            continue
+        for match in _INCLUDE.finditer(data):
+            name = (match[1] or match[2]).decode(errors="surrogateescape")
+            more = os.path.normpath(os.path.join(os.path.dirname(file), name))
+            if more not in waiting and len(waiting) < _MOST_INCLUDES:
+                waiting.append(more)
+
+
+def read_by(path):
+    """:returns: the noted file that a path leads to, or None"""
+    try:
+        wanted = os.stat(path)
+    except (OSError, ValueError):
+        return None
+    for file in sorted(_noted):
+        if _UDIM in file:
+            folder, name = os.path.split(file)
+            tile = re.escape(name).replace(re.escape(_UDIM), r"\d{4}")
+            if (os.path.realpath(folder) == os.path.dirname(os.path.realpath(path))
+                    and re.fullmatch(tile, os.path.basename(os.path.realpath(path)))):
+                return file
+            continue
+        try:
+            if os.path.samestat(os.stat(file), wanted):
+                return file
+        except (OSError, ValueError):
+            continue
+    return None
+
+
+def check_regular(path):
+    """:raises InputError: where it is there and no regular file: a device has no end, a pipe waits"""
+    try:
+        mode = os.stat(path).st_mode
+    except OSError:
+        return  # whoever opens it says so
+    if not stat.S_ISREG(mode):
+        raise InputError(f"{path} is a folder" if stat.S_ISDIR(mode) else f"{path} is no regular file")
+
+
+def read(path, most=MOST_TEXT):
+    """:returns: the bytes of a regular file
+    :raises InputError: where it is none, or larger than `most`"""
+    check_regular(path)
+    file = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+    with open(file, "rb") as stream:
+        if not stat.S_ISREG(os.fstat(file).st_mode):
+            raise InputError(f"{path} is no regular file")
+        data = stream.read(most + 1)
+    if len(data) > most:
+        raise InputError(f"{path} holds more than the {most} bytes that are read")
+    return data

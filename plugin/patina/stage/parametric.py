@@ -1,0 +1,86 @@
+"""NURBS patches and curves, Hermite curves, meshes of tetrahedra."""
+import numpy as np
+from pxr import UsdGeom
+
+from .context import array, get
+from .primvars import add_builtin
+
+_DIRECTION = {"VertexCount": "vertex_count", "Order": "order"}
+
+
+def emit_patch(context, found, common, points):
+    """UsdGeomNurbsPatch. Trim curves are not cut; a warning tells."""
+    prim, time = found.prim, context.time
+    fields = {}
+    for side in "uv":
+        for name, key in _DIRECTION.items():
+            fields[f"{side}_{key}"] = _integer(context, prim, side + name)
+        fields[f"{side}_knots"] = _doubles(context, prim, f"{side}Knots")
+        fields[f"{side}_range"] = _range(context, prim, f"{side}Range")
+    if len(array(context, prim, "trimCurve:counts", get(prim, "trimCurve:counts", time), 1, np.int32)):
+        context.warn(prim.GetPath(), "trimCurve:counts", "is not supported: nothing is cut out of the patch")
+    context.edit.set_nurbs_patch(found.path, points=points, weights=_doubles(context, prim, "pointWeights"),
+                                 refine_level=context.options.refine_level, **fields, **common)
+
+
+def emit_tets(context, found, common, points):
+    """UsdGeomTetMesh: its surface."""
+    prim, time = found.prim, context.time
+    add_builtin(context, prim, "normals", UsdGeom.PointBased(prim).GetNormalsInterpolation(), common["primvars"])
+    tets = array(context, prim, "tetVertexIndices", get(prim, "tetVertexIndices", time), 4, np.int32)
+    surface = array(context, prim, "surfaceFaceVertexIndices", get(prim, "surfaceFaceVertexIndices", time), 3, np.int32)
+    if not len(tets) and not len(surface):
+        context.warn(prim.GetPath(), "tetVertexIndices", "has no tetrahedra; nothing is drawn")
+        return
+    context.edit.set_tet_mesh(found.path, points=points, tets=tets.ravel(), surface=surface.ravel(), **common)
+
+
+def emit_hermite(context, found, common, points):
+    """UsdGeomHermiteCurves; tangents are read when points are."""
+    prim = found.prim
+    tangents = prim.GetAttribute("tangents")
+    times = points[0] if isinstance(points, tuple) else [0.0]
+    samples = [array(context, prim, "tangents", tangents.Get(context.time_at(t)) if tangents else None, 3)
+               for t in times]
+    context.edit.set_hermite_curves(
+        found.path, points=points, tangents=samples[0] if len(samples) == 1 else (list(times), samples),
+        curve_vertex_counts=_counts(context, prim), **common)
+
+
+def emit_nurbs_curves(context, found, common, points):
+    """UsdGeomNurbsCurves."""
+    prim, time = found.prim, context.time
+    context.edit.set_nurbs_curves(
+        found.path, points=points, curve_vertex_counts=_counts(context, prim),
+        orders=array(context, prim, "order", get(prim, "order", time), 1, np.int32),
+        knots=_doubles(context, prim, "knots"),
+        ranges=array(context, prim, "ranges", get(prim, "ranges", time), 2, np.float64).ravel(),
+        weights=_doubles(context, prim, "pointWeights"), **common)
+
+
+def _counts(context, prim):
+    return array(context, prim, "curveVertexCounts", get(prim, "curveVertexCounts", context.time), 1, np.int32)
+
+
+def _doubles(context, prim, name):
+    return array(context, prim, name, get(prim, name, context.time), 1, np.float64)
+
+
+def _integer(context, prim, name):
+    value = get(prim, name, context.time)
+    return value if isinstance(value, int) and abs(value) < 2 ** 31 else 0  # 0 is told of where it is used
+
+
+def _range(context, prim, name):
+    """:returns: the ends of what is drawn; None, after a warning where something is authored, for all that knots span"""
+    value = get(prim, name, context.time)
+    if value is None:
+        return None
+    try:
+        found = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        found = np.zeros(0)
+    if found.shape == (2,) and np.isfinite(found).all() and found[0] < found[1]:
+        return found
+    context.warn(prim.GetPath(), name, "is not two numbers that ascend; all that the knots span is drawn")
+    return None

@@ -1,0 +1,149 @@
+"""`patina bake --in-place`: the material is replaced, everything else in the file stays."""
+import os
+import resource
+
+import pytest
+
+_patina = pytest.importorskip("_patina")
+pytest.importorskip("pxr.Usd")
+
+from pxr import Sdf, Usd, UsdShade  # noqa: E402
+
+from patina.cli import main, materials  # noqa: E402
+
+STAGE = """#usda 1.0
+(
+    defaultPrim = "world"
+    subLayers = [@./below.usda@]
+)
+def Xform "world" (
+    customData = { string note = "kept" }
+)
+{
+    def Sphere "ball"
+    {
+        rel material:binding = </world/looks/one>
+    }
+    def Scope "looks"
+    {
+        def Material "one"
+        {
+            token outputs:surface.connect = </world/looks/one/s.outputs:surface>
+            def Shader "s"
+            {
+                uniform token info:id = "UsdPreviewSurface"
+                color3f inputs:diffuseColor.connect = </world/looks/one/t.outputs:rgb>
+                float inputs:roughness = 0.25
+                token outputs:surface
+            }
+            def Shader "t"
+            {
+                uniform token info:id = "UsdUVTexture"
+                asset inputs:file = @./paint.png@
+                float2 inputs:st.connect = </world/looks/one/uv.outputs:result>
+                float3 outputs:rgb
+            }
+            def Shader "uv"
+            {
+                uniform token info:id = "UsdPrimvarReader_float2"
+                string inputs:varname = "st"
+                float2 outputs:result
+            }
+        }
+        def Material "two" (
+            references = </world/looks/one>
+        )
+        {
+        }
+    }
+}
+"""
+BELOW = '#usda 1.0\nover "world"\n{\n    over "looks"\n    {\n        over "one"\n        {\n        }\n    }\n}\n'
+
+
+@pytest.fixture
+def stage(tmp_path):
+    (tmp_path / "stage.usda").write_text(STAGE)
+    (tmp_path / "below.usda").write_text(BELOW)
+    _patina.write_image(str(tmp_path / "paint.png"), [[[0.5, 0.2, 0.1], [0.1, 0.2, 0.5]]] * 2)
+    return str(tmp_path / "stage.usda")
+
+
+def bake(stage, path, out=None, *more, to="gltf_pbr"):
+    Sdf.Layer.FindOrOpen(stage).Reload(True)
+    return main.main(["bake", f"{stage}:{path}", out or stage, "--to", to, "--resolution", "4", "--in-place", *more])
+
+
+def surface(stage, path):
+    found = UsdShade.Material(stage.GetPrimAtPath(path)).ComputeSurfaceSource("mtlx")[0]
+    return found.GetIdAttr().Get() if found else None
+
+
+def reopened(path):
+    layer = Sdf.Layer.FindOrOpen(path)
+    layer.Reload(True)
+    return Usd.Stage.Open(layer)
+
+
+def test_all_other_prims_stay(stage, tmp_path):
+    assert bake(stage, "/world/looks/one") == 0
+    found = reopened(stage)
+    assert surface(found, "/world/looks/one") == "ND_gltf_pbr_surfaceshader"
+    assert found.GetDefaultPrim().GetPath() == "/world" and found.GetDefaultPrim().GetCustomDataByKey("note") == "kept"
+    assert found.GetRootLayer().subLayerPaths == ["./below.usda"]
+    ball = found.GetPrimAtPath("/world/ball")
+    assert UsdShade.MaterialBindingAPI(ball).ComputeBoundMaterial()[0].GetPath() == "/world/looks/one"
+    assert not found.GetPrimAtPath("/world/looks/one/t"), "what the material was made of is gone"
+    (_, network), = materials.load(stage + ":/world/looks/one")[0]
+    assert "gltf_pbr" in " ".join(node["id"] for node in network.nodes())
+    assert sorted(os.listdir(tmp_path)) == ["below.usda", "paint.png", "stage.usda", "stage_world_looks_one_base_color.png"]
+
+
+def test_textures_of_other_materials_of_the_file_stay(stage, tmp_path):
+    """The second one is a reference to the first; both are baked after each other, and the first once more."""
+    assert bake(stage, "/world/looks/two") == 0
+    of_two = (tmp_path / "stage_world_looks_two_base_color.png").read_bytes()
+    assert bake(stage, "/world/looks/one") == 0
+    assert bake(stage, "/world/looks/one") == 0, "its own textures may be replaced"
+    assert (tmp_path / "stage_world_looks_two_base_color.png").read_bytes() == of_two
+
+
+def test_a_layer_that_is_too_weak_is_left_alone(stage, tmp_path, capsys):
+    assert bake(stage, "/world/looks/one", str(tmp_path / "below.usda"), to="UsdPreviewSurface") == 1
+    assert "other layers hide" in capsys.readouterr().err
+    assert (tmp_path / "below.usda").read_text() == BELOW
+    assert sorted(os.listdir(tmp_path)) == ["below.usda", "paint.png", "stage.usda"]
+
+
+@pytest.mark.parametrize("name", ["binary.usdc", "text.usd", "new.usda"])
+def test_any_format_and_files_that_are_new(name, stage, tmp_path):
+    out = str(tmp_path / name)
+    if name != "new.usda":
+        layer = Sdf.Layer.CreateNew(out, args={"format": "usda"} if name.endswith(".usd") else {})
+        Sdf.CreatePrimInLayer(layer, "/other").specifier = Sdf.SpecifierDef
+        layer.Save()
+    assert bake(stage, "/world/looks/one", out) == 0, "it is no layer of the stage, and none hides it"
+    assert surface(reopened(out), "/one" if name == "new.usda" else "/world/looks/one") == "ND_gltf_pbr_surfaceshader"
+    document = tmp_path / "m.mtlx"
+    document.write_text('<?xml version="1.0"?><materialx version="1.39"><standard_surface name="s" type="surfaceshader">'
+                        '<input name="base" type="float" value="0.5"/></standard_surface><surfacematerial name="m" '
+                        'type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/>'
+                        "</surfacematerial></materialx>")
+    assert main.main(["bake", str(document), out, "--to", "gltf_pbr", "--in-place"]) == 0
+    found = reopened(out)
+    assert surface(found, "/m") == "ND_gltf_pbr_surfaceshader"
+    assert bool(found.GetPrimAtPath("/other")) == (name != "new.usda")
+
+
+def test_a_full_disk_keeps_stage_and_textures(stage, tmp_path):
+    assert bake(stage, "/world/looks/one") == 0
+    before = {name: (tmp_path / name).read_bytes() for name in os.listdir(tmp_path)}
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    texture = len(before["stage_world_looks_one_base_color.png"])
+    assert texture < len(before["stage.usda"])
+    resource.setrlimit(resource.RLIMIT_FSIZE, (texture + 64, limits[1]))  # textures fit, the stage does not
+    try:
+        assert bake(stage, "/world/looks/one", None, "--set", "/world/looks/one.baseColor=1,0,0") == 1
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert {name: (tmp_path / name).read_bytes() for name in os.listdir(tmp_path)} == before

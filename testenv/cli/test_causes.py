@@ -1,0 +1,130 @@
+"""Many warnings of few causes: what matters stands first, and is not hidden by what is met often."""
+import json
+
+import pytest
+
+from patina.cli import causes, main
+from patina.cli.causes import Causes
+
+
+def warning(message, prim="/p", name="", count=1):
+    return {"prim": prim, "input": name, "message": message, "count": count}
+
+
+MISSING = "texture '/textures/wood.png': the file cannot be opened; magenta is shown"
+
+
+def test_one_missing_file_is_one_cause():
+    found = Causes([warning(MISSING, f"/m{i}", f"image{i}.file") for i in range(561)]
+                   + [warning("the mesh has no faces and is not drawn", "/hull", "faceVertexCounts")])
+    assert [(g["count"], g["culprit"]) for g in found.groups] == [(561, "/textures/wood.png"), (1, "faceVertexCounts")]
+    assert found.lines() == [f"error: /m0.image0.file: {MISSING} (561 times at 561 prims, first this)",
+                             "error: /hull.faceVertexCounts: the mesh has no faces and is not drawn"]
+
+
+@pytest.mark.parametrize("one, other", [
+    (MISSING, MISSING.replace("wood", "iron")),
+    ("unsupported node ND_a_float; the default is used", "unsupported node ND_b_float; the default is used"),
+    ("prims of type PortalLight are not drawn", "prims of type PluginLight are not drawn"),
+    ("there is no prim /a/b; it is not drawn", "there is no prim /a/c; it is not drawn")])
+def test_another_culprit_is_another_cause(one, other):
+    assert len(Causes([warning(one, "/p"), warning(other, "/q")])) == 2
+    assert len(Causes([warning(one, "/p", "a"), warning(one, "/q", "b")])) == 1
+
+
+def test_where_no_culprit_is_named_it_is_the_input():
+    text = "is not a finite number; the fallback is used"
+    assert len(Causes([warning(text, "/p", "x.inputs:radius"), warning(text, "/q", "y.inputs:radius")])) == 1
+    assert len(Causes([warning(text, "/p", "radius"), warning(text, "/p", "height")])) == 2
+
+
+def test_numbers_and_the_own_path_make_no_other_cause():
+    assert len(Causes([warning("3 indices are out of range and read as 0", "/a", "primvars:st"),
+                       warning("1500 indices are out of range and read as 0", "/b", "primvars:st")])) == 1
+    assert len(Causes([warning("/a/b: a loop at </a/b>", "/a/b"), warning("/c/d: a loop at </c/d>", "/c/d")])) == 1
+
+
+def test_errors_come_first_then_what_is_met_most_often():
+    found = Causes([warning("rare default is used", "/a"), warning("loop needs triangles; catmullClark is used", "/b", count=9),
+                    warning("the material does not exist; displayColor is shown", "/c"),
+                    warning("prims of type X are not drawn", "/d", count=3)])
+    assert [(g["severity"], g["prim"]) for g in found.groups] == [
+        ("error", "/d"), ("error", "/c"), ("warning", "/b"), ("warning", "/a")]
+
+
+def test_the_terminal_shows_twenty_causes_and_counts_the_rest():
+    found = Causes([warning(f"'{i}' is unknown; box is used", f"/p{i}") for i in range(30)]
+                   + [warning("the light is not finite; it is off", "/sun")])
+    lines = found.lines()
+    assert len(lines) == causes.MOST + 1 and lines[0].startswith("error: /sun")
+    assert lines[-1] == "warning: 11 more causes are in --json"
+
+
+def test_what_was_told_is_told_again_only_at_the_end_and_when_there_is_much_more():
+    told = {}
+    few, many = [[warning(MISSING, f"/m{i}") for i in range(n)] for n in (2, 50)]
+    assert len(Causes(few).lines(told, last=False)) == 1
+    assert Causes(many).lines(told, last=False) == []
+    assert "(50 times" in Causes(many).lines(told)[0]
+    assert Causes(many).lines(told) == []
+
+
+STAGE = """#usda 1.0
+def Camera "cam" {
+    double3 xformOp:translate = (0, 0, 5)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def DomeLight "sky" { }
+def Mesh "hull" {
+    point3f[] points = [(0, 0, 0)]
+}
+"""
+SPHERE = """def Sphere "s%d" ( prepend apiSchemas = ["MaterialBindingAPI"] ) {
+    rel material:binding = </m%d>
+}
+def Material "m%d" {
+    token outputs:surface.connect = </m%d/s.outputs:surface>
+    def Shader "s" {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:diffuseColor.connect = </m%d/t.outputs:rgb>
+        token outputs:surface
+    }
+    def Shader "t" {
+        uniform token info:id = "UsdUVTexture"
+        asset inputs:file = @missing.png@
+        float3 outputs:rgb
+    }
+}
+"""
+
+
+@pytest.fixture
+def stage(tmp_path):
+    """30 materials with one missing texture, and a mesh without faces."""
+    pytest.importorskip("_patina")
+    path = tmp_path / "stage.usda"
+    path.write_text(STAGE + "".join(SPHERE % ((i,) * 5) for i in range(30)))
+    return path
+
+
+def test_record_tells_causes(stage, tmp_path, capsys):
+    image = tmp_path / "image.exr"
+    out = tmp_path / "out.json"
+    assert main.main(["record", str(stage), str(image), "--imageWidth", "8", "--samples", "1", f"--json={out}"]) == 0
+    lines = [line for line in capsys.readouterr().err.splitlines() if "missing.png" in line]
+    assert len(lines) in (1, 2) and "(30 times at 30 prims" in lines[-1]  # twice where the first look found a part of them
+    found = json.loads(out.read_text())
+    assert len([w for w in found["warnings"] if "missing.png" in w["message"]]) == 30
+    assert {g["count"] for g in found["causes"] if "missing.png" in g["culprit"]} == {30}
+    assert any(g["prim"] == "/hull" and g["severity"] == "error" for g in found["causes"])
+    assert main.main(["record", str(stage), str(image), "--imageWidth", "8", "--samples", "1", "--strict"]) == 1
+    assert "the worst: error:" in capsys.readouterr().err
+
+
+def test_explain_and_check_tell_causes(stage, capsys):
+    assert main.main(["explain", str(stage), "--json"]) == 0
+    captured = capsys.readouterr()
+    assert "causes" in json.loads(captured.out)
+    assert main.main(["check", f"{stage}:/m0", "--samples", "1024", "--places", "1", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert [g["culprit"].endswith("missing.png") for g in found["causes"]] == [True] and len(found["warnings"]) == 1

@@ -1,0 +1,223 @@
+"""Whatever goes wrong is one line, and the exit status 1, or 2 for wrong usage."""
+import builtins
+import os
+import signal
+import sys
+import zipfile
+
+import pytest
+
+from patina.cli import bench, explain, frames, main
+from patina.cli.errors import UsageError
+
+BALL = """#usda 1.0
+def Sphere "ball"
+{
+    int elementSize = 1
+    uchar small = 1
+    float size = 1
+}
+def RectLight "light"
+{
+    int inputs:count = 3
+}
+"""
+
+
+def run(capsys, *arguments):
+    """:returns: exit status and standard error, which holds one line and no traceback"""
+    capsys.readouterr()
+    status = main.main(list(arguments))
+    said = capsys.readouterr().err
+    assert "Traceback" not in said
+    return status, said.strip()
+
+
+@pytest.fixture
+def stage(tmp_path):
+    path = tmp_path / "ball.usda"
+    path.write_text(BALL)
+    return str(path)
+
+
+@pytest.mark.parametrize("spec", ["1e999", "1:1e999", "-1e999:1", "1:2x1e-320", "1:2x5e-324", "1:2x1e999", "1:2x-1e999", "1:1e300",
+                                  "-1e308:1e308", "nan", "inf", "1:inf", "1:2x0", "1:2xnan"])
+def test_frames_that_lead_nowhere(spec):
+    with pytest.raises(UsageError) as error:
+        frames.expand(spec, 1.0, 2.0)
+    assert len(str(error.value).splitlines()) == 1
+
+
+@pytest.mark.parametrize("start", [float("nan"), float("inf"), -float("inf")])
+def test_stages_without_finite_times(start):
+    with pytest.raises(UsageError):
+        frames.expand("STARTTIME:2", start, 2.0)
+    with pytest.raises(UsageError):
+        frames.expand("1:ENDTIME", 1.0, start)
+
+
+def test_the_most_frames_are_still_given():
+    assert len(frames.expand(f"1:{frames.MOST_FRAMES}", 1.0, 2.0)[0]) == frames.MOST_FRAMES
+
+
+@pytest.mark.parametrize("change", ["/ball.elementSize=inf", "/ball.elementSize=nan", "/ball.elementSize=-inf", "/ball.elementSize=1e300",
+                                    "/ball.elementSize=", "/ball.small=300", "/ball.small=-1", "/light.count=nan",
+                                    "/ball.size=one", "/ball.size=1e9999,2"])
+def test_values_that_an_input_does_not_take(change, stage, tmp_path, capsys):
+    pytest.importorskip("_patina")
+    status, said = run(capsys, "record", stage, str(tmp_path / "a.png"), "-w", "4", "--samples", "1", "--quiet", "--set", change)
+    assert status == 1 and change.partition("=")[0] in said and len(said.splitlines()) == 1
+    assert not (tmp_path / "a.png").exists()
+
+
+@pytest.mark.parametrize("count", ["1000000000", "4097", "0", "-1", "many"])
+def test_threads_are_bounded(count, stage, tmp_path, capsys):
+    status, said = run(capsys, "record", stage, str(tmp_path / "a.png"), f"--threads={count}")
+    assert status == 2 and "--threads" in said and len(said.splitlines()) == 1
+
+
+def test_as_many_threads_as_are_let(stage, tmp_path):
+    """Also where the bound of the command line is not asked: hosts have their own."""
+    _patina = pytest.importorskip("_patina")
+    assert main.main(["record", stage, str(tmp_path / "a.png"), "-w", "4", "--samples", "1", "--quiet", "--threads", "4096"]) == 0
+    scene, film, renderer = _patina.Scene(), _patina.Film(), _patina.make_renderer()
+    with scene.edit() as edit:
+        edit.set_camera("/camera", transform=[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])
+    renderer.start(scene, "/camera", {"width": 4, "height": 4, "samples": 1, "threads": 1000000000}, film)
+    renderer.wait()
+    assert renderer.progress()["converged"]
+
+
+@pytest.mark.parametrize("arguments", [["record", "a.usda", "b\udcff.png"], ["record", "a\udcff.usda", "b.png"],
+                                       ["explain", "a\udcff.mtlx"], ["bake", "m.mtlx", "o\udcff.usda", "--to", "gltf_pbr"],
+                                       ["view", "m.mtlx", "-o", "o\udcff.html"], ["compare", "a", "b", "--json=\udcff"],
+                                       ["\udcff"]])
+def test_names_that_are_not_utf8(arguments, capsys):
+    status, said = run(capsys, *arguments)
+    assert status == 2 and "UTF-8" in said and len(said.splitlines()) == 1
+
+
+class _Unspeakable(Exception):
+    """As pxr's, which quote names of a file."""
+
+    def __str__(self):
+        return b"name \xff".decode()
+
+
+@pytest.mark.parametrize("error", [_Unspeakable(), ValueError("many\n\n lines"), KeyError("key"), RecursionError(), MemoryError(), AssertionError("x"),
+                                   ZeroDivisionError("by zero"), UnicodeDecodeError("utf-8", b"ab\xffc", 2, 3, "why"),
+                                   OSError(28, "No space left on device", "file"), RuntimeError("half a character: \udcff")])
+def test_every_exception_becomes_one_line(error, monkeypatch, capsys):
+    def fail(_):
+        raise error
+
+    monkeypatch.delenv("PATINA_TRACEBACK", raising=False)
+    monkeypatch.setattr(explain, "run", fail)
+    status, said = run(capsys, "explain", "m.mtlx")
+    assert status == 1 and said.startswith("patina: ") and len(said.splitlines()) == 1 and len(said) > 10
+    monkeypatch.setenv("PATINA_TRACEBACK", "1")
+    assert main.main(["explain", "m.mtlx"]) == 1
+    said = capsys.readouterr().err
+    assert "Traceback" in said and "in fail" in said
+
+
+def test_an_interrupted_import_is_no_missing_module(monkeypatch, capsys):
+    """Extension modules turn what interrupts their import into an ImportError."""
+    real = builtins.__import__
+
+    def interrupted(name, *arguments, **keywords):
+        if name == "_patina":
+            try:
+                os.kill(os.getpid(), signal.SIGINT)
+                for _ in range(1000):  # until the signal is handled
+                    pass
+            except KeyboardInterrupt:
+                raise ImportError("initialization failed") from None
+        return real(name, *arguments, **keywords)
+
+    monkeypatch.delitem(sys.modules, "_patina", raising=False)
+    monkeypatch.setattr(builtins, "__import__", interrupted)
+    status, said = run(capsys, "explain", __file__)
+    assert status == 1 and said == "patina: interrupted"
+
+
+def _package(path, name, content):
+    """A usdz whose first file has any name and content."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as package:
+        package.writestr("x" * len(name), content)
+    data = path.read_bytes().replace(b"x" * len(name), name)
+    path.write_bytes(data)
+
+
+@pytest.mark.parametrize("damage", range(8))
+def test_damaged_stages(damage, tmp_path, capsys):
+    """Stages that pxr cannot read, and names that are no UTF-8, are told in one line or as warnings."""
+    pytest.importorskip("_patina")
+    Sdf = pytest.importorskip("pxr.Sdf")
+    layer = Sdf.Layer.CreateNew(str(tmp_path / "good.usdc"))
+    layer.ImportFromString("""#usda 1.0
+def Sphere "ballBallBall"
+{
+    rel material:binding = </ballBallBall/look>
+    def Material "look"
+    {
+        asset inputs:fileFileFile = @pictureOfPaint.png@
+    }
+}
+""")
+    layer.Save()
+    good = (tmp_path / "good.usdc").read_bytes()
+    name = "bad.usdz" if damage >= 4 else "bad.usdc"
+    path = tmp_path / name
+    if damage == 0:
+        path.write_bytes(good.replace(b"ballBallBall", b"ball\xff\xfe\x80all"))
+    elif damage == 1:
+        path.write_bytes(good.replace(b"pictureOfPaint", b"picture\xff\xfePaint"))
+    elif damage == 2:
+        path.write_bytes(good[:len(good) // 2])
+    elif damage == 3:
+        path.write_bytes(good[:200] + b"\xff" * 100 + good[300:])
+    elif damage == 4:
+        _package(path, b"n\xff\xfe.usdc", good)
+    elif damage == 5:
+        _package(path, b"inner.usdc", good[:100])
+    elif damage == 6:
+        _package(path, b"inner.usda", b"#usda 1.0\ndef Sphere \"b\xff\" {}\n")
+    else:
+        path.write_bytes(b"PK\3\4" + os.urandom(200))
+    for arguments in (["record", str(path), str(tmp_path / "a.png"), "-w", "4", "--samples", "1"], ["explain", str(path)]):
+        capsys.readouterr()
+        status = main.main(arguments)
+        said = capsys.readouterr().err
+        assert status in (0, 1) and "Traceback" not in said
+        assert status == 0 or said.strip()
+
+
+@pytest.mark.parametrize("kind", ["pipe", "device"])
+@pytest.mark.parametrize("arguments", [["record", "{}.usda", "a.png"], ["explain", "{}.usda"], ["explain", "{}.mtlx"],
+                                       ["compare", "{}.png", "{}.png", "--no-flip"], ["view", "m.mtlx", "-o", "a.html", "--controls", "{}.json"]])
+def test_only_regular_files_are_read(arguments, kind, tmp_path, monkeypatch, capsys):
+    """A pipe would wait for ever, a device never end."""
+    pytest.importorskip("_patina")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "m.mtlx").write_text('<?xml version="1.0"?><materialx version="1.39"/>')
+    for ending in ("usda", "mtlx", "png", "json"):
+        os.mkfifo(f"thing.{ending}") if kind == "pipe" else os.symlink("/dev/zero", f"thing.{ending}")
+    status, said = run(capsys, *[argument.format("thing") for argument in arguments])
+    assert status == 1 and "regular file" in said and len(said.splitlines()) == 1
+
+
+def test_the_table_of_methods_keeps_names_and_texts_apart():
+    from patina.cli import methods
+
+    _patina = pytest.importorskip("_patina")
+    lines = [line.split() for line in methods._listing().splitlines()]
+    words = [line[0] for line in lines if line]
+    for point, names in _patina.choice_points():
+        for name, _ in names:
+            assert name in words, f"{name} of {point} runs into its text"
+
+
+def test_benchmarks_end_in_one_line_too(monkeypatch, capsys):
+    monkeypatch.setattr(bench, "run", lambda _: 1 / 0)
+    assert run(capsys, "bench")[0] == 1

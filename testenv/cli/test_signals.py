@@ -1,0 +1,143 @@
+"""Ctrl+C, the end of a job and of a terminal: nothing is left behind, nothing that was rendered is lost."""
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+_patina = pytest.importorskip("_patina")
+pytest.importorskip("pxr.Usd")
+
+from patina.cli import checkpoints, interrupts, main, record  # noqa: E402
+
+STAGE = """#usda 1.0
+def Sphere "ball"
+{
+}
+def DomeLight "dome"
+{
+}
+"""
+LONG = ("-w", "64", "--samples", "65536", "--maxDepth", "1", "--quiet")
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    (tmp_path / "stage.usda").write_text(STAGE)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+class _Signals:
+    """Sends a signal to this process as soon as a render has samples."""
+
+    def __init__(self, renderer, number):
+        self._renderer, self._number = renderer, number
+
+    def __getattr__(self, name):
+        return getattr(self._renderer, name)
+
+    def wait(self, seconds):
+        if self._number and self._renderer.progress()["samplesDone"] > 0:
+            os.kill(os.getpid(), self._number)
+            self._number = 0
+        return self._renderer.wait(seconds)
+
+
+@pytest.mark.parametrize("number", interrupts.NUMBERS, ids=lambda number: number.name)
+def test_a_signal_while_rendering_saves_image_and_checkpoint(number, folder, monkeypatch, capsys):
+    make = _patina.make_renderer
+    monkeypatch.setattr(_patina, "make_renderer", lambda backend: _Signals(make(backend), number))
+    before = [signal.getsignal(n) for n in interrupts.NUMBERS]
+    assert main.main(["record", "stage.usda", "a.exr", *LONG]) == 1
+    assert "--resume continues" in capsys.readouterr().err
+    assert sorted(os.listdir()) == ["a.exr", "a.exr.checkpoint", "stage.usda"]
+    film = _patina.Film()
+    film.load_checkpoint("a.exr.checkpoint")
+    assert film.resolve("sampleCount").min() > 0
+    assert [signal.getsignal(n) for n in interrupts.NUMBERS] == before
+
+
+@pytest.mark.parametrize("number, said", [(signal.SIGINT, "interrupted"), (signal.SIGTERM, "terminated"),
+                                          (signal.SIGHUP, "ended with its terminal")])
+def test_a_signal_outside_of_rendering_tidies_up(number, said, folder, monkeypatch, capsys):
+    """As it comes to any command: here while it writes a file beside others."""
+    from patina.cli import explain, outputs
+
+    def write(_):
+        with outputs.writing("out.txt") as file:
+            file.write("half")
+            os.kill(os.getpid(), number)
+            for _ in range(100000):  # until the signal is handled
+                pass
+
+    monkeypatch.setattr(explain, "run", write)
+    assert main.main(["explain", "m.mtlx"]) == 1
+    assert capsys.readouterr().err == f"patina: {said}\n"
+    assert os.listdir() == ["stage.usda"]
+
+
+def test_ignored_signals_stay_ignored(folder):
+    """As nohup wants it."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with interrupts.Endings() as endings, interrupts.Interrupts() as met:
+            os.kill(os.getpid(), signal.SIGHUP)
+            time.sleep(0.01)
+            assert not endings.met and not met.met
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+def test_temporary_folders_go_with_the_process(folder, tmp_path):
+    """A package's textures lie in one; SIGTERM comes when they do, and no render runs."""
+    program = """
+import os, signal, sys
+from patina.cli import explain, main
+from patina.stage import assets, compat
+def run(_):
+    compat.read_asset = lambda path: b"data"
+    assert assets.extract("a.usdz[b.png]").startswith(os.environ["TMPDIR"])
+    os.kill(os.getpid(), signal.SIGTERM)
+    for _ in range(100000): pass
+explain.run = run
+sys.exit(main.main(["explain", "m.mtlx"]))
+"""
+    place = tmp_path / "temporary"
+    place.mkdir()
+    done = subprocess.run([sys.executable, "-c", program], env={**os.environ, "TMPDIR": str(place)}, capture_output=True, text=True,
+                          timeout=60)
+    assert (done.returncode, done.stderr) == (1, "patina: terminated\n")
+    assert os.listdir(place) == []
+
+
+def test_what_a_killed_render_has_left_is_told_used_and_removed(folder, capsys):
+    process = subprocess.Popen([sys.executable, "-m", "patina", "record", "stage.usda", "a.exr", *LONG, "--checkpointSeconds", "0.01"])
+    end = time.monotonic() + 60
+    while not os.path.exists("a.exr.checkpoint") and time.monotonic() < end:
+        time.sleep(0.01)
+    process.kill()
+    process.wait()
+    left = f".a.exr.{process.pid}-99999.checkpoint"  # as if it had been killed while it wrote one
+    open(left, "w").close()
+    image = f".a.{process.pid}-99999.exr"
+    open(image, "w").close()
+    assert os.path.exists("a.exr.checkpoint")
+    few = ("-w", "64", "--samples", "1", "--maxDepth", "1")
+    assert main.main(["record", "stage.usda", "a.exr", *few, "--keepCheckpoint"]) == 0
+    assert "a.exr.checkpoint of an earlier render is given up (--resume would have continued it)" in capsys.readouterr().err
+    assert sorted(os.listdir()) == ["a.exr", "a.exr.checkpoint", "stage.usda"]
+    assert main.main(["record", "stage.usda", "a.exr", *few, "--resume"]) == 0
+    assert "given up" not in capsys.readouterr().err
+    assert sorted(os.listdir()) == ["a.exr", "stage.usda"]
+
+
+def test_a_disk_that_is_full_for_checkpoints_does_not_end_a_render(folder, monkeypatch, capsys):
+    monkeypatch.setattr(checkpoints, "path_of", lambda image: "/dev/null/a.checkpoint")
+    monkeypatch.setattr(checkpoints, "remove", lambda path: None)
+    monkeypatch.setattr(record._Job, "_check_outputs", lambda *_: None)
+    assert main.main(["record", "stage.usda", "a.exr", "-w", "16", "--samples", "64", "--checkpointSeconds", "1e-9"]) == 0
+    assert "cannot write '/dev/null/a.checkpoint'" in capsys.readouterr().err
+    assert _patina.read_image("a.exr").width == 16

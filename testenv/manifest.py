@@ -1,0 +1,110 @@
+"""Which tier and which rooms each test belongs to: the one place that says so.
+
+A test's name is its place: `testenv/cli/test_frames.py::test_x`, or for a suite of a googletest program the folder that its
+CMakeLists.txt lies in, `hdDelegate/film::testFilm::Checkpoint`. FOLDERS gives every test below a folder a tier and rooms (the
+longest folder counts), so that a new file needs no entry; OVERRIDES, read in order, change either for tests whose names
+match a pattern (`*` also matches `/`); the last that says something counts.
+
+A test runs in its own tier and in those that hold it (RUNS). Aims, on two quiet cores: unit 30 s, smoke 3 minutes, full 15.
+"""
+import fnmatch
+
+TIERS = ("lint", "unit", "smoke", "full", "long")
+RUNS = {  # --tier: the tiers of the tests that it runs
+    "lint": ("lint",),
+    "unit": ("lint", "unit"),
+    "smoke": ("lint", "unit", "smoke"),
+    "full": ("lint", "unit", "smoke", "full"),
+    "long": ("long",),
+    "all": TIERS,
+}
+ROOMS = ("shaders", "materialNetwork", "scene", "film", "lights", "embree", "raster", "backends", "hydra", "python", "stage",
+         "cli", "view", "chart", "testenv")
+
+FOLDERS = {  # folder: tier, rooms
+    "shaders/": ("unit", "shaders"),
+    "materialNetwork/": ("unit", "materialNetwork"),
+    "hdDelegate/scene/": ("unit", "scene"),
+    "hdDelegate/film/": ("unit", "film"),
+    "hdDelegate/lights/": ("unit", "lights"),
+    "hdDelegate/embree/": ("smoke", "embree"),
+    "hdDelegate/raster/": ("full", "raster"),
+    "hdDelegate/backends/": ("smoke", "backends"),
+    "hdDelegate/hydra/": ("unit", "hydra"),
+    "plugin/patina/stage/": ("smoke", "stage"),
+    "plugin/": ("full", "cli"),
+    "testenv/cli/": ("full", "cli"),
+    "testenv/film/": ("smoke", "film python"),
+    "testenv/hydra/": ("full", "hydra"),
+    "testenv/mitsuba/": ("long", "embree lights shaders"),
+    "testenv/raster/": ("full", "raster"),
+    "testenv/render/": ("full", "embree lights scene"),
+    "testenv/stability/": ("full", "shaders materialNetwork raster"),
+    "testenv/view/": ("full", "view"),
+    "testenv/lint/": ("lint", "testenv"),  # reads files that are committed, and renders nothing
+    "testenv/tests/": ("unit", "testenv"),
+    "testenv/": ("full", "testenv"),
+}
+
+OVERRIDES = (  # pattern, tier or None, rooms or None
+    ("materialNetwork/tests::testMaterialNetwork::MethodTable", "lint", None),
+    # Chi-squared, grids of directions and parameters, agreement of C++ and GLSL.
+    ("shaders/tests::testLobeSampling::*", "smoke", None),
+    ("shaders/tests::testLobeAlbedo::*", "smoke", None),
+    ("shaders/tests::testLobeDegenerate::*", "smoke", None),
+    ("hdDelegate/raster/tests::testGlsl*", "full", "raster shaders materialNetwork"),
+    ("hdDelegate/raster/tests::testGlslMaterial::*", "smoke", None),
+    ("hdDelegate/raster/measure/tests::testDomeMethods::*", "full", "raster lights"),
+    ("hdDelegate/embree/media/tests::testMedia::*", "smoke", "embree scene"),
+    ("hdDelegate/raster/tests::testRaster*", "smoke", None),
+    ("hdDelegate/raster/tests::testLightChoice::*", "unit", "raster lights"),
+    ("hdDelegate/raster/tests::testProgramCache::*", "smoke", None),
+    # Commands and stages: quick, but for what renders or measures.
+    ("testenv/cli/*", "smoke", None),
+    ("testenv/cli/test_frames.py::*", "unit", None),
+    ("testenv/cli/test_overrides.py::*", "unit", None),
+    ("testenv/cli/test_usage.py::*", "unit", None),
+    ("testenv/cli/test_testRun.py::*", "unit", "cli testenv"),
+    ("testenv/cli/test_imageMetrics.py::*", "unit", None),
+    ("testenv/cli/test_progress.py::*", "unit", None),
+    ("plugin/patina/stage/*", "unit", None),
+    ("testenv/cli/test_chart.py::*", "full", "chart materialNetwork"),
+    ("testenv/cli/test_chartScenes.py::*", "full", "chart"),
+    ("testenv/cli/test_subdivisionPlan.py::*", "full", "scene materialNetwork"),
+    ("testenv/cli/test_predictions.py::*", "full", "chart materialNetwork"),
+    ("testenv/cli/test_check.py::*", "full", "cli materialNetwork shaders"),
+    ("testenv/cli/test_bsdf.py::*", "full", "cli materialNetwork raster shaders"),
+    ("testenv/cli/test_layers.py::*", None, "cli materialNetwork shaders"),
+    ("testenv/stability/test_atlas.py::*", None, "chart shaders"),
+    ("testenv/render/test_badInput.py::*", "smoke", "cli stage scene"),
+    ("testenv/render/test_features.py::*", "smoke", "embree lights scene stage"),
+    ("testenv/render/test_lightUnits.py::*", "smoke", "lights"),
+    ("testenv/render/test_wholeShaders.py::*", "smoke", "materialNetwork embree"),
+    ("testenv/render/test_classicScenes.py::*", "smoke", "shaders materialNetwork"),
+    ("testenv/render/test_furnace.py::*", None, "embree shaders materialNetwork"),
+    ("testenv/render/test_furnace.py::test_diffuse_sphere_shows_its_albedo[[]1.0]", "smoke", None),
+    ("testenv/render/test_walks.py::*", "smoke", "shaders embree"),
+    ("testenv/render/test_reproducible.py::*", None, "embree film backends"),
+    ("testenv/raster/test_fallback.py::*", None, "raster backends"),
+    # Every test scene to the noise of thousands of samples.
+    ("testenv/render/test_convergence.py::test_error_falls_with_samples*", "long", None),
+    ("testenv/tests/test_runner.py::*", "smoke", None),
+    ("testenv/raster/test_bothBackEnds.py::*", None, "raster embree lights shaders"),
+    ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]texturedDiffuse]", "smoke", None),
+    ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]outOfView/rect]", "smoke", None),
+    ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]outOfView/sun]", "smoke", None),
+    ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same_looked_at_closely*", "long", None),
+)
+
+
+def place_of(name):
+    """:param name: a test's name
+    :returns: (tier, frozenset of rooms), or None where no folder holds it"""
+    folders = [folder for folder in FOLDERS if (name.partition("::")[0] + "/").startswith(folder)]
+    if not folders:
+        return None
+    tier, rooms = FOLDERS[max(folders, key=len)]
+    for pattern, other_tier, other_rooms in OVERRIDES:
+        if fnmatch.fnmatchcase(name, pattern):
+            tier, rooms = other_tier or tier, other_rooms or rooms
+    return tier, frozenset(rooms.split())

@@ -1,0 +1,37 @@
+"""What the rasterizer draws otherwise than the path tracer, by design: each feature with what it does instead, the test of
+the difference itself, and the test scenes that have it (which are then not held together as a whole)."""
+import dataclasses
+
+
+@dataclasses.dataclass(frozen=True)
+class Feature:
+    instead: str
+    test: str  # file below testenv/raster, and function
+    scenes: tuple = ()
+
+
+FEATURES = {
+    "lightBetweenSurfaces": Feature(
+        "no light goes from surface to surface: the path tracer's direct light",
+        "test_byDesign.py::test_light_between_surfaces_is_left_out"),
+    "mirrors": Feature(
+        "mirrors and clear coats show the environment, where nothing hides it, and not the scene",
+        "test_byDesign.py::test_mirrors_show_the_environment", ("shaderball",)),
+    "shadowsOfGlass": Feature(
+        "what lobes refract of a light goes straight on, without caustics",
+        "test_glassShadows.py::test_a_slab_of_glass_lets_light_through", ("roughDielectricSlab", "roughGlass", "media")),
+    "behindGlass": Feature(
+        "what transmits shows the scene behind it, which is more than direct light",
+        "test_byDesign.py::test_glass_shows_what_is_behind", ("roughDielectricSlab", "roughGlass", "media")),
+    "subsurface": Feature(
+        "subsurface scattering shows as diffuse of its colour",
+        "test_byDesign.py::test_subsurface_shows_as_diffuse"),
+    "shadowsOfVolumes": Feature(
+        "volume prims cast no shadow on surfaces, and are marched with light that diffuses as in a layer",
+        "test_byDesign.py::test_volumes_cast_no_shadow", ("volume",)),
+    "motionOfLights": Feature(
+        "while the shutter is open lights stand where they are in the middle of that",
+        "test_byDesign.py::test_lights_do_not_move_while_the_shutter_is_open"),
+}
+SCENES = {scene: [name for name, feature in FEATURES.items() if scene in feature.scenes]
+          for feature in FEATURES.values() for scene in feature.scenes}

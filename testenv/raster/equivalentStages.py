@@ -1,0 +1,80 @@
+"""The stages that both back ends must draw alike, and the light that they are held together by.
+
+Three sorts: test scenes, emitters out of view, and stages that were not made for this (in $PATINA_ASSETS). What the
+rasterizer draws otherwise by design is named in byDesign.py, and its stages are not here.
+"""
+import dataclasses
+import os
+
+import byDesign
+import outOfView
+import pairs
+
+DIRECT, WHOLE = pairs.DIRECT, pairs.WHOLE
+WIDTH = 48
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    """`file`: below testenv/scenes, below the assets, or the name of an emitter. `depth`: of the path tracer"""
+    name: str
+    sort: str
+    file: str
+    depth: int = DIRECT
+    arguments: tuple = ()
+    tier: str = "full"
+
+
+# Costly (hundreds of lights or glowing triangles, strands): held together by the long tier alone.
+LONG = {"manyLights", "hair", "lightMesh", "assets/standard_shader_ball_scene", "outOfView/glowingSphere", "outOfView/glowingPoints"}
+
+ASSETS = (  # file below the assets, further arguments
+    "SubdivisionSurfaces/Creases_SpinningPyramids.usda",
+    "StandardShaderBall/standard_shader_ball_scene.usda",
+    "Teapot/Teapot.usd",
+    "test_assets/AlphaBlendModeTest/AlphaBlendModeTest.usd",
+    "test_assets/AlphaBlendSortTest/AlphaBlendSortTest.usda",
+    "test_assets/MaterialXTest/basic.usda",
+    "test_assets/MaterialXTest/basicTextured.usda",
+    "test_assets/NormalsTextureBiasAndScale/NormalsTextureBiasAndScale.usda",
+    "test_assets/RoughnessTest/RoughnessTest.usdz",
+    "test_assets/TextureCoordinateTest/TextureCoordinateTest.usda",
+    "test_assets/TextureCoordinateTest/TextureCoordinateTestMaterialX.usda",
+    "test_assets/TextureFileFormatTests/all_files.usda",
+    "test_assets/TextureTransformTest/TextureTransformTest.usd",
+    "test_assets/USDZ/AnimatedCube/AnimatedCube.usdz",
+    "test_assets/USDZ/BrainStem/BrainStem.usdz",
+    "test_assets/USDZ/CesiumMan/CesiumMan.usdz",
+    "test_assets/USDZ/InterpolationTest/InterpolationTest.usdz",
+    "test_assets/_common/axis.usda",
+    "test_assets/_common/teapot.usda",
+    "test_assets/foundation/stage_composition/purpose.usda",
+    "test_assets/schemaTests/usdGeom/meshes/doubleSided/doubleSided_quad.usda",
+    "test_assets/schemaTests/usdGeom/meshes/normals_types/normalsTypes.usda",
+    "test_assets/schemaTests/usdGeom/meshes/points_types/pointsTypes.usda",
+    "test_assets/schemaTests/usdGeom/meshes/singleSided/singleSided.usda",
+    "test_assets/schemaTests/usdGeom/meshes/subdiv_catmullClark/subdiv_catmullClark.usda",
+    "test_assets/schemaTests/usdGeom/primitives/all_primitives.usda",
+    "test_assets/schemaTests/usdGeom/transforms/complex_transform.usda",
+    "test_assets/schemaTests/usdGeom/transforms/xforms_nested.usda",
+)
+
+
+def cases():
+    """:returns: list of Case"""
+    made = [Case(name, "scene", name) for name in pairs.names() if name not in byDesign.SCENES]
+    made += [Case(f"outOfView/{name}", "emitter", name) for name in outOfView.EMITTERS]
+    made += [Case(f"outOfView/{name}/all", "alone", name, WHOLE) for name in outOfView.WITHOUT_BLOCK]
+    made += [Case("assets/" + os.path.splitext(os.path.basename(file))[0], "asset", file) for file in ASSETS]
+    return [dataclasses.replace(case, tier="long") if case.name in LONG else case for case in made]
+
+
+def path_of(case, folder):
+    """:param folder: where stages of emitters are written
+    :returns: the stage's path, or None where there are no assets"""
+    if case.sort in ("emitter", "alone"):
+        return outOfView.write(case.file, str(folder), block=case.sort == "emitter")
+    if case.sort == "scene":
+        return os.path.join(pairs.SCENES, *case.file.split("/")) + ".usda"
+    path = os.path.join(os.environ.get("PATINA_ASSETS", ""), *case.file.split("/"))
+    return path if os.environ.get("PATINA_ASSETS") and os.path.exists(path) else None

@@ -1,0 +1,166 @@
+"""Each feature that the rasterizer draws otherwise by design (byDesign.py): it draws what is said there, and that is not
+what the path tracer draws. Both by the test of equivalence.py: the rasterizer's image is the path tracer's of the stage
+without the feature, with the same margin as everywhere, and differs from the path tracer's image of the stage itself."""
+import functools
+import os
+
+import numpy as np
+import pytest
+
+pytest.importorskip("scipy.stats", reason="SciPy is not installed")
+
+import byDesign  # noqa: E402
+import equivalence  # noqa: E402
+import inProcess  # noqa: E402
+import outOfView  # noqa: E402
+from materialText import material  # noqa: E402
+from test_bothBackEnds import opengl  # noqa: E402, F401  skips where there is none
+
+WIDTH = 32
+LAMP = outOfView.EMITTERS["rect"]
+SKY = """    def DomeLight "sky"
+    {
+        color3f inputs:color = (0.6, 0.8, 1.0)
+    }
+"""
+WALL = """    def Mesh "wall"
+    {
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [(-3, 0, -0.6), (3, 0, -0.6), (3, 3, -0.6), (-3, 3, -0.6)]
+        uniform token subdivisionScheme = "none"
+        rel material:binding = </World/matte>
+    }
+"""
+
+
+def ball(name, height=0.4):
+    return f"""    def Sphere "ball"
+    {{
+        double radius = 0.4
+        double3 xformOp:translate = (0.2, {height}, 0.5)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        rel material:binding = </{name}>
+    }}
+"""
+
+
+def surface(name, node, inputs):
+    return material(name, {"mtlx:surface": "surface"}, {
+        "lobe": (node, inputs), "surface": ("ND_surface", {"token bsdf": "<lobe>"})})
+
+
+def write(folder, name, contents, materials="", lights=LAMP):
+    path = os.path.join(str(folder), name + ".usda")
+    with open(path, "w", encoding="utf-8") as out:
+        out.write(outOfView.STAGE % {"block": contents, "emitter": lights} + materials)
+    return path
+
+
+@functools.lru_cache(maxsize=2)
+def rasterized(path, arguments):
+    """:returns: function of a list of seeds -> images; each is rendered once"""
+    stage = inProcess.Stage(path, "--backend", "raster", "-w", WIDTH, "--samples", equivalence.FULL.samples, *arguments)
+    image = functools.lru_cache(maxsize=None)(stage.image)
+    return lambda seeds: [image(seed) for seed in seeds]
+
+
+def compare(drawn, traced, depth, *arguments):
+    """:returns: the Verdict of the rasterizer's images of one stage and the path tracer's of another"""
+    flags = ["-w", WIDTH, "--samples", equivalence.FULL.traced, "--maxDepth", depth, *arguments]
+    return equivalence.decide(rasterized(drawn, arguments), lambda seeds: inProcess.references(traced, seeds, *flags),
+                              equivalence.FULL)[0]
+
+
+def same(*arguments):
+    verdict = compare(*arguments)
+    assert not verdict.differs.any() and not verdict.open, verdict.text()
+
+
+def differences(*arguments):
+    """:returns: the differences, in parts of the value, of tiles that surely differ; others as 0"""
+    verdict = compare(*arguments)
+    return np.where(verdict.differs, verdict.difference, 0.0)
+
+
+def test_light_between_surfaces_is_left_out(tmp_path):
+    stage = write(tmp_path, "wall", WALL)
+    same(stage, stage, 1)
+    found = differences(stage, stage, 16)
+    assert found.min() < -0.03 and found.max() <= 0.0
+
+
+def test_mirrors_show_the_environment(tmp_path):
+    """A mirroring ball over a floor: of the floor it shows nothing."""
+    steel = surface("steel", "ND_conductor_bsdf", {"float2 roughness": "(0, 0)"})
+    stage = write(tmp_path, "mirror", ball("steel"), steel, SKY)
+    same(stage, stage, 1)
+    found = differences(stage, stage, 16)
+    assert found.min() < -0.1
+
+
+def test_glass_shows_what_is_behind(tmp_path):
+    """A pane over the whole floor of the view: direct light alone ends there, the rasterizer goes on behind it."""
+    pane = surface("pane", "ND_dielectric_bsdf", {"float ior": "1.0001", "float2 roughness": "(0, 0)",
+                                                  "string scatter_mode": '"RT"'})
+    glass = """    def Cube "pane"
+    {
+        double3 xformOp:translate = (0, 0.8, 2.2)
+        float3 xformOp:scale = (2, 2, 0.01)
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
+        rel material:binding = </pane>
+    }
+"""
+    without, with_pane = write(tmp_path, "without", ""), write(tmp_path, "pane", glass, pane)
+    same(with_pane, without, 1)
+    assert differences(with_pane, with_pane, 1).max() > 0.5
+
+
+def test_subsurface_shows_as_diffuse(tmp_path):
+    wax = surface("thing", "ND_subsurface_bsdf", {"color3f color": "(0.8, 0.5, 0.3)", "color3f radius": "(0.3, 0.2, 0.1)"})
+    matte = surface("thing", "ND_oren_nayar_diffuse_bsdf", {"color3f color": "(0.8, 0.5, 0.3)"})
+    scattering = write(tmp_path, "wax", ball("thing"), wax)
+    same(scattering, write(tmp_path, "matte", ball("thing"), matte), 1)
+    assert np.abs(differences(scattering, scattering, 16)).max() > 0.1
+
+
+def test_volumes_cast_no_shadow(tmp_path):
+    """Somewhere on the floor smoke takes a twentieth of the traced light, and the rasterizer's floor is as without smoke."""
+    stage, clear = inProcess.scene("volume"), str(tmp_path / "clear.usda")
+    with open(clear, "w", encoding="utf-8") as out:
+        out.write('#usda 1.0\n(\n    subLayers = [@%s@]\n)\nover "World"\n{\n    over "puff" (\n        active = false\n    )'
+                  '\n    {\n    }\n}\n' % stage)
+    smoke = inProcess.Stage(stage, "-w", WIDTH, "--samples", 1)
+    smoke.image()
+    if smoke.warnings():
+        pytest.skip(smoke.warnings()[0])  # a build without OpenVDB
+    shaded, drawn = differences(clear, stage, 16), compare(stage, clear, 1)
+    assert ((shaded > 0.05) & ~drawn.differs & (drawn.half < equivalence.FULL.widest)).any(), drawn.text()
+
+
+def test_lights_do_not_move_while_the_shutter_is_open(tmp_path):
+    """They are where they are in the middle of it."""
+    moving = LAMP.replace("double3 xformOp:translate = (-0.4, 2.2, 0.2)", "double3 xformOp:translate.timeSamples = "
+                          "{ 0: (-0.4, 2.2, 0.2), 1: (1.6, 2.2, 0.2) }")
+    assert moving != LAMP
+    shutter = 'double shutter:open = 0\n        double shutter:close = 1\n        float focalLength = 35'
+
+    def stage(name, light):
+        path = write(tmp_path, name, outOfView.BLOCK, lights=light)
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace("float focalLength = 35", shutter))
+        return path
+
+    moves = stage("moving", moving)
+    same(moves, stage("still", LAMP.replace("(-0.4, 2.2, 0.2)", "(0.6, 2.2, 0.2)")), 1, "--frames", "0")
+    assert np.abs(differences(moves, moves, 1, "--frames", "0")).max() > 0.1
+
+
+def test_every_feature_has_its_test():
+    for name, feature in byDesign.FEATURES.items():
+        file, _, function = feature.test.partition("::")
+        with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), file), encoding="utf-8") as text:
+            assert f"def {function}(" in text.read(), name
+        assert feature.instead, name

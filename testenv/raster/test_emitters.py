@@ -1,0 +1,329 @@
+"""Emitters of all kinds, in view and out of it, light a floor and a block as they do in the path tracer's direct light.
+
+Both back ends render everything with 8 seeds (0 to 7). Means of 8 x 8 pixels and of the whole image are held together by
+Welch's test with 7 degrees of freedom at a significance of 0.001 over all of them (Sidak), beyond a margin of 1 % of the value
+(0.05 % of the image's mean where it is dark).
+"""
+import numpy as np
+import pytest
+from pxr import Sdf, Usd
+
+_patina = pytest.importorskip("_patina")
+
+import bothBackEnds  # noqa: E402
+from patina import stage as reader  # noqa: E402
+
+SEEDS, WIDTH, TILE = 8, 32, 8
+MARGIN = 0.01
+# Student's t with 7 degrees of freedom at 1 - (1 - 0.999 ** (1 / 51)) / 2: 16 tiles and the whole image in three channels.
+T = 9.9
+
+STAGE = """#usda 1.0
+(
+    defaultPrim = "World"
+    upAxis = "Y"
+    metersPerUnit = %(meters)s
+)
+def Xform "World"
+{
+    matrix4d xformOp:transform = ((%(scale)s, 0, 0, 0), (0, %(scale)s, 0, 0), (0, 0, %(scale)s, 0), (%(at)s, 1))
+    uniform token[] xformOpOrder = ["xformOp:transform"]
+    def Camera "camera"
+    {
+        float2 clippingRange = (0.01, 1000)
+        float focalLength = 24
+        float horizontalAperture = 20.955
+        float verticalAperture = 20.955
+        matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 0.6, -0.8, 0), (0, 0.8, 0.6, 0), (0, 5.6, 4.2, 1))
+        uniform token[] xformOpOrder = ["xformOp:transform"]
+    }
+    def Mesh "floor"
+    {
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [(-3, 0, 3), (3, 0, 3), (3, 0, -3), (-3, 0, -3)]
+        uniform token subdivisionScheme = "none"
+        color3f[] primvars:displayColor = [(0.6, 0.6, 0.6)]
+    }
+    def Cube "block"
+    {
+        double size = 0.8
+        double3 xformOp:translate = (0.5, 0.4, 0)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+        color3f[] primvars:displayColor = [(0.6, 0.3, 0.2)]
+    }
+    def Material "glow"
+    {
+        token outputs:surface.connect = </World/glow/surface.outputs:surface>
+        def Shader "surface"
+        {
+            uniform token info:id = "UsdPreviewSurface"
+            color3f inputs:diffuseColor = (0, 0, 0)
+            color3f inputs:emissiveColor = (%(glow)s)
+            token outputs:surface
+        }
+    }
+%(more)s
+}
+"""
+
+ABOVE = ((0, 7, 0), (-90, 0, 0))
+BEHIND = ((0.5, 4.5, 9), (-30, 3, 0))  # the camera
+BESIDE = ((-8, 2, 0), (0, -90, 0))
+HIGH = ((1, 60, 5), (-90, 0, 0))
+IN_VIEW = ((-1, 1.2, -1), (-60, 0, 0))
+
+
+def place(where):
+    position, turn = where
+    return f"""        double3 xformOp:translate = {position}
+        float3 xformOp:rotateXYZ = {turn}
+        uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+"""
+
+
+def prim(kind, text, where, apis="", name="emitter"):
+    prepend = f"(prepend apiSchemas = [{apis}])" if apis else ""
+    return f'    def {kind} "{name}" {prepend}\n    {{\n{text}\n{place(where)}    }}\n'
+
+
+GLOWS = '"MaterialBindingAPI"'
+BOUND = "        rel material:binding = </World/glow>\n"
+LIGHT = "        float inputs:intensity = 4\n"
+
+
+def quad(where, text=BOUND, apis=GLOWS, size=1.5, front="[3, 2, 1, 0]"):
+    """Shines along -z, as lights do."""
+    h = 0.5 * size
+    return prim("Mesh", f"""        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = {front}
+        point3f[] points = [({-h}, {-h}, 0), ({h}, {-h}, 0), ({h}, {h}, 0), ({-h}, {h}, 0)]
+        texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")
+        uniform token subdivisionScheme = "none"
+{text}""", where, apis)
+
+
+KINDS = {
+    "glowingQuad": quad,
+    "meshLight": lambda where: quad(where, LIGHT, '"MeshLightAPI"'),
+    "glowingSphere": lambda where: prim("Sphere", "        double radius = 0.5\n" + BOUND, where, GLOWS),
+    "glowingCube": lambda where: prim("Cube", "        double size = 1\n" + BOUND, where, GLOWS),
+    "rect": lambda where: prim("RectLight", LIGHT + "        float inputs:width = 1.5\n        float inputs:height = 1.5", where),
+    "disk": lambda where: prim("DiskLight", LIGHT + "        float inputs:radius = 0.7", where),
+    "sphere": lambda where: prim("SphereLight", LIGHT + "        float inputs:radius = 0.5", where),
+    "cylinder": lambda where: prim("CylinderLight", LIGHT + "        float inputs:radius = 0.2\n        float inputs:length = 2", where),
+}
+CASES = [(kind, where) for kind in ("glowingQuad", "meshLight") for where in (ABOVE, BEHIND, BESIDE)]
+CASES += [("glowingSphere", BEHIND), ("glowingCube", ABOVE), ("glowingQuad", HIGH), ("rect", ABOVE), ("disk", BEHIND), ("sphere", BESIDE), ("cylinder", ABOVE)]
+NAMES = {ABOVE: "above", BEHIND: "behind", BESIDE: "beside", HIGH: "high", IN_VIEW: "inView"}
+
+
+@pytest.fixture(scope="module")
+def renderers():
+    reason = bothBackEnds.without_opengl()
+    if reason:
+        pytest.skip(reason)
+    return {name: _patina.make_renderer(name) for name in ("raster", "embree")}
+
+
+def load(more, glow="4, 3, 2", scale=1.0, at="0, 0, 0"):
+    layer = Sdf.Layer.CreateAnonymous(".usda")
+    layer.ImportFromString(STAGE % {"more": more, "glow": glow, "scale": scale, "at": at, "meters": 1.0 / scale})
+    scene = _patina.Scene()
+    with scene.edit() as edit:
+        info = reader.read_stage(Usd.Stage.Open(layer), edit, reader.StageOptions(headlight=False))
+    return scene, info.camera
+
+
+def render(renderer, stage, samples, seed):
+    film = _patina.Film()
+    renderer.start(*stage, {"width": WIDTH, "height": WIDTH, "samples": samples, "seed": seed, "maxDepth": 1}, film)
+    renderer.wait()
+    state = renderer.progress()
+    assert not state["failed"], state["error"]
+    return np.array(film.resolve("color"))[..., :3].astype(np.float64)
+
+
+def means(image):
+    """:returns: of the tiles and of the whole, each in three channels"""
+    n = WIDTH // TILE
+    tiles = image.reshape(n, TILE, n, TILE, 3).mean(axis=(1, 3)).reshape(-1, 3)
+    return np.concatenate([tiles, image.mean(axis=(0, 1))[None]])
+
+
+def apart(renderers, stage, passes, samples):
+    """:returns: how far the back ends are apart beyond the margin, in standard errors; and signed, in parts of the value"""
+    found = {}
+    for name, count in (("raster", passes), ("embree", samples)):
+        every = np.array([means(render(renderers[name], stage, count, seed)) for seed in range(SEEDS)])
+        found[name] = every.mean(axis=0), every.var(axis=0, ddof=1) / SEEDS
+    (r, r_var), (t, t_var) = found["raster"], found["embree"]
+    assert t[-1].min() > 1e-6, "nothing is lit"
+    beyond = np.maximum(np.abs(r - t) - MARGIN * t - 5e-4 * t[-1], 0.0)
+    error = np.sqrt(r_var + t_var) + 1e-9 * t[-1]
+    assert (error[-1] < 0.02 * t[-1]).all(), "too noisy to tell anything"
+    return beyond / error, (r - t) / np.maximum(t, 1e-3 * t[-1])
+
+
+def hold(renderers, stage, passes=4, samples=32):
+    found, parts = apart(renderers, stage, passes, samples)
+    i, channel = np.unravel_index(np.argmax(found), found.shape)
+    where = "the image" if i == len(found) - 1 else f"tile {i}"
+    assert found.max() <= T, (f"{where} is {100 * parts[i, channel]:+.1f} % off in channel {channel}, {found[i, channel]:.0f} "
+                              f"standard errors beyond the margin; the whole {100 * parts[-1].mean():+.1f} %")
+
+
+@pytest.mark.parametrize("kind,where", CASES, ids=lambda value: NAMES.get(value, value))
+def test_emitters_out_of_view(kind, where, renderers):
+    """What glows has half its light where its own plane hides it."""
+    # How many samples fall on the seen faces of a cube is a whole number: by 1/43 of 16 passes.
+    passes = {"glowingCube": 16, "glowingSphere": 2, "glowingQuad": 4, "meshLight": 4}.get(kind, 32)
+    hold(renderers, load(KINDS[kind](where), "400, 300, 200" if where == HIGH else "4, 3, 2"), passes)
+
+
+@pytest.mark.parametrize("scale", [100.0, 0.01])
+def test_emitters_in_other_units(scale, renderers):
+    hold(renderers, load(quad(ABOVE), scale=scale))
+
+
+def test_emitters_far_from_the_origin(renderers):
+    """The same image as near it: the rasterizer's own, since only this is about its numbers."""
+    near = render(renderers["raster"], load(quad(ABOVE)), 8, 0)
+    far = render(renderers["raster"], load(quad(ABOVE), at="100000, 0, 50000"), 8, 0)
+    np.testing.assert_allclose(means(far), means(near), rtol=0.02)
+
+
+def test_a_small_lamp_in_view_hides_its_own_far_side(renderers):
+    """1/1250 of what is seen: nearer to its places than shadow maps begin."""
+    lamp = prim("Sphere", "        double radius = 0.004\n" + BOUND, IN_VIEW, GLOWS)
+    hold(renderers, load(lamp, "40000, 30000, 20000"), passes=2)
+
+
+@pytest.mark.parametrize("kind", ["rect", "glowingQuad"])
+def test_a_panel_in_the_plane_of_an_emitter_hides_nothing(kind, renderers):
+    """As wide as a room's ceiling around a lamp that is set into it."""
+    h = 3.0
+    panel = prim("Mesh", f"""        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [({-h}, {-h}, 0), ({h}, {-h}, 0), ({h}, {h}, 0), ({-h}, {h}, 0)]
+        uniform token subdivisionScheme = "none"
+        color3f[] primvars:displayColor = [(0, 0, 0)]""", ABOVE, name="panel")
+    hold(renderers, load(KINDS[kind](ABOVE) + panel))
+
+
+def edf(name, kind, inputs):
+    """A material with that EDF, for quad()."""
+    texts = "".join(f"            {text}\n" for text in inputs)
+    return f"""    def Material "{name}"
+    {{
+        token outputs:mtlx:surface.connect = </World/{name}/surface.outputs:out>
+        def Shader "surface"
+        {{
+            uniform token info:id = "ND_surface"
+            token inputs:edf.connect = </World/{name}/edf.outputs:out>
+            token outputs:out
+        }}
+        def Shader "edf"
+        {{
+            uniform token info:id = "{kind}"
+{texts}            token outputs:out
+        }}
+        def Shader "even"
+        {{
+            uniform token info:id = "ND_uniform_edf"
+            color3f inputs:color = (4, 3, 2)
+            token outputs:out
+        }}
+    }}
+"""
+
+
+PROFILE = """IESNA:LM-63-1995
+TILT=NONE
+1 1000 1 5 5 1 1 0 0 0
+1.0 1.0 100
+0 20 40 60 90
+0 90 180 270 360
+1000 900 500 100 0
+1000 600 200 50 0
+1000 300 100 20 0
+1000 600 400 50 0
+1000 900 500 100 0
+"""
+EDFS = {
+    "conical": ("ND_conical_edf", ["color3f inputs:color = (4, 3, 2)", "float inputs:inner_angle = 20",
+                                   "float inputs:outer_angle = 70"]),
+    "schlick": ("ND_generalized_schlick_edf", ["color3f inputs:color0 = (0, 0.1, 0.2)", "color3f inputs:color90 = (1, 1, 1)",
+                                               "float inputs:exponent = 3",
+                                               "token inputs:base.connect = </World/shaped/even.outputs:out>"]),
+    "measured": ("ND_measured_edf", ["color3f inputs:color = (4, 3, 2)", "asset inputs:file = @%s@"]),
+}
+
+
+@pytest.mark.parametrize("name", sorted(EDFS))
+def test_light_follows_the_direction_that_an_edf_has(name, renderers, tmp_path):
+    kind, inputs = EDFS[name]
+    (tmp_path / "lamp.ies").write_text(PROFILE)
+    inputs = [text % (tmp_path / "lamp.ies") if "%s" in text else text for text in inputs]
+    near = ((-1, 6, 0.5), (-80, 20, 0))
+    stage = load(quad(near, BOUND.replace("glow", "shaped")) + edf("shaped", kind, inputs))
+    hold(renderers, stage)
+    # A light without direction would be seen as such: the floor is not lit as by an even one.
+    even = load(quad(near, BOUND.replace("glow", "shaped")) + edf("shaped", "ND_uniform_edf", ["color3f inputs:color = (4, 3, 2)"]))
+    shaped, plain = (means(render(renderers["raster"], s, 8, 0))[:-1, 0] for s in (stage, even))
+    ratio = shaped / plain
+    assert ratio.max() > 1.5 * ratio.min(), ratio
+
+
+def test_the_camera_sees_the_profile_of_a_measured_edf(tmp_path, renderers):
+    (tmp_path / "lamp.ies").write_text(PROFILE)
+    network = tmp_path / "lamp.mtlx"
+    network.write_text(f"""<?xml version="1.0"?>
+<materialx version="1.39">
+  <measured_edf name="edf" type="EDF"><input name="color" type="color3" value="1, 2, 3"/>
+    <input name="file" type="filename" value="{tmp_path / 'lamp.ies'}"/></measured_edf>
+  <surface name="surface" type="surfaceshader"><input name="edf" type="EDF" nodename="edf"/></surface>
+  <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="surface"/></surfacematerial>
+</materialx>
+""")
+    (read,) = _patina.read_mtlx(str(network))
+    traced, drawn = _patina.MaterialProbe(read, {}), _patina.RasterProbe(read, {})
+    assert drawn.warnings == traced.warnings == []
+    angle, turn = np.meshgrid(np.radians([0.0, 13.0, 45.0, 71.0, 89.0, 140.0]), np.radians([0.0, 40.0, 160.0, 250.0, 359.0]))
+    wo = np.stack([np.sin(angle) * np.cos(turn), np.sin(angle) * np.sin(turn), np.cos(angle)], axis=-1).reshape(-1, 3)
+    expected = traced.emission(wo.astype(np.float32))
+    assert expected.max() > 5.0 * expected[expected > 0].min(), "the profile is flat"
+    # The table has steps of a degree and of 15; the profile is linear between 0, 20, ... and 0, 90, ...
+    np.testing.assert_allclose(drawn.emission(wo.astype(np.float32)), expected, rtol=0.01, atol=0.01)
+
+
+def test_light_follows_the_places_on_an_emitter(renderers):
+    """Its corners glow in four colours, by a primvar; it is as wide as the floor."""
+    material = """    def Material "places"
+    {
+        token outputs:surface.connect = </World/places/surface.outputs:surface>
+        def Shader "surface"
+        {
+            uniform token info:id = "UsdPreviewSurface"
+            color3f inputs:diffuseColor = (0, 0, 0)
+            color3f inputs:emissiveColor.connect = </World/places/color.outputs:result>
+            token outputs:surface
+        }
+        def Shader "color"
+        {
+            uniform token info:id = "UsdPrimvarReader_float3"
+            string inputs:varname = "glow"
+            float3 outputs:result
+        }
+    }
+"""
+    text = (BOUND.replace("</World/glow>", "</World/places>")
+            + '        color3f[] primvars:glow = [(8, 0, 1), (0, 0, 1), (0, 0, 9), (0, 4, 0)] (interpolation = "vertex")\n')
+    hold(renderers, load(quad(((-1, 6, 1.2), (-80, 0, 0)), text, size=5.0) + material))
+
+
+def test_the_back_of_a_mesh_light_shines_by_its_material_alone(renderers):
+    """materialSyncMode independent: the light is added to the front."""
+    text = LIGHT + BOUND + '        uniform token light:materialSyncMode = "independent"\n'
+    quads = (quad(((-1.2, 6, 0), (-90, 0, 0)), text, '"MaterialBindingAPI", "MeshLightAPI"', front="[0, 1, 2, 3]"))
+    hold(renderers, load(quads, "0.4, 0.3, 0.2"))

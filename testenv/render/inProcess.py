@@ -1,0 +1,36 @@
+"""Renders small stages in the process of the test."""
+import numpy as np
+
+
+def open_text(text):
+    from pxr import Sdf, Usd
+
+    layer = Sdf.Layer.CreateAnonymous(".usda")
+    assert layer.ImportFromString("#usda 1.0\n" + text)
+    return Usd.Stage.Open(layer)
+
+
+def render_text(text, aovs=("color",), **settings):
+    """:param text: of a usda layer
+    :param settings: of the renderer; 32 x 32 pixels, 16 samples and one thread where they say nothing else
+    :returns: dict of float arrays (height, width, channels), warnings as text, processor seconds of the render"""
+    import time
+
+    import _patina
+
+    from patina.stage import StageOptions, read_stage
+
+    scene, film = _patina.Scene(), _patina.Film()
+    with scene.edit() as edit:
+        info = read_stage(open_text(text), edit, StageOptions(headlight=False))
+    renderer = _patina.make_renderer("embree")
+    start = time.process_time()
+    renderer.start(scene, info.camera, {"width": 32, "height": 32, "samples": 16, "threads": 1, "tolerance": 0.0,
+                                        "aovs": list(aovs), **settings}, film)
+    renderer.wait(-1.0)
+    seconds = time.process_time() - start
+    state = renderer.progress()
+    if state["failed"]:
+        raise RuntimeError(state["error"])
+    warnings = [f"{w['prim']} {w['input']}: {w['message']}" for w in scene.warnings()]
+    return {name: np.array(film.resolve(name)) for name in aovs}, warnings, seconds

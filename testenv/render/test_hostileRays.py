@@ -1,0 +1,102 @@
+"""Numbers that no ray can be made of: a message that names the prim, and no ray that ends the process."""
+import numpy as np
+import pytest
+
+from inProcess import render_text
+from rendering import patina
+
+pytest.importorskip("pxr.Usd")
+pytest.importorskip("_patina")
+
+STAGE = """
+def Camera "camera"
+{
+    float2 clippingRange = %(range)s
+    float4[] clippingPlanes = %(planes)s
+    float focusDistance = %(focus)s
+    float fStop = %(stop)s
+    float3 xformOp:scale = %(scale)s
+    double3 xformOp:translate = %(translate)s
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:scale"]
+}
+def DomeLight "dome"
+{
+}
+def Sphere "ball"
+{
+}
+def PointInstancer "many"
+{
+    rel prototypes = </many/cube>
+    int[] protoIndices = [0, 0]
+    point3f[] positions = [(30, 0, 0), (-30, 0, 0)]
+    float3[] scales = [(1, 1, 1), %(instance)s]
+    def Cube "cube"
+    {
+    }
+}
+def Cube "large"
+{
+    double3 xformOp:translate = (0, %(height)s, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+SOUND = {"range": "(0.1, 1000)", "planes": "[]", "focus": 0, "stop": 0, "scale": "(1, 1, 1)", "translate": "(0, 0, 5)",
+         "instance": "(1, 1, 1)", "height": 5}
+
+
+def look(**changes):
+    return render_text(STAGE % {**SOUND, **changes}, ("color", "alpha"), samples=2, domeLightCameraVisibility=False)
+
+
+@pytest.mark.parametrize("changes, prim, word", [
+    ({"range": "(nan, nan)"}, "/camera", "clippingRange"),
+    ({"planes": "[(nan, 0, 0, 1), (0, 0, nan, nan)]"}, "/camera", "clippingPlanes"),
+    ({"focus": "1e20", "stop": 200}, "/camera", "focusDistance"),
+    ({"focus": "5", "stop": "1e-30"}, "/camera", "fStop"),
+    ({"instance": "(1, 1, 1e-30)"}, "/many", "transform"),
+    ({"instance": "(1e-30, 1e-30, 1e-30)"}, "/many", "transform"),
+    ({"height": "1e19"}, "/large", "transform"),
+])
+def test_what_cannot_be_used_is_named_and_the_rest_is_drawn(changes, prim, word):
+    images, warnings, _ = look(**changes)
+    assert np.isfinite(images["color"]).all()
+    assert images["alpha"][16, 16] == 1.0 and images["alpha"][0, 0] == 0.0  # the ball in the middle
+    assert any(w.startswith(prim) and word in w for w in warnings), warnings
+
+
+@pytest.mark.parametrize("changes", [{"translate": "(0, 0, 1e19)"}, {"scale": "(1, 1, 1e30)"}, {"scale": "(1, 1, 1e-30)"}])
+def test_cameras_that_see_nothing_fail_by_name(changes):
+    with pytest.raises(RuntimeError, match="/camera"):
+        look(**changes)
+
+
+def test_a_filter_beyond_all_pixels_ends_with_an_image():
+    images, _, _ = render_text(STAGE % SOUND, samples=2, filterRadius=1e308)
+    assert np.isfinite(images["color"]).all()
+    process = patina("record", "absent.usda", "absent.exr", "--filterRadius", "1e308", check=False)
+    assert process.returncode == 2 and "--filterRadius" in process.stderr
+
+
+def test_an_instance_that_turns_halfway_within_the_shutter_is_drawn():
+    """Halfway between the two samples of the motion its matrix is flat and has no inverse."""
+    import _patina
+
+    scene, film = _patina.Scene(), _patina.Film()
+    turn = np.diag([-1.0, -1.0, 1.0, 1.0])
+    with scene.edit() as edit:
+        edit.set_implicit("/cube", shape="cube", group="A")
+        edit.set_instancer("/turning", prototypes=["A"], prototype_indices=np.zeros(1, np.int32),
+                           transforms=([0.0, 1.0], [np.eye(4)[None], turn[None]]))
+        camera = np.eye(4)
+        camera[3, 2] = 6.0
+        edit.set_camera("/camera", transform=camera, shutter_open=0.0, shutter_close=1.0)
+        edit.set_light("/dome", type="dome")
+    renderer = _patina.make_renderer("embree")
+    renderer.start(scene, "/camera", {"width": 16, "height": 16, "samples": 64, "threads": 1, "aovs": ["color", "alpha"],
+                                        "domeLightCameraVisibility": False}, film)
+    renderer.wait(-1.0)
+    assert not renderer.progress()["failed"]
+    assert np.isfinite(film.resolve("color")).all()
+    alpha = np.array(film.resolve("alpha"))
+    assert alpha[8, 8] > 0.7 and 0.1 < alpha[8, 3] < 0.7  # in the middle it is thin, but always there

@@ -28,7 +28,8 @@ struct RenderProgress {
     /// meshes and acceleration structures); and counts since the renderer was made, which tell what
     /// edits cost: "surfacesBuilt", "surfacesTessellated" (the others were only moved),
     /// "groupsBuilt" (acceleration structures), "programsBuilt", "lightsBuilt". While programs are
-    /// compiled "materialsReady" and "materialsWanted", with secondsLeft of that.
+    /// compiled "materialsReady" and "materialsWanted", with secondsLeft of that; and
+    /// "materialsDrawn" for the first time, for which software compiles once more.
     std::map<std::string, double> statistics;
     std::map<std::string, MethodPlan> plans; ///< of materials in use, by path ("": displayColor);
                                              ///< without choices when there is no tolerance

@@ -24,6 +24,7 @@ struct RasterPrograms {
     std::unique_ptr<GlProgram> color, aovs;
     std::unique_ptr<GlProgram> shadow; ///< only of what light may pass
     std::unique_ptr<GlProgram> tint;   ///< only of what colours the light that passes
+    mutable bool drawn = false;        ///< `color` was, for which some drivers compile once more
 };
 
 /// Programs that may still be compiled.

@@ -180,6 +180,10 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
         if (known) gl.DepthFunc(GL_LEQUAL);
         drawRuns(d, *d.surface, visible);
         if (known) gl.DepthFunc(GL_LESS);
+        if (!aovs && which != Tints && !programs.drawn) {
+            programs.drawn = true;
+            if (_firstDraws) _firstDraws();
+        }
     }
 }
 

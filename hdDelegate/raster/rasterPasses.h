@@ -44,6 +44,9 @@ public:
               int environmentSamples, const RasterCamera& camera, const RasterSample& sample,
               Film& film);
 
+    /// Is told whenever a program is drawn with for the first time.
+    void setFirstDraws(std::function<void()> told) { _firstDraws = std::move(told); }
+
     /// Draws what earlier passes have left for later ones, for a film that holds `taken` of them.
     /// @param moveTo brings the scene to the shutter time of a pass
     void resumeAt(const RasterScene& scene, const RasterLights& lights, uint32_t taken,
@@ -96,6 +99,7 @@ private:
     ShadowBounds _bounds;
     RasterAovImages _seen; ///< of drawAovs()
     vec3 _seenMin{0.0f}, _seenMax{0.0f};
+    std::function<void()> _firstDraws;
     GlTimer _timer;
     std::vector<double> _seconds = std::vector<double>(ShareCount, 0.0);
 

@@ -166,6 +166,10 @@ private:
             _passes = std::make_unique<RasterPasses>(error);
             if (!_passes->ok())
                 throw DeviceError("the driver does not take the shaders: " + oneLine(error));
+            _passes->setFirstDraws([this] {
+                const std::lock_guard<std::mutex> lock(_mutex);
+                ++_progress.statistics["materialsDrawn"];
+            });
             if (!_compiler) _compiler = std::make_unique<ProgramCompiler>(*_context, helpers());
             _raster = std::make_unique<RasterScene>(_scene->diagnostics(), _compiler.get());
             _images = std::make_unique<LightImages>(_scene->diagnostics());

@@ -70,3 +70,5 @@ def test_while_the_driver_compiles_it_says_how_far_it_is(monkeypatch):
     assert shown(monkeypatch, statistics=compiling) == "shot.exr: compiled 12 of 47 materials\n"
     ready = {"materialsReady": 47.0, "materialsWanted": 47.0}
     assert shown(monkeypatch, statistics=ready) == "shot.exr: preparing for 25 s\n"
+    assert shown(monkeypatch, statistics={**ready, "materialsDrawn": 3.0}) == (
+        "shot.exr: preparing for 25 s, drawn 3 of 47 materials\n")

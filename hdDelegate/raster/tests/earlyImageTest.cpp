@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <numeric>
 
 using namespace patina;
 
@@ -100,6 +101,10 @@ Shown render(bool interactive, int threads, std::string& error) {
     return shown;
 }
 
+float sum(const std::vector<float>& image) {
+    return std::accumulate(image.begin(), image.end(), 0.0f);
+}
+
 float brightest(const std::vector<float>& image) {
     return image.empty() ? 0.0f : *std::max_element(image.begin(), image.end());
 }
@@ -122,8 +127,8 @@ TEST(EarlyImages, ShowWhatIsReadyAndLeaveNothingInTheLast) {
         ASSERT_GT(shown.images.size(), 1u);
         const auto& first = shown.told.front().statistics;
         EXPECT_LT(first.at("materialsReady"), first.at("materialsWanted")) << threads;
-        // Grey, which nothing lights.
-        EXPECT_LT(brightest(shown.images.front()), 1.0f) << threads;
+        // What is not ready is grey, which nothing lights.
+        EXPECT_LT(sum(shown.images.front()), 0.9f * sum(batch.last)) << threads;
         EXPECT_FALSE(shown.told.front().converged);
         EXPECT_TRUE(shown.told.back().converged);
         EXPECT_EQ(shown.last, batch.last) << "the order of programs reached the image: " << threads;

@@ -73,8 +73,9 @@ class Progress:
     def _preparing(self, state, now):
         statistics = state.get("statistics", {})
         ready, wanted = (int(statistics.get(name, 0)) for name in ("materialsReady", "materialsWanted"))
+        drawn = int(statistics.get("materialsDrawn", 0))
         if ready >= wanted:
-            return f"preparing for {_clock(now - self.started)}"
+            return f"preparing for {_clock(now - self.started)}" + (f", drawn {drawn} of {wanted} materials" if drawn else "")
         left = f", about {_clock(state['secondsLeft'])} left" if state["secondsLeft"] > 0.5 else ""
         return f"compiled {ready} of {wanted} materials{left}"
 

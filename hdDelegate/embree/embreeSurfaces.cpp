@@ -150,8 +150,9 @@ bool EmbreeScene::glows(const Geometry& prim, const SceneState& state,
            });
 }
 
-std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry>& prim,
-                                            const std::shared_ptr<const SharedShape>& shared) const {
+std::shared_ptr<Surface>
+EmbreeScene::shape(const std::shared_ptr<const Geometry>& prim,
+                   const std::shared_ptr<const SharedShape>& shared) const {
     auto surface = std::make_shared<Surface>();
     surface->prim = prim;
     surface->shared = shared;

@@ -16,7 +16,8 @@ namespace patina {
 class PixelFilter {
 public:
     static constexpr float largestRadius = 1000.0f; ///< pixels; larger ones count as this
-    explicit PixelFilter(float radius) : _radius(std::min(std::max(0.0f, radius), largestRadius)), _box(radius <= 0.5f) {
+    explicit PixelFilter(float radius)
+        : _radius(std::min(std::max(0.0f, radius), largestRadius)), _box(radius <= 0.5f) {
         double sum = 0.0;
         for (int i = 0; i < fine; ++i) {
             const double x = ((i + 0.5) / fine * 2.0 - 1.0) * 2.0; // in standard deviations

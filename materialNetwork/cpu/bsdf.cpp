@@ -199,9 +199,11 @@ void Bsdf::preferWalks() {
     if (!(before > 0.0f) || !(others > 0.0f)) return;
     const float share = std::max(before / (before + others),
                                  std::min(after / (after + others), 0.5f));
-    for (int i = 0; i < _lobeCount; ++i)
-        _lobes[i].probability = walks(_lobes[i]) ? wanted(_lobes[i]) * (share / after)
-                                                 : _lobes[i].probability * ((1.0f - share) / others);
+    for (int i = 0; i < _lobeCount; ++i) {
+        BsdfLobe& l = _lobes[i];
+        l.probability = walks(l) ? wanted(l) * (share / after)
+                                 : l.probability * ((1.0f - share) / others);
+    }
 }
 
 SubsurfaceEntry Bsdf::subsurface(const BsdfSample& sample) const {

@@ -183,3 +183,28 @@ def test_tolerance_ends_a_render():
     render(part, samples=max(3, taken - 2), minSamples=4)
     assert render(part, samples=512, minSamples=4, tolerance=tolerance)[0] == taken
     np.testing.assert_array_equal(part.resolve("color"), film.resolve("color"))
+
+
+def test_equal_implicit_prims_share_their_buffers():
+    """And look as prims do that differ in something that nobody sees."""
+    import _patina
+
+    def draw(tell_apart):
+        scene, renderer, film = _patina.Scene(), _patina.make_renderer("raster"), _patina.Film()
+        with scene.edit() as edit:
+            for i in range(12):
+                matrix = np.eye(4)
+                matrix[3, :3] = 0.5 * (i % 4) - 0.75, 0.5 * (i // 4) - 0.5, -4.0
+                more = {"primvars": [("mark", "constant", np.float32([i]), None)]} if tell_apart else {}
+                edit.set_implicit(f"/ball{i}", shape="sphere", radius=0.2, transform=matrix, **more)
+            edit.set_light("/sun", type="distant", intensity=3.0)
+            edit.set_camera("/camera")
+        renderer.start(scene, "/camera", {"width": 48, "height": 32, "samples": 1}, film)
+        renderer.wait()
+        found = renderer.progress()
+        assert not found["failed"], found["error"]
+        return film.resolve("color"), found["statistics"]["surfacesBuilt"]
+
+    (together, few), (apart, many) = draw(False), draw(True)
+    assert (few, many) == (1, 12)
+    np.testing.assert_array_equal(together, apart)

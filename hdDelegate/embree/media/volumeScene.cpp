@@ -107,8 +107,8 @@ void VolumeScene::update(const std::vector<std::shared_ptr<const Volume>>& prims
             cached = {prim, program, std::make_shared<VolumeMedium>(*prim, program, diagnostics)};
         if (cached.medium->empty()) continue;
         for (const mat4& place : placesOf(prim->group)) {
-            const mat4 toWorld =
-                place * interpolate(prim->transform, open, prim->group.empty() ? origin : dvec3(0.0));
+            const dvec3 from = prim->group.empty() ? origin : dvec3(0.0);
+            const mat4 toWorld = place * interpolate(prim->transform, open, from);
             const mat4 inverse = glm::inverse(toWorld);
             const vec3 lower = cached.medium->boundsMin(), upper = cached.medium->boundsMax();
             bool usable = true;

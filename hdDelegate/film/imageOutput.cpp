@@ -24,7 +24,7 @@ std::string extensionOf(const std::string& path) {
     throw std::runtime_error("cannot write '" + path + "': " + firstLine(reason));
 }
 
-/// Writers of rare formats do not tell when a disk is full.
+/// Not every writer tells when a disk is full.
 void readBack(const std::string& path, const std::string& temporary) {
     auto input = OIIO::ImageInput::open(temporary);
     if (!input) fail(path, "what was written cannot be read: " + OIIO::geterror());
@@ -113,7 +113,8 @@ void writeAtomically(const std::string& path, const OIIO::ImageSpec& spec,
     auto output = createOutput(path);
     AtomicFile file(path);
     std::unique_ptr<WatchedFile> watched;
-    if (output->supports("ioproxy")) {
+    // OIIO 2.4 says that TIFF can, but leaves its directory out.
+    if (output->supports("ioproxy") && output->format_name() != std::string("tiff")) {
         watched = std::make_unique<WatchedFile>(file.temporaryPath());
         output->set_ioproxy(watched.get());
     }

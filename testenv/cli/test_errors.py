@@ -97,6 +97,16 @@ def test_names_that_are_not_utf8(arguments, capsys):
     assert status == 2 and "UTF-8" in said and len(said.splitlines()) == 1
 
 
+@pytest.mark.parametrize("flag", ["--json=o\udcff", "--out=o\udcff", "--table=o\udcff"])
+def test_charts_go_to_names_that_are_utf8(flag, tmp_path, monkeypatch, capsys):
+    """Their stages may be called anything: one that cannot be opened is one of several."""
+    pytest.importorskip("_patina")
+    monkeypatch.chdir(tmp_path)
+    status, said = run(capsys, "chart", "--lobes", "--point", "directionalAlbedo", flag)
+    assert status == 1 and "UTF-8" in said and len(said.splitlines()) == 1
+    assert os.listdir() == []
+
+
 class _Unspeakable(Exception):
     """As pxr's, which quote names of a file."""
 

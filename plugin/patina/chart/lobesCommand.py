@@ -24,6 +24,7 @@ def run(arguments):
     if arguments.point and arguments.point not in names:
         raise UsageError(f"patina chart: there is no choice point '{arguments.point}' (there are: {', '.join(names)})")
     outputs.check_all([arguments.table, arguments.json])
+    outputs.make_folder(arguments.out)
     rows = lobes.measure(arguments.point, not arguments.errors)
     if not rows:
         raise CommandError(f"nothing is measured at '{arguments.point}': its methods differ in meaning, not in accuracy")
@@ -35,7 +36,6 @@ def run(arguments):
             table = lobes.merged(rows, patina.method_table(), arguments.point) if arguments.point else rows
             lobes.write_table(table, arguments.table)
         if arguments.out:
-            os.makedirs(arguments.out, exist_ok=True)
             lobes.write_csv(rows, os.path.join(arguments.out, "lobes.csv"))
             lobes.write_charts(rows, arguments.out)
         text = json.dumps(rows, indent=1) if arguments.json else ""

@@ -60,7 +60,7 @@ class Table:
     def __init__(self, folder):
         self.path, self.rows = os.path.join(folder, "predictions.csv") if folder else "", []
         if folder:
-            os.makedirs(folder, exist_ok=True)
+            outputs.make_folder(folder)
             self._write()
 
     def add(self, row):

@@ -55,7 +55,7 @@ def run(arguments):
         raise UsageError("patina chart: --reference is of one stage")
     chosen = methods.parse(a.method)
     overrides.parse(a.set)
-    _make_folder(a.out)
+    outputs.make_folder(a.out)
     command = shown(shlex.join(["patina", *sys.argv[1:]]))
     for stage in a.stages:
         inputs.note(stage)
@@ -106,15 +106,6 @@ def truth(chosen):
     """Methods of the reference: those that change what a material means, not how exactly it is computed."""
     measured = {row["point"] for row in compiled.load().method_table()}
     return {point: name for point, name in chosen.items() if point not in measured}
-
-
-def _make_folder(folder):
-    if not folder:
-        return
-    try:
-        os.makedirs(folder, exist_ok=True)
-    except OSError as error:
-        raise CommandError(f"cannot make the folder {folder}: {error.strerror}") from error
 
 
 def _write(results, folder, here, command, seed):

@@ -32,12 +32,12 @@ def run(arguments):
     if arguments.family and arguments.family not in FAMILIES:
         raise UsageError(f"patina chart: there is no family '{arguments.family}' (there are: {', '.join(FAMILIES)})")
     outputs.check_all([arguments.json])
+    outputs.make_folder(arguments.out)
     found = sweeps(arguments.points, arguments.family)
     rows = [row for sweep in found for row in sweep.rows()]
     text = json.dumps(rows, indent=1) if arguments.json else ""
     try:
         if arguments.out:
-            os.makedirs(arguments.out, exist_ok=True)
             with outputs.writing(os.path.join(arguments.out, "stability.csv"), newline="") as file:
                 writer = csv.DictWriter(file, COLUMNS)
                 writer.writeheader()

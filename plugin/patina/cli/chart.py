@@ -25,6 +25,7 @@ from patina.chart import lobesCommand, predictionsCommand, sceneCommand, stabili
 from patina.cli.errors import UsageError
 
 # flag -> module that has add_arguments(parser) and run(arguments); without a flag stages are charted
+NAMES_OF_ANY_BYTES = True  # a stage that cannot be opened is one of several
 CHARTS = {"lobes": lobesCommand, "predictions": predictionsCommand, "stability": stabilityCommand}
 
 

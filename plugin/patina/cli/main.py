@@ -73,6 +73,15 @@ def _overview():
     return "\n".join(lines)
 
 
+def _check_arguments(argv):
+    for argument in argv:
+        try:
+            argument.encode()
+        except UnicodeEncodeError:
+            shown = argument.encode(errors="surrogateescape").decode(errors="replace")
+            raise UsageError(f"patina: {shown}: names that are not UTF-8 are neither read nor written") from None
+
+
 def _dispatch(argv):
     if not argv or argv[0] in ("-h", "--help", "help"):
         if len(argv) > 1 and argv[0] == "help":
@@ -84,8 +93,11 @@ def _dispatch(argv):
         return 0
     name = argv[0]
     if name not in COMMANDS:
+        _check_arguments(argv)
         raise UsageError(f"patina: there is no command '{name}' (there are: {', '.join(COMMANDS)})")
     module = importlib.import_module("patina.cli." + COMMANDS[name])
+    if not getattr(module, "NAMES_OF_ANY_BYTES", False):
+        _check_arguments(argv)
     parser = _Parser(prog=f"patina {name}", description=module.__doc__)
     module.add_arguments(parser)
     if getattr(module, "PASSES_ON", False):
@@ -114,22 +126,12 @@ def _one_line(error):
     return (text or type(error).__name__).encode(errors="backslashreplace").decode()
 
 
-def _check_arguments(argv):
-    for argument in argv:
-        try:
-            argument.encode()
-        except UnicodeEncodeError:
-            shown = argument.encode(errors="surrogateescape").decode(errors="replace")
-            raise UsageError(f"patina: {shown}: names that are not UTF-8 are neither read nor written") from None
-
-
 def main(argv=None):
     """:returns: the exit status"""
     with told.Streams(), interrupts.Endings() as endings:
         try:
             inputs.forget()
             argv = sys.argv[1:] if argv is None else argv
-            _check_arguments(argv)
             status = _dispatch(argv)
             sys.stdout.flush()
             return status

@@ -19,7 +19,12 @@ def check(path, makes=()):
     :raises CommandError: where the folder is missing, something other than a regular file is there, or it is a
         file that this command reads"""
     try:
-        compiled.load().check_output(path)
+        os.fspath(path).encode()
+    except UnicodeEncodeError:
+        shown = os.fsencode(path).decode(errors="replace")
+        raise CommandError(f"cannot write '{shown}': names that are not UTF-8 are not written") from None
+    try:
+        compiled.load().check_output(os.fspath(path))
     except RuntimeError as error:
         raise CommandError(str(error)) from error
     _refuse_input(path, makes)
@@ -50,6 +55,20 @@ def check_all(paths):
         known[place] = path
 
 
+def make_folder(folder):
+    """Makes the folder that --out names, before anything slow; nothing for ''."""
+    if not folder:
+        return
+    try:
+        folder.encode()
+        os.makedirs(folder, exist_ok=True)
+    except UnicodeEncodeError:
+        shown = os.fsencode(folder).decode(errors="replace")
+        raise CommandError(f"cannot make the folder {shown}: names that are not UTF-8 are not written") from None
+    except OSError as error:
+        raise CommandError(f"cannot make the folder {folder}: {error.strerror}") from error
+
+
 class Together:
     """Several files that appear together, when the block ends without an error."""
 
@@ -65,7 +84,7 @@ class Together:
         if not in_place:
             _refuse_input(path, makes)
         try:
-            self._files.append(compiled.load().AtomicFile(path))
+            self._files.append(compiled.load().AtomicFile(os.fspath(path)))
         except RuntimeError as error:
             raise CommandError(str(error)) from error
         return self._files[-1].temporary_path

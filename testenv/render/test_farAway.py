@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from inProcess import render_text
+from usdaText import render_text
 
 pytest.importorskip("pxr.Usd")
 pytest.importorskip("_patina")
@@ -155,7 +155,7 @@ def test_scenes_near_the_origin_keep_their_numbers():
     import _patina
 
     from patina.stage import StageOptions, read_stage
-    from inProcess import open_text
+    from usdaText import open_text
 
     scene = _patina.Scene()
     renderer = _patina.make_renderer("embree")

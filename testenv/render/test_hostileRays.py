@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from inProcess import render_text
+from usdaText import render_text
 from rendering import patina
 
 pytest.importorskip("pxr.Usd")

@@ -127,7 +127,7 @@ TEST(Checkpoint, ReasonsAreNamed) {
     flipped[good.size() - 20] ^= 1;
     writeBytes(temp.file("flipped"), flipped);
     EXPECT_TRUE(has(reasonOfLoad(film, temp.file("flipped")), "damaged"));
-    EXPECT_TRUE(has(reasonOfLoad(film, temp.file("absent")), "No such file"));
+    EXPECT_TRUE(has(reasonOfLoad(film, temp.file("absent")), "does not exist"));
 }
 
 TEST(Checkpoint, UnwritablePlacesAreRefusedAndLeaveTheOldFile) {

@@ -54,6 +54,8 @@ void ProgramBuilder::prepareNode(int node) {
         Setup setup(*this, node);
         def.prepare(setup, data);
     }
+    if (def.category == "move_texcoord" || def.category == "move_position")
+        _program->_jitters = true;
     if (def.category == "texcoord" || _readsTexture[size_t(node)]) _program->_usesUv = true;
 }
 

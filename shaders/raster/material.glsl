@@ -19,6 +19,7 @@ struct SurfacePoint {
     mat3 objectToWorldNormal;
     float lengthPerUv;
     float uvFootprint;
+    uint seed;
 };
 SurfacePoint point;
 vec3 worldOrigin = vec3(0.0); // what positions are relative to

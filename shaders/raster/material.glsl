@@ -4,6 +4,7 @@
 #include "shaders/compat/glsl.glsl"
 #include "shaders/lobes.glsl"
 #include "shaders/patterns.glsl"
+#include "shaders/lib/layers.glsl"
 
 const int ENERGY_CURVE_NODES = 64; // EnergyCurve::nodeCount
 

@@ -2,14 +2,15 @@
 
 #include "materialNetwork/nodeTable.h"
 
-#include <cmath>
+#include "shaders/patterns.h"
+
 #include <functional>
 
 namespace patina {
 
 namespace {
 
-constexpr int blurTaps = 5;        ///< along each axis
+constexpr int blurTaps = sh::BLUR_TAPS * sh::BLUR_TAPS;
 constexpr size_t maxNodes = 20000; ///< blurs of blurs multiply; a graph beyond this stops growing
 
 Operand number(float x) {
@@ -84,7 +85,7 @@ private:
                    node.path);
     }
 
-    /// The weighted mean over a square of width `size` in texture coordinates.
+    /// The mean over a square of width `size` in texture coordinates.
     Operand blurred(const GraphNode& node) {
         const Operand in = node.inputs[0], size = node.inputs[1];
         const std::string& filter = node.inputs[2].value.text;
@@ -95,20 +96,11 @@ private:
         float constantSize = 1.0f;
         if (in.isConstant()) return add(node);
         if (constantNumber(size, constantSize) && !(constantSize > 0.0f)) return in;
-        float weights[blurTaps], total = 0.0f;
-        for (int i = 0; i < blurTaps; ++i) {
-            const float d = float(i) - 0.5f * (blurTaps - 1);
-            weights[i] = gaussian ? std::exp(-0.5f * d * d) : 1.0f;
-            total += weights[i];
-        }
+        const float blur = float(_blurs++);
         const std::string type = valueTypeName(node.def->outputs[0].type);
         const std::string times = "ND_multiply_" + type + (type == "float" ? "" : "FA");
         Operand sum;
-        for (int i = 0; i < blurTaps * blurTaps; ++i) {
-            const int x = i % blurTaps, y = i / blurTaps;
-            const auto offset = [](int k) {
-                return number((float(k) - 0.5f * (blurTaps - 1)) / float(blurTaps));
-            };
+        for (int i = 0; i < blurTaps; ++i) {
             if (_out.nodes.size() > maxNodes) {
                 _diagnostics.warn(node.path, "in",
                                   "too much would have to be evaluated to blur it; "
@@ -116,15 +108,15 @@ private:
                 return in;
             }
             const Operand tap = moved(in, [&](const Operand& read, ValueType type, bool world) {
-                std::vector<Operand> inputs = {read, size, offset(x), offset(y)};
+                std::vector<Operand> inputs = {read, size, number(blur), number(float(i)),
+                                               number(gaussian)};
                 if (type == ValueType::Unknown) inputs.push_back(number(world));
                 return add(type == ValueType::Unknown ? "PatinaMovePosition"
                                                       : typed("PatinaMoveTexcoord_", type),
                            inputs, node.path);
             });
-            if (tap.node == in.node && (x != blurTaps / 2 || y != blurTaps / 2)) return in;
-            const Operand part =
-                add(times, {tap, number(weights[x] * weights[y] / (total * total))}, node.path);
+            if (tap.node == in.node) return in;
+            const Operand part = add(times, {tap, number(1.0f / float(blurTaps))}, node.path);
             sum = i == 0 ? part : add("ND_add_" + type, {sum, part}, node.path);
         }
         return sum;
@@ -188,6 +180,7 @@ private:
     const Graph& _in;
     Diagnostics& _diagnostics;
     Graph _out;
+    int _blurs = 0;
     std::vector<Operand> _map; ///< from nodes of _in that are done
 };
 

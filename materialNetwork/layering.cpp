@@ -29,6 +29,11 @@ std::string whyNotOver(const Plan& plan, const PlanClosure& c) {
 
 } // namespace
 
+bool darkensItself(const Plan& plan, const PlanClosure& closure) {
+    const std::string& category = plan.graph.nodes[size_t(closure.node)].def->category;
+    return closure.kind == ClosureKind::Layer && category == "patina_coat";
+}
+
 std::vector<LayerWalkability> layerWalkability(const Plan& plan) {
     const size_t n = plan.closures.size();
     std::vector<LayerWalkability> found(n);
@@ -44,7 +49,9 @@ std::vector<LayerWalkability> layerWalkability(const Plan& plan) {
         }
         if (c.kind != ClosureKind::Layer) continue;
         const PlanClosure& top = plan.closures[size_t(c.a)];
-        if (!isInterface(top) || scatterMode(plan, top) != sh::SCATTER_R)
+        if (darkensItself(plan, c))
+            found[i].reason = "its model says how much it darkens its base";
+        else if (!isInterface(top) || scatterMode(plan, top) != sh::SCATTER_R)
             found[i].reason = "its top is no interface that reflects";
         else if (depth[i] >= kDeepest)
             found[i].reason = "too many layers are nested";

@@ -62,7 +62,7 @@ const std::vector<ChoicePoint>& choicePoints() {
         {"layering",
          {{"albedoScaling",
            "a base is scaled by what the top's directional albedo leaves, as in MaterialX; what "
-           "the top sends back down is left out, so that dark bases come out too bright"},
+           "the top sends back down is counted as layerTransmittance says"},
           {"positionFree",
            "light bounces between an interface and its base until it leaves (Guo, Hasan and Zhao "
            "2018): the truth for interfaces, noisier and slow; path tracer only; under sheen, over "
@@ -76,7 +76,11 @@ const std::vector<ChoicePoint>& choicePoints() {
            "light leaves where it entered, as from a diffuse surface of the same colour; "
            "edges and thin parts do not glow"}}},
         {"layerTransmittance",
-         {{"largest", "a layer lets through 1 - E in all channels, E the largest channel of its "
+         {{"returned", "each channel on its own, 1 - E with E the top's directional albedo without "
+                       "tint; what an interface sends back down meets the base again, so that a "
+                       "base of albedo A counts (1 - R) / (1 - A R) times, R what comes back; loses "
+                       "nothing over white, gains nothing"},
+          {"largest", "a layer lets through 1 - E in all channels, E the largest channel of its "
                       "top's directional albedo without tint; no channel gains energy, and a tint "
                       "colours the top alone"},
           {"average", "1 - the mean of the channels, as in MaterialX's shaders; a coloured top may "

@@ -147,7 +147,7 @@ private:
         for (int c = 0; c < 3; ++c) {
             SeenClosure channel = seen;
             channel.reflectance = seen.base[c];
-            for (const Near& near : rowsFor(_point, _method, channel)) {
+            for (const Near& near : layerRows(channel)) {
                 const Cell cell = cellOf(*near.row, channel, quarter);
                 _result.measured = true;
                 error += luminanceOf[c] * near.weight * cell.error;
@@ -156,6 +156,15 @@ private:
             }
         }
         return std::min(error / std::max(truth, 1e-6), 1.0) * seen.share;
+    }
+
+    /// Scaling is measured with the default of layerTransmittance; its other methods have rows of
+    /// their own.
+    std::vector<Near> layerRows(const SeenClosure& channel) const {
+        const std::string meaning = chosenMethod(_plan.methods, "layerTransmittance");
+        if (_method != "albedoScaling" || meaning == chosenMethod({}, "layerTransmittance"))
+            return rowsFor(_point, _method, channel);
+        return rowsFor("layerTransmittance", meaning, channel);
     }
 
     double contribution(const MeasuredMethod& row, const SeenClosure& seen,

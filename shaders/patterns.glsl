@@ -8,6 +8,7 @@
 #include "shaders/patterns/reflectance.glsl"
 #include "shaders/patterns/blackbody.glsl"
 #include "shaders/patterns/noise.glsl"
+#include "shaders/patterns/blur.glsl"
 #include "shaders/patterns/worley.glsl"
 #include "shaders/patterns/flake.glsl"
 #include "shaders/patterns/shapes.glsl"

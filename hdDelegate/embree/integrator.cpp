@@ -240,6 +240,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         const float width = path.coneWidth + path.coneSpread * travelled;
         computeSurfacePoint(hit, path.origin, path.direction, width, point);
         const MaterialProgram& program = *point.slot->program;
+        if (program.jitters()) point.shading.seed = path.sampler.randomBits();
         const ShadingPoint& s = point.shading;
 
         const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;

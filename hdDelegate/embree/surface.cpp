@@ -3,6 +3,7 @@
 #include "hdDelegate/scene/curveSegments.h"
 #include "hdDelegate/scene/primvarEval.h"
 #include "hdDelegate/scene/tangentFrames.h"
+#include "materialNetwork/cpu/hashedNumbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -230,6 +231,8 @@ void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& directi
     const float scale = hit.instanced ? std::cbrt(std::abs(glm::determinant(tangentMatrix))) : 1.0f;
     s.lengthPerUv = scale / std::max(local.uvPerLength, 1e-20f);
     const float cosine = std::max(0.1f, std::abs(glm::dot(s.geometricNormal, s.viewDirection)));
+    // Who has numbers of its own sets another.
+    s.seed = out.slot->program->jitters() ? HashedNumbers(1).mix(origin).mix(direction).bits() : 0;
     s.uvFootprint = local.uvPerLength * coneWidth / (std::max(scale, 1e-20f) * std::sqrt(cosine));
 
     const vec3 magnitude = glm::abs(s.position);

@@ -31,6 +31,7 @@ glm::vec3 unit(const glm::vec3& c) {
 /// One number or three for what a coloured share takes from a base.
 glm::vec3 shareOf(const ProgramCode& code, const glm::vec3& c) {
     switch (code.layerTransmittance) {
+    case LayerTransmittance::Returned: // a factor is a tint
     case LayerTransmittance::Largest: return glm::vec3(unit(largest(glm::vec4(c, 0.0f))));
     case LayerTransmittance::Average: return glm::vec3(unit((c.x + c.y + c.z) / 3.0f));
     default: return unit(c);
@@ -44,6 +45,7 @@ glm::vec3 coverOf(const ProgramCode& code, const glm::vec4& c) {
 
 /// @param kept what lobeFixWo() says
 glm::vec3 keptFromBase(const ProgramCode& code, const BsdfLobe& l, const glm::vec3& kept) {
+    if (code.layerTransmittance == LayerTransmittance::Returned) return unit(kept);
     if (code.layerTransmittance != LayerTransmittance::Tinted) return shareOf(code, kept);
     const bool tinted = (l.kind == LobeKind::Dielectric && l.dielectric.mode == sh::SCATTER_R) ||
                         (l.kind == LobeKind::Schlick && l.schlick.mode == sh::SCATTER_R) ||
@@ -188,7 +190,10 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
                        ? wallOf(l, l.dielectric, l.dielectric.tint, wo, code.wallsHaveTwoFaces)
                        : wallOf(l, l.schlick, glm::vec3(1.0f), wo, code.wallsHaveTwoFaces);
     }
-    setWeights(code, registers, kept, root, out);
+    if (code.returnsLight)
+        setReturnedWeights(code, registers, kept, root, out);
+    else
+        setWeights(code, registers, kept, root, out);
 }
 
 /// A walked layer stands among the lobes. How much it reflects, to choose it by, is what albedo

@@ -43,10 +43,16 @@ private:
     static glm::vec3 straightWeight(const ProgramCode& code, const Wall* walls, const Bsdf& bsdf);
     static void setWeights(const ProgramCode& code, const glm::vec4* registers,
                            const glm::vec3* kept, int root, Bsdf& out);
+    /// The same where layers count what their tops send back down.
+    static void setReturnedWeights(const ProgramCode& code, const glm::vec4* registers,
+                                   const glm::vec3* kept, int root, Bsdf& out);
     static void setLayer(const ProgramCode& code, const glm::vec3& weight, int op, int index,
                          Bsdf& out);
     static void choose(const ProgramCode& code, Bsdf& out);
 };
+
+/// Whether a lobe on top of a layer sends light back down to the base: an interface that reflects.
+bool isReturning(const LobeTemplate& lobe);
 
 /// Value of a tree of EDFs, which are linear: sum of leaf values times factors.
 /// @param wo direction of emission; @param normal and tangent of the surface; all 0 inside a

@@ -100,6 +100,16 @@ Medium MaterialProgram::interior(const ShadingPoint& point) const {
 
 glm::vec3 MaterialProgram::displacement(const ShadingPoint& point) const {
     if (!_hasDisplacement) return glm::vec3(0.0f);
+    if (!_jitters) return displacementAt(point);
+    // Vertices are moved once for all samples.
+    glm::vec3 sum(0.0f);
+    ShadingPoint jittered = point;
+    for (jittered.seed = 1; jittered.seed <= steadySeeds; ++jittered.seed)
+        sum += displacementAt(jittered);
+    return sum / float(steadySeeds);
+}
+
+glm::vec3 MaterialProgram::displacementAt(const ShadingPoint& point) const {
     RegisterFile registers(*_code);
     registers.run(*_code, _code->displacementCode, point);
     const glm::vec4& value = registers.data()[_code->displacement];

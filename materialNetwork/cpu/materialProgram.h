@@ -54,6 +54,7 @@ public:
     bool hasSubsurface() const { return _hasSubsurface; }
     bool hasDisplacement() const { return _hasDisplacement; }
     bool usesUv() const { return _usesUv; } ///< reads texture coordinates
+    bool jitters() const { return _jitters; } ///< blurs, with taps that ShadingPoint::seed moves
 
     /// @returns isOpaque() for a prim that lacks some primvars
     /// @param attributes per slot of primvars(): negative when the prim has no such primvar
@@ -75,8 +76,11 @@ public:
     Medium interior(const ShadingPoint& point) const;
 
     /// Where the surface is moved to: along tangent, bitangent and normal, object units. Zero for
-    /// values that are not finite.
+    /// values that are not finite. The mean over seeds where it jitters().
     glm::vec3 displacement(const ShadingPoint& point) const;
+
+    /// So many seeds make a mean that stays the same, for who has no samples.
+    static constexpr uint32_t steadySeeds = 16;
 
     /// Sets up the lobes at a point, seen from point.viewDirection.
     void evaluate(const ShadingPoint& point, Bsdf& out) const;
@@ -93,6 +97,7 @@ public:
 private:
     friend class ProgramBuilder;
     MaterialProgram();
+    glm::vec3 displacementAt(const ShadingPoint& point) const;
 
     std::vector<MaterialPrimvar> _primvars;
     bool _constant = false;
@@ -107,6 +112,7 @@ private:
     bool _hasDisplacement = false;
     bool _passingEnters = false;
     bool _usesUv = false;
+    bool _jitters = false;
     MethodPlan _planned;
     std::unique_ptr<ProgramCode> _code;
 };

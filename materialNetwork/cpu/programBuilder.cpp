@@ -54,6 +54,8 @@ void ProgramBuilder::prepareNode(int node) {
         Setup setup(*this, node);
         def.prepare(setup, data);
     }
+    if (def.category == "move_texcoord" || def.category == "move_position")
+        _program->_jitters = true;
     if (def.category == "texcoord" || _readsTexture[size_t(node)]) _program->_usesUv = true;
 }
 
@@ -152,9 +154,10 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
         return chosenMethod(_plan.methods, point) == method;
     };
     _code->layerTransmittance =
-        chosen("layerTransmittance", "average")  ? LayerTransmittance::Average
-        : chosen("layerTransmittance", "tinted") ? LayerTransmittance::Tinted
-                                                 : LayerTransmittance::Largest;
+        chosen("layerTransmittance", "largest")   ? LayerTransmittance::Largest
+        : chosen("layerTransmittance", "average") ? LayerTransmittance::Average
+        : chosen("layerTransmittance", "tinted")  ? LayerTransmittance::Tinted
+                                                  : LayerTransmittance::Returned;
     _code->wallsHaveTwoFaces = !chosen("thinWalled", "sheet");
     _data.resize(n);
     _prepared.resize(n, false);

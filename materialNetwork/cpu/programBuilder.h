@@ -32,6 +32,7 @@ private:
     int frame(const PlanClosure& closure, bool flips, std::vector<bool>& needed);
     void markTops(std::vector<ClosureOp>& ops) const;
     void markLobes(std::vector<ClosureOp>& ops) const;
+    void markReturning(std::vector<ClosureOp>& ops) const;
     void markWalked(std::vector<ClosureOp>& ops) const;
     bool isStraight(const PlanClosure& closure) const;
     void setFlags();

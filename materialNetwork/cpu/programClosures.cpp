@@ -2,6 +2,7 @@
 
 #include "materialNetwork/cpu/programBuilder.h"
 
+#include "materialNetwork/cpu/bsdfBuilder.h"
 #include "materialNetwork/layering.h"
 
 namespace patina {
@@ -119,6 +120,7 @@ void ProgramBuilder::bsdfOps(std::vector<bool>& needed) {
     }
     markTops(_code->bsdf);
     markLobes(_code->bsdf);
+    if (_code->layerTransmittance == LayerTransmittance::Returned) markReturning(_code->bsdf);
     if (chosenMethod(_plan.methods, "layering") == "positionFree") markWalked(_code->bsdf);
 }
 
@@ -127,6 +129,24 @@ void ProgramBuilder::markLobes(std::vector<ClosureOp>& ops) const {
         if (op.lobe >= 0) op.lobes = 1u << op.lobe;
         for (const int part : {op.a, op.b})
             if (part >= 0) op.lobes |= ops[size_t(part)].lobes;
+    }
+}
+
+void ProgramBuilder::markReturning(std::vector<ClosureOp>& ops) const {
+    for (size_t i = 0; i < ops.size(); ++i) {
+        ClosureOp& op = ops[i];
+        if (op.kind != ClosureKind::Layer || darkensItself(_plan, _plan.closures[i])) continue;
+        for (size_t lobe = 0; lobe < _code->lobes.size(); ++lobe)
+            op.returns |= (ops[size_t(op.a)].lobes >> lobe & 1u) != 0 &&
+                          isReturning(_code->lobes[lobe]);
+        _code->returnsLight |= op.returns;
+    }
+    for (size_t i = ops.size(); i-- > 0;) {
+        const ClosureOp& op = ops[i];
+        if (op.kind == ClosureKind::Layer) ops[size_t(op.b)].beneath = true;
+        if (!op.beneath) continue;
+        for (const int part : {op.a, op.b})
+            if (part >= 0) ops[size_t(part)].beneath = true;
     }
 }
 

@@ -59,6 +59,8 @@ struct ClosureOp {
     int lobe = -1;            ///< index of the lobe, for lobes
     bool needsPassed = false; ///< stands somewhere in a layer's top
     bool walked = false;      ///< a layer that is walked, see cpu/layerWalk.h
+    bool beneath = false;     ///< stands somewhere in a layer's base
+    bool returns = false;     ///< a layer whose top sends light back down that counts
     uint32_t lobes = 0;       ///< that are part of it, a bit each
     Register factor = 0;      ///< lobe: weight; Mix: mix; Multiply: factor; EDF: value
                               ///< VDF: absorption
@@ -75,7 +77,7 @@ struct FrameTemplate {
 };
 
 /// Methods of the choice point layerTransmittance.
-enum class LayerTransmittance : uint8_t { Largest, Average, Tinted };
+enum class LayerTransmittance : uint8_t { Returned, Largest, Average, Tinted };
 
 struct ProgramCode {
     std::vector<glm::vec4> constants; ///< the first registers
@@ -92,7 +94,8 @@ struct ProgramCode {
     int walkedLayers = 0;          ///< of `bsdf`
     bool hasStraight = false;      ///< a lobe is straight
     bool wallsHaveTwoFaces = true; ///< thin walls
-    LayerTransmittance layerTransmittance = LayerTransmittance::Largest;
+    LayerTransmittance layerTransmittance = LayerTransmittance::Returned;
+    bool returnsLight = false; ///< a layer of `bsdf` returns light
     bool opacityFromPrimvars = false; ///< only primvars can make opacity less than 1
     const TextureSource* textures = nullptr;
 };

@@ -2,6 +2,8 @@
 
 #include <glm/glm.hpp>
 
+#include <cstdint>
+
 namespace patina {
 
 /// Reads primvars of the surface at a shading point.
@@ -28,6 +30,9 @@ struct ShadingPoint {
     float lengthPerUv = 1.0f; ///< world length of one unit of the default uv set
     float uvFootprint = 0.0f; ///< width of the ray cone in units of the default uv set
     const PrimvarReader* primvars = nullptr;
+    /// One per sample where MaterialProgram::jitters(): patterns whose values are random have others
+    /// then, with the same mean. 0: the values that stand for all.
+    uint32_t seed = 0;
 
     glm::vec3 worldPosition() const { return position + worldOrigin; }
 };

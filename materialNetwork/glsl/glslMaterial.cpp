@@ -2,6 +2,7 @@
 
 #include "materialNetwork/cpu/programCode.h"
 #include "materialNetwork/glsl/glslClosures.h"
+#include "materialNetwork/glsl/glslLayers.h"
 #include "materialNetwork/glsl/glslLobes.h"
 #include "materialNetwork/glsl/glslPatterns.h"
 #include "materialNetwork/glsl/glslScattering.h"
@@ -195,6 +196,7 @@ private:
 
     std::string share(const std::string& color) const {
         switch (_code.layerTransmittance) {
+        case LayerTransmittance::Returned: // a factor is a tint
         case LayerTransmittance::Largest: return "shareLargest(" + color + ")";
         case LayerTransmittance::Average: return "shareAverage(" + color + ")";
         case LayerTransmittance::Tinted: break;
@@ -234,7 +236,9 @@ private:
         const bool tinted = _code.layerTransmittance == LayerTransmittance::Tinted &&
                             (reflects || kind == LobeKind::Sheen);
         line("    vec3 kept" + n + " = " + fixed + ";");
-        line("    kept" + n + " = " + share(tinted ? "lobeAlbedo[" + n + "]" : "kept" + n) + ";");
+        const std::string what = tinted ? "lobeAlbedo[" + n + "]" : "kept" + n;
+        const bool returned = _code.layerTransmittance == LayerTransmittance::Returned;
+        line("    kept" + n + " = " + (returned ? "unit(" + what + ")" : share(what)) + ";");
         if (glslRefracts(t)) line("    lobePassed[" + n + "] = fixPassed;");
         if (!t.straight) return;
         line("    vec3 wallPassed" + n + ", wallReflected" + n + ";");
@@ -254,6 +258,10 @@ private:
                 factor[size_t(i)] = "unit(" + reg(op.factor) + ".x)";
             else if (op.kind == ClosureKind::Multiply)
                 factor[size_t(i)] = reg(op.factor) + ".xyz";
+        }
+        if (_code.returnsLight) {
+            _text += glslReturnedWeights(_code, factor);
+            return;
         }
         for (int i = 0; i < count; ++i) {
             const ClosureOp& op = _code.bsdf[size_t(i)];

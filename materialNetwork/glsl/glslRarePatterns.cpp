@@ -109,8 +109,8 @@ const GlslPatternRow rows[] = {
     {"ND_blur_float", "$0"},
     {"PatinaShiftTexcoord_vector2", "nodeShiftTexcoord($0, $1.x)"},
     {"PatinaShiftPosition", "nodeShiftPosition($0, $1.x, $2.x)"},
-    {"PatinaMoveTexcoord_vector2", "$0 + vec4($2.x, $3.x, 0.0, 0.0) * max($1.x, 0.0)"},
-    {"PatinaMovePosition", "nodeMovePosition($0, $1.x, vec2($2.x, $3.x), $4.x)"},
+    {"PatinaMoveTexcoord_vector2", "$0 + vec4(nodeBlurTap($1.x, $2.x, $3.x, $4.x), 0.0, 0.0)"},
+    {"PatinaMovePosition", "nodeMovePosition($0, nodeBlurTap($1.x, $2.x, $3.x, $4.x), $5.x)"},
     {"PatinaSlope", "nodeSlope($0.x, $1.x, $2.x, $3.x, $4.xy, $5.xy, $6.xy)"},
     {"ND_gltf_image_color3_color3_1_0",
      "$t(nodeGltfUv($2, $3, $4, $5, $6, nodeWhole($7.x)), point.uvFootprint * "

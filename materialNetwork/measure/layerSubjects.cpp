@@ -96,6 +96,12 @@ Albedo sampledAlbedo(const MaterialProgram& program, double cosine, int samples)
     return {mean, std::sqrt(std::max(squares / samples - mean * mean, 0.0) / samples)};
 }
 
+double knownAlbedo(const MaterialProgram& program, double cosine) {
+    Bsdf bsdf;
+    program.evaluate(seenFrom(cosine), bsdf);
+    return double(bsdf.albedo().x);
+}
+
 void timeEvaluations(const std::vector<std::shared_ptr<const MaterialProgram>>& programs,
                      Row& row) {
     time(

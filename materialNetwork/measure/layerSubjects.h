@@ -26,6 +26,9 @@ struct Albedo {
 };
 Albedo sampledAlbedo(const MaterialProgram& program, double cosine, int samples);
 
+/// The directional albedo as it is computed, delta lobes included.
+double knownAlbedo(const MaterialProgram& program, double cosine);
+
 /// Times laying out, one value and one sample at places of all cosines.
 void timeEvaluations(const std::vector<std::shared_ptr<const MaterialProgram>>& programs, Row& row);
 

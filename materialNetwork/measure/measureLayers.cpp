@@ -13,7 +13,6 @@ constexpr double kIor = 1.5;
 constexpr int kMetalSide = 8, kSamples = 4096;
 
 /// Facets lose nothing by either method, so that layers alone are compared.
-const MethodChoices kScaled = {{"energyCompensation", "randomWalk"}};
 const MethodChoices kWalked = {{"energyCompensation", "randomWalk"}, {"layering", "positionFree"}};
 
 double reflected(double alpha, sh::vec3 wo, int method) {
@@ -24,9 +23,10 @@ double reflected(double alpha, sh::vec3 wo, int method) {
     return double(sh::dielectricAlbedo(l, wo).x);
 }
 
-Row named(const char* method, const std::string& subject, const std::string& kind, double albedo) {
+Row named(const char* point, const std::string& method, const std::string& subject,
+          const std::string& kind, double albedo) {
     Row row;
-    row.point = "layering";
+    row.point = point;
     row.method = method;
     row.subject = subject;
     row.error = "albedo";
@@ -50,7 +50,7 @@ void timeLayer(const Base& base, const MethodChoices& methods, Row& row) {
 /// The truth has no error, only a time.
 Row walked(const Base& base, const std::string& subject, const std::string& kind, double albedo,
            bool timed) {
-    Row row = named("positionFree", subject, kind, albedo);
+    Row row = named("layering", "positionFree", subject, kind, albedo);
     Errors errors;
     errors.add(0.0);
     errors.into(row);
@@ -62,7 +62,7 @@ Row walked(const Base& base, const std::string& subject, const std::string& kind
 /// again, so all that bounces between the two is a geometric series: with E what the interface
 /// reflects from outside and R the mean of what it reflects from inside, the whole reflects
 /// E + (1 - E) a (1 - R) / (1 - a R). R follows from the mean of E by reciprocity,
-/// 1 - R = (1 - mean E) / ior^2. Scaling by albedo takes E + (1 - E) a instead.
+/// 1 - R = (1 - mean E) / ior^2.
 class OverDiffuse {
 public:
     OverDiffuse() {
@@ -77,16 +77,16 @@ public:
         }
     }
 
-    /// @param method that finds what the top reflects
-    void measure(double albedo, int method, Row& row) const {
+    /// What layers scaled by albedo are off.
+    void measure(double albedo, const MethodChoices& methods, Row& row) const {
         Errors errors;
+        std::shared_ptr<const MaterialProgram> program;
         for (size_t i = 0; i < _grid.size(); ++i) {
             const Place& p = _grid[i];
+            if (i % kSide == 0) program = layered({albedo}, p.alpha, methods);
             const double r = _inside[i / kSide], a = albedo;
             const double truth = _e[i] + (1.0 - _e[i]) * a * (1.0 - r) / (1.0 - a * r);
-            const double e =
-                method == sh::ALBEDO_FIT ? _e[i] : reflected(p.alpha, sh::vec3(p.wo), method);
-            errors.add(e + (1.0 - e) * a - truth, truth, std::sqrt(p.alpha), p.wo.z);
+            errors.add(knownAlbedo(*program, p.wo.z) - truth, truth, std::sqrt(p.alpha), p.wo.z);
         }
         errors.into(row);
     }
@@ -97,14 +97,15 @@ private:
 };
 
 /// Over metals the rougher of both counts: both as rough, or one of them smooth.
-void overMetal(Base base, Row& row) {
+void overMetal(Base base, MethodChoices methods, Row& row) {
+    methods["energyCompensation"] = "randomWalk";
     Errors errors;
     for (const Place& p : places(kMetalSide))
         for (const auto& [top, below] :
              {std::pair(1.0, 1.0), std::pair(1.0, 0.0), std::pair(0.0, 1.0)}) {
             base.alpha = below * p.alpha;
             const double alpha = top * p.alpha;
-            const Albedo found = sampledAlbedo(*layered(base, alpha, kScaled), p.wo.z, kSamples);
+            const Albedo found = sampledAlbedo(*layered(base, alpha, methods), p.wo.z, kSamples);
             const Albedo truth = sampledAlbedo(*layered(base, alpha, kWalked), p.wo.z, kSamples);
             errors.add(found.mean - truth.mean, truth.mean, std::sqrt(p.alpha), p.wo.z,
                        std::hypot(found.sigma, truth.sigma));
@@ -114,11 +115,14 @@ void overMetal(Base base, Row& row) {
 
 } // namespace
 
-std::vector<Row> layering(bool timed) {
-    std::vector<Row> rows;
-    const OverDiffuse diffuse;
+namespace {
+
+/// Each subject with `named(subject, kind, albedo)`, measured by `methods`, and then `rest`.
+template <class Named, class Rest>
+void measureSubjects(const OverDiffuse& diffuse, const MethodChoices& methods, bool timed,
+                     std::vector<Row>& rows, const Named& name, const Rest& rest) {
     const auto add = [&](Row row, const Base& base) {
-        if (timed) timeLayer(base, {}, row);
+        if (timed) timeLayer(base, methods, row);
         rows.push_back(std::move(row));
     };
     for (const auto& [albedo, subject] : {std::pair(0.05, "coat over 0.05"),
@@ -126,26 +130,57 @@ std::vector<Row> layering(bool timed) {
                                           {0.5, "coat over 0.5"},
                                           {0.8, "coat over 0.8"},
                                           {0.95, "coat over 0.95"}}) {
-        Row row = named("albedoScaling", subject, "layer", albedo);
-        diffuse.measure(albedo, sh::ALBEDO_FIT, row);
+        Row row = name(subject, "layer", albedo);
+        diffuse.measure(albedo, methods, row);
         add(std::move(row), {albedo});
-        rows.push_back(walked({albedo}, subject, "layer", albedo, timed));
+        rest(Base{albedo}, subject, "layer", albedo);
     }
     for (const Metal& metal : kMetals) {
         const std::string subject = std::string("coat over ") + metal.name;
         const double albedo = sh64::fresnelConductorChannel(1.0, metal.n, metal.k);
         const Base base = {0.0, metal.n, metal.k, 0.1};
-        Row row = named("albedoScaling", subject, "layerOverMetal", albedo);
-        overMetal(base, row);
+        Row row = name(subject, "layerOverMetal", albedo);
+        overMetal(base, methods, row);
         add(std::move(row), base);
-        rows.push_back(walked(base, subject, "layerOverMetal", albedo, timed));
+        rest(base, subject, "layerOverMetal", albedo);
     }
+}
+
+} // namespace
+
+std::vector<Row> layerTransmittance(bool timed) {
+    std::vector<Row> rows;
+    const OverDiffuse diffuse;
+    for (const ChoicePoint& point : choicePoints())
+        for (size_t i = 0; point.name == "layerTransmittance" && i < point.methods.size(); ++i) {
+            const std::string& method = point.methods[i].name;
+            measureSubjects(
+                diffuse, {{point.name, method}}, timed, rows,
+                [&](const std::string& subject, const char* kind, double albedo) {
+                    return named("layerTransmittance", method, subject, kind, albedo);
+                },
+                [](const Base&, const std::string&, const char*, double) {});
+        }
+    return rows;
+}
+
+std::vector<Row> layering(bool timed) {
+    std::vector<Row> rows;
+    const OverDiffuse diffuse;
+    measureSubjects(
+        diffuse, {}, timed, rows,
+        [](const std::string& subject, const char* kind, double albedo) {
+            return named("layering", "albedoScaling", subject, kind, albedo);
+        },
+        [&](const Base& base, const std::string& subject, const char* kind, double albedo) {
+            rows.push_back(walked(base, subject, kind, albedo, timed));
+        });
     for (const ChoicePoint& point : choicePoints())
         for (size_t i = 0; point.name == "directionalAlbedo" && i < point.methods.size(); ++i) {
             const std::string& by = point.methods[i].name;
-            Row row =
-                named("albedoScaling", "coat over 0.5, albedo by " + by, "layerBy " + by, 0.5);
-            diffuse.measure(0.5, int(i), row);
+            Row row = named("layering", "albedoScaling", "coat over 0.5, albedo by " + by,
+                            "layerBy " + by, 0.5);
+            diffuse.measure(0.5, {{"directionalAlbedo", by}}, row);
             if (timed) timeLayer({0.5}, {{"directionalAlbedo", by}}, row);
             rows.push_back(std::move(row));
         }

@@ -12,4 +12,8 @@ namespace patina::measure {
 /// @param timed false leaves out the times, which is quick
 std::vector<Row> layering(bool timed);
 
+/// The methods of the choice point layerTransmittance on the same subjects: albedo scaling as each
+/// of them has it, against the same truths.
+std::vector<Row> layerTransmittance(bool timed);
+
 } // namespace patina::measure

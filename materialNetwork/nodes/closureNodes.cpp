@@ -94,6 +94,8 @@ const NodeRow rows[] = {
             "vector3 absorption=0, vector3 scattering=0, float anisotropy=0", "VDF",
             ClosureKind::AnisotropicVdf),
     closure("ND_layer_bsdf", "layer", "BSDF top, BSDF base", "BSDF", ClosureKind::Layer),
+    // A layer of a model that says itself how much its top darkens the base.
+    closure("PatinaCoat", "patina_coat", "BSDF top, BSDF base", "BSDF", ClosureKind::Layer),
     closure("ND_layer_vdf", "layer", "BSDF top, VDF base", "BSDF", ClosureKind::Layer),
     closure("ND_mix_bsdf", "mix", "BSDF fg, BSDF bg, float mix=0", "BSDF", ClosureKind::Mix),
     closure("ND_mix_edf", "mix", "EDF fg, EDF bg, float mix=0", "EDF", ClosureKind::Mix),

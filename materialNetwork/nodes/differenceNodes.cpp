@@ -3,6 +3,8 @@
 // positions that it reads moved a little (materialNetwork/differences.h).
 #include "materialNetwork/nodeTable.h"
 
+#include "shaders/patterns.h"
+
 #include <algorithm>
 
 namespace patina {
@@ -59,16 +61,22 @@ void same(Call c) {
     c.out() = c.in(0);
 }
 
-/// Inputs (in, size, u, v).
-void moveTexcoord(Call c) {
-    c.out() = c.in(0) + vec4(c.x(2), c.x(3), 0.0f, 0.0f) * std::max(c.x(1), 0.0f);
+/// Inputs (in, size, blur, tap, gaussian): where the tap lies, in units of the uv set.
+glm::vec2 tapOf(Call c) {
+    return std::max(c.x(1), 0.0f) *
+           sh::patternBlurTap(c.point().seed, c.whole(2), c.whole(3), c.x(4) != 0.0f);
 }
 
-/// Inputs (in, size, u, v, world).
+void moveTexcoord(Call c) {
+    c.out() = c.in(0) + vec4(tapOf(c), 0.0f, 0.0f);
+}
+
+/// One more input: world.
 void movePosition(Call c) {
     const ShadingPoint& p = c.point();
-    vec3 d = (p.tangent * c.x(2) + p.bitangent * c.x(3)) * (std::max(c.x(1), 0.0f) * p.lengthPerUv);
-    if (c.x(4) == 0.0f) d = glm::transpose(p.objectToWorldNormal) * d;
+    const glm::vec2 by = tapOf(c);
+    vec3 d = (p.tangent * by.x + p.bitangent * by.y) * p.lengthPerUv;
+    if (c.x(5) == 0.0f) d = glm::transpose(p.objectToWorldNormal) * d;
     c.out() = c.in(0) + vec4(d, 0.0f);
 }
 
@@ -81,11 +89,11 @@ const NodeRow rows[] = {
      Algebra::None, "vector2 vector3", nullptr, true},
     {"PatinaShiftPosition", "shift_position", "vector3 in=0, float axis=0, float world=0",
      "vector3", shiftPosition, Algebra::None, nullptr, nullptr, true},
-    {"PatinaMoveTexcoord_$", "move_texcoord", "$ in=0, float size=0, float u=0, float v=0", "$",
-     moveTexcoord, Algebra::None, "vector2 vector3", nullptr, true},
+    {"PatinaMoveTexcoord_$", "move_texcoord", "$ in=0, float size=0, float blur=0, float tap=0, float gaussian=0",
+     "$", moveTexcoord, Algebra::None, "vector2 vector3", nullptr, true},
     {"PatinaMovePosition", "move_position",
-     "vector3 in=0, float size=0, float u=0, float v=0, float world=0", "vector3", movePosition,
-     Algebra::None, nullptr, nullptr, true},
+     "vector3 in=0, float size=0, float blur=0, float tap=0, float gaussian=0, float world=0",
+     "vector3", movePosition, Algebra::None, nullptr, nullptr, true},
     {"PatinaSlope", "slope",
      "float here=0, float along_u=0, float along_v=0, float scale=1, "
      "vector2 texcoord=0, vector2 texcoord_u=0, vector2 texcoord_v=0",

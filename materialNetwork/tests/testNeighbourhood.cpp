@@ -21,6 +21,22 @@ glm::vec3 at(std::vector<NetworkNode> nodes, const std::string& last, float u, f
     return emitted(emitting(std::move(nodes)), point, {{"st", glm::vec4(u, v, 0, 0)}});
 }
 
+/// The mean over samples at one place.
+float meanAt(std::vector<NetworkNode> nodes, const std::string& last, float u, int seeds) {
+    nodes.push_back(makeNode("x", "ND_convert_float_color3", {}, {{"in", {last, ""}}}));
+    Compiled c(emitting(std::move(nodes)));
+    EXPECT_TRUE(c.program->jitters());
+    const FakePrimvars uv(*c.program, {{"st", glm::vec4(u, 0, 0, 0)}});
+    ShadingPoint point;
+    point.primvars = &uv;
+    double sum = 0.0;
+    for (int i = 0; i < seeds; ++i) {
+        point.seed = uint32_t(i) + 1;
+        sum += double(c.program->emission(point, {0, 0, 1}).x);
+    }
+    return float(sum / seeds);
+}
+
 NetworkNode blurOf(const std::string& name, const std::string& source, float size,
                    const char* filter = "box") {
     return makeNode(name, "ND_blur_float", {{"size", number(size)}, {"filtertype", text(filter)}},
@@ -35,12 +51,38 @@ TEST(Neighbourhood, BlurIsTheMeanOverASquare) {
     nodes.push_back(blurOf("blur", "square", size));
     // Taps at -2 to 2 fifths of the size: their mean square is 2 / 25.
     EXPECT_NEAR(at(nodes, "blur", u).x, u * u + size * size * 0.08f, 1e-5f);
-    nodes.back() = blurOf("blur", "square", size, "gaussian");
-    const float a = std::exp(-0.5f), b = std::exp(-2.0f);
-    const float variance = (2.0f * a + 8.0f * b) / (1.0f + 2.0f * a + 2.0f * b) / 25.0f;
-    EXPECT_NEAR(at(nodes, "blur", u).x, u * u + size * size * variance, 1e-5f);
     nodes.back() = blurOf("blur", "square", 0.0f);
     EXPECT_NEAR(at(nodes, "blur", u).x, u * u, 1e-6f);
+}
+
+TEST(Neighbourhood, TapsOfBlursConverge) {
+    // Of a step at 0.5, seen over 0.5 around 0.53: 0.28 of 0.5. Taps at the middles of their cells
+    // say 0.6 there, and one of five cells' columns is cut, at a fifth of its width.
+    std::vector<NetworkNode> nodes = {
+        makeNode("uv", "ND_texcoord_vector2"),
+        makeNode("u", "ND_separate2_vector2", {}, {{"in", {"uv", ""}}}),
+        makeNode("step", "ND_ifgreater_float",
+                 {{"value2", number(0.5f)}, {"in1", number(1.0f)}, {"in2", number(0.0f)}},
+                 {{"value1", {"u", "outx"}}}),
+        blurOf("blur", "step", 0.5f)};
+    const int seeds = 4096;
+    const float column = std::sqrt(0.8f * 0.2f / 5.0f) / 5.0f; // deviation of one sample
+    EXPECT_NEAR(meanAt(nodes, "blur", 0.53f, seeds), 0.56f, 4.5f * column / std::sqrt(float(seeds)));
+    EXPECT_NEAR(at(nodes, "blur", 0.53f).x, 0.6f, 1e-5f); // where nobody has samples
+
+    // A cell adds at most half a fifth of the slope, so that 4.5 deviations are:
+    const float size = 0.4f, u = 0.5f;
+    const float margin = 4.5f * 2.0f * (u + size) * size / 10.0f / 5.0f / std::sqrt(16384.0f);
+    nodes = square();
+    nodes.push_back(blurOf("blur", "square", size));
+    EXPECT_NEAR(meanAt(nodes, "blur", u, 16384), u * u + size * size / 12.0f, margin);
+    // A normal distribution of deviation 0.2, cut off at 2.5 of them.
+    nodes.back() = blurOf("blur", "square", size, "gaussian");
+    EXPECT_NEAR(meanAt(nodes, "blur", u, 16384), u * u + size * size * 0.04f * 0.91126f, margin);
+    // Blurs of blurs move apart: their variances add up.
+    nodes.back() = blurOf("blur", "square", size);
+    nodes.push_back(blurOf("again", "blur", size));
+    EXPECT_NEAR(meanAt(nodes, "again", u, 4096), u * u + size * size / 6.0f, 4.0f * margin);
 }
 
 TEST(Neighbourhood, BlursAddUp) {

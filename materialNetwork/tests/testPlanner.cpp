@@ -148,9 +148,17 @@ TEST(Planner, AVaryingParameterCountsAtItsWorst) {
     EXPECT_GT(varying.error, 0.7 * planOf(metal(0.95f), 0.01, none).error);
 }
 
-// What a smooth metal sends up meets the interface at the angle that it came in by, so that scaling
-// is nearly right; a diffuse base sends most light where the interface reflects it back.
+// Scaling that leaves out what comes back is nearly right over a smooth metal, where light meets the
+// interface at the angle that it came in by; a diffuse base sends most of it where the interface
+// reflects it back. Scaling that counts it needs no walk for a tolerance like this.
 TEST(Planner, LayersAreWalkedWhereScalingErrs) {
+    const MethodChoices largest = {{"layerTransmittance", "largest"}};
+    const auto planOf = [&](const Network& network, double tolerance) {
+        return patina::planOf(network, tolerance, largest);
+    };
+    EXPECT_EQ(at(patina::planOf(coat(0.1f, 1.5f), 0.1), "layering").method, "albedoScaling");
+    EXPECT_LT(at(patina::planOf(coat(0.1f, 1.5f), -1.0), "layering").error,
+              0.1 * at(planOf(coat(0.1f, 1.5f), -1.0), "layering").error);
     const MethodPlan grey = planOf(coat(0.1f, 1.5f), 0.1);
     EXPECT_EQ(at(grey, "layering").method, "positionFree");
     EXPECT_GT(at(grey, "layering").errorDefault, 0.3);
@@ -171,7 +179,7 @@ TEST(Planner, LayersArePredictedByChannel) {
                               makeNode("base", "ND_oren_nayar_diffuse_bsdf", {{"color", base}}),
                               makeNode("bsdf", "ND_layer_bsdf", {},
                                        {{"top", {"top", ""}}, {"base", {"base", ""}}})}),
-                         -1.0),
+                         -1.0, {{"layerTransmittance", "largest"}}),
                   "layering")
             .error;
     };
@@ -181,7 +189,9 @@ TEST(Planner, LayersArePredictedByChannel) {
 }
 
 TEST(Planner, ABackEndWithoutWalksSaysWhatItTakes) {
-    const MethodPlan walked = planOf(coat(0.4f, 1.5f), 0.01), scaled = withoutWalks(walked);
+    const MethodPlan walked =
+                         planOf(coat(0.4f, 1.5f), 0.01, {{"layerTransmittance", "largest"}}),
+                     scaled = withoutWalks(walked);
     EXPECT_EQ(at(walked, "layering").method, "positionFree");
     EXPECT_EQ(at(scaled, "layering").method, "albedoScaling");
     EXPECT_EQ(at(scaled, "layering").error, at(walked, "layering").errorDefault);

@@ -230,7 +230,13 @@ Floats emissionAt(const MaterialProbe& probe, const Floats& uv, float footprint)
         for (size_t i = 0; i < n; ++i) {
             primvars.uv = {places[2 * i], places[2 * i + 1]};
             point.position = point.objectPosition = glm::vec3(primvars.uv, 0.0f);
-            store(values, i, probe.program->emission(point, glm::vec3(0, 0, 1)));
+            glm::vec3 sum(0.0f);
+            const uint32_t seeds = probe.program->jitters() ? MaterialProgram::steadySeeds : 1;
+            for (uint32_t seed = 0; seed < seeds; ++seed) {
+                point.seed = seeds > 1 ? seed + 1 : 0;
+                sum += probe.program->emission(point, glm::vec3(0, 0, 1));
+            }
+            store(values, i, sum / float(seeds));
         }
     }
     return result;

@@ -108,6 +108,7 @@ py::list measured(const std::string& point, bool timed) {
                 found.push_back(std::move(row));
         };
         add("layering", measure::layering);
+        add("layerTransmittance", measure::layerTransmittance);
         add("domeLight", measure::domeLight);
     }
     py::list rows;

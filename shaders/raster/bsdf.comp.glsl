@@ -13,6 +13,7 @@ void main() {
     point.objectToWorldNormal = mat3(1.0);
     point.lengthPerUv = 1.0;
     point.uvFootprint = 0.0;
+    point.seed = 0u;
     vec3 passes;
     float presence = materialPresence(passes);
     materialSetup();

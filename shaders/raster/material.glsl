@@ -4,6 +4,7 @@
 #include "shaders/compat/glsl.glsl"
 #include "shaders/lobes.glsl"
 #include "shaders/patterns.glsl"
+#include "shaders/lib/layers.glsl"
 
 const int ENERGY_CURVE_NODES = 64; // EnergyCurve::nodeCount
 
@@ -19,6 +20,7 @@ struct SurfacePoint {
     mat3 objectToWorldNormal;
     float lengthPerUv;
     float uvFootprint;
+    uint seed;
 };
 SurfacePoint point;
 vec3 worldOrigin = vec3(0.0); // what positions are relative to

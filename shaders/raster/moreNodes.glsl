@@ -222,9 +222,11 @@ vec4 nodeShiftPosition(vec4 v, float axis, float world) {
     return nodeMoved(v, (axis != 0.0 ? point.bitangent : point.tangent) *
                             (nodeStep() * point.lengthPerUv), world);
 }
-vec4 nodeMovePosition(vec4 v, float size, vec2 by, float world) {
-    return nodeMoved(v, (point.tangent * by.x + point.bitangent * by.y) *
-                            (max(size, 0.0) * point.lengthPerUv), world);
+vec2 nodeBlurTap(float size, float blur, float tap, float gaussian) {
+    return max(size, 0.0) * patternBlurTap(point.seed, int(blur), int(tap), gaussian != 0.0);
+}
+vec4 nodeMovePosition(vec4 v, vec2 by, float world) {
+    return nodeMoved(v, (point.tangent * by.x + point.bitangent * by.y) * point.lengthPerUv, world);
 }
 vec4 nodeSlope(float here, float alongU, float alongV, float scale, vec2 at, vec2 atU, vec2 atV) {
     float k = 1.0 / nodeStep();

@@ -127,6 +127,8 @@ void setPoint(vec3 view, float coneWidth) {
     float cosine = max(0.1, abs(dot(point.geometricNormal, view)));
     point.lengthPerUv = 1.0 / max(vUvPerLength, 1e-20);
     point.uvFootprint = vUvPerLength * coneWidth / sqrt(cosine);
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    point.seed = hash(pixel.x + hash(pixel.y + hash(uint(counts.z) + hash(uint(counts.w))))) | 1u;
 }
 
 void setPointFromCamera() {

@@ -54,6 +54,8 @@ void setPagePoint() {
     float perLength = sqrt(uvArea / max(area, 1e-20));
     float cosine = max(0.1, abs(dot(g, point.view)));
     point.uvFootprint = perLength * pixelAngle * distance / sqrt(cosine);
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    point.seed = noiseHash3(int(pixel.x), int(pixel.y), passInfo.x) | 1u;
 }
 
 bool isBlocked(vec3 wi) {

@@ -10,7 +10,7 @@ from patina.chart import lobes, measurePaths, measureSubdivision, svg
 from patina.cli import compiled, main
 
 MEASURED = ("energyCompensation", "directionalAlbedo", "sampling", "fresnel", "thinFilm", "diffuse", "sheen",
-            "layering", "subsurface", "areaLight", "domeLight")
+            "layering", "layerTransmittance", "subsurface", "areaLight", "domeLight")
 
 
 def test_rows_csv_and_charts(capsys, tmp_path):

@@ -1,5 +1,5 @@
 """Layers by albedo scaling against a random walk: the walk meets closed forms, and the error of the layers, which
-`patina check --layers` prints, keeps its budget."""
+`patina check --layers` prints, is at most half of that of layers which ignore what an interface sends back down."""
 import json
 import math
 
@@ -11,22 +11,6 @@ pytest.importorskip("_patina")
 from patina.cli import layers, main  # noqa: E402
 
 SAMPLES = 6000
-
-# Largest error of albedo scaling per stack, as measured, and the smallest. Layers ignore what an interface sends back
-# down, so they are too bright over a base that absorbs, and exact over a white one. The walk's noise, 4 standard
-# errors, comes on top.
-BUDGETS = {
-    "smooth 1.5 over white": (-0.002, 0.002),
-    "smooth 1.5 over grey": (0.15, 0.21),
-    "smooth 1.5 over blue": (0.13, 0.19),
-    "smooth 2.0 over grey": (0.21, 0.30),
-    "alpha 0.1 over grey": (0.15, 0.21),
-    "alpha 0.4 over grey": (0.13, 0.17),
-    "alpha 0.4 over white": (-0.01, 0.01),
-    "smooth 1.5 over gold": (0.07, 0.19),
-    "alpha 0.4 over gold": (0.07, 0.22),
-    "two coats over grey": (0.27, 0.32),
-}
 
 
 def fresnel(c, eta):
@@ -57,22 +41,39 @@ def test_walk_through_one_interface_and_a_black_base_is_its_reflection():
     assert abs(found[0] - 0.04) < 4.0 * error[0]
 
 
-@pytest.fixture(scope="module")
-def rows():
-    return layers.report({}, SAMPLES, 0)
-
-
 @pytest.mark.parametrize("stack", list(layers.STACKS))
-def test_error_of_layers_keeps_its_budget(rows, stack):
-    low, high = BUDGETS[stack]
-    worst = []
-    for row in (r for r in rows if r["stack"] == stack):
-        errors = np.subtract(row["scaled"], row["walk"])
-        c = int(np.argmax(np.abs(errors)))
-        noise = 4.0 * row["noise"][c]
-        assert low - noise < errors[c] < high + noise, row
-        worst.append(errors[c])
-    assert len(worst) == len(layers.ANGLES)
+def test_layers_are_off_by_half_of_those_that_ignore_what_comes_back(stack):
+    """Over white both are exact. Of three angles and channels, the walk's noise is 4 standard errors: 1 in 1700 by
+    chance, with numbers that are the same in every run."""
+    interfaces, base = layers.STACKS[stack]
+    generator = np.random.default_rng(0)
+    count = 0
+    for degrees, ours, true, noise in layers.compare(interfaces, base, {}, SAMPLES, generator):
+        wo = np.array([[math.sin(math.radians(degrees)), 0.0, math.cos(math.radians(degrees))]], np.float32)
+        others = layers.scaled(interfaces, base, {"layerTransmittance": "largest"}).albedo(wo)[0]
+        assert np.all(np.abs(ours - true) < 0.5 * np.abs(others - true) + 4.0 * noise + 0.002), (degrees, ours, others, true)
+        assert np.all(ours <= others + 1e-4)
+        count += 1
+    assert count == len(layers.ANGLES)
+
+
+@pytest.mark.parametrize("alpha", [0.2, 0.4])
+def test_dielectric_over_a_colour(alpha):
+    """Scaling alone is 35 to 72 % brighter than the walk here at alpha 0.2."""
+    base = (0.7, 0.4, 0.2)
+    for degrees, ours, true, noise in layers.compare([(1.5, alpha)], base, {}, SAMPLES, np.random.default_rng(4)):
+        assert np.all(np.abs(ours / true - 1.0) < 0.2 + 4.0 * noise / true), (degrees, ours, true)
+
+
+def test_film_over_white_loses_nothing():
+    """What the film takes from green and blue at 60 degrees goes through, and comes back in the end."""
+    builder = layers._Builder()
+    film = builder.node("ND_dielectric_bsdf", [("roughness", "vector2", (0.0, 0.0)), ("thinfilm_thickness", "float", 420.0),
+                                               ("thinfilm_ior", "float", 2.0)])
+    bsdf = builder.node("ND_layer_bsdf", sources=[("top", film), ("base", builder.base((1.0,) * 3))])
+    wo = np.array([[math.sin(math.radians(60)), 0.0, 0.5]], np.float32)
+    assert builder.probe(bsdf, {}).albedo(wo)[0] == pytest.approx([1.0] * 3, abs=2e-3)
+    assert builder.probe(bsdf, {"layerTransmittance": "largest"}).albedo(wo)[0] == pytest.approx([1.0, 0.87, 0.94], abs=0.02)
 
 
 @pytest.mark.parametrize("stack", list(layers.STACKS))

@@ -40,6 +40,7 @@ void addRows(const InputDef& input, Random& random, std::vector<glm::vec4>& valu
         if (rows > 1) v[row] += 2.0f; // well conditioned
         if (input.type == ValueType::Int) v = glm::vec4(std::floor(3.0f * random.next()));
         if (input.type == ValueType::Bool) v = glm::vec4(random.next() > 0.5f ? 1.0f : 0.0f);
+        if (input.name == "tap") v = glm::floor(25.0f * v);
         if (n == 1) v = glm::vec4(v.x); // a scalar fills its register
         values.push_back(v);
     }
@@ -122,6 +123,7 @@ ShadingPoint somewhere(const PrimvarReader& primvars) {
     p.objectToWorldNormal = glm::mat3(1.5f, 0.2f, 0.0f, -0.1f, 0.7f, 0.3f, 0.0f, 0.1f, 1.2f);
     p.lengthPerUv = 2.0f;
     p.uvFootprint = 0.01f;
+    p.seed = 77;
     p.primvars = &primvars;
     return p;
 }
@@ -141,6 +143,7 @@ void somewhere() {
     point.objectToWorldNormal = mat3(1.5, 0.2, 0.0, -0.1, 0.7, 0.3, 0.0, 0.1, 1.2);
     point.lengthPerUv = 2.0;
     point.uvFootprint = 0.01;
+    point.seed = 77u;
 }
 )";
 

@@ -10,14 +10,15 @@ def _stack(name, fails, label, x, make, cosine, bound, walks):
     """:param make: x -> interfaces and base, as layers.STACKS has them"""
     generator = np.random.default_rng(probes.SEED)
     wo = probes.towards(cosine)
-    curves, truth = {"albedoScaling": [], "positionFree": []}, []
+    curves, truth = {"largest": [], "returned": [], "positionFree": []}, []
     for v in x:
         interfaces, base = make(v)
-        curves["albedoScaling"].append(probes.albedo(layers.scaled(interfaces, base, {}), wo))
+        for method in ("largest", "returned"):
+            curves[method].append(probes.albedo(layers.scaled(interfaces, base, {"layerTransmittance": method}), wo))
         curves["positionFree"].append(probes.sampled(layers.scaled(interfaces, base, {"layering": "positionFree"}), wo, walks))
         truth.append(float(layers.walk(layers.parts(interfaces, base, {}), wo[0], walks, generator)[0][0]))
     return Sweep(name, "layers", fails, label, x, f"albedo at cosine {cosine}", curves, truth, always("positionFree", x), bound,
-                 "albedoScaling", shows=2)
+                 "largest", shows=2)
 
 
 def sweeps(count):
@@ -26,7 +27,7 @@ def sweeps(count):
     ior = list(np.linspace(1.1, 2.4, count))
     walks = 1000 * min(count, 20)
     return [
-        _stack("layer over grey", "What the interface sends back down is counted as leaving: grey bases come out too bright.",
+        _stack("layer over grey", "What the interface sends back down counts as leaving in one method: grey bases come out too bright.",
                "colour of the base", base, lambda v: ([(1.5, 0.0)], (float(v),) * 3), 0.8, 0.03, walks),
         _stack("layer over roughness", "The same, whatever the roughness of the interface.", "alpha",
                rough, lambda v: ([(1.5, float(v))], (0.5,) * 3), 0.8, 0.03, walks),

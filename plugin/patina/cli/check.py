@@ -13,7 +13,7 @@ Materials that vary are checked at points of uv 0 to 1. Each material is shown w
 causes as `patina record` tells them. Exit status 1 when a check fails.
 
 --layers takes no material: it prints how far the albedo of layers, which scale what is below by what the top lets
-through, is from a random walk between the interfaces.
+through and what comes back (`--method layerTransmittance=...`), is from a random walk between the interfaces.
 """
 import math
 import sys

@@ -58,7 +58,7 @@ class _Builder:
 
 
 def scaled(interfaces, base, methods):
-    """:returns: probe of the stack as the renderer has it: layers by albedo scaling"""
+    """:returns: probe of the stack as the renderer has it: layers by albedo scaling, unless `methods` say otherwise"""
     builder = _Builder()
     bsdf = builder.base(base)
     for ior, alpha in reversed(interfaces):

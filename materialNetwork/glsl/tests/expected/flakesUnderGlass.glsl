@@ -30,11 +30,11 @@ void place() {
     frames[1] = makeFrame(r18.xyz, vec3(0.0), true);
     lobe0 = dielectricSetup(parameters[3].xyz, parameters[4].x, parameters[5].xy, false, 3, false, 1);
     vec3 kept0 = dielectricFix(lobe0, frames[0].wo, 6, lobeAlbedo[0]);
-    kept0 = shareLargest(kept0);
+    kept0 = unit(kept0);
     lobePassed[0] = fixPassed;
     lobe1 = conductorSetup(parameters[71].xyz, parameters[72].xyz, parameters[73].xy, false, 1);
     vec3 kept1 = conductorFix(lobe1, frames[1].wo, -1, lobeAlbedo[1]);
-    kept1 = shareLargest(kept1);
+    kept1 = unit(kept1);
     vec3 w0 = vec3(0.0);
     vec3 w1 = vec3(0.0);
     vec3 w2 = vec3(1.0);

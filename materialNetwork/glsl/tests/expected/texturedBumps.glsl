@@ -43,7 +43,7 @@ void place() {
     frames[0] = makeFrame(r19.xyz, vec3(0.0), true);
     lobe0 = burleySetup(r6.xyz, parameters[19].x);
     vec3 kept0 = burleyFix(lobe0, frames[0].wo, -1, lobeAlbedo[0]);
-    kept0 = shareLargest(kept0);
+    kept0 = unit(kept0);
     vec3 w0 = vec3(1.0);
     lobeWeight[0] = w0 * unit(parameters[20].x);
     straight = vec3(0.0);

@@ -1,0 +1,99 @@
+// Layers that count what the interface on top sends back down to its base: the method `returned` of
+// layerTransmittance. All numbers are shares of light per channel.
+//
+// Light of three kinds leaves a base: mirrored as in a polished metal, spread as by a diffuse
+// surface, and passed, which leaves downwards and never comes back. Of what is mirrored the interface
+// reflects as much as from outside at the same cosine, E; of what is spread its diffuse reflectance
+// from inside, R. What comes back meets the whole base again, so that with A the base's albedo all
+// bounces are a geometric series: what enters, 1 - E, counts (1 - R) / (1 - A R) times. Over a white
+// base that is 1 - E, whatever R is, and it is never more.
+
+// Of one albedo, or of one weight: a number for light of each kind.
+struct LayerLight {
+    vec3 mirrored;
+    vec3 spread;
+    vec3 passed;
+};
+
+PATINA_FN LayerLight layerLight(vec3 mirrored, vec3 spread, vec3 passed) {
+    LayerLight l;
+    l.mirrored = mirrored;
+    l.spread = spread;
+    l.passed = passed;
+    return l;
+}
+PATINA_FN LayerLight layerEven(vec3 x) {
+    return layerLight(x, x, x);
+}
+PATINA_FN LayerLight layerSum(LayerLight a, LayerLight b) {
+    return layerLight(a.mirrored + b.mirrored, a.spread + b.spread, a.passed + b.passed);
+}
+PATINA_FN LayerLight layerScaled(LayerLight a, vec3 x) {
+    return layerLight(a.mirrored * x, a.spread * x, a.passed * x);
+}
+PATINA_FN LayerLight layerProduct(LayerLight a, LayerLight b) {
+    return layerLight(a.mirrored * b.mirrored, a.spread * b.spread, a.passed * b.passed);
+}
+
+// What a lobe shows as: alpha of its facets (1 for diffuse), cosine of wo, share that it passes.
+// Measured with a random walk between interfaces of ior 1.33 to 2 and metals.
+const float LAYER_SPREAD = 0.05f;
+PATINA_FN vec3 layerKinds(float alpha, float z, float passes) {
+    if (!(alpha < 1.0f)) return vec3(0.0f, 1.0f - passes, passes);
+    float a2 = alpha * alpha;
+    float c = min(abs(z), 1.0f);
+    float spread = a2 / max(a2 + LAYER_SPREAD * c * c * c, 1e-12f);
+    return vec3((1.0f - spread) * (1.0f - passes), spread * (1.0f - passes), passes);
+}
+// albedo: of a lobe that shows as `kinds`.
+PATINA_FN LayerLight layerOfLobe(vec3 albedo, vec3 kinds) {
+    return layerLight(albedo * kinds.x, albedo * kinds.y, albedo * kinds.z);
+}
+PATINA_FN vec3 layerWeight(LayerLight weight, vec3 kinds) {
+    return weight.mirrored * kinds.x + weight.spread * kinds.y + weight.passed * kinds.z;
+}
+
+// The diffuse reflectance of an interface on the far side from wo. average: from outside; by
+// reciprocity what is let through by either side differs by the square of the ior ratio.
+PATINA_FN vec3 layerInside(vec3 average, float invIor, float z) {
+    vec3 inside = 1.0f - (1.0f - average) * (invIor * invIor);
+    return min(max(select(inside, average, z >= 0.0f), vec3(0.0f)), vec3(1.0f));
+}
+// The same for an interface whose average is that of its thinner side, as a dielectric's.
+PATINA_FN vec3 layerInsideDielectric(float average, float ior, float invIor, float z) {
+    float n = min(ior, invIor);
+    float denser = 1.0f - (1.0f - average) * (n * n);
+    return vec3(clamp(select(denser, average, (z >= 0.0f) == (ior >= 1.0f)), 0.0f, 1.0f));
+}
+
+// What reaches the base and leaves it again through an interface that is there to the share `cover`.
+// kept: E. inside: R. alpha: of the interface's facets, which spread what they refract. z: cosine of
+// wo. base: albedo of what lies below.
+PATINA_FN LayerLight layerThrough(float cover, vec3 kept, vec3 inside, float alpha, float z,
+                                  LayerLight base) {
+    vec3 kinds = layerKinds(0.5f * alpha, z, 0.0f);
+    vec3 mirror = kept * kinds.x + inside * kinds.y;
+    // Closures that are added may have an albedo above 1: no more comes back than from white ones.
+    vec3 again = min(base.mirrored * mirror + base.spread * inside, max(mirror, inside));
+    vec3 enters = (1.0f - kept) / max(1.0f - again, vec3(1e-6f));
+    vec3 bare = vec3(1.0f - cover);
+    return layerLight(bare + cover * enters * (1.0f - mirror), bare + cover * enters * (1.0f - inside),
+                      bare + cover * enters);
+}
+// A top that sends nothing back: sheen, what is opaque, and where the model counts it already.
+PATINA_FN LayerLight layerPast(float cover, vec3 kept) {
+    return layerEven(1.0f - cover * kept);
+}
+PATINA_FN LayerLight layerMix(LayerLight a, LayerLight b, float share) {
+    return layerSum(layerScaled(a, vec3(share)), layerScaled(b, vec3(1.0f - share)));
+}
+// Tops side by side, as added closures are.
+PATINA_FN LayerLight layerBeside(LayerLight a, LayerLight b) {
+    return layerLight(max(a.mirrored + b.mirrored - 1.0f, vec3(0.0f)),
+                      max(a.spread + b.spread - 1.0f, vec3(0.0f)),
+                      max(a.passed + b.passed - 1.0f, vec3(0.0f)));
+}
+// A top that is there to the share `cover`.
+PATINA_FN LayerLight layerCovered(LayerLight a, vec3 cover) {
+    return layerSum(layerEven(1.0f - cover), layerScaled(a, cover));
+}

@@ -1,7 +1,7 @@
 // The samples that a pass takes of the lights.
 
-#include "hdDelegate/film/sampler.h"
 #include "hdDelegate/raster/lightChoice.h"
+#include "hdDelegate/raster/passNumbers.h"
 #include "hdDelegate/raster/rasterLights.h"
 #include "shaders/areaLights.h"
 
@@ -13,17 +13,6 @@ namespace patina {
 namespace {
 
 constexpr float pi = 3.14159265f;
-
-/// Pair `set` of a pass. Sets are scrambled apart from each other and from those of
-/// rasterRenderer.cpp, so that no light's samples go with the pixels' offsets.
-vec2 passNumbers(uint32_t seed, uint32_t pass, uint32_t set) {
-    return Sampler(set, 1, seed, pass).next2();
-}
-
-/// The same with a third number, stratified together with them.
-vec3 threeNumbers(uint32_t seed, uint32_t pass, uint32_t set) {
-    return Sampler(set, 1, seed, pass).next3();
-}
 
 vec3 onSphere(vec2 u) {
     const float z = 1.0f - 2.0f * u.x, r = std::sqrt(std::max(0.0f, 1.0f - z * z));
@@ -217,6 +206,7 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
     takeEmitters(pass, emitterSamples, emitters, bounds, most, out);
     if (out.lights.size() > size_t(mostTaken)) out.lights.resize(size_t(mostTaken));
     out.taken = int(out.lights.size());
+    out.look[0] = out.look[2] = out.taken;
     for (size_t i = 0; i < _sources.size(); ++i)
         if (!taken[i] && _sources[i].fixed.inverse[2].w != 0.0f)
             out.lights.push_back(draw(_sources[i], vec3(0.5f)));

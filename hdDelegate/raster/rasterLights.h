@@ -27,6 +27,7 @@ public:
     static constexpr int maxTinyMaps = 512;       ///< smaller still, for as few pixels a side
     static constexpr int maxUnshadowed = 64;      ///< lights without shadows per pass
     static constexpr int mostDomes = 24;          ///< per pass
+    static constexpr int lookEvery = 8;           ///< of a light's samples a pixel takes one in
     static constexpr int mostTaken = 208;         ///< samples per pass, see Lights in lights.glsl
 
     /// @param domeSamples per pass, where domes are sampled
@@ -45,7 +46,13 @@ public:
         std::vector<ShadowView> shadows; ///< in the order of the layers of the shadow maps
         int mapSize = 0;
         bool fibres = false; ///< lights have maps for fibres, too
+        int look[4] = {0, 0, 0, 1}; ///< which lights are for what, see passBlock.glsl
     };
+    /// For a first look: many samples of each light, of which every pixel takes others than its
+    /// neighbours, so that what is wrong is noise and not the same everywhere.
+    /// @param most shadow maps that may be drawn; where they do not suffice, lights are as in sample()
+    Sampled sampleLook(uint32_t pass, const RasterEmitters& emitters, const ShadowBounds& bounds,
+                       int mapSize, int pixels, int most) const;
     /// @param mapSize of shadow maps, when there are not too many
     /// @param pixels along the longer side of the image
     Sampled sample(uint32_t pass, const RasterEmitters& emitters, const ShadowBounds& bounds,
@@ -86,6 +93,11 @@ private:
                   Diagnostics& diagnostics);
     /// @param u in the unit cube; the third number is for sphere lights
     GpuLight draw(const Source& source, const vec3& u) const;
+    void addLook(const Source& source, size_t number, uint32_t pass, int samples,
+                 const ShadowBounds& bounds, int most, Sampled& out,
+                 std::vector<GpuLight>& looked, std::vector<GpuLight>& shared,
+                 std::vector<GpuLight>& pool) const;
+    int lookSamples(const Source& source) const;
     int mapsOf(const Source& source, const ShadowBounds& bounds) const;
     std::vector<std::pair<size_t, float>> choose(uint32_t pass, const ShadowBounds& bounds,
                                                  int room) const;

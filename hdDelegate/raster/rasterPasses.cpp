@@ -20,6 +20,7 @@ struct RasterPasses::PassBlock {
     int lightInfo[4] = {0, 0, 0, 0};
     vec4 origin{0.0f}, range{0.0f};
     vec4 clipPlanes[RasterPasses::mostPlanes];
+    int look[4] = {0, 0, 0, 1};
 };
 
 /// Clips what is drawn while it lives.
@@ -66,6 +67,8 @@ RasterPasses::RasterPasses(std::string& error)
                           "#define AROUND_LIGHT\n#include \"shaders/raster/shadow.frag.glsl\"\n"}},
                         error);
     if (!_shadowAround) return;
+    _look = std::make_unique<RasterLook>(error);
+    if (!_look->ok()) return;
     _depthOnly = GlProgram::make(
         {{GL_VERTEX_SHADER, "surface",
           "#define PRIMVARS 0\n#include \"shaders/raster/surface.vert.glsl\"\n"},
@@ -104,7 +107,7 @@ bool RasterPasses::resize(const RenderSettings& settings, int& border) {
     _height = height;
     _border = border;
     makeAovTarget(_aovWish);
-    return _colorTarget.complete() && _aovTarget.complete();
+    return _colorTarget.complete() && _aovTarget.complete() && _look->resize(_color, _depth);
 }
 
 RasterPasses::PassBlock RasterPasses::block(const RasterScene& scene,
@@ -391,8 +394,13 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
                         const RasterDomes& domes, int environmentSamples,
                         const RasterCamera& camera, const RasterSample& sample, Film& film) {
     const uint32_t pass = sample.pass;
+    const int longer = std::max(_width, _height);
+    // A volume is lit by all of a pass's lights, each of which takes long.
+    const bool look = pass < uint32_t(RasterLook::passes) && scene.volumes().empty();
     const RasterLights::Sampled sampled =
-        lights.sample(pass, scene.emitters(), _bounds, shadowMapSize, std::max(_width, _height));
+        look ? lights.sampleLook(pass, scene.emitters(), _bounds, shadowMapSize, longer,
+                                 skyCells(scene))
+             : lights.sample(pass, scene.emitters(), _bounds, shadowMapSize, longer);
     std::vector<mat4> matrices;
     for (const ShadowView& v : sampled.shadows)
         matrices.push_back(v.worldToMap);
@@ -405,12 +413,13 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
                                         scene.boundsMax(), _border);
     PassBlock b = block(scene, view);
     b.counts[0] = sampled.taken;
-    b.counts[1] = bsdfSamples;
+    b.counts[1] = look && lights.needsSky() ? RasterLook::bsdfSamples : bsdfSamples;
     b.counts[2] = int(pass);
     b.counts[3] = int(lights.seed());
     b.extra = vec4(1.0f, camera.camera().exposureScale, float(sample.taken),
                    glm::length(scene.boundsMax() - scene.boundsMin()));
     b.lightInfo[0] = int(sampled.lights.size());
+    std::copy_n(sampled.look, 4, b.look);
     if (const GlTexture& map = domes.maps()) {
         map.bind(16);
         domes.densities().bind(17);
@@ -448,6 +457,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     gl.ClearNamedFramebufferfv(_colorTarget.id(), GL_COLOR, 0, none);
     gl.ClearNamedFramebufferfv(_colorTarget.id(), GL_DEPTH, 0, &far);
     gl.DepthFunc(GL_LEQUAL);
+    if (look) _look->clear();
     _background->use();
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     gl.DepthFunc(GL_LESS);
@@ -455,7 +465,13 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     {
         const Clipping clipping(view);
         drawDepths(scene, visible);
+        _look->target().bind();
         drawSurfaces(scene, visible, Solid);
+    }
+    if (look) _look->add(_colorTarget);
+    _colorTarget.bind();
+    {
+        const Clipping clipping(view);
         drawTransmitting(scene, visible);
         gl.DepthMask(GL_FALSE);
         gl.Enable(GL_BLEND);

@@ -5,6 +5,7 @@
 #include "hdDelegate/raster/rasterAovs.h"
 #include "hdDelegate/raster/rasterBehind.h"
 #include "hdDelegate/raster/rasterLights.h"
+#include "hdDelegate/raster/rasterLook.h"
 #include "hdDelegate/raster/rasterScene.h"
 #include "hdDelegate/raster/rasterShares.h"
 #include "hdDelegate/raster/rasterSky.h"
@@ -18,7 +19,9 @@ class RasterPasses {
 public:
     /// @param error is set, and ok() false, when the driver does not take what every pass needs
     explicit RasterPasses(std::string& error);
-    bool ok() const { return _background && _shadow && _shadowAround && _depthOnly; }
+    bool ok() const {
+        return _background && _shadow && _shadowAround && _depthOnly && _look && _look->ok();
+    }
 
     /// Sets the size of the image, and which of its pixels reach the film.
     /// @param border of the samples, which becomes 0 where the driver has no room for one
@@ -83,6 +86,7 @@ private:
                           const RasterView& view);
 
     std::unique_ptr<GlProgram> _background, _shadow, _shadowAround, _depthOnly;
+    std::unique_ptr<RasterLook> _look;
     std::unique_ptr<RasterBehind> _behind; ///< made when something transmits
     GlBuffer _passBuffer, _albedoTable;
     GLuint _vertexArray = 0;

@@ -95,7 +95,7 @@ vec3 onSheen(Light l) {
         any = any || lobeWeight[i] != vec3(0.0);
     }
     lightsAlone = true;
-    vec3 found = any ? fromLight(l) : vec3(0.0);
+    vec3 found = any ? fromLight(l, false) : vec3(0.0);
     lightsAlone = false;
     for (int i = 0; i < LOBES; ++i)
         lobeWeight[i] = weights[i];

@@ -77,7 +77,7 @@ vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
     vec3 sum = vec3(0.0);
     float texel = 4.0 * PI / max(extra.x, 1.0);
     float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(float(counts.y) * pdf * extra.z * texel, 1e-20));
-    for (int i = 0; i < counts.x; ++i) {
+    for (int i = 0; i < look.x; ++i) {
         Light l = lights[i];
         int kind = int(l.radiance.w);
         if (l.origin.w > 0.0 || kind > LIGHT_DOME || !isLit(l)) continue;
@@ -113,7 +113,7 @@ vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool
     float mean = largest(sigma) > 0.0 ? min(1.0 / largest(sigma), 0.5 * distance) : 0.0;
     PhaseHenyeyGreensteinLobe phase = phaseHenyeyGreensteinSetup(m.anisotropy);
     vec3 found = vec3(0.0);
-    for (int i = 0; i < counts.x; ++i) {
+    for (int i = look.y; i < counts.x; ++i) {
         Light l = lights[i];
         if (!isLit(l) || isSunOfDome(l)) continue;
         if (int(l.radiance.w) == LIGHT_DOME && l.cone.y == 0.0) { // nobody samples it: its mean

@@ -5,6 +5,11 @@
 #include "shaders/raster/links.glsl"
 #include "shaders/raster/shadows.glsl"
 layout(location = 0) out vec4 outColor;
+// What a first look is smoothed by, see firstLook.frag.glsl.
+layout(location = 1) out vec4 outNoisy;  // light that neighbours find by other samples
+layout(location = 2) out vec4 outGuide;  // how light the material is; w: prim, 0 where nothing is smoothed
+layout(location = 3) out vec4 outPlace;
+layout(location = 4) out vec4 outNormal;
 layout(location = 7) uniform vec4 meshLight; // w: modes of RasterMeshLight
 
 #ifdef MATERIAL_IS_FIBRE
@@ -15,6 +20,21 @@ const float lightTrust = 8.0;
 
 // Less than the cells of the sky's maps are wide; as RasterLights has it. 1 - cosine of half the angle.
 const float NARROW_SUN = 0.003;
+
+// Of first looks: noise is better than what all pixels have wrong alike.
+bool isFirstLook() {
+    return look.w > 1;
+}
+float trustOf(int kind) {
+    return isFirstLook() && (kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) ? 1.0 : lightTrust;
+}
+
+// That each pixel takes of a light.
+float samplesOf(Light l) {
+    int kind = int(l.radiance.w);
+    bool sky = kind == LIGHT_DOME || kind == LIGHT_MORE_DOME;
+    return l.axis0.w > 0.0 ? l.axis0.w : sky ? l.cone.y : 1.0;
+}
 
 float heuristic(float a, float b) {
     return a * a / max(a * a + b * b, 1e-30);
@@ -34,17 +54,24 @@ bool isSunOfDome(Light l) {
 bool outlines = false;    // lights that are their outline go another way, see areaLights.glsl
 bool lightsAlone = false; // no sample of the BSDF finds the same light
 
-// Light from one light's sample.
-vec3 fromLight(Light l) {
+vec3 guide = vec3(0.0);
+
+// Light from one light's sample. guides: no light, but the material's own guide.
+vec3 fromLight(Light l, bool guides) {
     int kind = int(l.radiance.w);
 #ifdef DOME_METHOD
-    if (kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) return vec3(0.0); // see skyLight()
+    if ((kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) && !guides) return vec3(0.0); // see skyLight()
 #endif
     vec3 wi;
     float density, reach;
     vec3 radiance = lightSample(l, point.position, wi, density, reach);
-    if (radiance == vec3(0.0)) return vec3(0.0);
+    if (guides) wi = reflect(-point.view, point.normal);
+    else if (radiance == vec3(0.0)) return vec3(0.0);
     MaterialEval f = materialEval(wi);
+    if (guides) {
+        guide = f.diffuse * (PI / max(abs(dot(point.normal, wi)), 0.05)) + f.specular / max(f.pdf, 1e-3);
+        return vec3(0.0);
+    }
 #ifdef MATERIAL_TRANSMITS
     // Samples of the BSDF find what comes through the object.
     if ((dot(wi, point.geometricNormal) > 0.0) != woOutside()) f.specular = vec3(0.0);
@@ -55,9 +82,9 @@ vec3 fromLight(Light l) {
     if (l.origin.w <= 0.0) {
         // Weights of domes come from the density's table on both sides.
         bool sky = kind == LIGHT_DOME || kind == LIGHT_MORE_DOME;
-        float chance = sky ? l.cone.y * domePdf(l, wi, 0.0) : density;
+        float chance = samplesOf(l) * (sky ? domePdf(l, wi, 0.0) : density);
         bool found = kind != LIGHT_TRIANGLE && counts.y > 0 && !lightsAlone;
-        weight = (found ? heuristic(lightTrust * chance, float(counts.y) * f.pdf) : 1.0) / density;
+        weight = (found ? heuristic(trustOf(kind) * chance, float(counts.y) * f.pdf) : 1.0) / density;
     }
     return value * radiance * weight * shadowAt(l, wi);
 }
@@ -79,7 +106,7 @@ vec3 along(MaterialSample s) {
     bool delta = (s.event & LOBE_DELTA) != 0;
     float pdf = float(counts.y) * s.pdf;
     float sky = -1.0;
-    for (int i = 0; i < counts.x; ++i) {
+    for (int i = 0; i < look.x; ++i) {
         Light l = lights[i];
         int kind = int(l.radiance.w);
         if (l.origin.w > 0.0 || kind > LIGHT_DOME || !isLit(l) || (outlines && isOutline(l))) continue;
@@ -90,18 +117,20 @@ vec3 along(MaterialSample s) {
             continue; // see skyLight()
 #endif
             float texel = 4.0 * PI / max(extra.x, 1.0);
-            float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(pdf * extra.z * texel, 1e-20));
+            float sharper = isFirstLook() ? 16.0 : extra.z;
+            float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(pdf * sharper * texel, 1e-20));
             lod = clamp(lod, 0.0, float(lightInfo.y));
-            density = l.cone.y * domePdf(l, s.wi, lod);
+            density = samplesOf(l) * domePdf(l, s.wi, lod);
             radiance = radianceOfDome(l, s.wi, lod);
         } else if (kind == LIGHT_DISTANT) {
             if (dot(s.wi, l.origin.xyz) < 1.0 - l.cone.z) continue;
-            density = 1.0 / l.cone.w;
+            density = 1.0 / l.cone.w * samplesOf(l);
         } else {
             float t;
             vec3 image;
             if (!lightHit(l, point.position, s.wi, t, density, image)) continue;
             radiance *= image * shapingFactor(l, -s.wi);
+            density *= samplesOf(l);
         }
         vec3 shadow = vec3(1.0);
         if (l.shadow.x >= 0.0) {
@@ -114,7 +143,7 @@ vec3 along(MaterialSample s) {
                 shadow = shadowAt(l, l.sampled.w != 0.0 ? normalize(there - point.position) : there);
             }
         }
-        float weight = l.fade.w * (delta ? 1.0 : heuristic(pdf, lightTrust * density));
+        float weight = l.fade.w * (delta ? 1.0 : heuristic(pdf, trustOf(kind) * density));
         sum += (s.diffuseWeight * l.inverse0.w + s.specularWeight * l.inverse1.w) * radiance *
                shadow * weight;
     }
@@ -135,6 +164,7 @@ vec3 glow() {
 }
 
 void main() {
+    outNoisy = outGuide = outPlace = outNormal = vec4(0.0);
     setPointFromCamera();
 #ifdef MATERIAL_IS_VOLUME
     vec4 fog = fogHere();
@@ -153,28 +183,51 @@ void main() {
 #ifdef AREA_OUTLINES
     outlines = isTransformable();
 #endif
-    for (int i = 0; i < counts.x; ++i) {
-        Light l = lights[i];
-        if (!isLit(l) || isSunOfDome(l)) continue;
+    // Neighbours take other samples of what is between look.z and counts.x.
+    int turn = (int(gl_FragCoord.x) + 3 * int(gl_FragCoord.y) + counts.z) % look.w;
+    int every = isFirstLook() ? 1 : 0, own = (counts.x - look.z) / look.w;
+    vec3 noisy = vec3(0.0);
+    for (int k = look.y - every; k < look.z + own; ++k) {
+        bool pooled = k >= look.z, guides = k < look.y;
+        Light l = lights[pooled ? look.z + turn + (k - look.z) * look.w : max(k, 0)];
+        if (!guides && (!isLit(l) || isSunOfDome(l))) continue;
+        float share = pooled ? float(look.w) : 1.0;
+        vec3 light;
 #ifdef AREA_OUTLINES
-        if (outlines && isOutline(l)) {
-            color += byOutline(l) + onSheen(l);
-            continue;
-        }
+        if (outlines && isOutline(l) && !guides)
+            light = byOutline(l) + onSheen(l);
+        else
 #endif
-        color += fromLight(l);
+            light = fromLight(l, guides);
+        noisy += pooled ? share * light : vec3(0.0);
+        color += pooled ? vec3(0.0) : light;
     }
-    vec3 found = vec3(0.0);
     for (int i = 0; i < counts.y; ++i) {
         uvec2 pixel = uvec2(gl_FragCoord.xy);
         uint index = uint(counts.z * counts.y + i);
         vec2 choice = randomAt(pixel, index, 1u);
         MaterialSample s = materialSample(vec3(randomAt(pixel, index, 0u), choice.x), choice.y);
-        if (s.event != 0) found += along(s);
+        if (s.event == 0) continue;
+        vec3 found = along(s) / float(counts.y);
+        // What narrow lobes find is as sharp as it should be.
+        float sharp = (s.event & LOBE_DELTA) != 0 ? 1.0 : smoothstep(1.0, 6.0, s.pdf);
+        color += found * sharp;
+        noisy += found * (1.0 - sharp);
     }
-    color += found / float(max(counts.y, 1));
 #ifdef DOME_METHOD
     color += skyLight();
+#endif
+#ifdef MATERIAL_TRANSMITS
+    color += noisy;
+#else
+    if (isFirstLook()) {
+        outNoisy = vec4(noisy * extra.y, 0.0);
+        outGuide = vec4(guide, float(drawInfo.y + 1));
+        outPlace = vec4(point.position, 1.0);
+        outNormal = vec4(isTube() ? vec3(0.0) : point.normal, 0.0);
+    } else {
+        color += noisy;
+    }
 #endif
     outColor = vec4(color * extra.y, 1.0);
 }

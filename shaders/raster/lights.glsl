@@ -7,7 +7,7 @@ struct Light {
     vec4 normal;   // of the emitter at the sample; w: density by area, by length, or by solid angle
     vec4 radiance; // w: kind. Of domes that of the sample
     vec4 origin;   // of the shape, or a dome's radiance without its image; w: 1 delta
-    vec4 axis0, axis1, axis2;          // shape to world; w: -, -, category that is lit (-1 all)
+    vec4 axis0, axis1, axis2;          // shape to world; w: samples that a pixel takes of it (0: one, of a dome cone.y), -, category that is lit (-1 all)
     vec4 inverse0, inverse1, inverse2; // world to shape; w: diffuse, specular, 1 seen by the camera
     vec4 shaping;   // axis; w: focus
     vec4 focusTint; // w: cosine cutoff is on

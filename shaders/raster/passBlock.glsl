@@ -13,4 +13,7 @@ layout(std140, binding = 0) uniform Pass {
     vec4 origin;     // all positions are relative to this place in the world
     vec4 range;      // along the camera's axis: x, from its near plane to that of worldToClip, y, to its far plane; z: planes
     vec4 clipPlanes[8]; // of the camera: what is behind one is not seen
+    // Of lights: x, end of those that samples of the BSDF find; y, first whose sample is taken; z, first of
+    // those of which each pixel takes one in w. In most passes: counts.x, 0, counts.x, 1.
+    ivec4 look;
 };

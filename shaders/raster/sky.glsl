@@ -82,7 +82,7 @@ vec3 skyByLobes(bool mirrors) {
             if (share < 0.0) share = skyShare(normal);
             seen = share;
         }
-        for (int k = 0; k < counts.x; ++k) {
+        for (int k = 0; k < look.x; ++k) {
             Light l = lights[k];
             if (int(l.radiance.w) != LIGHT_DOME || !isLit(l)) continue;
             vec3 light = kind == LOBE_MIRROR ? prefiltered(l, mirrored, lobeAlpha(i))
@@ -108,7 +108,7 @@ vec3 skyBySamples() {
         bool delta = (s.event & LOBE_DELTA) != 0;
         float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(s.pdf * float(count) * texel, 1e-20));
         float sky = -1.0;
-        for (int k = 0; k < counts.x; ++k) {
+        for (int k = 0; k < look.x; ++k) {
             Light l = lights[k];
             if (int(l.radiance.w) != LIGHT_DOME || !isLit(l)) continue;
             vec3 light = radianceOfDome(l, s.wi, clamp(lod, 0.0, float(lightInfo.y)));
@@ -135,8 +135,8 @@ vec3 skyLight() {
             chances[i] = lobeChance[i];
         }
         keepLobes((1 << LOBE_DIFFUSE) | (1 << LOBE_SHEEN));
-        for (int k = 0; k < counts.x; ++k)
-            if (isSunOfDome(lights[k]) && isLit(lights[k])) sum += fromLight(lights[k]);
+        for (int k = look.y; k < counts.x; ++k)
+            if (isSunOfDome(lights[k]) && isLit(lights[k])) sum += fromLight(lights[k], false);
         for (int i = 0; i < LOBES; ++i) {
             lobeWeight[i] = weights[i];
             lobeChance[i] = chances[i];

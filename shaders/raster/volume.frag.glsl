@@ -106,7 +106,7 @@ vec3 litAt(vec3 p, vec3 direction, float g, float jitter) {
     vec3 sum = vec3(0.0);
     point.position = p;
     point.seed = 0u;
-    for (int i = 0; i < counts.x; ++i) {
+    for (int i = look.y; i < counts.x; ++i) {
         Light l = lights[i];
         int kind = int(l.radiance.w);
         if (kind == LIGHT_DISTANT && l.origin.w > 0.0 && l.cone.x != 0.0) continue; // a dome's

@@ -174,7 +174,7 @@ def test_tolerance_ends_a_render():
     assert taken in looks[1:]
     assert error(film) <= tolerance
     _, before = render(samples=looks[looks.index(taken) - 1], minSamples=4)
-    assert error(before) > tolerance
+    assert error(before) > 0.9 * tolerance  # noise gets no more: a tenth is kept for lengths of paths
     # The most samples, the fewest, and a render that continues: it ends where the whole one did.
     assert render(samples=5, minSamples=2, tolerance=tolerance * 1e-3)[0] == 5
     assert render(samples=64, minSamples=32, tolerance=10.0)[0] == 32

@@ -1,0 +1,142 @@
+// The samples that a first look takes of the lights.
+
+#include "hdDelegate/raster/passNumbers.h"
+#include "hdDelegate/raster/rasterLights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+constexpr int every = RasterLights::lookEvery;
+constexpr int mostPooled = 32;     ///< of a dome; half as many of an area
+constexpr int drawnOfDome = 256;   ///< directions, to tell what is peaked
+constexpr int mostPeaks = 4;      ///< samples of what is peaked, which all pixels take
+constexpr float peakDensity = 10.0f; ///< by solid angle
+/// Narrower suns have one sample: 1 - cosine of half the angle of 3 degrees.
+constexpr float sharpSun = 3.4e-4f;
+
+} // namespace
+
+/// As many as there is a use for; 1 where all are alike.
+int RasterLights::lookSamples(const Source& s) const {
+    if (s.kind == Dome) return _domeSamples > 0 ? mostPooled : 1;
+    if (s.kind == Distant) return s.fixed.cone.z > sharpSun ? mostPooled / 2 : 1;
+    return s.kind == Point || (s.delta && s.kind != Line) ? 1 : mostPooled / 2;
+}
+
+void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int samples,
+                           const ShadowBounds& bounds, int most, Sampled& out,
+                           std::vector<GpuLight>& looked, std::vector<GpuLight>& shared,
+                           std::vector<GpuLight>& pool) const {
+    const uint32_t set = 100 + 16 * uint32_t(number);
+    const bool dome = s.kind == Dome;
+    const auto cast = [&](GpuLight& g, uint32_t index) {
+        if (!_shadows || !s.shadows) return;
+        if (dome && _domeSamples == 0)
+            g.shadow.x = 0.0f; // has no map of its own, but shadows
+        else
+            castShadow(g, s.shadowCategory, passNumbers(_seed, index, set + 1), bounds, most, out);
+    };
+    if (samples == 1) {
+        GpuLight g = draw(s, threeNumbers(_seed, pass, set));
+        cast(g, pass);
+        if (!s.delta) looked.push_back(g);
+        shared.push_back(g);
+        return;
+    }
+    const uint32_t drawn = dome ? drawnOfDome : uint32_t(samples);
+    std::vector<std::pair<uint32_t, GpuLight>> all, peaks;
+    for (uint32_t n = 0; n < drawn; ++n) {
+        const uint32_t index = pass * drawn + n;
+        GpuLight g = draw(s, threeNumbers(_seed, index, set));
+        (dome && g.normal.w > peakDensity ? peaks : all).emplace_back(index, g);
+    }
+    const float found = float(all.size()) / float(drawn);
+    if (all.size() > size_t(samples)) all.resize(size_t(samples));
+    all.resize(all.size() / every * every);
+    const size_t shares = std::min<size_t>(peaks.size(), mostPeaks);
+    const float perPixel = float(samples / every);
+    const auto take = [&](uint32_t index, GpuLight g, float weight, std::vector<GpuLight>& to) {
+        if (dome) {
+            // Densities of domes are those of all samples together.
+            g.cone.y = 1.0f;
+            g.radiance.w = float(MoreDome);
+        }
+        g.axis[0].w = perPixel;
+        g.fade.w = weight;
+        cast(g, index);
+        to.push_back(g);
+    };
+    for (size_t k = 0; k < shares; ++k) {
+        const auto& peak = peaks[k * peaks.size() / shares];
+        take(peak.first, peak.second, (1.0f - found) / float(shares), shared);
+    }
+    for (const auto& [index, g] : all)
+        take(index, g, found / float(all.size()), pool);
+    GpuLight g = !pool.empty() ? pool.back() : !shared.empty() ? shared.back() : s.fixed;
+    g.radiance.w = float(s.kind);
+    g.axis[0].w = perPixel;
+    g.fade.w = 1.0f;
+    if (s.kind != Line) looked.push_back(g);
+}
+
+RasterLights::Sampled RasterLights::sampleLook(uint32_t pass, const RasterEmitters& emitters,
+                                               const ShadowBounds& bounds, int mapSize, int pixels,
+                                               int most) const {
+    const auto mapsEach = [&](const Source& s) {
+        if (!_shadows || !s.shadows) return 0;
+        if (s.kind == Dome) return _domeSamples > 0 ? 1 : 0;
+        return mapsOf(s, bounds);
+    };
+    most = std::min(most, int(maxSmallMaps));
+    const auto needed = [&](int pooled) {
+        int maps = 0, lights = 0;
+        for (const Source& s : _sources) {
+            const int samples = std::min(lookSamples(s), s.kind == Dome ? pooled : pooled / 2);
+            const int n = samples < every ? 1 : samples;
+            maps += mapsEach(s) * (s.kind == Dome ? n + mostPeaks : n);
+            lights += n + (s.kind == Dome ? mostPeaks : 0) + 1;
+        }
+        return lights <= mostTaken - mostCoarseSamples ? maps : 1 << 20;
+    };
+    const int emitterMaps = emitters.empty() || !_shadows ? 0 : 6;
+    int pooled = mostPooled;
+    while (pooled > every && needed(pooled) + emitterMaps * leastEmitterSamples > most)
+        pooled /= 2;
+    Sampled out;
+    if (bounds.hasFibres() || needed(pooled) + emitterMaps * leastEmitterSamples > most) {
+        out = sample(pass, emitters, bounds, mapSize, pixels);
+        out.look[3] = every;
+        return out;
+    }
+    int emitterSamples = 0;
+    if (!emitters.empty()) {
+        const int room = emitterMaps > 0 ? (most - needed(pooled)) / emitterMaps : mostCoarseSamples;
+        emitterSamples = std::clamp(room, int(leastEmitterSamples), int(mostCoarseSamples));
+        if (emitterSamples >= every) emitterSamples = emitterSamples / every * every;
+    }
+    out.mapSize =
+        needed(pooled) + emitterMaps * emitterSamples > maxMaps ? mapSize / 2 : mapSize;
+    std::vector<GpuLight> looked, shared, pool;
+    for (size_t i = 0; i < _sources.size(); ++i) {
+        const Source& s = _sources[i];
+        const int samples = std::min(lookSamples(s), s.kind == Dome ? pooled : pooled / 2);
+        addLook(s, i, pass, samples < every ? 1 : samples, bounds, most, out, looked, shared, pool);
+    }
+    takeEmitters(pass, emitterSamples, emitters, bounds, most, out);
+    std::vector<GpuLight>& glowing = emitterSamples >= every ? pool : shared;
+    glowing.insert(glowing.end(), out.lights.begin(), out.lights.end());
+    out.lights = looked;
+    out.lights.insert(out.lights.end(), shared.begin(), shared.end());
+    out.lights.insert(out.lights.end(), pool.begin(), pool.end());
+    out.taken = int(out.lights.size());
+    out.look[0] = out.look[1] = int(looked.size());
+    out.look[2] = int(looked.size() + shared.size());
+    out.look[3] = every;
+    return out;
+}
+
+} // namespace patina

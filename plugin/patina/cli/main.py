@@ -36,7 +36,7 @@ SUMMARIES = {
     "hydra": "where the Hydra plugin is, and whether hosts can use it",
     "bench": "measure speed and memory, beside peers",
     "chart": "measure what methods cost and how far they are off",
-    "test": "run every test of a checkout",
+    "test": "run the tests of a checkout, by tier and room",
 }
 
 

@@ -147,7 +147,11 @@ def test_an_interrupted_import_is_no_missing_module(monkeypatch, capsys):
 
     monkeypatch.delitem(sys.modules, "_patina", raising=False)
     monkeypatch.setattr(builtins, "__import__", interrupted)
-    status, said = run(capsys, "explain", __file__)
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # shells start what runs behind them without it
+    try:
+        status, said = run(capsys, "explain", __file__)
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert status == 1 and said == "patina: interrupted"
 
 

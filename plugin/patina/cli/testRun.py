@@ -10,6 +10,7 @@ testenv/manifest.py says which tier and rooms a test belongs to. Two processes o
 """
 import importlib.util
 import os
+import signal
 import subprocess
 import sys
 
@@ -43,6 +44,9 @@ def run(arguments):
     tier = arguments.tier or ("all" if any(map(_named, arguments.passed_on)) else "smoke" if arguments.room else "full")
     command = [sys.executable, "-m", "pytest", *_workers(passed_on), "-q", "-ra", "-c", os.path.join(testenv, "pytest.ini"),
                "--rootdir", root, "-p", "testTiers", "--tier", tier, *_rooms(arguments.room, testenv), *passed_on]
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) == signal.SIG_IGN:  # as by nohup; tests send them, and the processes that they start inherit
+            signal.signal(number, signal.SIG_DFL)
     return min(1, subprocess.call(command, env=environment, cwd=root))
 
 

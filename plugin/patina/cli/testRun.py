@@ -1,9 +1,9 @@
 """Runs the tests of a checkout in one pytest session: googletest programs of the build and Python tests of testenv and of
 the package. ./patina builds what is needed before.
 
-  patina test                   what CI runs (tier `full`, under 15 minutes on two cores)
-  patina test --tier unit       under 30 seconds; smoke: under 3 minutes; long: what only takes time; lint: committed numbers
-  patina test --room shaders    what a change to one room needs, under 3 minutes (with --tier full: all of the room)
+  patina test                   what CI runs (tier `full`, meant to end within 15 minutes on two cores)
+  patina test --tier unit       within 30 seconds; smoke: within 3 minutes; long: what only takes time; lint: committed numbers
+  patina test --room shaders    what a change to one room needs, within 3 minutes (with --tier full: all of the room)
   patina test -k furnace        further arguments go to pytest; named files and tests run whatever tier they are in
 
 testenv/manifest.py says which tier and rooms a test belongs to. Two processes or more share the tests (`-n 0`: one).

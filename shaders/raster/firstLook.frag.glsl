@@ -1,5 +1,6 @@
 // A first look: pixels find light by different samples, so each takes the mean of what its neighbours on the
-// same surface find, beside how light they are themselves. Along rows, then along columns.
+// same surface find, beside how light they are themselves. Along rows, then along columns, which gives the
+// difference that this makes.
 #include "shaders/compat/glsl.glsl"
 #include "shaders/raster/passBlock.glsl"
 layout(binding = 21) uniform sampler2D noisyLight;
@@ -7,6 +8,7 @@ layout(binding = 22) uniform sampler2D guides; // w: prim, 0 none
 layout(binding = 23) uniform sampler2D places;
 layout(binding = 24) uniform sampler2D normals;
 layout(binding = 25) uniform sampler2D meanGuides; // of rows
+layout(binding = 26) uniform sampler2D ownLight;   // noisyLight before rows
 layout(location = 0) uniform ivec4 row; // between neighbours; z: how many on each side
 layout(location = 0) out vec4 outLight;
 #ifdef ROWS
@@ -49,6 +51,7 @@ void main() {
     outGuide = vec4(guided / sum, 0.0);
 #else
     const float least = 0.02; // of guides, lest what has nearly none shines
-    outLight = vec4(light / sum * (guide.rgb + least) / (guided / sum + least), 0.0);
+    vec3 smoothed = light / sum * (guide.rgb + least) / (guided / sum + least);
+    outLight = vec4(smoothed - texelFetch(ownLight, pixel, 0).rgb, 0.0);
 #endif
 }

@@ -217,16 +217,13 @@ void main() {
 #ifdef DOME_METHOD
     color += skyLight();
 #endif
-#ifdef MATERIAL_TRANSMITS
     color += noisy;
-#else
+#ifndef MATERIAL_TRANSMITS
     if (isFirstLook()) {
         outNoisy = vec4(noisy * extra.y, 0.0);
         outGuide = vec4(guide, float(drawInfo.y + 1));
         outPlace = vec4(point.position, 1.0);
         outNormal = vec4(isTube() ? vec3(0.0) : point.normal, 0.0);
-    } else {
-        color += noisy;
     }
 #endif
     outColor = vec4(color * extra.y, 1.0);

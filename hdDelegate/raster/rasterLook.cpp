@@ -3,15 +3,10 @@
 namespace patina {
 
 RasterLook::RasterLook(std::string& error) {
-    const auto make = [&](const std::string& head) {
-        return GlProgram::make(
-            {{GL_VERTEX_SHADER, "background", "#include \"shaders/raster/background.vert.glsl\"\n"},
-             {GL_FRAGMENT_SHADER, "first look",
-              head + "#include \"shaders/raster/firstLook.frag.glsl\"\n"}},
-            error);
-    };
-    _rows = make("#define ROWS\n");
-    if (_rows) _columns = make("");
+    _program = GlProgram::make(
+        {{GL_VERTEX_SHADER, "background", "#include \"shaders/raster/background.vert.glsl\"\n"},
+         {GL_FRAGMENT_SHADER, "first look", "#include \"shaders/raster/firstLook.frag.glsl\"\n"}},
+        error);
 }
 
 bool RasterLook::resize(const GlTexture& color, const GlTexture& depth) {
@@ -22,17 +17,14 @@ bool RasterLook::resize(const GlTexture& color, const GlTexture& depth) {
     _guide = make(GL_RGBA32F);
     _place = make(GL_RGBA32F);
     _normal = make(GL_RGBA16F);
-    _rowLight = make(GL_RGBA32F);
-    _rowGuide = make(GL_RGBA32F);
     _difference = make(GL_RGBA32F);
-    for (const GlTexture* t : {&_noisy, &_guide, &_place, &_normal, &_rowLight, &_rowGuide}) {
+    for (const GlTexture* t : {&_noisy, &_guide, &_place, &_normal}) {
         t->parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         t->parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
     _target = GlFramebuffer({&color, &_noisy, &_guide, &_place, &_normal}, &depth);
-    _rowTarget = GlFramebuffer({&_rowLight, &_rowGuide}, nullptr);
     _differenceTarget = GlFramebuffer({&_difference}, &depth);
-    return _target.complete() && _rowTarget.complete() && _differenceTarget.complete();
+    return _target.complete() && _differenceTarget.complete();
 }
 
 void RasterLook::clear() const {
@@ -44,20 +36,12 @@ void RasterLook::clear() const {
 
 void RasterLook::smooth() const {
     gl.Disable(GL_DEPTH_TEST);
+    _noisy.bind(21);
     _guide.bind(22);
     _place.bind(23);
     _normal.bind(24);
-    _noisy.bind(21);
-    _rowTarget.bind();
-    _rows->use();
-    gl.Uniform4i(0, 1, 0, reach, 0);
-    gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    _rowLight.bind(21);
-    _rowGuide.bind(25);
-    _noisy.bind(26);
     _differenceTarget.bind();
-    _columns->use();
-    gl.Uniform4i(0, 0, 1, reach, 0);
+    _program->use();
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     gl.Enable(GL_DEPTH_TEST);
 }

@@ -20,12 +20,11 @@ class RasterLook {
 public:
     static constexpr int passes = 8;
     static constexpr uint32_t smoothed = 16; ///< passes after which nothing is
-    static constexpr int reach = 1; ///< pixels on each side; more blurs shadows
     static constexpr int bsdfSamples = 4; ///< per pixel, where domes are
 
     /// @param error is set where the driver does not take the programs
     explicit RasterLook(std::string& error);
-    bool ok() const { return _rows && _columns; }
+    bool ok() const { return bool(_program); }
 
     /// @returns false when the driver has no room
     bool resize(const GlTexture& color, const GlTexture& depth);
@@ -44,9 +43,9 @@ public:
     }
 
 private:
-    std::unique_ptr<GlProgram> _rows, _columns;
-    GlTexture _noisy, _guide, _place, _normal, _rowLight, _rowGuide, _difference;
-    GlFramebuffer _target, _rowTarget, _differenceTarget;
+    std::unique_ptr<GlProgram> _program;
+    GlTexture _noisy, _guide, _place, _normal, _difference;
+    GlFramebuffer _target, _differenceTarget;
 };
 
 } // namespace patina

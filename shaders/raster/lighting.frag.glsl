@@ -117,7 +117,7 @@ vec3 along(MaterialSample s) {
             continue; // see skyLight()
 #endif
             float texel = 4.0 * PI / max(extra.x, 1.0);
-            float sharper = isFirstLook() ? 16.0 : extra.z;
+            float sharper = isFirstLook() ? 256.0 : extra.z;
             float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(pdf * sharper * texel, 1e-20));
             lod = clamp(lod, 0.0, float(lightInfo.y));
             density = samplesOf(l) * domePdf(l, s.wi, lod);

@@ -1,7 +1,9 @@
 // The samples that a first look takes of the lights.
 
+#include "hdDelegate/raster/lookWeights.h"
 #include "hdDelegate/raster/passNumbers.h"
 #include "hdDelegate/raster/rasterLights.h"
+#include "hdDelegate/raster/rasterLook.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +14,7 @@ namespace {
 
 constexpr int every = RasterLights::lookEvery;
 constexpr int mostPooled = 32;     ///< of a dome; half as many of an area
-constexpr int drawnOfDome = 256;   ///< directions, to tell what is peaked
+constexpr int drawnOfDome = 2048;   ///< directions, to tell what is peaked, and what all light
 constexpr int mostPeaks = 4;      ///< samples of what is peaked, which all pixels take
 constexpr float peakDensity = 10.0f; ///< by solid angle
 /// Narrower suns have one sample: 1 - cosine of half the angle of 3 degrees.
@@ -55,8 +57,25 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
         (dome && g.normal.w > peakDensity ? peaks : all).emplace_back(index, g);
     }
     const float found = float(all.size()) / float(drawn);
+    const auto toSamples = [&] {
+        std::vector<DomeSample> to;
+        for (const auto& [index, g] : all) {
+            // What samples of diffuse BSDFs leave to them: see fromLight() in lighting.frag.glsl.
+            const float own = float(samples / every) * g.normal.w;
+            const float diffuse = float(RasterLook::bsdfSamples) * 0.2f;
+            const float share = own * own / std::max(own * own + diffuse * diffuse, 1e-20f);
+            to.push_back({vec3(g.sampled), vec3(g.radiance) * (share / g.normal.w)});
+        }
+        return to;
+    };
+    const std::vector<DomeSample> many = dome ? toSamples() : std::vector<DomeSample>();
     if (all.size() > size_t(samples)) all.resize(size_t(samples));
     all.resize(all.size() / every * every);
+    if (dome) {
+        const std::vector<vec3> factors = lookWeights(toSamples(), many);
+        for (size_t k = 0; k < all.size(); ++k)
+            all[k].second.radiance = vec4(vec3(all[k].second.radiance) * factors[k], float(Dome));
+    }
     const size_t shares = std::min<size_t>(peaks.size(), mostPeaks);
     const float perPixel = float(samples / every);
     const auto take = [&](uint32_t index, GpuLight g, float weight, std::vector<GpuLight>& to) {
@@ -70,8 +89,17 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
         cast(g, index);
         to.push_back(g);
     };
+    // Those that are taken are as bright as all are.
+    const auto light = [](const GpuLight& g) { return vec3(g.radiance) / g.normal.w; };
+    vec3 wanted(0.0f), had(0.0f);
+    for (const auto& peak : peaks)
+        wanted += light(peak.second) / float(peaks.size());
+    for (size_t k = 0; k < shares; ++k)
+        had += light(peaks[k * peaks.size() / shares].second) / float(shares);
     for (size_t k = 0; k < shares; ++k) {
-        const auto& peak = peaks[k * peaks.size() / shares];
+        auto& peak = peaks[k * peaks.size() / shares];
+        for (int c = 0; c < 3; ++c)
+            if (had[c] > 0.0f) peak.second.radiance[c] *= wanted[c] / had[c];
         take(peak.first, peak.second, (1.0f - found) / float(shares), shared);
     }
     for (const auto& [index, g] : all)

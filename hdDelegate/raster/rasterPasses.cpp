@@ -323,11 +323,11 @@ vec3 RasterPasses::originOfSeen(const RasterScene& scene) const {
     return vec3(glm::round(middle / cell) * cell);
 }
 
-void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights, uint32_t taken,
-                            const std::function<void(uint32_t)>& moveTo) {
+void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights, uint32_t from,
+                            uint32_t taken, const std::function<void(uint32_t)>& moveTo) {
     if (!lights.needsSky()) return;
     std::map<int, std::pair<uint32_t, RasterSky::Task>> last; // by cell
-    for (uint32_t pass = 0; pass < taken; ++pass)
+    for (uint32_t pass = from; pass < taken; ++pass)
         for (const RasterSky::Task& task :
              _sky.begin(pass, lights.seed(), _bounds, skyCells(scene)))
             last[task.layer] = {pass, task};
@@ -385,9 +385,34 @@ void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisibl
         gl.Uniform4i(1, 0, d.primId, d.flags, 0);
         drawRuns(d, *d.surface, visible);
     }
-    _colorTarget.bind();
+    _look->target().bind();
     _behind->bind();
     drawSurfaces(scene, visible, Transmitting);
+}
+
+/// Brings the film's share of what smoothing does to that of one pass more.
+/// @param look whether the pass is one of those that are smoothed
+void RasterPasses::smooth(const RasterSample& sample, bool look, Film& film) {
+    if (sample.pass == 0) _smoothing.assign(size_t(_width) * size_t(_height), vec4(0.0f));
+    if (sample.pass >= RasterLook::smoothed || _smoothing.empty()) return;
+    const std::vector<vec4> before = _smoothing;
+    if (look) {
+        std::vector<vec4> pixels;
+        _look->read(pixels);
+        takeShared(pixels, _width, _height, sample, _window, [&](int x, int y, const vec4& value) {
+            if (std::isfinite(value.x + value.y + value.z))
+                _smoothing[size_t(y) * size_t(_width) + size_t(x)] += value;
+        });
+    }
+    const float was = RasterLook::share(sample.pass), is = RasterLook::share(sample.pass + 1);
+    for (int y = _window[1]; y <= _window[3]; ++y)
+        for (int x = _window[0]; x <= _window[2]; ++x) {
+            const size_t at = size_t(y) * size_t(_width) + size_t(x);
+            const vec3 change = vec3(_smoothing[at]) * is - vec3(before[at]) * was;
+            if (change == vec3(0.0f) || film.sampleCount(x, y) == 0) continue;
+            const vec3 mean = film.color(x, y) + change / float(film.sampleCount(x, y));
+            film.setMean(x, y, glm::max(mean, vec3(0.0f)), film.alpha(x, y));
+        }
 }
 
 void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
@@ -468,15 +493,23 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
         _look->target().bind();
         drawSurfaces(scene, visible, Solid);
     }
-    if (look) _look->add(_colorTarget);
-    _colorTarget.bind();
     {
         const Clipping clipping(view);
         drawTransmitting(scene, visible);
+    }
+    if (look) _look->smooth();
+    {
+        const Clipping clipping(view);
         gl.DepthMask(GL_FALSE);
         gl.Enable(GL_BLEND);
         gl.BlendFunc(GL_ZERO, GL_SRC_COLOR);
+        _colorTarget.bind();
         drawSurfaces(scene, visible, Tints);
+        if (look) {
+            _look->difference().bind();
+            drawSurfaces(scene, visible, Tints);
+        }
+        _colorTarget.bind();
     }
     gl.Disable(GL_BLEND);
     drawVolumes(scene);
@@ -488,6 +521,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
                        pixels.data());
     _timer.collect(_seconds);
     addShared(pixels, _width, _height, sample, _window, film);
+    smooth(sample, look, film);
 }
 
 } // namespace patina

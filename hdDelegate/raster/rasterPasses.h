@@ -52,8 +52,13 @@ public:
 
     /// Draws what earlier passes have left for later ones, for a film that holds `taken` of them.
     /// @param moveTo brings the scene to the shutter time of a pass
-    void resumeAt(const RasterScene& scene, const RasterLights& lights, uint32_t taken,
-                  const std::function<void(uint32_t)>& moveTo);
+    /// @param from the first pass that was not drawn again
+    void resumeAt(const RasterScene& scene, const RasterLights& lights, uint32_t from,
+                  uint32_t taken, const std::function<void(uint32_t)>& moveTo);
+    /// Passes that have to be drawn again to continue a film of `taken`.
+    static uint32_t passesToRepeat(uint32_t taken) {
+        return taken < RasterLook::smoothed ? std::min(taken, uint32_t(RasterLook::passes)) : 0;
+    }
 
     /// What the driver's seconds go into, of all that was drawn since clearSeconds().
     enum Share { Aovs, Shadows, Surfaces, ReadBack, ShareCount };
@@ -80,6 +85,7 @@ private:
     void drawTransmitting(const RasterScene& scene, const RasterVisible& visible);
     void drawVolumes(const RasterScene& scene);
     void needBehind();
+    void smooth(const RasterSample& sample, bool look, Film& film);
     void drawRuns(const RasterDraw& draw, const RasterSurface& surface,
                   const RasterVisible& visible) const;
     void measureReceivers(const RasterScene& scene, const RasterCamera& camera,
@@ -100,6 +106,7 @@ private:
     GLuint _shadowTarget = 0;
     int _shadowLayers = 0;
     RasterSky _sky;
+    std::vector<vec4> _smoothing; ///< what it does to the sums of the film's pixels
     ShadowBounds _bounds;
     RasterAovImages _seen; ///< of drawAovs()
     vec3 _seenMin{0.0f}, _seenMax{0.0f};

@@ -302,9 +302,22 @@ private:
         const int* window = _passes->window();
         const bool empty = window[2] < window[0] || window[3] < window[1];
         const uint32_t taken = empty ? 0 : _film->sampleCount(window[2], window[3]);
-        _passes->resumeAt(*_raster, *_lights, taken, [&](uint32_t pass) {
-            _raster->moveTo(state, _settings, camera.timeCode(sampleOf(pass, filter, 0).time));
-        });
+        const auto moveTo = [&](const RasterSample& sample) {
+            _raster->moveTo(state, _settings, camera.timeCode(sample.time));
+        };
+        const uint32_t again = RasterPasses::passesToRepeat(taken);
+        if (again > 0) {
+            Film film;
+            film.reset(_settings.width, _settings.height, {}, false);
+            for (uint32_t i = 0; i < again && !_stop; ++i) {
+                const RasterSample sample = sampleOf(i, filter, border);
+                moveTo(sample);
+                _passes->draw(*_raster, *_lights, *_domes, _raster->environmentSamples(), camera,
+                              sample, film);
+            }
+        }
+        _passes->resumeAt(*_raster, *_lights, again, taken,
+                          [&](uint32_t pass) { moveTo(sampleOf(pass, filter, 0)); });
         auto saved = Clock::now();
         auto told = Clock::now() - std::chrono::seconds(1);
         for (uint32_t i = taken; i < uint32_t(std::max(1, _settings.samples)) && !_stop; ++i) {

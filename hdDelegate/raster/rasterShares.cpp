@@ -4,8 +4,9 @@
 
 namespace patina {
 
-void addShared(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
-               const int window[4], Film& film) {
+void takeShared(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
+                const int window[4],
+                const std::function<void(int x, int y, const glm::vec4& value)>& take) {
     const int border = sample.border(), stride = width + 2 * border;
     const auto rowOf = [&](int y) { // of the film, or beside it
         return &pixels[size_t(height - 1 - y + border) * size_t(stride)] + border;
@@ -39,8 +40,15 @@ void addShared(std::vector<glm::vec4>& pixels, int width, int height, const Rast
                 sum += sample.sharesY[size_t(i)] * rowOf(y + border - i)[x];
             for (const auto& [brokenX, brokenY] : broken)
                 if (brokenX == x && brokenY == y) sum.x = NAN;
-            film.addColor(x, y, glm::vec3(sum), sum.w);
+            take(x, y, sum);
         }
+}
+
+void addShared(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
+               const int window[4], Film& film) {
+    takeShared(pixels, width, height, sample, window, [&](int x, int y, const glm::vec4& value) {
+        film.addColor(x, y, glm::vec3(value), value.w);
+    });
 }
 
 } // namespace patina

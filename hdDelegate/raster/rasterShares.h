@@ -3,6 +3,7 @@
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/film/pixelFilter.h"
 
+#include <functional>
 #include <vector>
 
 namespace patina {
@@ -19,10 +20,14 @@ struct RasterSample {
     int border() const { return int(sharesX.size() / 2); }
 };
 
-/// Adds a pass to a film.
+/// Gives each pixel of a film what a pass has for it.
 /// @param pixels RGBA, rows from the bottom up, with the sample's border on all sides; they are
 ///        overwritten
 /// @param window xmin, ymin, xmax, ymax of the film, inclusive, y down
+void takeShared(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
+                const int window[4],
+                const std::function<void(int x, int y, const glm::vec4& value)>& take);
+/// Adds a pass to a film.
 void addShared(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
                const int window[4], Film& film);
 

@@ -1,17 +1,12 @@
 // A first look: pixels find light by different samples, so each takes the mean of what its neighbours on the
-// same surface find, beside how light they are themselves. Along rows, then along columns.
+// same surface find, beside how light they are themselves. Gives the difference that this makes.
 #include "shaders/compat/glsl.glsl"
 #include "shaders/raster/passBlock.glsl"
 layout(binding = 21) uniform sampler2D noisyLight;
 layout(binding = 22) uniform sampler2D guides; // w: prim, 0 none
 layout(binding = 23) uniform sampler2D places;
 layout(binding = 24) uniform sampler2D normals;
-layout(binding = 25) uniform sampler2D meanGuides; // of rows
-layout(location = 0) uniform ivec4 row; // between neighbours; z: how many on each side
 layout(location = 0) out vec4 outLight;
-#ifdef ROWS
-layout(location = 1) out vec4 outGuide;
-#endif
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(noisyLight, 0) - 1;
@@ -21,34 +16,27 @@ void main() {
     float wide = forward.w * (eye.w != 0.0 ? length(eye.xyz - p) : 1.0);
     vec3 light = vec3(0.0), guided = vec3(0.0);
     float sum = 0.0;
-    for (int i = -row.z; i <= row.z; ++i) {
-        ivec2 there = pixel + i * row.xy;
-        if (any(lessThan(there, ivec2(0))) || any(greaterThan(there, last))) continue;
-        vec4 other = texelFetch(guides, there, 0);
-        if (other.w != guide.w) continue;
-        vec3 m = texelFetch(normals, there, 0).xyz;
-        // Strips of hair have none.
-        float alike = n == vec3(0.0) ? 1.0 : max(dot(n, m), 0.0);
-        alike *= alike;
-        alike *= alike;
-        alike *= alike;
-        float away = dot(n, texelFetch(places, there, 0).xyz - p) / (wide * (1.0 + abs(float(i))));
-        float far = float(i) / (float(row.z) + 0.5);
-        float weight = alike * alike * exp(-away * away - 1.5 * far * far);
-        light += weight * texelFetch(noisyLight, there, 0).rgb;
-#ifdef ROWS
-        guided += weight * other.rgb;
-#else
-        guided += weight * texelFetch(meanGuides, there, 0).rgb;
-#endif
-        sum += weight;
-    }
+    for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i) {
+            ivec2 there = pixel + ivec2(i, j);
+            if (any(lessThan(there, ivec2(0))) || any(greaterThan(there, last))) continue;
+            vec4 other = texelFetch(guides, there, 0);
+            if (other.w != guide.w) continue;
+            vec3 m = texelFetch(normals, there, 0).xyz;
+            // Strips of hair have none.
+            float alike = n == vec3(0.0) ? 1.0 : max(dot(n, m), 0.0);
+            alike *= alike;
+            alike *= alike;
+            alike *= alike;
+            float away = dot(n, texelFetch(places, there, 0).xyz - p) / (wide * (1.0 + length(vec2(i, j))));
+            // Of the eight parts of the samples (x + 3 y modulo 8) these two corners have the same.
+            float weight = alike * alike * exp(-away * away) * (i == j && i != 0 ? 0.5 : 1.0);
+            light += weight * texelFetch(noisyLight, there, 0).rgb;
+            guided += weight * other.rgb;
+            sum += weight;
+        }
     sum = max(sum, 1e-20);
-#ifdef ROWS
-    outLight = vec4(light / sum, 0.0);
-    outGuide = vec4(guided / sum, 0.0);
-#else
     const float least = 0.02; // of guides, lest what has nearly none shines
-    outLight = vec4(light / sum * (guide.rgb + least) / (guided / sum + least), 0.0);
-#endif
+    vec3 smoothed = light / sum * (guide.rgb + least) / (guided / sum + least);
+    outLight = vec4(smoothed - texelFetch(noisyLight, pixel, 0).rgb, 0.0);
 }

@@ -117,7 +117,7 @@ vec3 along(MaterialSample s) {
             continue; // see skyLight()
 #endif
             float texel = 4.0 * PI / max(extra.x, 1.0);
-            float sharper = isFirstLook() ? 16.0 : extra.z;
+            float sharper = isFirstLook() ? 256.0 : extra.z;
             float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(pdf * sharper * texel, 1e-20));
             lod = clamp(lod, 0.0, float(lightInfo.y));
             density = samplesOf(l) * domePdf(l, s.wi, lod);
@@ -217,16 +217,13 @@ void main() {
 #ifdef DOME_METHOD
     color += skyLight();
 #endif
-#ifdef MATERIAL_TRANSMITS
     color += noisy;
-#else
+#ifndef MATERIAL_TRANSMITS
     if (isFirstLook()) {
         outNoisy = vec4(noisy * extra.y, 0.0);
         outGuide = vec4(guide, float(drawInfo.y + 1));
         outPlace = vec4(point.position, 1.0);
         outNormal = vec4(isTube() ? vec3(0.0) : point.normal, 0.0);
-    } else {
-        color += noisy;
     }
 #endif
     outColor = vec4(color * extra.y, 1.0);

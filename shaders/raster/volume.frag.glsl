@@ -105,7 +105,6 @@ float henyeyGreenstein(float g, float c) {
 vec3 litAt(vec3 p, vec3 direction, float g, float jitter) {
     vec3 sum = vec3(0.0);
     point.position = p;
-    point.seed = 0u;
     for (int i = look.y; i < counts.x; ++i) {
         Light l = lights[i];
         int kind = int(l.radiance.w);

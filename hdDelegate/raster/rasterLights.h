@@ -60,6 +60,10 @@ public:
 
     uint32_t seed() const { return _seed; }
     /// Whether shadows are asked for in directions that are no light's samples.
+    /// Whether every material takes samples of domes: first looks are no part of the other methods.
+    bool samplesDomes() const {
+        return _domeMethods.size() == _domeMethods.count("sampled") || !_hasDome;
+    }
     bool needsSky() const { return _shadows && (_hasDome || _hasWideSun); }
     const RasterLightTables& tables() const { return _tables; }
     static constexpr int mostTables = ///< values of a pass in tables

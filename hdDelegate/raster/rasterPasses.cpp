@@ -421,7 +421,8 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     const uint32_t pass = sample.pass;
     const int longer = std::max(_width, _height);
     // A volume is lit by all of a pass's lights, each of which takes long.
-    const bool look = pass < uint32_t(RasterLook::passes) && scene.volumes().empty();
+    const bool look = pass < uint32_t(RasterLook::passes) && scene.volumes().empty() &&
+                      lights.samplesDomes();
     const RasterLights::Sampled sampled =
         look ? lights.sampleLook(pass, scene.emitters(), _bounds, shadowMapSize, longer,
                                  skyCells(scene))

@@ -1,4 +1,4 @@
-"""The recorded pairs of the README's table, read and not rendered: a lint of committed numbers."""
+"""The recorded pairs of docs/measurements/rasterPairs.md, read and not rendered: a lint of committed numbers."""
 import os
 import sys
 

@@ -1,0 +1,214 @@
+"""Writes the pages of docs/generated from the code, or with --check tells which of them are stale.
+
+    ./patina python testenv/generateDocs.py [--check] [PAGE ...]
+
+Pages: nodes, flags, methods, aovs, byDesign. testenv/lint/test_generatedDocs.py fails where one is stale.
+"""
+import argparse
+import os
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+
+if __name__ == "__main__":
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    import checkout
+
+    checkout.enter()
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+FOLDER = os.path.join(ROOT, "docs", "generated")
+NODES = "materialNetwork/nodes"
+MODELS = "materialNetwork/models"
+STRING = r'"((?:[^"\\]|\\.)*)"'
+
+
+def read(path):
+    """:param path: below the root of the checkout"""
+    with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+        return file.read()
+
+
+def names_in(path, ending):
+    return sorted(name for name in os.listdir(os.path.join(ROOT, path)) if name.endswith(ending))
+
+
+def cell(text):
+    """:returns: text that breaks no row of a table"""
+    return " ".join(text.split()).replace("|", "\\|")
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return lines + ["| " + " | ".join(cell(column) for column in row) + " |" for row in rows]
+
+
+def entries(text):
+    """:returns: texts of the entries of an array's initializer, without the commas between them"""
+    found, depth, start, quoted = [], 0, 0, False
+    for i, c in enumerate(text):
+        if c == '"' and text[i - 1] != "\\":
+            quoted = not quoted
+        elif not quoted and c in "{(":
+            depth += 1
+        elif not quoted and c in "})":
+            depth -= 1
+        elif not quoted and c == "," and depth == 0:
+            found.append(text[start:i].strip())
+            start = i + 1
+    return [e for e in [*found, text[start:].strip()] if e]
+
+
+def categories(source):
+    """:param source: of a family of nodes
+    :returns: the rows' categories in their order, each once"""
+    body = source.split("const NodeRow rows[] = {", 1)[1].split("\n};", 1)[0]
+    found = []
+    for entry in entries(re.sub(r"//[^\n]*", "", body)):
+        strings = re.findall(STRING, entry)
+        # A macro of the matrices has the category first; a row has its id before it.
+        is_macro = re.match(r"PATINA_(MATRIX|MATRICES|SUMS|CHOICE)", entry)
+        if not strings or (not is_macro and len(strings) < 2):
+            raise ValueError(f"a row of {NODES} that is not understood: {entry[:80]}")
+        found.append(strings[0 if is_macro else 1])
+    return list(dict.fromkeys(found))
+
+
+def head_comment(source):
+    """:returns: the first sentence of the comment that a file begins with"""
+    lines = []
+    for line in source.splitlines():
+        if not line.startswith("//"):
+            break
+        lines.append(line[2:].strip())
+    return re.split(r"[.:](?:\s|$)", " ".join(lines))[0]
+
+
+def nodes():
+    rows = [(head_comment(source), ", ".join(f"`{c}`" for c in categories(source)))
+            for source in (read(f"{NODES}/{name}") for name in names_in(NODES, "Nodes.cpp"))]
+    models = []
+    for name in names_in(MODELS, ".mtlx"):
+        defined = ElementTree.fromstring(read(f"{MODELS}/{name}")).iter("nodedef")
+        models.append((f"`{MODELS}/{name}`", ", ".join(dict.fromkeys(f"`{d.get('node')}`" for d in defined))))
+    return ["# Nodes", "", f"Categories that the table of node definitions (`{NODES}`) has, by file, and those that are graphs in data files.",
+            "Most have one definition for each type. A closure that is known but not modelled is warned of.", "",
+            *table(("family", "categories"), rows), "", *table(("data file", "categories"), models)]
+
+
+def flags():
+    from patina.cli import recordFlags
+
+    parser = argparse.ArgumentParser(prog="patina record", add_help=False)
+    recordFlags.add_arguments(parser)
+    lines = ["# Flags of `patina record`", "", "`patina record STAGE IMAGE [flags]`"]
+    for group in parser._action_groups:
+        actions = [action for action in group._group_actions if action.option_strings]
+        if not actions:
+            continue
+        rows = []
+        for action in actions:
+            value = "" if action.nargs == 0 else " " + (action.metavar or "{" + ",".join(map(str, action.choices)) + "}")
+            rows.append((f"`{', '.join(action.option_strings)}{value}`", action.help % {"default": action.default}))
+        lines += ["", f"## {group.title[0].upper()}{group.title[1:]}", "", *table(("flag", "meaning"), rows)]
+    return lines
+
+
+def methods():
+    from patina.cli import compiled
+
+    module = compiled.load()
+    lines = ["# Methods at choice points", "",
+             "`--method POINT=NAME` forces one; the first of each table is the default. Errors are the largest over the measured",
+             "subjects of mean and largest error; cost is time over the default's. *noise* is the standard deviation of one sample's",
+             "weight, *effort* time x variance over the default's. `patina chart --lobes` measures them."]
+    for point, known in module.choice_points():
+        rows = []
+        for name, description in known:
+            figures = module.method_figures(point, name)
+            measured = ("",) * 3 if figures is None else (
+                f"{figures['mean']:.2g}, {figures['largest']:.2g}", figures["errorOf"], f"{figures['cost']:.2g}")
+            rows.append((f"`{name}`", description, *measured))
+        if not any(row[2] for row in rows):
+            rows, head = [row[:2] for row in rows], ("method", "does")
+        else:
+            head = ("method", "does", "error: mean, largest", "of", "cost")
+        lines += ["", f"## {point}", "", *table(head, rows)]
+    return lines
+
+
+AOV_WORDS = {  # what the comment of standardAov() says of each; a new row of the table needs one
+    "color": "linear radiance, multiplied by alpha", "alpha": "coverage", "sampleCount": "samples that were taken",
+    "variance": "of the luminance of the pixel's mean", "albedo": "directional albedo of what is seen",
+    "denoisingAlbedo": "albedo of the first surface that is no mirror, at most 1 where only mirrors, lamps or sky are seen",
+    "denoisingNormal": "shading normal of that surface, world space",
+    "depth": "distance along the camera's axis, scene units", "cameraDepth": "distance from the camera's centre, scene units",
+    "deviceDepth": "OpenGL's window depth, 0 to 1", "normal": "shading normal, world space",
+    "Neye": "shading normal, camera space", "position": "world space", "primId": "number of the prim",
+    "instanceId": "number of the instance", "elementId": "number of the face",
+}
+
+
+def aovs():
+    from patina.cli import recordFlags
+
+    source = read("hdDelegate/film/standardAovs.cpp")
+    found = re.findall(r'\{"(\w+)", (\d), AovKind::(\w+), ([^,]+), (?:true|false)\}', source)
+    assert len(found) == source.count("AovKind::") - 1, "a row of standardAovs.cpp that is not understood"
+    kinds = {"Mean": "mean of the samples", "First": "of the sample nearest the pixel's centre"}
+    counted = {"sampleCount": "count", "variance": "estimate"}
+    rows = [(f"`{name}`", components, AOV_WORDS[name], counted.get(name, kinds[kind]), re.sub(r"intBits\((.*)\)", r"\1", clear).rstrip("f"),
+             "yes" if name in recordFlags.ALL_AOVS else "")
+            for name, components, kind, clear in found]
+    rows.append(("`primvars:NAME`", "1 to 3", "a primvar; texture coordinates have two components", kinds["First"], "0.0",
+                 "`primvars:st`"))
+    return ["# AOVs", "", "The table is `hdDelegate/film/standardAovs.cpp`. `color` and `alpha` are always written.", "",
+            *table(("name", "components", "holds", "per pixel", "where nothing is", "in `--aov all`"), rows)]
+
+
+def by_design():
+    sys.path.append(os.path.join(ROOT, "testenv", "raster"))
+    import byDesign
+
+    rows = [(f"`{name}`", f.instead, ", ".join(f"`{s}`" for s in f.scenes), f"`testenv/raster/{f.test}`")
+            for name, f in byDesign.FEATURES.items()]
+    return ["# What the rasterizer draws otherwise, by design", "",
+            "The list is `testenv/raster/byDesign.py`. Test scenes that have a feature are not held together as a whole.", "",
+            *table(("feature", "the rasterizer instead", "test scenes", "test of the difference"), rows)]
+
+
+PAGES = {"nodes": nodes, "flags": flags, "methods": methods, "aovs": aovs, "byDesign": by_design}
+NOTE = "<!-- Made by `./patina python testenv/generateDocs.py`; edits are lost. -->"
+
+
+def text_of(page):
+    """:returns: what docs/generated/PAGE.md has to hold"""
+    lines = PAGES[page]()
+    return "\n".join([lines[0], NOTE, *lines[1:]]) + "\n"
+
+
+def is_stale(page):
+    path = os.path.join(FOLDER, page + ".md")
+    return not os.path.isfile(path) or read(path) != text_of(page)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("pages", metavar="PAGE", nargs="*", help=f"of {', '.join(PAGES)} (default: all)")
+    parser.add_argument("--check", action="store_true", help="write nothing, fail where a page is stale")
+    a = parser.parse_args()
+    unknown = [page for page in a.pages if page not in PAGES]
+    if unknown:
+        parser.error(f"there is no page {unknown[0]}")
+    stale = [page for page in a.pages or PAGES if is_stale(page)]
+    if a.check:
+        sys.exit(f"stale: {', '.join(stale)}" if stale else 0)
+    os.makedirs(FOLDER, exist_ok=True)
+    for page in stale:
+        with open(os.path.join(FOLDER, page + ".md"), "w", encoding="utf-8") as file:
+            file.write(text_of(page))
+        print(f"wrote docs/generated/{page}.md")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,98 @@
+"""Rooms include only those that ARCHITECTURE.md says they may: its table and its diagram are read, and every C++ include."""
+import os
+import re
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+FOLDERS = ("shaders", "materialNetwork", "hdDelegate", "plugin", "testenv")
+USD = ("hdDelegate/hydra/", "plugin/hydra/", "testenv/hydra/")  # the only C++ that includes pxr/
+
+
+def section():
+    """:returns: the text of ARCHITECTURE.md about rooms"""
+    with open(os.path.join(ROOT, "ARCHITECTURE.md"), encoding="utf-8") as file:
+        return file.read().split("## Rooms", 1)[1].split("\n## ", 1)[0]
+
+
+def rooms(text):
+    """:returns: room -> rooms that it includes, from rows of a table: | `room` | what it holds | `room`, `room` |"""
+    rows = re.findall(r"^\| `([\w/.]+)` \|[^|\n]*\|([^|\n]*)\|$", text, re.MULTILINE)
+    return {name: set(re.findall(r"`([\w/.]+)`", includes)) for name, includes in rows}
+
+
+def diagram(text):
+    """:returns: room -> rooms that its arrows point to, from a Mermaid diagram: id["room"], id --> id & id"""
+    body = text.split("```mermaid", 1)[1].split("```", 1)[0]
+    names = dict(re.findall(r'(\w+)\["([\w/.]+)"\]', body))
+    arrows = {name: set() for name in names.values()}
+    for source, targets in re.findall(r"^\s*(\w+) --> ([\w &]+)$", body, re.MULTILINE):
+        arrows[names[source]] |= {names[target.strip()] for target in targets.split("&")}
+    return arrows
+
+
+def includes():
+    """:returns: (file, included) of all C++ but that of tests/ folders, which may look into other rooms; <pxr/...> too"""
+    found = []
+    for top in FOLDERS:
+        for folder, folders, names in os.walk(os.path.join(ROOT, top)):
+            folders[:] = [name for name in folders if name not in ("tests", "node_modules")]
+            for name in names:
+                if not name.endswith((".h", ".cpp")):
+                    continue
+                path = os.path.join(folder, name)
+                with open(path, encoding="utf-8") as file:
+                    for target in re.findall(r'^\s*#\s*include\s+["<]([^">]+)[">]', file.read(), re.MULTILINE):
+                        found.append((os.path.relpath(path, ROOT).replace(os.sep, "/"), target))
+    return found
+
+
+def room_of(path, known):
+    """:returns: the room that a file is in, None for a file of another project or a path relative to its own folder"""
+    held = [room for room in known if path == room or path.startswith(room + "/")]
+    return max(held, key=len) if held else None
+
+
+def reachable(arrows, start):
+    found, left = set(), [start]
+    while left:
+        for room in arrows[left.pop()] - found:
+            found.add(room)
+            left.append(room)
+    return found
+
+
+def test_every_include_is_an_arrow_of_the_table_and_every_arrow_is_there():
+    known = rooms(section())
+    assert len(known) >= 12
+    met = {name: set() for name in known}
+    for path, target in includes():
+        source, to = room_of(path, known), room_of(target, known)
+        if path.startswith("testenv/"):  # hosts of the plugin, which know it through OpenUSD alone
+            assert to is None, f"{path} includes {target}"
+            continue
+        assert source, f"{path} is in no room of ARCHITECTURE.md"
+        if to is None or to == source:
+            continue
+        assert to in known[source], f"{path} includes {target}: ARCHITECTURE.md has no arrow from {source} to {to}"
+        met[source].add(to)
+    for name, allowed in known.items():
+        assert allowed <= met[name], f"ARCHITECTURE.md has arrows that no include needs: {name} to {allowed - met[name]}"
+
+
+def test_arrows_run_one_way():
+    known = rooms(section())
+    for name in known:
+        assert name not in reachable(known, name), name
+
+
+def test_the_diagram_shows_the_table():
+    known, drawn = rooms(section()), diagram(section())
+    assert set(drawn) == set(known)
+    for name in known:
+        assert drawn[name] <= known[name], f"the diagram has arrows that the table has not: {name} to {drawn[name] - known[name]}"
+        hidden = known[name] - reachable(drawn, name)
+        assert not hidden, f"the diagram has no way from {name} to {hidden}"
+
+
+def test_usd_stays_in_the_rooms_of_hosts():
+    for path, target in includes():
+        assert not target.startswith("pxr/") or path.startswith(USD), f"{path} includes {target}"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures the project's own charts again, on this machine, and writes what README.md and docs/ show of them.
+"""Measures the project's own charts again, on this machine, and writes those that documents show.
 
     charts.py [--out FOLDER] [--only KIND]... [--quick]
 
@@ -55,7 +55,7 @@ KINDS = {
                     ["predictions.csv"]),
     "stability": ([["--stability"]], ["--stability", "--points", "6"], ["stability.svg"]),
 }
-LARGEST = 1 << 20  # bytes: README.md shows the folder
+LARGEST = 1 << 20  # bytes: documents show the folder
 
 
 def run(kind, folder, quick):
@@ -108,7 +108,7 @@ def main():
     size = sum(os.path.getsize(path) for path in glob.glob(os.path.join(a.out, "*")))
     print(f"{size / 1024:.0f} KiB")
     if size > LARGEST:
-        sys.exit(f"{a.out} has more than 1 MiB: README.md shows it")
+        sys.exit(f"{a.out} has more than 1 MiB: documents show it")
 
 
 if __name__ == "__main__":

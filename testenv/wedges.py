@@ -1,4 +1,4 @@
-"""Renders the wedge pictures of the README: rows of balls along which one parameter goes.
+"""Renders the wedge pictures of docs/gallery.md: rows of balls along which one parameter goes.
 
     ./patina python testenv/wedges.py [roughness|anisotropy|film|sheen|classic ...] [--out docs/pictures] [--samples 256]
 """

@@ -1,5 +1,7 @@
 #include "hdDelegate/embree/aovWriter.h"
 
+#include "hdDelegate/film/denoiser.h"
+
 namespace patina {
 
 namespace {
@@ -15,6 +17,7 @@ void writeAovs(const std::vector<AovSpec>& aovs, const AovTarget& target, const 
     const vec3 inCamera = vec3(camera.worldToCamera() * vec4(s.position, 1.0f));
     for (size_t i = 0; i < aovs.size(); ++i) {
         const std::string& name = aovs[i].name;
+        if (name == denoisingAlbedoAov || name == denoisingNormalAov) continue; // of whole paths
         float out[4] = {0, 0, 0, 0};
         const auto put3 = [&](const vec3& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; };
         if (name == "depth")

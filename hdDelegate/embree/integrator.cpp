@@ -5,6 +5,7 @@
 #include "hdDelegate/embree/media/freeFlight.h"
 #include "hdDelegate/embree/media/mediaAround.h"
 #include "hdDelegate/embree/path.h"
+#include "hdDelegate/film/denoiser.h"
 #include "hdDelegate/film/pixelFilter.h"
 #include "hdDelegate/embree/sceneLights.h"
 
@@ -20,6 +21,10 @@ Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
       _filter(settings.filterRadius), _cullBack(settings.cullStyle.rfind("back", 0) == 0),
       _cullFront(settings.cullStyle.rfind("front", 0) == 0),
       _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos) {
+    for (size_t i = 0; i < aovs.size(); ++i) {
+        if (aovs[i].name == denoisingAlbedoAov) _denoisingAlbedo = int(i);
+        if (aovs[i].name == denoisingNormalAov) _denoisingNormal = int(i);
+    }
     const vec3 eye = vec3(glm::inverse(camera.worldToCamera())[3]);
     if (std::isfinite(eye.x + eye.y + eye.z)) _cameraMedia = mediaAround(scene, eye, 0.5f);
 }
@@ -27,10 +32,10 @@ Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
 void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters& counters) const {
     Sampler sampler(uint32_t(x), uint32_t(y), _settings.seed, index);
     const vec4 uFilm = sampler.next4();
-    const vec4 uTime = sampler.next4();
+    const float uTime = sampler.next2().x;
     const vec2 offset = _filter.sample(vec2(uFilm));
     const vec2 pixel = vec2(x, y) + 0.5f + offset;
-    const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime.x);
+    const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime);
     const AovTarget target{film, x, y, glm::length(offset)};
     if (_settings.integrator == "ambientOcclusion") {
         const AmbientOcclusion occlusion{_scene, _settings.ambientOcclusionSamples};
@@ -51,7 +56,20 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     path.media = _cameraMedia;
     trace(path, target, counters);
     ++counters.paths;
+    addFeatures(path, target);
     film.addColor(x, y, path.radiance * _camera.camera().exposureScale, path.alpha);
+}
+
+/// What guides the denoiser, of every sample, so that means fade at outlines as the colour does.
+void Integrator::addFeatures(const Path& path, const AovTarget& target) const {
+    if (_denoisingAlbedo < 0 && _denoisingNormal < 0) return;
+    // What only mirrors, lamps and skies show is its own texture.
+    const vec3 albedo =
+        path.featured ? path.featureAlbedo : glm::min(path.radiance, vec3(1.0f));
+    if (_denoisingAlbedo >= 0)
+        target.film.addAov(_denoisingAlbedo, target.x, target.y, &albedo.x, 0.0f);
+    if (_denoisingNormal >= 0)
+        target.film.addAov(_denoisingNormal, target.x, target.y, &path.featureNormal.x, 0.0f);
 }
 
 /// Light that the ray meets before `distance`: area lights, and at infinity domes and suns.
@@ -90,7 +108,7 @@ void Integrator::addLight(Path& path, int light, const vec3& radiance, float lig
     const LightInfo& info = _lights.info(light);
     if (!linked(info.lightCategory, path.vertexSurface, path.vertexInstanceCategories)) return;
     const float weight =
-        path.specular ? 1.0f : powerHeuristic(path.pdf, path.lightSamples * lightPdf);
+        path.specular ? 1.0f : misWeight(path.pdf, path.lightSamples * lightPdf, info.dome);
     const vec3 share = path.diffuseShare * info.diffuse + path.specularShare * info.specular;
     addRadiance(path, share * radiance * weight);
 }
@@ -163,10 +181,11 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
         radiance = _lights.triangleRadiance(light, s.position, path.time);
         if (radiance == vec3(0.0f)) return vec3(0.0f);
     }
-    const float weight = light.delta ? 1.0f : powerHeuristic(path.lightSamples * light.pdf, f.pdf);
+    const float lightPdf = path.lightSamples * light.pdf;
+    const float weight = light.delta ? 1.0f : misWeight(lightPdf, f.pdf, info.dome);
     const float away = glm::dot(light.direction, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
     const vec3 origin = point.departure(light.direction);
-    value *= radiance * (weight / (path.lightSamples * light.pdf));
+    value *= radiance * (weight / lightPdf);
     const MaterialProgram& program = *point.slot->program;
     const bool crosses = program.hasInterior() &&
                          (glm::dot(s.viewDirection, s.geometricNormal) < 0.0f) != (away < 0.0f);
@@ -209,6 +228,7 @@ void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit, c
 
 void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& counters) const {
     bool aovsWritten = _aovs.empty();
+    const bool guided = _denoisingAlbedo >= 0 || _denoisingNormal >= 0;
     int passed = 0;
     float travelled = 0.0f; // since the last vertex, over surfaces that were passed through
     const bool hasFiniteLights = _lights.set().hasIntersectable();
@@ -226,6 +246,8 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
             if (flight == Flight::Ends) break;
             if (flight == Flight::Scatters) {
                 aovsWritten = true; // what lies behind is no longer seen straight
+                if (!path.featured) path.featureAlbedo = glm::min(path.throughput, vec3(1.0f));
+                path.featured = true;
                 travelled = 0.0f;
                 continue;
             }
@@ -271,16 +293,21 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
             writeAovs(_aovs, target, _camera, point, bsdf);
             aovsWritten = true;
         }
+        if (!path.featured && guided && bsdf.hasNonDelta()) {
+            path.featured = true;
+            path.featureAlbedo = path.throughput * bsdf.albedo();
+            path.featureNormal = s.normal;
+        }
         if (path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface)) break;
 
         // What the camera sees counts most, and its vertex is paid for.
         const int lightSamples = path.fromCamera() ? std::max(_settings.lightSamples, 1) : 1;
         path.lightSamples = float(lightSamples);
-        for (int i = 0; i < lightSamples; ++i) {
-            const vec4 uLight = path.sampler.next4();
-            if (bsdf.hasNonDelta() && !_lights.set().empty())
-                addRadiance(path, directLight(path, point, bsdf, hit, vec3(uLight), counters));
-        }
+        const Sampler::Set uLight = path.sampler.nextSet(uint32_t(lightSamples));
+        if (bsdf.hasNonDelta() && !_lights.set().empty())
+            for (int i = 0; i < lightSamples; ++i)
+                addRadiance(path, directLight(path, point, bsdf, hit,
+                                              vec3(uLight.point4(uint32_t(i))), counters));
 
         const vec4 uBsdf = path.sampler.next4();
         const BsdfSample next = bsdf.sample(vec3(uBsdf), uBsdf.w);

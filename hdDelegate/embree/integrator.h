@@ -26,8 +26,17 @@ inline float powerHeuristic(float a, float b) {
     return aa > 0.0f ? aa / (aa + bb) : 0.0f;
 }
 
+/// Weight of a sample of density a beside another strategy of density b. The power heuristic is for
+/// lights that one strategy finds far better than the other. Both find a sky about as well, and then
+/// the balance heuristic has less variance.
+inline float misWeight(float a, float b, bool dome) {
+    if (!dome) return powerHeuristic(a, b);
+    if (!std::isfinite(a)) return 1.0f;
+    return a > 0.0f ? a / (a + b) : 0.0f;
+}
+
 /// A unidirectional path tracer with next event estimation; light and BSDF samples are combined by
-/// multiple importance sampling with the power heuristic (Veach 1997). Everything it refers to is
+/// multiple importance sampling (Veach 1997), see misWeight(). Everything it refers to is
 /// immutable while it traces, so many threads share one.
 class Integrator {
 public:
@@ -38,6 +47,7 @@ public:
     void sample(Film& film, int x, int y, uint32_t index, TraceCounters& counters) const;
 
 private:
+    void addFeatures(const Path& path, const AovTarget& target) const;
     void trace(Path& path, const AovTarget& target, TraceCounters& counters) const;
     float addLightsAlong(Path& path, float distance) const;
     void addLight(Path& path, int light, const vec3& radiance, float lightPdf) const;
@@ -78,6 +88,7 @@ private:
     const CameraRays& _camera;
     RenderSettings _settings;
     std::vector<AovSpec> _aovs;
+    int _denoisingAlbedo = -1, _denoisingNormal = -1; ///< places in the film, or -1
     PixelFilter _filter;
     MediumStack _cameraMedia; ///< that the camera stands in
     bool _cullBack, _cullFront, _cullDoubleSided;

@@ -24,7 +24,7 @@ vec3 Integrator::mediumLight(const Path& path, const vec3& position, const Phase
     vec3 radiance = light.radiance;
     if (info.triangles) radiance = _lights.triangleRadiance(light, position, path.time);
     if (radiance == vec3(0.0f)) return vec3(0.0f);
-    const float weight = light.delta ? 1.0f : powerHeuristic(light.pdf, phasePdf);
+    const float weight = light.delta ? 1.0f : misWeight(light.pdf, phasePdf, info.dome);
     value *= radiance * (weight / light.pdf);
     return value *
            visibility(path, path.media, position, light.direction, light.distance, info, counters);

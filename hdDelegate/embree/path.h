@@ -32,6 +32,10 @@ struct Path {
 
     MediumStack media;
 
+    // for the denoiser: the first surface that is no mirror
+    bool featured = false;
+    vec3 featureAlbedo{0.0f}, featureNormal{0.0f};
+
     /// The camera's own ray, not yet scattered.
     bool fromCamera() const { return depth == 0 && scatterings == 0; }
     bool indirect() const { return depth + scatterings > 1; }

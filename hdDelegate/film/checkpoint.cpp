@@ -218,6 +218,7 @@ void Film::loadCheckpoint(const std::string& file) {
     _aovs = std::move(specs);
     _pixels = std::move(pixels);
     _planes = std::move(planes);
+    _denoised.clear();
     _dropped = dropped;
     resumeToken = std::move(token);
 }

@@ -31,6 +31,8 @@ bool sameSpec(const AovSpec& a, const AovSpec& b) {
            std::memcmp(&a.clearValue, &b.clearValue, sizeof(float)) == 0;
 }
 
+constexpr char noisyColor[] = "color.noisy";
+
 bool alwaysThere(const std::string& name) {
     return name == "color" || name == "alpha" || name == "sampleCount" || name == "variance";
 }
@@ -64,6 +66,7 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
     }
     bool same = width == _width && height == _height &&
                 std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec);
+    _denoised.clear();
     if (keep && same) return;
 
     size_t pixels = size_t(width) * size_t(height);
@@ -84,6 +87,11 @@ int Film::aovIndex(const std::string& name) const {
 }
 
 bool Film::findSpec(const std::string& name, AovSpec& spec) const {
+    if (name == noisyColor && denoised()) {
+        spec = standardAov("color");
+        spec.name = name;
+        return true;
+    }
     int aov = aovIndex(name);
     if (aov < 0 && !alwaysThere(name)) return false;
     spec = aov >= 0 ? _aovs[size_t(aov)] : standardAov(name);
@@ -144,12 +152,19 @@ void Film::setMean(int x, int y, glm::vec3 color, float alpha) {
     p.meanBefore += float((after - before) / n);
 }
 
+void Film::setDenoised(std::vector<float> color) {
+    if (color.size() != 3 * _pixels.size())
+        throw std::invalid_argument("the denoised colour has not as many pixels as the film");
+    _denoised = std::move(color);
+}
+
 void Film::copyFrom(const Film& other) {
     _width = other._width;
     _height = other._height;
     _aovs = other._aovs;
     _pixels = other._pixels;
     _planes = other._planes;
+    _denoised = other._denoised;
     _dropped.store(other._dropped.load(std::memory_order_relaxed), std::memory_order_relaxed);
     resumeToken = other.resumeToken;
 }
@@ -201,7 +216,8 @@ std::vector<float> Film::resolve(const std::string& name) const {
                 value(x, y, &out[index(x, y) * n]);
         });
     };
-    if (name == "color") {
+    if (name == "color" && denoised()) return _denoised;
+    if (name == "color" || name == noisyColor) {
         eachPixel([this](int x, int y, float* to) {
             glm::vec3 c = color(x, y);
             std::copy(&c.x, &c.x + 3, to);

@@ -19,7 +19,7 @@ enum class AovKind {
 /// One channel group of the film.
 struct AovSpec {
     std::string name;   ///< color, alpha, depth, cameraDepth, deviceDepth, normal, Neye, position,
-                        ///< albedo, primvars:NAME, primId, instanceId, elementId, sampleCount,
+                        ///< albedo, denoisingAlbedo, denoisingNormal, primvars:NAME, primId, instanceId, elementId, sampleCount,
                         ///< variance
     int components = 3; ///< floats per pixel
     AovKind kind = AovKind::Mean;
@@ -63,6 +63,13 @@ public:
 
     /// Replaces the mean of a pixel that has samples; their number and the variance stay.
     void setMean(int x, int y, glm::vec3 color, float alpha);
+    /// Shows another colour than the mean of the samples, which then is "color.noisy", until reset()
+    /// is called (as each render does when it starts).
+    /// @param color three floats per pixel, top row first
+    /// @throws std::invalid_argument for another number of values
+    void setDenoised(std::vector<float> color);
+    bool denoised() const { return !_denoised.empty(); }
+
     /// Becomes equal to another film, with all of its accumulators.
     void copyFrom(const Film& other);
 
@@ -78,7 +85,8 @@ public:
     float deviationOfMean(int x, int y) const { return deviationOfMean(pixel(x, y)); }
     float luminance(int x, int y) const; ///< Rec.709
 
-    /// Resolved pixels of any AOV (also color, alpha, sampleCount, variance): components floats per
+    /// Resolved pixels of any AOV (also color, alpha, sampleCount, variance, and color.noisy where
+    /// the colour is denoised): components floats per
     /// pixel, top row first. @returns empty for an unknown name.
     std::vector<float> resolve(const std::string& name) const;
     /// The spec of anything that resolve() knows. @returns false for an unknown name.
@@ -124,6 +132,7 @@ private:
     std::vector<AovSpec> _aovs;
     std::vector<Pixel> _pixels;
     std::vector<Plane> _planes; ///< beside _aovs; empty for those that always exist
+    std::vector<float> _denoised; ///< what shows instead of the colour's means, or empty
     std::atomic<uint64_t> _dropped{0};
 };
 

@@ -13,7 +13,8 @@ namespace {
 
 ChannelStore storeOf(const AovSpec& spec, const ImageOptions& options) {
     if (spec.isInteger) return options.integerIds ? ChannelStore::Int : ChannelStore::Float;
-    bool picture = spec.name == "color" || spec.name == "alpha" || spec.name == "albedo";
+    bool picture = spec.name == "color" || spec.name == "alpha" || spec.name == "albedo" ||
+                   spec.name == "color.noisy";
     return picture && options.half ? ChannelStore::Half : ChannelStore::Float;
 }
 
@@ -44,10 +45,12 @@ std::vector<std::string> channelNames(const AovSpec& spec) {
         return {spec.name + ".Z"};
     bool primvar = spec.name.compare(0, 9, "primvars:") == 0;
     if (spec.components == 1 && !primvar) return {spec.name};
+    const bool isColor =
+        spec.name == "albedo" || spec.name == "denoisingAlbedo" || spec.name == "color.noisy";
     std::vector<std::string> names;
     for (int i = 0; i < spec.components; ++i) {
         std::string component = std::to_string(i);
-        if (spec.components <= 4) component = spec.name == "albedo" ? color[i] : space[i];
+        if (spec.components <= 4) component = isColor ? color[i] : space[i];
         names.push_back(spec.name + "." + component);
     }
     return names;

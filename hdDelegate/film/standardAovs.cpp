@@ -32,6 +32,8 @@ AovSpec standardAov(const std::string& name) {
         {"sampleCount", 1, AovKind::Mean, 0.0f, false},
         {"variance", 1, AovKind::Mean, 0.0f, false},
         {"albedo", 3, AovKind::Mean, 0.0f, false},
+        {"denoisingAlbedo", 3, AovKind::Mean, 0.0f, false},
+        {"denoisingNormal", 3, AovKind::Mean, 0.0f, false},
         {"depth", 1, AovKind::First, 1e10f, false},
         {"cameraDepth", 1, AovKind::First, 1e10f, false},
         {"deviceDepth", 1, AovKind::First, 1.0f, false},
@@ -49,7 +51,7 @@ AovSpec standardAov(const std::string& name) {
         return {name, primvarComponents(name.substr(prefix.size())), AovKind::First, 0.0f, false};
     throw std::invalid_argument("unknown AOV '" + name +
                                 "'; known are color, alpha, depth, cameraDepth, deviceDepth, "
-                                "normal, Neye, position, albedo, primId, "
+                                "normal, Neye, position, albedo, denoisingAlbedo, denoisingNormal, primId, "
                                 "instanceId, elementId, sampleCount, variance and primvars:NAME");
 }
 

@@ -1,8 +1,11 @@
 #include "hdDelegate/hydra/session.h"
 
 #include "hdDelegate/backends/backends.h"
+#include "hdDelegate/film/denoiser.h"
 
+#include <algorithm>
 #include <chrono>
+#include <stdexcept>
 
 namespace patina {
 
@@ -64,8 +67,27 @@ void HdPatinaSession::start(const std::string& camera, const HdPatinaSettings& s
     current->setListener([this, serial](const Film& film, const RenderProgress& progress) {
         present(film, progress, serial);
     });
-    current->start(_scene, camera, settings, _film);
+    RenderSettings asked = settings;
+    if (settings.denoise)
+        for (const char* guide : {denoisingAlbedoAov, denoisingNormalAov})
+            if (std::find(asked.aovs.begin(), asked.aovs.end(), guide) == asked.aovs.end())
+                asked.aovs.push_back(guide);
+    current->start(_scene, camera, asked, _film);
     if (_paused) current->pause();
+}
+
+/// @returns false, and says so once, where there is no denoiser
+bool HdPatinaSession::denoiseCopy(const Film& film, Film& clean) {
+    if (film.width() < 1 || film.height() < 1) return false;
+    try {
+        clean.copyFrom(film);
+        denoise(clean, _settings.threads);
+        return true;
+    } catch (const std::runtime_error& error) {
+        _scene->diagnostics().warn("", "denoise",
+                                   std::string(error.what()) + "; the image stays as it is");
+        return false;
+    }
 }
 
 void HdPatinaSession::present(const Film& film, const RenderProgress& progress, uint64_t serial) {
@@ -73,10 +95,15 @@ void HdPatinaSession::present(const Film& film, const RenderProgress& progress, 
     frame->last = progress.converged || progress.failed;
     frame->error = progress.error;
     if (!progress.failed) {
+        const int count = progress.samplesDone;
+        if (_settings.denoise && !frame->last && (count & (count - 1)) != 0)
+            return; // a noisy image between clean ones would flicker
+        Film clean;
+        const bool denoised = _settings.denoise && denoiseCopy(film, clean);
         frame->width = film.width();
         frame->height = film.height();
         for (const std::string& name : _aovs)
-            frame->aovs[name] = film.resolve(name);
+            frame->aovs[name] = (denoised ? clean : film).resolve(name);
     }
     {
         std::unique_lock<std::mutex> lock(_mutex);

@@ -52,6 +52,7 @@ public:
 private:
     std::shared_ptr<Renderer> renderer() const;
     void stopRenderer();
+    bool denoiseCopy(const Film& film, Film& clean);
     void present(const Film& film, const RenderProgress& progress, uint64_t serial);
 
     std::shared_ptr<Scene> _scene;

@@ -11,6 +11,7 @@ struct HdPatinaSettings : RenderSettings {
     /// embree, raster, interactive (the rasterizer's image, refined by path tracing), or auto:
     /// interactive in interactive hosts where there is a GPU, else embree.
     std::string backend = "auto";
+    bool denoise = false; ///< show what Open Image Denoise makes of the colour
 };
 
 /// The back end that makeBackend() shall make.

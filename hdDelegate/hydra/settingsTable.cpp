@@ -94,6 +94,14 @@ Row seedRow() {
             }};
 }
 
+Row denoiseRow() {
+    return {TfToken("denoise"), "Denoise (Open Image Denoise, where it is found)",
+            VtValue(HdPatinaSettings().denoise), [](HdPatinaSettings& s, const VtValue& v) {
+                s.denoise = v.UncheckedGet<bool>();
+                return true;
+            }};
+}
+
 /// Negative, as it is at first: all samples by the default methods.
 Row toleranceRow() {
     return {TfToken("tolerance"), "Tolerance (mean relative error; 0: truth, -1: all samples)",
@@ -133,6 +141,7 @@ const std::vector<Row>& rows() {
         integer("lightSamples", "Light samples at what the camera sees", &S::lightSamples, 1, 1024),
         integer("rouletteDepth", "Russian roulette from depth", &S::rouletteDepth, 0, 4096),
         real("indirectClamp", "Clamp of indirect samples (0: none)", &S::indirectClamp),
+        denoiseRow(),
         real("filterRadius", "Pixel filter radius (pixels)", &S::filterRadius),
         flag("enableSceneLights", "Scene lights", &S::enableSceneLights),
         flag("enableSceneMaterials", "Scene materials", &S::enableSceneMaterials),

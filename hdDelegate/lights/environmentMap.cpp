@@ -189,30 +189,31 @@ void EnvironmentMap::build() {
         }
     }
     _mean = vec3(sum / (2.0 * width));
-    _distribution = Distribution2d(width, height, weights);
+    _distribution = SkyDistribution(width, height, weights);
 }
 
 float EnvironmentMap::bandHeight(int row) const {
     return _cosines[row] - _cosines[row + 1];
 }
 
-vec3 EnvironmentMap::sample(const vec2& u, float& pdf) const {
+vec3 EnvironmentMap::sample(const vec2& u, float& pdf, const vec3& normal, bool twoSided) const {
     glm::ivec2 cell;
     vec2 within;
-    const float probability = _distribution.sample(u, cell, within);
+    const float probability = _distribution.sample(u, normal, twoSided, cell, within);
     const float width = float(_distribution.width());
     pdf = probability * width / (2.0f * pi * bandHeight(cell.y));
     const float cosine = _cosines[cell.y] - within.y * bandHeight(cell.y);
     return direction((float(cell.x) + within.x) / width, cosine);
 }
 
-float EnvironmentMap::pdf(const vec3& d) const {
+float EnvironmentMap::pdf(const vec3& d, const vec3& normal, bool twoSided) const {
     const int width = _distribution.width(), height = _distribution.height();
     glm::ivec2 cell;
     cell.x = std::min(int(longitudeFraction(d) * float(width)), width - 1);
     cell.y = std::clamp(int(std::acos(std::clamp(d.y, -1.0f, 1.0f)) / pi * float(height)), 0,
                         height - 1);
-    return _distribution.probability(cell) * float(width) / (2.0f * pi * bandHeight(cell.y));
+    return _distribution.probability(cell, normal, twoSided) * float(width) /
+           (2.0f * pi * bandHeight(cell.y));
 }
 
 } // namespace patina

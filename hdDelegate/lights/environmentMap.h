@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hdDelegate/lights/distribution2d.h"
+#include "hdDelegate/lights/skyDistribution.h"
 #include "hdDelegate/scene/imageTextureLoad.h"
 #include "hdDelegate/scene/types.h"
 
@@ -24,7 +24,8 @@ EnvironmentFormat environmentFormat(const std::string& name);
 /// upside down.
 ///
 /// Radiance is the bilinear interpolation of the texels; the density is constant over cells of a
-/// latlong grid and covers what bilinear interpolation spreads into neighbours.
+/// latlong grid, follows the cosine too (SkyDistribution), and covers what bilinear interpolation
+/// spreads into neighbours.
 class EnvironmentMap {
 public:
     EnvironmentMap(std::shared_ptr<const ImageRGB> image, EnvironmentFormat format);
@@ -36,8 +37,11 @@ public:
     vec3 mean() const { return _mean; } ///< of the radiance over the sphere
 
     /// @param pdf receives the density over solid angle
-    vec3 sample(const vec2& u, float& pdf) const;
-    float pdf(const vec3& direction) const;
+    /// @param normal of the surface that is lit, unit, in the dome's frame; zero: there is none
+    /// @param twoSided light from below the surface counts as well
+    vec3 sample(const vec2& u, float& pdf, const vec3& normal = vec3(0.0f),
+                bool twoSided = false) const;
+    float pdf(const vec3& direction, const vec3& normal = vec3(0.0f), bool twoSided = false) const;
 
 private:
     void build();
@@ -49,7 +53,7 @@ private:
 
     std::shared_ptr<const ImageRGB> _image;
     EnvironmentFormat _format;
-    Distribution2d _distribution;
+    SkyDistribution _distribution;
     std::vector<float> _cosines; ///< of the rows' edges
     vec3 _mean{0.0f};
 };

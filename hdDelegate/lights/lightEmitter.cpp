@@ -127,7 +127,7 @@ bool LightEmitter::sampleDome(const Pose& pose, const vec3& normal, bool twoSide
     out.distance = INFINITY;
     out.normal = vec3(0.0f);
     if (_environment) {
-        const vec3 local = _environment->sample(u, out.pdf);
+        const vec3 local = _environment->sample(u, out.pdf, normal * pose.domeToWorld, twoSided);
         out.direction = pose.domeToWorld * local;
         out.radiance = _radiance * _environment->radiance(local);
         return out.pdf > 0.0f && std::isfinite(out.pdf);
@@ -194,7 +194,8 @@ float LightEmitter::environmentPdf(const vec3& normal, bool twoSided, const vec3
         return 0.5f * glm::dot(d, d) <= _oneMinusCos ? 1.0f / (2.0f * lightPi * _oneMinusCos)
                                                      : 0.0f;
     }
-    if (_environment) return _environment->pdf(glm::transpose(pose.domeToWorld) * direction);
+    if (_environment)
+        return _environment->pdf(direction * pose.domeToWorld, normal * pose.domeToWorld, twoSided);
     if (normal == vec3(0.0f)) return 0.25f / lightPi;
     const float cosine = glm::dot(normal, direction);
     return twoSided ? std::abs(cosine) / (2.0f * lightPi) : std::max(0.0f, cosine) / lightPi;

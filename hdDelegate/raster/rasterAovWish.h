@@ -1,5 +1,7 @@
 #pragma once
 
+#include "hdDelegate/film/denoiser.h"
+
 #include <string>
 #include <vector>
 
@@ -18,7 +20,7 @@ struct RasterAovWish {
     explicit RasterAovWish(const std::vector<std::string>& aovs) {
         const std::string prefix = "primvars:";
         for (const std::string& aov : aovs) {
-            albedo |= aov == "albedo";
+            albedo |= aov == "albedo" || aov == denoisingAlbedoAov;
             if (aov.rfind(prefix, 0) != 0) continue;
             auto& list = primvars.size() < mostPrimvars ? primvars : leftOut;
             list.push_back(aov.substr(prefix.size()));

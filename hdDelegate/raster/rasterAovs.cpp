@@ -1,5 +1,7 @@
 #include "hdDelegate/raster/rasterAovs.h"
 
+#include "hdDelegate/film/denoiser.h"
+
 #include <algorithm>
 #include <functional>
 
@@ -35,7 +37,7 @@ void RasterAovs::write(const RasterAovImages& images, const RasterAovWish& wish,
             each([&](size_t i) { return vec3(glm::length(inCamera(i))); });
         else if (name == "deviceDepth")
             each([&](size_t i) { return vec3(camera.windowDepth(inCamera(i))); });
-        else if (name == "normal")
+        else if (name == "normal" || name == denoisingNormalAov)
             each([&](size_t i) { return vec3(normals[i]); });
         else if (name == "Neye")
             each([&](size_t i) {
@@ -44,7 +46,7 @@ void RasterAovs::write(const RasterAovImages& images, const RasterAovWish& wish,
             });
         else if (name == "position")
             each([&](size_t i) { return origin + vec3(positions[i]); });
-        else if (name == "albedo" && !albedos.empty())
+        else if ((name == "albedo" || name == denoisingAlbedoAov) && !albedos.empty())
             each([&](size_t i) { return vec3(albedos[i]); });
         else if (name.rfind("primvars:", 0) == 0) {
             const int slot = RasterAovWish::slot(wish.primvars, name.substr(9));

@@ -2,6 +2,7 @@
 // fields of ImageOptions in snake case.
 
 #include "hdDelegate/film/atomicFile.h"
+#include "hdDelegate/film/denoiser.h"
 #include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/film/relativeError.h"
 #include "materialNetwork/color/colorSpaces.h"
@@ -232,6 +233,15 @@ void bindFilm(py::module_& m) {
         .def_property_readonly("temporary_path", &AtomicFile::temporaryPath)
         .def("commit", &AtomicFile::commit, py::call_guard<py::gil_scoped_release>())
         .def("discard", &AtomicFile::discard, "Ends without the file, unless it was committed.");
+    m.def("set_denoiser_library", &setDenoiserLibrary, py::arg("path"),
+          "Which Open Image Denoise to load; empty for $PATINA_OIDN_LIBRARY or the system's.");
+    m.def("denoiser_missing", &denoiserMissing, py::call_guard<py::gil_scoped_release>(),
+          "Why images cannot be denoised here, in one line; empty where they can.");
+    m.def("denoise", &denoise, py::arg("film"), py::arg("threads") = 0,
+          py::call_guard<py::gil_scoped_release>(),
+          "Replaces the film's colour by what Open Image Denoise makes of it, led by the AOVs "
+          "denoisingAlbedo and denoisingNormal where both are there; the noisy one is color.noisy "
+          "then. RuntimeError says in one line why not.");
     m.def("check_output", &checkOutput, py::arg("path"),
           "RuntimeError says early why a file could not be written; its folder is not touched.");
 

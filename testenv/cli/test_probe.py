@@ -24,7 +24,7 @@ def configure(tmp_path):
 
     def run(header):
         (tmp_path / "include" / "thing.h").write_text(header)
-        done = subprocess.run(["cmake", "-S", str(tmp_path), "-B", str(tmp_path / "build")], capture_output=True, text=True)
+        done = subprocess.run(["cmake", "-G", "Ninja", "-S", str(tmp_path), "-B", str(tmp_path / "build")], capture_output=True, text=True)
         assert done.returncode == 0, done.stderr
         return done.stdout
 

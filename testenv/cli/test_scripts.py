@@ -1,4 +1,4 @@
-"""Scripts that the README names run as it prints them, and with any Python: they find the checkout's environment."""
+"""Scripts that documents name run as they print them, and with any Python: they find the checkout's environment."""
 import os
 import re
 import shutil
@@ -7,14 +7,14 @@ import sys
 
 import pytest
 
+import documents
 from test_launcher import ROOT, checkout  # noqa: F401  (a fixture)
 
-with open(os.path.join(ROOT, "README.md"), encoding="utf-8") as readme:
-    NAMED = sorted(set(re.findall(r"testenv/[\w/]+\.py", readme.read())))
+NAMED = sorted(set(re.findall(r"\./patina python\s+(testenv/[\w/]+\.py)", documents.text())))
 SCRIPTS = [name for name in NAMED if "__main__" in open(os.path.join(ROOT, name), encoding="utf-8").read()]
 
 
-def test_the_readme_names_some():
+def test_documents_name_some():
     assert {"testenv/wedges.py", "testenv/stability/randomGraphs.py"} <= set(SCRIPTS)
 
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Renders test scenes by both back ends and writes one HTML page: a table of RMSE, FLIP, bias and times, then the images.
 
-    bothBackEnds.py OUTPUT_FOLDER [SCENE...] [--samples N] [--width PIXELS] [--truth N] [--update]
+    bothBackEnds.py OUTPUT_FOLDER [SCENE...] [--samples N] [--width PIXELS] [--truth N] [--update] [--assets]
 
-Without names all of testenv/scenes. The page also shows what earlier runs with the same samples and width left in the
+Without names all of testenv/scenes, with --assets also the stages of $PATINA_ASSETS that tests name (equivalentStages.py). The page also shows what earlier runs with the same samples and width left in the
 folder, so that it can be made in pieces. The path tracer renders twice: stopped after direct light, which is what the
 rasterizer draws, and whole. --update writes what was measured to recordedPairs.json, from which --table prints the rows
-of the README's table; they are no bounds (those are equivalence.py's). --truth also
+of docs/measurements/rasterPairs.md; they are no bounds (those are equivalence.py's). --truth also
 holds both direct images against so many path traced samples; pairs that the folder holds are not rendered again then.
 """
 import argparse
@@ -44,7 +44,7 @@ def measured(row):
 
 
 def table(held):
-    """Prints the README's table."""
+    """Prints the table of docs/measurements/rasterPairs.md."""
     print("| scene | RMSE | FLIP | bias | all light: FLIP | bias | seconds, raster : traced |\n|---|---|---|---|---|---|---|")
     for name, entry in held["scenes"].items():
         f = entry.get("full")
@@ -63,6 +63,7 @@ def main():
     parser.add_argument("--width", type=int)
     parser.add_argument("--truth", type=int, metavar="N")
     parser.add_argument("--update", action="store_true")
+    parser.add_argument("--assets", action="store_true")
     parser.add_argument("--table", action="store_true")
     a = parser.parse_args()
     held = recordedPairs.load()
@@ -76,14 +77,19 @@ def main():
         parser.error("--update goes with the samples and width of recordedPairs.json")
     os.makedirs(a.folder, exist_ok=True)
     rows, remarks = {}, {}
-    chosen = a.scenes or pairs.names()
-    for name in pairs.names():
+    every = pairs.names()
+    if a.assets:
+        import equivalentStages
+
+        every += ["assets/" + file for file in equivalentStages.ASSETS]
+    chosen = a.scenes or every
+    for name in every:
         before = None if name in chosen else pairs.kept(name, a.folder, samples, width)
         if before:
             rows[name] = before
             remarks[name] = held["scenes"].get(name, {}).get("why", "")
     for name in chosen:
-        entry = held["scenes"].setdefault(name, {})
+        entry = held["scenes"].setdefault(name, {}) if not name.startswith("assets/") else {}
         remarks[name] = entry.get("why", "")
         try:
             depths = (pairs.DIRECT, pairs.WHOLE)

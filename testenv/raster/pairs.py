@@ -29,6 +29,13 @@ def names():
     return sorted(found)
 
 
+def stage_path(name):
+    """:param name: of a test scene, or `assets/` and a file below $PATINA_ASSETS"""
+    if name.startswith("assets/"):
+        return os.path.join(os.environ.get("PATINA_ASSETS", ""), *name.split("/")[1:])
+    return os.path.join(SCENES, *name.split("/")) + ".usda"
+
+
 def record(stage, image, *arguments):
     """:returns: seconds that the command took
     :raises RuntimeError: with the command's own words"""
@@ -69,7 +76,7 @@ def pair(name, folder, samples, width, depths=(DIRECT, WHOLE), seed=0):
     :returns: a dict: `name`, `command`, `raster` (array), `rasterSeconds`, and `traced`: depth -> dict of `image`,
         `seconds` and numbers()
     :raises RuntimeError: with the words of the command that failed"""
-    stage = os.path.join(SCENES, *name.split("/")) + ".usda"
+    stage = stage_path(name)
     flat = name.replace("/", "-")
 
     def render(backend, *extra):
@@ -98,7 +105,7 @@ def beside_truth(row, truth, samples):
 def truth_of(name, folder, samples, width):
     """:returns: direct light by so many path traced samples, with a seed of its own"""
     image = os.path.join(folder, f"{name.replace('/', '-')}.truth{samples}.exr")
-    record(os.path.join(SCENES, *name.split("/")) + ".usda", image, "--backend", "embree", "--samples", str(samples),
+    record(stage_path(name), image, "--backend", "embree", "--samples", str(samples),
            "-w", str(width), "--maxDepth", str(DIRECT), "--seed", str(TRUTH_SEED))
     return pixels(image)
 

@@ -1,4 +1,4 @@
-"""What was measured of each test scene with many samples: recordedPairs.json beside this file, the README's table.
+"""What was measured of each test scene with many samples: recordedPairs.json beside this file, the table of docs/measurements/rasterPairs.md.
 
 Nothing is held against these numbers but themselves: a lint reads them (test_recordedPairs.py). `settings` are samples and
 width; `scenes` maps a name to

@@ -1,4 +1,4 @@
-"""The wedge pictures of the README can be made: no stage of them fails or warns."""
+"""The wedge pictures of docs/gallery.md can be made: no stage of them fails or warns."""
 import os
 import sys
 

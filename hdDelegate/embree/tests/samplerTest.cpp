@@ -30,6 +30,33 @@ TEST(Sampler, EveryPairOf256SamplesFillsA16x16GridOnce) {
             ASSERT_EQ(count, 1) << "pair " << pair;
 }
 
+TEST(Sampler, EveryNumberOfAQuadrupleFallsOnceInEach256th) {
+    for (int d = 0; d < 4; ++d) {
+        std::vector<int> count(256, 0);
+        for (uint32_t i = 0; i < 256; ++i)
+            ++count[size_t(Sampler(3, 7, 1, i).next4()[d] * 256)];
+        for (int n : count)
+            ASSERT_EQ(n, 1) << "number " << d;
+    }
+}
+
+TEST(Sampler, PointsOfASetAreStratifiedAllTogether) {
+    // 64 samples of 4 points each: 256 points of one (0,2) sequence.
+    std::vector<int> count(256, 0);
+    for (uint32_t i = 0; i < 64; ++i) {
+        Sampler sampler(3, 7, 1, i);
+        sampler.next2();
+        const Sampler::Set set = sampler.nextSet(4);
+        for (uint32_t k = 0; k < 4; ++k) {
+            const glm::vec4 p = set.point4(k);
+            ASSERT_EQ(glm::vec2(p), set.point2(k));
+            ++count[size_t(p.x * 16) * 16 + size_t(p.y * 16)];
+        }
+    }
+    for (int n : count)
+        ASSERT_EQ(n, 1);
+}
+
 TEST(Sampler, NumbersStayBelowOne) {
     for (uint32_t i = 0; i < 100000; ++i) {
         Sampler sampler(i % 97, i % 89, i, i * 2654435761u);

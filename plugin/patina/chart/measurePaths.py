@@ -1,8 +1,8 @@
 """Measures the choice points `pathDepth` and `roulette` in two small scenes, by albedo.
 
 A closed box with a lamp under its ceiling, where light is lost by absorption alone, and a corner of three walls, which most
-light leaves at once. What a depth cuts off is the mean of |luminance - truth| over (truth + 0.01) against 1024 surfaces with
-the same random numbers. Roulette makes noise alone: what counts is time times variance, here over those of the default, for
+light leaves at once. What a depth cuts off is the mean of |luminance - truth| over (truth + 0.01) against paths that end where
+less than a ten-millionth is left, with the same random numbers and without roulette, whose noise is as large as dark walls' loss. Roulette makes noise alone: what counts is time times variance, here over those of the default, for
 paths of at most 4, 16, 64 and 256 surfaces. Times are of processors.
 """
 import time
@@ -17,6 +17,7 @@ SCENES = ("box", "corner")
 DEPTHS = (4, 16, 64, 256)  # the four columns of rows of roulette
 BINS = 8                   # of albedo
 _WIDTH = 16                # pixels
+_NEVER = 1 << 20           # surfaces before roulette
 _FACES = {"box": range(6), "corner": (0, 2, 4)}  # of a cube: below 0, above 0, along x, y, z
 
 
@@ -25,13 +26,14 @@ def path_depth(timed=True, scenes=SCENES, bins=range(BINS), samples=64):
     rows = []
     for scene in scenes:
         pictures = {b: _Pictures(scene, b, samples) for b in bins}
-        truths = {b: pictures[b].render(maxDepth=1024)[0] for b in bins}
+        truths = {b: pictures[b].render(maxDepth=_whole(b), rouletteDepth=_NEVER)[0] for b in bins}
         for method in _methods("pathDepth"):
             errors, spent = np.zeros((BINS, 4)), []
             for b in bins:
-                image, _, per = pictures[b].render(maxDepth=int(method))
+                image = pictures[b].render(maxDepth=int(method), rouletteDepth=_NEVER)[0]
                 errors[b] = (np.abs(image - truths[b]) / (truths[b] + 0.01)).mean()
-                spent.append(per)
+                if timed:
+                    spent.append(pictures[b].render(maxDepth=int(method))[2])
             rows.append(_row("pathDepth", method, scene, "picture", errors, np.ones((BINS, 4)), errors[list(bins)], spent, timed))
     return rows
 
@@ -59,6 +61,15 @@ def roulette(timed=True, scenes=SCENES, bins=range(BINS), depths=DEPTHS, samples
     return rows
 
 
+def _whole(b):
+    """:returns: surfaces after which less than 1e-7 of the light is left"""
+    return int(np.ceil(np.log(1e-7) / np.log(_albedo(b))))
+
+
+def _albedo(b):
+    return (b + 0.5) / BINS
+
+
 def _methods(point):
     return [name for name, _ in dict(compiled.load().choice_points())[point]]
 
@@ -77,7 +88,7 @@ class _Pictures:
     def __init__(self, scene, b, samples):
         self.module, self.samples = compiled.load(), samples
         self.scene, self.renderer = self.module.Scene(), self.module.make_renderer("embree")
-        albedo = (b + 0.5) / BINS
+        albedo = _albedo(b)
         with self.scene.edit() as edit:
             place = np.eye(4, dtype=np.float32)
             place[3, :3] = 0.25, 0.1, 0.45
@@ -87,11 +98,11 @@ class _Pictures:
             lamp = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0.1, 0.45, 0, 1]], np.float32)
             edit.set_light("/lamp", type="rect", transform=lamp, width=0.3, height=0.3, intensity=20.0, camera_visible=False)
 
-    def render(self, maxDepth, methods=None, seed=1, samples=None):
+    def render(self, maxDepth, methods=None, seed=1, samples=None, **more):
         """:returns: luminance, mean relative variance of a sample, and ns of a sample"""
         film = self.module.Film()
         settings = {"width": _WIDTH, "height": _WIDTH, "samples": samples or self.samples, "seed": seed, "maxDepth": maxDepth,
-                    "methods": methods or {}, "checkpointSeconds": 0.0}
+                    "methods": methods or {}, "checkpointSeconds": 0.0, **more}
         begin = time.process_time()
         self.renderer.start(self.scene, "/camera", settings, film)
         self.renderer.wait()

@@ -12,7 +12,7 @@ IMAGE.checkpoint stays for --resume. An image that was there before is replaced 
 """
 import os
 
-from patina.cli import checkpoints, compiled, frames, openStage, outputs, overrides, recordFlags, statistics
+from patina.cli import checkpoints, compiled, denoiser, frames, openStage, outputs, overrides, recordFlags, statistics
 from patina.cli.errors import CommandError
 from patina.cli.interrupts import Interrupts
 from patina.cli.progress import Progress
@@ -53,7 +53,9 @@ class _Job:
         a = self.arguments
         pattern = a.image
         # Before anything slow: will the image have a place to go to?
-        self.module.check_image_path(pattern, ["color", "alpha"] + self.settings["aovs"])
+        self.module.check_image_path(pattern, ["color", "alpha"] + recordFlags.aovs_of(a))
+        if a.denoise:
+            denoiser.prepare(self.module)
         outputs.check_all([pattern, a.json])
         with self.statistics.phase("open"):
             self.stage = openStage.open_stage(a.stage, a.mask, a.sessionLayer)
@@ -78,6 +80,9 @@ class _Job:
             settings["checkpointFile"] = checkpoints.path_of(image)
         self._render(film, image, settings, info.camera)
         self._check_warnings()
+        if self.arguments.denoise:
+            with self.statistics.phase("denoise"):
+                denoiser.run(self.module, film, self.arguments.threads)
         with self.statistics.phase("write"):
             self._write(film, image, settings, info)
         self.statistics.end_frame()

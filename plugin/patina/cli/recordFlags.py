@@ -1,7 +1,7 @@
 """The flags of `patina record`, and the render settings that they mean."""
 import math
 
-from patina.cli import frames, methods, overrides
+from patina.cli import denoiser, frames, methods, overrides
 from patina.cli.errors import UsageError
 
 COMPLEXITIES = {"low": 1.0, "medium": 1.1, "high": 1.2, "veryhigh": 1.3}
@@ -67,6 +67,10 @@ def _add_render_flags(group):
                        help="bounces before paths are ended by chance (default: 4)")
     group.add_argument("--indirectClamp", type=_not_negative, default=0.0, metavar="L",
                        help="largest luminance of one indirect sample: less noise, too dark (default: 0, off)")
+    group.add_argument("--denoise", action="store_true",
+                       help="the colour as Open Image Denoise cleans it, led by albedo and normals; OpenEXR files keep the "
+                            "noisy one as color.noisy (./patina installs pyoidn for it; else $PATINA_OIDN_LIBRARY names "
+                            "the library)")
     group.add_argument("--filterRadius", type=_filter_radius, default=1.0, metavar="R",
                        help="radius of the pixel filter in pixels, up to 1000; 0.5 is a box (default: 1)")
     group.add_argument("--edgeLength", type=_positive, default=-1.0, metavar="PIXELS",
@@ -148,7 +152,7 @@ def settings_of(arguments):
         "enableDepthOfField": not arguments.disableDepthOfField,
         "enableShadows": not arguments.disableShadows,
         "domeLightCameraVisibility": arguments.enableDomeLightVisibility,
-        "aovs": aovs_of(arguments),
+        "aovs": list(dict.fromkeys(aovs_of(arguments) + list(denoiser.GUIDES if arguments.denoise else ()))),
         "methods": methods.parse(arguments.method),
         "checkpointSeconds": arguments.checkpointSeconds,
     }
@@ -177,6 +181,8 @@ def image_options_of(arguments):
                "display": arguments.display, "view": arguments.view, "pixel_aspect_ratio": arguments.pixelAspectRatio,
                "raw": arguments.colorCorrectionMode == "disabled",
                "aovs": ["color", "alpha"] + aovs_of(arguments)}
+    if arguments.denoise and arguments.image.lower().endswith(".exr"):
+        options["aovs"].append(denoiser.NOISY)
     if arguments.dataWindow:
         options["data_window"] = arguments.dataWindow
     return options

@@ -112,6 +112,8 @@ class Statistics:
                   "patina:warnings": len(self.warnings())}
         if frame["frame"] is not None:
             values["patina:frame"] = float(frame["frame"])
+        if arguments.denoise:
+            values["patina:denoised"] = 1
         if settings["tolerance"] >= 0.0:
             values["patina:tolerance"] = settings["tolerance"]
             if "predictedError" in frame:

@@ -14,6 +14,7 @@ import signal
 import subprocess
 import sys
 
+from patina.cli import denoiser
 from patina.cli.errors import CommandError, UsageError
 
 HELP = "run the tests of a checkout"
@@ -38,6 +39,7 @@ def run(arguments):
     if "PATINA_ASSETS" not in environment and os.path.isdir(assets):
         environment["PATINA_ASSETS"] = assets
     environment.setdefault("PATINA_BUILD_DIR", os.path.join(root, "build"))
+    environment.setdefault("PATINA_OIDN_LIBRARY", denoiser.of_wheel())  # googletest programs find it so
     environment["PYTHONPATH"] = os.pathsep.join(filter(None, [environment.get("PYTHONPATH"), testenv]))
     # pytest runs in the root, where testpaths are meant; paths keep the meaning that they had.
     passed_on = [os.path.abspath(a) if _named(a) else a for a in arguments.passed_on]

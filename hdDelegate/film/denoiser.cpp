@@ -1,0 +1,180 @@
+#include "hdDelegate/film/denoiser.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+
+namespace patina {
+
+namespace {
+
+/// The C interface of Open Image Denoise, versions 1.4 and 2, as far as it is needed.
+struct Library {
+    using Handle = void*;
+    static constexpr int typeCpu = 1, formatFloat3 = 3;
+
+    Handle (*newDevice)(int type) = nullptr;
+    void (*setDeviceInt)(Handle, const char*, int) = nullptr;
+    void (*commitDevice)(Handle) = nullptr;
+    void (*releaseDevice)(Handle) = nullptr;
+    int (*deviceError)(Handle, const char**) = nullptr;
+    Handle (*newFilter)(Handle, const char*) = nullptr;
+    void (*setImage)(Handle, const char*, void*, int format, size_t width, size_t height,
+                     size_t offset, size_t pixelStride, size_t rowStride) = nullptr;
+    void (*setBool)(Handle, const char*, bool) = nullptr;
+    void (*commitFilter)(Handle) = nullptr;
+    void (*executeFilter)(Handle) = nullptr;
+    void (*releaseFilter)(Handle) = nullptr;
+    std::string missing;
+
+    explicit Library(const std::vector<std::string>& paths) {
+        void* file = nullptr;
+        for (const std::string& path : paths) {
+            file = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+            if (file) break;
+            const char* why = dlerror();
+            if (missing.empty() && why) missing = why;
+        }
+        if (!file) {
+            missing = "Open Image Denoise is not found (" + missing + ")";
+            return;
+        }
+        missing.clear();
+        find(file, newDevice, "oidnNewDevice");
+        find(file, setDeviceInt, "oidnSetDeviceInt", "oidnSetDevice1i");
+        find(file, commitDevice, "oidnCommitDevice");
+        find(file, releaseDevice, "oidnReleaseDevice");
+        find(file, deviceError, "oidnGetDeviceError");
+        find(file, newFilter, "oidnNewFilter");
+        find(file, setImage, "oidnSetSharedFilterImage");
+        find(file, setBool, "oidnSetFilterBool", "oidnSetFilter1b");
+        find(file, commitFilter, "oidnCommitFilter");
+        find(file, executeFilter, "oidnExecuteFilter");
+        find(file, releaseFilter, "oidnReleaseFilter");
+    }
+
+private:
+    template <class Function>
+    void find(void* file, Function& function, const char* name, const char* older = nullptr) {
+        void* found = dlsym(file, name);
+        if (!found && older) found = dlsym(file, older);
+        if (!found && missing.empty())
+            missing = std::string("this Open Image Denoise has no function ") + name;
+        function = reinterpret_cast<Function>(found);
+    }
+};
+
+std::mutex mutex;
+std::string chosen;
+std::shared_ptr<const Library> loaded;
+
+/// What is found stays: its threads live on. What is missing is looked for again.
+std::shared_ptr<const Library> library() {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (loaded && loaded->missing.empty()) return loaded;
+    std::vector<std::string> paths;
+    const char* named = std::getenv("PATINA_OIDN_LIBRARY");
+    if (!chosen.empty())
+        paths.push_back(chosen);
+    else if (named && *named)
+        paths.push_back(named);
+    else
+        paths = {"libOpenImageDenoise.so.2", "libOpenImageDenoise.so.1"};
+    loaded = std::make_shared<const Library>(paths);
+    return loaded;
+}
+
+/// A device of the library, and its filters.
+class Device {
+public:
+    Device(const Library& library, int threads)
+        : _library(library), _device(library.newDevice(Library::typeCpu)) {
+        if (!_device) throw std::runtime_error("Open Image Denoise finds no device");
+        if (threads > 0) _library.setDeviceInt(_device, "numThreads", threads);
+        _library.commitDevice(_device);
+        check();
+    }
+    ~Device() { _library.releaseDevice(_device); }
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    struct Image {
+        const char* name;
+        std::vector<float>& pixels;
+    };
+
+    /// @param images by their names in the library, three floats per pixel; "output" is written
+    void filter(const std::vector<Image>& images, const std::vector<const char*>& flags, int width,
+                int height) {
+        void* filter = _library.newFilter(_device, "RT");
+        if (filter) {
+            for (const Image& image : images)
+                _library.setImage(filter, image.name, image.pixels.data(), Library::formatFloat3,
+                                  size_t(width), size_t(height), 0, 0, 0);
+            for (const char* flag : flags)
+                _library.setBool(filter, flag, true);
+            _library.commitFilter(filter);
+            _library.executeFilter(filter);
+            _library.releaseFilter(filter);
+        }
+        check();
+    }
+
+private:
+    void check() {
+        const char* message = nullptr;
+        if (_library.deviceError(_device, &message) == 0) return;
+        const std::string text = message ? message : "unknown error";
+        throw std::runtime_error("Open Image Denoise: " + text.substr(0, text.find('\n')));
+    }
+
+    const Library& _library;
+    void* _device;
+};
+
+} // namespace
+
+void setDenoiserLibrary(const std::string& path) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    chosen = path;
+}
+
+std::string denoiserMissing() {
+    return library()->missing;
+}
+
+void denoise(Film& film, int threads) {
+    const std::shared_ptr<const Library> found = library();
+    if (!found->missing.empty()) throw std::runtime_error(found->missing);
+    const int width = film.width(), height = film.height();
+    if (width < 1 || height < 1) throw std::runtime_error("there is no image to denoise");
+
+    std::vector<float> color = film.resolve(film.denoised() ? "color.noisy" : "color");
+    std::vector<float> result(color.size());
+    std::vector<Device::Image> images = {{"color", color}, {"output", result}};
+    std::vector<const char*> flags = {"hdr"};
+    std::vector<float> albedo = film.resolve(denoisingAlbedoAov);
+    std::vector<float> normal = film.resolve(denoisingNormalAov);
+    Device device(*found, threads);
+    if (!albedo.empty() && !normal.empty()) {
+        for (float& value : albedo)
+            value = std::clamp(value, 0.0f, 1.0f);
+        for (auto& [name, pixels] :
+             {Device::Image{"albedo", albedo}, Device::Image{"normal", normal}}) {
+            std::vector<float> clean(pixels.size());
+            device.filter({{name, pixels}, {"output", clean}}, {}, width, height);
+            pixels = std::move(clean);
+        }
+        images.push_back({"albedo", albedo});
+        images.push_back({"normal", normal});
+        flags.push_back("cleanAux");
+    }
+    device.filter(images, flags, width, height);
+    film.setDenoised(std::move(result));
+}
+
+} // namespace patina

@@ -1,0 +1,70 @@
+#include "hdDelegate/film/denoiser.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <stdexcept>
+
+namespace patina {
+
+namespace {
+
+/// A grey film of independent exponential samples: mean 1, deviation 1.
+void fillWithNoise(Film& film, int side) {
+    std::mt19937 random(7);
+    std::exponential_distribution<float> noise(1.0f);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            film.addColor(x, y, glm::vec3(noise(random)), 0.5f);
+}
+
+double variance(const std::vector<float>& values) {
+    double sum = 0, squares = 0;
+    for (float v : values)
+        sum += v, squares += double(v) * v;
+    const double n = double(values.size());
+    return squares / n - sum / n * (sum / n);
+}
+
+} // namespace
+
+TEST(Denoiser, TheNoisyColourStaysBesideWhatReplacesIt) {
+    Film film;
+    film.reset(2, 1, {});
+    film.addColor(0, 0, {1, 2, 3}, 1.0f);
+    film.addColor(1, 0, {4, 5, 6}, 1.0f);
+    EXPECT_TRUE(film.resolve("color.noisy").empty());
+    const std::vector<float> noisy = film.resolve("color"), clean = {9, 8, 7, 6, 5, 4};
+    film.setDenoised(clean);
+    EXPECT_TRUE(film.denoised());
+    EXPECT_EQ(film.resolve("color"), clean);
+    EXPECT_EQ(film.resolve("color.noisy"), noisy);
+    EXPECT_THROW(film.setDenoised({1, 2, 3}), std::invalid_argument);
+    film.reset(2, 1, {}, true); // as a render does that adds samples
+    EXPECT_FALSE(film.denoised());
+    EXPECT_EQ(film.resolve("color"), noisy);
+}
+
+TEST(Denoiser, FlatNoiseBecomesFlatterAndKeepsItsAlpha) {
+    if (!denoiserMissing().empty()) GTEST_SKIP() << denoiserMissing();
+    constexpr int side = 64;
+    Film film;
+    film.reset(side, side, {});
+    fillWithNoise(film, side);
+    const std::vector<float> noisy = film.resolve("color"), alpha = film.resolve("alpha");
+    denoise(film);
+    // A filter that averages four pixels would reach a quarter.
+    EXPECT_LT(variance(film.resolve("color")), 0.25 * variance(noisy));
+    EXPECT_EQ(film.resolve("color.noisy"), noisy);
+    EXPECT_EQ(film.resolve("alpha"), alpha);
+    const std::vector<float> once = film.resolve("color");
+    denoise(film); // from the noisy colour again
+    EXPECT_EQ(film.resolve("color"), once);
+}
+
+TEST(Denoiser, AnEmptyFilmIsRefused) {
+    Film film;
+    EXPECT_THROW(denoise(film), std::runtime_error);
+}
+
+} // namespace patina

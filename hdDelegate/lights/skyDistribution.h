@@ -1,0 +1,53 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+namespace patina {
+
+/// A density over the cells of a latlong grid that follows the product of what a cell is worth and
+/// the cosine of a surface there, so that few samples of a sky are taken below the horizon.
+///
+/// The grid is cut into blocks, at most 32 x 16. For each of a number of normals a table holds the
+/// products' sums per block; within a block cells are chosen by their worth alone. All are inverted
+/// cumulative sums, rows first, so that numbers that are spread evenly give samples that are.
+/// A fiftieth follows the worth alone: lobes may have other normals than the surface.
+class SkyDistribution {
+public:
+    SkyDistribution() = default;
+    /// @param weights of the cells, row by row from the pole +y, as of EnvironmentMap; not negative
+    SkyDistribution(int width, int height, const std::vector<float>& weights);
+
+    bool empty() const { return !_any; } ///< all weights are 0
+    int width() const { return _width; }
+    int height() const { return _height; }
+
+    /// @param normal unit, in the grid's frame; zero: by the weights alone
+    /// @param twoSided light from below counts as much as from above
+    /// @returns the probability of the cell; `cell` its column and row, `within` where in it
+    float sample(const glm::vec2& u, const glm::vec3& normal, bool twoSided, glm::ivec2& cell,
+                 glm::vec2& within) const;
+    float probability(const glm::ivec2& cell, const glm::vec3& normal, bool twoSided) const;
+
+private:
+    struct Part;
+
+    std::vector<Part> parts(const std::vector<float>& weights) const;
+    void fillBlocks(const std::vector<float>& weights);
+    void fillTable(const std::vector<double>& products, float* table) const;
+    const float* table(const glm::vec3& normal, bool twoSided) const;
+    /// Where the cumulative sums of a block's rows begin, and those of a row's cells in it.
+    size_t blockRows(const glm::ivec2& block) const;
+    size_t rowCells(int row, int blockColumn) const;
+
+    int _width = 0, _height = 0;
+    bool _any = false;
+    std::vector<int> _left, _top;  ///< first cells of the blocks, and the end
+    std::vector<int> _columnBlock; ///< of a cell's column
+    std::vector<int> _rowBlock;
+    std::vector<float> _blockRows, _rowCells; ///< cumulative, from 0 to 1 each
+    std::vector<float> _tables; ///< the first without a normal, then one- and two-sided ones
+};
+
+} // namespace patina

@@ -1,0 +1,37 @@
+"""Open Image Denoise: where its library is, and a film's colour cleaned by it."""
+import importlib.util
+import os
+
+from patina.cli.errors import CommandError
+
+GUIDES = ("denoisingAlbedo", "denoisingNormal")  # AOVs that lead it
+NOISY = "color.noisy"  # what it started from, once a film is denoised
+
+
+def prepare(module):
+    """Finds the library before anything slow.
+
+    :raises CommandError: where there is none"""
+    if not os.environ.get("PATINA_OIDN_LIBRARY"):
+        module.set_denoiser_library(of_wheel())
+    missing = module.denoiser_missing()
+    if missing:
+        raise CommandError(f"--denoise: {missing}; `pip install pyoidn` has it, or PATINA_OIDN_LIBRARY names the library")
+
+
+def run(module, film, threads=0):
+    """:raises CommandError: in one line; the film is as before"""
+    try:
+        module.denoise(film, threads)
+    except RuntimeError as error:
+        raise CommandError(f"--denoise: {error}") from None
+
+
+def of_wheel():
+    """:returns: the library in PyPI's pyoidn, or an empty text"""
+    found = importlib.util.find_spec("pyoidn")
+    for folder in (found.submodule_search_locations or ()) if found else ():
+        path = os.path.join(folder, "oidn", "lib", "libOpenImageDenoise.so.2")
+        if os.path.exists(path):
+            return path
+    return ""

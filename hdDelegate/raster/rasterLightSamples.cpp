@@ -85,6 +85,13 @@ GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
     return g;
 }
 
+/// Small images gain nothing from finer maps, and drawing these is most of a pass there.
+int RasterLights::enoughFor(int pixels, int mapSize) {
+    while (mapSize / 2 >= texelsPerPixel * pixels)
+        mapSize /= 2;
+    return mapSize;
+}
+
 /// The shadow maps that samples of a light need at most; see castShadow().
 int RasterLights::mapsOf(const Source& s, const ShadowBounds& bounds) const {
     if (!_shadows || !s.shadows) return 0;
@@ -182,6 +189,7 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
         most *= 4;
         out.mapSize /= 2;
     }
+    out.mapSize = enoughFor(pixels, out.mapSize);
     int room = most - forEmitters;
     std::vector<bool> taken(_sources.size(), false);
     for (const auto& choice : choose(pass, bounds, room)) {

@@ -25,6 +25,7 @@ public:
     static constexpr int maxMaps = 32;            ///< shadow maps per pass in the full size
     static constexpr int maxSmallMaps = 128;      ///< in half of it, where lights need more
     static constexpr int maxTinyMaps = 512;       ///< smaller still, for as few pixels a side
+    static constexpr int texelsPerPixel = 4;      ///< along a side of a map, and of the image
     static constexpr int maxUnshadowed = 64;      ///< lights without shadows per pass
     static constexpr int mostDomes = 24;          ///< per pass
     static constexpr int lookEvery = 8;           ///< of a light's samples a pixel takes one in
@@ -59,11 +60,11 @@ public:
                    int mapSize, int pixels) const;
 
     uint32_t seed() const { return _seed; }
-    /// Whether shadows are asked for in directions that are no light's samples.
     /// Whether every material takes samples of domes: first looks are no part of the other methods.
     bool samplesDomes() const {
         return _domeMethods.size() == _domeMethods.count("sampled") || !_hasDome;
     }
+    /// Whether shadows are asked for in directions that are no light's samples.
     bool needsSky() const { return _shadows && (_hasDome || _hasWideSun); }
     const RasterLightTables& tables() const { return _tables; }
     static constexpr int mostTables = ///< values of a pass in tables
@@ -103,6 +104,7 @@ private:
                  std::vector<GpuLight>& pool) const;
     int lookSamples(const Source& source) const;
     int mapsOf(const Source& source, const ShadowBounds& bounds) const;
+    static int enoughFor(int pixels, int mapSize);
     std::vector<std::pair<size_t, float>> choose(uint32_t pass, const ShadowBounds& bounds,
                                                  int room) const;
     void takeEmitters(uint32_t pass, int samples, const RasterEmitters& emitters,

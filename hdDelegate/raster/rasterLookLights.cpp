@@ -146,8 +146,8 @@ RasterLights::Sampled RasterLights::sampleLook(uint32_t pass, const RasterEmitte
         emitterSamples = std::clamp(room, int(leastEmitterSamples), int(mostCoarseSamples));
         if (emitterSamples >= every) emitterSamples = emitterSamples / every * every;
     }
-    out.mapSize =
-        needed(pooled) + emitterMaps * emitterSamples > maxMaps ? mapSize / 2 : mapSize;
+    const bool many = needed(pooled) + emitterMaps * emitterSamples > maxMaps;
+    out.mapSize = enoughFor(pixels, many ? mapSize / 2 : mapSize);
     std::vector<GpuLight> looked, shared, pool;
     for (size_t i = 0; i < _sources.size(); ++i) {
         const Source& s = _sources[i];

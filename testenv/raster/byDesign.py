@@ -29,6 +29,9 @@ FEATURES = {
     "shadowsOfVolumes": Feature(
         "volume prims cast no shadow on surfaces, and are marched with light that diffuses as in a layer",
         "test_byDesign.py::test_volumes_cast_no_shadow", ("volume",)),
+    "shadowsOfLimitedDistance": Feature(
+        "shadows of limited distance know only the side of a caster that is nearest to the light",
+        "test_byDesign.py::test_shadows_of_limited_distance_know_the_near_side"),
     "motionOfLights": Feature(
         "while the shutter is open lights stand where they are in the middle of that",
         "test_byDesign.py::test_lights_do_not_move_while_the_shutter_is_open"),

@@ -11,7 +11,6 @@ import outOfView
 import pairs
 
 DIRECT, WHOLE = pairs.DIRECT, pairs.WHOLE
-WIDTH = 48
 
 
 @dataclasses.dataclass(frozen=True)

@@ -15,6 +15,7 @@ import equivalentStages  # noqa: E402
 import inProcess  # noqa: E402
 import pairs  # noqa: E402
 import pairsPage  # noqa: E402
+import sameImage  # noqa: E402
 
 CASES = {case.name: case for case in equivalentStages.cases()}
 
@@ -31,11 +32,7 @@ def hold(case, folder, power):
     path = equivalentStages.path_of(case, folder)
     if path is None:
         pytest.skip("no such file in $PATINA_ASSETS")
-    drawn = inProcess.Stage(path, "--backend", "raster", "-w", equivalentStages.WIDTH, "--samples", power.samples, *case.arguments)
-    flags = ["-w", equivalentStages.WIDTH, "--samples", power.traced, "--maxDepth", case.depth, *case.arguments]
-    verdict, raster, traced = equivalence.decide(
-        lambda seeds: [drawn.image(seed) for seed in seeds],
-        lambda seeds: inProcess.references(path, seeds, *flags), power)
+    verdict, raster, traced = sameImage.decide(path, None, *case.arguments, depth=case.depth, power=power)
     print(f"{case.name}: {len(raster)} renders, largest difference {100 * np.abs(verdict.difference).max():.2f} %, half "
           f"intervals {100 * np.median(verdict.half):.2f} % (median) to {100 * verdict.half.max():.2f} %")
     if verdict.differs.any() or verdict.open:

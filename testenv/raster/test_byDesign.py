@@ -1,7 +1,6 @@
 """Each feature that the rasterizer draws otherwise by design (byDesign.py): it draws what is said there, and that is not
 what the path tracer draws. Both by the test of equivalence.py: the rasterizer's image is the path tracer's of the stage
 without the feature, with the same margin as everywhere, and differs from the path tracer's image of the stage itself."""
-import functools
 import os
 
 import numpy as np
@@ -11,8 +10,10 @@ pytest.importorskip("scipy.stats", reason="SciPy is not installed")
 
 import byDesign  # noqa: E402
 import equivalence  # noqa: E402
+import floorLights  # noqa: E402
 import inProcess  # noqa: E402
 import outOfView  # noqa: E402
+import sameImage  # noqa: E402
 from materialText import material  # noqa: E402
 from test_bothBackEnds import opengl  # noqa: E402, F401  skips where there is none
 
@@ -57,19 +58,9 @@ def write(folder, name, contents, materials="", lights=LAMP):
     return path
 
 
-@functools.lru_cache(maxsize=2)
-def rasterized(path, arguments):
-    """:returns: function of a list of seeds -> images; each is rendered once"""
-    stage = inProcess.Stage(path, "--backend", "raster", "-w", WIDTH, "--samples", equivalence.FULL.samples, *arguments)
-    image = functools.lru_cache(maxsize=None)(stage.image)
-    return lambda seeds: [image(seed) for seed in seeds]
-
-
 def compare(drawn, traced, depth, *arguments):
     """:returns: the Verdict of the rasterizer's images of one stage and the path tracer's of another"""
-    flags = ["-w", WIDTH, "--samples", equivalence.FULL.traced, "--maxDepth", depth, *arguments]
-    return equivalence.decide(rasterized(drawn, arguments), lambda seeds: inProcess.references(traced, seeds, *flags),
-                              equivalence.FULL)[0]
+    return sameImage.decide(drawn, traced, *arguments, depth=depth, width=WIDTH)[0]
 
 
 def same(*arguments):
@@ -156,6 +147,31 @@ def test_lights_do_not_move_while_the_shutter_is_open(tmp_path):
     moves = stage("moving", moving)
     same(moves, stage("still", LAMP.replace("(-0.4, 2.2, 0.2)", "(0.6, 2.2, 0.2)")), 1, "--frames", "0")
     assert np.abs(differences(moves, moves, 1, "--frames", "0")).max() > 0.1
+
+
+OPEN_BLOCK = """    def Mesh "block"
+    {
+        int[] faceVertexCounts = [4, 4, 4]
+        int[] faceVertexIndices = [0, 1, 2, 3, 4, 5, 1, 0, 4, 0, 3, 6]
+        point3f[] points = [(0.1, 0.8, 0.4), (0.9, 0.8, 0.4), (0.9, 0.8, -0.4), (0.1, 0.8, -0.4), (0.1, 0, 0.4), (0.9, 0, 0.4),
+                            (0.1, 0, -0.4)]
+        uniform token subdivisionScheme = "none"
+        color3f[] primvars:displayColor = [(0.6, 0.3, 0.2)]
+    }
+"""
+
+
+def test_shadows_of_limited_distance_know_the_near_side(tmp_path):
+    """As if a block had only its three sides that face the light; its other sides are near enough to the floor to hide it."""
+    lamp = floorLights.light("SphereLight", "        float inputs:intensity = 40\n        float inputs:radius = 0.05\n"
+                             "        float inputs:shadow:distance = 0.7", api="ShadowAPI")
+    text = floorLights.STAGE % lamp
+    block = text[text.index('    def Cube "block"'):text.index("    def SphereLight")]
+    for name in ("closed", "open"):
+        (tmp_path / name).mkdir()
+    whole = floorLights.write(tmp_path / "closed", text)
+    same(whole, floorLights.write(tmp_path / "open", text.replace(block, OPEN_BLOCK)), 1, "--disableCameraLight")
+    assert differences(whole, whole, 1, "--disableCameraLight").max() > 0.05
 
 
 def test_every_feature_has_its_test():

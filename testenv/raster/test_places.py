@@ -1,12 +1,19 @@
 """Where things are does not change what they look like: far from the world's origin, beside casters that are far away,
-on displaced polygons; and the AOVs of both back ends are the same. Images are of fixed seeds; the limits are two to three
-times what was measured (means: more). Comments say what blocks were without what a case is for.
+on displaced polygons; and the AOVs of both back ends are the same. Comments say how far tiles were off without what a case
+is for.
 """
+import dataclasses
+
 import numpy as np
 import pytest
 
-import pairs
-from test_bothBackEnds import opengl  # noqa: F401  skips where there is none
+pytest.importorskip("scipy.stats", reason="SciPy is not installed")
+
+import equivalence  # noqa: E402
+import inProcess  # noqa: E402
+import pairs  # noqa: E402
+import sameImage  # noqa: E402
+from test_bothBackEnds import opengl  # noqa: E402, F401  skips where there is none
 
 STAGE = """#usda 1.0
 (
@@ -139,49 +146,37 @@ CARD = """    def Mesh "card"
     }"""
 
 
-def draw(folder, backend, *extra, far=0.0, floor="", more="", end="", samples=24):
-    stage, image = folder / "places.usda", folder / f"{backend}{far:g}.exr"
+def write(folder, far=0.0, floor="", more="", end=""):
+    stage = folder / f"places{far:g}{'Bumpy' if floor else ''}.usda"
     stage.write_text(STAGE % {"far": far, "up": 0.2 * far, "back": -far, "floor": floor, "more": more} + end)
-    pairs.record(str(stage), str(image), "--backend", backend, "--samples", str(samples), "-w", "48", *extra,
-                 *(("--maxDepth", "1", "--seed", "7") if backend == "embree" else ()))
-    return image
-
-
-def blocks(image):
-    h, w = (n // 8 * 8 for n in image.shape[:2])
-    return image[:h, :w].reshape(h // 8, 8, w // 8, 8, 3).mean(axis=(1, 3, 4))
-
-
-def worst(a, b):
-    """:returns: largest relative difference of a block of 8x8 pixels, and that of the means"""
-    a, b = pairs.pixels(a), pairs.pixels(b)
-    return (float(np.max(np.abs(blocks(a) - blocks(b)) / (blocks(b) + 0.05 * b.mean()))), float(abs(a.mean() / b.mean() - 1)))
+    return str(stage)
 
 
 @pytest.mark.parametrize("far", [1e3, 1e4])
 def test_far_from_the_origin(tmp_path, far):
-    block, mean = worst(draw(tmp_path, "raster", far=far), draw(tmp_path, "raster"))
-    assert block < 0.01 and mean < 0.001  # all in the world's coordinates: 0.039 and 0.31
+    """The same picture as at the origin: in the world's coordinates tiles are off by 0.039 and 0.31 of their values."""
+    image = {x: inProcess.Stage(write(tmp_path, x), "--backend", "raster", "--samples", 24, "-w", sameImage.WIDTH).image(0)
+             for x in (0.0, far)}
+    near, away = (equivalence.tiles([image[x]])[0] for x in (0.0, far))
+    assert (np.abs(away - near) <= equivalence.MARGIN * (near + equivalence.FLOOR * near.mean())).all()
 
 
 def test_a_caster_far_away_takes_no_shadow(tmp_path):
-    block, mean = worst(draw(tmp_path, "raster", more=CARD), draw(tmp_path, "embree", more=CARD))
-    assert block < 0.08 and mean < 0.02  # depths over the whole scene: 0.78
+    """Depths over the whole scene would take 0.78 of a tile."""
+    sameImage.assert_same(write(tmp_path, more=CARD), width=24)
 
 
-def test_polygons_are_displaced(tmp_path):
-    bound = {"floor": "        rel material:binding = </bumps>", "end": BUMPS}
-    block, mean = worst(draw(tmp_path, "raster", **bound), draw(tmp_path, "embree", **bound))
-    assert block < 0.1 and mean < 0.02  # not refined: 0.38
-    flat = pairs.pixels(draw(tmp_path, "embree"))
-    assert np.abs(flat - pairs.pixels(tmp_path / "raster0.exr")).mean() > 0.02
+BUMPY = {"floor": "        rel material:binding = </bumps>", "end": BUMPS}
 
 
-def test_materials_know_places_in_the_world(tmp_path):
-    """Bumps stand in the world: other places show others, the same ones in both back ends."""
-    bound = {"floor": "        rel material:binding = </bumps>", "end": BUMPS, "far": 1000.0}
-    block, mean = worst(draw(tmp_path, "raster", **bound), draw(tmp_path, "embree", **bound))
-    assert block < 0.1 and mean < 0.02
+def test_bumps_of_polygons_stand_in_the_world(tmp_path):
+    """Polygons are displaced by where they are in the world. Not refined, tiles would be off by 0.38."""
+    coarse = ("--method", "subdivision=16px")
+    power = dataclasses.replace(equivalence.FULL, widest=10 * equivalence.MARGIN, looks=(12,))
+    bumpy = sameImage.assert_same(write(tmp_path, 1000.0, **BUMPY), None, *coarse, width=24, power=power)[1]
+    flat, here = (inProcess.references(write(tmp_path, **more), [7], "-w", 24, "--samples", 64, "--maxDepth", 1, *coarse)[0]
+                  for more in ({}, BUMPY))
+    assert np.abs(bumpy - flat).mean() > 0.02 and np.abs(bumpy - here).mean() > 0.02
 
 
 def test_aovs_are_those_of_the_path_tracer(tmp_path):
@@ -190,7 +185,9 @@ def test_aovs_are_those_of_the_path_tracer(tmp_path):
     aovs = ("--aov", "all", "--aov", "primvars:displayColor")
     found = {}
     for backend in ("raster", "embree"):
-        image = _patina.read_image(str(draw(tmp_path, backend, *aovs, far=500.0, samples=16)))
+        file = str(tmp_path / (backend + ".exr"))
+        pairs.record(write(tmp_path, 500.0), file, "--backend", backend, "--samples", "16", "-w", "48", "--maxDepth", "1", *aovs)
+        image = _patina.read_image(file)
         found[backend] = dict(zip(image.channels, np.moveaxis(np.array(image.pixels), -1, 0)))
     assert set(found["raster"]) == set(found["embree"])
     for name, other in found["embree"].items():

@@ -67,21 +67,25 @@ def test_adaptive_render_that_is_continued_is_the_same(tmp_path):
 
 def test_tolerance_is_kept(tmp_path):
     reference, image = tmp_path / "reference.exr", tmp_path / "image.exr"
-    record(scene("lightSphere"), reference, *SMALL, "--samples", 4096, "--seed", 7)
-    record(scene("lightSphere"), image, *SMALL, "--samples", 2048, "--tolerance", 0.02)
+    small = ("--imageWidth", 40, "--imageHeight", 23)
+    record(scene("lightSphere"), reference, *small, "--samples", 4096, "--seed", 7)
+    record(scene("lightSphere"), image, *small, "--samples", 2048, "--tolerance", 0.02)
     weights = np.array([0.2126, 0.7152, 0.0722])
     a, b = color(image) @ weights, color(reference) @ weights
     assert np.mean(np.abs(a - b) / (b + 0.01)) <= 0.02
 
 
 def test_progressive_error_falls_with_samples(tmp_path):
+    """By the root of the samples at the least. The reference's own noise adds a 32nd to the last error: 0.008 of the slope. An
+    error is the root mean square of 920 pixels, so that it scatters by 2 %, the slope by 0.01: 4 deviations are left to that."""
     image = tmp_path / "x.exr"
     errors = []
     reference = tmp_path / "reference.exr"
-    record(scene("diffuseBox"), reference, *SMALL, "--samples", 4096, "--seed", 99)
-    for samples in (16, 64, 256):
-        record(scene("diffuseBox"), image, *SMALL, "--samples", samples)
+    small = ("--imageWidth", 40, "--imageHeight", 23)
+    record(scene("diffuseBox"), reference, *small, "--samples", 2048, "--seed", 99)
+    for samples in (8, 32, 128):
+        record(scene("diffuseBox"), image, *small, "--samples", samples)
         result = json.loads(patina("compare", image, reference, "--json", "--no-flip").stdout)
         errors.append(result["rmse"])
-    slope = np.polyfit(np.log([16, 64, 256]), np.log(errors), 1)[0]
+    slope = np.polyfit(np.log([8, 32, 128]), np.log(errors), 1)[0]
     assert slope <= -0.45

@@ -12,7 +12,9 @@ DEMOS = os.path.join(os.path.dirname(__file__), "..", "..", "plugin", "patina", 
 TEN = {"classic": ("lambert", "phong", "blinnPhong", "ward", "cookTorrance", "rust"),
        "layers": ("specular", "metal", "coat", "sheen")}
 WIDTH, SAMPLES = 32, 64
-HARD_ONES = ("lambert", "metal", "coat", "sheen")  # all ten were looked at once: 0.018 to 0.028
+HARD_ONES = ("lambert", "metal", "coat", "sheen")
+ALL = {"soft": sum(TEN.values(), ()), "hard": HARD_ONES}
+FEW = {"soft": ("rust", "coat"), "hard": ("lambert", "metal")}  # each takes ten seconds of OpenGL in software
 SOFT = """#usda 1.0
 def DistantLight "sun"
 {
@@ -75,7 +77,7 @@ def hard_sky():
     return sky
 
 
-def pictures(chromium, make, folder):
+def pictures(chromium, make, folder, wanted):
     """Yields (case, name, the page's picture, a way to draw it with a back end) for each material and case."""
     module = compiled.load()
     lights = {"soft": str(folder / "soft.usda"), "hard": str(folder / "hard.usda")}
@@ -96,7 +98,7 @@ def pictures(chromium, make, folder):
         assert sorted(data["lights"]) == sorted(CASES["soft"] + CASES["hard"])
         networks = {name.rpartition("/")[2]: network for name, network in materials.load(file, every=True)[0]}
         for name in names:
-            for case in CASES if name in HARD_ONES else ("soft",):
+            for case in (case for case in CASES if name in wanted[case]):
                 at = list(CASES).index(case)
                 on = [int(light in CASES[case]) for light in data["lights"]]
                 own = chromium.picture(f"""page.choose({data["names"].index(name)}); page.state.samples = {SAMPLES};
@@ -119,20 +121,21 @@ def flip(a, b):
 
 
 @pytest.mark.slow
-def test_ten_materials_look_as_in_the_rasterizer(chromium, make, tmp_path):
+@pytest.mark.parametrize("wanted", [pytest.param(FEW, id="few"), pytest.param(ALL, id="all")])
+def test_materials_look_as_in_the_rasterizer(wanted, chromium, make, tmp_path):
     try:
         compiled.load().make_renderer("raster")
     except RuntimeError as error:
         pytest.skip(f"no rasterizer: {error}")
     found, light = {}, {}
-    for case, name, own, drawn in pictures(chromium, make, tmp_path):
+    for case, name, own, drawn in pictures(chromium, make, tmp_path, wanted):
         picture = drawn("raster", SAMPLES)
         found[case, name] = flip(own, picture)
         light[case, name] = float(own.mean() / picture.mean() - 1.0)
         print(case, name, found[case, name], light[case, name])
     if None in found.values():
         pytest.skip("flip-evaluator is not installed")
-    assert len(found) == 10 + len(HARD_ONES)
+    assert len(found) == sum(map(len, wanted.values()))
     assert max(value for (case, _), value in found.items() if case == "soft") <= 0.02, found
     # Edges of light in the sky are where the rasterizer's few samples differ: the page is nearer to the path tracer.
     assert max(found.values()) <= 0.035, found

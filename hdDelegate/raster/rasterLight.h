@@ -27,6 +27,8 @@ struct GpuLight {
 
 /// A view from a light, to be drawn into one shadow map.
 struct ShadowView {
+    /// Of half the angle of one map around a light. What is seen from nearer takes six.
+    static constexpr float widestTangent = 2.0f;
     glm::mat4 worldToMap{1.0f};
     glm::vec4 towards{0.0f};      ///< position of the light; direction to it where w is 0
     int category = -1;            ///< of what casts; -1: everything
@@ -54,6 +56,9 @@ struct ShadowBounds {
     }
 };
 
+/// Of half the angle of a cone from a place around all receivers; infinite where there is none.
+/// @param beside how far from the place it may begin
+float shadowTangent(const glm::vec3& from, float beside, const ShadowBounds& bounds);
 /// The view from infinitely far in a direction onto all receivers.
 /// @param turn x: of the map about its axis, in turns; y, in [0,1): shifts it by parts of a texel
 ShadowView distantShadow(const glm::vec3& toLight, glm::vec2 turn, const ShadowBounds& bounds,

@@ -97,9 +97,7 @@ int RasterLights::mapsOf(const Source& s, const ShadowBounds& bounds) const {
     if (!_shadows || !s.shadows) return 0;
     if (s.kind == Dome) return _domeSamples;
     if (s.kind == Distant) return 1;
-    const vec3 center = 0.5f * (bounds.receiverMin + bounds.receiverMax);
-    const float radius = 0.5f * glm::length(bounds.receiverMax - bounds.receiverMin);
-    return glm::length(center - s.position) - s.extent > 1.3f * radius ? 1 : 6;
+    return shadowTangent(s.position, s.extent, bounds) <= ShadowView::widestTangent ? 1 : 6;
 }
 
 /// Lights by how many maps they need, each kind with its own share of the room.

@@ -42,6 +42,13 @@ public:
                                   : std::min(1.0f, float(smoothed - passes) / float(smoothed - 4));
     }
 
+    /// The share of a first image of many samples that a film of so many passes shows.
+    static float shareOfFirst(uint32_t passes) {
+        if (passes >= smoothed) return 0.0f;
+        const float late = float(smoothed - passes) / float(smoothed - 1);
+        return late * 3.0f / (float(passes) + 2.0f); // it is worth some three passes
+    }
+
 private:
     std::unique_ptr<GlProgram> _program;
     GlTexture _noisy, _guide, _place, _normal, _difference;

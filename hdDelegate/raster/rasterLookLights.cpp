@@ -29,7 +29,7 @@ int RasterLights::lookSamples(const Source& s) const {
     return s.kind == Point || (s.delta && s.kind != Line) ? 1 : mostPooled / 2;
 }
 
-void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int samples,
+void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int samples, int mapped,
                            const ShadowBounds& bounds, int most, Sampled& out,
                            std::vector<GpuLight>& looked, std::vector<GpuLight>& shared,
                            std::vector<GpuLight>& pool) const {
@@ -78,6 +78,8 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
     }
     const size_t shares = std::min<size_t>(peaks.size(), mostPeaks);
     const float perPixel = float(samples / every);
+    int taken = 0;
+    std::vector<size_t> origins; // of pool, whose maps others use
     const auto take = [&](uint32_t index, GpuLight g, float weight, std::vector<GpuLight>& to) {
         if (dome) {
             // Densities of domes are those of all samples together.
@@ -86,7 +88,17 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
         }
         g.axis[0].w = perPixel;
         g.fade.w = weight;
-        cast(g, index);
+        const int number = taken++;
+        if (number < mapped || &to == &shared) {
+            cast(g, index);
+            if (!dome) origins.push_back(to.size());
+        } else if (_shadows && s.shadows && dome) {
+            g.shadow = vec4(0.0f); // the sky's
+        } else if (!origins.empty()) {
+            const size_t origin = origins[size_t(number) % origins.size()];
+            g.shadow = to[origin].shadow;
+            if (g.shadow.x >= 0.0f && g.shadow.w != 0.0f) g.shadow.w = 2.0f + float(origin);
+        }
         to.push_back(g);
     };
     // Those that are taken are as bright as all are.
@@ -152,18 +164,62 @@ RasterLights::Sampled RasterLights::sampleLook(uint32_t pass, const RasterEmitte
     for (size_t i = 0; i < _sources.size(); ++i) {
         const Source& s = _sources[i];
         const int samples = std::min(lookSamples(s), s.kind == Dome ? pooled : pooled / 2);
-        addLook(s, i, pass, samples < every ? 1 : samples, bounds, most, out, looked, shared, pool);
+        addLook(s, i, pass, samples < every ? 1 : samples, mostTaken, bounds, most, out, looked,
+                shared, pool);
     }
     takeEmitters(pass, emitterSamples, emitters, bounds, most, out);
     std::vector<GpuLight>& glowing = emitterSamples >= every ? pool : shared;
     glowing.insert(glowing.end(), out.lights.begin(), out.lights.end());
+    join(out, looked, shared, std::move(pool));
+    out.many = pooled == mostPooled;
+    return out;
+}
+
+void RasterLights::join(Sampled& out, const std::vector<GpuLight>& looked,
+                        const std::vector<GpuLight>& shared, std::vector<GpuLight> pool) {
+    const size_t first = looked.size() + shared.size();
+    for (GpuLight& g : pool)
+        if (g.shadow.w >= 2.0f) g.shadow.w += float(first);
     out.lights = looked;
     out.lights.insert(out.lights.end(), shared.begin(), shared.end());
     out.lights.insert(out.lights.end(), pool.begin(), pool.end());
     out.taken = int(out.lights.size());
     out.look[0] = out.look[1] = int(looked.size());
-    out.look[2] = int(looked.size() + shared.size());
+    out.look[2] = int(first);
     out.look[3] = every;
+}
+
+RasterLights::Sampled RasterLights::sampleFirst(const RasterEmitters& emitters,
+                                                const ShadowBounds& bounds, int mapSize, int pixels,
+                                                int most) const {
+    Sampled out;
+    most = std::min(most, int(maxSmallMaps));
+    int lights = 0, single = 0, pooled = 0; // maps for one sample of each light
+    for (const Source& s : _sources) {
+        const int samples = lookSamples(s);
+        lights += samples + (s.kind == Dome ? mostPeaks : 0) + 1;
+        const int maps = !_shadows || !s.shadows || s.kind == Dome ? 0 : mapsOf(s, bounds);
+        single += maps;
+        if (samples > 1) pooled += maps;
+    }
+    const int emitterMaps = emitters.empty() || !_shadows ? 0 : 6 * leastEmitterSamples;
+    if (bounds.hasFibres() || lights > mostTaken - leastEmitterSamples ||
+        single + emitterMaps > std::max(most, int(maxMaps)))
+        return out;
+    // Lights that are sharp have one sample, and its maps.
+    const int mapped =
+        pooled > 0
+            ? std::clamp((most - emitterMaps - (single - pooled)) / pooled, 1, mostPooled / 2)
+            : 1;
+    const bool many = emitterMaps + single - pooled + mapped * pooled > maxMaps;
+    out.mapSize = enoughFor(pixels, many ? mapSize / 2 : mapSize);
+    std::vector<GpuLight> looked, shared, pool;
+    for (size_t i = 0; i < _sources.size(); ++i)
+        addLook(_sources[i], i, 0, lookSamples(_sources[i]), _sources[i].kind == Dome ? 0 : mapped,
+                bounds, int(maxSmallMaps), out, looked, shared, pool);
+    takeEmitters(0, emitters.empty() ? 0 : leastEmitterSamples, emitters, bounds, maxSmallMaps, out);
+    shared.insert(shared.end(), out.lights.begin(), out.lights.end());
+    join(out, looked, shared, std::move(pool));
     return out;
 }
 

@@ -239,31 +239,6 @@ void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisibl
     drawSurfaces(scene, visible, Transmitting);
 }
 
-/// Brings the film's share of what smoothing does to that of one pass more.
-/// @param look whether the pass is one of those that are smoothed
-void RasterPasses::smooth(const RasterSample& sample, bool look, Film& film) {
-    if (sample.pass == 0) _smoothing.assign(size_t(_width) * size_t(_height), vec4(0.0f));
-    if (sample.pass >= RasterLook::smoothed || _smoothing.empty()) return;
-    const std::vector<vec4> before = _smoothing;
-    if (look) {
-        std::vector<vec4> pixels;
-        _look->read(pixels);
-        takeShared(pixels, _width, _height, sample, _window, [&](int x, int y, const vec4& value) {
-            if (std::isfinite(value.x + value.y + value.z))
-                _smoothing[size_t(y) * size_t(_width) + size_t(x)] += value;
-        });
-    }
-    const float was = RasterLook::share(sample.pass), is = RasterLook::share(sample.pass + 1);
-    for (int y = _window[1]; y <= _window[3]; ++y)
-        for (int x = _window[0]; x <= _window[2]; ++x) {
-            const size_t at = size_t(y) * size_t(_width) + size_t(x);
-            const vec3 change = vec3(_smoothing[at]) * is - vec3(before[at]) * was;
-            if (change == vec3(0.0f) || film.sampleCount(x, y) == 0) continue;
-            const vec3 mean = film.color(x, y) + change / float(film.sampleCount(x, y));
-            film.setMean(x, y, glm::max(mean, vec3(0.0f)), film.alpha(x, y));
-        }
-}
-
 void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
                         const RasterDomes& domes, int environmentSamples,
                         const RasterCamera& camera, const RasterSample& sample, Film& film) {
@@ -276,6 +251,35 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
         look ? lights.sampleLook(pass, scene.emitters(), _bounds, shadowMapSize, longer,
                                  skyCells(scene))
              : lights.sample(pass, scene.emitters(), _bounds, shadowMapSize, longer);
+    std::vector<vec4> pixels, smoothing;
+    drawImage(scene, lights, domes, environmentSamples, camera, sample, sampled, look, pixels);
+    if (look) _look->read(smoothing);
+    std::vector<vec4> base = pixels;
+    addShared(pixels, _width, _height, sample, _window, film);
+    if (pass == 0) _first.clear();
+    if (pass == 0 && look && !sampled.many) {
+        const RasterLights::Sampled first =
+            lights.sampleFirst(scene.emitters(), _bounds, shadowMapSize, longer, skyCells(scene));
+        if (first.taken > 0) {
+            drawImage(scene, lights, domes, environmentSamples, camera, sample, first, true, pixels);
+            _look->read(smoothing);
+            for (size_t i = 0; i < pixels.size(); ++i)
+                pixels[i] += vec4(vec3(smoothing[i]), 0.0f);
+            beginFirst(pixels, sample);
+        }
+    }
+    if (_first.empty())
+        smooth(sample, look, smoothing, film);
+    else
+        showFirst(sample, base, film);
+}
+
+void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& lights,
+                             const RasterDomes& domes, int environmentSamples,
+                             const RasterCamera& camera, const RasterSample& sample,
+                             const RasterLights::Sampled& sampled, bool look,
+                             std::vector<vec4>& pixels) {
+    const uint32_t pass = sample.pass;
     std::vector<mat4> matrices;
     for (const ShadowView& v : sampled.shadows)
         matrices.push_back(v.worldToMap);
@@ -366,12 +370,10 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     gl.DepthMask(GL_TRUE);
 
     _timer.mark(ReadBack);
-    std::vector<vec4> pixels(size_t(_color.width()) * size_t(_color.height()));
+    pixels.resize(size_t(_color.width()) * size_t(_color.height()));
     gl.GetTextureImage(_color.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels.size() * sizeof(vec4)),
                        pixels.data());
     _timer.collect(_seconds);
-    addShared(pixels, _width, _height, sample, _window, film);
-    smooth(sample, look, film);
 }
 
 } // namespace patina

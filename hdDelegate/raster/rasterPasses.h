@@ -57,7 +57,7 @@ public:
                   uint32_t taken, const std::function<void(uint32_t)>& moveTo);
     /// Passes that have to be drawn again to continue a film of `taken`.
     static uint32_t passesToRepeat(uint32_t taken) {
-        return taken < RasterLook::smoothed ? std::min(taken, uint32_t(RasterLook::passes)) : 0;
+        return taken < RasterLook::smoothed ? taken : 0;
     }
 
     /// What the driver's seconds go into, of all that was drawn since clearSeconds().
@@ -85,7 +85,12 @@ private:
     void drawTransmitting(const RasterScene& scene, const RasterVisible& visible);
     void drawVolumes(const RasterScene& scene);
     void needBehind();
-    void smooth(const RasterSample& sample, bool look, Film& film);
+    void drawImage(const RasterScene& scene, const RasterLights& lights, const RasterDomes& domes,
+                   int environmentSamples, const RasterCamera& camera, const RasterSample& sample,
+                   const RasterLights::Sampled& sampled, bool look, std::vector<vec4>& pixels);
+    void smooth(const RasterSample& sample, bool look, std::vector<vec4>& pixels, Film& film);
+    void beginFirst(std::vector<vec4>& pixels, const RasterSample& sample);
+    void showFirst(const RasterSample& sample, std::vector<vec4>& pixels, Film& film);
     void drawRuns(const RasterDraw& draw, const RasterSurface& surface,
                   const RasterVisible& visible) const;
     void measureReceivers(const RasterScene& scene, const RasterCamera& camera,
@@ -106,6 +111,7 @@ private:
     GLuint _shadowTarget = 0;
     int _shadowLayers = 0;
     RasterSky _sky;
+    std::vector<vec4> _first, _sums; ///< see showFirst(); of the film's pixels
     std::vector<vec4> _smoothing; ///< what it does to the sums of the film's pixels
     ShadowBounds _bounds;
     RasterAovImages _seen; ///< of drawAovs()

@@ -52,12 +52,46 @@ mat4 planeOf(const GpuLight& light, const ShadowBounds& bounds) {
     return m;
 }
 
+/// About a place, around all receivers.
+struct Cone {
+    vec3 axis{0.0f, -1.0f, 0.0f};
+    float tangent = INFINITY; ///< of half its angle
+    float nearest = 0.0f;     ///< along the axis, of the receivers
+};
+
+/// @param beside how far from the place it may begin
+Cone coneOf(const vec3& from, float beside, const ShadowBounds& bounds) {
+    Cone cone;
+    const std::vector<vec3> around =
+        corners(bounds.receiverMin - beside, bounds.receiverMax + beside);
+    vec3 sum(0.0f);
+    for (const vec3& p : around) {
+        const float away = glm::length(p - from);
+        if (!(away > 0.0f)) return cone;
+        sum += (p - from) / away;
+    }
+    if (!(glm::length(sum) > 0.1f)) return cone;
+    cone.axis = glm::normalize(sum);
+    cone.tangent = 0.0f;
+    cone.nearest = INFINITY;
+    for (const vec3& p : around) {
+        const float along = glm::dot(p - from, cone.axis);
+        cone.nearest = std::min(cone.nearest, along);
+        cone.tangent = std::max(cone.tangent, along > 0.0f ? glm::length(p - from - along * cone.axis) / along : INFINITY);
+    }
+    return cone;
+}
+
 /// @returns up to half a texel each way, as a part of the map's width
 vec2 shiftOf(vec2 turn, int mapSize) {
     return (vec2(turn.y, glm::fract(turn.y * 89.0f)) - 0.5f) / float(mapSize);
 }
 
 } // namespace
+
+float shadowTangent(const vec3& from, float beside, const ShadowBounds& bounds) {
+    return coneOf(from, beside, bounds).tangent;
+}
 
 ShadowView distantShadow(const vec3& toLight, vec2 turn, const ShadowBounds& bounds, int mapSize) {
     const mat4 view = looking(vec3(0.0f), -toLight, turn.x);
@@ -129,14 +163,15 @@ int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
         return glm::frustum(shift.x - n, shift.x + n, shift.y - n, shift.y + n, nearest,
                             reach * 1.01f);
     };
-    if (distance > 1.3f * radius) {
+    const Cone cone = coneOf(from, 0.0f, bounds);
+    // Better coarse than none, where there is no room.
+    if (cone.tangent <= (full(6) ? 4.0f : 1.0f) * ShadowView::widestTangent) {
         if (full(1)) return 0;
-        const float tangent = 1.02f * radius / std::sqrt(distance * distance - radius * radius);
         // Numbers are for where shadows fall, but of fading shadows, which are looked for on all of
         // the way.
         const bool clamps = !(light.fade.x > 0.0f);
-        const float nearest = clamps ? distance - 1.05f * radius : least;
-        cast(frustum(tangent, nearest) * looking(from, (center - from) / distance, turn.x), clamps);
+        const float nearest = clamps ? std::max(0.95f * cone.nearest, least) : least;
+        cast(frustum(1.02f * cone.tangent, nearest) * looking(from, cone.axis, turn.x), clamps);
         return 1;
     }
     if (full(6)) return 0;

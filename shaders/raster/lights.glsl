@@ -14,7 +14,8 @@ struct Light {
     vec4 cone;      // x start, y end, radians; z 1 - cos of a distant light, w its solid angle.
                     // Of domes: x layer of the image (-1 none), y samples, z first of its harmonics
                     // (-1 none). Of distant lights: x 1 the sun of a dome. Of triangles: z 1 two-sided
-    vec4 shadow;    // x first map (-1 none), y maps, w 1 perspective
+    vec4 shadow;    // x first map (-1 none), y maps (0: the sky's), z for fibres; w 0 parallel, 1 perspective,
+                    // from 2 on: perspective, from the place of the light with this number less 2
     vec4 shadowColor; // w: density by area of a rect or disk without an image
     vec4 fade;      // of shadows: distance, falloff, gamma; w: how often the light counts
     vec4 table;     // x first value of an image (-1 none), y width, z height; w first of a profile (-1)

@@ -66,9 +66,14 @@ int faceOf(float maps, vec3 d) {
                                    : (d.z > 0.0 ? 4 : 5);
 }
 
+// Where a light's maps were drawn from: another sample's place, where it has none of its own.
+vec3 shadowOrigin(Light l) {
+    return l.shadow.w >= 2.0 ? lights[int(l.shadow.w) - 2].sampled.xyz : l.sampled.xyz;
+}
+
 // Whether a light's sample reaches a point, as far as its maps tell.
 float reaches(Light l, vec3 p) {
-    vec3 d = p - l.sampled.xyz;
+    vec3 d = p - shadowOrigin(l);
     int map = int(l.shadow.x) + faceOf(l.shadow.y, d);
     if (isTube() && l.shadow.z > 0.0) {
         int finer = int(l.shadow.x + l.shadow.y) + faceOf(l.shadow.z, d);
@@ -76,29 +81,6 @@ float reaches(Light l, vec3 p) {
     }
     vec3 towards = l.sampled.w != 0.0 ? -d : l.sampled.xyz;
     return isInFront(shadowMaps, shadowMatrices[map], map, p, planeTowards(normalize(towards)), 1e-6);
-}
-
-// Share of the light's sample that arrives; the colour of shadows where it does not.
-vec3 shadowAt(Light l, vec3 wi) {
-    if (l.shadow.x < 0.0) return vec3(1.0);
-    float away = l.shadow.w != 0.0 ? length(point.position - l.sampled.xyz) : 1.0;
-    vec3 p = departure(wi);
-    float seen = reaches(l, p);
-    if (seen < 1.0 && l.fade.x > 0.0) {
-        // What is nearest to the light is further off than h where the point moved by h is lit.
-        int steps = l.fade.y > 0.0 ? 8 : 1;
-        float start = l.fade.y > 0.0 ? max(l.fade.x - l.fade.y, 0.0) : l.fade.x;
-        float blocked = 0.0, last = 1.0 - seen, depth = 1.0;
-        for (int i = 0; i < steps; ++i) {
-            float h = steps > 1 ? mix(start, l.fade.x, (float(i) + 0.5) / float(steps)) : start;
-            float now = l.shadow.w != 0.0 && h >= away ? 0.0 : min(1.0 - reaches(l, p + wi * h), last);
-            blocked += (last - now) * depth;
-            depth = steps > 1 ? pow(clamp((l.fade.x - h) / l.fade.y, 0.0, 1.0), l.fade.z) : 0.0;
-            last = now;
-        }
-        seen = 1.0 - blocked;
-    }
-    return mix(l.shadowColor.rgb, vec3(1.0), seen);
 }
 
 vec2 octahedral(vec3 w) {
@@ -132,4 +114,28 @@ float skyReaches(vec3 wi) {
     // These texels are wide: the plane of what is small or round reaches through what is near.
     float texel = 2.0 / (float(textureSize(skyMaps, 0).x) * length(vec3(m[0].x, m[1].x, m[2].x)));
     return isInFront(skyMaps, m, layer, point.position + up * (0.9 * texel), vec3(0.0), 3e-5);
+}
+
+// Share of the light's sample that arrives; the colour of shadows where it does not.
+vec3 shadowAt(Light l, vec3 wi) {
+    if (l.shadow.x < 0.0) return vec3(1.0);
+    vec3 p = departure(wi);
+    if (l.shadow.y == 0.0) return mix(l.shadowColor.rgb, vec3(1.0), skyReaches(wi));
+    float away = l.shadow.w != 0.0 ? length(point.position - shadowOrigin(l)) : 1.0;
+    float seen = reaches(l, p);
+    if (seen < 1.0 && l.fade.x > 0.0) {
+        // What is nearest to the light is further off than h where the point moved by h is lit.
+        int steps = l.fade.y > 0.0 ? 8 : 1;
+        float start = l.fade.y > 0.0 ? max(l.fade.x - l.fade.y, 0.0) : l.fade.x;
+        float blocked = 0.0, last = 1.0 - seen, depth = 1.0;
+        for (int i = 0; i < steps; ++i) {
+            float h = steps > 1 ? mix(start, l.fade.x, (float(i) + 0.5) / float(steps)) : start;
+            float now = l.shadow.w != 0.0 && h >= away ? 0.0 : min(1.0 - reaches(l, p + wi * h), last);
+            blocked += (last - now) * depth;
+            depth = steps > 1 ? pow(clamp((l.fade.x - h) / l.fade.y, 0.0, 1.0), l.fade.z) : 0.0;
+            last = now;
+        }
+        seen = 1.0 - blocked;
+    }
+    return mix(l.shadowColor.rgb, vec3(1.0), seen);
 }

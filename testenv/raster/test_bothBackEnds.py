@@ -57,8 +57,9 @@ def test_both_draw_the_same_looked_at_closely(name, tmp_path):
 
 
 def test_a_third_of_the_stages_were_not_made_for_this():
-    sorts = [case.sort for case in CASES.values()]
-    assert 3 * sorts.count("asset") >= len(sorts)
+    for tiers in (("full",), ("full", "long")):
+        sorts = [case.sort for case in CASES.values() if case.tier in tiers]
+        assert 3 * sorts.count("asset") >= len(sorts), tiers
 
 
 def test_a_failing_pair_leaves_a_page(tmp_path):

@@ -24,7 +24,7 @@ def cache(tmp_path_factory):
     return os.environ.get("PATINA_FIRST_PASS_CACHE") or str(tmp_path_factory.mktemp("truth"))
 
 
-@pytest.mark.parametrize("name", ["lightDome", "lightRect", "lightSphere"])
+@pytest.mark.parametrize("name", ["lightDome", "lightRect", "lightSphere", "instances"])
 def test_no_region_of_the_first_image_is_wrong(name, cache):
     stage = firstPass.Stage(firstPass.stages()[name], WIDTH)
     truth = stage.truth(TRUTH, cache)
@@ -32,22 +32,29 @@ def test_no_region_of_the_first_image_is_wrong(name, cache):
     assert max(worst) <= TILE, worst
 
 
-# Seeds that nothing was tuned on. Above the limit there, and so not held: lightSphere (0.083 at two of them), roughConductor
-# (0.12 to 0.15), shaderball (0.15 to 0.2); texturedMesh lies at it (0.080).
-@pytest.mark.parametrize("name", ["lightDome", "lightDistant", "lightRect"])
+ALIKE = ["lightDome", "lightDistant", "lightRect", "lightSphere", "texturedMesh", "plastic", "classic/hematite", "Teapot", "teapot",
+         "AlphaBlendModeTest", "NormalsTexture", "RoughnessTest", "CesiumMan", "BrainStem", "allPrimitives"]
+
+
+# Of firstPass.py's stages these lie above the limit, and so are not held: roughConductor and rustedSteel at it, shaderball and
+# instances at 0.10, StandardShaderBall at 0.12.
+@pytest.mark.parametrize("name", ALIKE)
 def test_the_first_image_looks_like_the_last(name, cache):
     pytest.importorskip("flip_evaluator")
+    if name not in firstPass.stages():
+        pytest.skip("no $PATINA_ASSETS")
     stage = firstPass.Stage(firstPass.stages()[name], WIDTH)
     truth = stage.truth(TRUTH, cache)
     found = [imageMetrics.mean_flip(stage.render("raster", 1, seed), truth, True) for seed in (10, 11, 12)]
     assert max(found) <= MOST_FLIP, found
 
 
-def test_first_looks_continue_as_they_would_have(tmp_path):
+@pytest.mark.parametrize("name", ["lightDome", "roughConductor"])  # with maps for all samples, and without
+def test_first_looks_continue_as_they_would_have(name):
     """A render that is resumed within its first looks, or after them, ends with the same bits."""
     import _patina
 
-    stage = firstPass.Stage(firstPass.stages()["lightDome"], 32)
+    stage = firstPass.Stage(firstPass.stages()[name], 32)
     whole = stage.render("raster", 12, 3)
     for taken in (1, 5, 9):
         film = _patina.Film()

@@ -87,7 +87,7 @@ GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
 
 /// Small images gain nothing from finer maps, and drawing these is most of a pass there.
 int RasterLights::enoughFor(int pixels, int mapSize) {
-    while (mapSize / 2 >= texelsPerPixel * pixels)
+    while (mapSize / 2 >= std::max(texelsPerPixel * pixels, int(smallestMap)))
         mapSize /= 2;
     return mapSize;
 }

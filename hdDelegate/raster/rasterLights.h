@@ -26,6 +26,7 @@ public:
     static constexpr int maxSmallMaps = 128;      ///< in half of it, where lights need more
     static constexpr int maxTinyMaps = 512;       ///< smaller still, for as few pixels a side
     static constexpr int texelsPerPixel = 4;      ///< along a side of a map, and of the image
+    static constexpr int smallestMap = 256;       ///< what casts is no coarser in small images
     static constexpr int maxUnshadowed = 64;      ///< lights without shadows per pass
     static constexpr int mostDomes = 24;          ///< per pass
     static constexpr int lookEvery = 8;           ///< of a light's samples a pixel takes one in

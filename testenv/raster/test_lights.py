@@ -171,13 +171,6 @@ def test_a_method_of_domes_keeps_the_tolerance_that_it_would_be_taken_for(method
     assert 0.0 < off <= error / 0.4, (off, error)
 
 
-def test_one_filtered_pass_has_less_noise_than_one_sampled_pass(skies):
-    truth, stage = skies["roughConductor"]
-    error = {method: np.mean([(stage.image(seed, samples=1, methods={"domeLight": method}) - truth) ** 2
-                              / (truth ** 2 + 0.01) for seed in (1, 2, 3)]) for method in ("sampled", "filtered")}
-    assert error["filtered"] < error["sampled"], error
-
-
 def test_harmonics_ring_only_without_a_window():
     """A ball under a sky with one bright texel, whose harmonics of order 2 are known: what is below zero is black."""
     sky = sweepsSky.one_texel()

@@ -83,8 +83,7 @@ float EmbreeScene::targetEdge(const Geometry& prim, bool displaced, const Camera
             edge = edge > 0.0f ? std::min(edge, wanted) : wanted;
     }
     // Far away a cage of few faces would stay as it is: up to twice as wide as its surface.
-    if (refined && prim.kind == GeometryKind::Mesh && edge > 0.0f &&
-        upper.x >= lower.x)
+    if (refined && prim.kind == GeometryKind::Mesh && edge > 0.0f && upper.x >= lower.x)
         edge = std::min(edge, 0.25f * glm::length(upper - lower));
     return edge > 0.0f ? std::exp2(std::floor(std::log2(edge))) : 0.0f;
 }

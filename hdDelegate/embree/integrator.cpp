@@ -64,8 +64,7 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
 void Integrator::addFeatures(const Path& path, const AovTarget& target) const {
     if (_denoisingAlbedo < 0 && _denoisingNormal < 0) return;
     // What only mirrors, lamps and skies show is its own texture.
-    const vec3 albedo =
-        path.featured ? path.featureAlbedo : glm::min(path.radiance, vec3(1.0f));
+    const vec3 albedo = path.featured ? path.featureAlbedo : glm::min(path.radiance, vec3(1.0f));
     if (_denoisingAlbedo >= 0)
         target.film.addAov(_denoisingAlbedo, target.x, target.y, &albedo.x, 0.0f);
     if (_denoisingNormal >= 0)

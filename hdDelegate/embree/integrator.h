@@ -27,8 +27,8 @@ inline float powerHeuristic(float a, float b) {
 }
 
 /// Weight of a sample of density a beside another strategy of density b. The power heuristic is for
-/// lights that one strategy finds far better than the other. Both find a sky about as well, and then
-/// the balance heuristic has less variance.
+/// lights that one strategy finds far better than the other. Both find a sky about as well, and
+/// then the balance heuristic has less variance.
 inline float misWeight(float a, float b, bool dome) {
     if (!dome) return powerHeuristic(a, b);
     if (!std::isfinite(a)) return 1.0f;

@@ -18,9 +18,9 @@ enum class AovKind {
 
 /// One channel group of the film.
 struct AovSpec {
-    std::string name;   ///< color, alpha, depth, cameraDepth, deviceDepth, normal, Neye, position,
-                        ///< albedo, denoisingAlbedo, denoisingNormal, primvars:NAME, primId, instanceId, elementId, sampleCount,
-                        ///< variance
+    std::string name; ///< color, alpha, depth, cameraDepth, deviceDepth, normal, Neye, position,
+                      ///< albedo, denoisingAlbedo, denoisingNormal, primvars:NAME, primId,
+                      ///< instanceId, elementId, sampleCount, variance
     int components = 3; ///< floats per pixel
     AovKind kind = AovKind::Mean;
     float clearValue = 0.0f; ///< of pixels that no sample reached
@@ -63,8 +63,8 @@ public:
 
     /// Replaces the mean of a pixel that has samples; their number and the variance stay.
     void setMean(int x, int y, glm::vec3 color, float alpha);
-    /// Shows another colour than the mean of the samples, which then is "color.noisy", until reset()
-    /// is called (as each render does when it starts).
+    /// Shows another colour than the mean of the samples, which then is "color.noisy", until
+    /// reset() is called (as each render does when it starts).
     /// @param color three floats per pixel, top row first
     /// @throws std::invalid_argument for another number of values
     void setDenoised(std::vector<float> color);
@@ -131,7 +131,7 @@ private:
     int _width = 0, _height = 0;
     std::vector<AovSpec> _aovs;
     std::vector<Pixel> _pixels;
-    std::vector<Plane> _planes; ///< beside _aovs; empty for those that always exist
+    std::vector<Plane> _planes;   ///< beside _aovs; empty for those that always exist
     std::vector<float> _denoised; ///< what shows instead of the colour's means, or empty
     std::atomic<uint64_t> _dropped{0};
 };

@@ -14,11 +14,11 @@ struct SobolBytes {
     constexpr SobolBytes() {
         uint32_t directions[2][32] = {{1u << 31, 3u << 30}, {1u << 31, 3u << 30, 1u << 29}};
         for (int k = 2; k < 32; ++k)
-            directions[0][k] = directions[0][k - 1] ^ directions[0][k - 2] ^
-                               (directions[0][k - 2] >> 2);
+            directions[0][k] =
+                directions[0][k - 1] ^ directions[0][k - 2] ^ (directions[0][k - 2] >> 2);
         for (int k = 3; k < 32; ++k)
-            directions[1][k] = directions[1][k - 2] ^ directions[1][k - 3] ^
-                               (directions[1][k - 3] >> 3);
+            directions[1][k] =
+                directions[1][k - 2] ^ directions[1][k - 3] ^ (directions[1][k - 3] >> 3);
         for (int d = 0; d < 2; ++d)
             for (int byte = 0; byte < 4; ++byte)
                 for (int value = 0; value < 256; ++value)
@@ -31,9 +31,9 @@ inline constexpr SobolBytes sobolBytes;
 
 /// Owen-scrambled Sobol points in sets of up to four dimensions, which are decorrelated between
 /// sets and pixels by a nested uniform shuffle of the index (Burley 2020, Practical Hash-based Owen
-/// Scrambling; the hash of Laine and Karras 2011 with Vegdahl's constants). The first two dimensions
-/// of a set are a (0,2) sequence. A sample depends only on pixel, seed, sample index and set, so
-/// pixels do not depend on threads or on the order of tiles.
+/// Scrambling; the hash of Laine and Karras 2011 with Vegdahl's constants). The first two
+/// dimensions of a set are a (0,2) sequence. A sample depends only on pixel, seed, sample index and
+/// set, so pixels do not depend on threads or on the order of tiles.
 class Sampler {
 public:
     Sampler(uint32_t x, uint32_t y, uint32_t seed, uint32_t index)
@@ -45,8 +45,7 @@ public:
         glm::vec2 point2(uint32_t i = 0) const { return plane(shuffled(i)); }
         glm::vec4 point4(uint32_t i = 0) const {
             const uint32_t reversed = shuffled(i), index = reverseBits(reversed);
-            return glm::vec4(plane(reversed),
-                             scrambled(sobol(0, index), hash(_seed + 0x1b56c4e9u)),
+            return glm::vec4(plane(reversed), scrambled(sobol(0, index), hash(_seed + 0x1b56c4e9u)),
                              scrambled(sobol(1, index), hash(_seed + 0x7c3a91b5u)));
         }
 
@@ -55,9 +54,7 @@ public:
         Set(uint32_t seed, uint32_t first) : _seed(seed), _first(first) {}
 
         /// The index of a point after the shuffle, its bits reversed.
-        uint32_t shuffled(uint32_t i) const {
-            return laineKarras(reverseBits(_first + i), _seed);
-        }
+        uint32_t shuffled(uint32_t i) const { return laineKarras(reverseBits(_first + i), _seed); }
         glm::vec2 plane(uint32_t reversed) const {
             return glm::vec2(
                 toUnit(reverseBits(laineKarras(reverseBits(reversed), hash(_seed + 0x68bc21ebu)))),
@@ -126,8 +123,8 @@ private:
 
     static uint32_t sobol(int dimension, uint32_t index) {
         const auto& bytes = sobolBytes.sums[dimension];
-        return bytes[0][index & 255u] ^ bytes[1][index >> 8 & 255u] ^
-               bytes[2][index >> 16 & 255u] ^ bytes[3][index >> 24];
+        return bytes[0][index & 255u] ^ bytes[1][index >> 8 & 255u] ^ bytes[2][index >> 16 & 255u] ^
+               bytes[3][index >> 24];
     }
 
     uint32_t _seed;

@@ -49,10 +49,11 @@ AovSpec standardAov(const std::string& name) {
     const std::string prefix = "primvars:";
     if (startsWith(name, prefix.c_str()) && name.size() > prefix.size())
         return {name, primvarComponents(name.substr(prefix.size())), AovKind::First, 0.0f, false};
-    throw std::invalid_argument("unknown AOV '" + name +
-                                "'; known are color, alpha, depth, cameraDepth, deviceDepth, "
-                                "normal, Neye, position, albedo, denoisingAlbedo, denoisingNormal, primId, "
-                                "instanceId, elementId, sampleCount, variance and primvars:NAME");
+    throw std::invalid_argument(
+        "unknown AOV '" + name +
+        "'; known are color, alpha, depth, cameraDepth, deviceDepth, "
+        "normal, Neye, position, albedo, denoisingAlbedo, denoisingNormal, primId, "
+        "instanceId, elementId, sampleCount, variance and primvars:NAME");
 }
 
 } // namespace patina

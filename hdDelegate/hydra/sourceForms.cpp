@@ -100,8 +100,9 @@ std::shared_ptr<const Curves> bezierOf(HdSceneDelegate& delegate, const SdfPath&
     static_cast<Curves&>(hermite) = curves;
     hermite.tangents = tangents;
     if (!hermite.primvar("widths"))
-        diagnostics.warn(id.GetString(), "widths",
-                         "of Hermite curves are not handed on by UsdImaging; they are drawn 1 wide");
+        diagnostics.warn(
+            id.GetString(), "widths",
+            "of Hermite curves are not handed on by UsdImaging; they are drawn 1 wide");
     return toBezier(hermite, diagnostics);
 }
 

@@ -20,10 +20,9 @@ constexpr double plainShare = 0.02;
 /// Octahedral map of the unit square (Meyer et al. 2010).
 glm::dvec3 octahedral(double u, double v) {
     const double x = 2.0 * u - 1.0, y = 2.0 * v - 1.0, z = 1.0 - std::abs(x) - std::abs(y);
-    const glm::dvec3 n =
-        z >= 0.0 ? glm::dvec3(x, y, z)
-                 : glm::dvec3(std::copysign(1.0 - std::abs(y), x),
-                              std::copysign(1.0 - std::abs(x), y), z);
+    const glm::dvec3 n = z >= 0.0 ? glm::dvec3(x, y, z)
+                                  : glm::dvec3(std::copysign(1.0 - std::abs(y), x),
+                                               std::copysign(1.0 - std::abs(x), y), z);
     return glm::normalize(n);
 }
 
@@ -114,8 +113,7 @@ SkyDistribution::SkyDistribution(int width, int height, const std::vector<float>
     }
 }
 
-std::vector<SkyDistribution::Part>
-SkyDistribution::parts(const std::vector<float>& weights) const {
+std::vector<SkyDistribution::Part> SkyDistribution::parts(const std::vector<float>& weights) const {
     std::vector<Part> result;
     const int columns = int(_left.size()) - 1, rows = int(_top.size()) - 1;
     for (int row = 0; row < rows; ++row)
@@ -154,8 +152,7 @@ void SkyDistribution::fillBlocks(const std::vector<float>& weights) {
         for (int y = 0; y < _height; ++y) {
             const float* row = &weights[size_t(y) * size_t(_width) + size_t(x0)];
             sums[size_t(y)] = accumulate(
-                wide, [row](int x) { return double(row[x]); },
-                &_rowCells[rowCells(y, column)]);
+                wide, [row](int x) { return double(row[x]); }, &_rowCells[rowCells(y, column)]);
         }
         for (int r = 0; r < rows; ++r) {
             const int y0 = _top[size_t(r)];
@@ -189,7 +186,8 @@ size_t SkyDistribution::rowCells(int row, int blockColumn) const {
 }
 
 const float* SkyDistribution::table(const glm::vec3& normal, bool twoSided) const {
-    const float squared = glm::dot(normal, normal); // broken geometry has normals that are no numbers
+    const float squared =
+        glm::dot(normal, normal); // broken geometry has normals that are no numbers
     if (!(squared > 0.0f && std::isfinite(squared))) return &_tables[0];
     const size_t columns = _left.size() - 1, rows = _top.size() - 1;
     return &_tables[(rows + 1 + (columns + 1) * rows) *
@@ -206,10 +204,10 @@ float SkyDistribution::sample(const glm::vec2& u, const glm::vec3& normal, bool 
     blocks += rows + 1 + block.y * (columns + 1);
     block.x = invert(blocks, columns, u.x, v.x);
     const int top = _top[size_t(block.y)], left = _left[size_t(block.x)];
-    cell.y = top + invert(&_blockRows[blockRows(block)], _top[size_t(block.y) + 1] - top, v.y,
-                          within.y);
-    cell.x = left + invert(&_rowCells[rowCells(cell.y, block.x)],
-                           _left[size_t(block.x) + 1] - left, v.x, within.x);
+    cell.y =
+        top + invert(&_blockRows[blockRows(block)], _top[size_t(block.y) + 1] - top, v.y, within.y);
+    cell.x = left + invert(&_rowCells[rowCells(cell.y, block.x)], _left[size_t(block.x) + 1] - left,
+                           v.x, within.x);
     return probability(cell, normal, twoSided);
 }
 

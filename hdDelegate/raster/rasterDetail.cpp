@@ -116,8 +116,8 @@ float RasterDetail::edgeAt(const RasterPlace& place) const {
         // Shorter edges than twice the finest change nothing.
         wanted =
             std::max(std::clamp(chord(unit), _round ? 0.0f : asked, 2.0f * asked), 1.99f * _finest);
-    // Those far away are all drawn alike, and a cage of few faces must not be its few limit points: the surface between
-    // them is up to twice as wide.
+    // Those far away are all drawn alike, and a cage of few faces must not be its few limit points:
+    // the surface between them is up to twice as wide.
     wanted = std::min(wanted, (_round || _slight ? 2.0f : 0.5f) * _radius);
     if (!std::isfinite(wanted) || !(wanted > 0.0f)) return 0.0f;
     return std::exp2(std::floor(std::log2(wanted)));

@@ -47,18 +47,19 @@ public:
         std::vector<vec4> tables;        ///< see RasterLightTables::writePass()
         std::vector<ShadowView> shadows; ///< in the order of the layers of the shadow maps
         int mapSize = 0;
-        bool fibres = false; ///< lights have maps for fibres, too
+        bool fibres = false;        ///< lights have maps for fibres, too
         int look[4] = {0, 0, 0, 1}; ///< which lights are for what, see passBlock.glsl
         bool many = false;          ///< of a first look: all lights have as many samples as help
     };
     /// For a first look: many samples of each light, of which every pixel takes others than its
     /// neighbours, so that what is wrong is noise and not the same everywhere.
-    /// @param most shadow maps that may be drawn; where they do not suffice, lights are as in sample()
+    /// @param most shadow maps that may be drawn; where they do not suffice, lights are as in
+    /// sample()
     Sampled sampleLook(uint32_t pass, const RasterEmitters& emitters, const ShadowBounds& bounds,
                        int mapSize, int pixels, int most) const;
     /// For the first image where maps are too dear for that: light by as many samples, shadows of
-    /// domes by the cells of the sky, and of other lights by the maps of few of their samples. It is
-    /// not right in the mean where there are shadows, so nothing of it may stay.
+    /// domes by the cells of the sky, and of other lights by the maps of few of their samples. It
+    /// is not right in the mean where there are shadows, so nothing of it may stay.
     /// @returns nothing taken where there is no room even for that
     Sampled sampleFirst(const RasterEmitters& emitters, const ShadowBounds& bounds, int mapSize,
                         int pixels, int most) const;
@@ -108,9 +109,8 @@ private:
     GpuLight draw(const Source& source, const vec3& u) const;
     /// @param mapped samples that have shadow maps of their own
     void addLook(const Source& source, size_t number, uint32_t pass, int samples, int mapped,
-                 const ShadowBounds& bounds, int most, Sampled& out,
-                 std::vector<GpuLight>& looked, std::vector<GpuLight>& shared,
-                 std::vector<GpuLight>& pool) const;
+                 const ShadowBounds& bounds, int most, Sampled& out, std::vector<GpuLight>& looked,
+                 std::vector<GpuLight>& shared, std::vector<GpuLight>& pool) const;
     int lookSamples(const Source& source) const;
     static void join(Sampled& out, const std::vector<GpuLight>& looked,
                      const std::vector<GpuLight>& shared, std::vector<GpuLight> pool);

@@ -20,7 +20,7 @@ class RasterLook {
 public:
     static constexpr int passes = 8;
     static constexpr uint32_t smoothed = 16; ///< passes after which nothing is
-    static constexpr int bsdfSamples = 4; ///< per pixel, where domes are
+    static constexpr int bsdfSamples = 4;    ///< per pixel, where domes are
 
     /// @param error is set where the driver does not take the programs
     explicit RasterLook(std::string& error);
@@ -28,7 +28,8 @@ public:
 
     /// @returns false when the driver has no room
     bool resize(const GlTexture& color, const GlTexture& depth);
-    /// What surfaces are drawn into, in all passes: drivers compile a program anew for other targets.
+    /// What surfaces are drawn into, in all passes: drivers compile a program anew for other
+    /// targets.
     const GlFramebuffer& target() const { return _target; }
     void clear() const;
     /// Finds the difference that smoothing makes to what was drawn.

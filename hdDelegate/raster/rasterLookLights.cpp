@@ -13,9 +13,9 @@ namespace patina {
 namespace {
 
 constexpr int every = RasterLights::lookEvery;
-constexpr int mostPooled = 32;     ///< of a dome; half as many of an area
-constexpr int drawnOfDome = 2048;   ///< directions, to tell what is peaked, and what all light
-constexpr int mostPeaks = 4;      ///< samples of what is peaked, which all pixels take
+constexpr int mostPooled = 32;       ///< of a dome; half as many of an area
+constexpr int drawnOfDome = 2048;    ///< directions, to tell what is peaked, and what all light
+constexpr int mostPeaks = 4;         ///< samples of what is peaked, which all pixels take
 constexpr float peakDensity = 10.0f; ///< by solid angle
 /// Narrower suns have one sample: 1 - cosine of half the angle of 3 degrees.
 constexpr float sharpSun = 3.4e-4f;
@@ -154,7 +154,8 @@ RasterLights::Sampled RasterLights::sampleLook(uint32_t pass, const RasterEmitte
     }
     int emitterSamples = 0;
     if (!emitters.empty()) {
-        const int room = emitterMaps > 0 ? (most - needed(pooled)) / emitterMaps : mostCoarseSamples;
+        const int room =
+            emitterMaps > 0 ? (most - needed(pooled)) / emitterMaps : mostCoarseSamples;
         emitterSamples = std::clamp(room, int(leastEmitterSamples), int(mostCoarseSamples));
         if (emitterSamples >= every) emitterSamples = emitterSamples / every * every;
     }
@@ -207,17 +208,17 @@ RasterLights::Sampled RasterLights::sampleFirst(const RasterEmitters& emitters,
         single + emitterMaps > std::max(most, int(maxMaps)))
         return out;
     // Lights that are sharp have one sample, and its maps.
-    const int mapped =
-        pooled > 0
-            ? std::clamp((most - emitterMaps - (single - pooled)) / pooled, 1, mostPooled / 2)
-            : 1;
+    const int mapped = pooled > 0 ? std::clamp((most - emitterMaps - (single - pooled)) / pooled, 1,
+                                               mostPooled / 2)
+                                  : 1;
     const bool many = emitterMaps + single - pooled + mapped * pooled > maxMaps;
     out.mapSize = enoughFor(pixels, many ? mapSize / 2 : mapSize);
     std::vector<GpuLight> looked, shared, pool;
     for (size_t i = 0; i < _sources.size(); ++i)
         addLook(_sources[i], i, 0, lookSamples(_sources[i]), _sources[i].kind == Dome ? 0 : mapped,
                 bounds, int(maxSmallMaps), out, looked, shared, pool);
-    takeEmitters(0, emitters.empty() ? 0 : leastEmitterSamples, emitters, bounds, maxSmallMaps, out);
+    takeEmitters(0, emitters.empty() ? 0 : leastEmitterSamples, emitters, bounds, maxSmallMaps,
+                 out);
     shared.insert(shared.end(), out.lights.begin(), out.lights.end());
     join(out, looked, shared, std::move(pool));
     return out;

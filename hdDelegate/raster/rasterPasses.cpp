@@ -245,8 +245,8 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     const uint32_t pass = sample.pass;
     const int longer = std::max(_width, _height);
     // A volume is lit by all of a pass's lights, each of which takes long.
-    const bool look = pass < uint32_t(RasterLook::passes) && scene.volumes().empty() &&
-                      lights.samplesDomes();
+    const bool look =
+        pass < uint32_t(RasterLook::passes) && scene.volumes().empty() && lights.samplesDomes();
     const RasterLights::Sampled sampled =
         look ? lights.sampleLook(pass, scene.emitters(), _bounds, shadowMapSize, longer,
                                  skyCells(scene))
@@ -261,7 +261,8 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
         const RasterLights::Sampled first =
             lights.sampleFirst(scene.emitters(), _bounds, shadowMapSize, longer, skyCells(scene));
         if (first.taken > 0) {
-            drawImage(scene, lights, domes, environmentSamples, camera, sample, first, true, pixels);
+            drawImage(scene, lights, domes, environmentSamples, camera, sample, first, true,
+                      pixels);
             _look->read(smoothing);
             for (size_t i = 0; i < pixels.size(); ++i)
                 pixels[i] += vec4(vec3(smoothing[i]), 0.0f);

@@ -112,7 +112,7 @@ private:
     int _shadowLayers = 0;
     RasterSky _sky;
     std::vector<vec4> _first, _sums; ///< see showFirst(); of the film's pixels
-    std::vector<vec4> _smoothing; ///< what it does to the sums of the film's pixels
+    std::vector<vec4> _smoothing;    ///< what it does to the sums of the film's pixels
     ShadowBounds _bounds;
     RasterAovImages _seen; ///< of drawAovs()
     vec3 _seenMin{0.0f}, _seenMax{0.0f};

@@ -393,7 +393,8 @@ private:
         sample.pass = pass;
         sample.taken = pass + 1;
         const vec2 beside = filter.sample(numbers.next2());
-        // The first image stands where the last one will, and is as soft: a pixel is the mean of its corners.
+        // The first image stands where the last one will, and is as soft: a pixel is the mean of
+        // its corners.
         sample.offset = pass > 0 ? beside : vec2(border > 0 ? 0.5f : 0.0f);
         sample.lens = numbers.next2();
         sample.time = numbers.next2().x;

@@ -77,7 +77,9 @@ Cone coneOf(const vec3& from, float beside, const ShadowBounds& bounds) {
     for (const vec3& p : around) {
         const float along = glm::dot(p - from, cone.axis);
         cone.nearest = std::min(cone.nearest, along);
-        cone.tangent = std::max(cone.tangent, along > 0.0f ? glm::length(p - from - along * cone.axis) / along : INFINITY);
+        cone.tangent =
+            std::max(cone.tangent,
+                     along > 0.0f ? glm::length(p - from - along * cone.axis) / along : INFINITY);
     }
     return cone;
 }

@@ -207,8 +207,7 @@ TEST(Environment, aTurnedDomeIsSampledByTheNormalsOfTheWorld) {
         for (int i = 0; i < 1000; ++i) {
             LightSample s;
             ASSERT_TRUE(set.sample(point, normal, i % 2 == 0, random.cube(), 0.0f, s));
-            const float pdf =
-                set.pdfInfinite(0, point, normal, i % 2 == 0, s.direction, 0.0f);
+            const float pdf = set.pdfInfinite(0, point, normal, i % 2 == 0, s.direction, 0.0f);
             different += std::abs(pdf / s.pdf - 1.0f) > 1e-3f;
         }
     }

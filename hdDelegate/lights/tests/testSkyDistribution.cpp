@@ -62,8 +62,8 @@ TEST(SkyDistribution, probabilitiesSumToOneAndAreThoseOfSamples) {
             for (int i = 0; i < 2000; ++i) {
                 glm::ivec2 cell;
                 vec2 within;
-                const float p = sky.sample(vec2(random(), random()), view.normal, view.twoSided,
-                                           cell, within);
+                const float p =
+                    sky.sample(vec2(random(), random()), view.normal, view.twoSided, cell, within);
                 ASSERT_EQ(p, sky.probability(cell, view.normal, view.twoSided));
                 ASSERT_GT(p, 0.0f);
                 ASSERT_TRUE(within.x >= 0.0f && within.x < 1.0f);

@@ -49,7 +49,7 @@ FOLDERS = {  # folder: tier, rooms
 OVERRIDES = (  # pattern, tier or None, rooms or None
     ("materialNetwork/tests::testMaterialNetwork::MethodTable", "lint", None),
     # Chi-squared, grids of directions and parameters, agreement of C++ and GLSL.
-    ("shaders/tests::testLobeSampling::*", "smoke", None),
+    ("shaders/tests::testLobeSampling::*", "full", None),
     ("shaders/tests::testLobeAlbedo::*", "smoke", None),
     ("shaders/tests::testLobeDegenerate::*", "smoke", None),
     ("hdDelegate/raster/tests::testGlsl*", "full", "raster shaders materialNetwork"),

@@ -33,7 +33,14 @@ namespace {
 unsigned maskOf(const Visibility& visibility) {
     return (visibility.camera ? unsigned(RayCamera) : 0u) |
            (visibility.indirect ? unsigned(RayIndirect) : 0u) |
-           (visibility.shadow ? unsigned(RayShadow) : 0u);
+           (visibility.shadow ? RayShadow | RayShadowOpaque | RayShadowPassed : 0u);
+}
+
+unsigned maskOf(const Surface& surface) {
+    const bool opaque = std::all_of(surface.materials.begin(), surface.materials.end(),
+                                    [](const MaterialSlot& slot) { return slot.opaque; });
+    return maskOf(surface.prim->visibility) &
+           ~unsigned(opaque ? RayShadowPassed : RayShadowOpaque);
 }
 
 /// The ray in the space of one instance. The direction keeps its scale, so distances stay equal.
@@ -280,7 +287,7 @@ void EmbreeGroup::updateSurfaces(RTCDevice device,
         if (old != _surfaces.end() && old->second.surface == surface) {
             next.insert(_surfaces.extract(old));
             SurfaceMember& member = next[path];
-            const unsigned mask = maskOf(surface->prim->visibility);
+            const unsigned mask = maskOf(*surface);
             if (mask != member.mask) {
                 changed = true;
                 RTCGeometry geometry = rtcGetGeometry(scene, member.id);
@@ -299,7 +306,7 @@ void EmbreeGroup::updateSurfaces(RTCDevice device,
         // A changed prim keeps its id, so that the order stays that of a new scene.
         const auto old = _surfaces.find(path);
         const bool free = old != _surfaces.end() && !records[old->second.id];
-        SurfaceMember member{surface, maskOf(surface->prim->visibility),
+        SurfaceMember member{surface, maskOf(*surface),
                              free ? old->second.id : freeId()};
         if (surface->shared)
             member.rayLimit = rayLimitOf([&](float time) { return surface->placeAt(time); },

@@ -31,29 +31,29 @@ void RasterPasses::smooth(const RasterSample& sample, bool look, std::vector<vec
         }
 }
 
-/// Keeps an image that is shown until the passes' mean is better.
+/// Shows an image until the mean of the later passes is better.
 /// @param pixels overwritten
-void RasterPasses::beginFirst(std::vector<vec4>& pixels, const RasterSample& sample) {
+void RasterPasses::beginFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film) {
     _first.assign(size_t(_width) * size_t(_height), vec4(0.0f));
     _sums.assign(_first.size(), vec4(0.0f));
     takeShared(pixels, _width, _height, sample, _window, [&](int x, int y, const vec4& value) {
         _first[size_t(y) * size_t(_width) + size_t(x)] = value;
+        film.addColor(x, y, vec3(value), value.w);
     });
 }
 
-/// Mixes that image with the mean of the passes, by less from pass to pass.
+/// Mixes that image with the mean of the passes after it, by less from pass to pass.
 /// @param pixels of the pass; overwritten
-void RasterPasses::showFirst(const RasterSample& sample, std::vector<vec4>& pixels, Film& film) {
+void RasterPasses::showFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film) {
     const uint32_t passes = sample.pass + 1;
-    if (passes > RasterLook::smoothed) return;
+    const float share = RasterLook::shareOfFirst(passes);
     takeShared(pixels, _width, _height, sample, _window, [&](int x, int y, const vec4& value) {
         const size_t at = size_t(y) * size_t(_width) + size_t(x);
+        film.addColor(x, y, vec3(value), value.w);
         _sums[at] += value;
-        const vec4& sum = _sums[at];
-        if (!std::isfinite(sum.x + sum.y + sum.z) || film.sampleCount(x, y) == 0) return;
-        const vec4 mean = sum / float(passes);
-        const vec3 shown = glm::mix(vec3(mean), vec3(_first[at]), RasterLook::shareOfFirst(passes));
-        film.setMean(x, y, shown, film.alpha(x, y));
+        const vec4 mean = _sums[at] / float(passes - 1);
+        if (!std::isfinite(mean.x + mean.y + mean.z) || film.sampleCount(x, y) == 0) return;
+        film.setMean(x, y, glm::mix(vec3(mean), vec3(_first[at]), share), mean.w);
     });
     if (passes == RasterLook::smoothed) _first.clear();
 }

@@ -252,27 +252,28 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
                                  skyCells(scene))
              : lights.sample(pass, scene.emitters(), _bounds, shadowMapSize, longer);
     std::vector<vec4> pixels, smoothing;
-    drawImage(scene, lights, domes, environmentSamples, camera, sample, sampled, look, pixels);
-    if (look) _look->read(smoothing);
-    std::vector<vec4> base = pixels;
-    addShared(pixels, _width, _height, sample, _window, film);
     if (pass == 0) _first.clear();
     if (pass == 0 && look && !sampled.many) {
-        const RasterLights::Sampled first =
-            lights.sampleFirst(scene.emitters(), _bounds, shadowMapSize, longer, skyCells(scene));
+        const RasterLights::Sampled first = lights.sampleFirst(
+            scene.emitters(), _bounds, shadowMapSize, longer, skyCells(scene));
         if (first.taken > 0) {
             drawImage(scene, lights, domes, environmentSamples, camera, sample, first, true,
                       pixels);
             _look->read(smoothing);
             for (size_t i = 0; i < pixels.size(); ++i)
                 pixels[i] += vec4(vec3(smoothing[i]), 0.0f);
-            beginFirst(pixels, sample);
+            beginFirst(pixels, sample, film);
+            return;
         }
     }
-    if (_first.empty())
-        smooth(sample, look, smoothing, film);
-    else
-        showFirst(sample, base, film);
+    drawImage(scene, lights, domes, environmentSamples, camera, sample, sampled, look, pixels);
+    if (!_first.empty()) {
+        showFirst(pixels, sample, film);
+        return;
+    }
+    if (look) _look->read(smoothing);
+    addShared(pixels, _width, _height, sample, _window, film);
+    smooth(sample, look, smoothing, film);
 }
 
 void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& lights,

@@ -89,8 +89,8 @@ private:
                    int environmentSamples, const RasterCamera& camera, const RasterSample& sample,
                    const RasterLights::Sampled& sampled, bool look, std::vector<vec4>& pixels);
     void smooth(const RasterSample& sample, bool look, std::vector<vec4>& pixels, Film& film);
-    void beginFirst(std::vector<vec4>& pixels, const RasterSample& sample);
-    void showFirst(const RasterSample& sample, std::vector<vec4>& pixels, Film& film);
+    void beginFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film);
+    void showFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film);
     void drawRuns(const RasterDraw& draw, const RasterSurface& surface,
                   const RasterVisible& visible) const;
     void measureReceivers(const RasterScene& scene, const RasterCamera& camera,

@@ -33,14 +33,7 @@ namespace {
 unsigned maskOf(const Visibility& visibility) {
     return (visibility.camera ? unsigned(RayCamera) : 0u) |
            (visibility.indirect ? unsigned(RayIndirect) : 0u) |
-           (visibility.shadow ? RayShadow | RayShadowOpaque | RayShadowPassed : 0u);
-}
-
-unsigned maskOf(const Surface& surface) {
-    const bool opaque = std::all_of(surface.materials.begin(), surface.materials.end(),
-                                    [](const MaterialSlot& slot) { return slot.opaque; });
-    return maskOf(surface.prim->visibility) &
-           ~unsigned(opaque ? RayShadowPassed : RayShadowOpaque);
+           (visibility.shadow ? unsigned(RayShadow) : 0u);
 }
 
 /// The ray in the space of one instance. The direction keeps its scale, so distances stay equal.
@@ -229,8 +222,8 @@ template <class At> float rayLimitOf(const At& at, bool moves) {
     for (int t = 0; t <= (moves ? times : 0); ++t) {
         const mat4 inverse = glm::inverse(at(float(t) / times));
         for (int c = 0; c < 3; ++c)
-            largest = std::max({largest, std::abs(inverse[c].x), std::abs(inverse[c].y),
-                                std::abs(inverse[c].z)});
+            largest = std::max(
+                {largest, std::abs(inverse[c].x), std::abs(inverse[c].y), std::abs(inverse[c].z)});
     }
     return largestTraced / (6.0f * largest);
 }
@@ -287,7 +280,7 @@ void EmbreeGroup::updateSurfaces(RTCDevice device,
         if (old != _surfaces.end() && old->second.surface == surface) {
             next.insert(_surfaces.extract(old));
             SurfaceMember& member = next[path];
-            const unsigned mask = maskOf(*surface);
+            const unsigned mask = maskOf(surface->prim->visibility);
             if (mask != member.mask) {
                 changed = true;
                 RTCGeometry geometry = rtcGetGeometry(scene, member.id);
@@ -306,7 +299,7 @@ void EmbreeGroup::updateSurfaces(RTCDevice device,
         // A changed prim keeps its id, so that the order stays that of a new scene.
         const auto old = _surfaces.find(path);
         const bool free = old != _surfaces.end() && !records[old->second.id];
-        SurfaceMember member{surface, maskOf(*surface),
+        SurfaceMember member{surface, maskOf(surface->prim->visibility),
                              free ? old->second.id : freeId()};
         if (surface->shared)
             member.rayLimit = rayLimitOf([&](float time) { return surface->placeAt(time); },

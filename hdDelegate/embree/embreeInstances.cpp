@@ -14,8 +14,8 @@ std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Ins
     warnOfInstancePrimvars(*prim, _diagnostics);
     std::vector<std::vector<mat4>> sampled(prim->transforms.size());
     for (size_t i = 0; i < sampled.size(); ++i) {
-        sampled[i] = resample(prim->transforms[i], _shutterOpen, _shutterClose,
-                              originOf(prim->group));
+        sampled[i] =
+            resample(prim->transforms[i], _shutterOpen, _shutterClose, originOf(prim->group));
         result->steps = std::max(result->steps, int(sampled[i].size()));
     }
     result->transforms.resize(sampled.size() * result->steps);

@@ -18,14 +18,7 @@ namespace patina {
 
 class CameraRays;
 
-/// RayShadow meets what the other two shadow masks meet: what stops light wholly, and what lets some pass.
-enum RayMask : unsigned {
-    RayCamera = 1,
-    RayIndirect = 2,
-    RayShadow = 4,
-    RayShadowOpaque = 8,
-    RayShadowPassed = 16
-};
+enum RayMask : unsigned { RayCamera = 1, RayIndirect = 2, RayShadow = 4 };
 
 /// A triangle that emits light, in world space.
 struct EmissiveTriangle {

@@ -41,23 +41,19 @@ vec3 Integrator::visibility(const Path& path, const MediumStack& media, const ve
     float far = distance * (1.0f - 1e-4f);
     if (light.shadowDistance > 0.0f) far = std::min(far, light.shadowDistance);
     ++counters.shadowRays;
-    const bool whole =
-        light.shadowCategory == SceneLights::everything && light.shadowFalloff <= 0.0f;
-    if (whole && _scene.allOpaque()) {
+    const bool simple = _scene.allOpaque() && light.shadowCategory == SceneLights::everything &&
+                        light.shadowFalloff <= 0.0f;
+    if (simple) {
         const bool blocked = _scene.occluded(origin, direction, 0.0f, far, path.time, RayShadow);
         const vec3 seen = blocked ? light.shadowColor : vec3(1.0f);
         return seen == vec3(0.0f) ? seen : seen * left(media, distance) * volumes();
     }
-    // What stops all light is found by any hit, and then only the rest is gone through.
-    if (whole && _scene.occluded(origin, direction, 0.0f, far, path.time, RayShadowOpaque))
-        return light.shadowColor;
-    const RayMask mask = whole ? RayShadowPassed : RayShadow;
     MediumStack here = media;
     vec3 through(1.0f);
     float near = 0.0f, last = 0.0f; // last: where the present medium began
     for (int i = 0; i < maxPassThroughs && through != vec3(0.0f); ++i) {
         Hit hit;
-        if (!_scene.intersect(origin, direction, near, far, path.time, mask, hit)) break;
+        if (!_scene.intersect(origin, direction, near, far, path.time, RayShadow, hit)) break;
         SurfacePoint point;
         computeSurfacePoint(hit, origin, direction, 0.0f, point);
         if (linked(light.shadowCategory, hit.surface, hit.instanceCategories)) {

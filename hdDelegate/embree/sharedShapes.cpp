@@ -68,8 +68,8 @@ std::optional<ShapeKey> SharedShapes::keyOf(const Implicit& prim, float roundEdg
     const float kind = float(int(prim.shape) * 8 + prim.axis * 2 + int(prim.leftHanded));
     const float coarser = float(roundCoarseness(prim, roundEdge));
     if (onlyScales(prim)) return ShapeKey{kind, coarser, 0, 0, 0, 0, 0, 0, 0};
-    return ShapeKey{kind,       coarser,    prim.radius, prim.radiusTop, prim.height,
-                    prim.width, prim.length, 0,          0};
+    return ShapeKey{
+        kind, coarser, prim.radius, prim.radiusTop, prim.height, prim.width, prim.length, 0, 0};
 }
 
 mat4 SharedShapes::placement(const Implicit& prim) {
@@ -90,8 +90,7 @@ void SharedShapes::update(RTCDevice device, const std::map<ShapeKey, int>& uses,
             const Implicit prim = plain(*examples.at(key));
             TessellationOptions options;
             if (key[1] > 1.0f)
-                options.roundEdge =
-                    roundEdgeOf(std::max(prim.radius, prim.radiusTop), int(key[1]));
+                options.roundEdge = roundEdgeOf(std::max(prim.radius, prim.radiusTop), int(key[1]));
             shape->mesh = tessellate(prim, options, diagnostics);
             if (shape->mesh.triangles.empty()) continue;
             shape->scene = rtcNewScene(device);

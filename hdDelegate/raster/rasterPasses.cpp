@@ -254,8 +254,8 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
     std::vector<vec4> pixels, smoothing;
     if (pass == 0) _first.clear();
     if (pass == 0 && look && !sampled.many) {
-        const RasterLights::Sampled first = lights.sampleFirst(
-            scene.emitters(), _bounds, shadowMapSize, longer, skyCells(scene));
+        const RasterLights::Sampled first =
+            lights.sampleFirst(scene.emitters(), _bounds, shadowMapSize, longer, skyCells(scene));
         if (first.taken > 0) {
             drawImage(scene, lights, domes, environmentSamples, camera, sample, first, true,
                       pixels);

@@ -46,7 +46,9 @@ std::vector<RasterSky::Task> RasterSky::begin(uint32_t pass, uint32_t seed,
     const bool missing =
         std::any_of(_drawn.begin(), _drawn.end(), [](const Cell& c) { return c.map[0] < 0; });
     std::vector<Task> out;
-    const int count = std::clamp(missing ? most : std::min(most, 2), 1, cells);
+    // The first image lives by them: see RasterLights::sampleFirst().
+    const int wanted = pass == 0 ? 2 * most : missing ? most : std::min(most, 2);
+    const int count = std::clamp(wanted, 1, cells);
     for (int n = 0; n < count; ++n) {
         // Steps of 89, prime to the number of cells, spread those of a pass over the sphere.
         const uint32_t turn = missing ? pass * uint32_t(count) + uint32_t(n)

@@ -10,7 +10,8 @@ import numpy as np
 from pairs import DIRECT, WHOLE
 
 STYLE = """body{font:14px sans-serif;margin:20px}td,th{padding:4px 10px;text-align:left;vertical-align:top}
-td.n{text-align:right}img{image-rendering:pixelated;width:min(288px,19vw)}tr:nth-child(even){background:#f4f4f4}.bad{color:#b00}"""
+td.n{text-align:right}img{image-rendering:pixelated;width:min(288px,19vw)}code{overflow-wrap:anywhere}
+td:first-child{max-width:22em}tr:nth-child(even){background:#f4f4f4}.bad{color:#b00}"""
 
 
 def png(array):

@@ -3,9 +3,11 @@ on displaced polygons; and the AOVs of both back ends are the same. Comments say
 is for.
 """
 import dataclasses
+import os
 
 import numpy as np
 import pytest
+from pxr import Usd, UsdShade
 
 pytest.importorskip("scipy.stats", reason="SciPy is not installed")
 
@@ -13,6 +15,7 @@ import equivalence  # noqa: E402
 import inProcess  # noqa: E402
 import pairs  # noqa: E402
 import sameImage  # noqa: E402
+from materialText import material  # noqa: E402
 from test_bothBackEnds import opengl  # noqa: E402, F401  skips where there is none
 
 STAGE = """#usda 1.0
@@ -179,14 +182,30 @@ def test_bumps_of_polygons_stand_in_the_world(tmp_path):
     assert np.abs(bumpy - flat).mean() > 0.02 and np.abs(bumpy - here).mean() > 0.02
 
 
+def matte(path):
+    """Binds a material of one lobe to all prims: the albedo of the usual surface takes a minute to compile in software."""
+    text = material("matte", {"mtlx:surface": "surface"}, {
+        "lobe": ("ND_oren_nayar_diffuse_bsdf", {"color3f color": "(0.6, 0.5, 0.4)"}),
+        "surface": ("ND_surface", {"token bsdf": "<lobe>"})})
+    with open(os.path.join(os.path.dirname(path), "matte.usda"), "w", encoding="utf-8") as file:
+        file.write("#usda 1.0\n" + text)
+    stage = Usd.Stage.Open(path)
+    stage.GetRootLayer().subLayerPaths.append("matte.usda")
+    for name in ("floor", "ball", "block"):
+        prim = stage.GetPrimAtPath("/World/" + name)
+        UsdShade.MaterialBindingAPI.Apply(prim).Bind(UsdShade.Material(stage.GetPrimAtPath("/matte")))
+    stage.GetRootLayer().Save()
+    return path
+
+
 def test_aovs_are_those_of_the_path_tracer(tmp_path):
     import _patina
 
     aovs = ("--aov", "all", "--aov", "primvars:displayColor")
-    found = {}
+    found, stage = {}, matte(write(tmp_path, 500.0))
     for backend in ("raster", "embree"):
         file = str(tmp_path / (backend + ".exr"))
-        pairs.record(write(tmp_path, 500.0), file, "--backend", backend, "--samples", "16", "-w", "48", "--maxDepth", "1", *aovs)
+        pairs.record(stage, file, "--backend", backend, "--samples", "16", "-w", "48", "--maxDepth", "1", *aovs)
         image = _patina.read_image(file)
         found[backend] = dict(zip(image.channels, np.moveaxis(np.array(image.pixels), -1, 0)))
     assert set(found["raster"]) == set(found["embree"])

@@ -95,7 +95,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]outOfView/sun]", "smoke", None),
     ("testenv/view/test_backEnds.py::test_materials_look_as_in_the_rasterizer[[]all]", "long", None),
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]Te*", "long", None),
-    ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]te*", "long", None),
+    ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]teapot*", "long", None),
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]R*", "long", None),
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]B*", "long", None),
     # Slow in software, and test_behind.py looks at the same more closely.

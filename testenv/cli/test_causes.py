@@ -60,7 +60,7 @@ def test_the_terminal_shows_twenty_causes_and_counts_the_rest():
     assert lines[-1] == "warning: 11 more causes are in --json"
 
 
-def test_what_was_told_is_told_again_only_at_the_end_and_when_there_is_much_more():
+def test_what_was_told_is_told_again_only_at_the_end_and_when_there_is_more():
     told = {}
     few, many = [[warning(MISSING, f"/m{i}") for i in range(n)] for n in (2, 50)]
     assert len(Causes(few).lines(told, last=False)) == 1
@@ -112,7 +112,7 @@ def test_record_tells_causes(stage, tmp_path, capsys):
     out = tmp_path / "out.json"
     assert main.main(["record", str(stage), str(image), "--imageWidth", "8", "--samples", "1", f"--json={out}"]) == 0
     lines = [line for line in capsys.readouterr().err.splitlines() if "missing.png" in line]
-    assert len(lines) in (1, 2) and "(30 times at 30 prims" in lines[-1]  # twice where the first look found a part of them
+    assert len(lines) in (1, 2) and "(30 times at 30 prims" in lines[-1]  # twice where a part of them was told while materials were compiled
     found = json.loads(out.read_text())
     assert len([w for w in found["warnings"] if "missing.png" in w["message"]]) == 30
     assert {g["count"] for g in found["causes"] if "missing.png" in g["culprit"]} == {30}

@@ -79,7 +79,7 @@ class Causes:
 
     def lines(self, told=None, last=True):
         """:param told: dict that remembers what was shown before, which is not shown again ...
-        :param last: ... unless this is the last call, and it was met twice as often since
+        :param last: ... unless this is the last call, and it was met more often since
         :returns: lines of at most MOST causes for all calls with the same dict; the last call says how many there are more"""
         told = {} if told is None else told
         out, hidden = [], 0
@@ -87,7 +87,7 @@ class Causes:
             key = group["severity"], group["message"], group["prim"], group["input"]
             if key not in told and len(told) >= MOST:
                 hidden += 1
-            elif key not in told or (last and group["count"] >= 2 * told[key]):
+            elif key not in told or (last and group["count"] > told[key]):
                 told[key] = group["count"]
                 out.append(line(group))
         if hidden and last:

@@ -8,30 +8,11 @@
 
 namespace patina {
 
-namespace {
-
-template <class T> void merge(PrimMap<T>& into, const PrimMap<T>& changes) {
-    for (const auto& item : changes)
-        into[item.first] = item.second;
-}
-
-template <class F> void forMaps(SceneState& state, PrimKind kind, const F& f) {
-    const auto wanted = [kind](PrimKind own) { return kind == PrimKind::Any || kind == own; };
-    if (wanted(PrimKind::Geometry)) f(state.geometry);
-    if (wanted(PrimKind::Instancer)) f(state.instancers);
-    if (wanted(PrimKind::Light)) f(state.lights);
-    if (wanted(PrimKind::Camera)) f(state.cameras);
-    if (wanted(PrimKind::Material)) f(state.materials);
-}
-
-/// Whether both hold the same prim objects.
 bool sameContent(const SceneState& a, const SceneState& b) {
     return a.geometry == b.geometry && a.instancers == b.instancers && a.lights == b.lights &&
            a.cameras == b.cameras && a.materials == b.materials &&
            a.metersPerUnit == b.metersPerUnit;
 }
-
-} // namespace
 
 const Primvar* Geometry::primvar(const std::string& name) const {
     for (const Primvar& candidate : primvars)
@@ -52,8 +33,18 @@ std::shared_ptr<const SceneState> Scene::snapshot() const {
 
 SceneEdit::SceneEdit(SceneEdit&& other) noexcept
     : _scene(std::exchange(other._scene, nullptr)), _clear(other._clear),
-      _metersPerUnit(other._metersPerUnit), _changes(std::move(other._changes)),
-      _removed(std::move(other._removed)) {}
+      _metersPerUnit(other._metersPerUnit), _geometry(std::move(other._geometry)),
+      _instancers(std::move(other._instancers)), _lights(std::move(other._lights)),
+      _cameras(std::move(other._cameras)), _materials(std::move(other._materials)) {}
+
+template <class F> void SceneEdit::forMaps(PrimKind kind, const F& f) {
+    const auto wanted = [kind](PrimKind own) { return kind == PrimKind::Any || kind == own; };
+    if (wanted(PrimKind::Geometry)) f(_geometry);
+    if (wanted(PrimKind::Instancer)) f(_instancers);
+    if (wanted(PrimKind::Light)) f(_lights);
+    if (wanted(PrimKind::Camera)) f(_cameras);
+    if (wanted(PrimKind::Material)) f(_materials);
+}
 
 template <class T> bool SceneEdit::stands(const T& prim, PrimKind kind, const char* consequence) {
     if (isPlace(prim.transform)) return true;
@@ -67,25 +58,25 @@ template <class T> bool SceneEdit::stands(const T& prim, PrimKind kind, const ch
 
 void SceneEdit::set(std::shared_ptr<const Geometry> prim) {
     if (prim && stands(*prim, PrimKind::Geometry, "the prim is not drawn"))
-        _changes.geometry[prim->path] = std::move(prim);
+        _geometry[prim->path] = std::move(prim);
 }
 
 void SceneEdit::set(std::shared_ptr<const Instancer> prim) {
-    if (prim) _changes.instancers[prim->path] = std::move(prim);
+    if (prim) _instancers[prim->path] = std::move(prim);
 }
 
 void SceneEdit::set(std::shared_ptr<const Light> prim) {
     if (prim && stands(*prim, PrimKind::Light, "the light is off"))
-        _changes.lights[prim->path] = std::move(prim);
+        _lights[prim->path] = std::move(prim);
 }
 
 void SceneEdit::set(std::shared_ptr<const Camera> prim) {
     if (prim && _scene) prim = checkedCamera(std::move(prim), _scene->diagnostics());
-    if (prim) _changes.cameras[prim->path] = std::move(prim);
+    if (prim) _cameras[prim->path] = std::move(prim);
 }
 
 void SceneEdit::set(std::shared_ptr<const MaterialPrim> prim) {
-    if (prim) _changes.materials[prim->path] = std::move(prim);
+    if (prim) _materials[prim->path] = std::move(prim);
 }
 
 void SceneEdit::setMetersPerUnit(double metersPerUnit) {
@@ -97,34 +88,28 @@ void SceneEdit::setMetersPerUnit(double metersPerUnit) {
 }
 
 void SceneEdit::remove(const std::string& path, PrimKind kind) {
-    // What was set before in this edit goes too; what is set after stays, since commit removes
-    // first.
-    forMaps(_changes, kind, [&](auto& map) { map.erase(path); });
-    _removed.emplace_back(path, kind);
+    forMaps(kind, [&](auto& changes) { changes[path] = nullptr; });
 }
 
 void SceneEdit::clear() {
     _clear = true;
-    _changes = SceneState();
-    _removed.clear();
+    forMaps(PrimKind::Any, [](auto& changes) { changes.clear(); });
 }
 
 void SceneEdit::commit() {
     if (!_scene) return;
-    bool changed = _clear || !_removed.empty() || _metersPerUnit > 0.0;
-    forMaps(_changes, PrimKind::Any, [&](auto& map) { changed |= !map.empty(); });
+    bool changed = _clear || _metersPerUnit > 0.0;
+    forMaps(PrimKind::Any, [&](auto& changes) { changed |= !changes.empty(); });
     if (!changed) return;
 
     std::lock_guard<std::mutex> lock(_scene->_mutex);
     const SceneState& before = *_scene->_state;
     auto after = std::make_shared<SceneState>(_clear ? SceneState() : before);
-    for (const auto& removed : _removed)
-        forMaps(*after, removed.second, [&](auto& map) { map.erase(removed.first); });
-    merge(after->geometry, _changes.geometry);
-    merge(after->instancers, _changes.instancers);
-    merge(after->lights, _changes.lights);
-    merge(after->cameras, _changes.cameras);
-    merge(after->materials, _changes.materials);
+    after->geometry = after->geometry.changed(_geometry);
+    after->instancers = after->instancers.changed(_instancers);
+    after->lights = after->lights.changed(_lights);
+    after->cameras = after->cameras.changed(_cameras);
+    after->materials = after->materials.changed(_materials);
     if (_metersPerUnit > 0.0) after->metersPerUnit = _metersPerUnit;
     if (!sameContent(before, *after)) {
         after->version = before.version + 1;
@@ -132,8 +117,7 @@ void SceneEdit::commit() {
     }
     _clear = false;
     _metersPerUnit = -1.0;
-    _changes = SceneState();
-    _removed.clear();
+    forMaps(PrimKind::Any, [](auto& changes) { changes.clear(); });
 }
 
 } // namespace patina

@@ -4,18 +4,15 @@
 #include "hdDelegate/scene/geometry.h"
 #include "hdDelegate/scene/light.h"
 #include "hdDelegate/scene/material.h"
+#include "hdDelegate/scene/primMap.h"
 #include "materialNetwork/diagnostics.h"
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <mutex>
-#include <utility>
 #include <vector>
 
 namespace patina {
-
-template <class T> using PrimMap = std::map<std::string, std::shared_ptr<const T>>;
 
 /// The whole scene at one moment. Prims are immutable: an edited prim is another object, so that
 /// a renderer sees what changed by comparing pointers.
@@ -28,6 +25,9 @@ struct SceneState {
     PrimMap<MaterialPrim> materials;
     double metersPerUnit = 0.01;
 };
+
+/// @returns whether both hold the same prim objects, versions aside
+bool sameContent(const SceneState& a, const SceneState& b);
 
 class SceneEdit;
 
@@ -78,12 +78,17 @@ public:
 
 private:
     template <class T> bool stands(const T& prim, PrimKind kind, const char* consequence);
+    template <class F> void forMaps(PrimKind kind, const F& f);
 
     Scene* _scene;
-    bool _clear = false;
+    bool _clear = false; ///< before all changes
     double _metersPerUnit = -1.0;
-    SceneState _changes;
-    std::vector<std::pair<std::string, PrimKind>> _removed;
+    // By path; null where the prim is removed.
+    PrimMap<Geometry>::Changes _geometry;
+    PrimMap<Instancer>::Changes _instancers;
+    PrimMap<Light>::Changes _lights;
+    PrimMap<Camera>::Changes _cameras;
+    PrimMap<MaterialPrim>::Changes _materials;
 };
 
 } // namespace patina

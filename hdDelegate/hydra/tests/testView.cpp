@@ -29,7 +29,9 @@ PrimMap<Camera> oneCamera() {
     camera->path = "/camera";
     camera->horizontalAperture = 20.0f;
     camera->verticalAperture = 10.0f;
-    return {{"/camera", camera}};
+    PrimMap<Camera> cameras;
+    cameras.set(camera->path, camera);
+    return cameras;
 }
 
 } // namespace

@@ -53,7 +53,7 @@ TEST(LightChoice, smallImagesTakeMoreLightsByCoarserMaps) {
         light->path = "/light" + std::to_string(i);
         light->radius = 0.1f;
         light->transform = patina::mat4(1.0f);
-        state.lights[light->path] = light;
+        state.lights.set(light->path, light);
     }
     const patina::RenderSettings settings;
     patina::Diagnostics diagnostics;

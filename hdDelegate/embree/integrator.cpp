@@ -269,9 +269,14 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
                             (back ? cullsBack(*hit.surface->prim) : cullsFront(*hit.surface->prim));
         vec3 passes(1.0f);
         float presence = 1.0f;
+        // Shadow rays have no width. What a scattered ray passes must be what they pass: where a
+        // cutout blurs away, the two ways to find a light would see different surfaces.
+        const float footprint = s.uvFootprint;
+        if (!path.fromCamera()) point.shading.uvFootprint = 0.0f;
         const float opacity = culled               ? 0.0f
                               : point.slot->opaque ? 1.0f
                                                    : program.opacity(s, &passes, &presence);
+        point.shading.uvFootprint = footprint;
         // What is present emits, whether or not light also passes.
         if (!culled && presence > 0.0f) addEmission(path, point, hit, presence);
         if (opacity < 1.0f && !(path.sampler.random() < opacity)) {

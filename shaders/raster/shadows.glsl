@@ -10,16 +10,19 @@ layout(std430, binding = 10) readonly buffer SkyCells { SkyCell skyCells[]; };
 layout(binding = 18) uniform sampler2DArray shadowMaps;
 layout(binding = 19) uniform sampler2DArray skyMaps;
 
-// What a map shows at a place beside the middle of a texel, as far as it goes on as it does on the other
-// side of the middle; 0 where that is no plane.
-// aside: in texels, up to a half
-float planeBeside(sampler2DArray maps, ivec3 texel, float front, vec2 aside) {
+// Where a surface is at a place beside the middle of a texel, as far as it goes on as the map shows it on the
+// other side of the middle: how far it lies before the point's plane there, in depths. Nothing is known of it
+// where that is no plane, nor, further off than `close`, a bend that gets steeper away from the point.
+// aside: in texels, up to a half; tilt: what the point's plane sinks from texel to texel
+float planeBeside(sampler2DArray maps, ivec3 texel, float front, float depth, vec2 aside, vec2 tilt, float close) {
     ivec2 away = ivec2(aside.x > 0.0 ? -1 : 1, aside.y > 0.0 ? -1 : 1);
     ivec3 x = ivec3(away.x, 0, 0), y = ivec3(0, away.y, 0);
     vec2 near = vec2(texelFetch(maps, texel + x, 0).x, texelFetch(maps, texel + y, 0).x) - front;
     vec2 next = vec2(texelFetch(maps, texel + 2 * x, 0).x, texelFetch(maps, texel + 2 * y, 0).x) - front - near;
     bool plane = all(lessThanEqual(abs(next - near), 0.1 * abs(near) + 1e-6));
-    return plane ? front - dot(near, abs(aside)) : 0.0;
+    if (!plane && depth - front > close) return 1.0;
+    vec2 rise = tilt * vec2(away) - (plane ? near : max(near, next));
+    return depth - front - dot(rise, abs(aside));
 }
 
 // Whether a map shows nothing in front of a point. What is compared is where the plane of the surface
@@ -45,10 +48,15 @@ float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n,
     // Corners of triangles are rounded to a part of a texel.
     float bias = least + 0.04 * (abs(slope.x) + abs(slope.y)) / size.x;
     float front = texelFetch(maps, ivec3(ivec2(texel), layer), 0).x;
-    if (0.5 * depth + 0.5 <= front + bias) return 1.0;
-    // Where two surfaces meet, the middle of the texel shows the other one, which the plane goes behind.
+    depth = 0.5 * depth + 0.5;
+    if (depth <= front + bias) return 1.0;
+    // Where two surfaces meet, the middle of the texel shows the other one, which the plane goes behind. Where a
+    // surface bends towards the light, it shows what is up to half a texel before the plane.
     vec2 aside = (0.5 * q.xy + 0.5) * size - texel - 0.5;
-    return 0.5 * q.z + 0.5 <= planeBeside(maps, ivec3(ivec2(texel), layer), front, aside) + bias ? 1.0 : 0.0;
+    mat4 rows = transpose(worldToMap);
+    float close = 0.5 * length(rows[2].xyz - q.z * rows[3].xyz) / (size.x * length(rows[0].xyz - q.x * rows[3].xyz));
+    if (isTube() || n == vec3(0.0)) close = 0.0;
+    return planeBeside(maps, ivec3(ivec2(texel), layer), front, depth, aside, slope / size, close) <= bias ? 1.0 : 0.0;
 }
 
 // Whether a map of the fibres alone shows a point.

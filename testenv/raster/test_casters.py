@@ -1,0 +1,124 @@
+"""Shadows that both back ends find alike: of what is cut out by a texture, and on surfaces that bend towards the light."""
+import os
+
+import numpy as np
+import pytest
+
+pytest.importorskip("scipy.stats", reason="SciPy is not installed")
+
+import sameImage  # noqa: E402
+from test_bothBackEnds import opengl  # noqa: E402, F401  skips where there is none
+
+STAGE = """#usda 1.0
+(
+    defaultPrim = "World"
+    upAxis = "Y"
+    metersPerUnit = 1
+)
+def Xform "World"
+{
+    def Camera "camera"
+    {
+        float2 clippingRange = (0.01, 1000)
+        float focalLength = 24
+        float horizontalAperture = 20.955
+        float verticalAperture = 20.955
+        matrix4d xformOp:transform = ((1, 0, 0, 0), (0, 0.6, -0.8, 0), (0, 0.8, 0.6, 0), (0, 5.6, 4.2, 1))
+        uniform token[] xformOpOrder = ["xformOp:transform"]
+    }
+%s
+}
+"""
+# The panel shows its back to the camera, which looks through it.
+PANEL = """    def DomeLight "sky"
+    {
+    }
+    def Mesh "floor"
+    {
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [(-9, 0, 9), (9, 0, 9), (9, 0, -9), (-9, 0, -9)]
+        uniform token subdivisionScheme = "none"
+        color3f[] primvars:displayColor = [(0.6, 0.6, 0.6)]
+    }
+    def Mesh "panel" (
+        prepend apiSchemas = ["MaterialBindingAPI"]
+    )
+    {
+        int[] faceVertexCounts = [4]
+        int[] faceVertexIndices = [0, 1, 2, 3]
+        point3f[] points = [(-1.5, 0.5, -1.5), (1.5, 0.5, -1.5), (1.5, 0.5, 1.5), (-1.5, 0.5, 1.5)]
+        texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (
+            interpolation = "vertex"
+        )
+        uniform token subdivisionScheme = "none"
+        rel material:binding = </World/cut>
+    }
+    def Material "cut"
+    {
+        token outputs:surface.connect = </World/cut/surface.outputs:surface>
+        def Shader "surface"
+        {
+            uniform token info:id = "UsdPreviewSurface"
+            float inputs:opacityThreshold = 0.5
+            float inputs:opacity.connect = </World/cut/image.outputs:r>
+            token outputs:surface
+        }
+        def Shader "image"
+        {
+            uniform token info:id = "UsdUVTexture"
+            asset inputs:file = @holes.exr@
+            token inputs:sourceColorSpace = "raw"
+            float2 inputs:st.connect = </World/cut/st.outputs:result>
+            float outputs:r
+        }
+        def Shader "st"
+        {
+            uniform token info:id = "UsdPrimvarReader_float2"
+            string inputs:varname = "st"
+            float2 outputs:result
+        }
+    }"""
+STAIRS = """    def DistantLight "sun"
+    {
+        float inputs:angle = 2
+        float inputs:intensity = 300
+        float3 xformOp:rotateXYZ = (-75, 0, 0)
+        uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
+    }
+    def Mesh "stairs"
+    {
+        int[] faceVertexCounts = %s
+        int[] faceVertexIndices = %s
+        point3f[] points = %s
+        uniform token subdivisionScheme = "catmullClark"
+        color3f[] primvars:displayColor = [(0.6, 0.6, 0.6)]
+    }"""
+
+
+def _write(folder, contents):
+    (folder / "stage.usda").write_text(STAGE % contents)
+    return str(folder / "stage.usda")
+
+
+def test_a_cutout_casts_the_same_shadow_however_light_is_found(tmp_path):
+    """Three of eight texels are there: in the mean, which a blurred texture shows, the panel is not."""
+    import _patina
+
+    y, x = np.mgrid[0:64, 0:64]
+    there = ((x // 2 + 3 * (y // 2)) % 8 < 3).astype(np.float32)
+    _patina.write_image(os.path.join(str(tmp_path), "holes.exr"), np.repeat(there[..., None], 3, axis=2), ["R", "G", "B"])
+    drawn, _ = sameImage.assert_same(_write(tmp_path, PANEL), width=24)
+    assert drawn[12, 12, 1] < 0.8 * drawn[12, 1, 1]  # there is a shadow
+
+
+def test_a_surface_that_bends_towards_the_light_does_not_hide_itself(tmp_path):
+    """Steps with rounded corners, whose treads and risers all face the sun: no point is in shadow."""
+    profile = [(2.4, 0.0)]
+    for i in range(8):
+        z, y, r = 2.1 - 0.5 * i, 0.2 * i, 0.04
+        profile += [(z + r, y), (z, y), (z, y + r), (z, y + 0.2 - r), (z, y + 0.2), (z - r, y + 0.2)]
+    points = [(x, y, z) for z, y in profile for x in (-2.0, -1.0, 0.0, 1.0, 2.0)]
+    faces = [(5 * k + i, 5 * k + i + 1, 5 * k + i + 6, 5 * k + i + 5) for k in range(len(profile) - 1) for i in range(4)]
+    mesh = STAIRS % ([4] * len(faces), [i for face in faces for i in face], points)
+    sameImage.assert_same(_write(tmp_path, mesh), None, "--disableCameraLight", width=32)

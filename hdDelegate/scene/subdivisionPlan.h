@@ -59,7 +59,7 @@ public:
 private:
     struct Seen {
         double share, size; ///< of the image, 0..1; pixels
-        double facets, roughness;
+        double microfacetShare, roughness;
     };
     double error(const std::string& method) const;
     std::string choose() const;

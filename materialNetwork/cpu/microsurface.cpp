@@ -15,7 +15,7 @@ constexpr int kSureBounces = 8;    // that no roulette ends
 /// What a walk wants to know about a lobe.
 struct Walker {
     glm::vec2 alpha;
-    int facets;
+    int ndf;
     int mode;      ///< SCATTER_*
     bool refracts; ///< facets let light through
     float eta;     ///< ior of the far side over that of the side of wo
@@ -24,13 +24,14 @@ struct Walker {
 };
 
 Walker walkerOf(const sh::ConductorLobe& l, const glm::vec3&) {
-    return {l.alpha, l.facets, sh::SCATTER_R, false, 1.0f, l.retro, glm::vec3(1.0f)};
+    return {l.alpha, l.ndf, sh::SCATTER_R, false, 1.0f, l.retro, glm::vec3(1.0f)};
 }
 
 Walker walkerOf(const sh::DielectricLobe& l, const glm::vec3& wo) {
     const float eta = sh::dielectricEta(l, wo.z);
-    Walker w{l.alpha, l.facets, l.mode, !l.full && !l.deltaT, eta, l.retro, glm::vec3(l.tint)};
-    if (l.fused) w.factor *= sh::energyFused(sh::dielectricEnergy(l, wo).r, true);
+    Walker w{l.alpha, l.ndf, l.mode, !l.full && !l.deltaT, eta, l.retro, glm::vec3(l.tint)};
+    if (l.sharedInterface)
+        w.factor *= sh::sharedInterfaceScale(sh::dielectricEnergy(l, wo).r, true);
     return w;
 }
 
@@ -38,8 +39,9 @@ Walker walkerOf(const sh::SchlickLobe& l, const glm::vec3& wo) {
     // One that only reflects may be a metal: what it refracts is gone.
     const bool refracts = l.mode != sh::SCATTER_R && !l.deltaT;
     const float eta = sh::schlickEta(l, wo.z);
-    Walker w{l.alpha, l.facets, l.mode, refracts, eta, l.retro, glm::vec3(l.tint)};
-    if (l.fused) w.factor *= sh::schlickFused(sh::schlickEnergy(l, wo).r, true);
+    Walker w{l.alpha, l.ndf, l.mode, refracts, eta, l.retro, glm::vec3(l.tint)};
+    if (l.sharedInterface)
+        w.factor *= sh::schlickSharedInterfaceScale(sh::schlickEnergy(l, wo).r, true);
     return w;
 }
 
@@ -79,7 +81,7 @@ sh::LobeEval singleEval(sh::SchlickLobe l, const glm::vec3& wo, const glm::vec3&
 /// The density of single scattering, mixed with that of diffuse light for what bounces on.
 float mixedDensity(const Walker& walker, float single, float cosine) {
     const float lost =
-        sh::multiLoss(std::sqrt(0.5f * glm::dot(walker.alpha, walker.alpha)), walker.facets);
+        sh::multiLoss(std::sqrt(0.5f * glm::dot(walker.alpha, walker.alpha)), walker.ndf);
     const float rest = std::min(std::max(1.2f * lost, 0.01f), 0.9f);
     const float sides = walker.mode == sh::SCATTER_RT ? 0.5f : 1.0f;
     return (1.0f - rest) * single + rest * sides * sh::INV_PI * std::fabs(cosine);
@@ -90,8 +92,8 @@ float mixedDensity(const Walker& walker, float single, float cosine) {
 template <class Lobe> class Walk {
 public:
     Walk(const Lobe& lobe, const Walker& walker, const glm::vec3& o, HashedNumbers& random)
-        : _lobe(lobe), _walker(walker), _surface(walker.alpha, walker.facets), _random(random),
-          _w(-o), _eta(walker.eta) {}
+        : _lobe(lobe), _walker(walker), _surface(walker.alpha, walker.ndf), _random(random), _w(-o),
+          _eta(walker.eta) {}
 
     /// @returns false when the ray leaves
     bool meets() {
@@ -103,7 +105,7 @@ public:
     /// @param least of the chance to reflect
     void bounce(const glm::vec3& u, float least) {
         const glm::vec3 v = -_w;
-        const glm::vec3 m = _surface.facet(v, glm::vec2(u), _random);
+        const glm::vec3 m = _surface.sampleVisibleNormal(v, glm::vec2(u), _random);
         const float c = std::min(std::max(glm::dot(v, m), 0.0f), 1.0f);
         const glm::vec3 f = reflectance(_lobe, c, _eta);
         const float chance =
@@ -114,7 +116,7 @@ public:
             return;
         }
         _throughput *= (glm::vec3(1.0f) - f) / (1.0f - chance);
-        _w = sh::facetDirection(v, m, c, _eta, false);
+        _w = sh::microfacetDirection(v, m, c, _eta, false);
         _w.z = -_w.z;
         _below = 1.0 - _below;
         _eta = 1.0f / _eta;

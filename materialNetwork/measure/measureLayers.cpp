@@ -19,7 +19,7 @@ double reflected(double alpha, sh::vec3 wo, int method) {
     const sh::DielectricLobe l = sh::dielectricMethods(
         sh::dielectricSetup(sh::vec3(1.0f), float(kIor), sh::vec2(float(alpha)), false,
                             sh::SCATTER_R, false, sh::COMPENSATE_SCALE),
-        method, sh::FACETS_VISIBLE, sh::FRESNEL_EXACT);
+        method, sh::SAMPLING_VNDF, sh::FRESNEL_EXACT);
     return double(sh::dielectricAlbedo(l, wo).x);
 }
 

@@ -160,9 +160,9 @@ TEST(WholeShaders, ThinAndSolidPartsKeepTheirWays) {
     const Compiled half =
         of({surfaceOf("thin", "glass", {{"thin_walled", Value::makeBool(1)}}),
             surfaceOf("solid", "glass"), mixOf("ND_mix_surfaceshader", "thin", "solid", 0.5f)});
-    const float passed = 1.0f - wall.program->opacity(ShadingPoint());
-    EXPECT_GT(passed, 0.9f);
-    EXPECT_NEAR(1.0f - half.program->opacity(ShadingPoint()), 0.5f * passed, 1e-5f);
+    const float transmittance = 1.0f - wall.program->opacity(ShadingPoint());
+    EXPECT_GT(transmittance, 0.9f);
+    EXPECT_NEAR(1.0f - half.program->opacity(ShadingPoint()), 0.5f * transmittance, 1e-5f);
     EXPECT_TRUE(half.program->hasTransmission());
     EXPECT_FALSE(wall.program->hasTransmission());
     // thin_walled that varies is the same mix.
@@ -178,7 +178,7 @@ TEST(WholeShaders, ThinAndSolidPartsKeepTheirWays) {
                                     {{"st", glm::vec4(u)}, {"UV0", glm::vec4(u)}});
         ShadingPoint point;
         point.primvars = &primvars;
-        EXPECT_NEAR(1.0f - varying.program->opacity(point), u * passed, 1e-5f);
+        EXPECT_NEAR(1.0f - varying.program->opacity(point), u * transmittance, 1e-5f);
     }
 }
 

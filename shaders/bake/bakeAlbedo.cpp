@@ -39,8 +39,8 @@ constexpr int kTurnedPoints[] = {24, 16};
 constexpr double kFirst = 0.1;
 
 // The tables of one distribution are written at `out`; the look-ups read what is there already.
-void bakeMoments(int facets, float* out) {
-    bake::InterfaceQuadrature quadrature(kMomentPoints, facets);
+void bakeMoments(int ndf, float* out) {
+    bake::InterfaceQuadrature quadrature(kMomentPoints, ndf);
     double exponents[MOMENT_COUNT];
     for (int k = 0; k < MOMENT_COUNT; ++k)
         exponents[k] = momentExponent(k);
@@ -58,8 +58,8 @@ void bakeMoments(int facets, float* out) {
 }
 
 // From the thinner side the normals seen are the same for every ior, so that is the inner loop.
-void bakeInterface(int facets, bool above, float* out) {
-    bake::InterfaceQuadrature quadrature(above ? kAbovePoints : kBelowPoints[facets], facets);
+void bakeInterface(int ndf, bool above, float* out) {
+    bake::InterfaceQuadrature quadrature(above ? kAbovePoints : kBelowPoints[ndf], ndf);
     for (int a = 0; a < INTERFACE_ALPHA; ++a)
         for (int m = 0; m < INTERFACE_MU; ++m)
             for (int i = 0; i < INTERFACE_ETA; ++i) {
@@ -71,7 +71,7 @@ void bakeInterface(int facets, bool above, float* out) {
                     above ? tableMuAt(t, alpha) : tableMuBelowAt(t, tableMuCritical(eta), alpha);
                 if (!above || i == 0) quadrature.look(bake::slanted(mu), vec2(alpha));
                 // Relative to what the look-up will multiply with, not to the exact E[0].
-                const double e0 = momentEntry(momentPlace(mu, alpha, facets * FACET_SIZE), 0);
+                const double e0 = momentEntry(momentPlace(mu, alpha, ndf * MICROFACET_SIZE), 0);
                 const vec2 e = quadrature.dielectric(eta);
                 float* entry = out + 2 * ((i * INTERFACE_ALPHA + a) * INTERFACE_MU + m);
                 entry[0] = float(e.x / e0 - interfaceGuess(mu, alpha, eta));
@@ -101,8 +101,8 @@ template <typename Mu> TurnedNode turnedNode(int row, int alphas, const Mu& mu) 
             vec2(larger, std::max(larger * ratio, double(ALPHA_MIRROR)))};
 }
 
-void bakeTurnedMoments(int facets, float* out) {
-    bake::InterfaceQuadrature quadrature(kTurnedPoints[facets], facets);
+void bakeTurnedMoments(int ndf, float* out) {
+    bake::InterfaceQuadrature quadrature(kTurnedPoints[ndf], ndf);
     double exponents[MOMENT_COUNT];
     for (int k = 0; k < MOMENT_COUNT; ++k)
         exponents[k] = momentExponent(k);
@@ -114,7 +114,7 @@ void bakeTurnedMoments(int facets, float* out) {
         quadrature.look(node.wo, node.alpha);
         quadrature.moments(exponents, MOMENT_COUNT, e);
         const MomentPlace same =
-            momentPlace(node.wo.z, facetAlphaSeen(node.wo, node.alpha), facets * FACET_SIZE);
+            momentPlace(node.wo.z, microfacetAlphaSeen(node.wo, node.alpha), ndf * MICROFACET_SIZE);
         out[0] = float(e[0] - momentEntry(same, 0));
         for (int k = 1; k < MOMENT_COUNT; ++k)
             out[k] = float(std::pow(e[k] / e[0], 1.0 / exponents[k]) - (1.0 - node.wo.z) -
@@ -122,8 +122,8 @@ void bakeTurnedMoments(int facets, float* out) {
     }
 }
 
-void bakeTurnedInterface(int facets, bool above, float* out) {
-    bake::InterfaceQuadrature quadrature(kTurnedPoints[facets], facets);
+void bakeTurnedInterface(int ndf, bool above, float* out) {
+    bake::InterfaceQuadrature quadrature(kTurnedPoints[ndf], ndf);
     const int rows = turnedRow(TURNED_ETA_ALPHA, 0, 0, 0);
     for (int row = 0; row < rows; ++row)
         for (int i = 0; i < TURNED_ETA; ++i) {
@@ -135,24 +135,24 @@ void bakeTurnedInterface(int facets, bool above, float* out) {
             const TurnedNode node = turnedNode(row, TURNED_ETA_ALPHA, mu);
             if (node.alpha.x == node.alpha.y) continue; // nothing to add
             if (!above || i == 0) quadrature.look(node.wo, node.alpha);
-            const FacetPlace place = facetPlace(node.wo, node.alpha, facets);
-            const double e0 = facetAlbedo0(place);
+            const MicrofacetPlace place = microfacetPlace(node.wo, node.alpha, ndf);
+            const double e0 = microfacetAlbedo0(place);
             const vec2 e = quadrature.dielectric(eta);
-            const vec2 same = interfaceEntry(place.mu, place.alpha, eta, facets);
+            const vec2 same = interfaceEntry(place.mu, place.alpha, eta, ndf);
             float* entry = out + 2 * (i * rows + row);
             entry[0] = float(e.x / e0 - interfaceGuess(place.mu, place.alpha, eta) - same.x);
             entry[1] = float(1.0 - (e.x + e.y) / e0 - same.y);
         }
 }
 
-void bakeFacets(int facets) {
-    float* const table = entries + facets * FACET_SIZE;
-    bakeMoments(facets, table);
-    bakeInterface(facets, true, table + INTERFACE_ABOVE);
-    bakeInterface(facets, false, table + INTERFACE_BELOW);
-    bakeTurnedMoments(facets, table + TURNED_MOMENT);
-    bakeTurnedInterface(facets, true, table + TURNED_ABOVE);
-    bakeTurnedInterface(facets, false, table + TURNED_BELOW);
+void bakeMicrofacets(int ndf) {
+    float* const table = entries + ndf * MICROFACET_SIZE;
+    bakeMoments(ndf, table);
+    bakeInterface(ndf, true, table + INTERFACE_ABOVE);
+    bakeInterface(ndf, false, table + INTERFACE_BELOW);
+    bakeTurnedMoments(ndf, table + TURNED_MOMENT);
+    bakeTurnedInterface(ndf, true, table + TURNED_ABOVE);
+    bakeTurnedInterface(ndf, false, table + TURNED_BELOW);
 }
 
 // Sheen is as wide as the hemisphere or hugs the horizon: a plain product rule, dense there.
@@ -221,7 +221,7 @@ void bakeTurnedWard(int plane) {
         const double e = meanWeight(64, [&](double x, double y) {
             return wardSample(ward, node.wo, vec3(x, y, 0.5)).weight.x;
         });
-        push(e - classicAlbedo(plane, node.wo.z, facetAlphaSeen(node.wo, node.alpha)));
+        push(e - classicAlbedo(plane, node.wo.z, microfacetAlphaSeen(node.wo, node.alpha)));
     }
 }
 
@@ -235,14 +235,14 @@ void bakeVCavity() {
             double e[MOMENT_COUNT] = {};
             meanWeight(32, [&](double x, double y) {
                 const vec3 first = beckmannSample(alpha, vec2(x, y));
-                const vec3 facets[] = {first, vec3(-first.x, -first.y, first.z)};
-                const double seen[] = {std::max(sh64::dot(wo, facets[0]), 0.0),
-                                       std::max(sh64::dot(wo, facets[1]), 0.0)};
+                const vec3 normals[] = {first, vec3(-first.x, -first.y, first.z)};
+                const double seen[] = {std::max(sh64::dot(wo, normals[0]), 0.0),
+                                       std::max(sh64::dot(wo, normals[1]), 0.0)};
                 for (int k = 0; k < 2; ++k) {
                     const double c = seen[k];
-                    const double iz = 2.0 * c * facets[k].z - mu;
+                    const double iz = 2.0 * c * normals[k].z - mu;
                     if (c <= 0.0 || iz <= 0.0) continue;
-                    const double mz = facets[k].z;
+                    const double mz = normals[k].z;
                     const double weight = c / (seen[0] + seen[1]) * vCavityBoth(mu, iz, c, mz) /
                                           vCavityVisible(mu, c, mz);
                     for (int p = 0; p < MOMENT_COUNT; ++p)
@@ -283,10 +283,10 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: bakeAlbedo OUT.cpp\n");
         return 2;
     }
-    std::thread beckmann(bakeFacets, FACETS_BECKMANN);
-    bakeFacets(FACETS_GGX);
+    std::thread beckmann(bakeMicrofacets, NDF_BECKMANN);
+    bakeMicrofacets(NDF_GGX);
     beckmann.join();
-    entryCount = 2 * FACET_SIZE;
+    entryCount = 2 * MICROFACET_SIZE;
     bakeSheen();
     for (int plane = CLASSIC_PHONG; plane <= CLASSIC_WARD_EXACT; ++plane)
         bakeClassic(plane);

@@ -99,7 +99,7 @@ std::vector<Row> directionalAlbedo(bool timed) {
 
     constexpr size_t methods = std::size(kMethods);
     std::vector<Errors> errors(subjects.size() * methods);
-    bake::InterfaceQuadrature quadrature(kQuadrature, sh::FACETS_GGX);
+    bake::InterfaceQuadrature quadrature(kQuadrature, sh::NDF_GGX);
     double light[kSpread], cosine[kSpread];
     for (const Place& p : places(kSide)) {
         quadrature.look(p.wo, sh64::vec2(p.alpha));

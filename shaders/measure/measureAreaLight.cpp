@@ -183,7 +183,7 @@ double byOutline(const Reflector& f, const AreaLight& l) {
         outline.corners[i] = sh::ltcTurned(l.origin + l.x * c.x + l.y * c.y + l.z * c.z, f.wo);
     }
     const sh::vec4 map =
-        !f.mirrors() ? sh::vec4(1.0f, 0.0f, 1.0f, 0.0f) : sh::ltcFacets(f.wo, f.alpha);
+        !f.mirrors() ? sh::vec4(1.0f, 0.0f, 1.0f, 0.0f) : sh::ltcMicrofacets(f.wo, f.alpha);
     return double(f.albedo() * sh::ltcShare(outline.corners, outline.count, map));
 }
 

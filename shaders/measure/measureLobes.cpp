@@ -60,7 +60,7 @@ std::vector<Walked> walks(const std::vector<Place>& grid,
         if (grid[i].alpha < sh64::ALPHA_MIRROR)
             result[i].all = reflectance(grid[i].wo.z);
         else
-            result[i] = walkMicrosurface(grid[i].wo, sh64::vec2(grid[i].alpha), sh::FACETS_GGX,
+            result[i] = walkMicrosurface(grid[i].wo, sh64::vec2(grid[i].alpha), sh::NDF_GGX,
                                          reflectance, kWalks, 1 + i);
     return result;
 }
@@ -145,7 +145,7 @@ std::vector<Row> sampling(bool timed) {
     const std::vector<Place> grid = places(kSide);
     const Metal white = {"white metal", 0.0, 10.0};
     std::vector<Row> rows;
-    for (int m = sh::FACETS_VISIBLE; m <= sh::FACETS_ALL; ++m) {
+    for (int m = sh::SAMPLING_VNDF; m <= sh::SAMPLING_FULL_NDF; ++m) {
         Row row = named("sampling", names[m], "white metal", "noise");
         auto lobes = metalLobes(grid, white, sh::COMPENSATE_NONE);
         Errors errors;

@@ -46,7 +46,7 @@ std::vector<Row> energyWalk(bool timed) {
                     double sum = 0.0;
                     for (int i = 0; i < n / kTogether; ++i) {
                         const Place& p = grid[size_t(i) * 37 % grid.size()];
-                        sum += walkMicrosurface(p.wo, sh64::vec2(p.alpha), sh::FACETS_GGX,
+                        sum += walkMicrosurface(p.wo, sh64::vec2(p.alpha), sh::NDF_GGX,
                                                 subject.reflectance, kTogether, std::uint64_t(i))
                                    .all;
                     }

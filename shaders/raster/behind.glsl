@@ -102,13 +102,13 @@ vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
 // light scattered once. That light is not weakened on its way in; of a white medium in even light
 // nothing is then lost, as when all orders of scattering are counted.
 vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool boundary,
-                   out vec3 passed) {
+                   out vec3 transmittance) {
     Medium m = materialMedium();
     vec3 sigma = m.absorption + m.scattering;
-    passed = exp(-sigma * distance);
-    vec3 stretch = mix((1.0 - passed) / max(sigma, vec3(1e-20)), vec3(distance),
+    transmittance = exp(-sigma * distance);
+    vec3 stretch = mix((1.0 - transmittance) / max(sigma, vec3(1e-20)), vec3(distance),
                        lessThan(sigma * distance, vec3(1e-4)));
-    vec3 sum = behind * passed + m.emission * stretch;
+    vec3 sum = behind * transmittance + m.emission * stretch;
     if (largest(m.scattering) <= 0.0) return sum;
     float mean = largest(sigma) > 0.0 ? min(1.0 / largest(sigma), 0.5 * distance) : 0.0;
     PhaseHenyeyGreensteinLobe phase = phaseHenyeyGreensteinSetup(m.anisotropy);
@@ -147,8 +147,8 @@ vec3 throughObject(MaterialSample s) {
     vec3 behind;
     if (!seenAlong(q + d * (1e-3 * t), d, behind)) behind = lightsAlong(q, d, s.pdf, delta);
 #ifdef MATERIAL_HOLDS
-    vec3 passed;
-    if (goes) behind = throughMedium(behind, p, s.wi, t, true, passed);
+    vec3 transmittance;
+    if (goes) behind = throughMedium(behind, p, s.wi, t, true, transmittance);
 #endif
     return s.specularWeight * behind;
 }
@@ -169,9 +169,9 @@ vec4 fogHere() {
         t = min(t, length(world.xyz / world.w - start));
     }
     vec4 behind = texelFetch(behindColor, pixel, 0);
-    vec3 passed;
-    vec3 color = throughMedium(behind.rgb / max(extra.y, 1e-20), start, d, t, false, passed);
-    return vec4(color, mix(1.0, behind.a, luminance(passed)));
+    vec3 transmittance;
+    vec3 color = throughMedium(behind.rgb / max(extra.y, 1e-20), start, d, t, false, transmittance);
+    return vec4(color, mix(1.0, behind.a, luminance(transmittance)));
 }
 #endif
 #endif

@@ -94,7 +94,7 @@ private:
     };
 
     Grid() {
-        bake::InterfaceQuadrature quadrature(96, sh::FACETS_GGX);
+        bake::InterfaceQuadrature quadrature(96, sh::NDF_GGX);
         for (int a = 0; a < kSide; ++a)
             for (int m = 0; m < kSide; ++m) {
                 Place p;

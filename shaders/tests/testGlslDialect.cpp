@@ -84,8 +84,8 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
     SchlickLobe sf = schlickFilm(s, 300.0, 1.5);
     SchlickLobe df = filmDielectricSetup(vec3(1.0), 1.5, vec2(0.2), 300.0, 1.3, false, SCATTER_RT,
                                          false, 1);
-    c.facets = FACETS_BECKMANN;
-    d.facets = FACETS_BECKMANN;
+    c.ndf = NDF_BECKMANN;
+    d.ndf = NDF_BECKMANN;
     sum += conductorSample(c, wo, u).weight + dielectricEval(d, wo, wi).value;
     sum += conductorEval(cf, wo, wi).value + schlickEval(sf, wo, wi).value +
            schlickAlbedo(df, wo) + conductorAlbedo(cf, wo);

@@ -46,50 +46,52 @@ double furnace(const sh64::DielectricLobe& l, vec3 wo) {
 
 TEST(AlbedoTable, MomentsAreWithinTheirError) {
     const double exponents[] = {0.0, 5.0, 6.0, 7.0, 3.0};
-    for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN}) {
-        bake::InterfaceQuadrature quadrature(96, facets);
+    for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN}) {
+        bake::InterfaceQuadrature quadrature(96, ndf);
         Error mirror, schlick, dip, cubic;
         for (int i = 0; i < 600; ++i) {
             const vec2 p = tablePoint(i);
             double e[5];
             quadrature.look(bake::slanted(p.x), vec2(p.y));
             quadrature.moments(exponents, 5, e);
-            const auto place = sh64::facetPlace(bake::slanted(p.x), vec2(p.y), facets);
-            const double e0 = sh64::facetAlbedo0(place);
+            const auto place = sh64::microfacetPlace(bake::slanted(p.x), vec2(p.y), ndf);
+            const double e0 = sh64::microfacetAlbedo0(place);
             mirror.add(e0 - e[0]);
-            schlick.add(e0 * sh64::facetMean(place, 5.0) - e[1]);
-            dip.add(e0 * (sh64::facetMean(place, 6.0) - sh64::facetMean(place, 7.0)) - e[2] + e[3]);
-            cubic.add(e0 * sh64::facetMean(place, 3.0) - e[4]);
+            schlick.add(e0 * sh64::microfacetMean(place, 5.0) - e[1]);
+            dip.add(e0 * (sh64::microfacetMean(place, 6.0) - sh64::microfacetMean(place, 7.0)) -
+                    e[2] + e[3]);
+            cubic.add(e0 * sh64::microfacetMean(place, 3.0) - e[4]);
         }
-        EXPECT_LT(mirror.rms(), 4e-4) << facets;
-        EXPECT_LT(mirror.largest, 3e-3) << facets;
-        EXPECT_LT(schlick.rms(), 3e-4) << facets;
-        EXPECT_LT(schlick.largest, 2.5e-3) << facets;
-        EXPECT_LT(dip.largest, 3e-4) << facets;
-        EXPECT_LT(cubic.rms(), 6e-4) << facets;
+        EXPECT_LT(mirror.rms(), 4e-4) << ndf;
+        EXPECT_LT(mirror.largest, 3e-3) << ndf;
+        EXPECT_LT(schlick.rms(), 3e-4) << ndf;
+        EXPECT_LT(schlick.largest, 2.5e-3) << ndf;
+        EXPECT_LT(dip.largest, 3e-4) << ndf;
+        EXPECT_LT(cubic.rms(), 6e-4) << ndf;
     }
 }
 
 TEST(AlbedoTable, InterfaceIsWithinItsError) {
-    for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN})
+    for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN})
         for (double ior : {1.05, 1.2, 1.33, 1.5, 1.8, 2.4, 3.0})
             for (bool inside : {false, true}) {
-                bake::InterfaceQuadrature quadrature(64, facets);
+                bake::InterfaceQuadrature quadrature(64, ndf);
                 const double eta = inside ? 1.0 / ior : ior;
                 Error reflected, transmitted;
                 for (int i = 0; i < 150; ++i) {
                     const vec2 p = tablePoint(i);
                     quadrature.look(bake::slanted(p.x), vec2(p.y));
                     const vec2 exact = quadrature.dielectric(eta);
-                    const auto place = sh64::facetPlace(bake::slanted(p.x), vec2(p.y), facets);
-                    const vec2 table = sh64::facetInterface(place, eta) * sh64::facetAlbedo0(place);
+                    const auto place = sh64::microfacetPlace(bake::slanted(p.x), vec2(p.y), ndf);
+                    const vec2 table =
+                        sh64::microfacetInterface(place, eta) * sh64::microfacetAlbedo0(place);
                     reflected.add(table.x - exact.x);
                     transmitted.add(table.y - exact.y);
                 }
-                EXPECT_LT(reflected.rms(), inside ? 1.3e-3 : 8e-4) << eta << " " << facets;
-                EXPECT_LT(transmitted.rms(), 1.2e-3) << eta << " " << facets;
-                EXPECT_LT(reflected.largest, 6e-3) << eta << " " << facets;
-                EXPECT_LT(transmitted.largest, 8e-3) << eta << " " << facets;
+                EXPECT_LT(reflected.rms(), inside ? 1.3e-3 : 8e-4) << eta << " " << ndf;
+                EXPECT_LT(transmitted.rms(), 1.2e-3) << eta << " " << ndf;
+                EXPECT_LT(reflected.largest, 6e-3) << eta << " " << ndf;
+                EXPECT_LT(transmitted.largest, 8e-3) << eta << " " << ndf;
             }
 }
 
@@ -101,8 +103,8 @@ TEST(AlbedoTable, AnisotropyIsWithinItsError) {
     for (const Budget& b :
          {Budget{0.5, 1.5e-2, 6e-3, 1.5e-2, 2e-2}, Budget{0.2, 1.5e-2, 1e-2, 2e-2, 3e-2},
           Budget{0.02, 2e-2, 2e-2, 3e-2, 5e-2}})
-        for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN}) {
-            bake::InterfaceQuadrature quadrature(64, facets);
+        for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN}) {
+            bake::InterfaceQuadrature quadrature(64, ndf);
             Error mirror, outside, inside, furnace;
             for (int i = 0; i < 160; ++i) {
                 const vec2 p = tablePoint(i);
@@ -115,12 +117,12 @@ TEST(AlbedoTable, AnisotropyIsWithinItsError) {
                 quadrature.look(wo, alpha);
                 double zero = 0.0, e0 = 0.0;
                 quadrature.moments(&zero, 1, &e0);
-                const auto place = sh64::facetPlace(wo, alpha, facets);
-                const double table0 = sh64::facetAlbedo0(place);
+                const auto place = sh64::microfacetPlace(wo, alpha, ndf);
+                const double table0 = sh64::microfacetAlbedo0(place);
                 const vec2 above = quadrature.dielectric(eta);
                 const vec2 below = quadrature.dielectric(1.0 / eta);
-                const vec2 a = sh64::facetInterface(place, eta) * table0;
-                const vec2 c = sh64::facetInterface(place, 1.0 / eta) * table0;
+                const vec2 a = sh64::microfacetInterface(place, eta) * table0;
+                const vec2 c = sh64::microfacetInterface(place, 1.0 / eta) * table0;
                 mirror.add(table0 - e0);
                 outside.add(a.x - above.x);
                 outside.add(a.y - above.y);
@@ -128,14 +130,14 @@ TEST(AlbedoTable, AnisotropyIsWithinItsError) {
                 inside.add(c.y - below.y);
                 furnace.add((below.x + below.y) / (c.x + c.y) - 1.0);
             }
-            EXPECT_LT(mirror.largest, b.mirror) << b.ratio << " " << facets;
-            EXPECT_LT(outside.largest, b.outside) << b.ratio << " " << facets;
-            EXPECT_LT(inside.largest, b.inside) << b.ratio << " " << facets;
-            EXPECT_LT(furnace.largest, b.furnace) << b.ratio << " " << facets;
+            EXPECT_LT(mirror.largest, b.mirror) << b.ratio << " " << ndf;
+            EXPECT_LT(outside.largest, b.outside) << b.ratio << " " << ndf;
+            EXPECT_LT(inside.largest, b.inside) << b.ratio << " " << ndf;
+            EXPECT_LT(furnace.largest, b.furnace) << b.ratio << " " << ndf;
             std::printf(
                 "alphas up to 1 : %.2g, facets %d: error of a mirror %.2g, interface outside "
                 "%.2g, inside %.2g (rms %.2g), furnace inside %.2g (rms %.2g)\n",
-                b.ratio, facets, mirror.largest, outside.largest, inside.largest, inside.rms(),
+                b.ratio, ndf, mirror.largest, outside.largest, inside.largest, inside.rms(),
                 furnace.largest, furnace.rms());
         }
 }
@@ -294,14 +296,14 @@ TEST(LobeAlbedo, WhiteGlassLosesNothing) {
 // Anisotropic white glass from both sides: no light is made, and little lost.
 TEST(LobeAlbedo, AnisotropicGlassKeepsItsBudget) {
     for (const auto& alpha : {vec2(1.0, 0.7071), vec2(0.3, 0.6), vec2(0.1, 0.4)})
-        for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN})
+        for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN})
             for (double z : {0.9, 0.3, -0.05, -0.15, -0.3, -0.5, -0.75, -1.0})
                 for (double phi : {0.0, 0.8, 1.57}) {
                     const LobeCase c = PATINA_LOBE_CASE_WITH(
-                        "white", dielectric, dielectric, l.facets = facets, vec3(1.0), 1.5,
+                        "white", dielectric, dielectric, l.ndf = ndf, vec3(1.0), 1.5,
                         vec2(alpha.x, alpha.y), false, 3, false, 1);
                     EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, phi), 5000).x, 1.0, 2.5e-2)
-                        << alpha.x << " " << alpha.y << " " << z << " " << phi << " " << facets;
+                        << alpha.x << " " << alpha.y << " " << z << " " << phi << " " << ndf;
                 }
 }
 

@@ -113,24 +113,24 @@ TEST(LobeDegenerate, ConductorIsSane) {
 }
 
 TEST(LobeDegenerate, BeckmannIsSane) {
-    const int facets = sh::FACETS_BECKMANN;
+    const int ndf = sh::NDF_BECKMANN;
     for (float ax : kRoughness)
         for (float ay : {ax, 0.0f, 0.5f}) {
-            const LobeCase c = PATINA_LOBE_CASE_WITH("c", conductor, conductor, l.facets = facets,
-                                                     vec3(0.2, 1.0, 0.0), vec3(3.0, 0.0, 1.0),
-                                                     vec2(ax, ay), false, 1);
+            const LobeCase c =
+                PATINA_LOBE_CASE_WITH("c", conductor, conductor, l.ndf = ndf, vec3(0.2, 1.0, 0.0),
+                                      vec3(3.0, 0.0, 1.0), vec2(ax, ay), false, 1);
             ASSERT_TRUE(sane(c.f32)) << ax << " " << ay;
             for (float ior : kIor)
                 for (int mode : {1, 2, 3}) {
                     const LobeCase d = PATINA_LOBE_CASE_WITH(
-                        "d", dielectric, dielectric, l.facets = facets, vec3(1.0, kNan, kInf), ior,
+                        "d", dielectric, dielectric, l.ndf = ndf, vec3(1.0, kNan, kInf), ior,
                         vec2(ax, ay), false, mode, mode == 2, 1);
                     ASSERT_TRUE(sane(d.f32)) << ax << " " << ay << " ior " << ior << " " << mode;
                 }
             for (float f0 : {0.0f, 0.04f, 1.0f, kNan}) {
                 const LobeCase s = PATINA_LOBE_CASE_WITH(
-                    "s", schlick, schlick, l.facets = facets, vec3(f0, 0.0, 1.0),
-                    vec3(1.0, 0.0, f0), vec3(1.0), 5.0, vec2(ax, ay), false, 3, false, 1);
+                    "s", schlick, schlick, l.ndf = ndf, vec3(f0, 0.0, 1.0), vec3(1.0, 0.0, f0),
+                    vec3(1.0), 5.0, vec2(ax, ay), false, 3, false, 1);
                 ASSERT_TRUE(sane(s.f32)) << ax << " " << ay << " f0 " << f0;
             }
         }

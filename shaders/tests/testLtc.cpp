@@ -64,12 +64,12 @@ std::vector<Rect> rects(int count) {
 }
 
 /// Isotropic GGX facets that reflect all, as a density: the lobe times cosine over its albedo.
-struct Facets {
+struct MicrofacetLobe {
     vec3 wo;
     float alpha;
     double albedo = 0.0;
 
-    Facets(float mu, float a) : wo(std::sqrt(1.0f - mu * mu), 0.0f, mu), alpha(a) {
+    MicrofacetLobe(float mu, float a) : wo(std::sqrt(1.0f - mu * mu), 0.0f, mu), alpha(a) {
         for (int i = 0; i < kSide * kSide; ++i) {
             const sh::vec2 u((float(i % kSide) + 0.5f) / kSide, (float(i / kSide) + 0.5f) / kSide);
             const vec3 m = sh::ggxSampleVisible(wo, sh::vec2(alpha), u);
@@ -113,7 +113,7 @@ TEST(Ltc, AllDirectionsHaveAllLight) {
     for (const float alpha : {0.02f, 0.3f, 1.0f})
         for (const float mu : {0.02f, 0.5f, 1.0f}) {
             const vec3 wo(std::sqrt(1.0f - mu * mu), 0.0f, mu);
-            const float share = sh::ltcShare(corners, 4, sh::ltcFacets(wo, alpha));
+            const float share = sh::ltcShare(corners, 4, sh::ltcMicrofacets(wo, alpha));
             EXPECT_LE(share, 1.0f);
             EXPECT_GT(share, 0.9f) << alpha << " " << mu;
         }
@@ -124,10 +124,10 @@ TEST(Ltc, FacetsAreWithinTheirBound) {
     int count = 0;
     for (const float alpha : {0.05f, 0.1f, 0.25f, 0.5f, 1.0f})
         for (const float mu : {0.1f, 0.4f, 0.7f, 0.95f}) {
-            const Facets facets(mu, alpha);
-            const sh::vec4 map = sh::ltcFacets(facets.wo, alpha);
+            const MicrofacetLobe lobe(mu, alpha);
+            const sh::vec4 map = sh::ltcMicrofacets(lobe.wo, alpha);
             for (const Rect& rect : rects(24)) {
-                const double error = rect.share(facets.wo, map) - rect.brute(facets);
+                const double error = rect.share(lobe.wo, map) - rect.brute(lobe);
                 squares += error * error;
                 largest = std::max(largest, std::abs(error));
                 ++count;
@@ -140,7 +140,7 @@ TEST(Ltc, FacetsAreWithinTheirBound) {
 }
 
 TEST(Ltc, DegenerateOutlinesGiveNumbers) {
-    const sh::vec4 map = sh::ltcFacets(vec3(1.0f, 0.0f, 0.0f), 0.0f);
+    const sh::vec4 map = sh::ltcMicrofacets(vec3(1.0f, 0.0f, 0.0f), 0.0f);
     vec3 corners[sh::LTC_CORNERS] = {};
     EXPECT_EQ(sh::ltcShare(corners, 4, map), 0.0f);
     for (vec3& c : corners)

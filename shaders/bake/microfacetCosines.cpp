@@ -1,5 +1,5 @@
-// Writes what shaders/bake/albedoFit.py is fitted to: `facetCosines BINS MU ALPHA OUT`. For MU by
-// ALPHA directions and roughnesses, the spread of the cosine between view and facet over the
+// Writes what shaders/bake/albedoFit.py is fitted to: `microfacetCosines BINS MU ALPHA OUT`. For MU
+// by ALPHA directions and roughnesses, the spread of the cosine between view and facet over the
 // reflected light of an isotropic GGX mirror. From it the albedo under any reflectance is one sum.
 //
 // Doubles: BINS; then per place mu, alpha, the light in each bin, the mean cosine of each bin. Bins
@@ -35,7 +35,7 @@ vec2 node(int m, int a, int mus, int alphas) {
 
 int main(int argc, char** argv) {
     if (argc != 5) {
-        std::fprintf(stderr, "usage: facetCosines BINS MU ALPHA OUT\n");
+        std::fprintf(stderr, "usage: microfacetCosines BINS MU ALPHA OUT\n");
         return 2;
     }
     const int bins = std::atoi(argv[1]);
@@ -43,10 +43,10 @@ int main(int argc, char** argv) {
     const int alphas = std::atoi(argv[3]);
     std::FILE* out = std::fopen(argv[4], "wb");
     if (bins < 1 || !out) {
-        std::fprintf(stderr, "facetCosines: no bins, or cannot write %s\n", argv[4]);
+        std::fprintf(stderr, "microfacetCosines: no bins, or cannot write %s\n", argv[4]);
         return 1;
     }
-    bake::InterfaceQuadrature quadrature(kPoints, FACETS_GGX);
+    bake::InterfaceQuadrature quadrature(kPoints, NDF_GGX);
     std::vector<double> light(bins), cosine(bins);
     const double head = bins;
     std::fwrite(&head, sizeof head, 1, out);

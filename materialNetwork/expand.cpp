@@ -121,11 +121,11 @@ private:
         for (const auto& [path, node] : _source)
             part.nodes.push_back(*node);
         part.terminals["value"] = c;
-        Diagnostics unheard;
-        Expander inner(part, _models, unheard);
+        Diagnostics silent;
+        Expander inner(part, _models, silent);
         inner._asked = false; // connections may form a cycle
         std::vector<std::string> cuts;
-        const Graph graph = simplify(buildGraph(inner.run(), unheard), cuts);
+        const Graph graph = simplify(buildGraph(inner.run(), silent), cuts);
         const auto found = graph.terminals.find("value");
         return found != graph.terminals.end() && found->second.isConstant() &&
                found->second.value.numbers == value.numbers;

@@ -39,7 +39,7 @@ private:
         return node.inputs[size_t(node.def->findInput(name))];
     }
 
-    /// The surface has been made one by mergeWholeShaders().
+    /// The surface has been made one by mergeSurfaceShaders().
     void planSurface(const Operand& operand, const char* terminal) {
         if (operand.isConstant()) return;
         const GraphNode& node = nodeOf(operand.node);

@@ -85,7 +85,7 @@ bool isMetallic(const BsdfLobe& l) {
 class PlanProber {
 public:
     PlanProber(const Plan& plan, TextureSource& textures)
-        : _plan(plan), _program(MaterialProgram::compile(plan, textures, _unheard)) {}
+        : _plan(plan), _program(MaterialProgram::compile(plan, textures, _silent)) {}
 
     std::vector<std::vector<DirectionProbe>> run() {
         const int places = _program->constant() ? 1 : varyingPlaces;
@@ -215,7 +215,7 @@ private:
     }
 
     const Plan& _plan;
-    Diagnostics _unheard; ///< the material's own compilation says the same
+    Diagnostics _silent; ///< the material's own compilation says the same
     std::shared_ptr<const MaterialProgram> _program;
 };
 

@@ -54,7 +54,7 @@ public:
     /// all of them by that: the mean is the filter's, with the samples of several pixels.
     /// @param offset from the pixel's centre, of sample()
     /// @returns by pixels from -reach() to reach() along the axis; their sum is 1
-    std::vector<float> shares(float offset) const {
+    std::vector<float> splatWeights(float offset) const {
         const int most = reach();
         std::vector<float> out(size_t(2 * most + 1), 0.0f);
         float sum = 0.0f;

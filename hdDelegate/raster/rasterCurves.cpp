@@ -33,9 +33,9 @@ float widestOf(const CurveSet& set) {
 
 class CurveBuilder {
 public:
-    CurveBuilder(const CurveSet& set, const RasterFineness& fineness, bool strips, bool vaulted)
+    CurveBuilder(const CurveSet& set, const RasterFineness& fineness, bool strips, bool domed)
         : _set(set), _gap(fineness.gap), _linear(set.basis == CurveBasis::Linear),
-          _ribbon(!set.normals.empty()), _strips(strips && !_ribbon), _vaulted(vaulted && _strips) {
+          _ribbon(!set.normals.empty()), _strips(strips && !_ribbon), _domed(domed && _strips) {
         for (const MeshAttribute& a : set.attributes) {
             MeshAttribute copy = a;
             if (a.rate == Rate::PerCorner) copy.data.clear();
@@ -45,7 +45,7 @@ public:
 
     RasterTriangles build() {
         const float widest = widestOf(_set);
-        _sides = _vaulted ? 3 : _strips || _ribbon ? 1 : sidesFor(widest);
+        _sides = _domed ? 3 : _strips || _ribbon ? 1 : sidesFor(widest);
         // As wide as the circle in the mean over all directions.
         _wider = !_strips && _sides > 1 ? pi / float(_sides) / std::sin(pi / float(_sides)) : 1.0f;
         for (size_t s = 0; s < _set.segments.size(); ++s)
@@ -54,7 +54,7 @@ public:
         mesh.boundsMin = vec3(INFINITY);
         mesh.boundsMax = vec3(-INFINITY);
         for (size_t i = 0; i < _positions.size(); ++i) {
-            const float r = _strips ? std::fabs(_out.aside[i]) : 0.0f;
+            const float r = _strips ? std::fabs(_out.halfWidth[i]) : 0.0f;
             mesh.boundsMin = glm::min(mesh.boundsMin, _positions[i] - r);
             mesh.boundsMax = glm::max(mesh.boundsMax, _positions[i] + r);
         }
@@ -67,7 +67,7 @@ public:
         size_t steps = 0;
         for (size_t s = 0; s < _set.segments.size(); ++s)
             steps += size_t(stepsOf(s));
-        return 2 * steps * size_t(_vaulted ? 3 : _strips || _ribbon ? 1 : sidesFor(widestOf(_set)));
+        return 2 * steps * size_t(_domed ? 3 : _strips || _ribbon ? 1 : sidesFor(widestOf(_set)));
     }
 
 private:
@@ -191,8 +191,8 @@ private:
         if (_strips) {
             for (int k = 0; k <= _sides; ++k) {
                 const bool edge = k == 0 || k == _sides;
-                _out.aside.push_back(2 * k < _sides ? ring.radius : -ring.radius);
-                _out.ends.push_back(float(ring.end) + (edge ? 0.0f : StripVault));
+                _out.halfWidth.push_back(2 * k < _sides ? ring.radius : -ring.radius);
+                _out.ends.push_back(float(ring.end) + (edge ? 0.0f : StripDome));
                 vertex(ring.position, ring.along);
             }
             return uint32_t(_positions.size()) - uint32_t(_sides) - 1;
@@ -283,7 +283,7 @@ private:
 
     const CurveSet& _set;
     float _gap, _wider = 1.0f;
-    bool _linear, _ribbon, _strips, _vaulted;
+    bool _linear, _ribbon, _strips, _domed;
     int _sides = 1;
     vec3 _x{0.0f}; ///< across the ring before
     RasterTriangles _out;
@@ -303,13 +303,13 @@ bool fitCurves(const CurveSet& set, RasterFineness& fineness, size_t most) {
     return widest <= fineness.thick;
 }
 
-bool vaultsFit(const CurveSet& set, const RasterFineness& fineness, size_t most) {
+bool domedStripsFit(const CurveSet& set, const RasterFineness& fineness, size_t most) {
     return CurveBuilder(set, fineness, true, true).expected() <= most;
 }
 
 RasterTriangles curveTriangles(const CurveSet& set, const RasterFineness& fineness, bool strips,
-                               bool vaulted) {
-    return CurveBuilder(set, fineness, strips, vaulted).build();
+                               bool domed) {
+    return CurveBuilder(set, fineness, strips, domed).build();
 }
 
 } // namespace patina

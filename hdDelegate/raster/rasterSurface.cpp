@@ -86,7 +86,7 @@ uint32_t RasterSurfaceBuilder::vertex(unsigned t, int c) {
     const float u = c == 1 ? 1.0f : 0.0f, v = c == 2 ? 1.0f : 0.0f;
     RasterChunk::Vertex own;
     own.position = _mesh.positions[0][position];
-    if (_form && !_form->aside.empty()) own.aside = _form->aside[position];
+    if (_form && !_form->halfWidth.empty()) own.halfWidth = _form->halfWidth[position];
     if (!_mesh.normals.empty()) own.normal = evalNormal(_mesh, t, u, v);
     if (_form && !_form->ends.empty()) own.normal *= _form->ends[position];
     const size_t count = _attributes.size(), at = _primvars.size();

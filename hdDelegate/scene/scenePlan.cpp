@@ -136,7 +136,7 @@ double ScenePlan::noise(double tolerance) const {
                : tolerance;
 }
 
-void ScenePlan::tell(double tolerance, std::map<std::string, double>& statistics) const {
+void ScenePlan::addStatistics(double tolerance, std::map<std::string, double>& statistics) const {
     if (tolerance < 0.0) return;
     statistics["predictedError"] = _error;
     statistics["noiseTolerance"] = noise(tolerance);

@@ -39,7 +39,7 @@ public:
     double noise(double tolerance) const;
 
     /// For RenderProgress::statistics; nothing without a tolerance.
-    void tell(double tolerance, std::map<std::string, double>& statistics) const;
+    void addStatistics(double tolerance, std::map<std::string, double>& statistics) const;
 
     /// Of every material in use, by its path.
     const std::map<std::string, MethodPlan>& materials() const { return _materials; }

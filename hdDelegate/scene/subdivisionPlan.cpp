@@ -106,7 +106,7 @@ CageSize::CageSize(const Mesh& mesh) {
 
 SubdivisionPlan::SubdivisionPlan(const RenderSettings& settings, const ScreenScale& screen)
     : _settings(settings), _screen(screen),
-      _looks(settings.tolerance >= 0.0 && settings.edgeLength < 0.0f) {}
+      _active(settings.tolerance >= 0.0 && settings.edgeLength < 0.0f) {}
 
 void SubdivisionPlan::add(const CageSize& cage, const std::vector<mat4>& places,
                           const MethodPlan& material) {
@@ -153,7 +153,7 @@ std::string SubdivisionPlan::choose() const {
 
 PlannedMethod SubdivisionPlan::chosen() const {
     PlannedMethod result;
-    if (!_any || !_looks) return result;
+    if (!_any || !_active) return result;
     result.point = point;
     result.method = choose();
     result.forced = _settings.methods.count(point) > 0;

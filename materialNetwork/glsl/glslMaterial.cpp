@@ -66,8 +66,8 @@ public:
         if (_out.parameters.empty()) _out.parameters.emplace_back(0.0f);
         _out.presence = !_program.isOpaque();
         _out.emission = _program.hasEmission();
-        _out.tints = _code.hasPassThrough;
-        _out.holds = _program.hasInterior();
+        _out.hasColoredPresence = _code.hasPassThrough;
+        _out.hasInterior = _program.hasInterior();
         _out.volumeOnly = _program.isVolumeOnly();
         _out.thin = _program.isThinWalled();
         _out.fibre = _program.isFibre();

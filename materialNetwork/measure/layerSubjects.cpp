@@ -75,8 +75,8 @@ std::shared_ptr<const MaterialProgram> layered(const Base& base, double alpha,
     network.nodes = {below, top, layer, surface};
     network.terminals["surface"] = {"/surface", ""};
     NoTextures textures;
-    Diagnostics unheard;
-    return compileMaterial(network, textures, unheard, methods);
+    Diagnostics silent;
+    return compileMaterial(network, textures, silent, methods);
 }
 
 Albedo sampledAlbedo(const MaterialProgram& program, double cosine, int samples) {

@@ -33,7 +33,7 @@ vec3 slanted(double mu) {
     return vec3(std::sqrt(std::max(0.0, 1.0 - mu * mu)), 0.0, mu);
 }
 
-void InterfaceQuadrature::look(vec3 wo, vec2 alpha) {
+void InterfaceQuadrature::setView(vec3 wo, vec2 alpha) {
     _wo = wo;
     _alpha = alpha;
     _normals.clear();

@@ -27,7 +27,7 @@ public:
     InterfaceQuadrature(int n, int ndf) : _rule(n / 2), _columns(n), _ndf(ndf) {}
 
     /// Draws the normals that the other functions sum over. Mirrors (alpha 0) have one.
-    void look(sh64::vec3 wo, sh64::vec2 alpha);
+    void setView(sh64::vec3 wo, sh64::vec2 alpha);
 
     /// E[p] for `count` exponents at once.
     void moments(const double* exponents, int count, double* result) const;

@@ -49,7 +49,7 @@ void bakeMoments(int ndf, float* out) {
             double e[MOMENT_COUNT];
             const double alpha = tableAlphaAt(double(a) / (MOMENT_ALPHA - 1));
             const double mu = tableMuAt(std::max(double(m), kFirst) / (MOMENT_MU - 1), alpha);
-            quadrature.look(bake::slanted(mu), vec2(alpha));
+            quadrature.setView(bake::slanted(mu), vec2(alpha));
             quadrature.moments(exponents, MOMENT_COUNT, e);
             *out++ = float(e[0]);
             for (int k = 1; k < MOMENT_COUNT; ++k)
@@ -69,7 +69,7 @@ void bakeInterface(int ndf, bool above, float* out) {
                 const double t = std::max(double(m), kFirst) / (INTERFACE_MU - 1);
                 const double mu =
                     above ? tableMuAt(t, alpha) : tableMuBelowAt(t, tableMuCritical(eta), alpha);
-                if (!above || i == 0) quadrature.look(bake::slanted(mu), vec2(alpha));
+                if (!above || i == 0) quadrature.setView(bake::slanted(mu), vec2(alpha));
                 // Relative to what the look-up will multiply with, not to the exact E[0].
                 const double e0 = momentEntry(momentPlace(mu, alpha, ndf * MICROFACET_SIZE), 0);
                 const vec2 e = quadrature.dielectric(eta);
@@ -111,7 +111,7 @@ void bakeTurnedMoments(int ndf, float* out) {
             row, TURNED_ALPHA, [](double t, double alpha) { return tableMuAt(t, alpha); });
         if (node.alpha.x == node.alpha.y) continue; // nothing to add
         double e[MOMENT_COUNT];
-        quadrature.look(node.wo, node.alpha);
+        quadrature.setView(node.wo, node.alpha);
         quadrature.moments(exponents, MOMENT_COUNT, e);
         const MomentPlace same =
             momentPlace(node.wo.z, microfacetAlphaSeen(node.wo, node.alpha), ndf * MICROFACET_SIZE);
@@ -134,7 +134,7 @@ void bakeTurnedInterface(int ndf, bool above, float* out) {
             };
             const TurnedNode node = turnedNode(row, TURNED_ETA_ALPHA, mu);
             if (node.alpha.x == node.alpha.y) continue; // nothing to add
-            if (!above || i == 0) quadrature.look(node.wo, node.alpha);
+            if (!above || i == 0) quadrature.setView(node.wo, node.alpha);
             const MicrofacetPlace place = microfacetPlace(node.wo, node.alpha, ndf);
             const double e0 = microfacetAlbedo0(place);
             const vec2 e = quadrature.dielectric(eta);

@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
     for (int a = 0; a < std::abs(alphas); ++a)
         for (int m = 0; m < std::abs(mus); ++m) {
             const vec2 p = mus < 0 ? centre(m, a, -mus, -alphas) : node(m, a, mus, alphas);
-            quadrature.look(bake::slanted(p.x), vec2(p.y));
+            quadrature.setView(bake::slanted(p.x), vec2(p.y));
             quadrature.spread(bins, light.data(), cosine.data());
             std::fwrite(&p, sizeof(double), 2, out);
             std::fwrite(light.data(), sizeof(double), light.size(), out);

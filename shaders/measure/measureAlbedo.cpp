@@ -102,7 +102,7 @@ std::vector<Row> directionalAlbedo(bool timed) {
     bake::InterfaceQuadrature quadrature(kQuadrature, sh::NDF_GGX);
     double light[kSpread], cosine[kSpread];
     for (const Place& p : places(kSide)) {
-        quadrature.look(p.wo, sh64::vec2(p.alpha));
+        quadrature.setView(p.wo, sh64::vec2(p.alpha));
         quadrature.spread(kSpread, light, cosine);
         for (size_t s = 0; s < subjects.size(); ++s) {
             double truth = 0.0;

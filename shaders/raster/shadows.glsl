@@ -12,14 +12,14 @@ layout(binding = 19) uniform sampler2DArray skyMaps;
 
 // What a map shows at a place beside the middle of a texel, as far as it goes on as it does on the other
 // side of the middle; 0 where that is no plane.
-// aside: in texels, up to a half
-float planeBeside(sampler2DArray maps, ivec3 texel, float front, vec2 aside) {
-    ivec2 away = ivec2(aside.x > 0.0 ? -1 : 1, aside.y > 0.0 ? -1 : 1);
+// offset: in texels, up to a half
+float planeBeside(sampler2DArray maps, ivec3 texel, float front, vec2 offset) {
+    ivec2 away = ivec2(offset.x > 0.0 ? -1 : 1, offset.y > 0.0 ? -1 : 1);
     ivec3 x = ivec3(away.x, 0, 0), y = ivec3(0, away.y, 0);
     vec2 near = vec2(texelFetch(maps, texel + x, 0).x, texelFetch(maps, texel + y, 0).x) - front;
     vec2 next = vec2(texelFetch(maps, texel + 2 * x, 0).x, texelFetch(maps, texel + 2 * y, 0).x) - front - near;
     bool plane = all(lessThanEqual(abs(next - near), 0.1 * abs(near) + 1e-6));
-    return plane ? front - dot(near, abs(aside)) : 0.0;
+    return plane ? front - dot(near, abs(offset)) : 0.0;
 }
 
 // Whether a map shows nothing in front of a point. What is compared is where the plane of the surface
@@ -47,8 +47,8 @@ float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n,
     float front = texelFetch(maps, ivec3(ivec2(texel), layer), 0).x;
     if (0.5 * depth + 0.5 <= front + bias) return 1.0;
     // Where two surfaces meet, the middle of the texel shows the other one, which the plane goes behind.
-    vec2 aside = (0.5 * q.xy + 0.5) * size - texel - 0.5;
-    return 0.5 * q.z + 0.5 <= planeBeside(maps, ivec3(ivec2(texel), layer), front, aside) + bias ? 1.0 : 0.0;
+    vec2 offset = (0.5 * q.xy + 0.5) * size - texel - 0.5;
+    return 0.5 * q.z + 0.5 <= planeBeside(maps, ivec3(ivec2(texel), layer), front, offset) + bias ? 1.0 : 0.0;
 }
 
 // Whether a map of the fibres alone shows a point.

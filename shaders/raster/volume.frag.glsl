@@ -11,8 +11,8 @@ layout(location = 16) uniform int volumeIndex;
 layout(binding = 0) uniform sampler3D scatteringMap; // w: mean cosine
 layout(binding = 1) uniform sampler3D extinctionMap;
 layout(binding = 2) uniform sampler3D emissionMap;
-layout(binding = 21) uniform sampler2D behindColor;
-layout(binding = 22) uniform sampler2D behindDepth;
+layout(binding = 21) uniform sampler2D sceneColor;
+layout(binding = 22) uniform sampler2D sceneDepth;
 
 // The shaded point, which shadows.glsl asks for.
 struct VolumePoint {
@@ -130,7 +130,7 @@ void main() {
     vec3 origin, direction;
     vec2 seen = cameraRay(origin, direction);
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float near = seen.x, far = seen.y, depth = texelFetch(behindDepth, pixel, 0).x;
+    float near = seen.x, far = seen.y, depth = texelFetch(sceneDepth, pixel, 0).x;
     if (depth < 1.0) {
         vec4 world = clipToWorld * vec4(vWindow, depth * 2.0 - 1.0, 1.0);
         far = min(far, dot(world.xyz / world.w - origin, direction));
@@ -175,7 +175,7 @@ void main() {
     }
     if (own > 0.0)
         scattered = drawn * (total / own) * litAt(origin + direction * where, direction, g, v.x);
-    vec4 behind = texelFetch(behindColor, pixel, 0);
+    vec4 behind = texelFetch(sceneColor, pixel, 0);
     outColor = vec4(behind.rgb * transmittance + (emitted + scattered) * extra.y,
                     mix(1.0, behind.a, dot(transmittance, vec3(0.2126, 0.7152, 0.0722))));
 }

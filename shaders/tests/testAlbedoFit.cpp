@@ -102,7 +102,7 @@ private:
                 p.alpha = std::pow((a + 0.5) / kSide, 2.0);
                 p.light.resize(kBins);
                 p.cosine.resize(kBins);
-                quadrature.look(p.wo, vec2(p.alpha));
+                quadrature.setView(p.wo, vec2(p.alpha));
                 quadrature.spread(kBins, p.light.data(), p.cosine.data());
                 _places.push_back(p);
             }

@@ -52,7 +52,7 @@ TEST(AlbedoTable, MomentsAreWithinTheirError) {
         for (int i = 0; i < 600; ++i) {
             const vec2 p = tablePoint(i);
             double e[5];
-            quadrature.look(bake::slanted(p.x), vec2(p.y));
+            quadrature.setView(bake::slanted(p.x), vec2(p.y));
             quadrature.moments(exponents, 5, e);
             const auto place = sh64::microfacetPlace(bake::slanted(p.x), vec2(p.y), ndf);
             const double e0 = sh64::microfacetAlbedo0(place);
@@ -80,7 +80,7 @@ TEST(AlbedoTable, InterfaceIsWithinItsError) {
                 Error reflected, transmitted;
                 for (int i = 0; i < 150; ++i) {
                     const vec2 p = tablePoint(i);
-                    quadrature.look(bake::slanted(p.x), vec2(p.y));
+                    quadrature.setView(bake::slanted(p.x), vec2(p.y));
                     const vec2 exact = quadrature.dielectric(eta);
                     const auto place = sh64::microfacetPlace(bake::slanted(p.x), vec2(p.y), ndf);
                     const vec2 table =
@@ -114,7 +114,7 @@ TEST(AlbedoTable, AnisotropyIsWithinItsError) {
                 const double eta = 1.05 + 1.5 * u.y * u.y;
                 const vec3 wo = direction(p.x, 1.57 * u.z);
                 if (std::min(alpha.x, alpha.y) < 1e-3) continue;
-                quadrature.look(wo, alpha);
+                quadrature.setView(wo, alpha);
                 double zero = 0.0, e0 = 0.0;
                 quadrature.moments(&zero, 1, &e0);
                 const auto place = sh64::microfacetPlace(wo, alpha, ndf);

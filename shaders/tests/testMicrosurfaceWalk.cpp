@@ -20,7 +20,7 @@ TEST(MicrosurfaceWalk, FirstBounceIsSingleScatteringAndNothingIsLost) {
                 const auto walked = measure::walkMicrosurface(
                     bake::slanted(z), alpha, ndf, [](double) { return 1.0; }, kWalks, 7);
                 bake::InterfaceQuadrature quadrature(64, ndf);
-                quadrature.look(bake::slanted(z), alpha);
+                quadrature.setView(bake::slanted(z), alpha);
                 double zero = 0.0, once = 0.0;
                 quadrature.moments(&zero, 1, &once);
                 const double sigma = std::sqrt(once * (1.0 - once) / kWalks);
@@ -60,7 +60,7 @@ TEST(EnergyCompensation, TakesTooLittleFromGrazingBounces) {
         wo, vec2(alpha), sh::NDF_GGX, [](double c) { return sh64::fresnelDielectric(c, ior); },
         100000, 9);
     bake::InterfaceQuadrature quadrature(64, sh::NDF_GGX);
-    quadrature.look(wo, vec2(alpha));
+    quadrature.setView(wo, vec2(alpha));
     double zero = 0.0, white = 0.0;
     quadrature.moments(&zero, 1, &white);
     EXPECT_GT((walked.all - walked.once) / (1.0 - white), 0.5);

@@ -77,7 +77,7 @@ TEST(SkyHarmonics, oneBrightPixelIsSplitOff) {
     const SkyHarmonics sky = makeSkyHarmonics(onePixel);
     EXPECT_GT(glm::dot(sky.sunDirection, sun), std::cos(0.01f));
     const vec3 facing = irradiance(onePixel, sun);
-    // Both grids see a disc of few directions: its area is known to a sixth.
+    // Both grids see a disk of few directions: its area is known to a sixth.
     EXPECT_NEAR(sky.sunIrradiance.x / (facing.x - 0.3f * pi), 1.0f, 0.17f);
     for (const vec3& n : {sun, -sun, vec3(0, 1, 0), vec3(1, 0, 0)})
         EXPECT_NEAR(sky.at(n).x, 0.3f * pi, 0.02f);

@@ -34,7 +34,7 @@ void begin(const FieldStreamHeader& header) {
 }
 
 /// Ends the stream, early where bricks were already written.
-void tell(const std::string& problem) {
+void report(const std::string& problem) {
     if (!begun) begin({});
     FieldStreamBrick end;
     end.place[0] = -1;
@@ -163,7 +163,7 @@ int main(int argc, char** argv) {
     } catch (const std::exception& e) {
         problem = e.what();
     }
-    tell(problem);
+    report(problem);
     // Without the destructors of a tree that may be damaged.
     const bool done = std::fflush(stdout) == 0;
     ::_exit(done ? 0 : 3);

@@ -345,9 +345,9 @@ TEST(Points, widthsNormalsAndPrimvars) {
     EXPECT_EQ(out[2], 1.0f);
     points.primvars = {makePrimvar("normals", Interpolation::Constant, 3, {0, 5, 0}),
                        makePrimvar("widths", Interpolation::Constant, 1, {3})};
-    const PointSet discs = buildPoints(points, {}, diagnostics);
-    EXPECT_EQ(discs.normals[0], (std::vector<vec3>(3, vec3(0, 1, 0))));
-    EXPECT_EQ(discs.points[0][2].w, 1.5f);
+    const PointSet disks = buildPoints(points, {}, diagnostics);
+    EXPECT_EQ(disks.normals[0], (std::vector<vec3>(3, vec3(0, 1, 0))));
+    EXPECT_EQ(disks.points[0][2].w, 1.5f);
 }
 
 TEST(Points, badOnesAreLeftOutWithTheirValues) {
@@ -373,8 +373,8 @@ long mostMemory() { // kB that the process ever took
 // A layout of a billion points would take 8 GB, one of a million 8 MB.
 TEST(Curves, CountsBeyondThePointsTakeNoMemory) {
     for (CurveBasis basis : {CurveBasis::Linear, CurveBasis::Bezier, CurveBasis::CatmullRom}) {
-        const Curves curves = makeCurves(basis, CurveWrap::Nonperiodic, {4, 1000000000, 4, -1, 4},
-                                         line(4));
+        const Curves curves =
+            makeCurves(basis, CurveWrap::Nonperiodic, {4, 1000000000, 4, -1, 4}, line(4));
         Diagnostics diagnostics;
         const long before = mostMemory();
         const CurveSet set = buildCurves(curves, {}, diagnostics);

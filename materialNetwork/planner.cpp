@@ -127,10 +127,10 @@ private:
             return a.prediction.ns < b.prediction.ns;
         });
         std::vector<Option> result;
-        double least = std::numeric_limits<double>::infinity();
+        double minimum = std::numeric_limits<double>::infinity();
         for (const Option& o : all)
-            if (o.prediction.error < least) {
-                least = o.prediction.error;
+            if (o.prediction.error < minimum) {
+                minimum = o.prediction.error;
                 result.push_back(o);
             }
         return result;
@@ -138,7 +138,7 @@ private:
 
     Option quietest(const std::string& name) const {
         Option best;
-        double least = std::numeric_limits<double>::infinity();
+        double minimum = std::numeric_limits<double>::infinity();
         for (const ChoicePoint& choice : choicePoints())
             if (choice.name == name)
                 for (const Method& m : choice.methods) {
@@ -146,8 +146,8 @@ private:
                     if (!o.prediction.measured) continue;
                     const double effort = (1.0 + o.prediction.noise * o.prediction.noise) *
                                           (nsPerSample + o.prediction.ns);
-                    if (effort < least) {
-                        least = effort;
+                    if (effort < minimum) {
+                        minimum = effort;
                         best = o;
                     }
                 }
@@ -166,9 +166,9 @@ private:
     /// short.
     void search(size_t i, double budget, double ns, double error) {
         const double soFar = effort(ns, error);
-        if (soFar >= _least) return;
+        if (soFar >= _minimum) return;
         if (i == _points.size()) {
-            _least = soFar;
+            _minimum = soFar;
             _best = _chosen;
             return;
         }
@@ -205,7 +205,7 @@ private:
     std::vector<Point> _points;
     std::vector<int> _chosen, _best;
     double _factor = 1.0;
-    double _least = std::numeric_limits<double>::infinity();
+    double _minimum = std::numeric_limits<double>::infinity();
     MethodPlan _result;
 };
 

@@ -220,12 +220,12 @@ void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) 
     }
     // Few scenes are seen so far from the origin that they are built once more; while the camera
     // stays there, the origin does too.
-    constexpr int mostMoves = 2;
-    for (int i = 0; i <= mostMoves; ++i) {
+    constexpr int maxMoves = 2;
+    for (int i = 0; i <= maxMoves; ++i) {
         _embree->update(state, camera, _settings, *_textures, _stop, _origin);
         if (_stop) return;
         const dvec3 origin = originOfSeen(*_embree, camera, _settings);
-        if (origin == _origin || i == mostMoves) break;
+        if (origin == _origin || i == maxMoves) break;
         _origin = origin;
     }
     LightsKey key = makeLightsKey(state, *_embree, camera, _settings);
@@ -238,8 +238,8 @@ void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) 
 
 void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     const auto buildStart = Clock::now();
-    constexpr int mostThreads = 4096;
-    Arena arena(std::min(_settings.threads, mostThreads));
+    constexpr int maxThreads = 4096;
+    Arena arena(std::min(_settings.threads, maxThreads));
     arena.execute([&] { updateScene(state, camera); });
     if (_stop) return;
     ScenePlan plan = _embree->plan();

@@ -9,10 +9,10 @@ namespace patina {
 
 /// What of the AOVs asked for only the fragment stage of a material can tell.
 struct RasterAovRequest {
-    static constexpr size_t mostPrimvars = 4; ///< targets that drivers have beside the others
+    static constexpr size_t maxPrimvars = 4; ///< targets that drivers have beside the others
 
     bool albedo = false;
-    std::vector<std::string> primvars; ///< names, at most `mostPrimvars`
+    std::vector<std::string> primvars; ///< names, at most `maxPrimvars`
     std::vector<std::string> leftOut;  ///< further ones
 
     RasterAovRequest() = default;
@@ -22,7 +22,7 @@ struct RasterAovRequest {
         for (const std::string& aov : aovs) {
             albedo |= aov == "albedo" || aov == denoisingAlbedoAov;
             if (aov.rfind(prefix, 0) != 0) continue;
-            auto& list = primvars.size() < mostPrimvars ? primvars : leftOut;
+            auto& list = primvars.size() < maxPrimvars ? primvars : leftOut;
             list.push_back(aov.substr(prefix.size()));
         }
     }

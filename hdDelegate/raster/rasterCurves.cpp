@@ -10,7 +10,7 @@ namespace patina {
 namespace {
 
 constexpr float pi = 3.14159265f;
-constexpr int mostSides = 63, mostSteps = 64;
+constexpr int maxSides = 63, maxSteps = 64;
 constexpr float largestTurn = 0.15f; ///< of a curve's direction or a ribbon's normal in a step
 
 using Rate = MeshAttribute::Rate;
@@ -74,7 +74,7 @@ private:
     /// An odd number: the width of such polygons depends less on the direction.
     int sidesFor(float radius) const {
         if (!(_gap > 0.0f)) return 9;
-        return std::clamp(int(std::ceil(pi * std::sqrt(radius / (3.0f * _gap)))) | 1, 5, mostSides);
+        return std::clamp(int(std::ceil(pi * std::sqrt(radius / (3.0f * _gap)))) | 1, 5, maxSides);
     }
 
     int controls() const { return _linear ? 2 : 4; }
@@ -134,7 +134,7 @@ private:
             normal = nextNormal;
         }
         const float steps = std::max(std::sqrt(bend / (8.0f * _gap)), turn / largestTurn);
-        return int(std::ceil(std::clamp(steps, 1.0f, float(mostSteps))));
+        return int(std::ceil(std::clamp(steps, 1.0f, float(maxSteps))));
     }
 
     /// Whether no other segment of the curve goes on from an end of this one.
@@ -292,19 +292,19 @@ private:
 
 } // namespace
 
-bool fitCurves(const CurveSet& set, RasterFineness& fineness, size_t most) {
+bool fitCurves(const CurveSet& set, RasterFineness& fineness, size_t maximum) {
     const float widest = widestOf(set);
     for (int i = 0; i < 24 && fineness.gap > 0.0f; ++i) {
         const bool thin = widest <= fineness.thick;
-        if (CurveBuilder(set, fineness, thin, false).expected() <= most) break;
+        if (CurveBuilder(set, fineness, thin, false).expected() <= maximum) break;
         fineness.gap *= 2.0f;
         fineness.thick *= 2.0f;
     }
     return widest <= fineness.thick;
 }
 
-bool domedStripsFit(const CurveSet& set, const RasterFineness& fineness, size_t most) {
-    return CurveBuilder(set, fineness, true, true).expected() <= most;
+bool domedStripsFit(const CurveSet& set, const RasterFineness& fineness, size_t maximum) {
+    return CurveBuilder(set, fineness, true, true).expected() <= maximum;
 }
 
 RasterTriangles curveTriangles(const CurveSet& set, const RasterFineness& fineness, bool strips,

@@ -22,9 +22,9 @@ const std::string passes = "16 passes";
 
 /// Passes until noise that is `error` after rowPasses falls to `allowed`.
 double passesFor(double error, double allowed, const RenderSettings& settings) {
-    const double least = std::max(2, settings.minSamples);
+    const double minimum = std::max(2, settings.minSamples);
     const double needed = rowPasses * std::pow(error / std::max(allowed, 1e-9), 2.0);
-    return std::clamp(needed, least, 1e9);
+    return std::clamp(needed, minimum, 1e9);
 }
 
 std::string samplesOf(int count) {

@@ -48,7 +48,7 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
             _diagnostics.warn("", "",
                               "the AOV primvars:" + name +
                                   " is left empty: the rasterizer writes " +
-                                  std::to_string(RasterAovRequest::mostPrimvars) + " primvars");
+                                  std::to_string(RasterAovRequest::maxPrimvars) + " primvars");
     }
     _domeMethods.clear();
     _standIns = 0;
@@ -194,8 +194,8 @@ void RasterMaterials::finish(const std::atomic<bool>& stop,
     }
 }
 
-void RasterMaterials::waitForMore(std::chrono::milliseconds most) {
-    if (_compiler->hasThreads() || !_compiler->help()) _compiler->wait(most);
+void RasterMaterials::waitForMore(std::chrono::milliseconds maximum) {
+    if (_compiler->hasThreads() || !_compiler->help()) _compiler->wait(maximum);
 }
 
 bool RasterMaterials::light(Cached& cached, const RenderSettings& settings) {

@@ -62,7 +62,7 @@ public:
     /// @param told how far they are, again and again
     void finish(const std::atomic<bool>& stop, const std::function<void(const Ready&)>& told);
     /// The same until one more is ready, or for so long.
-    void waitForMore(std::chrono::milliseconds most);
+    void waitForMore(std::chrono::milliseconds maximum);
     Ready ready() const;
     /// Whether get() gives displayColor in place of what is not ready, instead of waiting for it.
     void showStandIns(bool show) { _showStandIns = show; }

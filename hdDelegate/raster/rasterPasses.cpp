@@ -137,7 +137,7 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
         lastMaterial = d.material;
         gl.Uniform4i(1, d.surface->primvarBits, d.primId, d.flags, 0);
         if (aovs && !_aovRequest.primvars.empty()) {
-            int slots[RasterAovRequest::mostPrimvars] = {-1, -1, -1, -1};
+            int slots[RasterAovRequest::maxPrimvars] = {-1, -1, -1, -1};
             for (size_t i = 0; i < _aovRequest.primvars.size(); ++i)
                 slots[i] = RasterAovRequest::slot(d.material->primvars, _aovRequest.primvars[i]);
             gl.Uniform4i(8, slots[0], slots[1], slots[2], slots[3]);
@@ -285,9 +285,9 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     std::vector<mat4> matrices;
     for (const ShadowView& v : sampled.shadows)
         matrices.push_back(v.worldToMap);
-    static_assert(RasterLights::mostTaken * sizeof(GpuLight) <= 63232, "see isEnough()");
+    static_assert(RasterLights::maxTaken * sizeof(GpuLight) <= 63232, "see isEnough()");
     std::vector<GpuLight> taken(sampled.lights.begin(), sampled.lights.begin() + sampled.taken);
-    taken.resize(RasterLights::mostTaken, GpuLight::none());
+    taken.resize(RasterLights::maxTaken, GpuLight::none());
     const GlBuffer lightBuffer(sampled.lights), takenBuffer(taken), matrixBuffer(matrices);
 
     const RasterView view = camera.view(sample.offset, sample.lens, sample.time, scene.boundsMin(),

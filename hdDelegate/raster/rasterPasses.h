@@ -67,7 +67,7 @@ public:
 
     static constexpr int shadowMapSize = 1024;
     static constexpr int bsdfSamples = 2; ///< per pixel and pass
-    static constexpr int mostPlanes = 8;  ///< that a camera clips with; see passBlock.glsl
+    static constexpr int maxPlanes = 8;   ///< that a camera clips with; see passBlock.glsl
 
 private:
     struct PassBlock;

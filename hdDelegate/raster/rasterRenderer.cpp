@@ -245,10 +245,10 @@ private:
 
     void render(const SceneState& state, const Camera& cameraPrim) {
         RasterCamera camera = cameraFrom(cameraPrim);
-        if (cameraPrim.clippingPlanes.size() > size_t(RasterPasses::mostPlanes))
+        if (cameraPrim.clippingPlanes.size() > size_t(RasterPasses::maxPlanes))
             _scene->diagnostics().warn(cameraPrim.path, "clippingPlanes",
                                        "the rasterizer clips by the first " +
-                                           std::to_string(RasterPasses::mostPlanes) + " alone");
+                                           std::to_string(RasterPasses::maxPlanes) + " alone");
         checkDevice(0);
         // Somebody looks on: images of what there is until all is there.
         const bool early = _settings.interactive && _listener && _film->resumeToken.empty();

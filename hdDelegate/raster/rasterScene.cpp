@@ -23,7 +23,7 @@ float areaOf(const TriangleMesh& mesh, const mat4& toWorld) {
     return float(area);
 }
 
-constexpr size_t fewPlaces = 32; // are drawn in the order that they have
+constexpr size_t maxUnsortedPlaces = 32; // are drawn in the order that they have
 
 bool deforms(const Geometry& prim) {
     switch (prim.kind) {
@@ -79,7 +79,7 @@ void RasterScene::GpuInstance::place(const mat4& toWorld) {
 
 void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& places,
                            const mat4& toGroup) {
-    if (group.places.size() > fewPlaces) {
+    if (group.places.size() > maxUnsortedPlaces) {
         std::vector<vec3> centers;
         for (const uint32_t i : group.places)
             centers.emplace_back(places[i].groupToWorld[3]);

@@ -70,7 +70,7 @@ public:
     /// How many materials displayColor stands in for since update().
     size_t standIns() const { return _materials.standIns(); }
     /// Waits until one more is ready, or for so long.
-    void waitForPrograms(std::chrono::milliseconds most) { _materials.waitForMore(most); }
+    void waitForPrograms(std::chrono::milliseconds maximum) { _materials.waitForMore(maximum); }
     /// Moves to another time of the shutter: transforms exactly, points that move to the nearest of
     /// deformationSteps times. @returns false when nothing moves
     bool moveTo(const SceneState& state, const RenderSettings& settings, float timeCode);

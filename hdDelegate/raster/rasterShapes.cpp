@@ -10,7 +10,7 @@ namespace patina {
 namespace {
 
 constexpr float twoPi = 6.2831853f;
-constexpr size_t mostCurveTriangles = 4000000; ///< of a prim all around the camera
+constexpr size_t maxCurveTriangles = 4000000; ///< of a prim all around the camera
 
 using Rate = MeshAttribute::Rate;
 
@@ -131,8 +131,8 @@ RasterForm rasterTriangles(const Geometry& prim, const TessellationOptions& opti
         const CurveSet set = buildCurves(static_cast<const Curves&>(prim), options, diagnostics);
         if (set.segments.empty()) break;
         RasterFineness own = fineness;
-        const bool thin = fitCurves(set, own, mostCurveTriangles);
-        const bool domed = thin && domedStripsFit(set, own, mostCurveTriangles);
+        const bool thin = fitCurves(set, own, maxCurveTriangles);
+        const bool domed = thin && domedStripsFit(set, own, maxCurveTriangles);
         form.seen = curveTriangles(set, own, thin, domed);
         if ((domed || !thin) && set.normals.empty()) form.casting = curveTriangles(set, own, true);
         break;

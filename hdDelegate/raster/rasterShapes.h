@@ -50,9 +50,9 @@ RasterForm rasterTriangles(const Geometry& prim, const TessellationOptions& opti
 
 /// Makes curves coarser until they take so many triangles at most, as far as that is possible.
 /// @returns whether they are thin enough for strips
-bool fitCurves(const CurveSet& set, RasterFineness& fineness, size_t most);
+bool fitCurves(const CurveSet& set, RasterFineness& fineness, size_t maximum);
 /// Whether strips may be domed, too.
-bool domedStripsFit(const CurveSet& set, const RasterFineness& fineness, size_t most);
+bool domedStripsFit(const CurveSet& set, const RasterFineness& fineness, size_t maximum);
 
 /// Curves as Embree has them: circles swept along cubic segments, open at the ends; cones and
 /// spheres along linear ones. Tubes and ribbons here are polygons; strips face whoever looks.

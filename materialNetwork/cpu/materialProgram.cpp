@@ -58,10 +58,10 @@ float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* passes,
         passThrough = BsdfBuilder::passThrough(*_code, point, registers.data());
     }
     // As often as its brightest channel passes.
-    const float most = std::max(passThrough.x, std::max(passThrough.y, passThrough.z));
-    const float pass = 1.0f - x + x * most;
+    const float maximum = std::max(passThrough.x, std::max(passThrough.y, passThrough.z));
+    const float pass = 1.0f - x + x * maximum;
     if (passes && pass > 0.0f) *passes = (1.0f - x + x * passThrough) / pass;
-    return x * (1.0f - most);
+    return x * (1.0f - maximum);
 }
 
 bool MaterialProgram::isOpaqueWith(const std::vector<int>& attributes) const {

@@ -9,8 +9,8 @@ namespace patina {
 
 namespace {
 
-constexpr int kMostBounces = 1000; // roulette ends walks long before
-constexpr int kSureBounces = 8;    // that no roulette ends
+constexpr int maxBounces = 1000; // roulette ends walks long before
+constexpr int sureBounces = 8;   // that no roulette ends
 
 /// What a walk wants to know about a lobe.
 struct Walker {
@@ -103,13 +103,13 @@ public:
 
     /// Bounces off a facet or goes through it.
     /// @param least of the chance to reflect
-    void bounce(const glm::vec3& u, float least) {
+    void bounce(const glm::vec3& u, float minimum) {
         const glm::vec3 v = -_w;
         const glm::vec3 m = _surface.sampleVisibleNormal(v, glm::vec2(u), _random);
         const float c = std::min(std::max(glm::dot(v, m), 0.0f), 1.0f);
         const glm::vec3 f = reflectance(_lobe, c, _eta);
         const float chance =
-            _walker.refracts ? least + (1.0f - least) * std::min(sh::lobeMean(f), 1.0f) : 1.0f;
+            _walker.refracts ? minimum + (1.0f - minimum) * std::min(sh::lobeMean(f), 1.0f) : 1.0f;
         if (u.z < chance) {
             _throughput *= f / chance;
             _w = glm::normalize(m * (2.0f * c) - v);
@@ -125,7 +125,7 @@ public:
 
     /// @returns false when roulette ends the walk
     bool goesOn(int bounces) {
-        if (bounces < kSureBounces) return true;
+        if (bounces < sureBounces) return true;
         const float chance =
             std::min(1.0f, std::max(_throughput.x, std::max(_throughput.y, _throughput.z)));
         if (!(_random.next() < chance)) return false;
@@ -168,7 +168,7 @@ private:
 };
 
 /// Light that a reflection lobe refracts rarely comes back: most walks of such a lobe reflect.
-float leastReflected(const Walker& walker, int bounce) {
+float minReflected(const Walker& walker, int bounce) {
     return bounce == 0 && walker.mode == sh::SCATTER_R && walker.refracts ? 0.75f : 0.0f;
 }
 
@@ -195,9 +195,9 @@ template <class Lobe> sh::LobeEval eval(const Lobe& lobe, const glm::vec3& wo, c
     // What the first facet reflects is known; what it refracts depends on its height here.
     glm::vec3 sum(0.0f);
     Walk<Lobe> walk(lobe, walker, {wo.x, wo.y, wo.z * side}, random);
-    for (int bounce = 0; bounce < kMostBounces && walk.meets(); ++bounce) {
+    for (int bounce = 0; bounce < maxBounces && walk.meets(); ++bounce) {
         sum += walk.towards(i, crosses, bounce > 0);
-        walk.bounce(random.next3(), leastReflected(walker, bounce));
+        walk.bounce(random.next3(), minReflected(walker, bounce));
         if (!walk.goesOn(bounce)) break;
     }
     sh::LobeEval e;
@@ -213,8 +213,8 @@ template <class Lobe> sh::LobeSample sample(const Lobe& lobe, const glm::vec3& w
     const float side = wo.z >= 0.0f ? 1.0f : -1.0f;
     Walk<Lobe> walk(lobe, walker, {wo.x, wo.y, wo.z * side}, random);
     for (int bounce = 0; walk.meets(); ++bounce) {
-        if (bounce >= kMostBounces) return sh::lobeSampleNone();
-        walk.bounce(bounce == 0 ? u : random.next3(), leastReflected(walker, bounce));
+        if (bounce >= maxBounces) return sh::lobeSampleNone();
+        walk.bounce(bounce == 0 ? u : random.next3(), minReflected(walker, bounce));
         if (!walk.goesOn(bounce)) return sh::lobeSampleNone();
     }
     const bool crosses = walk.crossed();

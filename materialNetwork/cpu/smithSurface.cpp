@@ -7,8 +7,8 @@ namespace patina {
 
 namespace {
 
-constexpr double kLevel = 1e-6; // |z| below which a ray stays at its height
-constexpr double kInvRootPi = 0.56418958354775628;
+constexpr double levelCosine = 1e-6; // |z| below which a ray stays at its height
+constexpr double invRootPi = 0.56418958354775628;
 
 } // namespace
 
@@ -22,7 +22,7 @@ double SmithSurface::projectedArea(const glm::vec3& v) const {
     const double s = std::sqrt(across);
     if (s < 1e-12) return std::max(z, 0.0);
     const double a = z / s;
-    return 0.5 * std::max(z * std::erfc(-a) + s * std::exp(-a * a) * kInvRootPi, 0.0);
+    return 0.5 * std::max(z * std::erfc(-a) + s * std::exp(-a * a) * invRootPi, 0.0);
 }
 
 double SmithSurface::lambda(const glm::vec3& w) const {
@@ -30,12 +30,12 @@ double SmithSurface::lambda(const glm::vec3& w) const {
 }
 
 double SmithSurface::leaves(const glm::vec3& w, double below) const {
-    if (!(w.z > kLevel)) return 0.0;
+    if (!(w.z > levelCosine)) return 0.0;
     return std::pow(std::max(below, 0.0), lambda(w));
 }
 
 double SmithSurface::nextBelow(const glm::vec3& w, double below, double u) const {
-    if (std::fabs(w.z) < kLevel) return below;
+    if (std::fabs(w.z) < levelCosine) return below;
     const double l = lambda(w);
     if (w.z > 0.0f && (l < 1e-12 || u >= 1.0 - std::pow(below, l))) return 2.0;
     return std::min(below / std::pow(1.0 - u, 1.0 / l), 1.0);

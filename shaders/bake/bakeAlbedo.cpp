@@ -29,18 +29,18 @@ using namespace patina;
 using namespace patina::sh64;
 
 // Points per side of the product rule.
-constexpr int kMomentPoints = 64;
-constexpr int kAbovePoints = 20;
+constexpr int momentPoints = 64;
+constexpr int abovePoints = 20;
 // Total reflection has a kink; Beckmann facets have no tail and need fewer.
-constexpr int kBelowPoints[] = {28, 20};
-constexpr int kTurnedPoints[] = {24, 16};
+constexpr int belowPoints[] = {28, 20};
+constexpr int turnedPoints[] = {24, 16};
 
 // The entry for mu = 0 is taken at this fraction of the first cell: exactly at 0 the albedos jump.
-constexpr double kFirst = 0.1;
+constexpr double firstNode = 0.1;
 
 // The tables of one distribution are written at `out`; the look-ups read what is there already.
 void bakeMoments(int ndf, float* out) {
-    bake::InterfaceQuadrature quadrature(kMomentPoints, ndf);
+    bake::InterfaceQuadrature quadrature(momentPoints, ndf);
     double exponents[MOMENT_COUNT];
     for (int k = 0; k < MOMENT_COUNT; ++k)
         exponents[k] = momentExponent(k);
@@ -48,7 +48,7 @@ void bakeMoments(int ndf, float* out) {
         for (int m = 0; m < MOMENT_MU; ++m) {
             double e[MOMENT_COUNT];
             const double alpha = tableAlphaAt(double(a) / (MOMENT_ALPHA - 1));
-            const double mu = tableMuAt(std::max(double(m), kFirst) / (MOMENT_MU - 1), alpha);
+            const double mu = tableMuAt(std::max(double(m), firstNode) / (MOMENT_MU - 1), alpha);
             quadrature.setView(bake::slanted(mu), vec2(alpha));
             quadrature.moments(exponents, MOMENT_COUNT, e);
             *out++ = float(e[0]);
@@ -59,14 +59,14 @@ void bakeMoments(int ndf, float* out) {
 
 // From the thinner side the normals seen are the same for every ior, so that is the inner loop.
 void bakeInterface(int ndf, bool above, float* out) {
-    bake::InterfaceQuadrature quadrature(above ? kAbovePoints : kBelowPoints[ndf], ndf);
+    bake::InterfaceQuadrature quadrature(above ? abovePoints : belowPoints[ndf], ndf);
     for (int a = 0; a < INTERFACE_ALPHA; ++a)
         for (int m = 0; m < INTERFACE_MU; ++m)
             for (int i = 0; i < INTERFACE_ETA; ++i) {
                 const double ior = tableEtaAt(double(i) / (INTERFACE_ETA - 1));
                 const double eta = above ? ior : 1.0 / ior;
                 const double alpha = tableAlphaAt(double(a) / (INTERFACE_ALPHA - 1));
-                const double t = std::max(double(m), kFirst) / (INTERFACE_MU - 1);
+                const double t = std::max(double(m), firstNode) / (INTERFACE_MU - 1);
                 const double mu =
                     above ? tableMuAt(t, alpha) : tableMuBelowAt(t, tableMuCritical(eta), alpha);
                 if (!above || i == 0) quadrature.setView(bake::slanted(mu), vec2(alpha));
@@ -94,7 +94,7 @@ template <typename Mu> TurnedNode turnedNode(int row, int alphas, const Mu& mu) 
     const double larger = tableAlphaAt(double(a) / (alphas - 1));
     const double ratio = turnedRatioAt(double(r) / (TURNED_RATIO - 1));
     const double x = double(c) / (TURNED_AZIMUTH - 1);
-    const double t = std::max(double(m), kFirst) / (TURNED_MU - 1);
+    const double t = std::max(double(m), firstNode) / (TURNED_MU - 1);
     const double z = mu(t, turnedAlpha(larger, ratio, x));
     const double s = std::sqrt(std::max(0.0, 1.0 - z * z));
     return {vec3(s * x, s * std::sqrt(1.0 - x * x), z),
@@ -102,7 +102,7 @@ template <typename Mu> TurnedNode turnedNode(int row, int alphas, const Mu& mu) 
 }
 
 void bakeTurnedMoments(int ndf, float* out) {
-    bake::InterfaceQuadrature quadrature(kTurnedPoints[ndf], ndf);
+    bake::InterfaceQuadrature quadrature(turnedPoints[ndf], ndf);
     double exponents[MOMENT_COUNT];
     for (int k = 0; k < MOMENT_COUNT; ++k)
         exponents[k] = momentExponent(k);
@@ -123,7 +123,7 @@ void bakeTurnedMoments(int ndf, float* out) {
 }
 
 void bakeTurnedInterface(int ndf, bool above, float* out) {
-    bake::InterfaceQuadrature quadrature(kTurnedPoints[ndf], ndf);
+    bake::InterfaceQuadrature quadrature(turnedPoints[ndf], ndf);
     const int rows = turnedRow(TURNED_ETA_ALPHA, 0, 0, 0);
     for (int row = 0; row < rows; ++row)
         for (int i = 0; i < TURNED_ETA; ++i) {
@@ -193,7 +193,7 @@ void bakeClassic(int plane) {
     for (int a = 0; a < CLASSIC_ALPHA; ++a)
         for (int m = 0; m < CLASSIC_MU; ++m) {
             const double alpha = tableAlphaAt(double(a) / (CLASSIC_ALPHA - 1));
-            const double mu = tableMuAt(std::max(double(m), kFirst) / (CLASSIC_MU - 1), alpha);
+            const double mu = tableMuAt(std::max(double(m), firstNode) / (CLASSIC_MU - 1), alpha);
             const vec3 wo(std::sqrt(std::max(0.0, 1.0 - mu * mu)), 0.0, mu);
             const PhongLobe phong = phongSetup(vec3(1.0), phongExponent(alpha));
             const BlinnPhongLobe blinn = blinnPhongSetup(vec3(1.0), phongExponent(alpha));
@@ -230,7 +230,7 @@ void bakeVCavity() {
     for (int a = 0; a < MOMENT_ALPHA; ++a)
         for (int m = 0; m < MOMENT_MU; ++m) {
             const double alpha = tableAlphaAt(double(a) / (MOMENT_ALPHA - 1));
-            const double mu = tableMuAt(std::max(double(m), kFirst) / (MOMENT_MU - 1), alpha);
+            const double mu = tableMuAt(std::max(double(m), firstNode) / (MOMENT_MU - 1), alpha);
             const vec3 wo(std::sqrt(std::max(0.0, 1.0 - mu * mu)), 0.0, mu);
             double e[MOMENT_COUNT] = {};
             meanWeight(32, [&](double x, double y) {

@@ -16,8 +16,8 @@ using namespace patina::sh64;
 
 namespace {
 
-constexpr int kPoints = 160;
-constexpr double kGrazing = 0.004;
+constexpr int pointCount = 160;
+constexpr double grazing = 0.004;
 
 vec2 centre(int m, int a, int mus, int alphas) {
     const double root = (a + 0.5) / alphas;
@@ -28,7 +28,7 @@ vec2 node(int m, int a, int mus, int alphas) {
     const double x = double(m) / (mus - 1);
     const double root0 = std::sqrt(double(ALPHA_MIRROR));
     const double root = root0 + (1.0 - root0) * a / (alphas - 1);
-    return vec2(kGrazing + (1.0 - kGrazing) * x * x * (1.5 - 0.5 * x), root * root);
+    return vec2(grazing + (1.0 - grazing) * x * x * (1.5 - 0.5 * x), root * root);
 }
 
 } // namespace
@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "microfacetCosines: no bins, or cannot write %s\n", argv[4]);
         return 1;
     }
-    bake::InterfaceQuadrature quadrature(kPoints, NDF_GGX);
+    bake::InterfaceQuadrature quadrature(pointCount, NDF_GGX);
     std::vector<double> light(bins), cosine(bins);
     const double head = bins;
     std::fwrite(&head, sizeof head, 1, out);

@@ -8,20 +8,21 @@ using namespace sh64;
 
 namespace {
 
-constexpr int kMostBounces = 200;
-constexpr double kSteep = 1e-6; // |z| below which a ray stays at its height
+constexpr int maxBounces = 200;
+constexpr double steepCosine = 1e-6; // |z| below which a ray stays at its height
 
 /// Smith's Lambda, for directions that rise or fall: Lambda(-w) = -1 - Lambda(w).
 double lambda(vec3 w, vec2 alpha, int ndf) {
     const vec3 up = w.z < 0.0 ? -w : w;
-    const double rising = 0.5 * (microfacetLength(up, alpha, ndf) / std::max(up.z, kSteep) - 1.0);
+    const double rising =
+        0.5 * (microfacetLength(up, alpha, ndf) / std::max(up.z, steepCosine) - 1.0);
     return w.z < 0.0 ? -1.0 - rising : rising;
 }
 
 /// Share of the surface below where a ray along w that starts at `below` meets it; above 1 when it
 /// leaves. Heights enter only as this share, so their distribution does not matter.
 double nextBelow(vec3 w, double below, vec2 alpha, int ndf, double u) {
-    if (std::fabs(w.z) < kSteep) return below;
+    if (std::fabs(w.z) < steepCosine) return below;
     const double l = lambda(w, alpha, ndf);
     if (w.z > 0.0) {
         if (l < 1e-12) return 2.0;
@@ -43,7 +44,7 @@ Walked walkMicrosurface(vec3 wo, vec2 alpha, int ndf,
         vec3 w = -wo;
         double below = 1.0;
         double weight = 1.0;
-        for (int bounce = 0; bounce < kMostBounces; ++bounce) {
+        for (int bounce = 0; bounce < maxBounces; ++bounce) {
             below = nextBelow(w, below, alpha, ndf, uniform(random));
             if (below > 1.0) {
                 if (bounce == 1) result.once += weight;

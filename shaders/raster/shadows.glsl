@@ -26,7 +26,7 @@ float planeBeside(sampler2DArray maps, ivec3 texel, float front, vec2 offset) {
 // is in the middle of the texel, not the point: then a surface does not hide itself, without being
 // moved by as much as a texel may be wrong, which would be seen where things touch.
 // n: of the plane; 0 compares the point. least: how exact depths are.
-float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n, float least) {
+float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n, float minimum) {
     vec4 clip = worldToMap * vec4(p, 1.0);
     if (clip.w <= 0.0) return 1.0;
     vec3 q = clip.xyz / clip.w;
@@ -43,7 +43,7 @@ float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n,
                  (abs(area) > 1e-30 ? area : 1e-30);
     float depth = q.z + dot(slope, 2.0 * (texel + 0.5) / size - 1.0 - q.xy);
     // Corners of triangles are rounded to a part of a texel.
-    float bias = least + 0.04 * (abs(slope.x) + abs(slope.y)) / size.x;
+    float bias = minimum + 0.04 * (abs(slope.x) + abs(slope.y)) / size.x;
     float front = texelFetch(maps, ivec3(ivec2(texel), layer), 0).x;
     if (0.5 * depth + 0.5 <= front + bias) return 1.0;
     // Where two surfaces meet, the middle of the texel shows the other one, which the plane goes behind.

@@ -14,7 +14,7 @@ using namespace patina::test;
 
 namespace {
 
-constexpr int kPoints = 20000;
+constexpr int pointCount = 20000;
 
 // Root mean square and largest error over a set of points.
 struct Error {
@@ -199,7 +199,7 @@ TEST(LobeAlbedo, EqualsTheMeanSampleWeight) {
                 const bool anisotropic = c.name.find("0.1, 0.4") != std::string::npos;
                 if (anisotropic ? &b != budgets : c.name.find(b.lobe) != 0) continue;
                 for (vec3 wo : outgoing(c)) {
-                    const vec3 e = sampledAlbedo(c.f64, wo, kPoints) - c.f64.albedo(wo);
+                    const vec3 e = sampledAlbedo(c.f64, wo, pointCount) - c.f64.albedo(wo);
                     const double error =
                         std::max(std::fabs(e.x), std::max(std::fabs(e.y), std::fabs(e.z)));
                     double& measured = wo.z > 0.0 ? b.measuredOutside : b.measuredInside;
@@ -253,7 +253,7 @@ TEST(LobeAlbedo, HairWithoutPigmentLosesNothing) {
                                                 vec2(2.0 * v, 0.3), 0.5, vec3(0.0));
             for (double phi : {0.0, 0.8, 1.57}) {
                 EXPECT_NEAR(c.f64.albedo(direction(z, phi)).x, 1.0, 1e-2) << v << z << phi;
-                EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, phi), kPoints).x, 1.0, 1e-2)
+                EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, phi), pointCount).x, 1.0, 1e-2)
                     << v << " " << z << " " << phi;
             }
         }
@@ -267,7 +267,7 @@ TEST(LobeAlbedo, WhiteMetalLosesNothing) {
             const LobeCase c =
                 PATINA_LOBE_CASE("white", conductor, vec3(0.0), vec3(1.0), vec2(alpha), false, 1);
             EXPECT_NEAR(sh64::conductorAlbedo(l, direction(z, 0.0)).x, 1.0, 1e-6);
-            EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, 0.0), kPoints).x, 1.0, 5e-3)
+            EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, 0.0), pointCount).x, 1.0, 5e-3)
                 << alpha << " " << z;
         }
 }
@@ -288,7 +288,7 @@ TEST(LobeAlbedo, WhiteGlassLosesNothing) {
                 EXPECT_NEAR(furnace(l, wo), 1.0, 2e-3) << alpha << " " << ior << " " << z;
                 const LobeCase c = PATINA_LOBE_CASE("white", dielectric, vec3(1.0), ior,
                                                     vec2(alpha), false, 3, false, 1);
-                EXPECT_NEAR(sampledAlbedo(c.f64, wo, kPoints).x, 1.0, 1.5e-2)
+                EXPECT_NEAR(sampledAlbedo(c.f64, wo, pointCount).x, 1.0, 1.5e-2)
                     << alpha << " " << ior << " " << z;
             }
 }
@@ -332,7 +332,7 @@ TEST(LobeAlbedo, SchlickInterfaceIsWithinBudget) {
         for (double z : {1.0, 0.5, 0.1, -0.5, -0.9}) {
             const LobeCase c = PATINA_LOBE_CASE("s", schlick, vec3(0.04), vec3(1.0), vec3(1.0), 5.0,
                                                 vec2(alpha), false, 3, false, 1);
-            EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, 0.0), kPoints).x, 1.0, 2e-2)
+            EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, 0.0), pointCount).x, 1.0, 2e-2)
                 << alpha << " " << z;
         }
 }

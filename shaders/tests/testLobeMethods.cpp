@@ -13,8 +13,8 @@ using namespace patina::test;
 
 namespace {
 
-constexpr int kCount = 100000;
-constexpr std::uint64_t kSeeds[] = {17, 171};
+constexpr int sampleCount = 100000;
+constexpr std::uint64_t seeds[] = {17, 171};
 
 double largest(vec3 v) {
     return std::max(std::fabs(v.x), std::max(std::fabs(v.y), std::fabs(v.z)));
@@ -53,8 +53,8 @@ void expectDrawsFromItsPdf(const LobeCase& c, double z, double significance) {
     const DensityGrid grid(c.f64, wo);
     int rejected = 0;
     double worst = 1.0;
-    for (std::uint64_t seed : kSeeds) {
-        const ChiSquared t = grid.test(c.f32, wo, kCount, seed);
+    for (std::uint64_t seed : seeds) {
+        const ChiSquared t = grid.test(c.f32, wo, sampleCount, seed);
         EXPECT_FALSE(t.stray) << c.name << " wo.z " << z;
         rejected += t.pValue < significance;
         worst = std::min(worst, t.pValue);

@@ -15,7 +15,7 @@ using sh::vec3;
 
 namespace {
 
-constexpr int kSide = 160; // cells along a side of a rectangle, and of the facets' numbers
+constexpr int gridSide = 160; // cells along a side of a rectangle, and of the facets' numbers
 
 /// A rectangle as seen from the point that is lit.
 struct Rect {
@@ -32,11 +32,11 @@ struct Rect {
     /// The integral of a density by solid angle.
     template <typename Density> double brute(const Density& density) const {
         const vec3 normal = glm::cross(u, v);
-        const double area = 4.0 * glm::length(normal) / (double(kSide) * kSide);
+        const double area = 4.0 * glm::length(normal) / (double(gridSide) * gridSide);
         double sum = 0.0;
-        for (int i = 0; i < kSide * kSide; ++i) {
-            const float a = 2.0f * (float(i % kSide) + 0.5f) / kSide - 1.0f;
-            const float b = 2.0f * (float(i / kSide) + 0.5f) / kSide - 1.0f;
+        for (int i = 0; i < gridSide * gridSide; ++i) {
+            const float a = 2.0f * (float(i % gridSide) + 0.5f) / gridSide - 1.0f;
+            const float b = 2.0f * (float(i / gridSide) + 0.5f) / gridSide - 1.0f;
             const vec3 p = centre + u * a + v * b;
             const float d2 = glm::dot(p, p);
             const vec3 wi = p / std::sqrt(d2);
@@ -70,8 +70,9 @@ struct MicrofacetLobe {
     double albedo = 0.0;
 
     MicrofacetLobe(float mu, float a) : wo(std::sqrt(1.0f - mu * mu), 0.0f, mu), alpha(a) {
-        for (int i = 0; i < kSide * kSide; ++i) {
-            const sh::vec2 u((float(i % kSide) + 0.5f) / kSide, (float(i / kSide) + 0.5f) / kSide);
+        for (int i = 0; i < gridSide * gridSide; ++i) {
+            const sh::vec2 u((float(i % gridSide) + 0.5f) / gridSide,
+                             (float(i / gridSide) + 0.5f) / gridSide);
             const vec3 m = sh::ggxSampleVisible(wo, sh::vec2(alpha), u);
             const vec3 wi = 2.0f * glm::dot(m, wo) * m - wo;
             if (wi.z <= 0.0f) continue;
@@ -79,7 +80,7 @@ struct MicrofacetLobe {
             const float li = sh::ggxLength(wi, sh::vec2(alpha));
             albedo += double(wi.z * (wo.z + lo) / (lo * wi.z + li * wo.z));
         }
-        albedo /= double(kSide) * kSide;
+        albedo /= double(gridSide) * gridSide;
     }
 
     double operator()(const vec3& wi) const {

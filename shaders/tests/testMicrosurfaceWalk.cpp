@@ -13,17 +13,17 @@ using namespace patina;
 using sh64::vec2;
 
 TEST(MicrosurfaceWalk, FirstBounceIsSingleScatteringAndNothingIsLost) {
-    constexpr int kWalks = 40000;
+    constexpr int walkCount = 40000;
     for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN})
         for (vec2 alpha : {vec2(0.1), vec2(0.5), vec2(1.0)})
             for (double z : {1.0, 0.5, 0.1}) {
                 const auto walked = measure::walkMicrosurface(
-                    bake::slanted(z), alpha, ndf, [](double) { return 1.0; }, kWalks, 7);
+                    bake::slanted(z), alpha, ndf, [](double) { return 1.0; }, walkCount, 7);
                 bake::InterfaceQuadrature quadrature(64, ndf);
                 quadrature.setView(bake::slanted(z), alpha);
                 double zero = 0.0, once = 0.0;
                 quadrature.moments(&zero, 1, &once);
-                const double sigma = std::sqrt(once * (1.0 - once) / kWalks);
+                const double sigma = std::sqrt(once * (1.0 - once) / walkCount);
                 EXPECT_NEAR(walked.once, once, 5.0 * sigma + 1e-4) << alpha.x << " " << z;
                 EXPECT_NEAR(walked.all, 1.0, 1e-4) << alpha.x << " " << z;
             }

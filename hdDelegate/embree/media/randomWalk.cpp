@@ -196,8 +196,8 @@ WalkMedium walkMedium(const SubsurfaceEntry& entry, float shortest) {
         const float s = inverseSimilarity(result.color[c]);
         const float albedo = std::clamp((1.0f - s * s) / (1.0f - g * s * s), 0.0f, 1.0f);
         // Channels of a thousandth of the longest way scatter on the spot already.
-        const float least = std::max({1e-3f * longest, shortest, 1e-12f});
-        const float radius = std::clamp(entry.radius[c], least, std::max(least, 1e12f));
+        const float minimum = std::max({1e-3f * longest, shortest, 1e-12f});
+        const float radius = std::clamp(entry.radius[c], minimum, std::max(minimum, 1e12f));
         result.extinction[c] = 1.0f / radius;
         result.scattering[c] = albedo / radius;
     }

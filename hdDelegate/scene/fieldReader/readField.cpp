@@ -120,10 +120,10 @@ std::string read(const std::string& file, const std::string& field) {
     return "the grid holds neither numbers nor vectors";
 }
 
-template <class Resource> void limit(Resource resource, rlim_t most) {
+template <class Resource> void limit(Resource resource, rlim_t maximum) {
     rlimit now;
     if (::getrlimit(resource, &now) != 0) return;
-    now.rlim_cur = std::min(now.rlim_max, most);
+    now.rlim_cur = std::min(now.rlim_max, maximum);
     ::setrlimit(resource, &now);
 }
 

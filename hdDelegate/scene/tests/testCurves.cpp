@@ -364,7 +364,7 @@ TEST(Points, badOnesAreLeftOutWithTheirValues) {
     EXPECT_TRUE(warned(diagnostics, "/points", "widths"));
 }
 
-long mostMemory() { // kB that the process ever took
+long peakMemory() { // kB that the process ever took
     rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     return usage.ru_maxrss;
@@ -376,9 +376,9 @@ TEST(Curves, CountsBeyondThePointsTakeNoMemory) {
         const Curves curves =
             makeCurves(basis, CurveWrap::Nonperiodic, {4, 1000000000, 4, -1, 4}, line(4));
         Diagnostics diagnostics;
-        const long before = mostMemory();
+        const long before = peakMemory();
         const CurveSet set = buildCurves(curves, {}, diagnostics);
-        EXPECT_LT(mostMemory() - before, 8192);
+        EXPECT_LT(peakMemory() - before, 8192);
         EXPECT_EQ(std::set<int>(set.segmentCurve.begin(), set.segmentCurve.end()),
                   std::set<int>{0});
         ASSERT_GE(diagnostics.count(), 1);

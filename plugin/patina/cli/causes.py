@@ -10,7 +10,7 @@ and within each what was met most often first.
 """
 import re
 
-MOST = 20  # causes on the terminal; all of them are in --json
+MAX_CAUSES = 20  # causes on the terminal; all of them are in --json
 SEVERITIES = ("error", "warning")
 
 # What messages say where something is missing.
@@ -85,7 +85,7 @@ class Causes:
         out, hidden = [], 0
         for group in self.groups:
             key = group["severity"], group["message"], group["prim"], group["input"]
-            if key not in told and len(told) >= MOST:
+            if key not in told and len(told) >= MAX_CAUSES:
                 hidden += 1
             elif key not in told or (last and group["count"] > told[key]):
                 told[key] = group["count"]

@@ -121,7 +121,7 @@ class _Job:
             width = DEFAULT_WIDTH if height is None else max(1, round(height * aspect))
         if height is None:
             height = max(1, round(width / aspect))
-        if width * height > recordFlags.MOST_PIXELS or max(width, height) > recordFlags.LARGEST_SIZE:
+        if width * height > recordFlags.MAX_PIXELS or max(width, height) > recordFlags.LARGEST_SIZE:
             raise CommandError(f"an image of {width} x {height} pixels is too large")
         return {"width": width, "height": height}
 

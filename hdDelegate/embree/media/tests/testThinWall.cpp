@@ -64,7 +64,7 @@ TEST(ThinWalls, ShadowsHaveTheColourOfTheWall) {
         EXPECT_NEAR(with[c] / without[c], tint[c] * transmittance, 1e-3f);
 }
 
-// Significance: five standard errors, as in mediaTest.cpp.
+// Significance: five standard errors, as in testMedia.cpp.
 TEST(ThinWalls, WhiteWallsLoseNothing) {
     for (float roughness : {0.0f, 0.4f}) {
         MediaScene s;

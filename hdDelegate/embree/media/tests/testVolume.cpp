@@ -64,7 +64,7 @@ TEST(FieldGrid, InterpolatesLinearlyAndBounds) {
     EXPECT_GE(maximum.x, 1.3f);
 }
 
-// Significance as in mediaTest.cpp: five standard errors.
+// Significance as in testMedia.cpp: five standard errors.
 TEST(Volumes, AbsorptionFollowsTheIntegralOfDensity) {
     MediaScene s;
     const vec3 absorption(0.5f, 1.0f, 2.0f);

@@ -18,7 +18,7 @@ enum class PixelNoise {
 double relativeError(const Film& film, int x0, int y0, int x1, int y1,
                      PixelNoise noise = PixelNoise::Independent);
 
-/// The count after `samples` that a render goes to in one piece, at most `most`: 1, 2, 4, 8, 16,
+/// The count after `samples` that a render goes to in one piece, at most `maximum`: 1, 2, 4, 8, 16,
 /// then 16 more each, and from 512 on a sixteenth of the power of two below, up to 256 more.
 int nextStep(int samples, int maximum);
 

@@ -53,7 +53,7 @@ public:
     };
     /// For a first look: many samples of each light, of which every pixel takes others than its
     /// neighbours, so that what is wrong is noise and not the same everywhere.
-    /// @param most shadow maps that may be drawn; where they do not suffice, lights are as in
+    /// @param maximum shadow maps that may be drawn; where they do not suffice, lights are as in
     /// sample()
     Sampled sampleLook(uint32_t pass, const RasterEmitters& emitters, const ShadowBounds& bounds,
                        int mapSize, int pixels, int maximum) const;
@@ -121,7 +121,7 @@ private:
                                                  int room) const;
     void takeEmitters(uint32_t pass, int samples, const RasterEmitters& emitters,
                       const ShadowBounds& bounds, int maximum, Sampled& out) const;
-    /// @param most maps that there is room for; a light that needs more is not shadowed
+    /// @param maximum maps that there is room for; a light that needs more is not shadowed
     void castShadow(GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds,
                     int maximum, Sampled& out) const;
     /// @returns how many maps show the receivers; 0 without room

@@ -495,7 +495,7 @@ private:
     std::string _deviceFailure; ///< what was made with the context is gone
     Clock::time_point _started;
     static constexpr double earlySeconds = 0.5; ///< between early images
-    bool _compiling = false;                    ///< tellCompiling() was called in this render
+    bool _compiling = false;                    ///< notifyCompiling() was called in this render
     size_t _readyAtStart = 0;                   ///< programs
     Clock::time_point _compileStarted;
 };

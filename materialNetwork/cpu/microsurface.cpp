@@ -102,7 +102,7 @@ public:
     }
 
     /// Bounces off a facet or goes through it.
-    /// @param least of the chance to reflect
+    /// @param minimum of the chance to reflect
     void bounce(const glm::vec3& u, float minimum) {
         const glm::vec3 v = -_w;
         const glm::vec3 m = _surface.sampleVisibleNormal(v, glm::vec2(u), _random);

@@ -76,7 +76,7 @@ def check_regular(path):
 
 def read(path, maximum=MAX_TEXT):
     """:returns: the bytes of a regular file
-    :raises InputError: where it is none, or larger than `most`"""
+    :raises InputError: where it is none, or larger than `maximum`"""
     check_regular(path)
     file = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     with open(file, "rb") as stream:

@@ -60,7 +60,7 @@ class Row:
 
 def check(path, arguments, backend, tolerances, samples, maximum, seconds):
     """:param samples: per pixel, of the renders that methods are compared by
-    :param most: samples per pixel that the adaptive render takes
+    :param maximum: samples per pixel that the adaptive render takes
     :param seconds: for each render; twice that for the reference
     :returns: iterator of Row, one for each tolerance
     """
@@ -123,7 +123,7 @@ class _Image:
 def _reference(render, seed, samples, tolerance, seconds, minimum):
     """The mean of truths, more and more samples of them, until noise takes less than half of the tolerance or time is over.
 
-    :param least: samples per pixel that it has in any case, for of light that neither half has found none is missed
+    :param minimum: samples per pixel that it has in any case, for of light that neither half has found none is missed
     :returns: it and its noise, the mean over the pixels relative to it
     """
     sums, counts, spent, noise, image = [0.0, 0.0], [0.0, 0.0], 0.0, 1.0, None

@@ -80,7 +80,7 @@ class Causes:
     def lines(self, told=None, last=True):
         """:param told: dict that remembers what was shown before, which is not shown again ...
         :param last: ... unless this is the last call, and it was met more often since
-        :returns: lines of at most MOST causes for all calls with the same dict; the last call says how many there are more"""
+        :returns: lines of at most MAX_CAUSES causes for all calls with the same dict; the last call says how many more"""
         told = {} if told is None else told
         out, hidden = [], 0
         for group in self.groups:

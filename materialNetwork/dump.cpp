@@ -41,7 +41,7 @@ std::string nodeText(const Graph& graph, const GraphNode& node) {
 class PlanText {
 public:
     explicit PlanText(const Plan& plan)
-        : _plan(plan), _lobe(plan.closures.size(), -1), _passed(plan.closures.size()) {}
+        : _plan(plan), _lobe(plan.closures.size(), -1), _transmittance(plan.closures.size()) {}
 
     std::string run() {
         std::string text = "material " + _plan.graph.path + "\n";
@@ -106,7 +106,7 @@ private:
         const GraphNode& node = _plan.graph.nodes[size_t(c.node)];
         std::string text = title;
         if (_lobe[size_t(i)] >= 0) text += " " + std::to_string(_lobe[size_t(i)]);
-        text += ": " + nodeText(_plan.graph, node) + (c.fused ? " fused" : "") +
+        text += ": " + nodeText(_plan.graph, node) + (c.sharedInterface ? " fused" : "") +
                 (c.thin && !_plan.thinWalled ? " thin walled" : "");
         return text + " * " + weight + "\n";
     }
@@ -131,7 +131,7 @@ private:
         switch (c.kind) {
         case ClosureKind::Layer:
             give(c.a, "1");
-            give(c.b, passed(c.a));
+            give(c.b, transmittance(c.a));
             break;
         case ClosureKind::Mix: {
             const std::string m = operandText(_plan.graph, node.inputs[2]);
@@ -145,15 +145,15 @@ private:
     }
 
     /// What a layer's top lets through.
-    std::string passed(int i) const {
+    std::string transmittance(int i) const {
         if (i < 0) return "1";
-        std::string& text = _passed[size_t(i)];
-        if (text.empty()) text = passedText(i);
+        std::string& text = _transmittance[size_t(i)];
+        if (text.empty()) text = transmittanceText(i);
         if (text.size() > 300) text = "...";
         return text;
     }
 
-    std::string passedText(int i) const {
+    std::string transmittanceText(int i) const {
         const PlanClosure& c = _plan.closures[size_t(i)];
         const GraphNode& node = _plan.graph.nodes[size_t(c.node)];
         if (c.isLobe()) {
@@ -166,20 +166,20 @@ private:
             return "(1 - " + (interface ? product(weight, e) : weight) + ")";
         }
         switch (c.kind) {
-        case ClosureKind::Layer: return product(passed(c.a), passed(c.b));
+        case ClosureKind::Layer: return product(transmittance(c.a), transmittance(c.b));
         case ClosureKind::Mix:
-            return "mix(" + passed(c.a) + ", " + passed(c.b) + ", " +
+            return "mix(" + transmittance(c.a) + ", " + transmittance(c.b) + ", " +
                    operandText(_plan.graph, node.inputs[2]) + ")";
         case ClosureKind::Multiply:
-            return "(1 - " + operandText(_plan.graph, node.inputs[1]) + " * (1 - " + passed(c.a) +
-                   "))";
-        default: return "(" + passed(c.a) + " + " + passed(c.b) + " - 1)";
+            return "(1 - " + operandText(_plan.graph, node.inputs[1]) + " * (1 - " +
+                   transmittance(c.a) + "))";
+        default: return "(" + transmittance(c.a) + " + " + transmittance(c.b) + " - 1)";
         }
     }
 
     const Plan& _plan;
     std::vector<int> _lobe;
-    mutable std::vector<std::string> _passed; ///< per closure; empty until asked for
+    mutable std::vector<std::string> _transmittance; ///< per closure; empty until asked for
 };
 
 } // namespace

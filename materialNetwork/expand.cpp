@@ -26,17 +26,17 @@ public:
         _result.path = _network.path;
         for (const auto& [name, c] : _network.terminals)
             request(c.node, 0);
-        while (!_queue.empty() && _nodes <= mostExpandedNodes) {
+        while (!_queue.empty() && _nodes <= maxExpandedNodes) {
             const auto [path, depth] = _queue.front();
             _queue.pop_front();
             const auto found = _source.find(path);
             if (found != _source.end()) visit(*found->second, depth);
         }
-        if (_nodes > mostExpandedNodes) {
+        if (_nodes > maxExpandedNodes) {
             // Definitions that use others twice, those others twice, and so on.
             _diagnostics.warn(_network.path, "",
                               "the material comes to more than " +
-                                  std::to_string(mostExpandedNodes) + " nodes; it is left out");
+                                  std::to_string(maxExpandedNodes) + " nodes; it is left out");
             Network nothing;
             nothing.path = _network.path;
             return nothing;
@@ -83,7 +83,7 @@ private:
         const std::string prefix = node.path + "/";
         _instances[node.path] = {model, prefix};
         _nodes += 1 + model->nodes.size();
-        if (_nodes > mostExpandedNodes) return;
+        if (_nodes > maxExpandedNodes) return;
         reportInputs(node, *model);
         for (const NetworkNode& inner : model->nodes) {
             _owned.push_back(instantiate(inner, node, *model, prefix, depth));
@@ -121,11 +121,11 @@ private:
         for (const auto& [path, node] : _source)
             part.nodes.push_back(*node);
         part.terminals["value"] = c;
-        Diagnostics unheard;
-        Expander inner(part, _models, unheard);
+        Diagnostics silent;
+        Expander inner(part, _models, silent);
         inner._asked = false; // connections may form a cycle
         std::vector<std::string> cuts;
-        const Graph graph = simplify(buildGraph(inner.run(), unheard), cuts);
+        const Graph graph = simplify(buildGraph(inner.run(), silent), cuts);
         const auto found = graph.terminals.find("value");
         return found != graph.terminals.end() && found->second.isConstant() &&
                found->second.value.numbers == value.numbers;

@@ -7,7 +7,7 @@
 namespace patina {
 
 /// A network that grows beyond this is given up.
-constexpr size_t mostExpandedNodes = 200000;
+constexpr size_t maxExpandedNodes = 200000;
 
 using ModelLookup = std::function<const ShadingModel*(const std::string& id)>;
 

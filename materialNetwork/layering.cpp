@@ -9,7 +9,7 @@ namespace patina {
 namespace {
 
 /// Layers inside layers multiply the work; those above that many keep albedo scaling.
-constexpr int kDeepest = 4;
+constexpr int maxLayerDepth = 4;
 
 bool isInterface(const PlanClosure& c) {
     return c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Schlick;
@@ -53,7 +53,7 @@ std::vector<LayerWalkability> layerWalkability(const Plan& plan) {
             found[i].reason = "its model says how much it darkens its base";
         else if (!isInterface(top) || scatterMode(plan, top) != sh::SCATTER_R)
             found[i].reason = "its top is no interface that reflects";
-        else if (depth[i] >= kDeepest)
+        else if (depth[i] >= maxLayerDepth)
             found[i].reason = "too many layers are nested";
         else
             found[i].reason = blocked[size_t(c.b)];

@@ -2,9 +2,9 @@
 
 #include "materialNetwork/dump.h"
 #include "materialNetwork/expand.h"
+#include "materialNetwork/mergeSurfaceShaders.h"
 #include "materialNetwork/planner.h"
 #include "materialNetwork/simplify.h"
-#include "materialNetwork/wholeShaders.h"
 
 namespace patina {
 
@@ -15,7 +15,7 @@ const char* const displayColorPath = "/displayColor";
 Graph simplifyMaterial(const Graph& graph, std::vector<std::string>& cuts,
                        Diagnostics& diagnostics) {
     Graph simple = simplify(graph, cuts);
-    return mergeWholeShaders(simple, diagnostics) ? simplify(simple, cuts) : simple;
+    return mergeSurfaceShaders(simple, diagnostics) ? simplify(simple, cuts) : simple;
 }
 
 /// Whether nothing is known of a surface: grey or the prim's own colour is better than a black
@@ -50,8 +50,8 @@ compileMaterial(const Network& network, TextureSource& textures, Diagnostics& di
     if (tolerance < 0.0)
         return MaterialProgram::compile(planMaterial(network, diagnostics, methods), textures,
                                         diagnostics);
-    Diagnostics unheard; // the final plan says it all again
-    const MethodPlan planned = planMaterialMethods(network, textures, unheard, methods, tolerance);
+    Diagnostics silent; // the final plan says it all again
+    const MethodPlan planned = planMaterialMethods(network, textures, silent, methods, tolerance);
     Plan plan = planMaterial(network, diagnostics, methodsOf(planned, methods));
     plan.planned = planned;
     return MaterialProgram::compile(plan, textures, diagnostics);

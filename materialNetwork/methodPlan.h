@@ -17,18 +17,18 @@ struct PlannedMethod {
     double ns = 0.0, nsDefault = 0.0, nsTruth = 0.0;
 };
 
-struct Sighting;
+struct DirectionProbe;
 
 struct MethodPlan {
-    double tolerance = -1.0; ///< as asked for
-    double error = 0.0;      ///< of all points; more than methodShare allows only where forced
-    double albedo = 0.0;     ///< largest directional albedo that was seen, luminance
-    bool varies = false;     ///< parameters vary; the worst that was seen counts
-    bool fallback = false;   ///< the material has no usable surface: displayColor was planned
-    double facets = 0.0;     ///< largest share of the light that mirrors, smooth or rough, give
-    double smoothest = 1.0;  ///< roughness (root of alpha) of the smoothest of them
-    /// Place by place and angle by angle, as it was planned by (sightings.h); null: not at all.
-    std::shared_ptr<const std::vector<std::vector<Sighting>>> seen;
+    double tolerance = -1.0;      ///< as asked for
+    double error = 0.0;           ///< of all points; more than methodShare allows only where forced
+    double albedo = 0.0;          ///< largest directional albedo that was seen, luminance
+    bool varies = false;          ///< parameters vary; the worst that was seen counts
+    bool fallback = false;        ///< the material has no usable surface: displayColor was planned
+    double microfacetShare = 0.0; ///< largest share of the light of mirrors, smooth or rough
+    double smoothest = 1.0;       ///< roughness (root of alpha) of the smoothest of them
+    /// Place by place and angle by angle, as it was planned by (planProbes.h); null: not at all.
+    std::shared_ptr<const std::vector<std::vector<DirectionProbe>>> probes;
     std::vector<PlannedMethod> choices; ///< of choicesThatMatter() that have a truth, or noise
 };
 

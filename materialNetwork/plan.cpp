@@ -17,7 +17,7 @@ public:
     Planner(Plan& plan, Diagnostics& diagnostics) : _plan(plan), _diagnostics(diagnostics) {}
 
     void run() {
-        _fuse = _plan.methods["reflectionOverTransmission"] == "fused";
+        _sharesInterfaces = _plan.methods["reflectionOverTransmission"] == "fused";
         _thinWalls = _plan.methods["thinWalled"] != "solid";
         _plan.opacity.value = Value::makeFloat(1.0f);
         const auto surface = _plan.graph.terminals.find("surface");
@@ -39,7 +39,7 @@ private:
         return node.inputs[size_t(node.def->findInput(name))];
     }
 
-    /// The surface has been made one by mergeWholeShaders().
+    /// The surface has been made one by mergeSurfaceShaders().
     void planSurface(const Operand& operand, const char* terminal) {
         if (operand.isConstant()) return;
         const GraphNode& node = nodeOf(operand.node);
@@ -153,14 +153,14 @@ private:
 
     /// Where a closure stands.
     struct Place {
-        bool fused; ///< under a reflection lobe
-        bool thin;  ///< in a thin wall
+        bool underReflection; ///< a reflection lobe is above
+        bool thin;            ///< in a thin wall
     };
 
     /// @returns index in Plan::closures, -1 for no closure
     int build(const Operand& operand, Place place = {false, false}) {
         if (operand.isConstant()) return -1;
-        const auto key = std::make_tuple(operand.node, place.fused, place.thin);
+        const auto key = std::make_tuple(operand.node, place.underReflection, place.thin);
         const auto known = _built.find(key);
         if (known != _built.end()) return known->second;
         const int index = buildNode(operand.node, place);
@@ -175,7 +175,7 @@ private:
         closure.node = index;
         closure.thin = place.thin && _thinWalls;
         closure.inThinWall = place.thin;
-        closure.underReflection = place.fused;
+        closure.underReflection = place.underReflection;
         switch (closure.kind) {
         case ClosureKind::Layer: {
             const Operand& top = node.inputs[0];
@@ -185,7 +185,8 @@ private:
             }
             closure.a = build(node.inputs[0], place);
             if (node.def->inputs[1].type == ValueType::Vdf) return closure.a;
-            closure.b = build(node.inputs[1], {place.fused || reflects(closure.a), place.thin});
+            closure.b =
+                build(node.inputs[1], {place.underReflection || reflects(closure.a), place.thin});
             if (closure.a < 0) return closure.b;
             if (closure.b < 0) return closure.a;
             break;
@@ -196,7 +197,7 @@ private:
             closure.b = build(node.inputs[1], place);
             if (closure.a < 0 && closure.b < 0) return -1;
             break;
-        case ClosureKind::ThinWall: return build(node.inputs[0], {place.fused, true});
+        case ClosureKind::ThinWall: return build(node.inputs[0], {place.underReflection, true});
         case ClosureKind::Multiply:
             closure.a = build(node.inputs[0], place);
             if (closure.a < 0) return -1;
@@ -207,7 +208,8 @@ private:
             break;
         case ClosureKind::Dielectric:
         case ClosureKind::Schlick:
-            closure.fused = _fuse && place.fused && scatterMode(_plan, closure) == sh::SCATTER_T;
+            closure.sharedInterface = _sharesInterfaces && place.underReflection &&
+                                      scatterMode(_plan, closure) == sh::SCATTER_T;
             closure.reflects = (scatterMode(_plan, closure) & sh::SCATTER_R) != 0;
             checkMicrofacet(node);
             break;
@@ -292,7 +294,7 @@ private:
 
     Plan& _plan;
     Diagnostics& _diagnostics;
-    bool _fuse = true, _thinWalls = true; ///< methods
+    bool _sharesInterfaces = true, _thinWalls = true; ///< methods
     std::map<std::tuple<int, bool, bool>, int> _built;
     std::map<int, Operand> _interiors; ///< by node
 };

@@ -13,11 +13,11 @@ namespace patina {
 /// A closure of the plan: a lobe, an EDF or VDF leaf, or a combination of two earlier ones.
 struct PlanClosure {
     ClosureKind kind = ClosureKind::None;
-    int node = -1;         ///< of Plan::graph; its operands are the parameters
-    int a = -1, b = -1;    ///< Layer: top, base. Mix: fg, bg. Add: both. Multiply: a
-    bool reflects = false; ///< contains the reflecting half of an interface
-    bool fused = false;    ///< a transmission lobe under a reflection lobe, see Plan
-    bool thin = false;     ///< of a surface without an inside
+    int node = -1;                ///< of Plan::graph; its operands are the parameters
+    int a = -1, b = -1;           ///< Layer: top, base. Mix: fg, bg. Add: both. Multiply: a
+    bool reflects = false;        ///< contains the reflecting half of an interface
+    bool sharedInterface = false; ///< a transmission lobe under a reflection lobe, see Plan
+    bool thin = false;            ///< of a surface without an inside
     /// Where the network has it, whatever the methods make of that.
     bool inThinWall = false, underReflection = false;
 
@@ -71,8 +71,8 @@ const Operand& closureInput(const Plan& plan, const PlanClosure& closure, const 
 /// The scatter_mode of a dielectric or Schlick lobe: sh::SCATTER_*.
 int scatterMode(const Plan& plan, const PlanClosure& closure);
 
-/// The distribution of facets of a microfacet lobe: sh::FACETS_*.
-int facetDistribution(const Plan& plan, const PlanClosure& closure);
+/// The distribution of facets of a microfacet lobe: sh::NDF_*.
+int microfacetDistribution(const Plan& plan, const PlanClosure& closure);
 
 /// Which of the models of a lobe its string inputs choose: sh::SHEEN_*,
 /// sh::WARD_*, sh::COOK_TORRANCE_*. 0 for lobes with one model.

@@ -48,12 +48,11 @@ int scatterMode(const Plan& plan, const PlanClosure& closure) {
     return mode == "T" ? sh::SCATTER_T : mode == "RT" ? sh::SCATTER_RT : sh::SCATTER_R;
 }
 
-int facetDistribution(const Plan& plan, const PlanClosure& closure) {
+int microfacetDistribution(const Plan& plan, const PlanClosure& closure) {
     const GraphNode& node = plan.graph.nodes[size_t(closure.node)];
-    if (node.def->findInput("distribution") < 0) return sh::FACETS_GGX;
-    return closureInput(plan, closure, "distribution").value.text == "beckmann"
-               ? sh::FACETS_BECKMANN
-               : sh::FACETS_GGX;
+    if (node.def->findInput("distribution") < 0) return sh::NDF_GGX;
+    return closureInput(plan, closure, "distribution").value.text == "beckmann" ? sh::NDF_BECKMANN
+                                                                                : sh::NDF_GGX;
 }
 
 int lobeVariant(const Plan& plan, const PlanClosure& closure) {

@@ -17,7 +17,7 @@ constexpr double nsPerSample = 500.0;
 constexpr double unmeasuredTruth = 20.0;
 
 /// Lobes with a smaller share of the light are not looked at for how smooth a material is.
-constexpr float seenShare = 0.02f;
+constexpr float minShare = 0.02f;
 
 struct Option {
     std::string method;
@@ -34,17 +34,18 @@ class MethodPlanner {
 public:
     MethodPlanner(const Plan& plan, const Planning& planning, TextureSource& textures)
         : _plan(plan), _planning(planning),
-          _seen(std::make_shared<std::vector<std::vector<Sighting>>>(lookAt(plan, textures))),
-          _places(*_seen) {}
+          _probes(std::make_shared<std::vector<std::vector<DirectionProbe>>>(
+              probePlan(plan, textures))),
+          _places(*_probes) {}
 
     MethodPlan run() {
         _result.tolerance = _planning.tolerance;
-        _result.seen = _seen;
+        _result.probes = _probes;
         _result.varies = _places.size() > 1;
         for (const auto& angles : _places)
-            for (const Sighting& s : angles)
-                _result.albedo = std::max(_result.albedo, double(std::min(s.albedo, 1.0f)));
-        lookForFacets();
+            for (const DirectionProbe& probe : angles)
+                _result.albedo = std::max(_result.albedo, double(std::min(probe.albedo, 1.0f)));
+        findMicrofacets();
         _factor = bounceFactor(_result.albedo);
         for (const std::string& name : choicesThatMatter(_plan))
             consider(name);
@@ -62,7 +63,7 @@ public:
     }
 
 private:
-    Prediction look(const std::string& point, const std::string& method) const {
+    Prediction predictionOf(const std::string& point, const std::string& method) const {
         Prediction p = predict(_plan, _places, point, method);
         if (method != truthMethod(point)) {
             p.error *= _factor;
@@ -74,18 +75,18 @@ private:
         return p;
     }
 
-    void lookForFacets() {
+    void findMicrofacets() {
         for (const auto& angles : _places) {
             double share = 0.0;
-            for (const Sighting& s : angles)
-                for (const SeenClosure& c : s.closures) {
+            for (const DirectionProbe& probe : angles)
+                for (const ClosureContribution& c : probe.closures) {
                     const std::string kind = c.kind;
                     if (kind != "dielectric" && kind != "conductor" && kind != "schlick") continue;
                     share += c.share / double(angles.size());
-                    if (c.share > seenShare)
+                    if (c.share > minShare)
                         _result.smoothest = std::min(_result.smoothest, double(c.roughness));
                 }
-            _result.facets = std::max(_result.facets, std::min(share, 1.0));
+            _result.microfacetShare = std::max(_result.microfacetShare, std::min(share, 1.0));
         }
     }
 
@@ -93,19 +94,19 @@ private:
     void consider(const std::string& name) {
         const std::string truth = truthMethod(name);
         const std::string standard = chosenMethod({}, name);
-        const bool noise = look(name, standard).noise > 0.0;
+        const bool noise = predictionOf(name, standard).noise > 0.0;
         if (truth.empty() && !noise) return;
         Point point;
         point.name = name;
         point.forced = _planning.forced.count(name) > 0;
-        const bool unknown = _planning.tolerance > 0.0 && !look(name, standard).measured;
+        const bool unknown = _planning.tolerance > 0.0 && !predictionOf(name, standard).measured;
         if (point.forced || _planning.tolerance < 0.0 || unknown) {
             const std::string method = chosenMethod(_planning.forced, name);
-            point.options = {{method, look(name, method)}};
+            point.options = {{method, predictionOf(name, method)}};
         } else if (noise) {
             point.options = {quietest(name)};
         } else if (_planning.tolerance == 0.0) {
-            point.options = {{truth, look(name, truth)}};
+            point.options = {{truth, predictionOf(name, truth)}};
         } else {
             point.options = front(name, truth);
         }
@@ -119,17 +120,17 @@ private:
         for (const ChoicePoint& choice : choicePoints())
             if (choice.name == name)
                 for (const Method& m : choice.methods) {
-                    const Option o{m.name, look(name, m.name)};
+                    const Option o{m.name, predictionOf(name, m.name)};
                     if (o.prediction.measured || m.name == truth) all.push_back(o);
                 }
         std::stable_sort(all.begin(), all.end(), [](const Option& a, const Option& b) {
             return a.prediction.ns < b.prediction.ns;
         });
         std::vector<Option> result;
-        double least = std::numeric_limits<double>::infinity();
+        double minimum = std::numeric_limits<double>::infinity();
         for (const Option& o : all)
-            if (o.prediction.error < least) {
-                least = o.prediction.error;
+            if (o.prediction.error < minimum) {
+                minimum = o.prediction.error;
                 result.push_back(o);
             }
         return result;
@@ -137,16 +138,16 @@ private:
 
     Option quietest(const std::string& name) const {
         Option best;
-        double least = std::numeric_limits<double>::infinity();
+        double minimum = std::numeric_limits<double>::infinity();
         for (const ChoicePoint& choice : choicePoints())
             if (choice.name == name)
                 for (const Method& m : choice.methods) {
-                    const Option o{m.name, look(name, m.name)};
+                    const Option o{m.name, predictionOf(name, m.name)};
                     if (!o.prediction.measured) continue;
                     const double effort = (1.0 + o.prediction.noise * o.prediction.noise) *
                                           (nsPerSample + o.prediction.ns);
-                    if (effort < least) {
-                        least = effort;
+                    if (effort < minimum) {
+                        minimum = effort;
                         best = o;
                     }
                 }
@@ -165,9 +166,9 @@ private:
     /// short.
     void search(size_t i, double budget, double ns, double error) {
         const double soFar = effort(ns, error);
-        if (soFar >= _least) return;
+        if (soFar >= _minimum) return;
         if (i == _points.size()) {
-            _least = soFar;
+            _minimum = soFar;
             _best = _chosen;
             return;
         }
@@ -188,23 +189,23 @@ private:
         m.measured = option.prediction.measured || option.method == truthMethod(point.name);
         m.error = option.prediction.error;
         m.ns = option.prediction.ns;
-        const Prediction standard = look(point.name, chosenMethod({}, point.name));
+        const Prediction standard = predictionOf(point.name, chosenMethod({}, point.name));
         m.nsDefault = standard.ns;
         m.errorDefault = standard.error;
         const std::string truth = truthMethod(point.name);
-        m.nsTruth = truth.empty() ? m.nsDefault : look(point.name, truth).ns;
+        m.nsTruth = truth.empty() ? m.nsDefault : predictionOf(point.name, truth).ns;
         _result.error += m.error;
         _result.choices.push_back(m);
     }
 
     const Plan& _plan;
     const Planning& _planning;
-    std::shared_ptr<const std::vector<std::vector<Sighting>>> _seen;
-    const std::vector<std::vector<Sighting>>& _places;
+    std::shared_ptr<const std::vector<std::vector<DirectionProbe>>> _probes;
+    const std::vector<std::vector<DirectionProbe>>& _places;
     std::vector<Point> _points;
     std::vector<int> _chosen, _best;
     double _factor = 1.0;
-    double _least = std::numeric_limits<double>::infinity();
+    double _minimum = std::numeric_limits<double>::infinity();
     MethodPlan _result;
 };
 

@@ -25,12 +25,12 @@ struct Near {
 /// Rows of a method that a closure lies between: of its kind, the two nearest in reflectance on
 /// either side, by the roots of their reflectances. Rows that know none come all.
 std::vector<Near> rowsFor(const std::string& point, const std::string& method,
-                          const SeenClosure& seen) {
+                          const ClosureContribution& contribution) {
     std::vector<const MeasuredMethod*> all, kin;
     for (const MeasuredMethod& row : methodTable())
         if (point == row.point && method == row.method) {
             all.push_back(&row);
-            if (std::string(row.kind) == seen.kind) kin.push_back(&row);
+            if (std::string(row.kind) == contribution.kind) kin.push_back(&row);
         }
     if (kin.empty()) kin = all;
     const MeasuredMethod *below = nullptr, *above = nullptr;
@@ -38,7 +38,7 @@ std::vector<Near> rowsFor(const std::string& point, const std::string& method,
     for (const MeasuredMethod* row : kin) {
         if (row->reflectance < 0.0f) {
             result.push_back({row, 1.0});
-        } else if (row->reflectance <= seen.reflectance) {
+        } else if (row->reflectance <= contribution.reflectance) {
             if (!below || row->reflectance > below->reflectance) below = row;
         } else if (!above || row->reflectance < above->reflectance) {
             above = row;
@@ -46,7 +46,7 @@ std::vector<Near> rowsFor(const std::string& point, const std::string& method,
     }
     if (below && above) {
         const double a = std::sqrt(below->reflectance), b = std::sqrt(above->reflectance);
-        const double f = (std::sqrt(double(seen.reflectance)) - a) / (b - a);
+        const double f = (std::sqrt(double(contribution.reflectance)) - a) / (b - a);
         result.push_back({below, 1.0 - f});
         result.push_back({above, f});
     } else if (below || above) {
@@ -61,8 +61,9 @@ struct Cell {
     bool known;
 };
 
-Cell cellOf(const MeasuredMethod& row, const SeenClosure& seen, int quarter) {
-    const double place = std::string(row.axis) == "thickness" ? seen.thickness : seen.roughness;
+Cell cellOf(const MeasuredMethod& row, const ClosureContribution& contribution, int quarter) {
+    const double place =
+        std::string(row.axis) == "thickness" ? contribution.thickness : contribution.roughness;
     const double x = place / row.axisEnd * methodBins - 0.5;
     const int i = std::clamp(int(std::floor(x)), 0, methodBins - 2);
     const double f = std::clamp(x - i, 0.0, 1.0);
@@ -89,11 +90,11 @@ public:
         if (point == "layering") _walks = layerWalkability(plan);
     }
 
-    Prediction run(const std::vector<std::vector<Sighting>>& places) {
+    Prediction run(const std::vector<std::vector<DirectionProbe>>& places) {
         for (const auto& angles : places) {
             double mean = 0.0, worst = 0.0, ns = 0.0;
-            for (const Sighting& s : angles) {
-                const double error = errorOf(s, ns);
+            for (const DirectionProbe& probe : angles) {
+                const double error = errorOf(probe, ns);
                 mean += error / double(angles.size());
                 worst = std::max(worst, error);
             }
@@ -104,36 +105,37 @@ public:
     }
 
 private:
-    double errorOf(const Sighting& s, double& ns) {
-        const int quarter = std::clamp(int(s.cosine * methodCosines), 0, methodCosines - 1);
+    double errorOf(const DirectionProbe& probe, double& ns) {
+        const int quarter = std::clamp(int(probe.cosine * methodCosines), 0, methodCosines - 1);
         double sum = 0.0;
-        for (const SeenClosure& seen : s.closures) {
-            if (!choicesOf(_plan, _plan.closures[size_t(seen.closure)]).count(_point)) continue;
-            const bool alike = !_walks.empty() && !_walks[size_t(seen.closure)].walks;
-            if (alike || (onlyRough(_point) && seen.roughness <= 0.0f)) {
+        for (const ClosureContribution& contribution : probe.closures) {
+            if (!choicesOf(_plan, _plan.closures[size_t(contribution.closure)]).count(_point))
+                continue;
+            const bool alike = !_walks.empty() && !_walks[size_t(contribution.closure)].walks;
+            if (alike || (onlyRough(_point) && contribution.roughness <= 0.0f)) {
                 _result.measured = true;
                 continue;
             }
             if (_point == "layering") {
-                sum += layered(seen, quarter, ns);
+                sum += layered(contribution, quarter, ns);
                 continue;
             }
             double between = 0.0, worst = 0.0, time = 0.0, weights = 0.0;
-            for (const Near& near : rowsFor(_point, _method, seen)) {
-                const Cell cell = cellOf(*near.row, seen, quarter);
+            for (const Near& near : rowsFor(_point, _method, contribution)) {
+                const Cell cell = cellOf(*near.row, contribution, quarter);
                 _result.measured = true;
                 time += near.weight * near.row->ns;
                 weights += near.weight;
                 if (makesNoise(*near.row))
-                    _result.noise = std::max(_result.noise, cell.error * seen.share);
+                    _result.noise = std::max(_result.noise, cell.error * contribution.share);
                 else if (near.row->reflectance < 0.0f)
-                    worst = std::max(worst, contribution(*near.row, seen, cell));
+                    worst = std::max(worst, contributedError(*near.row, contribution, cell));
                 else
-                    between += near.weight * contribution(*near.row, seen, cell);
+                    between += near.weight * contributedError(*near.row, contribution, cell);
             }
             sum += std::max(between, worst);
             time /= std::max(weights, 1.0);
-            if (seen.tabulated && _point == "directionalAlbedo")
+            if (contribution.tabulated && _point == "directionalAlbedo")
                 time *= tableNodes / evaluationsPerTable;
             ns += time;
         }
@@ -142,11 +144,11 @@ private:
 
     /// Layers channel by channel: what scaling is off grows less than the albedo of the base, so
     /// that a grey base as bright as a coloured one is further off.
-    double layered(const SeenClosure& seen, int quarter, double& ns) {
+    double layered(const ClosureContribution& contribution, int quarter, double& ns) {
         double error = 0.0, truth = 0.0;
         for (int c = 0; c < 3; ++c) {
-            SeenClosure channel = seen;
-            channel.reflectance = seen.base[c];
+            ClosureContribution channel = contribution;
+            channel.reflectance = contribution.base[c];
             for (const Near& near : layerRows(channel)) {
                 const Cell cell = cellOf(*near.row, channel, quarter);
                 _result.measured = true;
@@ -155,30 +157,32 @@ private:
                 ns += near.weight * near.row->ns / 3.0;
             }
         }
-        return std::min(error / std::max(truth, 1e-6), 1.0) * seen.share;
+        return std::min(error / std::max(truth, 1e-6), 1.0) * contribution.share;
     }
 
     /// Scaling is measured with the default of layerTransmittance; its other methods have rows of
     /// their own.
-    std::vector<Near> layerRows(const SeenClosure& channel) const {
+    std::vector<Near> layerRows(const ClosureContribution& channel) const {
         const std::string meaning = chosenMethod(_plan.methods, "layerTransmittance");
         if (_method != "albedoScaling" || meaning == chosenMethod({}, "layerTransmittance"))
             return rowsFor(_point, _method, channel);
         return rowsFor("layerTransmittance", meaning, channel);
     }
 
-    double contribution(const MeasuredMethod& row, const SeenClosure& seen,
-                        const Cell& cell) const {
+    double contributedError(const MeasuredMethod& row, const ClosureContribution& contribution,
+                            const Cell& cell) const {
         if (!cell.known) return 1.0; // nothing is known of films that thick
         const double own = cell.error / std::max(cell.truth, 1e-6);
         // Compensation takes from the albedo only what facets lose, times their reflectance.
         const double counts =
-            _point == "directionalAlbedo" ? std::min(seen.reflectance + 0.05, 1.0) : 1.0;
+            _point == "directionalAlbedo" ? std::min(contribution.reflectance + 0.05, 1.0) : 1.0;
         const bool ofLight =
             std::string(row.errorOf) == "albedo" || std::string(row.errorOf) == "reflectance";
-        const double below =
-            ofLight && seen.beneath > 0.0f ? cell.error / std::max(1.0 - cell.truth, 0.01) : 0.0;
-        return std::min(own, 1.0) * counts * seen.share + std::min(below, 1.0) * seen.beneath;
+        const double below = ofLight && contribution.beneath > 0.0f
+                                 ? cell.error / std::max(1.0 - cell.truth, 0.01)
+                                 : 0.0;
+        return std::min(own, 1.0) * counts * contribution.share +
+               std::min(below, 1.0) * contribution.beneath;
     }
 
     const Plan& _plan;
@@ -190,7 +194,7 @@ private:
 
 } // namespace
 
-Prediction predict(const Plan& plan, const std::vector<std::vector<Sighting>>& places,
+Prediction predict(const Plan& plan, const std::vector<std::vector<DirectionProbe>>& places,
                    const std::string& point, const std::string& method) {
     return Predictor(plan, point, method).run(places);
 }

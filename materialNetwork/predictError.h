@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/sightings.h"
+#include "materialNetwork/planProbes.h"
 
 #include <string>
 
@@ -14,8 +14,8 @@ struct Prediction {
     double ns = 0.0;    ///< per evaluation of the lobes that the method concerns
 };
 
-/// @param places of lookAt()
-Prediction predict(const Plan& plan, const std::vector<std::vector<Sighting>>& places,
+/// @param places of probePlan()
+Prediction predict(const Plan& plan, const std::vector<std::vector<DirectionProbe>>& places,
                    const std::string& point, const std::string& method);
 
 } // namespace patina

@@ -13,9 +13,9 @@ namespace {
 constexpr float metallic = 0.2f; ///< Schlick's curve is measured as a metal from there on
 
 /// The kind of lobe that rows of lights are of; empty where there is none.
-std::string kindOf(const SeenClosure& seen) {
-    const std::string kind = seen.kind;
-    if (kind == "schlick") return seen.reflectance > metallic ? "conductor" : "dielectric";
+std::string kindOf(const ClosureContribution& contribution) {
+    const std::string kind = contribution.kind;
+    if (kind == "schlick") return contribution.reflectance > metallic ? "conductor" : "dielectric";
     if (kind == "subsurface") return "diffuse";
     for (const char* known : {"diffuse", "sheen", "dielectric", "conductor"})
         if (kind == known) return kind;
@@ -42,7 +42,7 @@ double errorAt(const MeasuredMethod& row, double roughness, int quarter) {
 
 } // namespace
 
-LightPrediction predictLight(const std::vector<std::vector<Sighting>>& places,
+LightPrediction predictLight(const std::vector<std::vector<DirectionProbe>>& places,
                              const std::string& point, const std::string& method,
                              const std::string& light, const std::string& count) {
     LightPrediction result;
@@ -56,12 +56,12 @@ LightPrediction predictLight(const std::vector<std::vector<Sighting>>& places,
     };
     for (const auto& angles : places) {
         double mean = 0.0, worst = 0.0, time = 0.0;
-        for (const Sighting& s : angles) {
-            const int quarter = std::clamp(int(s.cosine * methodCosines), 0, methodCosines - 1);
+        for (const DirectionProbe& probe : angles) {
+            const int quarter = std::clamp(int(probe.cosine * methodCosines), 0, methodCosines - 1);
             double error = 0.0;
-            for (const SeenClosure& seen : s.closures) {
-                const std::string kind = kindOf(seen);
-                if (std::string(seen.kind).compare(0, 5, "layer") == 0) continue;
+            for (const ClosureContribution& contribution : probe.closures) {
+                const std::string kind = kindOf(contribution);
+                if (std::string(contribution.kind).compare(0, 5, "layer") == 0) continue;
                 // The outlines of areas leave sheen to samples.
                 if (kind == "sheen" && point == "areaLight") continue;
                 const MeasuredMethod* row = rowFor(kind);
@@ -69,7 +69,7 @@ LightPrediction predictLight(const std::vector<std::vector<Sighting>>& places,
                     result.measured = false;
                     continue;
                 }
-                error += seen.share * errorAt(*row, seen.roughness, quarter);
+                error += contribution.share * errorAt(*row, contribution.roughness, quarter);
                 time += row->ns / double(angles.size());
             }
             mean += error / double(angles.size());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/sightings.h"
+#include "materialNetwork/planProbes.h"
 
 #include <string>
 
@@ -18,7 +18,7 @@ struct LightPrediction {
 /// worst count half each, of places with different parameters the worst.
 /// @param light of the row's subject, after the kind of lobe: `soft`, `sun`, `rect`, ...
 /// @param count how often, as the subject ends: `16 passes`; empty: once
-LightPrediction predictLight(const std::vector<std::vector<Sighting>>& places,
+LightPrediction predictLight(const std::vector<std::vector<DirectionProbe>>& places,
                              const std::string& point, const std::string& method,
                              const std::string& light, const std::string& count);
 

@@ -18,12 +18,12 @@ const char* kindOf(mode_t mode) {
     return S_ISBLK(mode) || S_ISCHR(mode) ? "a device" : "something else";
 }
 
-std::string problemOf(const struct stat& found, uint64_t mostBytes) {
+std::string problemOf(const struct stat& found, uint64_t maxBytes) {
     if (!S_ISREG(found.st_mode))
         return std::string("is ") + kindOf(found.st_mode) + ", not a regular file";
-    if (uint64_t(found.st_size) > mostBytes)
+    if (uint64_t(found.st_size) > maxBytes)
         return "holds " + std::to_string(found.st_size) + " bytes; at most " +
-               std::to_string(mostBytes) + " are read";
+               std::to_string(maxBytes) + " are read";
     return {};
 }
 
@@ -41,17 +41,17 @@ struct Descriptor {
 
 } // namespace
 
-std::string whyUnreadable(const std::string& path, uint64_t mostBytes) {
+std::string whyUnreadable(const std::string& path, uint64_t maxBytes) {
     struct stat found;
     if (::stat(path.c_str(), &found) != 0) return problemOf(errno);
-    const std::string problem = problemOf(found, mostBytes);
+    const std::string problem = problemOf(found, maxBytes);
     return problem.empty() && ::access(path.c_str(), R_OK) != 0 ? problemOf(errno) : problem;
 }
 
-bool readRegularFile(const std::string& path, uint64_t mostBytes, std::string& bytes,
+bool readRegularFile(const std::string& path, uint64_t maxBytes, std::string& bytes,
                      std::string& problem) {
     bytes.clear();
-    problem = whyUnreadable(path, mostBytes);
+    problem = whyUnreadable(path, maxBytes);
     if (!problem.empty()) return false;
     // Looked at once more when it is open: what a name stands for may change in between. Without
     // O_NONBLOCK a pipe would wait for its writer.
@@ -61,7 +61,7 @@ bool readRegularFile(const std::string& path, uint64_t mostBytes, std::string& b
         problem = errno == ENXIO ? "is a socket or a device, not a regular file" : problemOf(errno);
         return false;
     }
-    problem = problemOf(found, mostBytes);
+    problem = problemOf(found, maxBytes);
     if (!problem.empty()) return false;
     bytes.reserve(size_t(found.st_size) + 1);
     char part[1 << 16];
@@ -71,8 +71,8 @@ bool readRegularFile(const std::string& path, uint64_t mostBytes, std::string& b
         if (got < 0 && errno == EINTR) continue;
         if (got < 0)
             problem = "cannot be read: " + std::string(std::strerror(errno));
-        else if (uint64_t(got) > mostBytes - bytes.size())
-            problem = "holds more than the " + std::to_string(mostBytes) + " bytes that are read";
+        else if (uint64_t(got) > maxBytes - bytes.size())
+            problem = "holds more than the " + std::to_string(maxBytes) + " bytes that are read";
         if (!problem.empty()) {
             bytes.clear();
             return false;

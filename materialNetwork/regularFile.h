@@ -5,19 +5,19 @@
 
 namespace patina {
 
-/// Files that a stage or a document names may be anything: a device gives bytes without end, a named
-/// pipe waits for ever. Only regular files (or links to them) of a bounded size are read.
+/// Files that a stage or a document names may be anything: a device gives bytes without end, a
+/// named pipe waits for ever. Only regular files (or links to them) of a bounded size are read.
 
-constexpr uint64_t mostDocumentBytes = uint64_t(1) << 28; ///< of documents, profiles, statistics
-constexpr uint64_t mostImageBytes = uint64_t(1) << 36;    ///< of images, volumes, checkpoints
+constexpr uint64_t maxDocumentBytes = uint64_t(1) << 28; ///< of documents, profiles, statistics
+constexpr uint64_t maxImageBytes = uint64_t(1) << 36;    ///< of images, volumes, checkpoints
 
 /// Why a file is not to be read, as in "is a named pipe, not a regular file"; empty when it may be.
 /// Never waits. For readers that open the file themselves.
-std::string whyUnreadable(const std::string& path, uint64_t mostBytes);
+std::string whyUnreadable(const std::string& path, uint64_t maxBytes);
 
 /// Reads all of a regular file.
 /// @returns false, with the reason as above, when it is none, cannot be read or is larger
-bool readRegularFile(const std::string& path, uint64_t mostBytes, std::string& bytes,
+bool readRegularFile(const std::string& path, uint64_t maxBytes, std::string& bytes,
                      std::string& problem);
 
 } // namespace patina

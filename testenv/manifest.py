@@ -79,7 +79,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/render/test_badInput.py::*", "smoke", "cli stage scene"),
     ("testenv/render/test_features.py::*", "smoke", "embree lights scene stage"),
     ("testenv/render/test_lightUnits.py::*", "smoke", "lights"),
-    ("testenv/render/test_wholeShaders.py::*", "smoke", "materialNetwork embree"),
+    ("testenv/render/test_mergeSurfaceShaders.py::*", "smoke", "materialNetwork embree"),
     ("testenv/render/test_classicScenes.py::*", "smoke", "shaders materialNetwork"),
     ("testenv/render/test_furnace.py::*", None, "embree shaders materialNetwork"),
     ("testenv/render/test_furnace.py::test_diffuse_sphere_shows_its_albedo[[]1.0]", "smoke", None),
@@ -98,7 +98,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]teapot*", "long", None),
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]R*", "long", None),
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]B*", "long", None),
-    # Slow in software, and test_behind.py looks at the same more closely.
+    # Slow in software, and test_refraction.py looks at the same more closely.
     ("testenv/raster/test_byDesign.py::test_glass_shows_what_is_behind", "long", None),
     ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same_looked_at_closely*", "long", None),
 )

@@ -7,7 +7,8 @@ FallbackRenderer::FallbackRenderer(std::unique_ptr<Renderer> first, std::string 
     : _first(std::move(first)), _second(std::move(second)), _reason(std::move(reason)),
       _onSecond(!_first) {
     if (_first)
-        _first->setListener([this](const Film& film, const RenderProgress& p) { hear(film, p); });
+        _first->setListener(
+            [this](const Film& film, const RenderProgress& p) { onProgress(film, p); });
 }
 
 void FallbackRenderer::warn(Scene& scene) {
@@ -38,7 +39,7 @@ void FallbackRenderer::start(std::shared_ptr<Scene> scene, const std::string& ca
 }
 
 /// On the first one's thread.
-void FallbackRenderer::hear(const Film& film, const RenderProgress& progress) {
+void FallbackRenderer::onProgress(const Film& film, const RenderProgress& progress) {
     if (progress.failed && progress.deviceFailed) {
         const std::lock_guard<std::mutex> lock(_mutex);
         if (_stopped) return;

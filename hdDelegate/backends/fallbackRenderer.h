@@ -28,7 +28,7 @@ public:
     void setListener(FilmListener listener) override { _listener = std::move(listener); }
 
 private:
-    void hear(const Film& film, const RenderProgress& progress);
+    void onProgress(const Film& film, const RenderProgress& progress);
     void warn(Scene& scene);
 
     std::unique_ptr<Renderer> _first, _second;

@@ -19,9 +19,9 @@ InteractiveRenderer::InteractiveRenderer(std::unique_ptr<Renderer> quick,
                                          std::unique_ptr<Renderer> slow)
     : _quick(std::move(quick)), _slow(std::move(slow)), _quickFilm(std::make_shared<Film>()) {
     _quick->setListener(
-        [this](const Film& film, const RenderProgress& p) { hear(_fromQuick, film, p); });
+        [this](const Film& film, const RenderProgress& p) { onProgress(_fromQuick, film, p); });
     _slow->setListener(
-        [this](const Film& film, const RenderProgress& p) { hear(_fromSlow, film, p); });
+        [this](const Film& film, const RenderProgress& p) { onProgress(_fromSlow, film, p); });
 }
 
 void InteractiveRenderer::start(std::shared_ptr<Scene> scene, const std::string& camera,
@@ -99,7 +99,8 @@ RenderProgress InteractiveRenderer::progress() const {
 }
 
 /// On the threads of either renderer: copies the film, so that they go on with their work.
-void InteractiveRenderer::hear(Source& source, const Film& film, const RenderProgress& progress) {
+void InteractiveRenderer::onProgress(Source& source, const Film& film,
+                                     const RenderProgress& progress) {
     {
         const std::lock_guard<std::mutex> lock(_mutex);
         if (_stop) return;

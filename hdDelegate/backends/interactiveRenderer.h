@@ -55,7 +55,7 @@ private:
         bool ended() const { return progress.converged || progress.failed; }
     };
 
-    void hear(Source& source, const Film& film, const RenderProgress& progress);
+    void onProgress(Source& source, const Film& film, const RenderProgress& progress);
     void run(std::string camera);
     void changeOver(const std::string& camera);
     bool awaitNews(const std::string& camera, Clock::time_point started, bool stepping, bool shown);

@@ -110,14 +110,14 @@ float largestStep(const Picture& a, const Picture& b) {
     return worst.empty() ? 0.0f : *std::max_element(worst.begin(), worst.end());
 }
 
-bool approach(Picture& shown, const Picture& target, float bound, float mostOfTheWay) {
+bool approach(Picture& shown, const Picture& target, float bound, float maxFraction) {
     const float step = largestStep(shown, target);
-    if (step <= bound && mostOfTheWay >= 1.0f) {
+    if (step <= bound && maxFraction >= 1.0f) {
         shown = target;
         return true;
     }
     // Along toEye() the means of all blocks move by this share of their way.
-    const float share = std::min(mostOfTheWay, 0.999f * bound / std::max(step, 1e-6f));
+    const float share = std::min(maxFraction, 0.999f * bound / std::max(step, 1e-6f));
     parallelFor(0, shown.height, [&](int y) {
         for (size_t i = size_t(y) * size_t(shown.width), n = i + size_t(shown.width); i < n; ++i) {
             const vec4 from = colorwise(toEye, shown.pixels[i]);

@@ -33,8 +33,8 @@ float largestStep(const Picture& a, const Picture& b);
 
 /// Moves a picture towards another one, by at most `bound` as largestStep() measures it, and at
 /// most by a share of the way, so that noise comes little by little too.
-/// @param mostOfTheWay 0..1
+/// @param maxFraction 0..1
 /// @returns whether it is equal now, to the bit
-bool approach(Picture& shown, const Picture& target, float bound, float mostOfTheWay = 1.0f);
+bool approach(Picture& shown, const Picture& target, float bound, float maxFraction = 1.0f);
 
 } // namespace patina

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int radius = 8; // pixels: a mean over 289 of them has 1/17 of the noise
 constexpr float halfAt = 0.05f;
-constexpr float mostGain = 4.0f;
+constexpr float maxGain = 4.0f;
 
 template <class Body> void eachPixel(const Picture& p, const Body& body) {
     parallelFor(0, p.height, [&](int y) {
@@ -47,7 +47,7 @@ Picture refine(Picture rasterized, const Picture& traced, const Picture& noise, 
         for (int k = 0; k < 3; ++k) {
             const float to = tracedMean.pixels[i][k], from = mean.pixels[i][k];
             const float gain = from > 0.0f ? to / from : 1.0f;
-            quick[k] *= std::clamp(gain, 1.0f / mostGain, mostGain);
+            quick[k] *= std::clamp(gain, 1.0f / maxGain, maxGain);
         }
         rest.pixels[i] = traced.pixels[i] - quick;
     });

@@ -18,8 +18,8 @@ mat4 interpolate(const MotionTransform& transform, float time, const dvec3& orig
 
 namespace {
 
-/// Points of the unit disc, equal areas to equal areas (Shirley and Chiu 1997).
-vec2 concentricDisc(vec2 u) {
+/// Points of the unit disk, equal areas to equal areas (Shirley and Chiu 1997).
+vec2 concentricDisk(vec2 u) {
     const vec2 p = 2.0f * u - 1.0f;
     if (p.x == 0.0f && p.y == 0.0f) return vec2(0.0f);
     constexpr float quarterPi = 0.78539816339744831f;
@@ -93,7 +93,7 @@ CameraRay CameraRays::ray(vec2 pixel, vec2 lens, float time) const {
         origin = vec3(window, 0.0f);
         direction = vec3(0, 0, -1);
     } else if (_dof) {
-        origin = vec3(concentricDisc(lens) * _lensRadius, 0.0f);
+        origin = vec3(concentricDisk(lens) * _lensRadius, 0.0f);
         direction -= origin / _camera.focusDistance;
     }
     const float length = glm::length(direction);

@@ -6,7 +6,7 @@ namespace patina {
 
 namespace {
 
-bool holds(const std::string& root, const std::string& path) {
+bool contains(const std::string& root, const std::string& path) {
     size_t length = root.size();
     while (length > 0 && root[length - 1] == '/')
         --length;
@@ -14,9 +14,9 @@ bool holds(const std::string& root, const std::string& path) {
            (path.size() == length || path[length] == '/');
 }
 
-bool anyHolds(const std::vector<std::string>& roots, const std::string& path) {
+bool anyContains(const std::vector<std::string>& roots, const std::string& path) {
     return std::any_of(roots.begin(), roots.end(),
-                       [&](const std::string& root) { return holds(root, path); });
+                       [&](const std::string& root) { return contains(root, path); });
 }
 
 } // namespace
@@ -25,13 +25,13 @@ bool isDrawn(const Geometry& prim, const RenderSettings& settings) {
     const std::string tag = prim.renderTag.empty() ? "geometry" : prim.renderTag;
     const auto& tags = settings.renderTags;
     if (!tags.empty() && std::find(tags.begin(), tags.end(), tag) == tags.end()) return false;
-    if (!settings.rootPaths.empty() && !anyHolds(settings.rootPaths, prim.path)) return false;
-    return !anyHolds(settings.excludePaths, prim.path);
+    if (!settings.rootPaths.empty() && !anyContains(settings.rootPaths, prim.path)) return false;
+    return !anyContains(settings.excludePaths, prim.path);
 }
 
 bool isDrawn(const Instancer& prim, const RenderSettings& settings) {
     const Visibility& v = prim.visibility;
-    return (v.camera || v.indirect || v.shadow) && !anyHolds(settings.excludePaths, prim.path);
+    return (v.camera || v.indirect || v.shadow) && !anyContains(settings.excludePaths, prim.path);
 }
 
 } // namespace patina

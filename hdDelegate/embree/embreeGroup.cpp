@@ -177,14 +177,14 @@ RTCGeometry makeCurves(RTCDevice device, const CurveSet& curves) {
 }
 
 RTCGeometry makePoints(RTCDevice device, const PointSet& points) {
-    const bool discs = !points.normals.empty();
-    RTCGeometry geometry = rtcNewGeometry(device, discs ? RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT
+    const bool disks = !points.normals.empty();
+    RTCGeometry geometry = rtcNewGeometry(device, disks ? RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT
                                                         : RTC_GEOMETRY_TYPE_SPHERE_POINT);
     rtcSetGeometryTimeStepCount(geometry, unsigned(points.points.size()));
     for (size_t step = 0; step < points.points.size(); ++step) {
         shareBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, unsigned(step), RTC_FORMAT_FLOAT4,
                     points.points[step].data(), sizeof(vec4), points.points[step].size());
-        if (discs)
+        if (disks)
             shareBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, unsigned(step), RTC_FORMAT_FLOAT3,
                         points.normals[std::min(step, points.normals.size() - 1)].data(),
                         sizeof(vec3), points.points[step].size());

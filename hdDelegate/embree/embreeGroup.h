@@ -98,8 +98,8 @@ private:
 /// up to 1.8e18. Asked of every ray before it gets there.
 /// @param limit of the coordinates of the origin
 inline bool isTraceable(const RTCRay& ray, float limit) {
-    const auto within = [](float x, float y, float z, float most) {
-        return std::abs(x) <= most && std::abs(y) <= most && std::abs(z) <= most;
+    const auto within = [](float x, float y, float z, float maximum) {
+        return std::abs(x) <= maximum && std::abs(y) <= maximum && std::abs(z) <= maximum;
     };
     return within(ray.org_x, ray.org_y, ray.org_z, limit) &&
            within(ray.dir_x, ray.dir_y, ray.dir_z, largestTraced) && ray.tnear >= 0.0f &&

@@ -86,7 +86,7 @@ RenderProgress EmbreeRenderer::progress() const {
     return _progress;
 }
 
-void EmbreeRenderer::tell(bool last) {
+void EmbreeRenderer::notify(bool last) {
     if (!_listener) return;
     constexpr double pause = 0.03; // seconds: hosts do not draw more often
     if (_told && !last && secondsSince(_lastTold) < pause) return;
@@ -111,7 +111,7 @@ void EmbreeRenderer::finish(const std::string& failure) {
         _progress = seen;
         return;
     }
-    tell(true);
+    notify(true);
     std::lock_guard<std::mutex> lock(_mutex);
     _progress.converged = true;
     _progress.fraction = 1.0;
@@ -220,12 +220,12 @@ void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) 
     }
     // Few scenes are seen so far from the origin that they are built once more; while the camera
     // stays there, the origin does too.
-    constexpr int mostMoves = 2;
-    for (int i = 0; i <= mostMoves; ++i) {
+    constexpr int maxMoves = 2;
+    for (int i = 0; i <= maxMoves; ++i) {
         _embree->update(state, camera, _settings, *_textures, _stop, _origin);
         if (_stop) return;
         const dvec3 origin = originOfSeen(*_embree, camera, _settings);
-        if (origin == _origin || i == mostMoves) break;
+        if (origin == _origin || i == maxMoves) break;
         _origin = origin;
     }
     LightsKey key = makeLightsKey(state, *_embree, camera, _settings);
@@ -238,8 +238,8 @@ void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) 
 
 void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     const auto buildStart = Clock::now();
-    constexpr int mostThreads = 4096;
-    Arena arena(std::min(_settings.threads, mostThreads));
+    constexpr int maxThreads = 4096;
+    Arena arena(std::min(_settings.threads, maxThreads));
     arena.execute([&] { updateScene(state, camera); });
     if (_stop) return;
     ScenePlan plan = _embree->plan();
@@ -252,7 +252,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         _progress.statistics["secondsBuild"] = secondsSince(buildStart);
         _progress.statistics["trianglesStored"] = double(_embree->trianglesStored());
         _progress.statistics["instances"] = double(_embree->instanceCount());
-        plan.tell(_settings.tolerance, _progress.statistics);
+        plan.addStatistics(_settings.tolerance, _progress.statistics);
         _progress.plans = plan.materials();
         _progress.sceneChoices = plan.choices();
         _progress.statistics["maxDepth"] = plan.depth(_settings);
@@ -291,7 +291,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         publish(schedule);
         maybeCheckpoint();
         haveImage = haveImage || schedule.samplesDone() > 0;
-        if (!_stop && haveImage && !schedule.pending().empty()) tell(false);
+        if (!_stop && haveImage && !schedule.pending().empty()) notify(false);
         if (!waitWhilePaused()) return;
         if (haveImage && outOfTime()) break;
     }

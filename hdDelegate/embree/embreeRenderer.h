@@ -42,7 +42,7 @@ private:
     void maybeCheckpoint();
     void publish(const TileSchedule& schedule);
     void finish(const std::string& failure);
-    void tell(bool last);
+    void notify(bool last);
 
     std::shared_ptr<Scene> _scene;
     std::shared_ptr<Film> _film;

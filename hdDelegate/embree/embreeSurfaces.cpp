@@ -32,7 +32,7 @@ float EmbreeScene::planSubdivision(const SceneState& state, const CameraRays& ra
     SubdivisionPlan plan(settings, screen);
     for (const auto& item : state.geometry) {
         const Geometry& prim = *item.second;
-        if (!plan.looks() || !subdivides(prim) || !isDrawn(prim, settings)) continue;
+        if (!plan.isActive() || !subdivides(prim) || !isDrawn(prim, settings)) continue;
         std::vector<mat4> places = groupTransforms(prim.group);
         for (mat4& place : places)
             place = place * interpolate(prim.transform, 0.0f, originOf(prim.group));

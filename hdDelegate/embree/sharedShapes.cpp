@@ -18,12 +18,12 @@ bool onlyScales(const Implicit& prim) {
 
 /// Whether rays can be taken into the space of a prim at all times.
 bool staysApart(const Implicit& prim) {
-    float least = INFINITY, most = 0.0f;
+    float minimum = INFINITY, maximum = 0.0f;
     const auto stays = [&](const mat4& m) {
         const mat4 place = m * SharedShapes::placement(prim);
         const float volume = std::abs(glm::determinant(mat3(place)));
-        least = std::min(least, volume);
-        most = std::max(most, volume);
+        minimum = std::min(minimum, volume);
+        maximum = std::max(maximum, volume);
         return isWideEnough(place);
     };
     const auto& values = prim.transform.values;
@@ -31,7 +31,7 @@ bool staysApart(const Implicit& prim) {
         if (!stays(mat4(values[i]))) return false;
         if (i > 0 && !stays(mat4(0.5 * values[i - 1] + 0.5 * values[i]))) return false;
     }
-    return least >= 1e-3f * most;
+    return minimum >= 1e-3f * maximum;
 }
 
 /// A prim of this key, without anything of its own.
@@ -83,7 +83,7 @@ void SharedShapes::update(RTCDevice device, const std::map<ShapeKey, int>& uses,
                           Diagnostics& diagnostics) {
     std::map<ShapeKey, std::shared_ptr<const SharedShape>> next;
     for (const auto& [key, count] : uses) {
-        if (count < fewest) continue;
+        if (count < minInstances) continue;
         auto& known = _shapes[key];
         if (!known) {
             auto shape = std::make_shared<SharedShape>();

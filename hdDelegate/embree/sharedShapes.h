@@ -31,7 +31,7 @@ class SharedShapes {
 public:
     /// From so many equal prims on, the time that rays take for one more transform is less than
     /// what is saved.
-    static constexpr int fewest = 16;
+    static constexpr int minInstances = 16;
 
     /// @param roundEdge as in TessellationOptions
     /// @returns nothing where a prim is not alone in being as it is, or has parts of its own

@@ -203,7 +203,7 @@ void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& directi
         s.normal = safeNormalize(normalMatrix * local.normal, s.geometricNormal);
     }
     s.viewDirection = -direction;
-    // Ribbons and discs are seen from both sides alike.
+    // Ribbons and disks are seen from both sides alike.
     const bool flat = !surface.curves.normals.empty() || !surface.points.normals.empty();
     if (flat && glm::dot(s.geometricNormal, s.viewDirection) < 0.0f) {
         s.geometricNormal = -s.geometricNormal;

@@ -21,7 +21,7 @@ TileSchedule::TileSchedule(const Film& film, const RenderSettings& settings)
     for (int y = y0; y < y1; y += tileSize)
         for (int x = x0; x < x1; x += tileSize)
             _tiles.push_back({x, y, std::min(x + tileSize, x1), std::min(y + tileSize, y1)});
-    _looks.resize(_tiles.size());
+    _errorChecks.resize(_tiles.size());
 }
 
 int TileSchedule::count(int tile) const {
@@ -34,9 +34,9 @@ bool TileSchedule::isEnough(int tile, int samples) const {
     const Tile& t = _tiles[tile];
     // Some of its pixels are further already: it was broken off when it had been told to go on.
     if (int(_film.sampleCount(t.x0, t.y0)) != samples) return false;
-    Look& look = _looks[tile];
-    if (look.samples != samples) look = {samples, relativeError(_tiles[tile]) <= _tolerance};
-    return look.isEnough;
+    ErrorCheck& check = _errorChecks[tile];
+    if (check.samples != samples) check = {samples, relativeError(_tiles[tile]) <= _tolerance};
+    return check.isEnough;
 }
 
 int TileSchedule::target(int tile) const {

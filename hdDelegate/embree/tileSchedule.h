@@ -38,7 +38,7 @@ public:
 
 private:
     /// What was found out when a tile was looked at.
-    struct Look {
+    struct ErrorCheck {
         int samples = 0; ///< that it had then
         bool isEnough = false;
     };
@@ -50,7 +50,7 @@ private:
     int _samples, _minSamples;
     double _tolerance;
     std::vector<Tile> _tiles;
-    mutable std::vector<Look> _looks; ///< beside _tiles
+    mutable std::vector<ErrorCheck> _errorChecks; ///< beside _tiles
 };
 
 } // namespace patina

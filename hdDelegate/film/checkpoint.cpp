@@ -19,7 +19,7 @@ namespace {
 constexpr char magic[8] = {'P', 'a', 't', 'i', 'n', 'a', 'C', 'P'};
 constexpr uint32_t formatVersion = 2;
 constexpr uint32_t byteOrderMark = 0x01020304;
-constexpr uint32_t longestText = 4096, mostAovs = 1024;
+constexpr uint32_t longestText = 4096, maxAovs = 1024;
 
 /// A 64-bit checksum of a stream: words are mixed by a multiplication and a rotation each, so that
 /// order counts and every bit of a word reaches the result.
@@ -168,7 +168,7 @@ void Film::saveCheckpoint(const std::string& file) const {
 }
 
 void Film::loadCheckpoint(const std::string& file) {
-    const std::string problem = whyUnreadable(file, mostImageBytes);
+    const std::string problem = whyUnreadable(file, maxImageBytes);
     if (!problem.empty())
         throw std::runtime_error("cannot read checkpoint '" + file + "': it " + problem);
     FilePtr stream(std::fopen(file.c_str(), "rb"), &std::fclose);
@@ -188,7 +188,7 @@ void Film::loadCheckpoint(const std::string& file) {
     uint64_t dropped = r.value<uint64_t>();
     std::string token = r.text();
     uint32_t count = r.value<uint32_t>();
-    if (count > mostAovs || width < 0 || height < 0) r.fail("it is damaged");
+    if (count > maxAovs || width < 0 || height < 0) r.fail("it is damaged");
     std::vector<AovSpec> specs(count);
     for (AovSpec& spec : specs) {
         spec.name = r.text();

@@ -46,22 +46,23 @@ public:
 
     /// How many pixels away, along an axis, a sample may count for others too: see shares().
     int reach() const {
-        const int most = int(std::ceil(2.0f * std::min(_radius, 100.0f))) - 1;
-        return most > largestReach ? 0 : std::max(0, most);
+        const int maximum = int(std::ceil(2.0f * std::min(_radius, 100.0f))) - 1;
+        return maximum > largestReach ? 0 : std::max(0, maximum);
     }
     /// Shares of a sample along one axis, where all pixels have samples at the same offset. Offsets
     /// that differ by whole pixels are as likely as the filter is high there, so the sample goes to
     /// all of them by that: the mean is the filter's, with the samples of several pixels.
     /// @param offset from the pixel's centre, of sample()
     /// @returns by pixels from -reach() to reach() along the axis; their sum is 1
-    std::vector<float> shares(float offset) const {
-        const int most = reach();
-        std::vector<float> out(size_t(2 * most + 1), 0.0f);
+    std::vector<float> splatWeights(float offset) const {
+        const int maximum = reach();
+        std::vector<float> out(size_t(2 * maximum + 1), 0.0f);
         float sum = 0.0f;
-        for (int i = -most; i <= most; ++i) {
+        for (int i = -maximum; i <= maximum; ++i) {
             const float x = (offset - float(i)) / std::max(_radius, 1e-20f);
             const bool inside = i == 0 || std::fabs(x) < 1.0f;
-            sum += out[size_t(i + most)] = inside ? (_box ? 1.0f : std::exp(-2.0f * x * x)) : 0.0f;
+            sum += out[size_t(i + maximum)] =
+                inside ? (_box ? 1.0f : std::exp(-2.0f * x * x)) : 0.0f;
         }
         for (float& share : out)
             share /= sum;

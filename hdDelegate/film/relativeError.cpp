@@ -8,7 +8,7 @@ namespace patina {
 namespace {
 
 constexpr double meanOfHalfNormal = 0.79788456080286536; // sqrt(2 / pi)
-constexpr double leastLuminance = 0.01;                  // black pixels do not decide
+constexpr double minLuminance = 0.01;                    // black pixels do not decide
 
 /// A rectangle of numbers.
 struct Grid {
@@ -45,7 +45,7 @@ double relativeError(const Film& film, int x0, int y0, int x1, int y1, PixelNois
         for (int x = x0; x < x1; ++x) {
             // A pixel that has found too much light must not count less for that.
             const double l = luminance.at(x - x0, y - y0);
-            const double scale = std::min(l, luminance.meanAround(x - x0, y - y0)) + leastLuminance;
+            const double scale = std::min(l, luminance.meanAround(x - x0, y - y0)) + minLuminance;
             const double deviation = double(film.deviationOfMean(x, y)) / scale;
             squares.at(x - x0, y - y0) = float(std::min(deviation * deviation, 1e30));
             plain += std::sqrt(double(film.varianceOfMean(x, y))) / scale;
@@ -71,12 +71,12 @@ double relativeError(const Film& film, int x0, int y0, int x1, int y1, PixelNois
     return meanOfHalfNormal * error;
 }
 
-int nextStep(int samples, int most) {
+int nextStep(int samples, int maximum) {
     int step = 16;
     while (step < 256 && samples / step >= 32)
         step *= 2;
     const int next = samples == 0 ? 1 : samples < 16 ? samples * 2 : (samples / step + 1) * step;
-    return std::min(next, most);
+    return std::min(next, maximum);
 }
 
 bool isErrorStep(int samples) {

@@ -18,9 +18,9 @@ enum class PixelNoise {
 double relativeError(const Film& film, int x0, int y0, int x1, int y1,
                      PixelNoise noise = PixelNoise::Independent);
 
-/// The count after `samples` that a render goes to in one piece, at most `most`: 1, 2, 4, 8, 16,
+/// The count after `samples` that a render goes to in one piece, at most `maximum`: 1, 2, 4, 8, 16,
 /// then 16 more each, and from 512 on a sixteenth of the power of two below, up to 256 more.
-int nextStep(int samples, int most);
+int nextStep(int samples, int maximum);
 
 /// Whether the error is looked at after so many samples: powers of two, and from 32 on those in the
 /// middle between two. All are steps. A render that is looked at nowhere else ends as any other,

@@ -87,10 +87,10 @@ struct Part {
         return first * (1.0 - f) + second * f;
     }
     size_t count() const {
-        size_t most = 0;
+        size_t maximum = 0;
         for (const Matrices& value : values)
-            most = std::max(most, value.size());
-        return most;
+            maximum = std::max(maximum, value.size());
+        return maximum;
     }
 
 private:

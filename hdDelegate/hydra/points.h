@@ -6,7 +6,7 @@
 
 namespace patina {
 
-/// Points: spheres, or discs where they have normals.
+/// Points: spheres, or disks where they have normals.
 class HdPatinaPoints final : public HdPatinaGprim<HdPoints, Points> {
 public:
     using HdPatinaGprim::HdPatinaGprim;

@@ -53,11 +53,12 @@ Row flag(const char* key, const char* label, bool RenderSettings::*member) {
     return flag(key, label, member, RenderSettings().*member);
 }
 
-Row integer(const char* key, const char* label, int RenderSettings::*member, int least, int most) {
+Row integer(const char* key, const char* label, int RenderSettings::*member, int minimum,
+            int maximum) {
     return {TfToken(key), label, VtValue(RenderSettings().*member),
             [=](HdPatinaSettings& s, const VtValue& v) {
                 const int value = v.UncheckedGet<int>();
-                if (value < least || value > most) return false;
+                if (value < minimum || value > maximum) return false;
                 s.*member = value;
                 return true;
             }};
@@ -127,12 +128,12 @@ Row edgeLengthRow() {
 
 const std::vector<Row>& rows() {
     using S = RenderSettings;
-    constexpr int most = std::numeric_limits<int>::max();
+    constexpr int maximum = std::numeric_limits<int>::max();
     static const std::vector<Row> table = {
         choice("backend", "Back end (auto, embree, raster, interactive)",
                &HdPatinaSettings::backend, {"auto", "embree", "raster", "interactive"}),
-        integer("samples", "Samples per pixel", &S::samples, 1, most),
-        integer("minSamples", "Least samples per pixel", &S::minSamples, 1, most),
+        integer("samples", "Samples per pixel", &S::samples, 1, maximum),
+        integer("minSamples", "Least samples per pixel", &S::minSamples, 1, maximum),
         toleranceRow(),
         real("seconds", "Time limit (seconds, 0: none)", &S::seconds),
         integer("threads", "Threads (0: all)", &S::threads, 0, 4096),

@@ -24,9 +24,9 @@ template <class Weight> double accumulate(int count, const Weight& weight, float
 /// @param u in [0, 1)
 /// @param within receives where in the interval, in [0, 1)
 inline int invert(const float* cumulative, int count, float u, float& within) {
-    constexpr int fewEnough = 64;
+    constexpr int maxLinearSearch = 64;
     int index = 0;
-    if (count <= fewEnough)
+    if (count <= maxLinearSearch)
         for (int i = 1; i < count; ++i)
             index += cumulative[i] <= u ? 1 : 0;
     else

@@ -11,9 +11,9 @@ namespace patina {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr int mostColumns = 32, mostRows = 16; ///< of blocks
-constexpr int partsAcross = 4;                 ///< of a block, each with a cosine of its own
-constexpr int normalsAcross = 16;              ///< octahedral map
+constexpr int maxColumns = 32, maxRows = 16; ///< of blocks
+constexpr int partsAcross = 4;               ///< of a block, each with a cosine of its own
+constexpr int normalsAcross = 16;            ///< octahedral map
 constexpr int normalCount = normalsAcross * normalsAcross;
 constexpr double plainShare = 0.02;
 
@@ -61,8 +61,8 @@ struct SkyDistribution::Part {
 
 SkyDistribution::SkyDistribution(int width, int height, const std::vector<float>& weights)
     : _width(width), _height(height) {
-    cut(width, std::min(width, mostColumns), _left, _columnBlock);
-    cut(height, std::min(height, mostRows), _top, _rowBlock);
+    cut(width, std::min(width, maxColumns), _left, _columnBlock);
+    cut(height, std::min(height, maxRows), _top, _rowBlock);
     fillBlocks(weights);
     const int columns = int(_left.size()) - 1, rows = int(_top.size()) - 1;
     const size_t blocks = size_t(columns) * size_t(rows);

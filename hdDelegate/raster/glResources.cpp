@@ -8,11 +8,11 @@
 
 namespace patina {
 
-GlBuffer::GlBuffer(size_t size, const void* data) : _size(std::max(size, leastSize)) {
+GlBuffer::GlBuffer(size_t size, const void* data) : _size(std::max(size, minSize)) {
     gl.CreateBuffers(1, &_id);
     // The driver reads as much as the buffer holds, which may be more than there is.
-    unsigned char padded[leastSize] = {};
-    const bool pads = size < leastSize && size > 0 && data;
+    unsigned char padded[minSize] = {};
+    const bool pads = size < minSize && size > 0 && data;
     if (pads) std::memcpy(padded, data, size);
     gl.NamedBufferStorage(_id, GLsizeiptr(_size),
                           size == 0 ? nullptr

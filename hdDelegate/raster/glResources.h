@@ -13,8 +13,8 @@ namespace patina {
 class GlBuffer {
 public:
     GlBuffer() = default;
-    static constexpr size_t leastSize = 16; ///< bytes, since OpenGL knows no empty buffer
-    /// @param data null leaves the contents open. Sizes in bytes; what is smaller than leastSize
+    static constexpr size_t minSize = 16; ///< bytes, since OpenGL knows no empty buffer
+    /// @param data null leaves the contents open. Sizes in bytes; what is smaller than minSize
     /// is followed by zeros.
     GlBuffer(size_t size, const void* data);
     template <typename T> explicit GlBuffer(const std::vector<T>& v)

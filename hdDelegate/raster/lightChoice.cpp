@@ -5,18 +5,18 @@
 
 namespace patina {
 
-std::vector<ChosenLight> chooseLights(const std::vector<float>& weights, size_t most, float u) {
+std::vector<ChosenLight> chooseLights(const std::vector<float>& weights, size_t maximum, float u) {
     std::vector<ChosenLight> out;
-    if (weights.size() <= most) {
+    if (weights.size() <= maximum) {
         for (size_t i = 0; i < weights.size(); ++i)
             out.push_back({i, 1.0f});
         return out;
     }
-    if (most == 0) return out;
+    if (maximum == 0) return out;
     // What would be chosen more than once is taken for sure, and the rest shares what is left.
     std::vector<bool> sure(weights.size(), false);
     double scale = 0.0;
-    for (size_t round = 0; round <= most; ++round) {
+    for (size_t round = 0; round <= maximum; ++round) {
         double sum = 0.0;
         size_t taken = 0;
         for (size_t i = 0; i < weights.size(); ++i) {
@@ -25,10 +25,10 @@ std::vector<ChosenLight> chooseLights(const std::vector<float>& weights, size_t 
             else
                 sum += double(weights[i]);
         }
-        scale = sum > 0.0 ? double(most - taken) / sum : 0.0;
+        scale = sum > 0.0 ? double(maximum - taken) / sum : 0.0;
         bool again = false;
         for (size_t i = 0; i < weights.size(); ++i)
-            if (!sure[i] && double(weights[i]) * scale >= 1.0 && taken < most) {
+            if (!sure[i] && double(weights[i]) * scale >= 1.0 && taken < maximum) {
                 sure[i] = again = true;
                 ++taken;
             }
@@ -42,7 +42,7 @@ std::vector<ChosenLight> chooseLights(const std::vector<float>& weights, size_t 
         }
         const double chance = double(weights[i]) * scale;
         running += chance;
-        if (chance > 0.0 && at < running && out.size() < most) {
+        if (chance > 0.0 && at < running && out.size() < maximum) {
             out.push_back({i, float(1.0 / chance)});
             at += 1.0;
         }

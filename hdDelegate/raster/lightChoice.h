@@ -12,9 +12,9 @@ struct ChosenLight {
 };
 
 /// Chooses some of many by systematic sampling: each with a probability in proportion to its
-/// weight (at most 1), and never more than `most`. Those sure to be chosen count once.
+/// weight (at most 1), and never more than `maximum`. Those sure to be chosen count once.
 /// @param weights not negative; those of 0 are chosen only when there is room for all
 /// @param u in [0,1)
-std::vector<ChosenLight> chooseLights(const std::vector<float>& weights, size_t most, float u);
+std::vector<ChosenLight> chooseLights(const std::vector<float>& weights, size_t maximum, float u);
 
 } // namespace patina

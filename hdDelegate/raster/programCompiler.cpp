@@ -6,7 +6,7 @@
 namespace patina {
 
 ProgramCompiler::ProgramCompiler(const EglContext& shared, int threads)
-    : _shared(shared), _most(std::max(threads, 0)) {}
+    : _shared(shared), _maximum(std::max(threads, 0)) {}
 
 ProgramCompiler::~ProgramCompiler() {
     {
@@ -22,14 +22,14 @@ ProgramCompiler::~ProgramCompiler() {
 void ProgramCompiler::add(std::function<void()> work) {
     const std::lock_guard<std::mutex> lock(_mutex);
     _work.push_back(std::move(work));
-    if (_idle < int(_work.size()) && int(_threads.size()) < _most) {
+    if (_idle < int(_work.size()) && int(_threads.size()) < _maximum) {
         std::string error;
         if (auto context = EglContext::sharing(_shared, error)) {
             _contexts.push_back(std::move(context));
             ++_idle;
             _threads.emplace_back(&ProgramCompiler::run, this, _contexts.back().get());
         } else {
-            _most = 0;
+            _maximum = 0;
         }
     }
     _changed.notify_one();
@@ -48,10 +48,10 @@ bool ProgramCompiler::help() {
     return true;
 }
 
-void ProgramCompiler::wait(std::chrono::milliseconds most) {
+void ProgramCompiler::wait(std::chrono::milliseconds maximum) {
     std::unique_lock<std::mutex> lock(_mutex);
     const size_t before = _count;
-    _ended.wait_for(lock, most, [&] { return _count != before; });
+    _ended.wait_for(lock, maximum, [&] { return _count != before; });
 }
 
 void ProgramCompiler::finished() {

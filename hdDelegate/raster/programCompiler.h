@@ -28,14 +28,14 @@ public:
     /// Whether somebody but help() runs functions.
     bool hasThreads() const { return !_threads.empty(); }
     /// Waits until some function has ended, or so long.
-    void wait(std::chrono::milliseconds most);
+    void wait(std::chrono::milliseconds maximum);
 
 private:
     void run(EglContext* context);
     void finished();
 
     const EglContext& _shared;
-    int _most;
+    int _maximum;
     std::mutex _mutex;
     std::condition_variable _changed, _ended;
     std::deque<std::function<void()>> _work;

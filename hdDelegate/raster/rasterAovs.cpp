@@ -7,7 +7,8 @@
 
 namespace patina {
 
-void RasterAovs::write(const RasterAovImages& images, const RasterAovWish& wish, Film& film) const {
+void RasterAovs::write(const RasterAovImages& images, const RasterAovRequest& request,
+                       Film& film) const {
     const auto& [positions, normals, albedos, primvars, ids] = images;
     const mat4& toCamera = camera.worldToCamera();
     for (size_t a = 0; a < aovs.size(); ++a) {
@@ -49,7 +50,7 @@ void RasterAovs::write(const RasterAovImages& images, const RasterAovWish& wish,
         else if ((name == "albedo" || name == denoisingAlbedoAov) && !albedos.empty())
             each([&](size_t i) { return vec3(albedos[i]); });
         else if (name.rfind("primvars:", 0) == 0) {
-            const int slot = RasterAovWish::slot(wish.primvars, name.substr(9));
+            const int slot = RasterAovRequest::slot(request.primvars, name.substr(9));
             if (slot >= 0) each4([&](size_t i) { return primvars[size_t(slot)][i]; });
         } else if (name == "primId")
             id(0);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hdDelegate/film/film.h"
-#include "hdDelegate/raster/rasterAovWish.h"
+#include "hdDelegate/raster/rasterAovRequest.h"
 #include "hdDelegate/raster/rasterCamera.h"
 
 namespace patina {
@@ -22,8 +22,8 @@ struct RasterAovs {
     int width, height;
     const int* window; ///< pixels that are written: xmin, ymin, xmax, ymax, inclusive
 
-    /// @param wish that the images were made for
-    void write(const RasterAovImages& images, const RasterAovWish& wish, Film& film) const;
+    /// @param request that the images were made for
+    void write(const RasterAovImages& images, const RasterAovRequest& request, Film& film) const;
 };
 
 } // namespace patina

@@ -23,7 +23,7 @@ vec2 conform(vec2 aperture, float imageAspect, const std::string& policy) {
     return aperture;
 }
 
-vec2 disc(vec2 u) {
+vec2 disk(vec2 u) {
     const float r = std::sqrt(u.x), phi = 6.2831853f * u.y;
     return {r * std::cos(phi), r * std::sin(phi)};
 }
@@ -79,7 +79,7 @@ RasterView RasterCamera::view(vec2 offset, vec2 lens, float time, const vec3& lo
     } else {
         // A point of the lens sees the plane in focus through the same window.
         vec2 at(0.0f);
-        if (_lensRadius > 0.0f) at = disc(lens) * _lensRadius;
+        if (_lensRadius > 0.0f) at = disk(lens) * _lensRadius;
         if (_lensRadius > 0.0f) {
             lo -= at / _camera.focusDistance;
             hi -= at / _camera.focusDistance;

@@ -10,7 +10,7 @@ namespace patina {
 namespace {
 
 constexpr float pi = 3.14159265f;
-constexpr int mostSides = 63, mostSteps = 64;
+constexpr int maxSides = 63, maxSteps = 64;
 constexpr float largestTurn = 0.15f; ///< of a curve's direction or a ribbon's normal in a step
 
 using Rate = MeshAttribute::Rate;
@@ -33,9 +33,9 @@ float widestOf(const CurveSet& set) {
 
 class CurveBuilder {
 public:
-    CurveBuilder(const CurveSet& set, const RasterFineness& fineness, bool strips, bool vaulted)
+    CurveBuilder(const CurveSet& set, const RasterFineness& fineness, bool strips, bool domed)
         : _set(set), _gap(fineness.gap), _linear(set.basis == CurveBasis::Linear),
-          _ribbon(!set.normals.empty()), _strips(strips && !_ribbon), _vaulted(vaulted && _strips) {
+          _ribbon(!set.normals.empty()), _strips(strips && !_ribbon), _domed(domed && _strips) {
         for (const MeshAttribute& a : set.attributes) {
             MeshAttribute copy = a;
             if (a.rate == Rate::PerCorner) copy.data.clear();
@@ -45,7 +45,7 @@ public:
 
     RasterTriangles build() {
         const float widest = widestOf(_set);
-        _sides = _vaulted ? 3 : _strips || _ribbon ? 1 : sidesFor(widest);
+        _sides = _domed ? 3 : _strips || _ribbon ? 1 : sidesFor(widest);
         // As wide as the circle in the mean over all directions.
         _wider = !_strips && _sides > 1 ? pi / float(_sides) / std::sin(pi / float(_sides)) : 1.0f;
         for (size_t s = 0; s < _set.segments.size(); ++s)
@@ -54,7 +54,7 @@ public:
         mesh.boundsMin = vec3(INFINITY);
         mesh.boundsMax = vec3(-INFINITY);
         for (size_t i = 0; i < _positions.size(); ++i) {
-            const float r = _strips ? std::fabs(_out.aside[i]) : 0.0f;
+            const float r = _strips ? std::fabs(_out.halfWidth[i]) : 0.0f;
             mesh.boundsMin = glm::min(mesh.boundsMin, _positions[i] - r);
             mesh.boundsMax = glm::max(mesh.boundsMax, _positions[i] + r);
         }
@@ -67,14 +67,14 @@ public:
         size_t steps = 0;
         for (size_t s = 0; s < _set.segments.size(); ++s)
             steps += size_t(stepsOf(s));
-        return 2 * steps * size_t(_vaulted ? 3 : _strips || _ribbon ? 1 : sidesFor(widestOf(_set)));
+        return 2 * steps * size_t(_domed ? 3 : _strips || _ribbon ? 1 : sidesFor(widestOf(_set)));
     }
 
 private:
     /// An odd number: the width of such polygons depends less on the direction.
     int sidesFor(float radius) const {
         if (!(_gap > 0.0f)) return 9;
-        return std::clamp(int(std::ceil(pi * std::sqrt(radius / (3.0f * _gap)))) | 1, 5, mostSides);
+        return std::clamp(int(std::ceil(pi * std::sqrt(radius / (3.0f * _gap)))) | 1, 5, maxSides);
     }
 
     int controls() const { return _linear ? 2 : 4; }
@@ -134,7 +134,7 @@ private:
             normal = nextNormal;
         }
         const float steps = std::max(std::sqrt(bend / (8.0f * _gap)), turn / largestTurn);
-        return int(std::ceil(std::clamp(steps, 1.0f, float(mostSteps))));
+        return int(std::ceil(std::clamp(steps, 1.0f, float(maxSteps))));
     }
 
     /// Whether no other segment of the curve goes on from an end of this one.
@@ -191,8 +191,8 @@ private:
         if (_strips) {
             for (int k = 0; k <= _sides; ++k) {
                 const bool edge = k == 0 || k == _sides;
-                _out.aside.push_back(2 * k < _sides ? ring.radius : -ring.radius);
-                _out.ends.push_back(float(ring.end) + (edge ? 0.0f : StripVault));
+                _out.halfWidth.push_back(2 * k < _sides ? ring.radius : -ring.radius);
+                _out.ends.push_back(float(ring.end) + (edge ? 0.0f : StripDome));
                 vertex(ring.position, ring.along);
             }
             return uint32_t(_positions.size()) - uint32_t(_sides) - 1;
@@ -283,7 +283,7 @@ private:
 
     const CurveSet& _set;
     float _gap, _wider = 1.0f;
-    bool _linear, _ribbon, _strips, _vaulted;
+    bool _linear, _ribbon, _strips, _domed;
     int _sides = 1;
     vec3 _x{0.0f}; ///< across the ring before
     RasterTriangles _out;
@@ -292,24 +292,24 @@ private:
 
 } // namespace
 
-bool fitCurves(const CurveSet& set, RasterFineness& fineness, size_t most) {
+bool fitCurves(const CurveSet& set, RasterFineness& fineness, size_t maximum) {
     const float widest = widestOf(set);
     for (int i = 0; i < 24 && fineness.gap > 0.0f; ++i) {
         const bool thin = widest <= fineness.thick;
-        if (CurveBuilder(set, fineness, thin, false).expected() <= most) break;
+        if (CurveBuilder(set, fineness, thin, false).expected() <= maximum) break;
         fineness.gap *= 2.0f;
         fineness.thick *= 2.0f;
     }
     return widest <= fineness.thick;
 }
 
-bool vaultsFit(const CurveSet& set, const RasterFineness& fineness, size_t most) {
-    return CurveBuilder(set, fineness, true, true).expected() <= most;
+bool domedStripsFit(const CurveSet& set, const RasterFineness& fineness, size_t maximum) {
+    return CurveBuilder(set, fineness, true, true).expected() <= maximum;
 }
 
 RasterTriangles curveTriangles(const CurveSet& set, const RasterFineness& fineness, bool strips,
-                               bool vaulted) {
-    return CurveBuilder(set, fineness, strips, vaulted).build();
+                               bool domed) {
+    return CurveBuilder(set, fineness, strips, domed).build();
 }
 
 } // namespace patina

@@ -180,8 +180,7 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
         e.edge2 = p[2] - p[0];
         e.area = 0.5f * glm::length(glm::cross(e.edge1, e.edge2));
         if (!(e.area > 0.0f) || !std::isfinite(e.area)) continue;
-        e.twoSided =
-            source.glows && !closed &&
+        e.twoSided = source.glows && !closed &&
                      (light.mode == RasterMeshLight::None || light.mode == RasterMeshLight::Adds);
         e.mirrored = mirrored;
         e.category = category;
@@ -203,11 +202,11 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
     double mean = 0.0;
     for (const float b : bright)
         mean += double(b) / double(bright.size());
-    const double least = constant ? 0.0 : std::max(0.02 * mean, 1e-6);
+    const double minimum = constant ? 0.0 : std::max(0.02 * mean, 1e-6);
     size_t kept = first;
     for (size_t i = 0; i < bright.size(); ++i) {
         const RasterEmitter e = _emitters[first + i];
-        const double power = double(e.area) * (double(bright[i]) + least);
+        const double power = double(e.area) * (double(bright[i]) + minimum);
         if (!(power > 0.0) || !std::isfinite(power)) continue;
         _sums.push_back((_sums.empty() ? 0.0 : _sums.back()) + power);
         _emitters[kept++] = e;

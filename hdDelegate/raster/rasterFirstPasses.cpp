@@ -15,7 +15,7 @@ void RasterPasses::smooth(const RasterSample& sample, bool look, std::vector<vec
     if (sample.pass >= RasterLook::smoothed || _smoothing.empty()) return;
     const std::vector<vec4> before = _smoothing;
     if (look) {
-        takeShared(pixels, _width, _height, sample, _window, [&](int x, int y, const vec4& value) {
+        takeSplats(pixels, _width, _height, sample, _window, [&](int x, int y, const vec4& value) {
             if (std::isfinite(value.x + value.y + value.z))
                 _smoothing[size_t(y) * size_t(_width) + size_t(x)] += value;
         });
@@ -36,7 +36,7 @@ void RasterPasses::smooth(const RasterSample& sample, bool look, std::vector<vec
 void RasterPasses::beginFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film) {
     _first.assign(size_t(_width) * size_t(_height), vec4(0.0f));
     _sums.assign(_first.size(), vec4(0.0f));
-    takeShared(pixels, _width, _height, sample, _window, [&](int x, int y, const vec4& value) {
+    takeSplats(pixels, _width, _height, sample, _window, [&](int x, int y, const vec4& value) {
         _first[size_t(y) * size_t(_width) + size_t(x)] = value;
         film.addColor(x, y, vec3(value), value.w);
     });
@@ -47,7 +47,7 @@ void RasterPasses::beginFirst(std::vector<vec4>& pixels, const RasterSample& sam
 void RasterPasses::showFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film) {
     const uint32_t passes = sample.pass + 1;
     const float share = RasterLook::shareOfFirst(passes);
-    takeShared(pixels, _width, _height, sample, _window, [&](int x, int y, const vec4& value) {
+    takeSplats(pixels, _width, _height, sample, _window, [&](int x, int y, const vec4& value) {
         const size_t at = size_t(y) * size_t(_width) + size_t(x);
         film.addColor(x, y, vec3(value), value.w);
         _sums[at] += value;

@@ -11,16 +11,16 @@ namespace {
 
 constexpr int maxDepth = 8;
 
-bool holds(std::string root, const std::string& path) {
+bool contains(std::string root, const std::string& path) {
     while (!root.empty() && root.back() == '/')
         root.pop_back();
     return path.compare(0, root.size(), root) == 0 &&
            (path.size() == root.size() || path[root.size()] == '/');
 }
 
-bool anyHolds(const std::vector<std::string>& roots, const std::string& path) {
+bool anyContains(const std::vector<std::string>& roots, const std::string& path) {
     return std::any_of(roots.begin(), roots.end(),
-                       [&](const std::string& root) { return holds(root, path); });
+                       [&](const std::string& root) { return contains(root, path); });
 }
 
 bool usable(const mat4& m) {
@@ -37,15 +37,15 @@ bool isDrawnInRaster(const Geometry& prim, const RenderSettings& settings) {
     const std::string tag = prim.renderTag.empty() ? "geometry" : prim.renderTag;
     const auto& tags = settings.renderTags;
     if (!tags.empty() && std::find(tags.begin(), tags.end(), tag) == tags.end()) return false;
-    if (!settings.rootPaths.empty() && !anyHolds(settings.rootPaths, prim.path)) return false;
-    return prim.visibility.camera && !anyHolds(settings.excludePaths, prim.path);
+    if (!settings.rootPaths.empty() && !anyContains(settings.rootPaths, prim.path)) return false;
+    return prim.visibility.camera && !anyContains(settings.excludePaths, prim.path);
 }
 
 RasterInstances::RasterInstances(const SceneState& state, const RenderSettings& settings,
                                  float timeCode, const vec3& origin)
     : _time(timeCode), _origin(origin) {
     for (const auto& item : state.instancers)
-        if (item.second->visibility.camera && !anyHolds(settings.excludePaths, item.first))
+        if (item.second->visibility.camera && !anyContains(settings.excludePaths, item.first))
             _instancers.push_back(item.second);
     _places[""] = {RasterPlace()};
     _places[""][0].groupToWorld[3] -= vec4(origin, 0.0f);

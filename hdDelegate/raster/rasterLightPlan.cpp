@@ -22,9 +22,9 @@ const std::string passes = "16 passes";
 
 /// Passes until noise that is `error` after rowPasses falls to `allowed`.
 double passesFor(double error, double allowed, const RenderSettings& settings) {
-    const double least = std::max(2, settings.minSamples);
+    const double minimum = std::max(2, settings.minSamples);
     const double needed = rowPasses * std::pow(error / std::max(allowed, 1e-9), 2.0);
-    return std::clamp(needed, least, 1e9);
+    return std::clamp(needed, minimum, 1e9);
 }
 
 std::string samplesOf(int count) {
@@ -98,7 +98,7 @@ RasterLightPlan::Option RasterLightPlan::domes(const MethodPlan& material,
                               : method == "filtered" ? samplesOf(samples)
                                                      : "";
     const auto under = [&](const char* sky) {
-        return predictLight(*material.seen, "domeLight", method, sky, count);
+        return predictLight(*material.probes, "domeLight", method, sky, count);
     };
     Option option{method, samples, 0.0, 0.0};
     if (_peak <= evenPeak * 1.2) {
@@ -131,7 +131,7 @@ RasterLightPlan::Option RasterLightPlan::areas(const MethodPlan& material,
     Option option{method, 0, 0.0, 0.0};
     for (const std::string& shape : _areas) {
         const LightPrediction p =
-            predictLight(*material.seen, "areaLight", method, shape,
+            predictLight(*material.probes, "areaLight", method, shape,
                          method == "sampled" ? samplesOf(int(rowPasses)) : "");
         measured = measured && p.measured;
         option.error = std::max(option.error, p.error);
@@ -144,7 +144,7 @@ std::vector<PlannedMethod> RasterLightPlan::choose(const MethodPlan& material,
                                                    const RenderSettings& settings,
                                                    bool transmits) const {
     std::vector<PlannedMethod> result;
-    if (!(settings.tolerance >= 0.0) || !material.seen || material.seen->empty()) return result;
+    if (!(settings.tolerance >= 0.0) || !material.probes || material.probes->empty()) return result;
     const bool exact = settings.tolerance == 0.0 || transmits;
     double budget = std::max(methodShare * settings.tolerance - material.error, 0.0);
     const auto forced = [&](const std::string& point) { return settings.methods.count(point) > 0; };

@@ -114,23 +114,23 @@ RasterLights::choose(uint32_t pass, const ShadowBounds& bounds, int room) const 
         else
             groups[maps == 0 ? 0 : maps == 1 ? 1 : 2].push_back(i);
     }
-    // What domes light shows everywhere: up to `mostDomes` none is ever missing.
+    // What domes light shows everywhere: up to `maxDomes` none is ever missing.
     const float turn = passNumbers(_seed, pass, 23).x;
     for (const ChosenLight& c :
-         chooseLights(std::vector<float>(domes.size(), 1.0f), mostDomes, turn)) {
+         chooseLights(std::vector<float>(domes.size(), 1.0f), maxDomes, turn)) {
         out.emplace_back(domes[c.index], c.share);
         room -= mapsOf(_sources[domes[c.index]], bounds);
     }
     room = std::max(room, 7);
-    const int others = int(out.size()) * std::max(_domeSamples, 1) + mostCoarseSamples;
-    const int left = std::max(mostTaken - others, 3);
+    const int others = int(out.size()) * std::max(_domeSamples, 1) + maxCoarseSamples;
+    const int left = std::max(maxTaken - others, 3);
     const int ones = int(groups[1].size()), sixes = int(groups[2].size());
     const int forSixes = std::min(sixes, std::max(1, (room - std::min(ones, room / 4)) / 6));
-    int most[3] = {maxUnshadowed, sixes > 0 ? room - 6 * forSixes : room, forSixes};
+    int maximum[3] = {maxUnshadowed, sixes > 0 ? room - 6 * forSixes : room, forSixes};
     for (int k = 0, given = left; k < 3; ++k) { // a third each at least
-        const int wanted = std::min(most[k], int(groups[k].size()));
-        most[k] = std::min(wanted, given / (3 - k));
-        given -= most[k];
+        const int wanted = std::min(maximum[k], int(groups[k].size()));
+        maximum[k] = std::min(wanted, given / (3 - k));
+        given -= maximum[k];
     }
     const vec3 center = 0.5f * (bounds.receiverMin + bounds.receiverMax);
     const float radius = 0.25f * glm::length(bounds.receiverMax - bounds.receiverMin);
@@ -147,7 +147,7 @@ RasterLights::choose(uint32_t pass, const ShadowBounds& bounds, int room) const 
         for (float& w : weights)
             w = 1.0f / float(weights.size()) + (sum > 0.0f && std::isfinite(sum) ? w / sum : 0.0f);
         const float u = passNumbers(_seed, pass, 20 + uint32_t(k)).x;
-        for (const ChosenLight& c : chooseLights(weights, size_t(std::max(most[k], 0)), u))
+        for (const ChosenLight& c : chooseLights(weights, size_t(std::max(maximum[k], 0)), u))
             out.emplace_back(groups[k][c.index], c.share);
     }
     return out;
@@ -164,7 +164,7 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
         int more = 0;
         for (const Source& s : _sources)
             more += mapsOf(s, bounds.ofFibres());
-        out.fibres = wanted + more + (emitters.empty() ? 0 : 6 * leastEmitterSamples) <= maxMaps;
+        out.fibres = wanted + more + (emitters.empty() ? 0 : 6 * minEmitterSamples) <= maxMaps;
         if (out.fibres) wanted += more;
     }
     // Maps of half the size are still finer than a small image, and more samples gain more.
@@ -172,23 +172,23 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
     const int emitterSamples =
         emitters.empty()
             ? 0
-            : std::clamp(((coarse ? maxSmallMaps : maxMaps) - wanted) / 6, leastEmitterSamples,
-                         coarse ? mostCoarseSamples : mostEmitterSamples);
+            : std::clamp(((coarse ? maxSmallMaps : maxMaps) - wanted) / 6, minEmitterSamples,
+                         coarse ? maxCoarseSamples : maxEmitterSamples);
     const int forEmitters = _shadows ? 6 * emitterSamples : 0;
     wanted += forEmitters;
-    int most = maxMaps;
+    int maximum = maxMaps;
     out.mapSize = mapSize;
     if (wanted > maxMaps) {
-        most = maxSmallMaps;
+        maximum = maxSmallMaps;
         out.mapSize = mapSize / 2;
     }
     // As many texels in more maps, as long as they are no coarser than the image.
-    while (wanted > most && most < maxTinyMaps && out.mapSize / 2 >= pixels) {
-        most *= 4;
+    while (wanted > maximum && maximum < maxTinyMaps && out.mapSize / 2 >= pixels) {
+        maximum *= 4;
         out.mapSize /= 2;
     }
     out.mapSize = enoughFor(pixels, out.mapSize);
-    int room = most - forEmitters;
+    int room = maximum - forEmitters;
     std::vector<bool> taken(_sources.size(), false);
     for (const auto& choice : choose(pass, bounds, room)) {
         const Source& s = _sources[choice.first];
@@ -209,8 +209,8 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
             out.lights.push_back(g);
         }
     }
-    takeEmitters(pass, emitterSamples, emitters, bounds, most, out);
-    if (out.lights.size() > size_t(mostTaken)) out.lights.resize(size_t(mostTaken));
+    takeEmitters(pass, emitterSamples, emitters, bounds, maximum, out);
+    if (out.lights.size() > size_t(maxTaken)) out.lights.resize(size_t(maxTaken));
     out.taken = int(out.lights.size());
     out.look[0] = out.look[2] = out.taken;
     for (size_t i = 0; i < _sources.size(); ++i)
@@ -220,7 +220,7 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
 }
 
 void RasterLights::takeEmitters(uint32_t pass, int samples, const RasterEmitters& emitters,
-                                const ShadowBounds& bounds, int most, Sampled& out) const {
+                                const ShadowBounds& bounds, int maximum, Sampled& out) const {
     for (uint32_t n = 0; n < uint32_t(samples); ++n) {
         const vec2 u = passNumbers(_seed, pass * uint32_t(samples) + n, 17);
         const vec2 turn = passNumbers(_seed, pass * uint32_t(samples) + n, 18);
@@ -249,7 +249,7 @@ void RasterLights::takeEmitters(uint32_t pass, int samples, const RasterEmitters
         g.cone = vec4(0.0f, 0.0f, e.twoSided ? 1.0f : 0.0f, 0.0f);
         g.fade.w = 1.0f / float(samples);
         g.axis[2].w = float(e.category);
-        if (_shadows) castShadow(g, -1, turn, bounds, most, out);
+        if (_shadows) castShadow(g, -1, turn, bounds, maximum, out);
         out.lights.push_back(g);
     }
 }

@@ -59,7 +59,7 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
                 add(light, place.groupToWorld * transformAt(light.transform, timeCode), settings,
                     images, domes, categories, diagnostics);
         }
-    _tables.upload(mostTables);
+    _tables.upload(maxTables);
     domes.upload(_domeMethods.count("prefiltered") > 0);
 }
 

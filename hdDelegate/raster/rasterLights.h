@@ -19,18 +19,18 @@ namespace patina {
 /// them, which then count more, so that the mean of the passes is right.
 class RasterLights {
 public:
-    static constexpr int leastEmitterSamples = 2; ///< of all glowing triangles together, per pass
-    static constexpr int mostEmitterSamples = 5;  ///< where lights leave room for their shadows
-    static constexpr int mostCoarseSamples = 16;  ///< in small images, by maps of half the size
-    static constexpr int maxMaps = 32;            ///< shadow maps per pass in the full size
-    static constexpr int maxSmallMaps = 128;      ///< in half of it, where lights need more
-    static constexpr int maxTinyMaps = 512;       ///< smaller still, for as few pixels a side
-    static constexpr int texelsPerPixel = 4;      ///< along a side of a map, and of the image
-    static constexpr int smallestMap = 256;       ///< what casts is no coarser in small images
-    static constexpr int maxUnshadowed = 64;      ///< lights without shadows per pass
-    static constexpr int mostDomes = 24;          ///< per pass
-    static constexpr int lookEvery = 8;           ///< of a light's samples a pixel takes one in
-    static constexpr int mostTaken = 208;         ///< samples per pass, see Lights in lights.glsl
+    static constexpr int minEmitterSamples = 2; ///< of all glowing triangles together, per pass
+    static constexpr int maxEmitterSamples = 5; ///< where lights leave room for their shadows
+    static constexpr int maxCoarseSamples = 16; ///< in small images, by maps of half the size
+    static constexpr int maxMaps = 32;          ///< shadow maps per pass in the full size
+    static constexpr int maxSmallMaps = 128;    ///< in half of it, where lights need more
+    static constexpr int maxTinyMaps = 512;     ///< smaller still, for as few pixels a side
+    static constexpr int texelsPerPixel = 4;    ///< along a side of a map, and of the image
+    static constexpr int smallestMap = 256;     ///< what casts is no coarser in small images
+    static constexpr int maxUnshadowed = 64;    ///< lights without shadows per pass
+    static constexpr int maxDomes = 24;         ///< per pass
+    static constexpr int lookEvery = 8;         ///< of a light's samples a pixel takes one in
+    static constexpr int maxTaken = 208;        ///< samples per pass, see Lights in lights.glsl
 
     /// @param domeSamples per pass, where domes are sampled
     /// @param domeMethods of `domeLight`, by which materials are drawn
@@ -53,16 +53,16 @@ public:
     };
     /// For a first look: many samples of each light, of which every pixel takes others than its
     /// neighbours, so that what is wrong is noise and not the same everywhere.
-    /// @param most shadow maps that may be drawn; where they do not suffice, lights are as in
+    /// @param maximum shadow maps that may be drawn; where they do not suffice, lights are as in
     /// sample()
     Sampled sampleLook(uint32_t pass, const RasterEmitters& emitters, const ShadowBounds& bounds,
-                       int mapSize, int pixels, int most) const;
+                       int mapSize, int pixels, int maximum) const;
     /// For the first image where maps are too dear for that: light by as many samples, shadows of
     /// domes by the cells of the sky, and of other lights by the maps of few of their samples. It
     /// is not right in the mean where there are shadows, so nothing of it may stay.
     /// @returns nothing taken where there is no room even for that
     Sampled sampleFirst(const RasterEmitters& emitters, const ShadowBounds& bounds, int mapSize,
-                        int pixels, int most) const;
+                        int pixels, int maximum) const;
     /// @param mapSize of shadow maps, when there are not too many
     /// @param pixels along the longer side of the image
     Sampled sample(uint32_t pass, const RasterEmitters& emitters, const ShadowBounds& bounds,
@@ -76,8 +76,8 @@ public:
     /// Whether shadows are asked for in directions that are no light's samples.
     bool needsSky() const { return _shadows && (_hasDome || _hasWideSun); }
     const RasterLightTables& tables() const { return _tables; }
-    static constexpr int mostTables = ///< values of a pass in tables
-        mostCoarseSamples *
+    static constexpr int maxTables = ///< values of a pass in tables
+        maxCoarseSamples *
         std::max(RasterEmission::thetas, RasterEmission::turnThetas* RasterEmission::turns);
 
 private:
@@ -109,8 +109,9 @@ private:
     GpuLight draw(const Source& source, const vec3& u) const;
     /// @param mapped samples that have shadow maps of their own
     void addLook(const Source& source, size_t number, uint32_t pass, int samples, int mapped,
-                 const ShadowBounds& bounds, int most, Sampled& out, std::vector<GpuLight>& looked,
-                 std::vector<GpuLight>& shared, std::vector<GpuLight>& pool) const;
+                 const ShadowBounds& bounds, int maximum, Sampled& out,
+                 std::vector<GpuLight>& looked, std::vector<GpuLight>& shared,
+                 std::vector<GpuLight>& pool) const;
     int lookSamples(const Source& source) const;
     static void join(Sampled& out, const std::vector<GpuLight>& looked,
                      const std::vector<GpuLight>& shared, std::vector<GpuLight> pool);
@@ -119,13 +120,13 @@ private:
     std::vector<std::pair<size_t, float>> choose(uint32_t pass, const ShadowBounds& bounds,
                                                  int room) const;
     void takeEmitters(uint32_t pass, int samples, const RasterEmitters& emitters,
-                      const ShadowBounds& bounds, int most, Sampled& out) const;
-    /// @param most maps that there is room for; a light that needs more is not shadowed
-    void castShadow(GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds, int most,
-                    Sampled& out) const;
+                      const ShadowBounds& bounds, int maximum, Sampled& out) const;
+    /// @param maximum maps that there is room for; a light that needs more is not shadowed
+    void castShadow(GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds,
+                    int maximum, Sampled& out) const;
     /// @returns how many maps show the receivers; 0 without room
     int castOnto(const GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds,
-                 int most, Sampled& out) const;
+                 int maximum, Sampled& out) const;
 
     RasterLightTables _tables;
     std::vector<Source> _sources;

@@ -13,9 +13,9 @@ namespace patina {
 namespace {
 
 constexpr int every = RasterLights::lookEvery;
-constexpr int mostPooled = 32;       ///< of a dome; half as many of an area
+constexpr int maxPooled = 32;        ///< of a dome; half as many of an area
 constexpr int drawnOfDome = 2048;    ///< directions, to tell what is peaked, and what all light
-constexpr int mostPeaks = 4;         ///< samples of what is peaked, which all pixels take
+constexpr int maxPeaks = 4;          ///< samples of what is peaked, which all pixels take
 constexpr float peakDensity = 10.0f; ///< by solid angle
 /// Narrower suns have one sample: 1 - cosine of half the angle of 3 degrees.
 constexpr float sharpSun = 3.4e-4f;
@@ -24,13 +24,13 @@ constexpr float sharpSun = 3.4e-4f;
 
 /// As many as there is a use for; 1 where all are alike.
 int RasterLights::lookSamples(const Source& s) const {
-    if (s.kind == Dome) return _domeSamples > 0 ? mostPooled : 1;
-    if (s.kind == Distant) return s.fixed.cone.z > sharpSun ? mostPooled / 2 : 1;
-    return s.kind == Point || (s.delta && s.kind != Line) ? 1 : mostPooled / 2;
+    if (s.kind == Dome) return _domeSamples > 0 ? maxPooled : 1;
+    if (s.kind == Distant) return s.fixed.cone.z > sharpSun ? maxPooled / 2 : 1;
+    return s.kind == Point || (s.delta && s.kind != Line) ? 1 : maxPooled / 2;
 }
 
 void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int samples, int mapped,
-                           const ShadowBounds& bounds, int most, Sampled& out,
+                           const ShadowBounds& bounds, int maximum, Sampled& out,
                            std::vector<GpuLight>& looked, std::vector<GpuLight>& shared,
                            std::vector<GpuLight>& pool) const {
     const uint32_t set = 100 + 16 * uint32_t(number);
@@ -40,7 +40,8 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
         if (dome && _domeSamples == 0)
             g.shadow.x = 0.0f; // has no map of its own, but shadows
         else
-            castShadow(g, s.shadowCategory, passNumbers(_seed, index, set + 1), bounds, most, out);
+            castShadow(g, s.shadowCategory, passNumbers(_seed, index, set + 1), bounds, maximum,
+                       out);
     };
     if (samples == 1) {
         GpuLight g = draw(s, threeNumbers(_seed, pass, set));
@@ -76,7 +77,7 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
         for (size_t k = 0; k < all.size(); ++k)
             all[k].second.radiance = vec4(vec3(all[k].second.radiance) * factors[k], float(Dome));
     }
-    const size_t shares = std::min<size_t>(peaks.size(), mostPeaks);
+    const size_t shares = std::min<size_t>(peaks.size(), maxPeaks);
     const float perPixel = float(samples / every);
     int taken = 0;
     std::vector<size_t> origins; // of pool, whose maps others use
@@ -125,29 +126,29 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
 
 RasterLights::Sampled RasterLights::sampleLook(uint32_t pass, const RasterEmitters& emitters,
                                                const ShadowBounds& bounds, int mapSize, int pixels,
-                                               int most) const {
+                                               int maximum) const {
     const auto mapsEach = [&](const Source& s) {
         if (!_shadows || !s.shadows) return 0;
         if (s.kind == Dome) return _domeSamples > 0 ? 1 : 0;
         return mapsOf(s, bounds);
     };
-    most = std::min(most, int(maxSmallMaps));
+    maximum = std::min(maximum, int(maxSmallMaps));
     const auto needed = [&](int pooled) {
         int maps = 0, lights = 0;
         for (const Source& s : _sources) {
             const int samples = std::min(lookSamples(s), s.kind == Dome ? pooled : pooled / 2);
             const int n = samples < every ? 1 : samples;
-            maps += mapsEach(s) * (s.kind == Dome ? n + mostPeaks : n);
-            lights += n + (s.kind == Dome ? mostPeaks : 0) + 1;
+            maps += mapsEach(s) * (s.kind == Dome ? n + maxPeaks : n);
+            lights += n + (s.kind == Dome ? maxPeaks : 0) + 1;
         }
-        return lights <= mostTaken - mostCoarseSamples ? maps : 1 << 20;
+        return lights <= maxTaken - maxCoarseSamples ? maps : 1 << 20;
     };
     const int emitterMaps = emitters.empty() || !_shadows ? 0 : 6;
-    int pooled = mostPooled;
-    while (pooled > every && needed(pooled) + emitterMaps * leastEmitterSamples > most)
+    int pooled = maxPooled;
+    while (pooled > every && needed(pooled) + emitterMaps * minEmitterSamples > maximum)
         pooled /= 2;
     Sampled out;
-    if (bounds.hasFibres() || needed(pooled) + emitterMaps * leastEmitterSamples > most) {
+    if (bounds.hasFibres() || needed(pooled) + emitterMaps * minEmitterSamples > maximum) {
         out = sample(pass, emitters, bounds, mapSize, pixels);
         out.look[3] = every;
         return out;
@@ -155,8 +156,8 @@ RasterLights::Sampled RasterLights::sampleLook(uint32_t pass, const RasterEmitte
     int emitterSamples = 0;
     if (!emitters.empty()) {
         const int room =
-            emitterMaps > 0 ? (most - needed(pooled)) / emitterMaps : mostCoarseSamples;
-        emitterSamples = std::clamp(room, int(leastEmitterSamples), int(mostCoarseSamples));
+            emitterMaps > 0 ? (maximum - needed(pooled)) / emitterMaps : maxCoarseSamples;
+        emitterSamples = std::clamp(room, int(minEmitterSamples), int(maxCoarseSamples));
         if (emitterSamples >= every) emitterSamples = emitterSamples / every * every;
     }
     const bool many = needed(pooled) + emitterMaps * emitterSamples > maxMaps;
@@ -165,14 +166,14 @@ RasterLights::Sampled RasterLights::sampleLook(uint32_t pass, const RasterEmitte
     for (size_t i = 0; i < _sources.size(); ++i) {
         const Source& s = _sources[i];
         const int samples = std::min(lookSamples(s), s.kind == Dome ? pooled : pooled / 2);
-        addLook(s, i, pass, samples < every ? 1 : samples, mostTaken, bounds, most, out, looked,
+        addLook(s, i, pass, samples < every ? 1 : samples, maxTaken, bounds, maximum, out, looked,
                 shared, pool);
     }
-    takeEmitters(pass, emitterSamples, emitters, bounds, most, out);
+    takeEmitters(pass, emitterSamples, emitters, bounds, maximum, out);
     std::vector<GpuLight>& glowing = emitterSamples >= every ? pool : shared;
     glowing.insert(glowing.end(), out.lights.begin(), out.lights.end());
     join(out, looked, shared, std::move(pool));
-    out.many = pooled == mostPooled;
+    out.many = pooled == maxPooled;
     return out;
 }
 
@@ -192,24 +193,24 @@ void RasterLights::join(Sampled& out, const std::vector<GpuLight>& looked,
 
 RasterLights::Sampled RasterLights::sampleFirst(const RasterEmitters& emitters,
                                                 const ShadowBounds& bounds, int mapSize, int pixels,
-                                                int most) const {
+                                                int maximum) const {
     Sampled out;
-    most = std::min(most, int(maxSmallMaps));
+    maximum = std::min(maximum, int(maxSmallMaps));
     int lights = 0, single = 0, pooled = 0; // maps for one sample of each light
     for (const Source& s : _sources) {
         const int samples = lookSamples(s);
-        lights += samples + (s.kind == Dome ? mostPeaks : 0) + 1;
+        lights += samples + (s.kind == Dome ? maxPeaks : 0) + 1;
         const int maps = !_shadows || !s.shadows || s.kind == Dome ? 0 : mapsOf(s, bounds);
         single += maps;
         if (samples > 1) pooled += maps;
     }
-    const int emitterMaps = emitters.empty() || !_shadows ? 0 : 6 * leastEmitterSamples;
-    if (bounds.hasFibres() || lights > mostTaken - leastEmitterSamples ||
-        single + emitterMaps > std::max(most, int(maxMaps)))
+    const int emitterMaps = emitters.empty() || !_shadows ? 0 : 6 * minEmitterSamples;
+    if (bounds.hasFibres() || lights > maxTaken - minEmitterSamples ||
+        single + emitterMaps > std::max(maximum, int(maxMaps)))
         return out;
     // Lights that are sharp have one sample, and its maps.
-    const int mapped = pooled > 0 ? std::clamp((most - emitterMaps - (single - pooled)) / pooled, 1,
-                                               mostPooled / 2)
+    const int mapped = pooled > 0 ? std::clamp((maximum - emitterMaps - (single - pooled)) / pooled,
+                                               1, maxPooled / 2)
                                   : 1;
     const bool many = emitterMaps + single - pooled + mapped * pooled > maxMaps;
     out.mapSize = enoughFor(pixels, many ? mapSize / 2 : mapSize);
@@ -217,8 +218,7 @@ RasterLights::Sampled RasterLights::sampleFirst(const RasterEmitters& emitters,
     for (size_t i = 0; i < _sources.size(); ++i)
         addLook(_sources[i], i, 0, lookSamples(_sources[i]), _sources[i].kind == Dome ? 0 : mapped,
                 bounds, int(maxSmallMaps), out, looked, shared, pool);
-    takeEmitters(0, emitters.empty() ? 0 : leastEmitterSamples, emitters, bounds, maxSmallMaps,
-                 out);
+    takeEmitters(0, emitters.empty() ? 0 : minEmitterSamples, emitters, bounds, maxSmallMaps, out);
     shared.insert(shared.end(), out.lights.begin(), out.lights.end());
     join(out, looked, shared, std::move(pool));
     return out;

@@ -41,14 +41,14 @@ RasterMaterials::RasterMaterials(Diagnostics& diagnostics, ProgramCompiler* comp
 void RasterMaterials::update(const SceneState& state, const RenderSettings& settings,
                              const RasterLightPlan& lights) {
     _lights = lights;
-    if (const RasterAovWish aovs(settings.aovs); !(aovs == _aovs)) {
+    if (const RasterAovRequest aovs(settings.aovs); !(aovs == _aovs)) {
         _aovs = aovs;
         _materials.clear();
         for (const std::string& name : _aovs.leftOut)
             _diagnostics.warn("", "",
                               "the AOV primvars:" + name +
                                   " is left empty: the rasterizer writes " +
-                                  std::to_string(RasterAovWish::mostPrimvars) + " primvars");
+                                  std::to_string(RasterAovRequest::maxPrimvars) + " primvars");
     }
     _domeMethods.clear();
     _standIns = 0;
@@ -194,14 +194,15 @@ void RasterMaterials::finish(const std::atomic<bool>& stop,
     }
 }
 
-void RasterMaterials::waitForMore(std::chrono::milliseconds most) {
-    if (_compiler->hasThreads() || !_compiler->help()) _compiler->wait(most);
+void RasterMaterials::waitForMore(std::chrono::milliseconds maximum) {
+    if (_compiler->hasThreads() || !_compiler->help()) _compiler->wait(maximum);
 }
 
 bool RasterMaterials::light(Cached& cached, const RenderSettings& settings) {
     cached.lit = true;
-    cached.light = _lights.choose(withoutWalks(cached.material.program->planned()), settings,
-                                  cached.material.glsl.transmits || cached.material.glsl.holds);
+    cached.light =
+        _lights.choose(withoutWalks(cached.material.program->planned()), settings,
+                       cached.material.glsl.transmits || cached.material.glsl.hasInterior);
     std::string dome = chosenMethod(settings.methods, "domeLight");
     std::string area = chosenMethod(settings.methods, "areaLight");
     for (const PlannedMethod& m : cached.light) {
@@ -235,7 +236,7 @@ namespace {
 /// The texts of a material's programs, for any thread with a context.
 struct ProgramTexts {
     GlStage vertex, color, aovs, shadowVertex, shadow, tint;
-    bool lets = false, tints = false; ///< light may pass; and is coloured
+    bool lets = false, hasColoredPresence = false; ///< light may pass; and is coloured
 };
 
 std::shared_ptr<const RasterPrograms> makePrograms(const ProgramTexts& texts, std::string& error) {
@@ -247,7 +248,7 @@ std::shared_ptr<const RasterPrograms> makePrograms(const ProgramTexts& texts, st
         programs->shadow = GlProgram::make({texts.shadowVertex, texts.shadow}, error);
         if (!programs->shadow) return nullptr;
     }
-    if (texts.tints) {
+    if (texts.hasColoredPresence) {
         programs->tint = GlProgram::make({texts.vertex, texts.tint}, error);
         if (!programs->tint) return nullptr;
     }
@@ -265,7 +266,7 @@ std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial
                              (glsl.presence ? "#define PRESENCE\n" : "") +
                              "#define MATERIAL_GLOWS " + (glsl.emission ? "true\n" : "false\n") +
                              (glsl.transmits ? "#define MATERIAL_TRANSMITS\n" : "") +
-                             (glsl.holds ? "#define MATERIAL_HOLDS\n" : "") +
+                             (glsl.hasInterior ? "#define MATERIAL_HAS_INTERIOR\n" : "") +
                              (glsl.volumeOnly ? "#define MATERIAL_IS_VOLUME\n" : "") +
                              (glsl.fibre ? "#define MATERIAL_IS_FIBRE\n" : "") +
                              "#define MATERIAL_IS_THIN " + (glsl.thin ? "true\n" : "false\n") +
@@ -296,7 +297,7 @@ std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial
                             glsl.passesText + "#include \"shaders/raster/presence.frag.glsl\"\n");
     texts.tint = fragment("#include \"shaders/raster/tint.frag.glsl\"\n");
     texts.lets = glsl.presence || !glsl.passesText.empty();
-    texts.tints = glsl.presence && glsl.tints;
+    texts.hasColoredPresence = glsl.presence && glsl.hasColoredPresence;
     shared = std::make_shared<PendingPrograms>();
     const auto make = [pending = shared, texts = std::move(texts)] {
         if (const std::string slow = glFault("compiling"); !slow.empty())

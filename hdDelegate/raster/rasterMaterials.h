@@ -3,7 +3,7 @@
 #include "hdDelegate/raster/glProgram.h"
 #include "hdDelegate/raster/glResources.h"
 #include "hdDelegate/raster/programCompiler.h"
-#include "hdDelegate/raster/rasterAovWish.h"
+#include "hdDelegate/raster/rasterAovRequest.h"
 #include "hdDelegate/raster/rasterLightPlan.h"
 #include "hdDelegate/raster/rasterTextures.h"
 #include "hdDelegate/scene/scene.h"
@@ -62,7 +62,7 @@ public:
     /// @param told how far they are, again and again
     void finish(const std::atomic<bool>& stop, const std::function<void(const Ready&)>& told);
     /// The same until one more is ready, or for so long.
-    void waitForMore(std::chrono::milliseconds most);
+    void waitForMore(std::chrono::milliseconds maximum);
     Ready ready() const;
     /// Whether get() gives displayColor in place of what is not ready, instead of waiting for it.
     void showStandIns(bool show) { _showStandIns = show; }
@@ -81,7 +81,7 @@ public:
     void update(const SceneState& state, const RenderSettings& settings,
                 const RasterLightPlan& lights);
     /// What programs write beside light.
-    const RasterAovWish& aovs() const { return _aovs; }
+    const RasterAovRequest& aovs() const { return _aovs; }
     /// Methods of `domeLight` that materials have been built with since update().
     const std::set<std::string>& domeMethods() const { return _domeMethods; }
     /// Samples where domes are filtered: the most that a material asks for.
@@ -126,7 +126,7 @@ private:
 
     ProgramCompiler* _compiler;
     RasterLightPlan _lights;
-    RasterAovWish _aovs;
+    RasterAovRequest _aovs;
     std::set<std::string> _domeMethods;
     int _environmentSamples = 0; ///< 0: nobody has said how many
     Diagnostics& _diagnostics;

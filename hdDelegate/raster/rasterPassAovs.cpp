@@ -11,14 +11,14 @@
 namespace patina {
 
 /// The targets of aovs.frag.glsl.
-void RasterPasses::makeAovTarget(const RasterAovWish& wish) {
+void RasterPasses::makeAovTarget(const RasterAovRequest& request) {
     const auto make = [&] { return GlTexture(GL_TEXTURE_2D, GL_RGBA32F, _width, _height); };
-    _aovWish = wish;
-    _albedo = wish.albedo || !wish.primvars.empty() ? make() : GlTexture();
+    _aovRequest = request;
+    _albedo = request.albedo || !request.primvars.empty() ? make() : GlTexture();
     _primvars.clear();
     std::vector<const GlTexture*> targets = {&_position, &_normal, &_ids};
     if (_albedo) targets.push_back(&_albedo);
-    for (size_t i = 0; i < wish.primvars.size(); ++i)
+    for (size_t i = 0; i < request.primvars.size(); ++i)
         _primvars.push_back(make());
     for (const GlTexture& primvar : _primvars)
         targets.push_back(&primvar);
@@ -26,7 +26,7 @@ void RasterPasses::makeAovTarget(const RasterAovWish& wish) {
 }
 
 void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera) {
-    if (!(scene.aovs() == _aovWish)) makeAovTarget(scene.aovs());
+    if (!(scene.aovs() == _aovRequest)) makeAovTarget(scene.aovs());
     if (!_aovTarget.complete()) throw DeviceError("the driver has no room for the AOVs");
     const RasterView view =
         camera.view(vec2(0.0f), vec2(0.0f), 0.5f, scene.boundsMin(), scene.boundsMax());
@@ -77,7 +77,7 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
 void RasterPasses::writeAovs(const RasterScene& scene, const RasterCamera& camera,
                              const std::vector<AovSpec>& aovs, Film& film) const {
     const RasterAovs target{camera, aovs, scene.origin(), _width, _height, _window};
-    target.write(_seen, _aovWish, film);
+    target.write(_seen, _aovRequest, film);
 }
 
 /// What the camera sees, which is all that shadows have to be found on.

@@ -14,7 +14,7 @@ struct RasterPasses::PassBlock {
     vec4 extra{0.0f};
     int lightInfo[4] = {0, 0, 0, 0};
     vec4 origin{0.0f}, range{0.0f};
-    vec4 clipPlanes[RasterPasses::mostPlanes];
+    vec4 clipPlanes[RasterPasses::maxPlanes];
     int look[4] = {0, 0, 0, 1};
 };
 
@@ -32,7 +32,7 @@ public:
     Clipping(const Clipping&) = delete;
     Clipping& operator=(const Clipping&) = delete;
     static int planesOf(const RasterView& view) {
-        return std::min(int(view.planes.size()), mostPlanes);
+        return std::min(int(view.planes.size()), maxPlanes);
     }
 
 private:

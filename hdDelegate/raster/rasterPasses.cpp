@@ -73,7 +73,7 @@ bool RasterPasses::resize(const RenderSettings& settings, int& border) {
     _width = width;
     _height = height;
     _border = border;
-    makeAovTarget(_aovWish);
+    makeAovTarget(_aovRequest);
     return _colorTarget.complete() && _aovTarget.complete() && _look->resize(_color, _depth);
 }
 
@@ -119,13 +119,13 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
     for (const RasterDraw& d : scene.draws()) {
         const GlslMaterial& glsl = d.material->glsl;
         const RasterPrograms& programs = *d.material->programs;
-        if (which == Tints ? !programs.tint
-            : aovs         ? glsl.volumeOnly
-                           : glsl.transmits != (which == Transmitting))
+        if (which == ColoredPresence ? !programs.tint
+            : aovs                   ? glsl.volumeOnly
+                                     : glsl.transmits != (which == Transmitting))
             continue;
-        const GlProgram* program = (which == Tints ? programs.tint
-                                    : aovs         ? programs.aovs
-                                                   : programs.color)
+        const GlProgram* program = (which == ColoredPresence ? programs.tint
+                                    : aovs                   ? programs.aovs
+                                                             : programs.color)
                                        .get();
         if (program != last) program->use();
         last = program;
@@ -136,13 +136,13 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
         }
         lastMaterial = d.material;
         gl.Uniform4i(1, d.surface->primvarBits, d.primId, d.flags, 0);
-        if (aovs && !_aovWish.primvars.empty()) {
-            int slots[RasterAovWish::mostPrimvars] = {-1, -1, -1, -1};
-            for (size_t i = 0; i < _aovWish.primvars.size(); ++i)
-                slots[i] = RasterAovWish::slot(d.material->primvars, _aovWish.primvars[i]);
+        if (aovs && !_aovRequest.primvars.empty()) {
+            int slots[RasterAovRequest::maxPrimvars] = {-1, -1, -1, -1};
+            for (size_t i = 0; i < _aovRequest.primvars.size(); ++i)
+                slots[i] = RasterAovRequest::slot(d.material->primvars, _aovRequest.primvars[i]);
             gl.Uniform4i(8, slots[0], slots[1], slots[2], slots[3]);
         }
-        if (!aovs && which != Tints) {
+        if (!aovs && which != ColoredPresence) {
             const vec3& l = d.meshLight.radiance;
             gl.Uniform4f(7, l.x, l.y, l.z, float(d.meshLight.mode));
         }
@@ -150,7 +150,7 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
         if (known) gl.DepthFunc(GL_LEQUAL);
         drawRuns(d, *d.surface, visible);
         if (known) gl.DepthFunc(GL_LESS);
-        if (!aovs && which != Tints && !programs.drawn) {
+        if (!aovs && which != ColoredPresence && !programs.drawn) {
             programs.drawn = true;
             if (_firstDraws) _firstDraws();
         }
@@ -199,25 +199,25 @@ void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights
     }
 }
 
-void RasterPasses::needBehind() {
-    if (!_behind) {
+void RasterPasses::needRefraction() {
+    if (!_refraction) {
         std::string error;
-        _behind = std::make_unique<RasterBehind>(error);
-        if (!_behind->ok()) throw DeviceError("the driver does not take the shaders: " + error);
+        _refraction = std::make_unique<RasterRefraction>(error);
+        if (!_refraction->ok()) throw DeviceError("the driver does not take the shaders: " + error);
     }
-    if (!_behind->resize(_color.width(), _color.height()))
+    if (!_refraction->resize(_color.width(), _color.height()))
         throw DeviceError("the driver has no room for an image of this size");
 }
 
 void RasterPasses::drawVolumes(const RasterScene& scene) {
     if (scene.volumes().empty()) return;
-    needBehind();
+    needRefraction();
     gl.Disable(GL_DEPTH_TEST);
     int index = 0;
     for (const RasterVolume* volume : scene.volumes()) {
-        _behind->keep(_color, _depth);
-        _behind->bind();
-        _behind->drawVolume(*volume, index++);
+        _refraction->keep(_color, _depth);
+        _refraction->bind();
+        _refraction->drawVolume(*volume, index++);
     }
     gl.Enable(GL_DEPTH_TEST);
 }
@@ -226,16 +226,16 @@ void RasterPasses::drawVolumes(const RasterScene& scene) {
 void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisible& visible) {
     const auto transmits = [](const RasterDraw& d) { return d.material->glsl.transmits; };
     if (std::none_of(scene.draws().begin(), scene.draws().end(), transmits)) return;
-    needBehind();
-    _behind->keep(_color, _depth);
-    _behind->beginBacks();
+    needRefraction();
+    _refraction->keep(_color, _depth);
+    _refraction->beginBacks();
     for (const RasterDraw& d : scene.draws()) {
         if (!transmits(d)) continue;
         gl.Uniform4i(1, 0, d.primId, d.flags, 0);
         drawRuns(d, *d.surface, visible);
     }
     _look->target().bind();
-    _behind->bind();
+    _refraction->bind();
     drawSurfaces(scene, visible, Transmitting);
 }
 
@@ -272,7 +272,7 @@ void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
         return;
     }
     if (look) _look->read(smoothing);
-    addShared(pixels, _width, _height, sample, _window, film);
+    addSplats(pixels, _width, _height, sample, _window, film);
     smooth(sample, look, smoothing, film);
 }
 
@@ -285,9 +285,9 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     std::vector<mat4> matrices;
     for (const ShadowView& v : sampled.shadows)
         matrices.push_back(v.worldToMap);
-    static_assert(RasterLights::mostTaken * sizeof(GpuLight) <= 63232, "see isEnough()");
+    static_assert(RasterLights::maxTaken * sizeof(GpuLight) <= 63232, "see isEnough()");
     std::vector<GpuLight> taken(sampled.lights.begin(), sampled.lights.begin() + sampled.taken);
-    taken.resize(RasterLights::mostTaken, GpuLight::none());
+    taken.resize(RasterLights::maxTaken, GpuLight::none());
     const GlBuffer lightBuffer(sampled.lights), takenBuffer(taken), matrixBuffer(matrices);
 
     const RasterView view = camera.view(sample.offset, sample.lens, sample.time, scene.boundsMin(),
@@ -360,10 +360,10 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
         gl.Enable(GL_BLEND);
         gl.BlendFunc(GL_ZERO, GL_SRC_COLOR);
         _colorTarget.bind();
-        drawSurfaces(scene, visible, Tints);
+        drawSurfaces(scene, visible, ColoredPresence);
         if (look) {
             _look->difference().bind();
-            drawSurfaces(scene, visible, Tints);
+            drawSurfaces(scene, visible, ColoredPresence);
         }
         _colorTarget.bind();
     }

@@ -3,11 +3,11 @@
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/raster/glTimer.h"
 #include "hdDelegate/raster/rasterAovs.h"
-#include "hdDelegate/raster/rasterBehind.h"
+#include "hdDelegate/raster/rasterFilterSplat.h"
 #include "hdDelegate/raster/rasterLights.h"
 #include "hdDelegate/raster/rasterLook.h"
+#include "hdDelegate/raster/rasterRefraction.h"
 #include "hdDelegate/raster/rasterScene.h"
-#include "hdDelegate/raster/rasterShares.h"
 #include "hdDelegate/raster/rasterSky.h"
 
 #include <functional>
@@ -67,24 +67,24 @@ public:
 
     static constexpr int shadowMapSize = 1024;
     static constexpr int bsdfSamples = 2; ///< per pixel and pass
-    static constexpr int mostPlanes = 8;  ///< that a camera clips with; see passBlock.glsl
+    static constexpr int maxPlanes = 8;   ///< that a camera clips with; see passBlock.glsl
 
 private:
     struct PassBlock;
     class Clipping;
-    void makeAovTarget(const RasterAovWish& wish);
+    void makeAovTarget(const RasterAovRequest& request);
     PassBlock block(const RasterScene& scene, const RasterView& view) const;
     void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);
     static int skyCells(const RasterScene& scene);
     void drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass);
     void drawCasters(const RasterScene& scene, const ShadowView& view, const GlTexture& maps,
                      int layer) const;
-    enum Which { AllForAovs, Solid, Transmitting, Tints };
+    enum Which { AllForAovs, Solid, Transmitting, ColoredPresence };
     void drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which) const;
     void drawDepths(const RasterScene& scene, const RasterVisible& visible) const;
     void drawTransmitting(const RasterScene& scene, const RasterVisible& visible);
     void drawVolumes(const RasterScene& scene);
-    void needBehind();
+    void needRefraction();
     void drawImage(const RasterScene& scene, const RasterLights& lights, const RasterDomes& domes,
                    int environmentSamples, const RasterCamera& camera, const RasterSample& sample,
                    const RasterLights::Sampled& sampled, bool look, std::vector<vec4>& pixels);
@@ -98,7 +98,7 @@ private:
 
     std::unique_ptr<GlProgram> _background, _shadow, _shadowAround, _depthOnly;
     std::unique_ptr<RasterLook> _look;
-    std::unique_ptr<RasterBehind> _behind; ///< made when something transmits
+    std::unique_ptr<RasterRefraction> _refraction; ///< made when something transmits
     GlBuffer _passBuffer, _albedoTable;
     GLuint _vertexArray = 0;
     int _width = 0, _height = 0, _border = 0;
@@ -107,7 +107,7 @@ private:
     GlTexture _albedo;
     std::vector<GlTexture> _primvars;
     GlFramebuffer _colorTarget, _aovTarget;
-    RasterAovWish _aovWish; ///< that _aovTarget is for
+    RasterAovRequest _aovRequest; ///< that _aovTarget is for
     GLuint _shadowTarget = 0;
     int _shadowLayers = 0;
     RasterSky _sky;

@@ -178,9 +178,9 @@ private:
         }
         std::function<void(const RasterMaterials::Ready&)> compiling;
         if (!standIns)
-            compiling = [this](const RasterMaterials::Ready& ready) { tellCompiling(ready); };
+            compiling = [this](const RasterMaterials::Ready& ready) { notifyCompiling(ready); };
         _raster->update(state, _origin, camera, _settings, lightPlan(state), _stop, compiling);
-        if (standIns) tellCompiling(_raster->programsReady());
+        if (standIns) notifyCompiling(_raster->programsReady());
         if (_stop) return;
         // Every sample of a dome costs a shadow map: few of them where that takes long.
         const int domeSamples = _raster->trianglesDrawn() > 1000000 ? 1 : 4;
@@ -197,7 +197,7 @@ private:
         return std::clamp(threads - 1, 0, 7);
     }
 
-    void tellCompiling(const RasterMaterials::Ready& ready) {
+    void notifyCompiling(const RasterMaterials::Ready& ready) {
         const std::lock_guard<std::mutex> lock(_mutex);
         if (!_compiling) {
             _compiling = true;
@@ -245,10 +245,10 @@ private:
 
     void render(const SceneState& state, const Camera& cameraPrim) {
         RasterCamera camera = cameraFrom(cameraPrim);
-        if (cameraPrim.clippingPlanes.size() > size_t(RasterPasses::mostPlanes))
+        if (cameraPrim.clippingPlanes.size() > size_t(RasterPasses::maxPlanes))
             _scene->diagnostics().warn(cameraPrim.path, "clippingPlanes",
                                        "the rasterizer clips by the first " +
-                                           std::to_string(RasterPasses::mostPlanes) + " alone");
+                                           std::to_string(RasterPasses::maxPlanes) + " alone");
         checkDevice(0);
         // Somebody looks on: images of what there is until all is there.
         const bool early = _settings.interactive && _listener && _film->resumeToken.empty();
@@ -293,7 +293,7 @@ private:
             _progress.statistics["instances"] = double(_raster->instanceCount());
             _progress.statistics["programsBuilt"] = double(_raster->programsBuilt());
             const ScenePlan plan = _raster->plan();
-            plan.tell(_settings.tolerance, _progress.statistics);
+            plan.addStatistics(_settings.tolerance, _progress.statistics);
             _progress.plans = plan.materials();
             if (_settings.tolerance >= 0.0) _progress.sceneChoices = plan.choices();
         }
@@ -330,7 +330,7 @@ private:
             {
                 const std::lock_guard<std::mutex> lock(_mutex);
                 _progress.samplesDone = int(i) + 1;
-                tellSeconds();
+                reportSeconds();
                 _progress.fraction = double(i + 1) / std::max(1, _settings.samples);
                 _progress.secondsRendering = secondsSince(sampling);
                 _progress.secondsLeft =
@@ -362,7 +362,7 @@ private:
         const size_t before = _raster->programsReady().ready;
         while (!_stop) {
             const RasterMaterials::Ready now = _raster->programsReady();
-            tellCompiling(now);
+            notifyCompiling(now);
             if (now.ready == now.wanted ||
                 (now.ready > before && secondsSince(began) > earlySeconds))
                 break;
@@ -399,8 +399,8 @@ private:
         sample.lens = numbers.next2();
         sample.time = numbers.next2().x;
         if (border > 0) {
-            sample.sharesX = filter.shares(sample.offset.x);
-            sample.sharesY = filter.shares(sample.offset.y);
+            sample.splatX = filter.splatWeights(sample.offset.x);
+            sample.splatY = filter.splatWeights(sample.offset.y);
         }
         return sample;
     }
@@ -416,7 +416,7 @@ private:
     }
 
     /// With _mutex held.
-    void tellSeconds() {
+    void reportSeconds() {
         auto& to = _progress.statistics;
         to["secondsAovs"] = _passes->seconds(RasterPasses::Aovs);
         to["secondsShadows"] = _passes->seconds(RasterPasses::Shadows);
@@ -495,7 +495,7 @@ private:
     std::string _deviceFailure; ///< what was made with the context is gone
     Clock::time_point _started;
     static constexpr double earlySeconds = 0.5; ///< between early images
-    bool _compiling = false;                    ///< tellCompiling() was called in this render
+    bool _compiling = false;                    ///< notifyCompiling() was called in this render
     size_t _readyAtStart = 0;                   ///< programs
     Clock::time_point _compileStarted;
 };

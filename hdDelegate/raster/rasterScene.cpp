@@ -23,7 +23,7 @@ float areaOf(const TriangleMesh& mesh, const mat4& toWorld) {
     return float(area);
 }
 
-constexpr size_t fewPlaces = 32; // are drawn in the order that they have
+constexpr size_t maxUnsortedPlaces = 32; // are drawn in the order that they have
 
 bool deforms(const Geometry& prim) {
     switch (prim.kind) {
@@ -79,7 +79,7 @@ void RasterScene::GpuInstance::place(const mat4& toWorld) {
 
 void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& places,
                            const mat4& toGroup) {
-    if (group.places.size() > fewPlaces) {
+    if (group.places.size() > maxUnsortedPlaces) {
         std::vector<vec3> centers;
         for (const uint32_t i : group.places)
             centers.emplace_back(places[i].groupToWorld[3]);
@@ -117,24 +117,24 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
             &_materials.get(subset.material.empty() ? prim->material : subset.material, prim->path,
                             state, settings));
     const mat4 toGroup = transformAt(prim->transform, camera.timeCode(0.5f));
-    RasterShapeCache::Wish wish;
-    wish.prim = prim;
-    wish.timeCode = camera.timeCode(0.5f);
-    wish.toWorld = where[0].groupToWorld * toGroup;
-    wish.toWorld[3] += vec4(_origin, 0.0f);
-    wish.needsMesh = _meshLights.count(prim->path) != 0;
+    RasterShapeCache::Request request;
+    request.prim = prim;
+    request.timeCode = camera.timeCode(0.5f);
+    request.toWorld = where[0].groupToWorld * toGroup;
+    request.toWorld[3] += vec4(_origin, 0.0f);
+    request.needsMesh = _meshLights.count(prim->path) != 0;
     for (const RasterMaterial* material : materials) {
         const MaterialProgram& program = *material->program;
-        wish.primvars.push_back(material->primvars);
+        request.primvars.push_back(material->primvars);
         const bool bends = program.hasDisplacement() && (prim->kind == GeometryKind::Mesh ||
                                                          prim->kind == GeometryKind::Implicit);
-        wish.displacers.push_back(bends ? material->program : nullptr);
-        wish.needsMesh |= settings.enableSceneLights && program.hasEmission();
+        request.displacers.push_back(bends ? material->program : nullptr);
+        request.needsMesh |= settings.enableSceneLights && program.hasEmission();
     }
-    wish.strips = !wish.needsMesh;
+    request.strips = !request.needsMesh;
     // Places that are equally far away share a tessellation.
     const bool displaced =
-        std::any_of(wish.displacers.begin(), wish.displacers.end(),
+        std::any_of(request.displacers.begin(), request.displacers.end(),
                     [](const std::shared_ptr<const MaterialProgram>& p) { return p != nullptr; });
     auto& [measured, extent] = _extents[prim->path];
     if (measured != prim) {
@@ -145,19 +145,19 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     // Displacement shows more of itself on shorter edges, which no row of the table is of.
     if (displaced && !_subdivision.forced && !_subdivision.point.empty())
         fine.edgeLength = std::min(fine.edgeLength, SubdivisionPlan::standardEdge);
-    const RasterDetail detail(extent, prim->transform, camera, fine, displaced, wish.needsMesh);
+    const RasterDetail detail(extent, prim->transform, camera, fine, displaced, request.needsMesh);
     std::map<float, std::vector<uint32_t>> byEdge;
     for (size_t i = 0; i < where.size(); ++i)
         byEdge[detail.edgeAt(where[i])].push_back(uint32_t(i));
     const size_t firstGroup = _groups.size();
     for (auto& [edge, list] : byEdge) {
-        wish.edge = edge;
-        wish.edgeBudget = detail.trianglesFor(edge);
+        request.edge = edge;
+        request.edgeBudget = detail.trianglesFor(edge);
         RasterGroup group;
         group.prim = prim;
-        group.shape = _shapes.get(wish);
+        group.shape = _shapes.get(request);
         if (deforms(*prim) && _shutterClose > _shutterOpen) {
-            auto still = std::make_shared<RasterShapeCache::Wish>(wish);
+            auto still = std::make_shared<RasterShapeCache::Request>(request);
             still->needsMesh = false; // lights stay where they are in the middle of the shutter
             group.deforms = std::move(still);
             _moves = true;
@@ -221,7 +221,7 @@ float RasterScene::planSubdivision(const SceneState& state, const RasterCamera& 
     SubdivisionPlan plan(settings, screen);
     for (const auto& item : state.geometry) {
         const Geometry& prim = *item.second;
-        if (!plan.looks() || !subdivides(prim) || !isDrawnInRaster(prim, settings)) continue;
+        if (!plan.isActive() || !subdivides(prim) || !isDrawnInRaster(prim, settings)) continue;
         const mat4 toGroup = transformAt(prim.transform, camera.timeCode(0.5f));
         std::vector<mat4> toWorld;
         for (const RasterPlace& place : places.places(prim.group))
@@ -327,9 +327,9 @@ void RasterScene::deform(float timeCode) {
     const float time = _shutterOpen + (step + 0.5f) / float(deformationSteps) * length;
     for (RasterGroup& group : _groups) {
         if (!group.deforms) continue;
-        RasterShapeCache::Wish wish = *group.deforms;
-        wish.timeCode = time;
-        const auto shape = _shapes.get(wish);
+        RasterShapeCache::Request request = *group.deforms;
+        request.timeCode = time;
+        const auto shape = _shapes.get(request);
         if (shape->surfaces.size() == group.shape->surfaces.size() &&
             shape->flags == group.shape->flags)
             group.shape = shape;

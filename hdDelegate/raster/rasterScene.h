@@ -20,7 +20,7 @@ struct RasterGroup {
     std::shared_ptr<const RasterShape> shape;
     std::vector<uint32_t> places; ///< of the prim's RasterInstances::places(), one per instance
     /// What other times of the shutter are made from; null where the points stay.
-    std::shared_ptr<const RasterShapeCache::Wish> deforms;
+    std::shared_ptr<const RasterShapeCache::Request> deforms;
     int firstInstance = 0;
 };
 
@@ -70,7 +70,7 @@ public:
     /// How many materials displayColor stands in for since update().
     size_t standIns() const { return _materials.standIns(); }
     /// Waits until one more is ready, or for so long.
-    void waitForPrograms(std::chrono::milliseconds most) { _materials.waitForMore(most); }
+    void waitForPrograms(std::chrono::milliseconds maximum) { _materials.waitForMore(maximum); }
     /// Moves to another time of the shutter: transforms exactly, points that move to the nearest of
     /// deformationSteps times. @returns false when nothing moves
     bool moveTo(const SceneState& state, const RenderSettings& settings, float timeCode);
@@ -91,7 +91,7 @@ public:
     size_t trianglesDrawn() const; ///< those of every instance counted
     size_t programsBuilt() const { return _materials.programsBuilt(); }
     ScenePlan plan() const;
-    const RasterAovWish& aovs() const { return _materials.aovs(); }
+    const RasterAovRequest& aovs() const { return _materials.aovs(); }
     /// Methods of `domeLight` that materials are drawn by.
     const std::set<std::string>& domeMethods() const { return _materials.domeMethods(); }
     int environmentSamples() const { return _materials.environmentSamples(); }

@@ -123,17 +123,18 @@ ShadowView distantShadow(const vec3& toLight, vec2 turn, const ShadowBounds& bou
 }
 
 void RasterLights::castShadow(GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds,
-                              int most, Sampled& out) const {
+                              int maximum, Sampled& out) const {
     const float first = float(out.shadows.size());
-    const int maps = castOnto(light, category, turn, bounds, most, out);
+    const int maps = castOnto(light, category, turn, bounds, maximum, out);
     if (maps == 0) return;
-    const int more = out.fibres ? castOnto(light, category, turn, bounds.ofFibres(), most, out) : 0;
+    const int more =
+        out.fibres ? castOnto(light, category, turn, bounds.ofFibres(), maximum, out) : 0;
     light.shadow = vec4(first, float(maps), float(more), light.sampled.w == 0.0f ? 0.0f : 1.0f);
 }
 
 int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
-                           const ShadowBounds& bounds, int most, Sampled& out) const {
-    const auto full = [&](int more) { return int(out.shadows.size()) + more > most; };
+                           const ShadowBounds& bounds, int maximum, Sampled& out) const {
+    const auto full = [&](int more) { return int(out.shadows.size()) + more > maximum; };
     const int kind = int(light.radiance.w);
     const bool flat = kind == Rect || kind == Disk || kind == Triangle;
     const auto cast = [&](const mat4& worldToMap, bool clampsNear) {
@@ -158,7 +159,7 @@ int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
     const vec3 center = 0.5f * (bounds.receiverMin + bounds.receiverMax);
     const float radius = 0.5f * glm::length(bounds.receiverMax - bounds.receiverMin);
     const float distance = glm::length(center - from);
-    const float reach = distance + radius, least = std::max(1e-3f * reach, 1e-6f);
+    const float reach = distance + radius, minimum = std::max(1e-3f * reach, 1e-6f);
     const auto frustum = [&](float tangent, float nearest) {
         const float n = nearest * tangent;
         const vec2 shift = 2.0f * n * shiftOf(turn, out.mapSize);
@@ -172,7 +173,7 @@ int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
         // Numbers are for where shadows fall, but of fading shadows, which are looked for on all of
         // the way.
         const bool clamps = !(light.fade.x > 0.0f);
-        const float nearest = clamps ? std::max(0.95f * cone.nearest, least) : least;
+        const float nearest = clamps ? std::max(0.95f * cone.nearest, minimum) : minimum;
         cast(frustum(1.02f * cone.tangent, nearest) * looking(from, cone.axis, turn.x), clamps);
         return 1;
     }
@@ -181,7 +182,7 @@ int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
     // A little wider than a face of the cube, for offsets and filters at its edges. A small body
     // that glows hides its own far side, however near.
     for (const vec3& d : directions)
-        cast(frustum(1.02f, least) * looking(from, d, 0.0f), kind == Triangle);
+        cast(frustum(1.02f, minimum) * looking(from, d, 0.0f), kind == Triangle);
     return 6;
 }
 

@@ -12,25 +12,26 @@ namespace patina {
 
 namespace {
 
-bool displaces(const RasterShapeCache::Wish& wish) {
-    return std::any_of(wish.displacers.begin(), wish.displacers.end(),
+bool displaces(const RasterShapeCache::Request& request) {
+    return std::any_of(request.displacers.begin(), request.displacers.end(),
                        [](const auto& program) { return program != nullptr; });
 }
 
-/// Whether a shape made for `old` serves `wish`.
-bool serves(const RasterShapeCache::Wish& old, const RasterShapeCache::Wish& wish) {
-    return (old.needsMesh || !wish.needsMesh) && old.timeCode == wish.timeCode &&
-           old.strips == wish.strips && old.primvars == wish.primvars &&
-           old.displacers == wish.displacers && (!displaces(wish) || old.toWorld == wish.toWorld) &&
-           sameShape(*old.prim, *wish.prim);
+/// Whether a shape made for `old` serves `request`.
+bool serves(const RasterShapeCache::Request& old, const RasterShapeCache::Request& request) {
+    return (old.needsMesh || !request.needsMesh) && old.timeCode == request.timeCode &&
+           old.strips == request.strips && old.primvars == request.primvars &&
+           old.displacers == request.displacers &&
+           (!displaces(request) || old.toWorld == request.toWorld) &&
+           sameShape(*old.prim, *request.prim);
 }
 
 /// What tells entries of the cache apart: the path of a prim, but for implicit prims all that their
 /// shape is made of, so that equal ones share it.
-std::string nameOf(const RasterShapeCache::Wish& wish) {
-    const Geometry& prim = *wish.prim;
-    if (prim.kind != GeometryKind::Implicit || !prim.subsets.empty() || displaces(wish) ||
-        wish.needsMesh)
+std::string nameOf(const RasterShapeCache::Request& request) {
+    const Geometry& prim = *request.prim;
+    if (prim.kind != GeometryKind::Implicit || !prim.subsets.empty() || displaces(request) ||
+        request.needsMesh)
         return prim.path;
     std::string name = "implicit";
     const auto add = [&](const auto* data, size_t count) {
@@ -39,13 +40,13 @@ std::string nameOf(const RasterShapeCache::Wish& wish) {
     };
     const auto text = [&](const std::string& word) { add(word.data(), word.size()); };
     const Implicit& shape = static_cast<const Implicit&>(prim);
-    const int kinds[] = {int(shape.shape), shape.axis, int(prim.leftHanded), int(wish.strips)};
+    const int kinds[] = {int(shape.shape), shape.axis, int(prim.leftHanded), int(request.strips)};
     const float sizes[] = {shape.radius, shape.radiusTop, shape.height,
                            shape.size,   shape.width,     shape.length};
     add(kinds, std::size(kinds));
     add(sizes, std::size(sizes));
     text(prim.group);
-    for (const auto& surface : wish.primvars) {
+    for (const auto& surface : request.primvars) {
         text("");
         for (const std::string& primvar : surface)
             text(primvar);
@@ -69,15 +70,15 @@ size_t storageLimit() {
 
 } // namespace
 
-std::shared_ptr<const RasterShape> RasterShapeCache::get(const Wish& wish) {
-    Entry& entry = _entries[{nameOf(wish), wish.edge, wish.timeCode}];
+std::shared_ptr<const RasterShape> RasterShapeCache::get(const Request& request) {
+    Entry& entry = _entries[{nameOf(request), request.edge, request.timeCode}];
     entry.used = true;
-    if (!entry.shape || !serves(entry.wish, wish)) {
+    if (!entry.shape || !serves(entry.request, request)) {
         entry.shape = nullptr; // the old buffers make room for the new ones
-        entry.shape = build(wish);
-        entry.wish = wish;
+        entry.shape = build(request);
+        entry.request = request;
     }
-    entry.wish.prim = wish.prim; // comparing the same object is quick
+    entry.request.prim = request.prim; // comparing the same object is quick
     return entry.shape;
 }
 
@@ -102,38 +103,38 @@ size_t RasterShapeCache::bytes() const {
     return sum;
 }
 
-std::shared_ptr<const RasterShape> RasterShapeCache::build(const Wish& wish) {
+std::shared_ptr<const RasterShape> RasterShapeCache::build(const Request& request) {
     ++_built;
     auto shape = std::make_shared<RasterShape>();
     TessellationOptions options;
-    options.shutterOpen = options.shutterClose = wish.timeCode;
-    options.targetEdge = options.roundEdge = wish.edge;
-    options.edgeBudget = wish.edgeBudget;
+    options.shutterOpen = options.shutterClose = request.timeCode;
+    options.targetEdge = options.roundEdge = request.edge;
+    options.edgeBudget = request.edgeBudget;
     RasterFineness fineness;
-    fineness.gap = RasterDetail::largestGap * wish.edge;
-    if (wish.strips) fineness.thick = wish.edge;
-    RasterForm form = rasterTriangles(*wish.prim, options, fineness, _diagnostics);
+    fineness.gap = RasterDetail::largestGap * request.edge;
+    if (request.strips) fineness.thick = request.edge;
+    RasterForm form = rasterTriangles(*request.prim, options, fineness, _diagnostics);
     TriangleMesh& mesh = form.seen.mesh;
     if (mesh.positions.empty() || mesh.triangles.empty()) return shape;
-    if (displaces(wish)) {
-        if (wish.edge > 0.0f) splitTriangles(mesh, wish.edge, options.triangleBudget);
-        displace(mesh, wish.displacers, wish.toWorld);
+    if (displaces(request)) {
+        if (request.edge > 0.0f) splitTriangles(mesh, request.edge, options.triangleBudget);
+        displace(mesh, request.displacers, request.toWorld);
     }
     shape->boundsMin = mesh.boundsMin;
     shape->boundsMax = mesh.boundsMax;
     shape->flags = mesh.normals.empty() ? RasterShape::faceted : 0;
     if (!form.casting.mesh.triangles.empty()) shape->flags = RasterShape::tube;
-    if (!form.seen.aside.empty()) shape->flags = RasterShape::strip;
+    if (!form.seen.halfWidth.empty()) shape->flags = RasterShape::strip;
     shape->triangles = mesh.triangles.size();
     const auto fill = [&](const RasterTriangles& triangles, std::vector<RasterSurface>& surfaces) {
         if (triangles.mesh.triangles.empty()) return;
         RasterSurfaceBuilder builder(triangles, storageLimit());
-        for (size_t subset = 0; subset < wish.primvars.size(); ++subset)
-            surfaces.push_back(builder.make(subset, wish.primvars[subset]));
+        for (size_t subset = 0; subset < request.primvars.size(); ++subset)
+            surfaces.push_back(builder.make(subset, request.primvars[subset]));
     };
     fill(form.seen, shape->surfaces);
     fill(form.casting, shape->casting);
-    if (wish.needsMesh) shape->mesh = std::make_shared<TriangleMesh>(std::move(mesh));
+    if (request.needsMesh) shape->mesh = std::make_shared<TriangleMesh>(std::move(mesh));
     return shape;
 }
 

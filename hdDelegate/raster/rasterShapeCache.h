@@ -30,7 +30,7 @@ struct RasterShape {
 class RasterShapeCache {
 public:
     /// What a shape is made of.
-    struct Wish {
+    struct Request {
         std::shared_ptr<const Geometry> prim;
         /// Longest edge, object units; 0: as authored. Of curves and points: the width of a pixel.
         float edge = 0.0f;
@@ -47,7 +47,7 @@ public:
     explicit RasterShapeCache(Diagnostics& diagnostics) : _diagnostics(diagnostics) {}
 
     /// @returns a shape, which is empty when the prim shows nothing
-    std::shared_ptr<const RasterShape> get(const Wish& wish);
+    std::shared_ptr<const RasterShape> get(const Request& request);
     /// Forgets the shapes that nobody has asked for since the last call.
     void forgetUnused();
 
@@ -56,11 +56,11 @@ public:
 
 private:
     struct Entry {
-        Wish wish;
+        Request request;
         std::shared_ptr<const RasterShape> shape;
         bool used = false;
     };
-    std::shared_ptr<const RasterShape> build(const Wish& wish);
+    std::shared_ptr<const RasterShape> build(const Request& request);
 
     Diagnostics& _diagnostics;
     std::map<std::tuple<std::string, float, float>, Entry> _entries; ///< by name, edge and time

@@ -10,7 +10,7 @@ namespace patina {
 namespace {
 
 constexpr float twoPi = 6.2831853f;
-constexpr size_t mostCurveTriangles = 4000000; ///< of a prim all around the camera
+constexpr size_t maxCurveTriangles = 4000000; ///< of a prim all around the camera
 
 using Rate = MeshAttribute::Rate;
 
@@ -56,23 +56,23 @@ TriangleMesh pointTriangles(const PointSet& set, float gap) {
         if (a.rate == Rate::PerVertex) copy.data.clear();
         out.mesh.attributes.push_back(std::move(copy));
     }
-    const bool discs = !set.normals.empty();
+    const bool disks = !set.normals.empty();
     float widest = 0.0f;
     for (const vec4& p : set.points[0])
         widest = std::max(widest, p.w);
-    // Discs have hard edges; balls are lit by their facets as well, so they take twice as many.
-    const int sides = sidesFor(widest, discs ? gap : 0.25f * gap);
-    const int columns = sides, rows = discs ? 1 : std::max(sides / 2, 4);
+    // Disks have hard edges; balls are lit by their facets as well, so they take twice as many.
+    const int sides = sidesFor(widest, disks ? gap : 0.25f * gap);
+    const int columns = sides, rows = disks ? 1 : std::max(sides / 2, 4);
     const float angle = twoPi / float(columns);
     const float wider =
-        discs ? std::sqrt(angle / std::sin(angle)) : 0.5f * angle / std::sin(0.5f * angle);
+        disks ? std::sqrt(angle / std::sin(angle)) : 0.5f * angle / std::sin(0.5f * angle);
     for (size_t i = 0; i < set.points[0].size(); ++i) {
         const vec3 center = vec3(set.points[0][i]);
         const float radius = set.points[0][i].w * wider;
         const int element = i < set.pointIndex.size() ? set.pointIndex[i] : int(i);
         const int subset = i < set.pointSubset.size() ? set.pointSubset[i] : 0;
         const size_t before = out.positions.size();
-        if (discs) {
+        if (disks) {
             const vec3 n = set.normals[0][i];
             vec3 x, y;
             orthonormalBasis(n, x, y);
@@ -131,11 +131,10 @@ RasterForm rasterTriangles(const Geometry& prim, const TessellationOptions& opti
         const CurveSet set = buildCurves(static_cast<const Curves&>(prim), options, diagnostics);
         if (set.segments.empty()) break;
         RasterFineness own = fineness;
-        const bool thin = fitCurves(set, own, mostCurveTriangles);
-        const bool vaulted = thin && vaultsFit(set, own, mostCurveTriangles);
-        form.seen = curveTriangles(set, own, thin, vaulted);
-        if ((vaulted || !thin) && set.normals.empty())
-            form.casting = curveTriangles(set, own, true);
+        const bool thin = fitCurves(set, own, maxCurveTriangles);
+        const bool domed = thin && domedStripsFit(set, own, maxCurveTriangles);
+        form.seen = curveTriangles(set, own, thin, domed);
+        if ((domed || !thin) && set.normals.empty()) form.casting = curveTriangles(set, own, true);
         break;
     }
     case GeometryKind::Points: {

@@ -17,16 +17,16 @@ enum StripEnd {
 };
 
 /// Above the StripEnd of vertices that the vertex stage raises over a strip.
-constexpr float StripVault = 8.0f;
+constexpr float StripDome = 8.0f;
 
 struct RasterTriangles {
     TriangleMesh mesh;
     /// Per vertex of a strip: its half width, negative on the right. Such a vertex is on the axis
     /// of a curve, its normal goes along it, and the vertex stage moves it aside, so that the strip
     /// faces whoever looks. Empty: no strips.
-    std::vector<float> aside;
-    /// Of strips, by vertex: whether the tube ends there and how, a StripEnd; more by StripVault
-    /// where the vertex is on the vault over the strip (instance.glsl).
+    std::vector<float> halfWidth;
+    /// Of strips, by vertex: whether the tube ends there and how, a StripEnd; more by StripDome
+    /// where the vertex is on the dome over the strip (instance.glsl).
     std::vector<float> ends;
     /// Of curves, per triangle: along, as long as the radius. Empty: tangents follow from `st`.
     std::vector<vec3> along;
@@ -44,21 +44,21 @@ struct RasterFineness {
     float thick = 0.0f; ///< curves with a smaller radius are strips, object units
 };
 
-/// Any shape as triangles: curves become strips, tubes or ribbons, points spheres or discs.
+/// Any shape as triangles: curves become strips, tubes or ribbons, points spheres or disks.
 RasterForm rasterTriangles(const Geometry& prim, const TessellationOptions& options,
                            const RasterFineness& fineness, Diagnostics& diagnostics);
 
 /// Makes curves coarser until they take so many triangles at most, as far as that is possible.
 /// @returns whether they are thin enough for strips
-bool fitCurves(const CurveSet& set, RasterFineness& fineness, size_t most);
-/// Whether strips may be vaulted, too.
-bool vaultsFit(const CurveSet& set, const RasterFineness& fineness, size_t most);
+bool fitCurves(const CurveSet& set, RasterFineness& fineness, size_t maximum);
+/// Whether strips may be domed, too.
+bool domedStripsFit(const CurveSet& set, const RasterFineness& fineness, size_t maximum);
 
 /// Curves as Embree has them: circles swept along cubic segments, open at the ends; cones and
 /// spheres along linear ones. Tubes and ribbons here are polygons; strips face whoever looks.
-/// Vaulted ones have nearly the depths of tubes, so that those which reach into each other are seen
+/// Domed ones have nearly the depths of tubes, so that those which reach into each other are seen
 /// as far as they would be; they take three times the triangles.
 RasterTriangles curveTriangles(const CurveSet& set, const RasterFineness& fineness, bool strips,
-                               bool vaulted = false);
+                               bool domed = false);
 
 } // namespace patina

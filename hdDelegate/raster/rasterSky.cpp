@@ -37,7 +37,7 @@ const GlTexture& RasterSky::maps() {
 }
 
 std::vector<RasterSky::Task> RasterSky::begin(uint32_t pass, uint32_t seed,
-                                              const ShadowBounds& bounds, int most) {
+                                              const ShadowBounds& bounds, int maximum) {
     const bool first = _drawn.empty();
     if (first) {
         _drawn.assign(cells, Cell());
@@ -47,7 +47,7 @@ std::vector<RasterSky::Task> RasterSky::begin(uint32_t pass, uint32_t seed,
         std::any_of(_drawn.begin(), _drawn.end(), [](const Cell& c) { return c.map[0] < 0; });
     std::vector<Task> out;
     // The first image lives by them: see RasterLights::sampleFirst().
-    const int wanted = pass == 0 ? 2 * most : missing ? most : std::min(most, 2);
+    const int wanted = pass == 0 ? 2 * maximum : missing ? maximum : std::min(maximum, 2);
     const int count = std::clamp(wanted, 1, cells);
     for (int n = 0; n < count; ++n) {
         // Steps of 89, prime to the number of cells, spread those of a pass over the sphere.

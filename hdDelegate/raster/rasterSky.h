@@ -23,9 +23,9 @@ public:
 
     /// Forgets all maps.
     void reset() { _drawn.clear(); }
-    /// Chooses the cells that a pass draws, at most `most` (at least 1; the first pass twice as
+    /// Chooses the cells that a pass draws, at most `maximum` (at least 1; the first pass twice as
     /// many).
-    std::vector<Task> begin(uint32_t pass, uint32_t seed, const ShadowBounds& bounds, int most);
+    std::vector<Task> begin(uint32_t pass, uint32_t seed, const ShadowBounds& bounds, int maximum);
     /// Binds maps and cells; cells that have no map yet borrow the nearest one.
     void bind(GLuint buffer, GLuint texture);
 

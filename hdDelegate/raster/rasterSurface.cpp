@@ -65,11 +65,11 @@ RasterSurface RasterSurfaceBuilder::make(size_t subset, const std::vector<std::s
     }
     const size_t perTriangle = std::max(sizeof(RasterChunk::Triangle),
                                         3 * sizeof(vec4) * std::max<size_t>(1, primvars.size()));
-    const size_t most = std::max<size_t>(1, _storageLimit / perTriangle);
+    const size_t maximum = std::max<size_t>(1, _storageLimit / perTriangle);
     for (unsigned t = 0; t < _mesh.triangles.size(); ++t) {
         const size_t own = t < _mesh.triangleSubset.size() ? _mesh.triangleSubset[t] : 0;
         if (own != subset) continue;
-        if (_triangles.size() == most) surface.chunks.push_back(take());
+        if (_triangles.size() == maximum) surface.chunks.push_back(take());
         for (int c = 0; c < 3; ++c)
             _indices.push_back(vertex(t, c));
         _triangles.push_back(triangle(t));
@@ -86,7 +86,7 @@ uint32_t RasterSurfaceBuilder::vertex(unsigned t, int c) {
     const float u = c == 1 ? 1.0f : 0.0f, v = c == 2 ? 1.0f : 0.0f;
     RasterChunk::Vertex own;
     own.position = _mesh.positions[0][position];
-    if (_form && !_form->aside.empty()) own.aside = _form->aside[position];
+    if (_form && !_form->halfWidth.empty()) own.halfWidth = _form->halfWidth[position];
     if (!_mesh.normals.empty()) own.normal = evalNormal(_mesh, t, u, v);
     if (_form && !_form->ends.empty()) own.normal *= _form->ends[position];
     const size_t count = _attributes.size(), at = _primvars.size();

@@ -24,7 +24,7 @@ public:
     };
     struct Vertex {
         vec3 position;
-        float aside = 0.0f; ///< of strips, see RasterTriangles
+        float halfWidth = 0.0f; ///< of strips, see RasterTriangles
         vec3 normal{0.0f};
     };
 

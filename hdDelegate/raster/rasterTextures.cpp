@@ -62,8 +62,8 @@ RasterTextures::array(const std::vector<const GlslTexture*>& textures) {
             height = std::max(height, layer.image->height());
         }
     const int largest = largestTexture();
-    GLint mostLayers = 0;
-    gl.GetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &mostLayers);
+    GLint maxLayers = 0;
+    gl.GetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &maxLayers);
     const TextureRequest& request = _textures.request(textures[0]->handle);
     const int wanted = std::max(width, height);
     while (std::max(width, height) > 1 &&
@@ -78,7 +78,7 @@ RasterTextures::array(const std::vector<const GlslTexture*>& textures) {
                               "' and its tiles are larger than what is kept for "
                               "the driver; they are shown with " +
                               std::to_string(width) + " x " + std::to_string(height));
-    const int count = std::min(int(layers.size()), int(mostLayers));
+    const int count = std::min(int(layers.size()), int(maxLayers));
     auto texture =
         std::make_shared<GlTexture>(GL_TEXTURE_2D_ARRAY, _format, width, height, count, 0);
     for (int i = 0; i < count; ++i)

@@ -11,7 +11,7 @@ namespace patina {
 
 namespace {
 
-constexpr int mostTexels = 64;          ///< along a side
+constexpr int maxTexels = 64;           ///< along a side
 constexpr float largestHalf = 60000.0f; ///< that the textures hold
 
 GlTexture upload(const ivec3& size, const std::vector<vec4>& texels) {
@@ -55,8 +55,7 @@ void RasterVolumes::build(Cached& cached, const RenderSettings& settings) {
     const float longest = std::max({extent.x, extent.y, extent.z});
     ivec3 size;
     for (int a = 0; a < 3; ++a)
-        size[a] =
-            std::clamp(int(std::ceil(float(mostTexels) * extent[a] / longest)), 2, mostTexels);
+        size[a] = std::clamp(int(std::ceil(float(maxTexels) * extent[a] / longest)), 2, maxTexels);
     const size_t count = size_t(size.x) * size_t(size.y) * size_t(size.z);
     std::vector<vec4> scattering(count), extinction(count), emission(count);
     parallelFor(size_t(0), size_t(size.z), [&](size_t z) {
@@ -97,7 +96,7 @@ void RasterVolumes::build(Cached& cached, const RenderSettings& settings) {
 
 void RasterVolumes::add(const std::shared_ptr<const Volume>& prim, const SceneState& state,
                         const RenderSettings& settings, const std::vector<mat4>& toWorld,
-                        vec3& least, vec3& most) {
+                        vec3& minimum, vec3& maximum) {
     std::shared_ptr<const MaterialPrim> material;
     const auto found = state.materials.find(prim->material);
     if (found != state.materials.end() && settings.enableSceneMaterials) material = found->second;
@@ -117,8 +116,8 @@ void RasterVolumes::add(const std::shared_ptr<const Volume>& prim, const SceneSt
                               i & 2 ? volume.boundsMax.y : volume.boundsMin.y,
                               i & 4 ? volume.boundsMax.z : volume.boundsMin.z);
             const vec3 p = vec3(out * vec4(corner, 1.0f));
-            least = glm::min(least, p);
-            most = glm::max(most, p);
+            minimum = glm::min(minimum, p);
+            maximum = glm::max(maximum, p);
         }
     }
 }

@@ -30,10 +30,10 @@ public:
     /// Begins an update; what add() does not name again is forgotten by end().
     void begin() { _placed.clear(); }
     /// @param toWorld of every place of the prim
-    /// @param least, most are widened by its bounds
+    /// @param minimum, maximum are widened by its bounds
     void add(const std::shared_ptr<const Volume>& prim, const SceneState& state,
-             const RenderSettings& settings, const std::vector<mat4>& toWorld, vec3& least,
-             vec3& most);
+             const RenderSettings& settings, const std::vector<mat4>& toWorld, vec3& minimum,
+             vec3& maximum);
     void end();
 
     const std::vector<const RasterVolume*>& placed() const { return _placed; }

@@ -31,11 +31,10 @@ public:
         auto& list = _camera.clippingPlanes;
         const auto sound = [](const vec4& p) { return std::isfinite(p.x + p.y + p.z + p.w); };
         if (std::all_of(list.begin(), list.end(), sound)) return;
-        _diagnostics.warn(_camera.path, "clippingPlanes",
-                          "some are not finite and clip nothing");
-        list.erase(std::remove_if(list.begin(), list.end(),
-                                  [&](const vec4& p) { return !sound(p); }),
-                   list.end());
+        _diagnostics.warn(_camera.path, "clippingPlanes", "some are not finite and clip nothing");
+        list.erase(
+            std::remove_if(list.begin(), list.end(), [&](const vec4& p) { return !sound(p); }),
+            list.end());
         changed = true;
     }
 
@@ -62,15 +61,15 @@ std::shared_ptr<const Camera> checkedCamera(std::shared_ptr<const Camera> camera
     replace.finite("exposure", c->exposureScale, 1.0f);
     replace.finite("shutter:open", c->shutterOpen, 0.0);
     replace.finite("shutter:close", c->shutterClose, 0.0);
-    constexpr float most = float(largestPlace);
-    const auto within = [](float x) { return std::abs(x) <= most; };
+    constexpr float maximum = float(largestPlace);
+    const auto within = [](float x) { return std::abs(x) <= maximum; };
     replace.number("clippingRange", c->clipNear, 0.0f, "starts at no finite distance; 0 is used",
                    within(c->clipNear));
-    replace.number("clippingRange", c->clipFar, most, "ends at no finite distance; 1e15 is used",
+    replace.number("clippingRange", c->clipFar, maximum, "ends at no finite distance; 1e15 is used",
                    within(c->clipFar));
     replace.planes();
     replace.number("focusDistance", c->focusDistance,
-                   std::isnan(c->focusDistance) ? 0.0f : std::copysign(most, c->focusDistance),
+                   std::isnan(c->focusDistance) ? 0.0f : std::copysign(maximum, c->focusDistance),
                    std::isnan(c->focusDistance) ? "is no number; everything is sharp"
                                                 : "is too large; 1e15 is used",
                    within(c->focusDistance));

@@ -13,9 +13,9 @@ namespace {
 using dvec3 = glm::dvec3;
 using Rate = MeshAttribute::Rate;
 
-constexpr int mostPieces = 64;    // of a span, along one direction
-constexpr int leastCurved = 4;    // of a span that may be curved
-constexpr double poleStep = 1e-4; // of a span: how far from a pole its normal is looked for
+constexpr int maxPieces = 64;      // of a span, along one direction
+constexpr int minCurvedPieces = 4; // of a span that may be curved
+constexpr double poleStep = 1e-4;  // of a span: how far from a pole its normal is looked for
 
 /// A line of vertices: where it is in one direction, and the basis there.
 struct Line {
@@ -105,15 +105,15 @@ private:
             return all;
         };
         // Too many: every span is cut half as often, down to the floor, then on to the budget.
-        for (int least : {std::max(floor, leastCurved), 1}) {
+        for (int minimum : {std::max(floor, minCurvedPieces), 1}) {
             const double budget =
-                double(least > 1 ? std::min(options.edgeBudget, options.triangleBudget)
-                                 : options.triangleBudget);
-            for (int most = mostPieces; most > least && 2.0 * sum(u) * sum(v) > budget;) {
-                most /= 2;
+                double(minimum > 1 ? std::min(options.edgeBudget, options.triangleBudget)
+                                   : options.triangleBudget);
+            for (int maximum = maxPieces; maximum > minimum && 2.0 * sum(u) * sum(v) > budget;) {
+                maximum /= 2;
                 for (auto* list : {&u, &v})
                     for (int& n : *list)
-                        n = std::min(n, std::max(most, 1));
+                        n = std::min(n, std::max(maximum, 1));
             }
         }
         _u.chooseLines(u);
@@ -127,7 +127,7 @@ private:
     std::vector<int> piecesOf(const NurbsBasis& basis, size_t stride, size_t across, int rows,
                               const TessellationOptions& options) const {
         const int floor = 1 << std::clamp(_mesh.refineLevel, 0, options.maxRefineLevel);
-        const int least = basis.order() > 2 ? std::max(floor, leastCurved) : floor;
+        const int minimum = basis.order() > 2 ? std::max(floor, minCurvedPieces) : floor;
         std::vector<int> pieces;
         for (const NurbsBasis::Span& span : basis.spans()) {
             double longest = 0.0;
@@ -136,8 +136,8 @@ private:
                     longest = std::max(
                         longest,
                         basis.longest(span, &_points.steps[0][size_t(row) * across], stride));
-            int n = least;
-            while (n < mostPieces && longest > double(n) * double(options.targetEdge))
+            int n = minimum;
+            while (n < maxPieces && longest > double(n) * double(options.targetEdge))
                 n *= 2;
             pieces.push_back(n);
         }

@@ -85,10 +85,10 @@ std::vector<uint16_t> subsetOfElements(const Geometry& prim, size_t elements,
     std::vector<uint16_t> subsetOf;
     if (prim.subsets.empty()) return subsetOf;
     subsetOf.resize(elements);
-    constexpr size_t most = 65534;
-    if (prim.subsets.size() > most)
+    constexpr size_t maximum = 65534;
+    if (prim.subsets.size() > maximum)
         diagnostics.warn(prim.path, "subsets", "more than 65534 subsets; the others are ignored");
-    for (size_t s = 0; s < std::min(prim.subsets.size(), most); ++s) {
+    for (size_t s = 0; s < std::min(prim.subsets.size(), maximum); ++s) {
         const GeomSubset& subset = prim.subsets[s];
         size_t outside = 0, taken = 0;
         for (int element : subset.faces) {

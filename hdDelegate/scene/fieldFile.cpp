@@ -84,7 +84,9 @@ public:
                                      ", cannot be run: " + std::strerror(error ? error : errno));
         }
     }
-    ~Program() { end(); }
+    ~Program() {
+        end();
+    }
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
 
@@ -169,7 +171,7 @@ std::shared_ptr<const FieldGrid> take(Program& program) {
 
 std::shared_ptr<const FieldGrid> readFieldGrid(const std::string& file, const std::string& field,
                                                const std::string& prim, Diagnostics& diagnostics) {
-    std::string problem = whyUnreadable(file, mostImageBytes);
+    std::string problem = whyUnreadable(file, maxImageBytes);
     if (problem.empty()) {
         try {
             Program program(file, field);

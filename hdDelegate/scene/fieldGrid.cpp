@@ -23,7 +23,7 @@ FieldGrid::FieldGrid(const ivec3& firstVoxel, const ivec3& brickCount, int compo
 }
 
 void FieldGrid::setBrick(const ivec3& brick, const std::vector<float>& values) {
-    vec3 least(INFINITY), most(-INFINITY);
+    vec3 minimum(INFINITY), maximum(-INFINITY);
     const size_t begin = _values.size();
     _values.resize(begin + size_t(voxels) * _components, 0.0f);
     for (size_t i = 0; i < size_t(voxels) * _components && i < values.size(); ++i)
@@ -32,12 +32,12 @@ void FieldGrid::setBrick(const ivec3& brick, const std::vector<float>& values) {
         vec3 v(_values[begin + size_t(i) * _components]);
         for (int c = 1; c < _components; ++c)
             v[c] = _values[begin + size_t(i) * _components + c];
-        least = glm::min(least, v);
-        most = glm::max(most, v);
+        minimum = glm::min(minimum, v);
+        maximum = glm::max(maximum, v);
     }
-    _bricks[(size_t(brick.x) * _count.y + brick.y) * _count.z + brick.z] = int(_least.size());
-    _least.push_back(least);
-    _most.push_back(most);
+    _bricks[(size_t(brick.x) * _count.y + brick.y) * _count.z + brick.z] = int(_minimum.size());
+    _minimum.push_back(minimum);
+    _maximum.push_back(maximum);
 }
 
 vec3 FieldGrid::voxel(const ivec3& p) const {
@@ -69,7 +69,7 @@ vec3 FieldGrid::sample(const vec3& objectPosition) const {
     return sum;
 }
 
-void FieldGrid::range(const vec3& boxMin, const vec3& boxMax, vec3& least, vec3& most) const {
+void FieldGrid::range(const vec3& boxMin, const vec3& boxMax, vec3& minimum, vec3& maximum) const {
     vec3 lower(INFINITY), upper(-INFINITY);
     for (int corner = 0; corner < 8; ++corner) {
         const vec3 p((corner & 1) ? boxMax.x : boxMin.x, (corner & 2) ? boxMax.y : boxMin.y,
@@ -89,8 +89,8 @@ void FieldGrid::range(const vec3& boxMin, const vec3& boxMax, vec3& least, vec3&
                 const bool inside =
                     x >= 0 && y >= 0 && z >= 0 && x < _count.x && y < _count.y && z < _count.z;
                 const int brick = inside ? _bricks[(size_t(x) * _count.y + y) * _count.z + z] : -1;
-                least = glm::min(least, brick < 0 ? vec3(0.0f) : _least[size_t(brick)]);
-                most = glm::max(most, brick < 0 ? vec3(0.0f) : _most[size_t(brick)]);
+                minimum = glm::min(minimum, brick < 0 ? vec3(0.0f) : _minimum[size_t(brick)]);
+                maximum = glm::max(maximum, brick < 0 ? vec3(0.0f) : _maximum[size_t(brick)]);
             }
 }
 

@@ -37,7 +37,7 @@ public:
     vec3 sample(const vec3& objectPosition) const;
 
     /// Widens a range by all values that interpolation can give in a box of object space.
-    void range(const vec3& boxMin, const vec3& boxMax, vec3& least, vec3& most) const;
+    void range(const vec3& boxMin, const vec3& boxMax, vec3& minimum, vec3& maximum) const;
 
 private:
     vec3 voxel(const ivec3& relative) const;
@@ -46,9 +46,9 @@ private:
     int _components;
     mat4 _indexToObject, _objectToIndex;
     vec3 _boundsMin, _boundsMax;
-    std::vector<int> _bricks;        ///< per brick place: index of its values, -1 for none
-    std::vector<float> _values;      ///< voxels * components per brick
-    std::vector<vec3> _least, _most; ///< per brick with values
+    std::vector<int> _bricks;             ///< per brick place: index of its values, -1 for none
+    std::vector<float> _values;           ///< voxels * components per brick
+    std::vector<vec3> _minimum, _maximum; ///< per brick with values
 };
 
 /// Reads a grid of an OpenVDB file. @returns null, after a warning, when that fails or this build

@@ -95,7 +95,7 @@ struct Curves : Geometry {
     Curves() { kind = GeometryKind::Curves; }
 };
 
-/// UsdGeomPoints: spheres of diameter `widths` (primvar), or discs where `normals` are given.
+/// UsdGeomPoints: spheres of diameter `widths` (primvar), or disks where `normals` are given.
 struct Points : Geometry {
     Sampled<std::vector<vec3>> points;
 

@@ -16,7 +16,7 @@ namespace patina {
 namespace {
 
 constexpr float largestHalf = 65504.0f;
-constexpr int64_t mostTexels = int64_t(1) << 34;
+constexpr int64_t maxTexels = int64_t(1) << 34;
 
 std::string oneLine(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
@@ -32,7 +32,7 @@ struct OpenImage {
     TexelLayout layout = TexelLayout::Rgb;
 
     explicit OpenImage(const std::string& file) {
-        const std::string problem = whyUnreadable(file, mostImageBytes);
+        const std::string problem = whyUnreadable(file, maxImageBytes);
         if (!problem.empty()) {
             error = "the file " + problem;
             return;
@@ -48,7 +48,7 @@ struct OpenImage {
         }
         const OIIO::ImageSpec& s = input->spec();
         if (s.width < 1 || s.height < 1 || s.nchannels < 1 || s.depth > 1 ||
-            int64_t(s.width) * s.height > mostTexels) {
+            int64_t(s.width) * s.height > maxTexels) {
             error = "an image of " + std::to_string(s.width) + "x" + std::to_string(s.height) +
                     "x" + std::to_string(s.depth) + " is not a texture";
             input.reset();

@@ -61,9 +61,9 @@ public:
         _faces += columns * rows;
     }
 
-    /// A flat disc across the axis, whose rim has exactly the points of the sides that it closes.
+    /// A flat disk across the axis, whose rim has exactly the points of the sides that it closes.
     /// @param side +1 faces up, -1 down
-    void disc(float radius, float z, float side) {
+    void disk(float radius, float z, float side) {
         if (!(radius > 0.0f)) return;
         const uint32_t centre = uint32_t(_out.positions[0].size());
         const vec3 normal(0, 0, side);
@@ -256,15 +256,15 @@ TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& opt
         const float radius = size(implicit.radius, "radius");
         const float height = size(implicit.height, "height");
         side(shape, radius, 0.0f, height);
-        shape.disc(radius, -0.5f * height, -1.0f);
+        shape.disk(radius, -0.5f * height, -1.0f);
         break;
     }
     case ImplicitShape::Cylinder: {
         const float radius = size(implicit.radius, "radius"), top = topRadius(radius);
         const float height = size(implicit.height, "height");
         side(shape, radius, top, height);
-        shape.disc(radius, -0.5f * height, -1.0f);
-        shape.disc(top, 0.5f * height, 1.0f);
+        shape.disk(radius, -0.5f * height, -1.0f);
+        shape.disk(top, 0.5f * height, 1.0f);
         break;
     }
     case ImplicitShape::Capsule: {

@@ -29,11 +29,11 @@ bool hasInverse(const mat4& m) {
 }
 
 bool isWideEnough(const mat4& m) {
-    constexpr float most = 1e6f;
+    constexpr float maximum = 1e6f;
     const mat3 inverse(glm::inverse(m));
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
-            if (!(std::abs(inverse[column][row]) <= most)) return false;
+            if (!(std::abs(inverse[column][row]) <= maximum)) return false;
     return hasInverse(m);
 }
 

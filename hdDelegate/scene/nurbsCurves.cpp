@@ -14,7 +14,7 @@ namespace {
 
 using dvec3 = glm::dvec3;
 
-constexpr int mostPieces = 64;     // of a span that is no cubic
+constexpr int maxPieces = 64;      // of a span that is no cubic
 constexpr double tolerance = 1e-5; // of such a piece, of the size of the curve
 
 /// Part of a span that becomes one Bezier segment.
@@ -37,11 +37,11 @@ public:
             low = glm::min(low, p);
             high = glm::max(high, p);
         }
-        const double most = tolerance * glm::length(high - low);
+        const double maximum = tolerance * glm::length(high - low);
         for (const NurbsBasis::Span& span : _basis.spans()) {
             int n = 1;
             if (_weights || _basis.order() > 4)
-                while (n < mostPieces && !within(span, n, points, most))
+                while (n < maxPieces && !within(span, n, points, maximum))
                     n *= 2;
             for (int i = 0; i < n; ++i)
                 _pieces.push_back({span, at(span, i, n), at(span, i + 1, n)});
@@ -121,7 +121,7 @@ private:
 
     /// Whether n cubics are close enough to a span.
     bool within(const NurbsBasis::Span& span, int n, const std::vector<vec3>& points,
-                double most) const {
+                double maximum) const {
         std::vector<double> a(3), b(3), slopeA(3), slopeB(3), p(3), slope(3);
         const float* values = &points[0].x;
         for (int i = 0; i < n; ++i) {
@@ -138,7 +138,7 @@ private:
                                          x * x * (1.0 + 2.0 * y) * b[k] - x * x * y * h * slopeB[k];
                     error += (cubic - p[k]) * (cubic - p[k]);
                 }
-                if (!(std::sqrt(error) <= most)) return !std::isfinite(error);
+                if (!(std::sqrt(error) <= maximum)) return !std::isfinite(error);
             }
         }
         return true;

@@ -50,7 +50,7 @@ double trianglesAt(const Mesh& mesh, const CageFaces& faces, int level) {
 
 int chooseRefineLevel(const Mesh& mesh, const PointSteps& points, const CageFaces& faces,
                       const TessellationOptions& options, Diagnostics& diagnostics) {
-    const int most = std::clamp(options.maxRefineLevel, 0, highestLevel);
+    const int maximum = std::clamp(options.maxRefineLevel, 0, highestLevel);
     const int floor = std::max(mesh.refineLevel, 0);
     int level = floor;
     const std::vector<vec3>& first = points.steps.front();
@@ -60,7 +60,7 @@ int chooseRefineLevel(const Mesh& mesh, const PointSteps& points, const CageFace
         const float ratio = longestEdge(mesh, first, faces) / options.targetEdge;
         if (ratio > 1.0f) level = std::max(level, int(std::ceil(std::log2(std::min(ratio, 1e9f)))));
     }
-    level = std::min(level, most);
+    level = std::min(level, maximum);
     while (level > floor && trianglesAt(mesh, faces, level) > double(options.edgeBudget))
         --level;
     while (level > 0 && trianglesAt(mesh, faces, level) > double(options.triangleBudget))

@@ -18,14 +18,14 @@ constexpr double depths[methodCosines] = {4.0, 16.0, 64.0, 256.0};
 
 /// The fewest vertices among the methods of `pathDepth` that are enough.
 int depthOfAtLeast(double vertices) {
-    int least = ScenePlan::depthMost;
+    int minimum = ScenePlan::maxPlannedDepth;
     for (const ChoicePoint& choice : choicePoints())
         if (choice.name == "pathDepth")
             for (const Method& m : choice.methods) {
                 const int depth = std::atoi(m.name.c_str());
-                if (depth >= vertices) least = std::min(least, depth);
+                if (depth >= vertices) minimum = std::min(minimum, depth);
             }
-    return least;
+    return minimum;
 }
 
 /// Time times variance of a method of `roulette` over those of the default, the geometric mean of
@@ -117,7 +117,7 @@ int ScenePlan::depth(const RenderSettings& settings) const {
     if (forced != settings.methods.end()) return std::atoi(forced->second.c_str());
     const double tolerance = settings.tolerance;
     if (tolerance < 0.0) return depthStandard;
-    if (tolerance == 0.0 || _albedo >= 1.0) return depthMost;
+    if (tolerance == 0.0 || _albedo >= 1.0) return maxPlannedDepth;
     if (_albedo <= 0.0) return depthOfAtLeast(0.0);
     return depthOfAtLeast(std::log(depthShare * tolerance) / std::log(_albedo));
 }
@@ -136,7 +136,7 @@ double ScenePlan::noise(double tolerance) const {
                : tolerance;
 }
 
-void ScenePlan::tell(double tolerance, std::map<std::string, double>& statistics) const {
+void ScenePlan::addStatistics(double tolerance, std::map<std::string, double>& statistics) const {
     if (tolerance < 0.0) return;
     statistics["predictedError"] = _error;
     statistics["noiseTolerance"] = noise(tolerance);

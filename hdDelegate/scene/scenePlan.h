@@ -25,13 +25,13 @@ public:
 
     /// Vertices of a path: those of the settings or of a forced method, else by the tolerance. What
     /// light has left after so many surfaces as white as the whitest is at most depthShare of it; 0
-    /// of it: depthMost; negative: depthStandard. Roulette has no part in this, since it makes
-    /// noise alone.
+    /// of it: maxPlannedDepth; negative: depthStandard. Roulette has no part in this, since it
+    /// makes noise alone.
     int depth(const RenderSettings& settings) const;
     /// RenderSettings::rouletteDepth, beyond all depths where the method is `none`.
     int rouletteDepth(const RenderSettings& settings) const;
 
-    static constexpr int depthStandard = 16, depthMost = 1024;
+    static constexpr int depthStandard = 16, maxPlannedDepth = 1024;
 
     /// What noise may take of a tolerance: all that methods, subdivision and depth leave, and never
     /// less than their own shares leave (methods that are forced may spoil more). 0 and below: all
@@ -39,7 +39,7 @@ public:
     double noise(double tolerance) const;
 
     /// For RenderProgress::statistics; nothing without a tolerance.
-    void tell(double tolerance, std::map<std::string, double>& statistics) const;
+    void addStatistics(double tolerance, std::map<std::string, double>& statistics) const;
 
     /// Of every material in use, by its path.
     const std::map<std::string, MethodPlan>& materials() const { return _materials; }

@@ -10,7 +10,7 @@ namespace patina {
 namespace {
 
 constexpr float largestTurn = 0.25f; ///< radians across a piece
-constexpr int mostPieces = 16;
+constexpr int maxPieces = 16;
 
 /// The part from a to b of a Bezier segment, by its values and slopes there.
 template <class T> void partOf(const T p[4], float a, float b, T out[4]) {
@@ -57,7 +57,7 @@ void splitRibbons(CurveSet& set) {
         float turn = 0.0f;
         for (const auto& step : set.controlPoints)
             turn = std::max(turn, turnOf(&step[first], &set.normals[0][first]));
-        pieces.push_back(int(std::ceil(std::clamp(turn / largestTurn, 1.0f, float(mostPieces)))));
+        pieces.push_back(int(std::ceil(std::clamp(turn / largestTurn, 1.0f, float(maxPieces)))));
         any |= pieces.back() > 1;
     }
     if (!any) return;

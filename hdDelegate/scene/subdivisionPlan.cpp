@@ -106,7 +106,7 @@ CageSize::CageSize(const Mesh& mesh) {
 
 SubdivisionPlan::SubdivisionPlan(const RenderSettings& settings, const ScreenScale& screen)
     : _settings(settings), _screen(screen),
-      _looks(settings.tolerance >= 0.0 && settings.edgeLength < 0.0f) {}
+      _active(settings.tolerance >= 0.0 && settings.edgeLength < 0.0f) {}
 
 void SubdivisionPlan::add(const CageSize& cage, const std::vector<mat4>& places,
                           const MethodPlan& material) {
@@ -126,7 +126,7 @@ void SubdivisionPlan::add(const CageSize& cage, const std::vector<mat4>& places,
         const double pixels = std::min(0.5 * double(cage.area) / (unit * unit),
                                        0.7854 * std::pow(cage.across / unit, 2.0));
         _seen.push_back({std::min(pixels / _screen.pixels, 1.0), double(cage.round) / unit,
-                         material.facets, material.smoothest});
+                         material.microfacetShare, material.smoothest});
     }
 }
 
@@ -134,8 +134,8 @@ double SubdivisionPlan::error(const std::string& method) const {
     if (method == truthMethod(point)) return 0.0;
     double sum = 0.0, shares = 0.0;
     for (const Seen& s : _seen) {
-        sum += s.share * ((1.0 - s.facets) * rowError(method, "diffuse", 0.0, s.size) +
-                          s.facets * rowError(method, "facets", s.roughness, s.size));
+        sum += s.share * ((1.0 - s.microfacetShare) * rowError(method, "diffuse", 0.0, s.size) +
+                          s.microfacetShare * rowError(method, "facets", s.roughness, s.size));
         shares += s.share;
     }
     return sum / std::max(shares, 1.0);
@@ -153,7 +153,7 @@ std::string SubdivisionPlan::choose() const {
 
 PlannedMethod SubdivisionPlan::chosen() const {
     PlannedMethod result;
-    if (!_any || !_looks) return result;
+    if (!_any || !_active) return result;
     result.point = point;
     result.method = choose();
     result.forced = _settings.methods.count(point) > 0;

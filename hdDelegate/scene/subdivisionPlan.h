@@ -46,7 +46,7 @@ public:
     SubdivisionPlan(const RenderSettings& settings, const ScreenScale& screen);
 
     /// Whether there is anything to choose; else no surface has to be added.
-    bool looks() const { return _looks; }
+    bool isActive() const { return _active; }
     /// @param places from object to world
     /// @param material of the surface, as planned
     void add(const CageSize& cage, const std::vector<mat4>& places, const MethodPlan& material);
@@ -59,14 +59,14 @@ public:
 private:
     struct Seen {
         double share, size; ///< of the image, 0..1; pixels
-        double facets, roughness;
+        double microfacetShare, roughness;
     };
     double error(const std::string& method) const;
     std::string choose() const;
 
     const RenderSettings& _settings;
     ScreenScale _screen;
-    bool _looks, _any = false;
+    bool _active, _any = false;
     std::vector<Seen> _seen;
 };
 

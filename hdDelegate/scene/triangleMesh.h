@@ -60,7 +60,7 @@ struct CurveSet {
     const MeshAttribute* attribute(const std::string& name) const;
 };
 
-/// Spheres, or discs where there are normals.
+/// Spheres, or disks where there are normals.
 struct PointSet {
     std::vector<std::vector<vec4>> points;  ///< centre and radius; per time step
     std::vector<std::vector<vec3>> normals; ///< per point; empty means spheres

@@ -9,8 +9,8 @@ namespace patina {
 
 namespace {
 
-constexpr int mostCells = 64;  ///< along an axis
-constexpr int mostCorners = 6; ///< fields whose extremes are combined for a majorant
+constexpr int maxCells = 64;  ///< along an axis
+constexpr int maxCorners = 6; ///< fields whose extremes are combined for a majorant
 
 float largest(const vec3& v) {
     return std::max({v.x, v.y, v.z});
@@ -113,7 +113,7 @@ void VolumeMedium::measure() {
         bricks = glm::max(bricks, f.grid->brickCount());
     }
     if (!std::isfinite(_min.x + _min.y + _min.z + _max.x + _max.y + _max.z)) return;
-    _count = glm::min(bricks, ivec3(mostCells));
+    _count = glm::min(bricks, ivec3(maxCells));
     const vec3 size = (_max - _min) / vec3(_count);
     std::vector<float> cells(size_t(_count.x) * _count.y * _count.z);
     parallelFor(size_t(0), cells.size(), [&](size_t i) {
@@ -121,17 +121,17 @@ void VolumeMedium::measure() {
                         float(i / size_t(_count.z) % size_t(_count.y)),
                         float(i % size_t(_count.z)));
         const vec3 lower = _min + cell * size, upper = lower + size;
-        std::vector<vec3> least, most, values(_fields.size());
+        std::vector<vec3> minimum, maximum, values(_fields.size());
         for (const Field& f : _fields) {
-            least.push_back(vec3(INFINITY));
-            most.push_back(vec3(-INFINITY));
-            f.grid->range(lower, upper, least.back(), most.back());
+            minimum.push_back(vec3(INFINITY));
+            maximum.push_back(vec3(-INFINITY));
+            f.grid->range(lower, upper, minimum.back(), maximum.back());
         }
-        const int combined = std::min(int(_fields.size()), mostCorners);
+        const int combined = std::min(int(_fields.size()), maxCorners);
         float majorant = 0.0f;
         for (int corner = 0; corner < 1 << combined; ++corner) {
             for (size_t f = 0; f < _fields.size(); ++f)
-                values[f] = int(f) >= combined || (corner >> f & 1) ? most[f] : least[f];
+                values[f] = int(f) >= combined || (corner >> f & 1) ? maximum[f] : minimum[f];
             const Medium m = evaluate(0.5f * (lower + upper), values);
             // A medium that only glows needs points along the ray, too.
             const float glow = m.emission == vec3(0.0f) ? 0.0f : 2.0f / glm::length(size);

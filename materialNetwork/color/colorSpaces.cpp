@@ -38,9 +38,9 @@ public:
                 _steps.push_back(p->getOptimizedCPUProcessor(ocio::OPTIMIZATION_LOSSLESS));
     }
     void apply(float* pixels, size_t count, int stride) const override {
-        constexpr size_t mostAtOnce = 1 << 20; // OCIO counts in long
-        for (size_t at = 0; at < count; at += mostAtOnce) {
-            long n = long(std::min(mostAtOnce, count - at));
+        constexpr size_t maxAtOnce = 1 << 20; // OCIO counts in long
+        for (size_t at = 0; at < count; at += maxAtOnce) {
+            long n = long(std::min(maxAtOnce, count - at));
             ptrdiff_t step = stride * ptrdiff_t(sizeof(float));
             ocio::PackedImageDesc image(pixels + at * size_t(stride), n, 1, 3, ocio::BIT_DEPTH_F32,
                                         sizeof(float), step, step * n);

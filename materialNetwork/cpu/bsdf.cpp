@@ -12,7 +12,7 @@ namespace patina {
 
 namespace {
 
-constexpr int kAlbedoSamples = 32; // of stochastic lobes
+constexpr int albedoSamples = 32; // of stochastic lobes
 
 } // namespace
 
@@ -197,12 +197,12 @@ void Bsdf::preferWalks() {
         if (walks(_lobes[i])) after += wanted(_lobes[i]);
     }
     if (!(before > 0.0f) || !(others > 0.0f)) return;
-    const float share = std::max(before / (before + others),
-                                 std::min(after / (after + others), 0.5f));
+    const float share =
+        std::max(before / (before + others), std::min(after / (after + others), 0.5f));
     for (int i = 0; i < _lobeCount; ++i) {
         BsdfLobe& l = _lobes[i];
-        l.probability = walks(l) ? wanted(l) * (share / after)
-                                 : l.probability * ((1.0f - share) / others);
+        l.probability =
+            walks(l) ? wanted(l) * (share / after) : l.probability * ((1.0f - share) / others);
     }
 }
 
@@ -235,14 +235,14 @@ void Bsdf::makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal
 glm::vec3 Bsdf::sampledAlbedo() const {
     HashedNumbers random = HashedNumbers(_seed).mix(_frames[0].wo);
     glm::vec3 sum(0.0f);
-    for (int i = 0; i < kAlbedoSamples; ++i) {
+    for (int i = 0; i < albedoSamples; ++i) {
         const glm::vec3 u = random.next3();
         const BsdfSample s = sample(u, random.next());
         if (s.event == 0) continue;
         const bool beneath = (s.event & LOBE_SUBSURFACE) != 0;
         sum += beneath ? s.weight * subsurface(s).color : s.weight;
     }
-    return sum / float(kAlbedoSamples);
+    return sum / float(albedoSamples);
 }
 
 glm::vec3 Bsdf::albedo() const {

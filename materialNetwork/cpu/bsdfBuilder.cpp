@@ -43,14 +43,14 @@ glm::vec3 coverOf(const ProgramCode& code, const glm::vec4& c) {
     return shareOf(code, glm::vec3(c));
 }
 
-/// @param kept what lobeFixWo() says
-glm::vec3 keptFromBase(const ProgramCode& code, const BsdfLobe& l, const glm::vec3& kept) {
-    if (code.layerTransmittance == LayerTransmittance::Returned) return unit(kept);
-    if (code.layerTransmittance != LayerTransmittance::Tinted) return shareOf(code, kept);
+/// @param coverage what lobeFixWo() says
+glm::vec3 baseCoverage(const ProgramCode& code, const BsdfLobe& l, const glm::vec3& coverage) {
+    if (code.layerTransmittance == LayerTransmittance::Returned) return unit(coverage);
+    if (code.layerTransmittance != LayerTransmittance::Tinted) return shareOf(code, coverage);
     const bool tinted = (l.kind == LobeKind::Dielectric && l.dielectric.mode == sh::SCATTER_R) ||
                         (l.kind == LobeKind::Schlick && l.schlick.mode == sh::SCATTER_R) ||
                         l.kind == LobeKind::Sheen;
-    return unit(tinted ? l.albedo : kept);
+    return unit(tinted ? l.albedo : coverage);
 }
 
 /// Authored factors: negative and NaN count as 0, huge ones as COLOR_MAX.
@@ -67,81 +67,82 @@ glm::vec3 emitted(const glm::vec3& c) {
 
 void BsdfBuilder::build(const ProgramCode& code, const ShadingPoint& point,
                         const glm::vec4* registers, Bsdf& out) {
-    Wall walls[Bsdf::maxLobes];
-    place(code, point, registers, int(code.bsdf.size()) - 1, walls, out);
+    ThinSlab slabs[Bsdf::maxLobes];
+    instantiate(code, point, registers, int(code.bsdf.size()) - 1, slabs, out);
     if (code.lobes.empty()) return;
     if (code.walkedLayers > 0) {
         const auto layered = std::make_shared<LayeredPoint>(&code, point);
         layered->registers.assign(registers, registers + code.registerCount);
         out._layers = layered;
     }
-    if (code.hasStraight) {
+    if (code.hasPassThrough) {
         // The surface is only met with the chance that light does not pass straight.
-        const float met = 1.0f - largest(glm::vec4(straightWeight(code, walls, out), 0.0f));
+        const float met = 1.0f - largest(glm::vec4(passThroughWeight(code, slabs, out), 0.0f));
         const float scale = met > 0.0f ? 1.0f / met : 0.0f;
         for (size_t i = 0; i < code.lobes.size() + size_t(code.walkedLayers); ++i)
-            out._lobes[i].weight *= i < code.lobes.size() && code.lobes[i].straight
-                                        ? walls[i].reflected * scale
+            out._lobes[i].weight *= i < code.lobes.size() && code.lobes[i].passThrough
+                                        ? slabs[i].reflected * scale
                                         : glm::vec3(scale);
     }
-    choose(code, out);
+    setSelectionPdfs(code, out);
 }
 
-void BsdfBuilder::lay(const ProgramCode& code, const ShadingPoint& point,
-                      const glm::vec4* registers, Bsdf& out) {
-    Wall walls[Bsdf::maxLobes];
-    place(code, point, registers, int(code.bsdf.size()) - 1, walls, out);
+void BsdfBuilder::assemble(const ProgramCode& code, const ShadingPoint& point,
+                           const glm::vec4* registers, Bsdf& out) {
+    ThinSlab slabs[Bsdf::maxLobes];
+    instantiate(code, point, registers, int(code.bsdf.size()) - 1, slabs, out);
     for (size_t i = 0; i < code.lobes.size(); ++i)
-        if (code.lobes[i].straight) out._lobes[i].weight *= walls[i].reflected;
+        if (code.lobes[i].passThrough) out._lobes[i].weight *= slabs[i].reflected;
     out._lobeCount = int(code.lobes.size());
 }
 
 void BsdfBuilder::buildPart(const LayeredPoint& layered, int op, const glm::vec3& view, Bsdf& out) {
     ShadingPoint point = layered.point;
     point.viewDirection = view;
-    Wall walls[Bsdf::maxLobes];
-    place(*layered.code, point, layered.registers.data(), op, walls, out);
+    ThinSlab slabs[Bsdf::maxLobes];
+    instantiate(*layered.code, point, layered.registers.data(), op, slabs, out);
     out._layers = layered.shared_from_this();
-    choose(*layered.code, out);
+    setSelectionPdfs(*layered.code, out);
 }
 
-glm::vec3 BsdfBuilder::straight(const ProgramCode& code, const ShadingPoint& point,
-                                const glm::vec4* registers) {
+glm::vec3 BsdfBuilder::passThrough(const ProgramCode& code, const ShadingPoint& point,
+                                   const glm::vec4* registers) {
     Bsdf bsdf;
-    Wall walls[Bsdf::maxLobes];
-    place(code, point, registers, int(code.bsdf.size()) - 1, walls, bsdf);
-    return straightWeight(code, walls, bsdf);
+    ThinSlab slabs[Bsdf::maxLobes];
+    instantiate(code, point, registers, int(code.bsdf.size()) - 1, slabs, bsdf);
+    return passThroughWeight(code, slabs, bsdf);
 }
 
-glm::vec3 BsdfBuilder::straightWeight(const ProgramCode& code, const Wall* walls,
-                                      const Bsdf& bsdf) {
+glm::vec3 BsdfBuilder::passThroughWeight(const ProgramCode& code, const ThinSlab* slabs,
+                                         const Bsdf& bsdf) {
     glm::vec3 sum(0.0f);
     for (size_t i = 0; i < code.lobes.size(); ++i)
-        if (code.lobes[i].straight) sum += bsdf._lobes[i].weight * walls[i].passed;
+        if (code.lobes[i].passThrough) sum += bsdf._lobes[i].weight * slabs[i].transmittance;
     return {unit(sum.x), unit(sum.y), unit(sum.z)};
 }
 
-/// Both faces of the wall reflect: light bounces between them, and the sums of the series are what
+/// Both faces of the slab reflect: light bounces between them, and the sums of the series are what
 /// passes and what comes back. Of a lobe beneath a reflecting one all passes, for that has taken
 /// its share. Roughness blurs the reflection only.
 template <class Interface>
-BsdfBuilder::Wall BsdfBuilder::wallOf(BsdfLobe& lobe, Interface& interface, const glm::vec3& tint,
-                                      const glm::vec3& wo, bool twoFaces) {
-    Wall wall;
-    const glm::vec3 once = interface.fused ? glm::vec3(0.0f) : lobeEnergy(lobe, wo).r;
+BsdfBuilder::ThinSlab BsdfBuilder::slabOf(BsdfLobe& lobe, Interface& interface,
+                                          const glm::vec3& tint, const glm::vec3& wo,
+                                          bool twoFaces) {
+    ThinSlab slab;
+    const glm::vec3 once = interface.sharedInterface ? glm::vec3(0.0f) : lobeEnergy(lobe, wo).r;
     const glm::vec3 bounces = twoFaces ? once : glm::vec3(0.0f);
-    wall.passed = tint * (1.0f - once) / (1.0f + bounces);
-    wall.reflected = glm::vec3(0.0f);
+    slab.transmittance = tint * (1.0f - once) / (1.0f + bounces);
+    slab.reflected = glm::vec3(0.0f);
     if (interface.mode == sh::SCATTER_RT) {
-        wall.reflected = (twoFaces ? 2.0f : 1.0f) / (1.0f + bounces);
+        slab.reflected = (twoFaces ? 2.0f : 1.0f) / (1.0f + bounces);
         interface.mode = sh::SCATTER_R;
         lobe.albedo = tint * once;
     }
-    return wall;
+    return slab;
 }
 
-void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
-                        const glm::vec4* registers, int root, Wall* walls, Bsdf& out) {
+void BsdfBuilder::instantiate(const ProgramCode& code, const ShadingPoint& point,
+                              const glm::vec4* registers, int root, ThinSlab* slabs, Bsdf& out) {
     out._lobeCount = 0;
     out._nonDelta = false;
     out._transmits = false;
@@ -161,11 +162,11 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
         out._frames[i] =
             makeFrame(point, f.normal >= 0 ? &n : nullptr, f.tangent >= 0 ? &t : nullptr, f.flips);
     }
-    glm::vec3 kept[Bsdf::maxLobes];
+    glm::vec3 coverage[Bsdf::maxLobes];
     const uint32_t part = code.bsdf[size_t(root)].lobes;
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const LobeTemplate& t = code.lobes[i];
-        kept[i] = glm::vec3(0.0f);
+        coverage[i] = glm::vec3(0.0f);
         BsdfLobe& l = out._lobes[i];
         if ((part & (1u << i)) == 0) {
             l.weight = glm::vec3(0.0f);
@@ -183,17 +184,17 @@ void BsdfBuilder::place(const ProgramCode& code, const ShadingPoint& point,
         l.weight = glm::vec3(0.0f);
         l.albedo = glm::vec3(0.0f);
         if (registers[t.weight].x > 0.0f)
-            kept[i] = keptFromBase(code, l, lobeFixWo(l, out._frames[l.frame].wo, t.energy));
-        if (!t.straight) continue;
+            coverage[i] = baseCoverage(code, l, lobeFixWo(l, out._frames[l.frame].wo, t.energy));
+        if (!t.passThrough) continue;
         const glm::vec3& wo = out._frames[l.frame].wo;
-        walls[i] = l.kind == LobeKind::Dielectric
-                       ? wallOf(l, l.dielectric, l.dielectric.tint, wo, code.wallsHaveTwoFaces)
-                       : wallOf(l, l.schlick, glm::vec3(1.0f), wo, code.wallsHaveTwoFaces);
+        slabs[i] = l.kind == LobeKind::Dielectric
+                       ? slabOf(l, l.dielectric, l.dielectric.tint, wo, code.slabsHaveTwoFaces)
+                       : slabOf(l, l.schlick, glm::vec3(1.0f), wo, code.slabsHaveTwoFaces);
     }
     if (code.returnsLight)
-        setReturnedWeights(code, registers, kept, root, out);
+        setReturnedWeights(code, registers, coverage, root, out);
     else
-        setWeights(code, registers, kept, root, out);
+        setWeights(code, registers, coverage, root, out);
 }
 
 /// A walked layer stands among the lobes. How much it reflects, to choose it by, is what albedo
@@ -222,30 +223,34 @@ void BsdfBuilder::setLayer(const ProgramCode& code, const glm::vec3& weight, int
 }
 
 void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers,
-                             const glm::vec3* kept, int root, Bsdf& out) {
+                             const glm::vec3* coverage, int root, Bsdf& out) {
     const int n = root + 1;
     // Upwards: what the tops of layers let through.
-    Scratch<glm::vec3> passed(size_t(n) + 1);
-    const auto passedBy = [&](int i) { return i < 0 ? glm::vec3(1.0f) : passed[i]; };
+    Scratch<glm::vec3> transmittance(size_t(n) + 1);
+    const auto transmittanceOf = [&](int i) { return i < 0 ? glm::vec3(1.0f) : transmittance[i]; };
     for (int i = 0; i < n; ++i) {
         const ClosureOp& op = code.bsdf[size_t(i)];
-        if (!op.needsPassed) continue;
+        if (!op.needsTransmittance) continue;
         switch (op.kind) {
-        case ClosureKind::Layer: passed[i] = passedBy(op.a) * passedBy(op.b); break;
+        case ClosureKind::Layer:
+            transmittance[i] = transmittanceOf(op.a) * transmittanceOf(op.b);
+            break;
         case ClosureKind::Mix: {
             const float m = unit(registers[op.factor].x);
-            passed[i] = passedBy(op.a) * m + passedBy(op.b) * (1.0f - m);
+            transmittance[i] = transmittanceOf(op.a) * m + transmittanceOf(op.b) * (1.0f - m);
             break;
         }
         case ClosureKind::Add:
-            passed[i] = sh::max(passedBy(op.a) + passedBy(op.b) - 1.0f, glm::vec3(0.0f));
+            transmittance[i] =
+                sh::max(transmittanceOf(op.a) + transmittanceOf(op.b) - 1.0f, glm::vec3(0.0f));
             break;
         case ClosureKind::Multiply:
-            passed[i] = 1.0f - coverOf(code, registers[op.factor]) * (1.0f - passedBy(op.a));
+            transmittance[i] =
+                1.0f - coverOf(code, registers[op.factor]) * (1.0f - transmittanceOf(op.a));
             break;
         default:
-            passed[i] = glm::vec3(1.0f);
-            if (op.lobe >= 0) passed[i] -= unit(registers[op.factor].x) * kept[op.lobe];
+            transmittance[i] = glm::vec3(1.0f);
+            if (op.lobe >= 0) transmittance[i] -= unit(registers[op.factor].x) * coverage[op.lobe];
         }
     }
     // Downwards: a closure's weight is the sum over the wholes it is part of.
@@ -271,7 +276,7 @@ void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers
                 break;
             }
             weight[op.a] += w;
-            weight[op.b] += w * passed[op.a];
+            weight[op.b] += w * transmittance[op.a];
             break;
         case ClosureKind::Mix: {
             const float m = unit(registers[op.factor].x);
@@ -290,7 +295,7 @@ void BsdfBuilder::setWeights(const ProgramCode& code, const glm::vec4* registers
     }
 }
 
-void BsdfBuilder::choose(const ProgramCode& code, Bsdf& out) {
+void BsdfBuilder::setSelectionPdfs(const ProgramCode& code, Bsdf& out) {
     int count = 0;
     for (int i = 0; i < int(code.lobes.size()) + code.walkedLayers; ++i) {
         if (!(luminance(out._lobes[i].weight) > 0.0f)) continue;
@@ -359,13 +364,15 @@ glm::vec3 linearClosure(const std::vector<ClosureOp>& ops, const glm::vec4* regi
             break;
         }
         case ClosureKind::Add: value[i] = of(op.a) + of(op.b); break;
-        case ClosureKind::Multiply: value[i] = of(op.a) * emitted(glm::vec3(registers[op.factor])); break;
+        case ClosureKind::Multiply:
+            value[i] = of(op.a) * emitted(glm::vec3(registers[op.factor]));
+            break;
         // Both sides emit alike.
         case ClosureKind::ConicalEdf: {
             const glm::vec3 n = normalOf(op, registers, normal);
-            value[i] = emitted(glm::vec3(registers[op.factor])) * sh::edfConical(registers[op.first].x,
-                                                                     registers[op.second].x,
-                                                                     std::fabs(glm::dot(wo, n)));
+            value[i] = emitted(glm::vec3(registers[op.factor])) *
+                       sh::edfConical(registers[op.first].x, registers[op.second].x,
+                                      std::fabs(glm::dot(wo, n)));
             break;
         }
         case ClosureKind::MeasuredEdf:

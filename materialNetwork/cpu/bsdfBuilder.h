@@ -13,8 +13,8 @@ public:
 
     /// As build(), but every lobe keeps its place in the program, whatever its weight, and none has
     /// a probability: for looking at.
-    static void lay(const ProgramCode& code, const ShadingPoint& point, const glm::vec4* registers,
-                    Bsdf& out);
+    static void assemble(const ProgramCode& code, const ShadingPoint& point,
+                         const glm::vec4* registers, Bsdf& out);
 
     /// The same for a part of the material.
     /// @param op  root of the part, in ProgramCode::bsdf
@@ -23,32 +23,33 @@ public:
 
     /// @returns the share of light that lobes pass straight on, 0..1. It is no part of what build()
     /// makes, and counts as absence of the surface.
-    static glm::vec3 straight(const ProgramCode& code, const ShadingPoint& point,
-                              const glm::vec4* registers);
+    static glm::vec3 passThrough(const ProgramCode& code, const ShadingPoint& point,
+                                 const glm::vec4* registers);
 
 private:
     /// What a lobe of a thin wall, or between equal media, does to light.
-    struct Wall {
-        glm::vec3 passed;    ///< share that goes straight on, without the lobe's weight
-        glm::vec3 reflected; ///< factor on the reflection that is left as a lobe
+    struct ThinSlab {
+        glm::vec3 transmittance; ///< share that goes straight on, without the lobe's weight
+        glm::vec3 reflected;     ///< factor on the reflection that is left as a lobe
     };
 
-    /// @param walls is set for lobes that pass light straight on
+    /// @param slabs is set for lobes that pass light straight on
     /// @param root in ProgramCode::bsdf
-    static void place(const ProgramCode& code, const ShadingPoint& point,
-                      const glm::vec4* registers, int root, Wall* walls, Bsdf& out);
-    template <class Interface> static Wall wallOf(BsdfLobe& lobe, Interface& interface,
-                                                  const glm::vec3& tint, const glm::vec3& wo,
-                                                  bool twoFaces);
-    static glm::vec3 straightWeight(const ProgramCode& code, const Wall* walls, const Bsdf& bsdf);
+    static void instantiate(const ProgramCode& code, const ShadingPoint& point,
+                            const glm::vec4* registers, int root, ThinSlab* slabs, Bsdf& out);
+    template <class Interface> static ThinSlab slabOf(BsdfLobe& lobe, Interface& interface,
+                                                      const glm::vec3& tint, const glm::vec3& wo,
+                                                      bool twoFaces);
+    static glm::vec3 passThroughWeight(const ProgramCode& code, const ThinSlab* slabs,
+                                       const Bsdf& bsdf);
     static void setWeights(const ProgramCode& code, const glm::vec4* registers,
-                           const glm::vec3* kept, int root, Bsdf& out);
+                           const glm::vec3* coverage, int root, Bsdf& out);
     /// The same where layers count what their tops send back down.
     static void setReturnedWeights(const ProgramCode& code, const glm::vec4* registers,
-                                   const glm::vec3* kept, int root, Bsdf& out);
+                                   const glm::vec3* coverage, int root, Bsdf& out);
     static void setLayer(const ProgramCode& code, const glm::vec3& weight, int op, int index,
                          Bsdf& out);
-    static void choose(const ProgramCode& code, Bsdf& out);
+    static void setSelectionPdfs(const ProgramCode& code, Bsdf& out);
 };
 
 /// Whether a lobe on top of a layer sends light back down to the base: an interface that reflects.

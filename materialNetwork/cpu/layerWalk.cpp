@@ -13,21 +13,21 @@ namespace patina {
 
 namespace {
 
-constexpr int kMostBounces = 500; // roulette ends walks long before
-constexpr int kSureBounces = 6;   // that no roulette ends
+constexpr int maxBounces = 500; // roulette ends walks long before
+constexpr int sureBounces = 6;  // that no roulette ends
 
 /// Shares of the density: the base as seen through a smooth top, and diffuse light.
-constexpr float kThroughTop = 0.7f, kDiffuse = 0.3f;
+constexpr float throughTopShare = 0.7f, diffuseShare = 0.3f;
 
-const EnergyCurve kNoCurve;
+const EnergyCurve noCurve;
 
 /// @returns false when roulette ends the walk
 bool goesOn(int bounces, glm::vec3& throughput, HashedNumbers& random) {
-    const float most = std::max(throughput.x, std::max(throughput.y, throughput.z));
-    if (!(most > 0.0f)) return false;
-    if (bounces < kSureBounces || most >= 1.0f) return true;
-    if (!(random.next() < most)) return false;
-    throughput /= most;
+    const float maximum = std::max(throughput.x, std::max(throughput.y, throughput.z));
+    if (!(maximum > 0.0f)) return false;
+    if (bounces < sureBounces || maximum >= 1.0f) return true;
+    if (!(random.next() < maximum)) return false;
+    throughput /= maximum;
     return true;
 }
 
@@ -68,7 +68,7 @@ LayerWalk::LayerWalk(const LayeredPoint& point, int op, const glm::vec3& wo)
 /// The top with what hangs on v (in its frame) looked up.
 BsdfLobe LayerWalk::topAt(const glm::vec3& v) const {
     BsdfLobe top = _top;
-    if (!top.stochastic) lobeFixWo(top, v, kNoCurve);
+    if (!top.stochastic) lobeFixWo(top, v, noCurve);
     return top;
 }
 
@@ -130,7 +130,7 @@ BsdfEval LayerWalk::eval(const glm::vec3& wi, HashedNumbers& random) const {
         result.diffuse += throughput * factor * e.diffuse;
         result.specular += throughput * factor * e.specular;
     };
-    for (int bounce = 0; bounce < kMostBounces; ++bounce) {
+    for (int bounce = 0; bounce < maxBounces; ++bounce) {
         if (atTop) {
             const TopSample s = topSample(v, random.next3(), random);
             if (s.event == 0 || above(s.wi)) break;
@@ -175,7 +175,7 @@ BsdfSample LayerWalk::sample(const glm::vec3& u, HashedNumbers& random) const {
     glm::vec3 v = _wo, throughput(1.0f);
     bool atTop = above(v), delta = true, diffuse = false;
     float eta = 1.0f, roughness = 0.0f;
-    for (int bounce = 0; bounce < kMostBounces; ++bounce) {
+    for (int bounce = 0; bounce < maxBounces; ++bounce) {
         glm::vec3 wi;
         if (atTop) {
             const TopSample s = topSample(v, bounce == 0 ? u : random.next3(), random);
@@ -246,8 +246,8 @@ float LayerWalk::density(const glm::vec3& wi) const {
     if (above(wi)) jacobian = refracted(d);
     Bsdf base;
     baseAt(v, 0, base);
-    if (jacobian > 0.0f) result += rest * kThroughTop * base.density(d) * jacobian;
-    return result + rest * kDiffuse * sh::INV_PI * std::fabs(glm::dot(wi, _frame.normal));
+    if (jacobian > 0.0f) result += rest * throughTopShare * base.density(d) * jacobian;
+    return result + rest * diffuseShare * sh::INV_PI * std::fabs(glm::dot(wi, _frame.normal));
 }
 
 } // namespace patina

@@ -30,24 +30,25 @@ float passesOf(const BsdfLobe& l, float z) {
         return 1.0f - sh::dielectricFresnel(l.dielectric, c, sh::dielectricEta(l.dielectric, z));
     case LobeKind::Schlick:
         if (l.schlick.mode != sh::SCATTER_RT) return l.schlick.mode == sh::SCATTER_T;
-        return 1.0f - sh::lobeMean(sh::schlickReflectance(l.schlick, c, sh::schlickEta(l.schlick, z)));
+        return 1.0f -
+               sh::lobeMean(sh::schlickReflectance(l.schlick, c, sh::schlickEta(l.schlick, z)));
     default: return 0.0f;
     }
 }
 
 glm::vec3 insideOf(const BsdfLobe& l, float z) {
     if (l.kind == LobeKind::Dielectric)
-        return sh::layerInsideDielectric(l.dielectric.favg, l.dielectric.ior,
-                                         l.dielectric.invIor, z);
+        return sh::layerInsideDielectric(l.dielectric.favg, l.dielectric.ior, l.dielectric.invIor,
+                                         z);
     return sh::layerInside(l.schlick.favg, l.schlick.invIor, z);
 }
 
 /// What tops let through, for one base after the other.
 class Tops {
 public:
-    Tops(const ProgramCode& code, const glm::vec4* registers, const glm::vec3* kept,
+    Tops(const ProgramCode& code, const glm::vec4* registers, const glm::vec3* coverage,
          const Bsdf& bsdf, Scratch<sh::LayerLight>& light)
-        : _code(code), _registers(registers), _kept(kept), _bsdf(bsdf), _light(light) {}
+        : _code(code), _registers(registers), _coverage(coverage), _bsdf(bsdf), _light(light) {}
 
     /// @param base albedo of what lies below; @param returns whether light comes back to it
     sh::LayerLight through(int top, const sh::LayerLight& base, bool returns) {
@@ -72,19 +73,19 @@ public:
         default: break;
         }
         if (op.lobe < 0) return sh::layerEven(glm::vec3(1.0f));
-        const float cover = unit(_registers[op.factor].x);
-        const glm::vec3& kept = _kept[op.lobe];
+        const float weight = unit(_registers[op.factor].x);
+        const glm::vec3& coverage = _coverage[op.lobe];
         const BsdfLobe& l = _bsdf.lobe(op.lobe);
-        if (!returns || !(cover > 0.0f) || !isReturning(_code.lobes[size_t(op.lobe)]))
-            return sh::layerPast(cover, kept);
+        if (!returns || !(weight > 0.0f) || !isReturning(_code.lobes[size_t(op.lobe)]))
+            return sh::layerPast(weight, coverage);
         const float z = _bsdf.frame(l.frame).wo.z;
-        return sh::layerThrough(cover, kept, insideOf(l, z), lobeRoughness(l), z, base);
+        return sh::layerThrough(weight, coverage, insideOf(l, z), lobeRoughness(l), z, base);
     }
 
 private:
     const ProgramCode& _code;
     const glm::vec4* _registers;
-    const glm::vec3* _kept;
+    const glm::vec3* _coverage;
     const Bsdf& _bsdf;
     Scratch<sh::LayerLight>& _light;
 };
@@ -97,7 +98,7 @@ bool isReturning(const LobeTemplate& t) {
 }
 
 void BsdfBuilder::setReturnedWeights(const ProgramCode& code, const glm::vec4* registers,
-                                     const glm::vec3* kept, int root, Bsdf& out) {
+                                     const glm::vec3* coverage, int root, Bsdf& out) {
     const int n = root + 1, lobes = int(code.lobes.size());
     const glm::vec3 none(0.0f);
     const uint32_t part = code.bsdf[size_t(root)].lobes;
@@ -107,7 +108,7 @@ void BsdfBuilder::setReturnedWeights(const ProgramCode& code, const glm::vec4* r
         if ((part & (1u << i)) == 0) continue;
         const BsdfLobe& l = out._lobes[i];
         const float z = out._frames[l.frame].wo.z;
-        const float passes = code.lobes[size_t(i)].straight ? 1.0f : passesOf(l, z);
+        const float passes = code.lobes[size_t(i)].passThrough ? 1.0f : passesOf(l, z);
         kinds[i] = sh::layerKinds(lobeRoughness(l), z, passes);
     }
     const auto isPart = [&](const ClosureOp& op) {
@@ -116,7 +117,7 @@ void BsdfBuilder::setReturnedWeights(const ProgramCode& code, const glm::vec4* r
     // Upwards: what each closure reflects and passes, and what reaches the bases of layers.
     Scratch<sh::LayerLight> light(size_t(n) + 1);
     Scratch<sh::LayerLight, 1> through(size_t(n) + 1);
-    Tops tops(code, registers, kept, out, light);
+    Tops tops(code, registers, coverage, out, light);
     const auto lightOf = [&](int i) { return i < 0 ? sh::layerEven(none) : light[i]; };
     for (int i = 0; i < n; ++i) {
         const ClosureOp& op = code.bsdf[size_t(i)];
@@ -124,8 +125,7 @@ void BsdfBuilder::setReturnedWeights(const ProgramCode& code, const glm::vec4* r
             if (op.beneath) light[i] = sh::layerEven(none);
             continue;
         }
-        if (op.kind == ClosureKind::Layer)
-            through[i] = tops.through(op.a, light[op.b], op.returns);
+        if (op.kind == ClosureKind::Layer) through[i] = tops.through(op.a, light[op.b], op.returns);
         if (!op.beneath) continue;
         switch (op.kind) {
         case ClosureKind::Layer:

@@ -85,11 +85,11 @@ template <class Interface> glm::vec3 lobeSetEnergy(BsdfLobe& l, Interface& inter
     const EnergyCurve::Energy e = curve.covers(wo.z) ? curve.at(wo.z) : lobeEnergy(l, wo);
     interface.known = true;
     setFactors(interface, e);
-    glm::vec3 kept(0.0f);
-    if ((interface.mode & sh::SCATTER_R) != 0) kept += e.r;
-    if ((interface.mode & sh::SCATTER_T) != 0) kept += e.t;
-    l.albedo = tint * kept;
-    return interface.mode == sh::SCATTER_T ? glm::vec3(1.0f) : kept;
+    glm::vec3 coverage(0.0f);
+    if ((interface.mode & sh::SCATTER_R) != 0) coverage += e.r;
+    if ((interface.mode & sh::SCATTER_T) != 0) coverage += e.t;
+    l.albedo = tint * coverage;
+    return interface.mode == sh::SCATTER_T ? glm::vec3(1.0f) : coverage;
 }
 
 /// Looks up what depends on wo alone, once for all evaluations. Sets l.albedo, exact for interfaces
@@ -114,9 +114,9 @@ inline glm::vec3 lobeFixWo(BsdfLobe& l, const glm::vec3& wo, const EnergyCurve& 
     case LobeKind::Dielectric: return lobeSetEnergy(l, l.dielectric, l.dielectric.tint, wo, curve);
     case LobeKind::Schlick: return lobeSetEnergy(l, l.schlick, l.schlick.tint, wo, curve);
     case LobeKind::Sheen: {
-        const float kept = wo.z >= 0.0f ? sh::sheenWhiteAlbedo(l.sheen, wo.z) : 0.0f;
-        l.albedo = l.sheen.color * kept;
-        return glm::vec3(kept);
+        const float coverage = wo.z >= 0.0f ? sh::sheenWhiteAlbedo(l.sheen, wo.z) : 0.0f;
+        l.albedo = l.sheen.color * coverage;
+        return glm::vec3(coverage);
     }
     case LobeKind::Phong:
     case LobeKind::BlinnPhong:

@@ -80,14 +80,14 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
     case LobeKind::Burley: out.burley = sh::burleySetup(color(0), number(1)); return;
     case LobeKind::Translucent: out.translucent = sh::translucentSetup(color(0)); return;
     case LobeKind::Dielectric:
-        out.dielectric = sh::dielectricSetup(color(0), number(1), pair(2), t.flagA, t.mode, t.fused,
-                                             t.compensate);
-        out.dielectric.facets = t.facets;
+        out.dielectric = sh::dielectricSetup(color(0), number(1), pair(2), t.flagA, t.mode,
+                                             t.sharedInterface, t.compensate);
+        out.dielectric.ndf = t.ndf;
         out.dielectric = sh::dielectricMethods(out.dielectric, t.albedo, t.sampling, t.fresnel);
         return;
     case LobeKind::Conductor:
         out.conductor = sh::conductorSetup(color(0), color(1), pair(2), t.flagA, t.compensate);
-        out.conductor.facets = t.facets;
+        out.conductor.ndf = t.ndf;
         if (t.film) out.conductor = sh::conductorFilm(out.conductor, number(3), number(4));
         out.conductor = sh::conductorMethods(out.conductor, t.albedo, t.sampling, t.filmMethod);
         out.conductor = sh::conductorFresnel(out.conductor, t.fresnel);
@@ -96,13 +96,13 @@ void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
         if (t.filmDielectric) {
             out.schlick =
                 sh::filmDielectricSetup(color(0), number(1), pair(2), number(3), number(4), t.flagA,
-                                        t.mode, t.fused, t.compensate);
+                                        t.mode, t.sharedInterface, t.compensate);
         } else {
             out.schlick = sh::schlickSetup(color(0), color(1), color(2), number(3), pair(4),
-                                           t.flagA, t.mode, t.fused, t.compensate);
+                                           t.flagA, t.mode, t.sharedInterface, t.compensate);
             if (t.film) out.schlick = sh::schlickFilm(out.schlick, number(5), number(6));
         }
-        out.schlick.facets = t.facets;
+        out.schlick.ndf = t.ndf;
         out.schlick = sh::schlickMethods(out.schlick, t.albedo, t.sampling, t.filmMethod);
         return;
     case LobeKind::Sheen:

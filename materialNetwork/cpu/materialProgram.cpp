@@ -48,25 +48,25 @@ float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* passes,
     x = x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
     if (passes) *passes = glm::vec3(1.0f);
     if (presence) *presence = x;
-    if (!_code->hasStraight || x == 0.0f) return x;
-    glm::vec3 straight;
+    if (!_code->hasPassThrough || x == 0.0f) return x;
+    glm::vec3 passThrough;
     if (_code->surfaceCode.empty()) {
-        straight = BsdfBuilder::straight(*_code, point, _code->constants.data());
+        passThrough = BsdfBuilder::passThrough(*_code, point, _code->constants.data());
     } else {
         RegisterFile registers(*_code);
         registers.run(*_code, _code->surfaceCode, point);
-        straight = BsdfBuilder::straight(*_code, point, registers.data());
+        passThrough = BsdfBuilder::passThrough(*_code, point, registers.data());
     }
     // As often as its brightest channel passes.
-    const float most = std::max(straight.x, std::max(straight.y, straight.z));
-    const float pass = 1.0f - x + x * most;
-    if (passes && pass > 0.0f) *passes = (1.0f - x + x * straight) / pass;
-    return x * (1.0f - most);
+    const float maximum = std::max(passThrough.x, std::max(passThrough.y, passThrough.z));
+    const float pass = 1.0f - x + x * maximum;
+    if (passes && pass > 0.0f) *passes = (1.0f - x + x * passThrough) / pass;
+    return x * (1.0f - maximum);
 }
 
 bool MaterialProgram::isOpaqueWith(const std::vector<int>& attributes) const {
     if (_isOpaque) return true;
-    if (_code->hasStraight || !_code->opacityFromPrimvars) return false;
+    if (_code->hasPassThrough || !_code->opacityFromPrimvars) return false;
     for (const Instruction& i : _code->opacityCode)
         if (i.data.slot >= 0 &&
             (size_t(i.data.slot) >= attributes.size() || attributes[size_t(i.data.slot)] >= 0))
@@ -88,8 +88,8 @@ Medium MaterialProgram::interior(const ShadingPoint& point) const {
     if (!_hasInterior) return Medium();
     const auto build = [&](const glm::vec4* registers) {
         Medium medium = buildMedium(_code->vdf, registers);
-        medium.emission =
-            linearClosure(_code->volumeEdf, registers, glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f));
+        medium.emission = linearClosure(_code->volumeEdf, registers, glm::vec3(0.0f),
+                                        glm::vec3(0.0f), glm::vec3(0.0f));
         return medium;
     };
     if (_code->interiorCode.empty()) return build(_code->constants.data());

@@ -9,13 +9,13 @@ namespace patina {
 
 namespace {
 
-constexpr int kMostBounces = 1000; // roulette ends walks long before
-constexpr int kSureBounces = 8;    // that no roulette ends
+constexpr int maxBounces = 1000; // roulette ends walks long before
+constexpr int sureBounces = 8;   // that no roulette ends
 
 /// What a walk wants to know about a lobe.
 struct Walker {
     glm::vec2 alpha;
-    int facets;
+    int ndf;
     int mode;      ///< SCATTER_*
     bool refracts; ///< facets let light through
     float eta;     ///< ior of the far side over that of the side of wo
@@ -24,13 +24,14 @@ struct Walker {
 };
 
 Walker walkerOf(const sh::ConductorLobe& l, const glm::vec3&) {
-    return {l.alpha, l.facets, sh::SCATTER_R, false, 1.0f, l.retro, glm::vec3(1.0f)};
+    return {l.alpha, l.ndf, sh::SCATTER_R, false, 1.0f, l.retro, glm::vec3(1.0f)};
 }
 
 Walker walkerOf(const sh::DielectricLobe& l, const glm::vec3& wo) {
     const float eta = sh::dielectricEta(l, wo.z);
-    Walker w{l.alpha, l.facets, l.mode, !l.full && !l.deltaT, eta, l.retro, glm::vec3(l.tint)};
-    if (l.fused) w.factor *= sh::energyFused(sh::dielectricEnergy(l, wo).r, true);
+    Walker w{l.alpha, l.ndf, l.mode, !l.full && !l.deltaT, eta, l.retro, glm::vec3(l.tint)};
+    if (l.sharedInterface)
+        w.factor *= sh::sharedInterfaceScale(sh::dielectricEnergy(l, wo).r, true);
     return w;
 }
 
@@ -38,8 +39,9 @@ Walker walkerOf(const sh::SchlickLobe& l, const glm::vec3& wo) {
     // One that only reflects may be a metal: what it refracts is gone.
     const bool refracts = l.mode != sh::SCATTER_R && !l.deltaT;
     const float eta = sh::schlickEta(l, wo.z);
-    Walker w{l.alpha, l.facets, l.mode, refracts, eta, l.retro, glm::vec3(l.tint)};
-    if (l.fused) w.factor *= sh::schlickFused(sh::schlickEnergy(l, wo).r, true);
+    Walker w{l.alpha, l.ndf, l.mode, refracts, eta, l.retro, glm::vec3(l.tint)};
+    if (l.sharedInterface)
+        w.factor *= sh::schlickSharedInterfaceScale(sh::schlickEnergy(l, wo).r, true);
     return w;
 }
 
@@ -79,7 +81,7 @@ sh::LobeEval singleEval(sh::SchlickLobe l, const glm::vec3& wo, const glm::vec3&
 /// The density of single scattering, mixed with that of diffuse light for what bounces on.
 float mixedDensity(const Walker& walker, float single, float cosine) {
     const float lost =
-        sh::multiLoss(std::sqrt(0.5f * glm::dot(walker.alpha, walker.alpha)), walker.facets);
+        sh::multiLoss(std::sqrt(0.5f * glm::dot(walker.alpha, walker.alpha)), walker.ndf);
     const float rest = std::min(std::max(1.2f * lost, 0.01f), 0.9f);
     const float sides = walker.mode == sh::SCATTER_RT ? 0.5f : 1.0f;
     return (1.0f - rest) * single + rest * sides * sh::INV_PI * std::fabs(cosine);
@@ -90,8 +92,8 @@ float mixedDensity(const Walker& walker, float single, float cosine) {
 template <class Lobe> class Walk {
 public:
     Walk(const Lobe& lobe, const Walker& walker, const glm::vec3& o, HashedNumbers& random)
-        : _lobe(lobe), _walker(walker), _surface(walker.alpha, walker.facets), _random(random),
-          _w(-o), _eta(walker.eta) {}
+        : _lobe(lobe), _walker(walker), _surface(walker.alpha, walker.ndf), _random(random), _w(-o),
+          _eta(walker.eta) {}
 
     /// @returns false when the ray leaves
     bool meets() {
@@ -100,21 +102,21 @@ public:
     }
 
     /// Bounces off a facet or goes through it.
-    /// @param least of the chance to reflect
-    void bounce(const glm::vec3& u, float least) {
+    /// @param minimum of the chance to reflect
+    void bounce(const glm::vec3& u, float minimum) {
         const glm::vec3 v = -_w;
-        const glm::vec3 m = _surface.facet(v, glm::vec2(u), _random);
+        const glm::vec3 m = _surface.sampleVisibleNormal(v, glm::vec2(u), _random);
         const float c = std::min(std::max(glm::dot(v, m), 0.0f), 1.0f);
         const glm::vec3 f = reflectance(_lobe, c, _eta);
         const float chance =
-            _walker.refracts ? least + (1.0f - least) * std::min(sh::lobeMean(f), 1.0f) : 1.0f;
+            _walker.refracts ? minimum + (1.0f - minimum) * std::min(sh::lobeMean(f), 1.0f) : 1.0f;
         if (u.z < chance) {
             _throughput *= f / chance;
             _w = glm::normalize(m * (2.0f * c) - v);
             return;
         }
         _throughput *= (glm::vec3(1.0f) - f) / (1.0f - chance);
-        _w = sh::facetDirection(v, m, c, _eta, false);
+        _w = sh::microfacetDirection(v, m, c, _eta, false);
         _w.z = -_w.z;
         _below = 1.0 - _below;
         _eta = 1.0f / _eta;
@@ -123,7 +125,7 @@ public:
 
     /// @returns false when roulette ends the walk
     bool goesOn(int bounces) {
-        if (bounces < kSureBounces) return true;
+        if (bounces < sureBounces) return true;
         const float chance =
             std::min(1.0f, std::max(_throughput.x, std::max(_throughput.y, _throughput.z)));
         if (!(_random.next() < chance)) return false;
@@ -166,7 +168,7 @@ private:
 };
 
 /// Light that a reflection lobe refracts rarely comes back: most walks of such a lobe reflect.
-float leastReflected(const Walker& walker, int bounce) {
+float minReflected(const Walker& walker, int bounce) {
     return bounce == 0 && walker.mode == sh::SCATTER_R && walker.refracts ? 0.75f : 0.0f;
 }
 
@@ -193,9 +195,9 @@ template <class Lobe> sh::LobeEval eval(const Lobe& lobe, const glm::vec3& wo, c
     // What the first facet reflects is known; what it refracts depends on its height here.
     glm::vec3 sum(0.0f);
     Walk<Lobe> walk(lobe, walker, {wo.x, wo.y, wo.z * side}, random);
-    for (int bounce = 0; bounce < kMostBounces && walk.meets(); ++bounce) {
+    for (int bounce = 0; bounce < maxBounces && walk.meets(); ++bounce) {
         sum += walk.towards(i, crosses, bounce > 0);
-        walk.bounce(random.next3(), leastReflected(walker, bounce));
+        walk.bounce(random.next3(), minReflected(walker, bounce));
         if (!walk.goesOn(bounce)) break;
     }
     sh::LobeEval e;
@@ -211,8 +213,8 @@ template <class Lobe> sh::LobeSample sample(const Lobe& lobe, const glm::vec3& w
     const float side = wo.z >= 0.0f ? 1.0f : -1.0f;
     Walk<Lobe> walk(lobe, walker, {wo.x, wo.y, wo.z * side}, random);
     for (int bounce = 0; walk.meets(); ++bounce) {
-        if (bounce >= kMostBounces) return sh::lobeSampleNone();
-        walk.bounce(bounce == 0 ? u : random.next3(), leastReflected(walker, bounce));
+        if (bounce >= maxBounces) return sh::lobeSampleNone();
+        walk.bounce(bounce == 0 ? u : random.next3(), minReflected(walker, bounce));
         if (!walk.goesOn(bounce)) return sh::lobeSampleNone();
     }
     const bool crosses = walk.crossed();

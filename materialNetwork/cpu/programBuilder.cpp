@@ -126,12 +126,12 @@ void ProgramBuilder::setFlags() {
     p._constant = _code->surfaceCode.empty();
     p._isThinWalled = _plan.thinWalled;
     p._hasEmission = !_code->edf.empty();
-    p._isOpaque = !_code->hasStraight && _plan.opacity.isConstant() &&
+    p._isOpaque = !_code->hasPassThrough && _plan.opacity.isConstant() &&
                   !_plan.opacity.value.numbers.empty() && _plan.opacity.value.numbers[0] >= 1.0f;
     for (const LobeTemplate& t : _code->lobes)
         p._hasTransmission |= t.prebuilt.kind == LobeKind::Translucent ||
                               t.prebuilt.kind == LobeKind::ChiangHair ||
-                              (!t.straight && (t.mode & sh::SCATTER_T) != 0);
+                              (!t.passThrough && (t.mode & sh::SCATTER_T) != 0);
     p._isVolumeOnly = _plan.volumeOnly;
     for (const LobeTemplate& t : _code->lobes)
         p._isFibre |= t.prebuilt.kind == LobeKind::ChiangHair;
@@ -139,7 +139,7 @@ void ProgramBuilder::setFlags() {
         p._hasSubsurface |= t.prebuilt.kind == LobeKind::Subsurface;
     p._passingEnters = _plan.volumeOnly;
     for (const LobeTemplate& t : _code->lobes)
-        p._passingEnters |= t.straight && !t.thin;
+        p._passingEnters |= t.passThrough && !t.thin;
     p._hasInterior = (!_code->vdf.empty() || !_code->volumeEdf.empty()) && !_plan.thinWalled &&
                      (p._hasTransmission || p._passingEnters);
 }
@@ -158,7 +158,7 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
         : chosen("layerTransmittance", "average") ? LayerTransmittance::Average
         : chosen("layerTransmittance", "tinted")  ? LayerTransmittance::Tinted
                                                   : LayerTransmittance::Returned;
-    _code->wallsHaveTwoFaces = !chosen("thinWalled", "sheet");
+    _code->slabsHaveTwoFaces = !chosen("thinWalled", "sheet");
     _data.resize(n);
     _prepared.resize(n, false);
     _readsTexture.resize(n, false);

@@ -34,7 +34,7 @@ private:
     void markLobes(std::vector<ClosureOp>& ops) const;
     void markReturning(std::vector<ClosureOp>& ops) const;
     void markWalked(std::vector<ClosureOp>& ops) const;
-    bool isStraight(const PlanClosure& closure) const;
+    bool isPassThrough(const PlanClosure& closure) const;
     void setFlags();
 
     const GraphNode& nodeOf(int node) const { return _plan.graph.nodes[size_t(node)]; }

@@ -80,10 +80,10 @@ std::shared_ptr<const EmissionProfile> ProgramBuilder::profile(const PlanClosure
 void ProgramBuilder::markTops(std::vector<ClosureOp>& ops) const {
     for (size_t i = ops.size(); i-- > 0;) {
         ClosureOp& op = ops[i];
-        if (op.kind == ClosureKind::Layer && op.a >= 0) ops[size_t(op.a)].needsPassed = true;
-        if (op.needsPassed) {
-            if (op.a >= 0) ops[size_t(op.a)].needsPassed = true;
-            if (op.b >= 0) ops[size_t(op.b)].needsPassed = true;
+        if (op.kind == ClosureKind::Layer && op.a >= 0) ops[size_t(op.a)].needsTransmittance = true;
+        if (op.needsTransmittance) {
+            if (op.a >= 0) ops[size_t(op.a)].needsTransmittance = true;
+            if (op.b >= 0) ops[size_t(op.b)].needsTransmittance = true;
         }
     }
 }
@@ -137,8 +137,8 @@ void ProgramBuilder::markReturning(std::vector<ClosureOp>& ops) const {
         ClosureOp& op = ops[i];
         if (op.kind != ClosureKind::Layer || darkensItself(_plan, _plan.closures[i])) continue;
         for (size_t lobe = 0; lobe < _code->lobes.size(); ++lobe)
-            op.returns |= (ops[size_t(op.a)].lobes >> lobe & 1u) != 0 &&
-                          isReturning(_code->lobes[lobe]);
+            op.returns |=
+                (ops[size_t(op.a)].lobes >> lobe & 1u) != 0 && isReturning(_code->lobes[lobe]);
         _code->returnsLight |= op.returns;
     }
     for (size_t i = ops.size(); i-- > 0;) {

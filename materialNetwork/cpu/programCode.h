@@ -31,18 +31,18 @@ struct LobeTemplate {
     BsdfLobe prebuilt; ///< set up already when constant; kind, diffuse and frame always
     bool constant = false;
     bool flagA = false; ///< retroreflective, or energy_compensation
-    bool fused = false;
+    bool sharedInterface = false;
     bool film = false;           ///< has a thin film
     bool filmDielectric = false; ///< a dielectric with a film: LobeKind::Schlick
     bool thin = false;           ///< of a thin wall
-    bool straight = false;       ///< passes light straight on: part of the presence
+    bool passThrough = false;    ///< passes light straight on: part of the presence
     int mode = 0;                ///< SCATTER_*
     int variant = 0;             ///< lobeVariant()
-    int facets = 0;              ///< facetDistribution()
+    int ndf = 0;                 ///< microfacetDistribution()
     int compensate = 1;          ///< COMPENSATE_*
     bool walks = false;          ///< between its facets, see cpu/microsurface.h
     int albedo = 0;              ///< ALBEDO_*
-    int sampling = 0;            ///< FACETS_VISIBLE and others
+    int sampling = 0;            ///< SAMPLING_VNDF and others
     int fresnel = 0;             ///< FRESNEL_*
     int filmMethod = 0;          ///< FILM_*
     int sheenAlbedo = 0;         ///< SHEEN_TABLED and others
@@ -56,14 +56,14 @@ struct LobeTemplate {
 struct ClosureOp {
     ClosureKind kind = ClosureKind::None;
     int a = -1, b = -1;
-    int lobe = -1;            ///< index of the lobe, for lobes
-    bool needsPassed = false; ///< stands somewhere in a layer's top
-    bool walked = false;      ///< a layer that is walked, see cpu/layerWalk.h
-    bool beneath = false;     ///< stands somewhere in a layer's base
-    bool returns = false;     ///< a layer whose top sends light back down that counts
-    uint32_t lobes = 0;       ///< that are part of it, a bit each
-    Register factor = 0;      ///< lobe: weight; Mix: mix; Multiply: factor; EDF: value
-                              ///< VDF: absorption
+    int lobe = -1;                   ///< index of the lobe, for lobes
+    bool needsTransmittance = false; ///< stands somewhere in a layer's top
+    bool walked = false;             ///< a layer that is walked, see cpu/layerWalk.h
+    bool beneath = false;            ///< stands somewhere in a layer's base
+    bool returns = false;            ///< a layer whose top sends light back down that counts
+    uint32_t lobes = 0;              ///< that are part of it, a bit each
+    Register factor = 0;             ///< lobe: weight; Mix: mix; Multiply: factor; EDF: value
+                                     ///< VDF: absorption
     Register scattering = 0, anisotropy = 0; ///< of an AnisotropicVdf
     /// ConicalEdf: inner and outer angle. SchlickEdf: color90 and exponent (factor is color0).
     Register first = 0, second = 0;
@@ -92,10 +92,10 @@ struct ProgramCode {
     Register displacement = 0, displacementScale = 0;
     bool displacementIsVector = false;
     int walkedLayers = 0;          ///< of `bsdf`
-    bool hasStraight = false;      ///< a lobe is straight
-    bool wallsHaveTwoFaces = true; ///< thin walls
+    bool hasPassThrough = false;   ///< a lobe passes light straight on
+    bool slabsHaveTwoFaces = true; ///< thin walls
     LayerTransmittance layerTransmittance = LayerTransmittance::Returned;
-    bool returnsLight = false; ///< a layer of `bsdf` returns light
+    bool returnsLight = false;        ///< a layer of `bsdf` returns light
     bool opacityFromPrimvars = false; ///< only primvars can make opacity less than 1
     const TextureSource* textures = nullptr;
 };

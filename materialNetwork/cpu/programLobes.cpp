@@ -60,7 +60,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
         closure.kind == ClosureKind::Sheen;
     const bool interface =
         closure.kind == ClosureKind::Dielectric || closure.kind == ClosureKind::Schlick;
-    t.fused = closure.fused;
+    t.sharedInterface = closure.sharedInterface;
     const std::string compensation = chosenMethod(_plan.methods, "energyCompensation");
     t.compensate = compensation == "none"         ? sh::COMPENSATE_NONE
                    : compensation == "kullaConty" ? sh::COMPENSATE_ADD
@@ -81,7 +81,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
         flag(closure.kind == ClosureKind::OrenNayar ? "energy_compensation" : "retroreflective");
     if (interface) t.mode = scatterMode(_plan, closure);
     t.variant = lobeVariant(_plan, closure);
-    t.facets = facetDistribution(_plan, closure);
+    t.ndf = microfacetDistribution(_plan, closure);
     t.film = hasFilm(_plan, closure);
     // A film colours the reflectance, for which a dielectric has no room.
     t.filmDielectric = t.film && closure.kind == ClosureKind::Dielectric;
@@ -101,7 +101,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
         operand.value = Value::makeFloat(0.0f);
         if (node.def->findInput(names[i]) >= 0) operand = closureInput(_plan, closure, names[i]);
         // Light goes straight through a thin wall; the layer above has taken what is reflected.
-        if (closure.thin && closure.fused && t.mode == sh::SCATTER_T &&
+        if (closure.thin && closure.sharedInterface && t.mode == sh::SCATTER_T &&
             closure.kind == ClosureKind::Dielectric && std::string(names[i]) == "ior") {
             operand = Operand();
             operand.value = Value::makeFloat(1.0f);
@@ -110,8 +110,8 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
         t.constant &= operand.isConstant();
         t.parameters[i] = registerOf(operand);
     }
-    t.straight = isStraight(closure);
-    _code->hasStraight |= t.straight;
+    t.passThrough = isPassThrough(closure);
+    _code->hasPassThrough |= t.passThrough;
     if (t.constant) {
         setupLobe(t, _code->constants.data(), t.prebuilt);
         t.energy.measure(t.prebuilt);
@@ -126,7 +126,7 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
 }
 
 /// Without bending: what a shadow ray may cross.
-bool ProgramBuilder::isStraight(const PlanClosure& closure) const {
+bool ProgramBuilder::isPassThrough(const PlanClosure& closure) const {
     const bool dielectric = closure.kind == ClosureKind::Dielectric;
     if ((!dielectric && closure.kind != ClosureKind::Schlick) ||
         (scatterMode(_plan, closure) & sh::SCATTER_T) == 0 || hasFilm(_plan, closure))

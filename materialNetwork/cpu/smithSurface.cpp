@@ -7,22 +7,22 @@ namespace patina {
 
 namespace {
 
-constexpr double kLevel = 1e-6; // |z| below which a ray stays at its height
-constexpr double kInvRootPi = 0.56418958354775628;
+constexpr double levelCosine = 1e-6; // |z| below which a ray stays at its height
+constexpr double invRootPi = 0.56418958354775628;
 
 } // namespace
 
 double SmithSurface::projectedArea(const glm::vec3& v) const {
     const double x = double(_alpha.x) * v.x, y = double(_alpha.y) * v.y, z = v.z;
     const double across = x * x + y * y;
-    if (_facets != sh::FACETS_BECKMANN) {
+    if (_ndf != sh::NDF_BECKMANN) {
         const double length = std::sqrt(across + z * z);
         return 0.5 * (z >= 0.0 ? length + z : across / std::max(length - z, 1e-300));
     }
     const double s = std::sqrt(across);
     if (s < 1e-12) return std::max(z, 0.0);
     const double a = z / s;
-    return 0.5 * std::max(z * std::erfc(-a) + s * std::exp(-a * a) * kInvRootPi, 0.0);
+    return 0.5 * std::max(z * std::erfc(-a) + s * std::exp(-a * a) * invRootPi, 0.0);
 }
 
 double SmithSurface::lambda(const glm::vec3& w) const {
@@ -30,12 +30,12 @@ double SmithSurface::lambda(const glm::vec3& w) const {
 }
 
 double SmithSurface::leaves(const glm::vec3& w, double below) const {
-    if (!(w.z > kLevel)) return 0.0;
+    if (!(w.z > levelCosine)) return 0.0;
     return std::pow(std::max(below, 0.0), lambda(w));
 }
 
 double SmithSurface::nextBelow(const glm::vec3& w, double below, double u) const {
-    if (std::fabs(w.z) < kLevel) return below;
+    if (std::fabs(w.z) < levelCosine) return below;
     const double l = lambda(w);
     if (w.z > 0.0f && (l < 1e-12 || u >= 1.0 - std::pow(below, l))) return 2.0;
     return std::min(below / std::pow(1.0 - u, 1.0 / l), 1.0);
@@ -67,9 +67,10 @@ glm::vec3 SmithSurface::beckmannFromBelow(const glm::vec3& v, HashedNumbers& ran
                                     float(_alpha.y * (y * along + x * across)), 1.0f));
 }
 
-glm::vec3 SmithSurface::facet(const glm::vec3& v, const glm::vec2& u, HashedNumbers& random) const {
-    if (_facets == sh::FACETS_BECKMANN && v.z < 0.0f) return beckmannFromBelow(v, random);
-    return sh::facetSampleVisible(v, _alpha, u, _facets);
+glm::vec3 SmithSurface::sampleVisibleNormal(const glm::vec3& v, const glm::vec2& u,
+                                            HashedNumbers& random) const {
+    if (_ndf == sh::NDF_BECKMANN && v.z < 0.0f) return beckmannFromBelow(v, random);
+    return sh::microfacetSampleVisible(v, _alpha, u, _ndf);
 }
 
 double SmithSurface::reflected(const glm::vec3& v, const glm::vec3& i, float& cosine) const {
@@ -79,7 +80,7 @@ double SmithSurface::reflected(const glm::vec3& v, const glm::vec3& i, float& co
     h /= length;
     cosine = std::min(0.5f * length, 1.0f);
     const double area = projectedArea(v);
-    return area > 0.0 ? double(sh::facetD(h, _alpha, _facets)) * 0.25 / area : 0.0;
+    return area > 0.0 ? double(sh::microfacetD(h, _alpha, _ndf)) * 0.25 / area : 0.0;
 }
 
 double SmithSurface::refracted(const glm::vec3& v, const glm::vec3& i, float eta,
@@ -93,7 +94,7 @@ double SmithSurface::refracted(const glm::vec3& v, const glm::vec3& i, float eta
     if (!(vh > 0.0f && ih < 0.0f) || !(area > 0.0)) return 0.0;
     cosine = std::min(vh, 1.0f);
     const double jacobian = double(eta) * eta * -ih / (double(length) * length);
-    return double(sh::facetD(h, _alpha, _facets)) * vh / area * jacobian;
+    return double(sh::microfacetD(h, _alpha, _ndf)) * vh / area * jacobian;
 }
 
 } // namespace patina

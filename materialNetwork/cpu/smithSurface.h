@@ -9,8 +9,8 @@ namespace patina {
 /// enter only as the share of the surface that is lower, so their distribution does not matter.
 class SmithSurface {
 public:
-    /// @param alpha not that of a mirror; @param facets sh::FACETS_*
-    SmithSurface(const glm::vec2& alpha, int facets) : _alpha(alpha), _facets(facets) {}
+    /// @param alpha not that of a mirror; @param ndf sh::NDF_*
+    SmithSurface(const glm::vec2& alpha, int ndf) : _alpha(alpha), _ndf(ndf) {}
 
     /// @returns projected area of the facets that v sees, per area of the surface; v may look up
     /// from below
@@ -24,7 +24,8 @@ public:
     double leaves(const glm::vec3& w, double below) const;
 
     /// Draws a facet in proportion to what v sees of it.
-    glm::vec3 facet(const glm::vec3& v, const glm::vec2& u, HashedNumbers& random) const;
+    glm::vec3 sampleVisibleNormal(const glm::vec3& v, const glm::vec2& u,
+                                  HashedNumbers& random) const;
 
     /// Density of directions i that such facets reflect v to, per solid angle.
     double reflected(const glm::vec3& v, const glm::vec3& i, float& cosine) const;
@@ -38,7 +39,7 @@ private:
     glm::vec3 beckmannFromBelow(const glm::vec3& v, HashedNumbers& random) const;
 
     glm::vec2 _alpha;
-    int _facets;
+    int _ndf;
 };
 
 } // namespace patina

@@ -23,8 +23,8 @@ public:
         for (int i = 0; i < n; ++i)
             light(i);
         for (int i = 0; i < n; ++i)
-            line("LayerLight w" + number(i) + " = layerEven(vec3(" +
-                 (i == n - 1 ? "1.0" : "0.0") + "));");
+            line("LayerLight w" + number(i) + " = layerEven(vec3(" + (i == n - 1 ? "1.0" : "0.0") +
+                 "));");
         for (int i = n - 1; i >= 0; --i)
             weight(i);
         return _text;
@@ -51,7 +51,7 @@ private:
     std::string passesOf(const LobeTemplate& t, const std::string& lobe,
                          const std::string& z) const {
         const LobeKind kind = t.prebuilt.kind;
-        if (t.straight || kind == LobeKind::Translucent || kind == LobeKind::ChiangHair)
+        if (t.passThrough || kind == LobeKind::Translucent || kind == LobeKind::ChiangHair)
             return "1.0";
         if (kind != LobeKind::Dielectric && kind != LobeKind::Schlick) return "0.0";
         if (t.mode != sh::SCATTER_RT) return t.mode == sh::SCATTER_T ? "1.0" : "0.0";
@@ -111,15 +111,15 @@ private:
                      bool returns) const {
         const LobeTemplate& t = _code.lobes[size_t(op.lobe)];
         const std::string n = number(op.lobe), lobe = "lobe" + n;
-        if (!returns || !isReturning(t)) return "layerPast(" + cover + ", kept" + n + ")";
+        if (!returns || !isReturning(t)) return "layerPast(" + cover + ", coverage" + n + ")";
         const LobeKind kind = t.prebuilt.kind;
         const std::string z = cosineOf(op.lobe);
         const std::string inside =
             std::string(kind == LobeKind::Dielectric ? "layerInsideDielectric(" : "layerInside(") +
             lobe + ".favg, " + (kind == LobeKind::Dielectric ? lobe + ".ior, " : "") + lobe +
             ".invIor, " + z + ")";
-        return "layerThrough(" + cover + ", kept" + n + ", " + inside + ", " + alphaOf(kind, lobe) +
-               ", " + z + ", " + base + ")";
+        return "layerThrough(" + cover + ", coverage" + n + ", " + inside + ", " +
+               alphaOf(kind, lobe) + ", " + z + ", " + base + ")";
     }
 
     std::string named(const std::string& value) {
@@ -134,16 +134,18 @@ private:
         std::string value = lightOf(-1);
         switch (op.kind) {
         case ClosureKind::Layer: {
-            const std::string passed = through(op.a, lightOf(op.b), op.returns);
-            line("LayerLight through" + number(i) + " = " + passed + ";");
-            value = "layerSum(" + lightOf(op.a) + ", layerProduct(" + passed + ", " +
+            const std::string transmittance = through(op.a, lightOf(op.b), op.returns);
+            line("LayerLight through" + number(i) + " = " + transmittance + ";");
+            value = "layerSum(" + lightOf(op.a) + ", layerProduct(" + transmittance + ", " +
                     lightOf(op.b) + "))";
             break;
         }
         case ClosureKind::Mix:
             value = "layerMix(" + lightOf(op.a) + ", " + lightOf(op.b) + ", " + f + ")";
             break;
-        case ClosureKind::Add: value = "layerSum(" + lightOf(op.a) + ", " + lightOf(op.b) + ")"; break;
+        case ClosureKind::Add:
+            value = "layerSum(" + lightOf(op.a) + ", " + lightOf(op.b) + ")";
+            break;
         case ClosureKind::Multiply:
             value = "layerScaled(" + lightOf(op.a) + ", factor(" + f + "))";
             break;
@@ -161,8 +163,7 @@ private:
         const std::string w = "w" + number(i);
         const std::string& f = _factors[size_t(i)];
         const auto give = [&](int to, const std::string& what) {
-            if (to >= 0)
-                line("w" + number(to) + " = layerSum(w" + number(to) + ", " + what + ");");
+            if (to >= 0) line("w" + number(to) + " = layerSum(w" + number(to) + ", " + what + ");");
         };
         switch (op.kind) {
         case ClosureKind::Layer:

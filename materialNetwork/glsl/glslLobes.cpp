@@ -45,8 +45,8 @@ std::string glslLobeSetup(const LobeTemplate& t,
     const auto flag = [](bool b) { return std::string(b ? "true" : "false"); };
     const std::string mode = std::to_string(t.mode), variant = std::to_string(t.variant);
     const std::string retro = flag(t.flagA);
-    const std::string tail =
-        ", " + retro + ", " + mode + ", " + flag(t.fused) + ", " + std::to_string(t.compensate);
+    const std::string tail = ", " + retro + ", " + mode + ", " + flag(t.sharedInterface) + ", " +
+                             std::to_string(t.compensate);
     switch (t.prebuilt.kind) {
     case LobeKind::Layered: break;
     case LobeKind::OrenNayar:

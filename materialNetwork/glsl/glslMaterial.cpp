@@ -40,12 +40,12 @@ public:
         line("vec3 lobeAlbedo[" + number(lobes) + "];");
         line("float lobeChance[" + number(lobes) + "];");
         if (std::any_of(_code.lobes.begin(), _code.lobes.end(), glslRefracts))
-            line("vec3 lobePassed[" + number(lobes) + "];");
+            line("vec3 lobeTransmittance[" + number(lobes) + "];");
         line("Frame frames[" + number(std::max(1, int(_code.frames.size()))) + "];");
-        line("vec3 straight;");
+        line("vec3 passThrough;");
         for (const std::string& walks : glslWalksLeftOut(_code))
             _out.leftOut.push_back(walks);
-        placeFunction();
+        instantiateFunction();
         setupFunction();
         presenceFunction();
         emissionFunction();
@@ -66,8 +66,8 @@ public:
         if (_out.parameters.empty()) _out.parameters.emplace_back(0.0f);
         _out.presence = !_program.isOpaque();
         _out.emission = _program.hasEmission();
-        _out.tints = _code.hasStraight;
-        _out.holds = _program.hasInterior();
+        _out.hasColoredPresence = _code.hasPassThrough;
+        _out.hasInterior = _program.hasInterior();
         _out.volumeOnly = _program.isVolumeOnly();
         _out.thin = _program.isThinWalled();
         _out.fibre = _program.isFibre();
@@ -145,27 +145,27 @@ private:
     }
 
     /// Lobes set up, with weights that do not yet know what passes straight.
-    void placeFunction() {
-        line("void place() {");
+    void instantiateFunction() {
+        line("void instantiate() {");
         instructions(_code.surfaceCode);
         for (size_t i = 0; i < _code.frames.size(); ++i)
             frame(int(i));
         for (size_t i = 0; i < _code.lobes.size(); ++i)
-            placeLobe(i);
+            instantiateLobe(i);
         weights();
-        line("    straight = vec3(0.0);");
+        line("    passThrough = vec3(0.0);");
         for (size_t i = 0; i < _code.lobes.size(); ++i)
-            if (_code.lobes[i].straight)
-                line("    straight += lobeWeight[" + number(int(i)) + "] * wallPassed" +
+            if (_code.lobes[i].passThrough)
+                line("    passThrough += lobeWeight[" + number(int(i)) + "] * slabTransmittance" +
                      number(int(i)) + ";");
-        if (_code.hasStraight) {
-            line("    straight = clamp(straight, 0.0, 1.0);");
-            line("    float met = 1.0 - largest(straight);");
+        if (_code.hasPassThrough) {
+            line("    passThrough = clamp(passThrough, 0.0, 1.0);");
+            line("    float met = 1.0 - largest(passThrough);");
             line("    float scale = met > 0.0 ? 1.0 / met : 0.0;");
             for (size_t i = 0; i < _code.lobes.size(); ++i)
                 line("    lobeWeight[" + number(int(i)) + "] *= " +
-                     (_code.lobes[i].straight ? "wallReflected" + number(int(i)) + " * scale;"
-                                              : "scale;"));
+                     (_code.lobes[i].passThrough ? "slabReflected" + number(int(i)) + " * scale;"
+                                                 : "scale;"));
         }
         line("}");
     }
@@ -207,7 +207,7 @@ private:
     /// What lobeSetup.cpp sets after the lobe's own inputs.
     void methodLines(const LobeTemplate& t, const std::string& lobe) {
         const LobeKind kind = t.prebuilt.kind;
-        if (t.facets != 0) line("    " + lobe + ".facets = " + number(t.facets) + ";");
+        if (t.ndf != 0) line("    " + lobe + ".ndf = " + number(t.ndf) + ";");
         if (kind != LobeKind::Dielectric && kind != LobeKind::Conductor &&
             kind != LobeKind::Schlick)
             return;
@@ -221,7 +221,7 @@ private:
             line("    " + lobe + " = conductorFresnel(" + lobe + ", " + number(t.fresnel) + ");");
     }
 
-    void placeLobe(size_t i) {
+    void instantiateLobe(size_t i) {
         const LobeTemplate& t = _code.lobes[i];
         const std::string n = number(int(i)), lobe = "lobe" + n;
         const std::string prefix = glslLobePrefix(t.prebuilt.kind);
@@ -235,22 +235,24 @@ private:
             (kind == LobeKind::Dielectric || kind == LobeKind::Schlick) && t.mode == sh::SCATTER_R;
         const bool tinted = _code.layerTransmittance == LayerTransmittance::Tinted &&
                             (reflects || kind == LobeKind::Sheen);
-        line("    vec3 kept" + n + " = " + fixed + ";");
-        const std::string what = tinted ? "lobeAlbedo[" + n + "]" : "kept" + n;
+        line("    vec3 coverage" + n + " = " + fixed + ";");
+        const std::string what = tinted ? "lobeAlbedo[" + n + "]" : "coverage" + n;
         const bool returned = _code.layerTransmittance == LayerTransmittance::Returned;
-        line("    kept" + n + " = " + (returned ? "unit(" + what + ")" : share(what)) + ";");
-        if (glslRefracts(t)) line("    lobePassed[" + n + "] = fixPassed;");
-        if (!t.straight) return;
-        line("    vec3 wallPassed" + n + ", wallReflected" + n + ";");
-        line("    " + prefix + "Wall(" + lobe + ", " + glslFrameOf(_code, i) + ".wo, lobeAlbedo[" +
-             n + "], wallPassed" + n + ", wallReflected" + n + ", " +
-             (_code.wallsHaveTwoFaces ? "true" : "false") + ");");
+        line("    coverage" + n + " = " + (returned ? "unit(" + what + ")" : share(what)) + ";");
+        if (glslRefracts(t)) line("    lobeTransmittance[" + n + "] = fixTransmittance;");
+        if (!t.passThrough) return;
+        line("    vec3 slabTransmittance" + n + ", slabReflected" + n + ";");
+        line("    " + prefix + "Slab(" + lobe + ", " + glslFrameOf(_code, i) + ".wo, lobeAlbedo[" +
+             n + "], slabTransmittance" + n + ", slabReflected" + n + ", " +
+             (_code.slabsHaveTwoFaces ? "true" : "false") + ");");
     }
 
     /// As BsdfBuilder::setWeights(), unrolled.
     void weights() {
         const int count = int(_code.bsdf.size());
-        const auto passed = [&](int i) { return i < 0 ? "vec3(1.0)" : "passed" + number(i); };
+        const auto transmittance = [&](int i) {
+            return i < 0 ? "vec3(1.0)" : "transmittance" + number(i);
+        };
         std::vector<std::string> factor(size_t(count) + 1);
         for (int i = 0; i < count; ++i) {
             const ClosureOp& op = _code.bsdf[size_t(i)];
@@ -265,24 +267,27 @@ private:
         }
         for (int i = 0; i < count; ++i) {
             const ClosureOp& op = _code.bsdf[size_t(i)];
-            if (!op.needsPassed) continue;
+            if (!op.needsTransmittance) continue;
             const std::string& f = factor[size_t(i)];
             std::string value = "vec3(1.0)";
             switch (op.kind) {
-            case ClosureKind::Layer: value = passed(op.a) + " * " + passed(op.b); break;
+            case ClosureKind::Layer:
+                value = transmittance(op.a) + " * " + transmittance(op.b);
+                break;
             case ClosureKind::Mix:
-                value = "mix(" + passed(op.b) + ", " + passed(op.a) + ", " + f + ")";
+                value = "mix(" + transmittance(op.b) + ", " + transmittance(op.a) + ", " + f + ")";
                 break;
             case ClosureKind::Add:
-                value = "max(" + passed(op.a) + " + " + passed(op.b) + " - 1.0, vec3(0.0))";
+                value = "max(" + transmittance(op.a) + " + " + transmittance(op.b) +
+                        " - 1.0, vec3(0.0))";
                 break;
             case ClosureKind::Multiply:
-                value = "1.0 - " + share(f) + " * (1.0 - " + passed(op.a) + ")";
+                value = "1.0 - " + share(f) + " * (1.0 - " + transmittance(op.a) + ")";
                 break;
             default:
-                if (op.lobe >= 0) value = "1.0 - " + f + " * kept" + number(op.lobe);
+                if (op.lobe >= 0) value = "1.0 - " + f + " * coverage" + number(op.lobe);
             }
-            line("    vec3 passed" + number(i) + " = " + value + ";");
+            line("    vec3 transmittance" + number(i) + " = " + value + ";");
         }
         for (int i = 0; i < count; ++i)
             line("    vec3 w" + number(i) + " = vec3(" + (i == count - 1 ? "1.0" : "0.0") + ");");
@@ -296,7 +301,7 @@ private:
             switch (op.kind) {
             case ClosureKind::Layer:
                 give(op.a, w);
-                give(op.b, w + " * " + passed(op.a));
+                give(op.b, w + " * " + transmittance(op.a));
                 break;
             case ClosureKind::Mix:
                 give(op.a, w + " * " + f);
@@ -314,10 +319,10 @@ private:
         }
     }
 
-    /// As BsdfBuilder::choose(): a lone lobe needs no share.
+    /// As BsdfBuilder::setSelectionPdfs(): a lone lobe needs no share.
     void setupFunction() {
         line("void materialSetup() {");
-        line("    place();");
+        line("    instantiate();");
         line("    float sum = 0.0;");
         line("    int present = 0;");
         for (size_t i = 0; i < _code.lobes.size(); ++i) {
@@ -345,11 +350,11 @@ private:
         line("    passes = vec3(1.0);");
         instructions(_code.opacityCode);
         line("    float x = unit(" + reg(_code.opacity) + ".x);");
-        if (_code.hasStraight) {
-            line("    place();");
-            line("    float most = largest(straight);");
+        if (_code.hasPassThrough) {
+            line("    instantiate();");
+            line("    float most = largest(passThrough);");
             line("    float pass = 1.0 - x + x * most;");
-            line("    if (pass > 0.0) passes = (1.0 - x + x * straight) / pass;");
+            line("    if (pass > 0.0) passes = (1.0 - x + x * passThrough) / pass;");
             line("    x *= 1.0 - most;");
         }
         line("    return x;");

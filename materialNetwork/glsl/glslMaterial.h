@@ -18,7 +18,7 @@ namespace patina {
 ///   float materialPresence(out vec3 passes)  as MaterialProgram::opacity()
 ///   vec3 materialEmission(vec3 wo)
 ///   MaterialEval materialEval(vec3 wi)       as Bsdf::eval()
-///   Medium materialMedium()                 as MaterialProgram::interior(), if `holds`
+///   Medium materialMedium()                 as MaterialProgram::interior(), if `hasInterior`
 ///   MaterialSample materialSample(vec3 u, float uLobe)  as Bsdf::sample()
 /// No string of a scene is part of it, and no number but those that choose the shape of the
 /// program: every other is in `parameters`, so that equal graphs have equal text.
@@ -32,13 +32,13 @@ struct GlslMaterial {
     std::vector<std::string> leftOut;  ///< patterns that have no GLSL: their value at one point
     bool presence = false;             ///< materialPresence() may be less than 1
     bool emission = false;
-    bool tints = false;     ///< what passes where the surface is absent may be coloured
+    bool hasColoredPresence = false; ///< what passes where the surface is absent may be coloured
     bool transmits = false; ///< light passes by a lobe, or through a boundary: needs what is behind
-    bool holds = false;     ///< there is a medium inside: the text has materialMedium()
-    bool volumeOnly = false; ///< there is a boundary, but no surface
-    bool thin = false;       ///< there is no inside
-    bool fibre = false;      ///< lobes stand for the whole width of a curve
-    std::string definitions; ///< may stand before material.glsl: what holds for all lobes
+    bool hasInterior = false; ///< there is a medium inside: the text has materialMedium()
+    bool volumeOnly = false;  ///< there is a boundary, but no surface
+    bool thin = false;        ///< there is no inside
+    bool fibre = false;       ///< lobes stand for the whole width of a curve
+    std::string definitions;  ///< may stand before material.glsl: what holds for all lobes
 };
 
 /// What the text may use.

@@ -30,7 +30,7 @@ Trait traitOf(LobeKind kind, const std::string& lobe) {
     default: return t;
     }
     t.alpha = "sqrt(" + lobe + ".alpha.x * " + lobe + ".alpha.y)";
-    t.round = lobe + ".alpha.x == " + lobe + ".alpha.y && " + lobe + ".facets == FACETS_GGX";
+    t.round = lobe + ".alpha.x == " + lobe + ".alpha.y && " + lobe + ".ndf == NDF_GGX";
     return t;
 }
 
@@ -112,7 +112,7 @@ std::string glslAlbedo(const ProgramCode& code) {
 
 bool glslRefracts(const LobeTemplate& t) {
     return (t.prebuilt.kind == LobeKind::Dielectric || t.prebuilt.kind == LobeKind::Schlick) &&
-           !t.straight && (t.mode & sh::SCATTER_T) != 0;
+           !t.passThrough && (t.mode & sh::SCATTER_T) != 0;
 }
 
 std::string glslPasses(const ProgramCode& code) {
@@ -120,7 +120,8 @@ std::string glslPasses(const ProgramCode& code) {
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const std::string n = number(int(i));
         if (glslRefracts(code.lobes[i]))
-            sum += (sum.empty() ? "" : " + ") + ("lobeWeight[" + n + "] * lobePassed[" + n + "]");
+            sum += (sum.empty() ? "" : " + ") +
+                   ("lobeWeight[" + n + "] * lobeTransmittance[" + n + "]");
     }
     return sum.empty() ? sum : "vec3 materialPasses() { return " + sum + "; }\n";
 }

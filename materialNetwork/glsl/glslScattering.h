@@ -19,7 +19,7 @@ std::string glslSample(const ProgramCode& code);
 /// @returns text of materialAlbedo(), as Bsdf::albedo(). Only who asks for it takes it in
 std::string glslAlbedo(const ProgramCode& code);
 
-/// @returns whether a lobe refracts, so that lobePassed[] is set
+/// @returns whether a lobe refracts, so that lobeTransmittance[] is set
 bool glslRefracts(const LobeTemplate& lobe);
 
 /// @returns text of materialPasses(): the share of light that lobes refract. Empty where none does

@@ -9,7 +9,7 @@ namespace patina::measure {
 
 namespace {
 
-constexpr float kIor = 1.5f;
+constexpr float coatIor = 1.5f;
 
 /// There are none.
 class NoTextures : public TextureSource {
@@ -65,7 +65,7 @@ std::shared_ptr<const MaterialProgram> layered(const Base& base, double alpha,
     }
     NetworkNode top = node("/top", "ND_dielectric_bsdf"), layer = node("/layer", "ND_layer_bsdf"),
                 surface = node("/surface", "ND_surface");
-    top.inputs["ior"] = Value::makeFloat(kIor);
+    top.inputs["ior"] = Value::makeFloat(coatIor);
     top.inputs["roughness"] = Value::makeVec2(float(alpha), float(alpha));
     layer.connections["top"] = {"/top", ""};
     layer.connections["base"] = {"/base", ""};
@@ -75,8 +75,8 @@ std::shared_ptr<const MaterialProgram> layered(const Base& base, double alpha,
     network.nodes = {below, top, layer, surface};
     network.terminals["surface"] = {"/surface", ""};
     NoTextures textures;
-    Diagnostics unheard;
-    return compileMaterial(network, textures, unheard, methods);
+    Diagnostics silent;
+    return compileMaterial(network, textures, silent, methods);
 }
 
 Albedo sampledAlbedo(const MaterialProgram& program, double cosine, int samples) {

@@ -8,18 +8,19 @@ namespace patina::measure {
 
 namespace {
 
-constexpr int kSide = 32;
-constexpr double kIor = 1.5;
-constexpr int kMetalSide = 8, kSamples = 4096;
+constexpr int gridSide = 32;
+constexpr double coatIor = 1.5;
+constexpr int metalSide = 8, sampleCount = 4096;
 
 /// Facets lose nothing by either method, so that layers alone are compared.
-const MethodChoices kWalked = {{"energyCompensation", "randomWalk"}, {"layering", "positionFree"}};
+const MethodChoices walkedMethods = {{"energyCompensation", "randomWalk"},
+                                     {"layering", "positionFree"}};
 
 double reflected(double alpha, sh::vec3 wo, int method) {
     const sh::DielectricLobe l = sh::dielectricMethods(
-        sh::dielectricSetup(sh::vec3(1.0f), float(kIor), sh::vec2(float(alpha)), false,
+        sh::dielectricSetup(sh::vec3(1.0f), float(coatIor), sh::vec2(float(alpha)), false,
                             sh::SCATTER_R, false, sh::COMPENSATE_SCALE),
-        method, sh::FACETS_VISIBLE, sh::FRESNEL_EXACT);
+        method, sh::SAMPLING_VNDF, sh::FRESNEL_EXACT);
     return double(sh::dielectricAlbedo(l, wo).x);
 }
 
@@ -38,8 +39,8 @@ Row named(const char* point, const std::string& method, const std::string& subje
 /// What a layer adds to its base.
 void timeLayer(const Base& base, const MethodChoices& methods, Row& row) {
     std::vector<std::shared_ptr<const MaterialProgram>> with;
-    for (int i = 0; i < kMetalSide; ++i)
-        with.push_back(layered(base, std::pow((i + 0.5) / kMetalSide, 2.0), methods));
+    for (int i = 0; i < metalSide; ++i)
+        with.push_back(layered(base, std::pow((i + 0.5) / metalSide, 2.0), methods));
     timeEvaluations(with, row);
     Row alone;
     timeEvaluations({layered(base, -1.0, methods)}, alone);
@@ -66,14 +67,14 @@ Row walked(const Base& base, const std::string& subject, const std::string& kind
 class OverDiffuse {
 public:
     OverDiffuse() {
-        for (int a = 0; a < kSide; ++a) {
+        for (int a = 0; a < gridSide; ++a) {
             double mean = 0.0;
-            for (int m = 0; m < kSide; ++m) {
-                const Place& p = _grid[size_t(a * kSide + m)];
+            for (int m = 0; m < gridSide; ++m) {
+                const Place& p = _grid[size_t(a * gridSide + m)];
                 _e.push_back(reflected(p.alpha, sh::vec3(p.wo), sh::ALBEDO_FIT));
-                mean += 2.0 * p.wo.z * _e.back() / kSide;
+                mean += 2.0 * p.wo.z * _e.back() / gridSide;
             }
-            _inside.push_back(1.0 - (1.0 - mean) / (kIor * kIor));
+            _inside.push_back(1.0 - (1.0 - mean) / (coatIor * coatIor));
         }
     }
 
@@ -83,8 +84,8 @@ public:
         std::shared_ptr<const MaterialProgram> program;
         for (size_t i = 0; i < _grid.size(); ++i) {
             const Place& p = _grid[i];
-            if (i % kSide == 0) program = layered({albedo}, p.alpha, methods);
-            const double r = _inside[i / kSide], a = albedo;
+            if (i % gridSide == 0) program = layered({albedo}, p.alpha, methods);
+            const double r = _inside[i / gridSide], a = albedo;
             const double truth = _e[i] + (1.0 - _e[i]) * a * (1.0 - r) / (1.0 - a * r);
             errors.add(knownAlbedo(*program, p.wo.z) - truth, truth, std::sqrt(p.alpha), p.wo.z);
         }
@@ -92,7 +93,7 @@ public:
     }
 
 private:
-    std::vector<Place> _grid = places(kSide);
+    std::vector<Place> _grid = places(gridSide);
     std::vector<double> _e, _inside;
 };
 
@@ -100,13 +101,14 @@ private:
 void overMetal(Base base, MethodChoices methods, Row& row) {
     methods["energyCompensation"] = "randomWalk";
     Errors errors;
-    for (const Place& p : places(kMetalSide))
+    for (const Place& p : places(metalSide))
         for (const auto& [top, below] :
              {std::pair(1.0, 1.0), std::pair(1.0, 0.0), std::pair(0.0, 1.0)}) {
             base.alpha = below * p.alpha;
             const double alpha = top * p.alpha;
-            const Albedo found = sampledAlbedo(*layered(base, alpha, methods), p.wo.z, kSamples);
-            const Albedo truth = sampledAlbedo(*layered(base, alpha, kWalked), p.wo.z, kSamples);
+            const Albedo found = sampledAlbedo(*layered(base, alpha, methods), p.wo.z, sampleCount);
+            const Albedo truth =
+                sampledAlbedo(*layered(base, alpha, walkedMethods), p.wo.z, sampleCount);
             errors.add(found.mean - truth.mean, truth.mean, std::sqrt(p.alpha), p.wo.z,
                        std::hypot(found.sigma, truth.sigma));
         }
@@ -135,7 +137,7 @@ void measureSubjects(const OverDiffuse& diffuse, const MethodChoices& methods, b
         add(std::move(row), {albedo});
         rest(Base{albedo}, subject, "layer", albedo);
     }
-    for (const Metal& metal : kMetals) {
+    for (const Metal& metal : measuredMetals) {
         const std::string subject = std::string("coat over ") + metal.name;
         const double albedo = sh64::fresnelConductorChannel(1.0, metal.n, metal.k);
         const Base base = {0.0, metal.n, metal.k, 0.1};

@@ -11,7 +11,7 @@ namespace patina {
 
 namespace {
 
-constexpr size_t mostNodes = 5 * mostExpandedNodes; ///< of all materials of a document
+constexpr size_t maxNodes = 5 * maxExpandedNodes; ///< of all materials of a document
 
 } // namespace
 
@@ -36,7 +36,7 @@ bool parseMtlx(const std::string& text, const std::string& path, bool wantMateri
 
 std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics) {
     std::string text, problem;
-    if (!readRegularFile(path, mostDocumentBytes, text, problem)) {
+    if (!readRegularFile(path, maxDocumentBytes, text, problem)) {
         diagnostics.warn(path, "", "the file " + problem);
         return {};
     }
@@ -54,17 +54,17 @@ std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics)
     for (Network& network : document.materials) {
         Network expanded;
         expanded.path = network.path;
-        if (nodes <= mostNodes)
+        if (nodes <= maxNodes)
             expanded = expand(network, find, diagnostics);
         else
             ++leftOut;
         const bool givenUp = expanded.empty() && !network.empty();
-        nodes += givenUp ? mostExpandedNodes : expanded.nodes.size();
+        nodes += givenUp ? maxExpandedNodes : expanded.nodes.size();
         network = std::move(expanded);
     }
     if (leftOut)
         diagnostics.warn(path, "",
-                         "the materials come to more than " + std::to_string(mostNodes) +
+                         "the materials come to more than " + std::to_string(maxNodes) +
                              " nodes; the last " + std::to_string(leftOut) + " are left out");
     return std::move(document.materials);
 }

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t maxDocuments = 1000;
-constexpr uint64_t maxBytes = mostDocumentBytes; ///< of all included documents together
+constexpr uint64_t maxBytes = maxDocumentBytes; ///< of all included documents together
 
 std::string canonical(const fs::path& path) {
     std::error_code error;

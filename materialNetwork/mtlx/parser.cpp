@@ -158,8 +158,8 @@ void MtlxParser::readDef(const Element& element, NodeDef& def) const {
 /// What an element means by a name: one of its own namespace before one without.
 std::string MtlxParser::referenced(const Element& element, const std::string& name,
                                    const std::map<std::string, Element>& known) const {
-    for (const std::string& wish : {qualifiedName(element, name), name}) {
-        const auto found = known.find(wish);
+    for (const std::string& candidate : {qualifiedName(element, name), name}) {
+        const auto found = known.find(candidate);
         if (found != known.end()) return found->second.attribute("name").value();
     }
     return name;

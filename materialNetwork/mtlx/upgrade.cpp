@@ -84,8 +84,8 @@ private:
 
     /// What an element of the scope means by a name. Documents may hold very many.
     Node siblingNamed(const Node& from, const std::string& name) const {
-        for (const std::string& wish : {qualifiedName(from, name), name}) {
-            const auto found = _siblings.find(wish);
+        for (const std::string& candidate : {qualifiedName(from, name), name}) {
+            const auto found = _siblings.find(candidate);
             if (found != _siblings.end()) return found->second;
         }
         return Node();
@@ -107,10 +107,10 @@ private:
         return _path + ":/" + node.attribute("name").value();
     }
 
-    std::string freeName(const std::string& wish) {
-        std::string name = wish;
+    std::string freeName(const std::string& candidate) {
+        std::string name = candidate;
         for (int i = 2; _siblings.count(name); ++i)
-            name = wish + std::to_string(i);
+            name = candidate + std::to_string(i);
         return name;
     }
 

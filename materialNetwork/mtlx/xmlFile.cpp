@@ -8,7 +8,7 @@ bool nestsTooDeeply(const pugi::xml_node& root) {
     int depth = 0;
     for (pugi::xml_node node = root.first_child(); node;) {
         if (const pugi::xml_node child = node.first_child()) {
-            if (++depth > mostNesting) return true;
+            if (++depth > maxNesting) return true;
             node = child;
             continue;
         }
@@ -28,7 +28,7 @@ bool loadXml(const std::string& text, pugi::xml_document& out, std::string& prob
     if (!result)
         problem = std::string("is not readable as XML: ") + result.description();
     else if (nestsTooDeeply(out))
-        problem = "has elements nested more than " + std::to_string(mostNesting) + " deep";
+        problem = "has elements nested more than " + std::to_string(maxNesting) + " deep";
     return problem.empty();
 }
 

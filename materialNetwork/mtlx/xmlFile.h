@@ -7,7 +7,7 @@
 namespace patina {
 
 /// Elements nest no deeper than this, so that whatever walks them may recurse. Documents need 5.
-inline constexpr int mostNesting = 64;
+inline constexpr int maxNesting = 64;
 
 /// Reads text as XML.
 /// @returns false, with the reason as in "is not readable as XML: ...", when it is none or nests

@@ -51,13 +51,14 @@ struct Cells {
 /// Most standard errors that any cell lies apart, of those that more than 20 samples fall into; a
 /// normal distribution is none of fewer.
 inline double deviations(const Cells& sampled, const Cells& evaluated) {
-    double most = 0.0;
+    double maximum = 0.0;
     for (int i = 0; i < Cells::count; ++i) {
         const Mean& cell = sampled.cell[i];
         const double larger = std::max(cell.mean(), evaluated.cell[i].mean());
-        if (larger * cell.count > 20.0) most = std::max(most, deviations(cell, evaluated.cell[i]));
+        if (larger * cell.count > 20.0)
+            maximum = std::max(maximum, deviations(cell, evaluated.cell[i]));
     }
-    return most;
+    return maximum;
 }
 
 inline std::shared_ptr<const MaterialProgram> compiled(const Network& network,

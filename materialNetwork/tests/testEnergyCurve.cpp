@@ -62,7 +62,7 @@ TEST(EnergyCurve, IsFineForSlowMethods) {
         lobe.dielectric =
             sh::dielectricMethods(sh::dielectricSetup(glm::vec3(1.0f), 1.5f, glm::vec2(alpha),
                                                       false, sh::SCATTER_RT, false, 1),
-                                  sh::ALBEDO_QUADRATURE, sh::FACETS_VISIBLE, sh::FRESNEL_EXACT);
+                                  sh::ALBEDO_QUADRATURE, sh::SAMPLING_VNDF, sh::FRESNEL_EXACT);
         EnergyCurve curve;
         curve.measure(lobe);
         ASSERT_TRUE(curve.covers(0.5f) && curve.covers(-0.5f));
@@ -76,7 +76,7 @@ TEST(EnergyCurve, IsFineForSlowMethods) {
         lobe.kind = LobeKind::Conductor;
         lobe.conductor = sh::conductorMethods(
             sh::conductorSetup(glm::vec3(0.2f), glm::vec3(3.0f), glm::vec2(alpha), false, 1),
-            sh::ALBEDO_QUADRATURE, sh::FACETS_VISIBLE, sh::FILM_GAUSSIANS);
+            sh::ALBEDO_QUADRATURE, sh::SAMPLING_VNDF, sh::FILM_GAUSSIANS);
         curve.measure(lobe);
         ASSERT_FALSE(curve.empty());
         const glm::vec3 wo(0.6f, 0.0f, 0.8f);

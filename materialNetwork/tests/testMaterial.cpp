@@ -114,11 +114,11 @@ TEST(Material, ThinWallsAreSlabs) {
         EXPECT_FALSE(bsdf.transmits());
         const float once = sh::fresnelDielectric(std::abs(point.viewDirection.z), 1.5f);
         const float slab = 2.0f * once / (1.0f + once);
-        const glm::vec3 passed = (1.0f - opacity) * passes;
+        const glm::vec3 transmittance = (1.0f - opacity) * passes;
         const BsdfSample s = bsdf.sample(glm::vec3(0.5f), 0.5f);
         ASSERT_EQ(s.event, sh::LOBE_REFLECT | sh::LOBE_DELTA);
         for (int k = 0; k < 3; ++k) {
-            EXPECT_NEAR(passed[k], tint[k] * (1.0f - slab), 1e-4f) << theta;
+            EXPECT_NEAR(transmittance[k], tint[k] * (1.0f - slab), 1e-4f) << theta;
             EXPECT_NEAR(opacity * s.weight[k], tint[k] * slab, 1e-4f) << theta;
         }
     }

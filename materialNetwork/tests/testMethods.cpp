@@ -6,9 +6,9 @@ namespace patina {
 namespace {
 
 struct Result {
-    glm::vec3 albedo{0.0f}; ///< of the lobes, at normal incidence
-    glm::vec3 passed{0.0f}; ///< straight on
-    bool transmits = false; ///< by a lobe
+    glm::vec3 albedo{0.0f};      ///< of the lobes, at normal incidence
+    glm::vec3 passThrough{0.0f}; ///< straight on
+    bool transmits = false;      ///< by a lobe
 };
 
 Result measure(const Network& network, const MethodChoices& methods) {
@@ -19,8 +19,8 @@ Result measure(const Network& network, const MethodChoices& methods) {
     Bsdf bsdf;
     program->evaluate(ShadingPoint(), bsdf);
     Result r;
-    const float opacity = program->opacity(ShadingPoint(), &r.passed);
-    r.passed *= 1.0f - opacity;
+    const float opacity = program->opacity(ShadingPoint(), &r.passThrough);
+    r.passThrough *= 1.0f - opacity;
     r.albedo = bsdf.albedo() * opacity;
     r.transmits = bsdf.transmits();
     return r;
@@ -61,9 +61,9 @@ TEST(Methods, StandWhereTheShadersExpectThem) {
     EXPECT_EQ(place("directionalAlbedo", "monteCarlo16"), sh::ALBEDO_SAMPLES_16);
     EXPECT_EQ(place("directionalAlbedo", "monteCarlo64"), sh::ALBEDO_SAMPLES_64);
     EXPECT_EQ(place("directionalAlbedo", "quadrature"), sh::ALBEDO_QUADRATURE);
-    EXPECT_EQ(place("sampling", "vndf"), sh::FACETS_VISIBLE);
-    EXPECT_EQ(place("sampling", "boundedVndf"), sh::FACETS_BOUNDED);
-    EXPECT_EQ(place("sampling", "fullNdf"), sh::FACETS_ALL);
+    EXPECT_EQ(place("sampling", "vndf"), sh::SAMPLING_VNDF);
+    EXPECT_EQ(place("sampling", "boundedVndf"), sh::SAMPLING_BOUNDED_VNDF);
+    EXPECT_EQ(place("sampling", "fullNdf"), sh::SAMPLING_FULL_NDF);
     EXPECT_EQ(place("fresnel", "exact"), sh::FRESNEL_EXACT);
     EXPECT_EQ(place("fresnel", "schlick"), sh::FRESNEL_SCHLICK);
     EXPECT_EQ(place("fresnel", "f82"), sh::FRESNEL_F82);
@@ -203,14 +203,14 @@ TEST(Methods, ThinWalled) {
                               {{"roughness", pair(0.0f)}, {"scatter_mode", text("RT")}})},
                     {{"thin_walled", Value::makeBool(true)}});
     const Result slab = measure(pane, {});
-    expectColor(slab.passed, 0.96f / 1.04f, 0.96f / 1.04f, 0.96f / 1.04f);
+    expectColor(slab.passThrough, 0.96f / 1.04f, 0.96f / 1.04f, 0.96f / 1.04f);
     expectColor(slab.albedo, 0.08f / 1.04f, 0.08f / 1.04f, 0.08f / 1.04f);
     EXPECT_FALSE(slab.transmits);
     const Result sheet = measure(pane, {{"thinWalled", "sheet"}});
-    expectColor(sheet.passed, 0.96f, 0.96f, 0.96f);
+    expectColor(sheet.passThrough, 0.96f, 0.96f, 0.96f);
     expectColor(sheet.albedo, 0.04f, 0.04f, 0.04f);
     const Result solid = measure(pane, {{"thinWalled", "solid"}});
-    expectColor(solid.passed, 0.0f, 0.0f, 0.0f);
+    expectColor(solid.passThrough, 0.0f, 0.0f, 0.0f);
     expectColor(solid.albedo, 1.0f, 1.0f, 1.0f);
     EXPECT_TRUE(solid.transmits);
 }

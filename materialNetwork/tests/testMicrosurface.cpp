@@ -66,7 +66,7 @@ TEST(Microsurface, MetalsReflectWhatTheReferenceWalkSays) {
             const Mean ours = sampledAlbedo(*copper, direction(degrees), 20000);
             const glm::vec3 wo = direction(degrees);
             const measure::Walked truth = measure::walkMicrosurface(
-                sh64::vec3(wo), sh64::vec2(alpha), sh::FACETS_GGX,
+                sh64::vec3(wo), sh64::vec2(alpha), sh::NDF_GGX,
                 [](double c) { return sh64::fresnelConductorChannel(c, 1.1, 2.3); }, 20000, 3);
             const double sigma = std::sqrt(ours.variance() + truth.sigma * truth.sigma);
             EXPECT_NEAR(ours.mean(), truth.all, 4.0 * sigma) << alpha << " " << degrees;

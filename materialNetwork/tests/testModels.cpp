@@ -74,7 +74,7 @@ TEST(Models, WhiteFurnace) {
     struct Case {
         const char* id;
         Inputs inputs;
-        float least; ///< measured, less a margin: what the layers may lose
+        float minimum; ///< measured, less a margin: what the layers may lose
     };
     const Case cases[] = {
         {"standard_surface", {{"base_color", grey(1.0f)}}, 0.97f},
@@ -95,7 +95,7 @@ TEST(Models, WhiteFurnace) {
         for (const float theta : {0.0f, 45.0f, 75.0f, 88.0f}) {
             const glm::vec3 a = albedoAt(modelNetwork(c.id, c.inputs), theta);
             EXPECT_LE(std::max({a.x, a.y, a.z}), 1.003f) << c.id << " at " << theta;
-            EXPECT_GE(std::min({a.x, a.y, a.z}), c.least) << c.id << " at " << theta;
+            EXPECT_GE(std::min({a.x, a.y, a.z}), c.minimum) << c.id << " at " << theta;
         }
 }
 

@@ -25,11 +25,11 @@ protected:
     }
     void TearDown() override { std::filesystem::remove_all(folder); }
 
-    std::string reasonOf(const std::string& path, uint64_t most = 100) {
+    std::string reasonOf(const std::string& path, uint64_t maximum = 100) {
         std::string bytes = "left over", problem;
-        EXPECT_FALSE(readRegularFile(path, most, bytes, problem)) << path;
+        EXPECT_FALSE(readRegularFile(path, maximum, bytes, problem)) << path;
         EXPECT_TRUE(bytes.empty());
-        EXPECT_FALSE(whyUnreadable(path, most).empty()) << path;
+        EXPECT_FALSE(whyUnreadable(path, maximum).empty()) << path;
         return problem;
     }
 

@@ -4,10 +4,10 @@ import os
 import re
 import stat
 
-MOST_TEXT = 1 << 28  # bytes of documents that are read as text
+MAX_TEXT = 1 << 28  # bytes of documents that are read as text
 _UDIM = "<UDIM>"
 _INCLUDE = re.compile(rb"""<xi:include\b[^>]*?\bhref\s*=\s*(?:"([^"]+)"|'([^']+)')""")
-_MOST_INCLUDES = 1000
+_MAX_INCLUDES = 1000
 _noted = set()
 
 
@@ -38,7 +38,7 @@ def note_document(path):
         for match in _INCLUDE.finditer(data):
             name = (match[1] or match[2]).decode(errors="surrogateescape")
             more = os.path.normpath(os.path.join(os.path.dirname(file), name))
-            if more not in waiting and len(waiting) < _MOST_INCLUDES:
+            if more not in waiting and len(waiting) < _MAX_INCLUDES:
                 waiting.append(more)
 
 
@@ -74,15 +74,15 @@ def check_regular(path):
         raise InputError(f"{path} is a folder" if stat.S_ISDIR(mode) else f"{path} is no regular file")
 
 
-def read(path, most=MOST_TEXT):
+def read(path, maximum=MAX_TEXT):
     """:returns: the bytes of a regular file
-    :raises InputError: where it is none, or larger than `most`"""
+    :raises InputError: where it is none, or larger than `maximum`"""
     check_regular(path)
     file = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     with open(file, "rb") as stream:
         if not stat.S_ISREG(os.fstat(file).st_mode):
             raise InputError(f"{path} is no regular file")
-        data = stream.read(most + 1)
-    if len(data) > most:
-        raise InputError(f"{path} holds more than the {most} bytes that are read")
+        data = stream.read(maximum + 1)
+    if len(data) > maximum:
+        raise InputError(f"{path} holds more than the {maximum} bytes that are read")
     return data

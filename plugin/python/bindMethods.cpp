@@ -90,9 +90,9 @@ py::dict planned(const Network& network, const MethodChoices& methods, double to
     MethodPlan plan;
     {
         py::gil_scoped_release release;
-        Diagnostics unheard;
-        TextureSystem textures(unheard);
-        plan = planMaterialMethods(network, textures, unheard, methods, tolerance);
+        Diagnostics silent;
+        TextureSystem textures(silent);
+        plan = planMaterialMethods(network, textures, silent, methods, tolerance);
     }
     return planDict(plan);
 }

@@ -67,8 +67,8 @@ std::vector<std::string> lobesOf(const MaterialProgram& program) {
     std::vector<std::string> list;
     for (const LobeTemplate& lobe : program.code().lobes)
         list.push_back(glslLobePrefix(lobe.prebuilt.kind) + " " + std::to_string(lobe.mode) + " " +
-                       std::to_string(lobe.variant) + " " + std::to_string(lobe.facets) +
-                       (lobe.film ? " film" : "") + (lobe.straight ? " straight" : ""));
+                       std::to_string(lobe.variant) + " " + std::to_string(lobe.ndf) +
+                       (lobe.film ? " film" : "") + (lobe.passThrough ? " passThrough" : ""));
     return list;
 }
 
@@ -136,7 +136,7 @@ void bindWeb(py::module_& m) {
           "Text of a shader that is compiled in, with its includes; ValueError for others.");
     m.def("albedo_table", &albedoTableArray,
           "The baked directional albedos, in the layout of shaders/lib/albedoTable.glsl.");
-    m.attr("ALBEDO_FACET_SIZE") = int(sh::FACET_SIZE);
+    m.attr("ALBEDO_MICROFACET_SIZE") = int(sh::MICROFACET_SIZE);
     m.attr("ALBEDO_WARD_TABLE") = int(sh::WARD_TABLE);
 }
 

@@ -26,7 +26,7 @@ namespace {
 constexpr float pi = 3.14159265358979f, degree = pi / 180.0f;
 constexpr int largestImage = 128;          ///< of rect lights, texels along a side
 constexpr int domeWidth = 512;             ///< of domes that are no latlong maps
-constexpr size_t mostTriangles = 4096;     ///< of a mesh light
+constexpr size_t maxTriangles = 4096;      ///< of a mesh light
 constexpr size_t largestTable = 1u << 20u; ///< texels
 
 /// What the page finds out about lights, and tells its user.
@@ -120,10 +120,10 @@ bool addTriangles(const Scene& scene, const Light& light, vec4* row, WebLights& 
         whole += double(area);
     }
     if (all.empty()) return false;
-    if (all.size() > mostTriangles) {
-        std::nth_element(all.begin(), all.begin() + mostTriangles, all.end(),
+    if (all.size() > maxTriangles) {
+        std::nth_element(all.begin(), all.begin() + maxTriangles, all.end(),
                          [](const Triangle& a, const Triangle& b) { return a.area > b.area; });
-        all.resize(mostTriangles);
+        all.resize(maxTriangles);
         out.notes.push_back("the light " + light.path +
                             " shines from its largest triangles, as if they were all");
     }

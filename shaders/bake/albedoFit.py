@@ -8,8 +8,8 @@ nine numbers, and dielectrics, conductors and Schlick's curve are read through t
 
 Fitted by Levenberg and Marquardt's method to the albedos themselves, over the curves of
 reflectanceCurves.py and the places in NODES.bin; CENTRES.bin is only measured. Both from
-facetCosines:
-    facetCosines 600 40 40 NODES.bin; facetCosines 800 -32 -32 CENTRES.bin
+microfacetCosines:
+    microfacetCosines 600 40 40 NODES.bin; microfacetCosines 800 -32 -32 CENTRES.bin
 Needs numpy; takes some minutes on one core. Starts and steps are fixed: a few from different random
 numbers, of which the best goes on.
 """
@@ -21,7 +21,7 @@ import fitText
 import reflectanceCurves
 
 UNITS = (8, 8)
-FACETS = 3
+MICROFACETS = 3
 SEEDS = (1, 2, 3, 4)
 FIRST_STEPS = 150
 STEPS = 2400
@@ -71,12 +71,12 @@ class Network:
 
     def __init__(self, seed):
         random = np.random.default_rng(seed)
-        self.sizes = [3, *UNITS, 3 * FACETS]
+        self.sizes = [3, *UNITS, 3 * MICROFACETS]
         parts = []
         for a, b in zip(self.sizes, self.sizes[1:]):
             parts += [random.normal(0.0, 1.5 / np.sqrt(a), a * b), random.normal(0.0, 0.5, b)]
         parts[-2] *= 0.3
-        parts[-1] = np.r_[np.linspace(-0.7, 1.0, FACETS), np.full(FACETS, 0.5), np.full(FACETS, 1.0 / FACETS)]
+        parts[-1] = np.r_[np.linspace(-0.7, 1.0, MICROFACETS), np.full(MICROFACETS, 0.5), np.full(MICROFACETS, 1.0 / MICROFACETS)]
         self.numbers = np.concatenate(parts)
 
     def layers(self, numbers):
@@ -116,22 +116,22 @@ class Fit:
     def albedo(self, outputs, slopes=False):
         """Of every curve, and with `slopes` its derivatives by the outputs."""
         mu, alpha = self.places.mu[:, None], self.places.alpha[:, None]
-        lean, side, weight = (outputs[:, i * FACETS:(i + 1) * FACETS] for i in range(3))
+        lean, side, weight = (outputs[:, i * MICROFACETS:(i + 1) * MICROFACETS] for i in range(3))
         sine = np.sqrt(1.0 - mu * mu)
         shrink = 1.0 / np.sqrt(1.0 + alpha * alpha * (lean * lean + side * side))
         c = (mu + alpha * sine * lean) * shrink
         byLean = alpha * sine * shrink - c * (shrink * alpha) ** 2 * lean
         bySide = -c * (shrink * alpha) ** 2 * side
         total = 0.0
-        columns = np.empty((len(c), len(self.curves.names), 3 * FACETS)) if slopes else None
-        for j in range(FACETS):
+        columns = np.empty((len(c), len(self.curves.names), 3 * MICROFACETS)) if slopes else None
+        for j in range(MICROFACETS):
             value, slope = self.curves.at(c[:, j])
             w = weight[:, j, None]
             total = total + w * value
             if slopes:
                 columns[:, :, j] = w * slope * byLean[:, j, None]
-                columns[:, :, FACETS + j] = w * slope * bySide[:, j, None]
-                columns[:, :, 2 * FACETS + j] = value
+                columns[:, :, MICROFACETS + j] = w * slope * bySide[:, j, None]
+                columns[:, :, 2 * MICROFACETS + j] = value
         return (total, columns) if slopes else total
 
     def errors(self, network, numbers):
@@ -150,7 +150,7 @@ class Fit:
             _, byOutput = self.albedo(outputs, True)
             squares = np.einsum("nfa,nfb->nab", byOutput, byOutput)
             trace = np.trace(squares, axis1=1, axis2=2)[:, None, None]
-            root = np.linalg.cholesky(squares + np.eye(3 * FACETS) * (1e-12 + 1e-9 * trace))
+            root = np.linalg.cholesky(squares + np.eye(3 * MICROFACETS) * (1e-12 + 1e-9 * trace))
             rows = np.einsum("nba,nbp->nap", root, byNumber).reshape(-1, len(numbers))
             matrix = rows.T @ rows
             slope = np.einsum("na,nap->p", np.einsum("nfa,nf->na", byOutput, error), byNumber)

@@ -33,7 +33,7 @@ vec3 slanted(double mu) {
     return vec3(std::sqrt(std::max(0.0, 1.0 - mu * mu)), 0.0, mu);
 }
 
-void InterfaceQuadrature::look(vec3 wo, vec2 alpha) {
+void InterfaceQuadrature::setView(vec3 wo, vec2 alpha) {
     _wo = wo;
     _alpha = alpha;
     _normals.clear();
@@ -41,9 +41,9 @@ void InterfaceQuadrature::look(vec3 wo, vec2 alpha) {
         _normals.push_back({vec3(0.0, 0.0, 1.0), wo.z, 1.0, 1.0});
         return;
     }
-    _length = facetLength(wo, alpha, _facets);
+    _length = microfacetLength(wo, alpha, _ndf);
     if (alpha.x != alpha.y || wo.y != 0.0) return lookAround();
-    const bool ggx = _facets == FACETS_GGX;
+    const bool ggx = _ndf == NDF_GGX;
     const std::size_t half = _rule.x.size();
     for (int i = 0; i < _columns; ++i) {
         const double golden = (i + 0.5) * 0.6180339887498949;
@@ -61,7 +61,7 @@ void InterfaceQuadrature::look(vec3 wo, vec2 alpha) {
 }
 
 void InterfaceQuadrature::lookAround() {
-    const bool ggx = _facets == FACETS_GGX;
+    const bool ggx = _ndf == NDF_GGX;
     for (int i = 0; i < _columns; ++i)
         for (int j = 0; j < _columns; ++j) {
             const double shift = (i + 0.5) * 0.6180339887498949;
@@ -75,13 +75,13 @@ void InterfaceQuadrature::lookAround() {
 void InterfaceQuadrature::add(vec2 u, double weight) {
     Normal n;
     n.weight = weight;
-    n.m = facetSampleVisible(_wo, _alpha, u, _facets);
+    n.m = microfacetSampleVisible(_wo, _alpha, u, _ndf);
     n.c = std::min(std::max(sh64::dot(_wo, n.m), 0.0), 1.0);
     const vec3 wi = n.m * (2.0 * n.c) - _wo;
     n.reflected = 0.0;
     if (wi.z > 0.0)
         n.reflected =
-            weight * facetG2OverG1(_wo.z, _length, wi.z, facetLength(wi, _alpha, _facets));
+            weight * microfacetG2OverG1(_wo.z, _length, wi.z, microfacetLength(wi, _alpha, _ndf));
     _normals.push_back(n);
 }
 
@@ -114,10 +114,10 @@ vec2 InterfaceQuadrature::dielectric(double eta) const {
         const double f = fresnelDielectric(n.c, eta);
         reflected += f * n.reflected;
         if (f >= 1.0) continue;
-        const vec3 wi = facetDirection(_wo, n.m, n.c, eta, false);
+        const vec3 wi = microfacetDirection(_wo, n.m, n.c, eta, false);
         double ratio = wi.z < 0.0 ? 1.0 : 0.0;
         if (_alpha.x > 0.0 && wi.z < 0.0)
-            ratio = facetG2OverG1(_wo.z, _length, -wi.z, facetLength(wi, _alpha, _facets));
+            ratio = microfacetG2OverG1(_wo.z, _length, -wi.z, microfacetLength(wi, _alpha, _ndf));
         transmitted += n.weight * (1.0 - f) * ratio;
     }
     return vec2(reflected, transmitted);

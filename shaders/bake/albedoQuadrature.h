@@ -14,20 +14,20 @@ struct GaussRule {
 };
 
 /// What single scattering at a microfacet interface does with light that arrives from one
-/// direction: integrals over the visible normals, in the sampling square of facetSampleVisible,
-/// with `n` by `n` points. Points crowd where facets of GGX lean far from the normal, since that
-/// tail alone decides how much light is lost at small roughness. Isotropic lobes are symmetric:
-/// half of the square is enough. Along one axis each column has two Gauss panels that meet at a
-/// place of its own, so that kinks (the critical angle, the horizon) fall differently between the
-/// points of each column and average out. Anisotropic lobes take a lattice, whose error is 3e-3 for
-/// `n` 24.
+/// direction: integrals over the visible normals, in the sampling square of
+/// microfacetSampleVisible, with `n` by `n` points. Points crowd where facets of GGX lean far from
+/// the normal, since that tail alone decides how much light is lost at small roughness. Isotropic
+/// lobes are symmetric: half of the square is enough. Along one axis each column has two Gauss
+/// panels that meet at a place of its own, so that kinks (the critical angle, the horizon) fall
+/// differently between the points of each column and average out. Anisotropic lobes take a lattice,
+/// whose error is 3e-3 for `n` 24.
 class InterfaceQuadrature {
 public:
-    /// @param facets sh::FACETS_*
-    InterfaceQuadrature(int n, int facets) : _rule(n / 2), _columns(n), _facets(facets) {}
+    /// @param ndf sh::NDF_*
+    InterfaceQuadrature(int n, int ndf) : _rule(n / 2), _columns(n), _ndf(ndf) {}
 
     /// Draws the normals that the other functions sum over. Mirrors (alpha 0) have one.
-    void look(sh64::vec3 wo, sh64::vec2 alpha);
+    void setView(sh64::vec3 wo, sh64::vec2 alpha);
 
     /// E[p] for `count` exponents at once.
     void moments(const double* exponents, int count, double* result) const;
@@ -52,10 +52,10 @@ private:
 
     GaussRule _rule;
     int _columns;
-    int _facets;
+    int _ndf;
     sh64::vec3 _wo{0.0, 0.0, 1.0};
     sh64::vec2 _alpha{0.0, 0.0};
-    double _length = 1.0; ///< facetLength of wo
+    double _length = 1.0; ///< microfacetLength of wo
     std::vector<Normal> _normals;
 };
 

@@ -29,18 +29,18 @@ using namespace patina;
 using namespace patina::sh64;
 
 // Points per side of the product rule.
-constexpr int kMomentPoints = 64;
-constexpr int kAbovePoints = 20;
+constexpr int momentPoints = 64;
+constexpr int abovePoints = 20;
 // Total reflection has a kink; Beckmann facets have no tail and need fewer.
-constexpr int kBelowPoints[] = {28, 20};
-constexpr int kTurnedPoints[] = {24, 16};
+constexpr int belowPoints[] = {28, 20};
+constexpr int turnedPoints[] = {24, 16};
 
 // The entry for mu = 0 is taken at this fraction of the first cell: exactly at 0 the albedos jump.
-constexpr double kFirst = 0.1;
+constexpr double firstNode = 0.1;
 
 // The tables of one distribution are written at `out`; the look-ups read what is there already.
-void bakeMoments(int facets, float* out) {
-    bake::InterfaceQuadrature quadrature(kMomentPoints, facets);
+void bakeMoments(int ndf, float* out) {
+    bake::InterfaceQuadrature quadrature(momentPoints, ndf);
     double exponents[MOMENT_COUNT];
     for (int k = 0; k < MOMENT_COUNT; ++k)
         exponents[k] = momentExponent(k);
@@ -48,8 +48,8 @@ void bakeMoments(int facets, float* out) {
         for (int m = 0; m < MOMENT_MU; ++m) {
             double e[MOMENT_COUNT];
             const double alpha = tableAlphaAt(double(a) / (MOMENT_ALPHA - 1));
-            const double mu = tableMuAt(std::max(double(m), kFirst) / (MOMENT_MU - 1), alpha);
-            quadrature.look(bake::slanted(mu), vec2(alpha));
+            const double mu = tableMuAt(std::max(double(m), firstNode) / (MOMENT_MU - 1), alpha);
+            quadrature.setView(bake::slanted(mu), vec2(alpha));
             quadrature.moments(exponents, MOMENT_COUNT, e);
             *out++ = float(e[0]);
             for (int k = 1; k < MOMENT_COUNT; ++k)
@@ -58,20 +58,20 @@ void bakeMoments(int facets, float* out) {
 }
 
 // From the thinner side the normals seen are the same for every ior, so that is the inner loop.
-void bakeInterface(int facets, bool above, float* out) {
-    bake::InterfaceQuadrature quadrature(above ? kAbovePoints : kBelowPoints[facets], facets);
+void bakeInterface(int ndf, bool above, float* out) {
+    bake::InterfaceQuadrature quadrature(above ? abovePoints : belowPoints[ndf], ndf);
     for (int a = 0; a < INTERFACE_ALPHA; ++a)
         for (int m = 0; m < INTERFACE_MU; ++m)
             for (int i = 0; i < INTERFACE_ETA; ++i) {
                 const double ior = tableEtaAt(double(i) / (INTERFACE_ETA - 1));
                 const double eta = above ? ior : 1.0 / ior;
                 const double alpha = tableAlphaAt(double(a) / (INTERFACE_ALPHA - 1));
-                const double t = std::max(double(m), kFirst) / (INTERFACE_MU - 1);
+                const double t = std::max(double(m), firstNode) / (INTERFACE_MU - 1);
                 const double mu =
                     above ? tableMuAt(t, alpha) : tableMuBelowAt(t, tableMuCritical(eta), alpha);
-                if (!above || i == 0) quadrature.look(bake::slanted(mu), vec2(alpha));
+                if (!above || i == 0) quadrature.setView(bake::slanted(mu), vec2(alpha));
                 // Relative to what the look-up will multiply with, not to the exact E[0].
-                const double e0 = momentEntry(momentPlace(mu, alpha, facets * FACET_SIZE), 0);
+                const double e0 = momentEntry(momentPlace(mu, alpha, ndf * MICROFACET_SIZE), 0);
                 const vec2 e = quadrature.dielectric(eta);
                 float* entry = out + 2 * ((i * INTERFACE_ALPHA + a) * INTERFACE_MU + m);
                 entry[0] = float(e.x / e0 - interfaceGuess(mu, alpha, eta));
@@ -94,15 +94,15 @@ template <typename Mu> TurnedNode turnedNode(int row, int alphas, const Mu& mu) 
     const double larger = tableAlphaAt(double(a) / (alphas - 1));
     const double ratio = turnedRatioAt(double(r) / (TURNED_RATIO - 1));
     const double x = double(c) / (TURNED_AZIMUTH - 1);
-    const double t = std::max(double(m), kFirst) / (TURNED_MU - 1);
+    const double t = std::max(double(m), firstNode) / (TURNED_MU - 1);
     const double z = mu(t, turnedAlpha(larger, ratio, x));
     const double s = std::sqrt(std::max(0.0, 1.0 - z * z));
     return {vec3(s * x, s * std::sqrt(1.0 - x * x), z),
             vec2(larger, std::max(larger * ratio, double(ALPHA_MIRROR)))};
 }
 
-void bakeTurnedMoments(int facets, float* out) {
-    bake::InterfaceQuadrature quadrature(kTurnedPoints[facets], facets);
+void bakeTurnedMoments(int ndf, float* out) {
+    bake::InterfaceQuadrature quadrature(turnedPoints[ndf], ndf);
     double exponents[MOMENT_COUNT];
     for (int k = 0; k < MOMENT_COUNT; ++k)
         exponents[k] = momentExponent(k);
@@ -111,10 +111,10 @@ void bakeTurnedMoments(int facets, float* out) {
             row, TURNED_ALPHA, [](double t, double alpha) { return tableMuAt(t, alpha); });
         if (node.alpha.x == node.alpha.y) continue; // nothing to add
         double e[MOMENT_COUNT];
-        quadrature.look(node.wo, node.alpha);
+        quadrature.setView(node.wo, node.alpha);
         quadrature.moments(exponents, MOMENT_COUNT, e);
         const MomentPlace same =
-            momentPlace(node.wo.z, facetAlphaSeen(node.wo, node.alpha), facets * FACET_SIZE);
+            momentPlace(node.wo.z, microfacetAlphaSeen(node.wo, node.alpha), ndf * MICROFACET_SIZE);
         out[0] = float(e[0] - momentEntry(same, 0));
         for (int k = 1; k < MOMENT_COUNT; ++k)
             out[k] = float(std::pow(e[k] / e[0], 1.0 / exponents[k]) - (1.0 - node.wo.z) -
@@ -122,8 +122,8 @@ void bakeTurnedMoments(int facets, float* out) {
     }
 }
 
-void bakeTurnedInterface(int facets, bool above, float* out) {
-    bake::InterfaceQuadrature quadrature(kTurnedPoints[facets], facets);
+void bakeTurnedInterface(int ndf, bool above, float* out) {
+    bake::InterfaceQuadrature quadrature(turnedPoints[ndf], ndf);
     const int rows = turnedRow(TURNED_ETA_ALPHA, 0, 0, 0);
     for (int row = 0; row < rows; ++row)
         for (int i = 0; i < TURNED_ETA; ++i) {
@@ -134,25 +134,25 @@ void bakeTurnedInterface(int facets, bool above, float* out) {
             };
             const TurnedNode node = turnedNode(row, TURNED_ETA_ALPHA, mu);
             if (node.alpha.x == node.alpha.y) continue; // nothing to add
-            if (!above || i == 0) quadrature.look(node.wo, node.alpha);
-            const FacetPlace place = facetPlace(node.wo, node.alpha, facets);
-            const double e0 = facetAlbedo0(place);
+            if (!above || i == 0) quadrature.setView(node.wo, node.alpha);
+            const MicrofacetPlace place = microfacetPlace(node.wo, node.alpha, ndf);
+            const double e0 = microfacetAlbedo0(place);
             const vec2 e = quadrature.dielectric(eta);
-            const vec2 same = interfaceEntry(place.mu, place.alpha, eta, facets);
+            const vec2 same = interfaceEntry(place.mu, place.alpha, eta, ndf);
             float* entry = out + 2 * (i * rows + row);
             entry[0] = float(e.x / e0 - interfaceGuess(place.mu, place.alpha, eta) - same.x);
             entry[1] = float(1.0 - (e.x + e.y) / e0 - same.y);
         }
 }
 
-void bakeFacets(int facets) {
-    float* const table = entries + facets * FACET_SIZE;
-    bakeMoments(facets, table);
-    bakeInterface(facets, true, table + INTERFACE_ABOVE);
-    bakeInterface(facets, false, table + INTERFACE_BELOW);
-    bakeTurnedMoments(facets, table + TURNED_MOMENT);
-    bakeTurnedInterface(facets, true, table + TURNED_ABOVE);
-    bakeTurnedInterface(facets, false, table + TURNED_BELOW);
+void bakeMicrofacets(int ndf) {
+    float* const table = entries + ndf * MICROFACET_SIZE;
+    bakeMoments(ndf, table);
+    bakeInterface(ndf, true, table + INTERFACE_ABOVE);
+    bakeInterface(ndf, false, table + INTERFACE_BELOW);
+    bakeTurnedMoments(ndf, table + TURNED_MOMENT);
+    bakeTurnedInterface(ndf, true, table + TURNED_ABOVE);
+    bakeTurnedInterface(ndf, false, table + TURNED_BELOW);
 }
 
 // Sheen is as wide as the hemisphere or hugs the horizon: a plain product rule, dense there.
@@ -193,7 +193,7 @@ void bakeClassic(int plane) {
     for (int a = 0; a < CLASSIC_ALPHA; ++a)
         for (int m = 0; m < CLASSIC_MU; ++m) {
             const double alpha = tableAlphaAt(double(a) / (CLASSIC_ALPHA - 1));
-            const double mu = tableMuAt(std::max(double(m), kFirst) / (CLASSIC_MU - 1), alpha);
+            const double mu = tableMuAt(std::max(double(m), firstNode) / (CLASSIC_MU - 1), alpha);
             const vec3 wo(std::sqrt(std::max(0.0, 1.0 - mu * mu)), 0.0, mu);
             const PhongLobe phong = phongSetup(vec3(1.0), phongExponent(alpha));
             const BlinnPhongLobe blinn = blinnPhongSetup(vec3(1.0), phongExponent(alpha));
@@ -221,7 +221,7 @@ void bakeTurnedWard(int plane) {
         const double e = meanWeight(64, [&](double x, double y) {
             return wardSample(ward, node.wo, vec3(x, y, 0.5)).weight.x;
         });
-        push(e - classicAlbedo(plane, node.wo.z, facetAlphaSeen(node.wo, node.alpha)));
+        push(e - classicAlbedo(plane, node.wo.z, microfacetAlphaSeen(node.wo, node.alpha)));
     }
 }
 
@@ -230,19 +230,19 @@ void bakeVCavity() {
     for (int a = 0; a < MOMENT_ALPHA; ++a)
         for (int m = 0; m < MOMENT_MU; ++m) {
             const double alpha = tableAlphaAt(double(a) / (MOMENT_ALPHA - 1));
-            const double mu = tableMuAt(std::max(double(m), kFirst) / (MOMENT_MU - 1), alpha);
+            const double mu = tableMuAt(std::max(double(m), firstNode) / (MOMENT_MU - 1), alpha);
             const vec3 wo(std::sqrt(std::max(0.0, 1.0 - mu * mu)), 0.0, mu);
             double e[MOMENT_COUNT] = {};
             meanWeight(32, [&](double x, double y) {
                 const vec3 first = beckmannSample(alpha, vec2(x, y));
-                const vec3 facets[] = {first, vec3(-first.x, -first.y, first.z)};
-                const double seen[] = {std::max(sh64::dot(wo, facets[0]), 0.0),
-                                       std::max(sh64::dot(wo, facets[1]), 0.0)};
+                const vec3 normals[] = {first, vec3(-first.x, -first.y, first.z)};
+                const double seen[] = {std::max(sh64::dot(wo, normals[0]), 0.0),
+                                       std::max(sh64::dot(wo, normals[1]), 0.0)};
                 for (int k = 0; k < 2; ++k) {
                     const double c = seen[k];
-                    const double iz = 2.0 * c * facets[k].z - mu;
+                    const double iz = 2.0 * c * normals[k].z - mu;
                     if (c <= 0.0 || iz <= 0.0) continue;
-                    const double mz = facets[k].z;
+                    const double mz = normals[k].z;
                     const double weight = c / (seen[0] + seen[1]) * vCavityBoth(mu, iz, c, mz) /
                                           vCavityVisible(mu, c, mz);
                     for (int p = 0; p < MOMENT_COUNT; ++p)
@@ -283,10 +283,10 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: bakeAlbedo OUT.cpp\n");
         return 2;
     }
-    std::thread beckmann(bakeFacets, FACETS_BECKMANN);
-    bakeFacets(FACETS_GGX);
+    std::thread beckmann(bakeMicrofacets, NDF_BECKMANN);
+    bakeMicrofacets(NDF_GGX);
     beckmann.join();
-    entryCount = 2 * FACET_SIZE;
+    entryCount = 2 * MICROFACET_SIZE;
     bakeSheen();
     for (int plane = CLASSIC_PHONG; plane <= CLASSIC_WARD_EXACT; ++plane)
         bakeClassic(plane);

@@ -7,7 +7,7 @@ HEAD = """\
 // Written by shaders/bake/albedoFit.py. Over 32 x 32 cell centres of (cosine, root of alpha), ior
 // 1.03 to 3, metals and Schlick's curve: RMSE {rms:.1e}, largest error {largest:.1e}.
 
-struct FacetRule {{
+struct MicrofacetRule {{
     vec3 c; // cosines between view and facet, in [0, 1]
     vec3 w; // weights; their sum is the albedo of a white mirror
 }};
@@ -17,7 +17,7 @@ PATINA_FN vec4 fitBend(vec4 z) {{
 }}
 
 // mu: cosine of the view, in [0, 1]. alpha: in [ALPHA_MIRROR, 1].
-PATINA_FN FacetRule fitRule(float mu, float alpha) {{
+PATINA_FN MicrofacetRule fitRule(float mu, float alpha) {{
     float x0 = sqrt(mu);
     float x1 = sqrt(alpha);
     float x2 = mu / sqrt(mu * mu + alpha * alpha);
@@ -27,7 +27,7 @@ TAIL = """\
     // A facet that leans by `lean` towards the view and `side` across it, in slopes over alpha.
     float s = alpha * safeSqrt(1.0f - mu * mu);
     vec3 slope2 = (lean * lean + side * side) * (alpha * alpha);
-    FacetRule r;
+    MicrofacetRule r;
     r.c = min(max((vec3(mu) + lean * s) / sqrt(vec3(1.0f) + slope2), vec3(0.0f)), vec3(1.0f));
     r.w = w;
     return r;

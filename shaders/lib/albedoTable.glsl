@@ -39,11 +39,11 @@ const int TURNED_ABOVE = TURNED_MOMENT + TURNED_MOMENT_SIZE;
 const int TURNED_BELOW = TURNED_ABOVE + TURNED_INTERFACE_SIZE;
 
 // The tables of one distribution, then what is not of microfacets.
-const int FACET_SIZE = TURNED_BELOW + TURNED_INTERFACE_SIZE;
+const int MICROFACET_SIZE = TURNED_BELOW + TURNED_INTERFACE_SIZE;
 const int SHEEN_SIZE = 32 * 32; // sheenAlbedo.glsl
 const int CLASSIC_MU = 32;      // classicAlbedo.glsl
 const int CLASSIC_ALPHA = 32;
-const int CLASSIC_TABLE = 2 * FACET_SIZE + SHEEN_SIZE;
+const int CLASSIC_TABLE = 2 * MICROFACET_SIZE + SHEEN_SIZE;
 const int V_CAVITY_TABLE = CLASSIC_TABLE + 4 * CLASSIC_MU * CLASSIC_ALPHA;
 const int FILM_TABLE = V_CAVITY_TABLE + MOMENT_SIZE;
 const int FILM_PATHS = 1024; // methods/filmSpectrum.glsl
@@ -192,14 +192,14 @@ PATINA_FN vec2 interfaceBilinear(int i, float fm, float fa) {
 }
 
 // The two floats of the interface table.
-PATINA_FN vec2 interfaceEntry(float mu, float alpha, float eta, int facets) {
+PATINA_FN vec2 interfaceEntry(float mu, float alpha, float eta, int ndf) {
     bool above = eta >= 1.0f;
     float muC = tableMuCritical(min(eta, 1.0f));
     float tm = select(tableMuCoord(mu, alpha), tableMuBelowCoord(mu, muC, alpha), above);
     float ta = tableAlphaCoord(alpha);
     float te = tableEtaCoord(eta);
     int cell = tableCell(te, INTERFACE_ETA) * INTERFACE_ALPHA + tableCell(ta, INTERFACE_ALPHA);
-    int i = facets * FACET_SIZE + select(INTERFACE_ABOVE, INTERFACE_BELOW, above) +
+    int i = ndf * MICROFACET_SIZE + select(INTERFACE_ABOVE, INTERFACE_BELOW, above) +
             2 * (cell * INTERFACE_MU + tableCell(tm, INTERFACE_MU));
     float fm = tableFraction(tm, INTERFACE_MU);
     float fa = tableFraction(ta, INTERFACE_ALPHA);

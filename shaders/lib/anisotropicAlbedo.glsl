@@ -8,7 +8,7 @@
 
 // The alpha of the isotropic lobe that stands in: what wo sees along its own azimuth, the root mean
 // square when it looks straight down.
-PATINA_FN float facetAlphaSeen(vec3 wo, vec2 alpha) {
+PATINA_FN float microfacetAlphaSeen(vec3 wo, vec2 alpha) {
     float x = alpha.x * wo.x;
     float y = alpha.y * wo.y;
     return min(sqrt(x * x + y * y + wo.z * wo.z * 0.5f * dot(alpha, alpha)), 1.0f);
@@ -29,11 +29,11 @@ PATINA_FN float turnedAlpha(float larger, float ratio, float c) {
 }
 
 // Where (wo, alpha) lies in the tables of a distribution.
-struct FacetPlace {
+struct MicrofacetPlace {
     MomentPlace moment;
     float mu;
-    float alpha; // facetAlphaSeen
-    int facets;
+    float alpha; // microfacetAlphaSeen
+    int ndf;
     bool turned;  // anisotropic
     float larger; // what follows is for anisotropic lobes: larger alpha, smaller over larger
     float ratio;
@@ -46,7 +46,7 @@ PATINA_FN int turnedRow(int a, int r, int c, int m) {
     return ((a * TURNED_RATIO + r) * TURNED_AZIMUTH + c) * TURNED_MU + m;
 }
 
-PATINA_FN_RARE FacetPlace turnedPlace(FacetPlace p, vec3 wo, vec2 alpha) {
+PATINA_FN_RARE MicrofacetPlace turnedPlace(MicrofacetPlace p, vec3 wo, vec2 alpha) {
     p.larger = max(alpha.x, alpha.y);
     p.ratio = min(alpha.x, alpha.y) / p.larger;
     float across = sqrt(wo.x * wo.x + wo.y * wo.y);
@@ -62,13 +62,13 @@ PATINA_FN_RARE FacetPlace turnedPlace(FacetPlace p, vec3 wo, vec2 alpha) {
     return p;
 }
 
-PATINA_FN FacetPlace facetPlace(vec3 wo, vec2 alpha, int facets) {
-    FacetPlace p;
+PATINA_FN MicrofacetPlace microfacetPlace(vec3 wo, vec2 alpha, int ndf) {
+    MicrofacetPlace p;
     p.mu = min(abs(wo.z), 1.0f);
-    p.alpha = facetAlphaSeen(wo, alpha);
-    p.facets = facets;
+    p.alpha = microfacetAlphaSeen(wo, alpha);
+    p.ndf = ndf;
     p.turned = alpha.x != alpha.y;
-    p.moment = momentPlace(p.mu, p.alpha, facets * FACET_SIZE);
+    p.moment = momentPlace(p.mu, p.alpha, ndf * MICROFACET_SIZE);
     p.larger = p.alpha;
     p.ratio = 1.0f;
     p.c = 1.0f;
@@ -89,9 +89,9 @@ PATINA_FN float turnedWeight(int k, vec4 f) {
 }
 
 // What anisotropy adds to entry i of the moments.
-PATINA_FN_RARE float turnedEntry(FacetPlace p, int i) {
+PATINA_FN_RARE float turnedEntry(MicrofacetPlace p, int i) {
     float e = 0.0f;
-    int table = p.facets * FACET_SIZE + TURNED_MOMENT + i;
+    int table = p.ndf * MICROFACET_SIZE + TURNED_MOMENT + i;
     for (int k = 0; k < 16; ++k) {
         int row = p.turnedBase + turnedCorner(k);
         e += turnedWeight(k, p.turnedAt) * albedoTableFetch(table + row * MOMENT_COUNT);
@@ -99,28 +99,28 @@ PATINA_FN_RARE float turnedEntry(FacetPlace p, int i) {
     return e;
 }
 
-PATINA_FN float facetEntry(FacetPlace p, int i) {
+PATINA_FN float microfacetEntry(MicrofacetPlace p, int i) {
     float e = momentEntry(p.moment, i);
     if (p.turned) e += turnedEntry(p, i);
     return e;
 }
 
 // E[0]: the albedo of a perfect mirror, single scattering.
-PATINA_FN float facetAlbedo0(FacetPlace p) {
-    return clamp(facetEntry(p, 0), ALBEDO_MIN, 1.0f);
+PATINA_FN float microfacetAlbedo0(MicrofacetPlace p) {
+    return clamp(microfacetEntry(p, 0), ALBEDO_MIN, 1.0f);
 }
 
 // E[p] / E[0]: the mean of (1 - c)^exponent over the facets seen.
-PATINA_FN float facetMean(FacetPlace p, float exponent) {
+PATINA_FN float microfacetMean(MicrofacetPlace p, float exponent) {
     int i = momentCell(exponent);
     float e0 = momentExponent(i);
     float f = clamp((exponent - e0) / (momentExponent(i + 1) - e0), 0.0f, 1.0f);
-    float d = mix(facetEntry(p, i), facetEntry(p, i + 1), f);
+    float d = mix(microfacetEntry(p, i), microfacetEntry(p, i + 1), f);
     return powSchlick(clamp(1.0f - p.mu + d, 0.0f, 1.0f), exponent);
 }
 
 // What anisotropy adds to the two floats of the interface.
-PATINA_FN_RARE vec2 turnedInterface(FacetPlace p, float eta) {
+PATINA_FN_RARE vec2 turnedInterface(MicrofacetPlace p, float eta) {
     vec2 e = vec2(0.0f);
     bool above = eta >= 1.0f;
     float muC = tableMuCritical(min(eta, 1.0f));
@@ -135,7 +135,7 @@ PATINA_FN_RARE vec2 turnedInterface(FacetPlace p, float eta) {
                    tableFraction(tr, TURNED_RATIO), tableFraction(ta, TURNED_ETA_ALPHA));
     float fe = tableFraction(te, TURNED_ETA);
     int stepE = 2 * turnedRow(TURNED_ETA_ALPHA, 0, 0, 0);
-    int table = p.facets * FACET_SIZE + select(TURNED_ABOVE, TURNED_BELOW, above) +
+    int table = p.ndf * MICROFACET_SIZE + select(TURNED_ABOVE, TURNED_BELOW, above) +
                 tableCell(te, TURNED_ETA) * stepE;
     for (int k = 0; k < 16; ++k) {
         int i = table + 2 * (base + turnedCorner(k));
@@ -146,8 +146,8 @@ PATINA_FN_RARE vec2 turnedInterface(FacetPlace p, float eta) {
 }
 
 // x: E_R / E[0], the mean reflectance over the facets seen; y: E_T / E[0]. Both not negative.
-PATINA_FN vec2 facetInterface(FacetPlace p, float eta) {
-    vec2 e = interfaceEntry(p.mu, p.alpha, eta, p.facets);
+PATINA_FN vec2 microfacetInterface(MicrofacetPlace p, float eta) {
+    vec2 e = interfaceEntry(p.mu, p.alpha, eta, p.ndf);
     if (p.turned) e += turnedInterface(p, eta);
     float r = clamp(e.x + interfaceGuess(p.mu, p.alpha, eta), 0.0f, 1.0f);
     return vec2(r, max(1.0f - r - e.y, 0.0f));

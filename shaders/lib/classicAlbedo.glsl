@@ -19,9 +19,9 @@ PATINA_FN float classicAlbedo(int plane, float mu, float alpha) {
 }
 
 // What anisotropy adds to a form of Ward's lobe (CLASSIC_WARD_*) over the isotropic one that stands
-// in (facetAlphaSeen), in the layout of anisotropicAlbedo.glsl.
+// in (microfacetAlphaSeen), in the layout of anisotropicAlbedo.glsl.
 PATINA_FN_RARE float wardTurned(int plane, vec3 wo, vec2 alpha) {
-    FacetPlace p = facetPlace(wo, alpha, FACETS_GGX);
+    MicrofacetPlace p = microfacetPlace(wo, alpha, NDF_GGX);
     int i = WARD_TABLE + (plane - CLASSIC_WARD_BOUNDED) * WARD_SIZE + p.turnedBase;
     float e = 0.0f;
     for (int k = 0; k < 16; ++k)

@@ -8,7 +8,7 @@ const vec3 CONDUCTOR_COS = vec3(0.0894427191f, 0.252982213f, 0.464758002f);
 const float CONDUCTOR_COS3 = 0.715541753f;
 
 // f0 to f5: the reflectance at cosine 0, those of CONDUCTOR_COS, and 1; or what is added to one.
-PATINA_FN vec3 curveMeanAdded(FacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3 f3, vec3 f4, vec3 f5) {
+PATINA_FN vec3 curveMeanAdded(MicrofacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3 f3, vec3 f4, vec3 f5) {
     vec3 a1 = f0 * 0.0815740987f - f1 * 0.591924183f + f2 * 3.18853164f - f3 * 11.5559072f +
               f4 * 29.4486774f - f5 * 20.5709518f;
     vec3 a2 = f0 * -0.249220068f + f1 * 1.80723127f - f2 * 9.67758793f + f3 * 33.7002491f -
@@ -19,8 +19,8 @@ PATINA_FN vec3 curveMeanAdded(FacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3 f3, 
               f4 * 35.1275446f + f5 * 13.7307572f;
     vec3 a5 = f0 * 1.9835266f - f1 * 6.63279535f + f2 * 11.8655679f - f3 * 13.9281384f +
               f4 * 10.6694767f - f5 * 3.95763754f;
-    return f5 + a1 * facetMean(p, 1.7f) + a2 * facetMean(p, 2.5f) + a3 * facetMean(p, 5.0f) +
-           a4 * facetMean(p, 10.0f) + a5 * facetMean(p, 20.0f);
+    return f5 + a1 * microfacetMean(p, 1.7f) + a2 * microfacetMean(p, 2.5f) + a3 * microfacetMean(p, 5.0f) +
+           a4 * microfacetMean(p, 10.0f) + a5 * microfacetMean(p, 20.0f);
 }
 
 // Its cosines. Films are evaluated in loops over them: drivers copy the text of a function to wherever it is
@@ -38,11 +38,11 @@ PATINA_FN float gaussShare(int j) {
     return select(8.0f / 18.0f, 5.0f / 18.0f, j == 1);
 }
 
-PATINA_FN vec3 curveMean(FacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3 f3, vec3 f4, vec3 f5) {
+PATINA_FN vec3 curveMean(MicrofacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3 f3, vec3 f4, vec3 f5) {
     return min(max(curveMeanAdded(p, f0, f1, f2, f3, f4, f5), vec3(0.0f)), vec3(1.0f));
 }
 
-PATINA_FN vec3 conductorMean(FacetPlace p, vec3 n, vec3 k) {
+PATINA_FN vec3 conductorMean(MicrofacetPlace p, vec3 n, vec3 k) {
     return curveMean(p, vec3(1.0f), fresnelConductor(CONDUCTOR_COS.x, n, k),
                      fresnelConductor(CONDUCTOR_COS.y, n, k),
                      fresnelConductor(CONDUCTOR_COS.z, n, k),
@@ -51,7 +51,7 @@ PATINA_FN vec3 conductorMean(FacetPlace p, vec3 n, vec3 k) {
 
 // The same of a conductor, or dielectric with k = 0, under a film. Within 2e-2: films of many
 // hundred nm wave between the cosines.
-PATINA_FN vec3 filmMean(FacetPlace p, Film film, vec3 n, vec3 k) {
+PATINA_FN vec3 filmMean(MicrofacetPlace p, Film film, vec3 n, vec3 k) {
     vec3 f[6];
     for (int j = 1; j < 6; ++j)
         f[j] = filmReflectance(film, curveCos(j), n, k);

@@ -35,6 +35,6 @@ PATINA_FN float energyBoth(float er, float et) {
 // Factor on a transmission lobe that lies under a reflection lobe: the layer above already scaled
 // it by 1 - (albedo of reflection), so what the lobe's own Fresnel removed is given back. With the
 // same ior and alpha on both, layer and transmission are exactly the RT lobe.
-PATINA_FN float energyFused(float reflected, bool fused) {
-    return select(1.0f / max(1.0f - reflected, ALBEDO_MIN), 1.0f, fused);
+PATINA_FN float sharedInterfaceScale(float reflected, bool sharedInterface) {
+    return select(1.0f / max(1.0f - reflected, ALBEDO_MIN), 1.0f, sharedInterface);
 }

@@ -2,7 +2,7 @@
 // layerTransmittance. All numbers are shares of light per channel.
 //
 // Light of three kinds leaves a base: mirrored as in a polished metal, spread as by a diffuse
-// surface, and passed, which leaves downwards and never comes back. Of what is mirrored the interface
+// surface, and transmitted, which leaves downwards and never comes back. Of what is mirrored the interface
 // reflects as much as from outside at the same cosine, E; of what is spread its diffuse reflectance
 // from inside, R. What comes back meets the whole base again, so that with A the base's albedo all
 // bounces are a geometric series: what enters, 1 - E, counts (1 - R) / (1 - A R) times. Over a white
@@ -12,27 +12,27 @@
 struct LayerLight {
     vec3 mirrored;
     vec3 spread;
-    vec3 passed;
+    vec3 transmitted;
 };
 
-PATINA_FN LayerLight layerLight(vec3 mirrored, vec3 spread, vec3 passed) {
+PATINA_FN LayerLight layerLight(vec3 mirrored, vec3 spread, vec3 transmitted) {
     LayerLight l;
     l.mirrored = mirrored;
     l.spread = spread;
-    l.passed = passed;
+    l.transmitted = transmitted;
     return l;
 }
 PATINA_FN LayerLight layerEven(vec3 x) {
     return layerLight(x, x, x);
 }
 PATINA_FN LayerLight layerSum(LayerLight a, LayerLight b) {
-    return layerLight(a.mirrored + b.mirrored, a.spread + b.spread, a.passed + b.passed);
+    return layerLight(a.mirrored + b.mirrored, a.spread + b.spread, a.transmitted + b.transmitted);
 }
 PATINA_FN LayerLight layerScaled(LayerLight a, vec3 x) {
-    return layerLight(a.mirrored * x, a.spread * x, a.passed * x);
+    return layerLight(a.mirrored * x, a.spread * x, a.transmitted * x);
 }
 PATINA_FN LayerLight layerProduct(LayerLight a, LayerLight b) {
-    return layerLight(a.mirrored * b.mirrored, a.spread * b.spread, a.passed * b.passed);
+    return layerLight(a.mirrored * b.mirrored, a.spread * b.spread, a.transmitted * b.transmitted);
 }
 
 // What a lobe shows as: alpha of its facets (1 for diffuse), cosine of wo, share that it passes.
@@ -50,7 +50,7 @@ PATINA_FN LayerLight layerOfLobe(vec3 albedo, vec3 kinds) {
     return layerLight(albedo * kinds.x, albedo * kinds.y, albedo * kinds.z);
 }
 PATINA_FN vec3 layerWeight(LayerLight weight, vec3 kinds) {
-    return weight.mirrored * kinds.x + weight.spread * kinds.y + weight.passed * kinds.z;
+    return weight.mirrored * kinds.x + weight.spread * kinds.y + weight.transmitted * kinds.z;
 }
 
 // The diffuse reflectance of an interface on the far side from wo. average: from outside; by
@@ -66,23 +66,23 @@ PATINA_FN vec3 layerInsideDielectric(float average, float ior, float invIor, flo
     return vec3(clamp(select(denser, average, (z >= 0.0f) == (ior >= 1.0f)), 0.0f, 1.0f));
 }
 
-// What reaches the base and leaves it again through an interface that is there to the share `cover`.
-// kept: E. inside: R. alpha: of the interface's facets, which spread what they refract. z: cosine of
+// What reaches the base and leaves it again through an interface that is there to the share `weight`.
+// coverage: E. inside: R. alpha: of the interface's facets, which spread what they refract. z: cosine of
 // wo. base: albedo of what lies below.
-PATINA_FN LayerLight layerThrough(float cover, vec3 kept, vec3 inside, float alpha, float z,
+PATINA_FN LayerLight layerThrough(float weight, vec3 coverage, vec3 inside, float alpha, float z,
                                   LayerLight base) {
     vec3 kinds = layerKinds(0.5f * alpha, z, 0.0f);
-    vec3 mirror = kept * kinds.x + inside * kinds.y;
+    vec3 mirror = coverage * kinds.x + inside * kinds.y;
     // Closures that are added may have an albedo above 1: no more comes back than from white ones.
     vec3 again = min(base.mirrored * mirror + base.spread * inside, max(mirror, inside));
-    vec3 enters = (1.0f - kept) / max(1.0f - again, vec3(1e-6f));
-    vec3 bare = vec3(1.0f - cover);
-    return layerLight(bare + cover * enters * (1.0f - mirror), bare + cover * enters * (1.0f - inside),
-                      bare + cover * enters);
+    vec3 enters = (1.0f - coverage) / max(1.0f - again, vec3(1e-6f));
+    vec3 bare = vec3(1.0f - weight);
+    return layerLight(bare + weight * enters * (1.0f - mirror), bare + weight * enters * (1.0f - inside),
+                      bare + weight * enters);
 }
 // A top that sends nothing back: sheen, what is opaque, and where the model counts it already.
-PATINA_FN LayerLight layerPast(float cover, vec3 kept) {
-    return layerEven(1.0f - cover * kept);
+PATINA_FN LayerLight layerPast(float weight, vec3 coverage) {
+    return layerEven(1.0f - weight * coverage);
 }
 PATINA_FN LayerLight layerMix(LayerLight a, LayerLight b, float share) {
     return layerSum(layerScaled(a, vec3(share)), layerScaled(b, vec3(1.0f - share)));
@@ -91,9 +91,9 @@ PATINA_FN LayerLight layerMix(LayerLight a, LayerLight b, float share) {
 PATINA_FN LayerLight layerBeside(LayerLight a, LayerLight b) {
     return layerLight(max(a.mirrored + b.mirrored - 1.0f, vec3(0.0f)),
                       max(a.spread + b.spread - 1.0f, vec3(0.0f)),
-                      max(a.passed + b.passed - 1.0f, vec3(0.0f)));
+                      max(a.transmitted + b.transmitted - 1.0f, vec3(0.0f)));
 }
-// A top that is there to the share `cover`.
-PATINA_FN LayerLight layerCovered(LayerLight a, vec3 cover) {
-    return layerSum(layerEven(1.0f - cover), layerScaled(a, cover));
+// A top that is there to the share `weight`.
+PATINA_FN LayerLight layerCovered(LayerLight a, vec3 weight) {
+    return layerSum(layerEven(1.0f - weight), layerScaled(a, weight));
 }

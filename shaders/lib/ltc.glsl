@@ -63,7 +63,7 @@ PATINA_FN float ltcShare(vec3 corners[LTC_CORNERS], int count, vec4 m) {
 }
 
 // The map of isotropic GGX facets. wo: in the frame, above it.
-PATINA_FN vec4 ltcFacets(vec3 wo, float alpha) {
+PATINA_FN vec4 ltcMicrofacets(vec3 wo, float alpha) {
     return ltcFit(min(max(wo.z, 0.0f), 1.0f), min(max(alpha, ALPHA_MIRROR), 1.0f));
 }
 

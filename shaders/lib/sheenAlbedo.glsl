@@ -4,7 +4,7 @@
 
 const int SHEEN_MU = 32;
 const int SHEEN_ROUGHNESS = 32;
-const int SHEEN_TABLE = 2 * FACET_SIZE;
+const int SHEEN_TABLE = 2 * MICROFACET_SIZE;
 
 PATINA_FN float sheenMuAt(float t) {
     return t * t;

@@ -10,9 +10,9 @@ struct ConductorLobe {
     Film film;
     float retro; // -1 sends the lobe back to where it came from, else 1
     int compensate;
-    int facets;   // FACETS_GGX, FACETS_BECKMANN
+    int ndf;      // NDF_GGX, NDF_BECKMANN
     int albedo;   // ALBEDO_*, by conductorMethods as the next
-    int sampling; // FACETS_VISIBLE and others
+    int sampling; // SAMPLING_VNDF and others
     int fresnel;  // FRESNEL_*, by conductorFresnel
     SchlickFresnel curve;
     bool known; // k is that of the wo at hand (conductorAt)
@@ -31,9 +31,9 @@ PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness
     l.film = makeFilm(0.0f, 1.0f);
     l.retro = select(-1.0f, 1.0f, retroreflective);
     l.compensate = compensate;
-    l.facets = FACETS_GGX;
+    l.ndf = NDF_GGX;
     l.albedo = ALBEDO_TABLE;
-    l.sampling = FACETS_VISIBLE;
+    l.sampling = SAMPLING_VNDF;
     l.fresnel = FRESNEL_EXACT;
     l.curve = schlickFresnel(vec3(1.0f), vec3(1.0f), vec3(1.0f), 5.0f);
     l.known = false;
@@ -41,7 +41,7 @@ PATINA_FN ConductorLobe conductorSetup(vec3 ior, vec3 extinction, vec2 roughness
     return l;
 }
 
-// The lobe with other methods (ALBEDO_*, FACETS_VISIBLE and others, FILM_*), after its film.
+// The lobe with other methods (ALBEDO_*, SAMPLING_VNDF and others, FILM_*), after its film.
 PATINA_FN ConductorLobe conductorMethods(ConductorLobe l, int albedo, int sampling, int film) {
     l.albedo = albedo;
     l.sampling = sampling;
@@ -82,7 +82,7 @@ PATINA_FN ConductorLobe conductorAt(ConductorLobe l, vec3 wo) {
     l.known = true;
     if (PATINA_COMPENSATE(l.compensate) == COMPENSATE_NONE || l.alpha.x == 0.0f || conductorAdds(l))
         return l;
-    float ess = albedoWhite(wo, l.alpha, l.facets, l.albedo);
+    float ess = albedoWhite(wo, l.alpha, l.ndf, l.albedo);
     l.k = vec3(1.0f) + l.favg * ((1.0f - ess) / max(ess, ALBEDO_MIN));
     return l;
 }
@@ -90,24 +90,24 @@ PATINA_FN ConductorLobe conductorAt(ConductorLobe l, vec3 wo) {
 PATINA_FN LobeEval conductorEval(ConductorLobe l, vec3 wo, vec3 wi) {
     if (l.alpha.x == 0.0f || wo.z < 0.0f || wi.z <= 0.0f) return lobeEvalNone();
     vec3 i = vec3(wi.x * l.retro, wi.y * l.retro, wi.z);
-    FacetPair p = facetPair(wo, i, l.alpha, 1.0f, l.facets);
+    MicrofacetPair p = microfacetPair(wo, i, l.alpha, 1.0f, l.ndf);
     if (!PATINA_ENERGY_KNOWN(l.known)) l = conductorAt(l, wo);
     LobeEval e;
     e.value = conductorReflectance(l, p.c) * l.k * p.value;
-    int sampling = facetSampling(l.sampling, l.facets, SCATTER_R);
-    e.pdf = p.pdf * facetDensity(wo, l.alpha, p.z, p.c, l.facets, sampling);
+    int sampling = microfacetSampling(l.sampling, l.ndf, SCATTER_R);
+    e.pdf = p.pdf * microfacetDensity(wo, l.alpha, p.z, p.c, l.ndf, sampling);
     if (!conductorAdds(l)) return e;
-    float ess = albedoWhite(wo, l.alpha, l.facets, l.albedo);
-    return multiAdd(multiLobe(l.favg, ess, l.alpha, l.facets), e, i.z,
-                    albedoWhite(i, l.alpha, l.facets, l.albedo));
+    float ess = albedoWhite(wo, l.alpha, l.ndf, l.albedo);
+    return multiAdd(multiLobe(l.favg, ess, l.alpha, l.ndf), e, i.z,
+                    albedoWhite(i, l.alpha, l.ndf, l.albedo));
 }
 
 // Draws from both lobes where a second one holds the energy: the choice is u.z's.
 PATINA_FN LobeSample conductorSampleBoth(ConductorLobe l, vec3 wo, vec3 u) {
-    float ess = albedoWhite(wo, l.alpha, l.facets, l.albedo);
-    bool second = u.z < multiLobe(l.favg, ess, l.alpha, l.facets).chance;
-    int sampling = facetSampling(l.sampling, l.facets, SCATTER_R);
-    vec3 m = facetSample(wo, l.alpha, vec2(u.x, u.y), l.facets, sampling);
+    float ess = albedoWhite(wo, l.alpha, l.ndf, l.albedo);
+    bool second = u.z < multiLobe(l.favg, ess, l.alpha, l.ndf).chance;
+    int sampling = microfacetSampling(l.sampling, l.ndf, SCATTER_R);
+    vec3 m = microfacetSample(wo, l.alpha, vec2(u.x, u.y), l.ndf, sampling);
     vec3 wi = m * (2.0f * max(dot(wo, m), 0.0f)) - wo;
     wi = select(sampleCosineHemisphere(vec2(u.x, u.y)), wi, second);
     LobeSample s;
@@ -125,18 +125,18 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
     if (wo.z < 0.0f) return lobeSampleNone();
     if (conductorAdds(l)) return conductorSampleBoth(l, wo, u);
     bool mirror = l.alpha.x == 0.0f;
-    int sampling = facetSampling(l.sampling, l.facets, SCATTER_R);
+    int sampling = microfacetSampling(l.sampling, l.ndf, SCATTER_R);
     vec3 m = vec3(0.0f, 0.0f, 1.0f);
-    if (!mirror) m = facetSample(wo, l.alpha, vec2(u.x, u.y), l.facets, sampling);
+    if (!mirror) m = microfacetSample(wo, l.alpha, vec2(u.x, u.y), l.ndf, sampling);
     float c = clamp(dot(wo, m), 0.0f, 1.0f);
-    FacetBounce b = facetBounce(wo, m, c, l.alpha, 1.0f, true, l.facets);
+    MicrofacetBounce b = microfacetBounce(wo, m, c, l.alpha, 1.0f, true, l.ndf);
     if (!b.valid) return lobeSampleNone();
     if (!PATINA_ENERGY_KNOWN(l.known)) l = conductorAt(l, wo);
     LobeSample s;
     s.wi = vec3(b.wi.x * l.retro, b.wi.y * l.retro, b.wi.z);
-    if (sampling == FACETS_ALL && c <= 0.0f) return lobeSampleNone();
+    if (sampling == SAMPLING_FULL_NDF && c <= 0.0f) return lobeSampleNone();
     float density = 1.0f;
-    if (!mirror) density = facetDensity(wo, l.alpha, m.z, c, l.facets, sampling);
+    if (!mirror) density = microfacetDensity(wo, l.alpha, m.z, c, l.ndf, sampling);
     s.weight = conductorReflectance(l, c) * l.k * (b.ratio / density);
     s.pdf = b.pdf * density;
     s.event = select(LOBE_REFLECT + LOBE_DELTA, LOBE_REFLECT, mirror);
@@ -161,30 +161,30 @@ PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
     if (l.alpha.x == 0.0f || l.albedo == ALBEDO_MIRROR)
         return conductorReflectance(l, min(wo.z, 1.0f));
-    int method = albedoMethod(l.albedo, l.alpha, l.facets, 1.0f);
-    float ess = albedoWhite(wo, l.alpha, l.facets, l.albedo);
+    int method = albedoMethod(l.albedo, l.alpha, l.ndf, 1.0f);
+    float ess = albedoWhite(wo, l.alpha, l.ndf, l.albedo);
     vec3 k = conductorAt(l, wo).k;
     vec3 extra = vec3(0.0f);
-    if (conductorAdds(l)) extra = multiLobe(l.favg, ess, l.alpha, l.facets).color;
+    if (conductorAdds(l)) extra = multiLobe(l.favg, ess, l.alpha, l.ndf).color;
     if (method == ALBEDO_KARIS) {
-        vec2 ab = karisScaleBias(min(wo.z, 1.0f), facetAlphaSeen(wo, l.alpha));
+        vec2 ab = karisScaleBias(min(wo.z, 1.0f), microfacetAlphaSeen(wo, l.alpha));
         vec3 er = conductorReflectance(l, 1.0f) * ab.x + vec3(ab.y);
         return min(er, vec3(ess)) * k + extra;
     }
     bool steep = method == ALBEDO_TABLE && conductorSteep(l);
-    if (albedoHasFacets(method) || steep) {
-        AlbedoFacets a =
-            albedoFacets(wo, l.alpha, l.facets, select(ALBEDO_SAMPLES_64, method, steep));
+    if (albedoHasMicrofacets(method) || steep) {
+        AlbedoMicrofacets a =
+            albedoMicrofacets(wo, l.alpha, l.ndf, select(ALBEDO_SAMPLES_64, method, steep));
         vec3 er = vec3(0.0f);
         float white = 0.0f;
         for (int j = 0; j < a.count; ++j) {
-            vec2 facet = albedoFacet(a, j);
-            er += conductorReflectance(l, facet.x) * facet.y;
-            white += facet.y;
+            vec2 microfacet = albedoMicrofacet(a, j);
+            er += conductorReflectance(l, microfacet.x) * microfacet.y;
+            white += microfacet.y;
         }
         return er * (k * select(ess / max(white, ALBEDO_MIN), 1.0f, steep)) + extra;
     }
-    FacetPlace p = facetPlace(wo, l.alpha, l.facets);
+    MicrofacetPlace p = microfacetPlace(wo, l.alpha, l.ndf);
     vec3 mean = conductorMean(p, l.ior, l.extinction);
     if (filmIsThere(l.film))
         mean = filmMean(p, l.film, l.ior, l.extinction);

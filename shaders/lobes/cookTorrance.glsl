@@ -63,9 +63,9 @@ PATINA_FN LobeSample cookTorranceSample(CookTorranceLobe l, vec3 wo, vec3 u) {
 
 PATINA_FN vec3 cookTorranceAlbedo(CookTorranceLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
-    FacetPlace p = facetPlace(wo, vec2(l.alpha), FACETS_GGX);
+    MicrofacetPlace p = microfacetPlace(wo, vec2(l.alpha), NDF_GGX);
     p.moment.base += V_CAVITY_TABLE;
-    vec3 mean = mix(l.color, vec3(1.0f), facetMean(p, 5.0f));
+    vec3 mean = mix(l.color, vec3(1.0f), microfacetMean(p, 5.0f));
     if (l.fresnel == COOK_TORRANCE_EXACT) mean = conductorMean(p, l.ior, l.extinction);
-    return mean * facetAlbedo0(p);
+    return mean * microfacetAlbedo0(p);
 }

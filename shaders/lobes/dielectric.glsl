@@ -5,8 +5,8 @@
 // Refraction is in flux form: radiance is not scaled by 1 / eta^2, so that R + T of clear glass is
 // 1 from both sides (for a closed object the factors cancel anyway). Then f(o, i) n(o)^2 = f(i, o)
 // n(i)^2 holds for T, with n(w) the ior on the side of w. R is reciprocal; both only when
-// `compensate` is 0 and the lobe is not fused. ior 1: no interface (nothing reflected, light passes
-// straight). ior 0: Fresnel off, as MaterialX says; R and RT reflect all, T passes all.
+// `compensate` is 0 and the lobe shares no interface. ior 1: no interface (nothing reflected, light
+// passes straight). ior 0: Fresnel off, as MaterialX says; R and RT reflect all, T passes all.
 
 struct DielectricLobe {
     vec3 tint;
@@ -17,11 +17,11 @@ struct DielectricLobe {
     float retro; // -1 sends reflection back to where it came from, else 1
     int mode;
     int compensate;
-    int facets;   // FACETS_GGX, FACETS_BECKMANN
+    int ndf;      // NDF_GGX, NDF_BECKMANN
     int albedo;   // ALBEDO_*, by dielectricMethods as the next two
-    int sampling; // FACETS_VISIBLE and others
+    int sampling; // SAMPLING_VNDF and others
     int fresnel;  // FRESNEL_*
-    bool fused;
+    bool sharedInterface;
     bool full;    // Fresnel off, reflects everything
     bool matched; // no interface
     bool deltaT;  // refraction too narrow to evaluate
@@ -31,10 +31,11 @@ struct DielectricLobe {
 };
 
 // tint: colour factor on R and T. ior: inside over outside. roughness: GGX alpha along x and y.
-// scatterMode: SCATTER_*. fused: a T lobe that lies under a reflection lobe of the same interface.
-// Its own loss to reflection is divided out, because the layer above accounts for it (energyFused).
+// scatterMode: SCATTER_*. sharedInterface: a T lobe that lies under a reflection lobe of the same
+// interface. Its own loss to reflection is divided out, because the layer above accounts for it
+// (sharedInterfaceScale).
 PATINA_FN DielectricLobe dielectricSetup(vec3 tint, float ior, vec2 roughness, bool retroreflective,
-                                         int scatterMode, bool fused, int compensate) {
+                                         int scatterMode, bool sharedInterface, int compensate) {
     DielectricLobe l;
     bool off = !(ior > 0.0f);
     float n = select(1.0f, clamp(ior, 1.0f / IOR_MAX, IOR_MAX), off);
@@ -48,11 +49,11 @@ PATINA_FN DielectricLobe dielectricSetup(vec3 tint, float ior, vec2 roughness, b
     l.retro = select(-1.0f, 1.0f, retroreflective);
     l.mode = select(SCATTER_R, scatterMode, l.full);
     l.compensate = compensate;
-    l.facets = FACETS_GGX;
+    l.ndf = NDF_GGX;
     l.albedo = ALBEDO_TABLE;
-    l.sampling = FACETS_VISIBLE;
+    l.sampling = SAMPLING_VNDF;
     l.fresnel = FRESNEL_EXACT;
-    l.fused = fused && scatterMode == SCATTER_T;
+    l.sharedInterface = sharedInterface && scatterMode == SCATTER_T;
     l.deltaT = min(l.alpha.x, l.alpha.y) * abs(l.ior - 1.0f) < REFRACTION_DELTA * max(l.ior, 1.0f);
     l.known = false;
     l.kr = 1.0f;
@@ -60,7 +61,7 @@ PATINA_FN DielectricLobe dielectricSetup(vec3 tint, float ior, vec2 roughness, b
     return l;
 }
 
-// The lobe with other methods (ALBEDO_*, FACETS_VISIBLE and others, FRESNEL_*).
+// The lobe with other methods (ALBEDO_*, SAMPLING_VNDF and others, FRESNEL_*).
 PATINA_FN DielectricLobe dielectricMethods(DielectricLobe l, int albedo, int sampling,
                                            int fresnel) {
     l.albedo = albedo;
@@ -86,17 +87,17 @@ PATINA_FN bool dielectricAdds(DielectricLobe l, float z) {
 PATINA_FN vec2 dielectricChosen(DielectricLobe l, vec3 wo, float eta, int method) {
     float mu = min(abs(wo.z), 1.0f);
     vec2 e = vec2(0.0f);
-    if (albedoHasFacets(method)) {
-        AlbedoFacets a = albedoFacets(wo, l.alpha, l.facets, method);
+    if (albedoHasMicrofacets(method)) {
+        AlbedoMicrofacets a = albedoMicrofacets(wo, l.alpha, l.ndf, method);
         for (int j = 0; j < a.count; ++j) {
-            vec2 facet = albedoFacet(a, j);
-            e += vec2(facet.y, facet.y * dielectricFresnel(l, facet.x, eta));
+            vec2 microfacet = albedoMicrofacet(a, j);
+            e += vec2(microfacet.y, microfacet.y * dielectricFresnel(l, microfacet.x, eta));
         }
     } else {
-        vec2 ab = karisScaleBias(mu, facetAlphaSeen(wo, l.alpha));
+        vec2 ab = karisScaleBias(mu, microfacetAlphaSeen(wo, l.alpha));
         e.y = dielectricFresnel(l, 1.0f, eta) * ab.x + ab.y;
     }
-    if (method == ALBEDO_KARIS) e.x = facetAlbedo0(facetPlace(wo, l.alpha, l.facets));
+    if (method == ALBEDO_KARIS) e.x = microfacetAlbedo0(microfacetPlace(wo, l.alpha, l.ndf));
     e.x = clamp(e.x, ALBEDO_MIN, 1.0f);
     return vec2(e.x, min(e.x, e.y));
 }
@@ -115,11 +116,11 @@ PATINA_FN DielectricEnergy dielectricRough(DielectricLobe l, vec3 wo) {
     float eta = dielectricEta(l, z);
     float f = dielectricFresnel(l, min(mu, 1.0f), eta);
     e.kr = 1.0f;
-    e.kt = energyFused(f, l.fused);
+    e.kt = sharedInterfaceScale(f, l.sharedInterface);
     e.r = f;
     e.t = (1.0f - f) * e.kt;
     if (l.alpha.x == 0.0f || l.matched) return e;
-    int method = albedoMethod(l.albedo, l.alpha, l.facets, eta);
+    int method = albedoMethod(l.albedo, l.alpha, l.ndf, eta);
     vec2 chosen = vec2(0.0f);
     if (method != ALBEDO_TABLE) chosen = dielectricChosen(l, wo, eta, method);
     float ess = chosen.x;
@@ -127,9 +128,9 @@ PATINA_FN DielectricEnergy dielectricRough(DielectricLobe l, vec3 wo) {
     float et = 0.0f;
     // Transmission is the tables' alone.
     if (method == ALBEDO_TABLE || l.mode != SCATTER_R || eta < 1.0f) {
-        FacetPlace p = facetPlace(wo, l.alpha, l.facets);
-        vec2 a = facetInterface(p, eta);
-        float white = facetAlbedo0(p);
+        MicrofacetPlace p = microfacetPlace(wo, l.alpha, l.ndf);
+        vec2 a = microfacetInterface(p, eta);
+        float white = microfacetAlbedo0(p);
         et = white * select(0.0f, a.y, l.full);
         ess = select(white, ess, method == ALBEDO_TABLE);
         if (l.fresnel != FRESNEL_EXACT && eta >= 1.0f)
@@ -137,7 +138,7 @@ PATINA_FN DielectricEnergy dielectricRough(DielectricLobe l, vec3 wo) {
         er = select(white * select(1.0f, a.x, l.full), er, method == ALBEDO_TABLE);
     }
     if (dielectricAdds(l, z)) {
-        e.r = er + multiLobe(vec3(l.favg), ess, l.alpha, l.facets).color.x;
+        e.r = er + multiLobe(vec3(l.favg), ess, l.alpha, l.ndf).color.x;
         e.t = 0.0f;
         return e;
     }
@@ -149,7 +150,7 @@ PATINA_FN DielectricEnergy dielectricRough(DielectricLobe l, vec3 wo) {
         e.kt = select(energyTransmit(er, et, e.kr), both, eta >= 1.0f);
     }
     e.r = er * e.kr;
-    e.kt *= energyFused(e.r, l.fused);
+    e.kt *= sharedInterfaceScale(e.r, l.sharedInterface);
     e.t = et * e.kt;
     return e;
 }
@@ -158,10 +159,10 @@ PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, vec3 wo) {
     DielectricEnergy e = dielectricRough(l, wo);
     if (l.albedo != ALBEDO_MIRROR) return e;
     float f = dielectricFresnel(l, min(abs(wo.z), 1.0f), dielectricEta(l, wo.z));
-    float fused = energyFused(f, l.fused);
-    e.kt *= fused / energyFused(e.r, l.fused);
+    float scale = sharedInterfaceScale(f, l.sharedInterface);
+    e.kt *= scale / sharedInterfaceScale(e.r, l.sharedInterface);
     e.r = f;
-    e.t = (1.0f - f) * fused;
+    e.t = (1.0f - f) * scale;
     return e;
 }
 
@@ -170,10 +171,10 @@ PATINA_FN DielectricEnergy dielectricEnergy(DielectricLobe l, vec3 wo) {
 PATINA_FN DielectricLobe dielectricAt(DielectricLobe l, vec3 wo) {
     l.known = true;
     bool bare = PATINA_COMPENSATE(l.compensate) == COMPENSATE_NONE || l.alpha.x == 0.0f;
-    bool plain = bare && !l.fused;
+    bool plain = bare && !l.sharedInterface;
     if (plain || l.matched || dielectricAdds(l, wo.z)) return l;
     if (l.mode == SCATTER_R && (l.full || dielectricEta(l, wo.z) >= 1.0f)) {
-        float ess = albedoWhite(wo, l.alpha, l.facets, l.albedo);
+        float ess = albedoWhite(wo, l.alpha, l.ndf, l.albedo);
         l.kr = energyReflect(ess, l.favg, l.compensate);
         return l;
     }
@@ -193,30 +194,30 @@ PATINA_FN LobeEval dielectricEval(DielectricLobe l, vec3 wo, vec3 wi) {
     float turn = select(l.retro, 1.0f, reflects);
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
     vec3 i = vec3(wi.x * turn, wi.y * turn, wi.z * side);
-    FacetPair p = facetPair(o, i, l.alpha, select(1.0f, eta, reflects), l.facets);
+    MicrofacetPair p = microfacetPair(o, i, l.alpha, select(1.0f, eta, reflects), l.ndf);
     float f = dielectricFresnel(l, p.c, eta);
     float share = select(f, 1.0f - f, reflects);
     if (!PATINA_ENERGY_KNOWN(l.known)) l = dielectricAt(l, wo);
     LobeEval e;
     e.value = l.tint * (p.value * share * select(l.kr, l.kt, reflects));
-    int sampling = facetSampling(l.sampling, l.facets, l.mode);
+    int sampling = microfacetSampling(l.sampling, l.ndf, l.mode);
     e.pdf = p.pdf * select(share, 1.0f, l.mode == SCATTER_RT) *
-            facetDensity(o, l.alpha, p.z, p.c, l.facets, sampling);
+            microfacetDensity(o, l.alpha, p.z, p.c, l.ndf, sampling);
     if (!dielectricAdds(l, wo.z)) return e;
-    float ess = albedoWhite(o, l.alpha, l.facets, l.albedo);
-    MultiLobe second = multiLobe(vec3(l.favg), ess, l.alpha, l.facets);
+    float ess = albedoWhite(o, l.alpha, l.ndf, l.albedo);
+    MultiLobe second = multiLobe(vec3(l.favg), ess, l.alpha, l.ndf);
     second.color *= l.tint;
-    return multiAdd(second, e, i.z, albedoWhite(i, l.alpha, l.facets, l.albedo));
+    return multiAdd(second, e, i.z, albedoWhite(i, l.alpha, l.ndf, l.albedo));
 }
 
 // Draws from both lobes where a second one holds the energy: the choice is u.z's.
 PATINA_FN LobeSample dielectricSampleBoth(DielectricLobe l, vec3 wo, vec3 u) {
     float side = select(1.0f, -1.0f, wo.z >= 0.0f);
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
-    float ess = albedoWhite(o, l.alpha, l.facets, l.albedo);
-    bool second = u.z < multiLobe(vec3(l.favg), ess, l.alpha, l.facets).chance;
-    int sampling = facetSampling(l.sampling, l.facets, l.mode);
-    vec3 m = facetSample(o, l.alpha, vec2(u.x, u.y), l.facets, sampling);
+    float ess = albedoWhite(o, l.alpha, l.ndf, l.albedo);
+    bool second = u.z < multiLobe(vec3(l.favg), ess, l.alpha, l.ndf).chance;
+    int sampling = microfacetSampling(l.sampling, l.ndf, l.mode);
+    vec3 m = microfacetSample(o, l.alpha, vec2(u.x, u.y), l.ndf, sampling);
     vec3 wi = m * (2.0f * max(dot(o, m), 0.0f)) - o;
     wi = select(sampleCosineHemisphere(vec2(u.x, u.y)), wi, second);
     LobeSample s;
@@ -235,19 +236,20 @@ PATINA_FN LobeSample dielectricSample(DielectricLobe l, vec3 wo, vec3 u) {
     float side = select(1.0f, -1.0f, wo.z >= 0.0f);
     float eta = dielectricEta(l, wo.z);
     bool mirror = l.alpha.x == 0.0f;
-    int sampling = select(FACETS_VISIBLE, facetSampling(l.sampling, l.facets, l.mode), l.matched);
+    int sampling = select(SAMPLING_VNDF, microfacetSampling(l.sampling, l.ndf, l.mode), l.matched);
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
     vec3 m = vec3(0.0f, 0.0f, 1.0f);
-    if (!mirror) m = facetSample(o, l.alpha, vec2(u.x, u.y), l.facets, sampling);
+    if (!mirror) m = microfacetSample(o, l.alpha, vec2(u.x, u.y), l.ndf, sampling);
     float c = clamp(dot(o, m), 0.0f, 1.0f);
     float f = dielectricFresnel(l, c, eta);
     float chance = select(f, select(1.0f, 0.0f, l.mode == SCATTER_R), l.mode == SCATTER_RT);
     bool reflects = u.z < chance;
-    FacetBounce b = facetBounce(o, m, c, l.alpha, eta, reflects, l.facets);
+    MicrofacetBounce b = microfacetBounce(o, m, c, l.alpha, eta, reflects, l.ndf);
     float share = select(f, 1.0f - f, reflects);
     float density = 1.0f;
-    if (!mirror) density = facetDensity(o, l.alpha, m.z, c, l.facets, sampling);
-    if (!b.valid || share <= 0.0f || (sampling == FACETS_ALL && c <= 0.0f)) return lobeSampleNone();
+    if (!mirror) density = microfacetDensity(o, l.alpha, m.z, c, l.ndf, sampling);
+    if (!b.valid || share <= 0.0f || (sampling == SAMPLING_FULL_NDF && c <= 0.0f))
+        return lobeSampleNone();
     if (!PATINA_ENERGY_KNOWN(l.known)) l = dielectricAt(l, wo);
     bool isDelta = mirror || (!reflects && l.deltaT);
     bool both = l.mode == SCATTER_RT;

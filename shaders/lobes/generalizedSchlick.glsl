@@ -18,11 +18,11 @@ struct SchlickLobe {
     float retro; // -1 sends reflection back to where it came from, else 1
     int mode;
     int compensate;
-    int facets;   // FACETS_GGX, FACETS_BECKMANN
+    int ndf;      // NDF_GGX, NDF_BECKMANN
     int albedo;   // ALBEDO_*, by schlickMethods as the next
-    int sampling; // FACETS_VISIBLE and others
+    int sampling; // SAMPLING_VNDF and others
     bool exact;   // a dielectric under a film, not Schlick's curve
-    bool fused;
+    bool sharedInterface;
     bool deltaT; // refraction too narrow to evaluate
     bool known;  // kr and kt are those of the wo at hand (schlickAt)
     vec3 kr;     // factors on R and T, see energy.glsl
@@ -34,7 +34,7 @@ struct SchlickLobe {
 // Colours above 1 are clamped.
 PATINA_FN SchlickLobe schlickSetup(vec3 color0, vec3 color82, vec3 color90, float exponent,
                                    vec2 roughness, bool retroreflective, int scatterMode,
-                                   bool fused, int compensate) {
+                                   bool sharedInterface, int compensate) {
     SchlickLobe l;
     l.fresnel = schlickFresnel(color0, color82, color90, exponent);
     l.favg = fresnelSchlickAverage(l.fresnel);
@@ -46,10 +46,10 @@ PATINA_FN SchlickLobe schlickSetup(vec3 color0, vec3 color82, vec3 color90, floa
     l.retro = select(-1.0f, 1.0f, retroreflective);
     l.mode = scatterMode;
     l.compensate = compensate;
-    l.facets = FACETS_GGX;
+    l.ndf = NDF_GGX;
     l.albedo = ALBEDO_TABLE;
-    l.sampling = FACETS_VISIBLE;
-    l.fused = fused && scatterMode == SCATTER_T;
+    l.sampling = SAMPLING_VNDF;
+    l.sharedInterface = sharedInterface && scatterMode == SCATTER_T;
     l.deltaT = min(l.alpha.x, l.alpha.y) * (l.ior - 1.0f) < REFRACTION_DELTA * l.ior;
     l.known = false;
     l.exact = false;
@@ -61,7 +61,7 @@ PATINA_FN SchlickLobe schlickSetup(vec3 color0, vec3 color82, vec3 color90, floa
     return l;
 }
 
-// The lobe with other methods (ALBEDO_*, FACETS_VISIBLE and others, FILM_*), after its film.
+// The lobe with other methods (ALBEDO_*, SAMPLING_VNDF and others, FILM_*), after its film.
 PATINA_FN SchlickLobe schlickMethods(SchlickLobe l, int albedo, int sampling, int film) {
     l.albedo = albedo;
     l.sampling = sampling;
@@ -106,11 +106,11 @@ PATINA_FN SchlickLobe schlickFilm(SchlickLobe l, float thickness, float ior) {
 // A dielectric under a film; inputs as in dielectricSetup and makeFilm. ior 0 reflects all.
 PATINA_FN SchlickLobe filmDielectricSetup(vec3 tint, float ior, vec2 roughness, float thickness,
                                           float filmIor, bool retroreflective, int scatterMode,
-                                          bool fused, int compensate) {
+                                          bool sharedInterface, int compensate) {
     bool off = !(ior > 0.0f);
     SchlickLobe l = schlickSetup(
         vec3(select(0.0f, select(0.0f, 1.0f, scatterMode == SCATTER_T), off)), vec3(1.0f),
-        vec3(1.0f), 5.0f, roughness, retroreflective, scatterMode, fused, compensate);
+        vec3(1.0f), 5.0f, roughness, retroreflective, scatterMode, sharedInterface, compensate);
     l.tint = lobeColor(tint);
     if (off) return l;
     l.exact = true;
@@ -141,8 +141,10 @@ struct SchlickEnergy {
     vec3 t;
 };
 
-PATINA_FN vec3 schlickFused(vec3 r, bool fused) {
-    return vec3(energyFused(r.x, fused), energyFused(r.y, fused), energyFused(r.z, fused));
+PATINA_FN vec3 schlickSharedInterfaceScale(vec3 r, bool sharedInterface) {
+    return vec3(sharedInterfaceScale(r.x, sharedInterface),
+                sharedInterfaceScale(r.y, sharedInterface),
+                sharedInterfaceScale(r.z, sharedInterface));
 }
 
 // Reflectance at normal incidence.
@@ -159,7 +161,7 @@ PATINA_FN vec3 schlickSmoothPart(SchlickLobe l, float c, float eta) {
 
 // Mean reflectance over the facets seen, from the tables; of Schlick's curve, from outside. The
 // curve has moments of its own, however steep it is; what a film adds is smooth.
-PATINA_FN vec3 schlickTabled(SchlickLobe l, FacetPlace p, float eta) {
+PATINA_FN vec3 schlickTabled(SchlickLobe l, MicrofacetPlace p, float eta) {
     vec3 mean = vec3(0.0f);
     if (!PATINA_FILM(l.exact)) mean = schlickMean(p, l.fresnel);
     if (PATINA_FILM(l.exact) || filmIsThere(l.film)) {
@@ -180,24 +182,25 @@ PATINA_FN bool schlickOdd(SchlickLobe l) {
 
 // What such a curve lets through over what a dielectric of that ior does, over all facets seen: T
 // also meets those that R sends below the horizon, so that R's mean says little of it.
-PATINA_FN_RARE vec3 schlickPassedShare(SchlickLobe l, vec3 wo, float eta) {
+PATINA_FN_RARE vec3 schlickTransmittanceRatio(SchlickLobe l, vec3 wo, float eta) {
     vec3 o = vec3(wo.x, wo.y, min(abs(wo.z), 1.0f));
     vec3 curve = vec3(0.0f);
     float bare = 0.0f;
     for (int j = 0; j < ALBEDO_SEEN; ++j) {
-        float c = dot(o, seenFacet(o, l.alpha, l.facets, j));
+        float c = dot(o, visibleMicrofacet(o, l.alpha, l.ndf, j));
         curve += vec3(1.0f) - schlickReflectance(l, clamp(c, 0.0f, 1.0f), eta);
         bare += 1.0f - fresnelDielectric(clamp(c, 0.0f, 1.0f), eta);
     }
     return curve / max(bare, ALBEDO_MIN * float(ALBEDO_SEEN));
 }
 
-// The same from the denser side, where a dielectric of that ior lets `passed` through: the
+// The same from the denser side, where a dielectric of that ior lets `transmittance` through: the
 // reflectance rises to 1 as that dielectric's does.
-PATINA_FN vec3 schlickTabledDense(SchlickLobe l, vec3 wo, float eta, float passed) {
-    if (schlickOdd(l)) return vec3(1.0f) - min(schlickPassedShare(l, wo, eta) * passed, vec3(1.0f));
+PATINA_FN vec3 schlickTabledDense(SchlickLobe l, vec3 wo, float eta, float transmittance) {
+    if (schlickOdd(l))
+        return vec3(1.0f) - min(schlickTransmittanceRatio(l, wo, eta) * transmittance, vec3(1.0f));
     float f0 = sqr((l.ior - 1.0f) / (l.ior + 1.0f));
-    return mix(vec3(1.0f), schlickNormal(l), clamp(passed / (1.0f - f0), 0.0f, 1.0f));
+    return mix(vec3(1.0f), schlickNormal(l), clamp(transmittance / (1.0f - f0), 0.0f, 1.0f));
 }
 
 PATINA_FN bool schlickAdds(SchlickLobe l, float z) {
@@ -210,18 +213,18 @@ PATINA_FN vec4 schlickChosen(SchlickLobe l, vec3 wo, float eta, int method) {
     float mu = min(abs(wo.z), 1.0f);
     vec3 er = vec3(0.0f);
     float ess = 0.0f;
-    if (albedoHasFacets(method)) {
-        AlbedoFacets a = albedoFacets(wo, l.alpha, l.facets, method);
+    if (albedoHasMicrofacets(method)) {
+        AlbedoMicrofacets a = albedoMicrofacets(wo, l.alpha, l.ndf, method);
         for (int j = 0; j < a.count; ++j) {
-            vec2 facet = albedoFacet(a, j);
-            er += schlickReflectance(l, facet.x, eta) * facet.y;
-            ess += facet.y;
+            vec2 microfacet = albedoMicrofacet(a, j);
+            er += schlickReflectance(l, microfacet.x, eta) * microfacet.y;
+            ess += microfacet.y;
         }
     } else {
-        vec2 ab = karisScaleBias(mu, facetAlphaSeen(wo, l.alpha));
+        vec2 ab = karisScaleBias(mu, microfacetAlphaSeen(wo, l.alpha));
         er = schlickNormal(l) * ab.x + l.fresnel.f90 * ab.y;
     }
-    if (method == ALBEDO_KARIS) ess = facetAlbedo0(facetPlace(wo, l.alpha, l.facets));
+    if (method == ALBEDO_KARIS) ess = microfacetAlbedo0(microfacetPlace(wo, l.alpha, l.ndf));
     ess = clamp(ess, ALBEDO_MIN, 1.0f);
     er = min(er, vec3(ess));
     return vec4(er.x, er.y, er.z, ess);
@@ -236,12 +239,12 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
     float eta = schlickEta(l, z);
     e.kr = vec3(1.0f);
     e.r = schlickReflectance(l, mu, eta);
-    e.kt = schlickFused(e.r, l.fused);
+    e.kt = schlickSharedInterfaceScale(e.r, l.sharedInterface);
     e.t = (vec3(1.0f) - e.r) * e.kt;
     if (l.alpha.x == 0.0f) return e;
     bool thinner = eta >= 1.0f;
     bool reflectsOnly = l.mode == SCATTER_R && thinner;
-    int method = albedoMethod(l.albedo, l.alpha, l.facets, eta);
+    int method = albedoMethod(l.albedo, l.alpha, l.ndf, eta);
     bool tabled = method == ALBEDO_TABLE;
     vec4 chosen = vec4(0.0f, 0.0f, 0.0f, 1.0f);
     if (!tabled) chosen = schlickChosen(l, wo, eta, method);
@@ -250,15 +253,15 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
     vec3 mean = vec3(chosen.x, chosen.y, chosen.z) / ess;
     vec2 a = vec2(0.0f, 1.0f);
     if (tabled || !reflectsOnly) {
-        FacetPlace p = facetPlace(wo, l.alpha, l.facets);
-        white = facetAlbedo0(p);
+        MicrofacetPlace p = microfacetPlace(wo, l.alpha, l.ndf);
+        white = microfacetAlbedo0(p);
         ess = select(white, ess, tabled);
-        if (!reflectsOnly) a = facetInterface(p, eta);
+        if (!reflectsOnly) a = microfacetInterface(p, eta);
         if (tabled && thinner) mean = schlickTabled(l, p, eta);
         if (tabled && !thinner) mean = schlickTabledDense(l, wo, eta, 1.0f - a.x);
     }
     if (schlickAdds(l, z)) {
-        e.r = mean * ess + multiLobe(l.favg, ess, l.alpha, l.facets).color;
+        e.r = mean * ess + multiLobe(l.favg, ess, l.alpha, l.ndf).color;
         return e;
     }
     bool compensates = PATINA_COMPENSATE(l.compensate) != COMPENSATE_NONE;
@@ -268,7 +271,7 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
     if (reflectsOnly) return e;
     vec3 er = mean * ess;
     vec3 et = (vec3(1.0f) - mean) * min(white * a.y / max(1.0f - a.x, ALBEDO_MIN), 1.0f);
-    if (schlickOdd(l)) et = min(schlickPassedShare(l, wo, eta) * (white * a.y), vec3(1.0f));
+    if (schlickOdd(l)) et = min(schlickTransmittanceRatio(l, wo, eta) * (white * a.y), vec3(1.0f));
     et = min(et, max(vec3(1.0f) - er, vec3(0.0f)));
     if (compensates) {
         vec3 both = vec3(1.0f) / max(er + et, vec3(ALBEDO_MIN));
@@ -278,7 +281,7 @@ PATINA_FN SchlickEnergy schlickRough(SchlickLobe l, vec3 wo) {
     } else
         e.kt = vec3(1.0f);
     e.r = er * e.kr;
-    e.kt *= schlickFused(e.r, l.fused);
+    e.kt *= schlickSharedInterfaceScale(e.r, l.sharedInterface);
     e.t = et * e.kt;
     return e;
 }
@@ -287,10 +290,10 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
     SchlickEnergy e = schlickRough(l, wo);
     if (l.albedo != ALBEDO_MIRROR) return e;
     vec3 f = schlickReflectance(l, min(abs(wo.z), 1.0f), schlickEta(l, wo.z));
-    vec3 fused = schlickFused(f, l.fused);
-    e.kt *= fused / schlickFused(e.r, l.fused);
+    vec3 scale = schlickSharedInterfaceScale(f, l.sharedInterface);
+    e.kt *= scale / schlickSharedInterfaceScale(e.r, l.sharedInterface);
     e.r = f;
-    e.t = (vec3(1.0f) - f) * fused;
+    e.t = (vec3(1.0f) - f) * scale;
     return e;
 }
 
@@ -298,7 +301,7 @@ PATINA_FN SchlickEnergy schlickEnergy(SchlickLobe l, vec3 wo) {
 PATINA_FN SchlickLobe schlickAt(SchlickLobe l, vec3 wo) {
     l.known = true;
     bool bare = PATINA_COMPENSATE(l.compensate) == COMPENSATE_NONE || l.alpha.x == 0.0f;
-    bool plain = bare && !l.fused;
+    bool plain = bare && !l.sharedInterface;
     if (plain || schlickAdds(l, wo.z)) return l;
     SchlickEnergy e = schlickEnergy(l, wo);
     l.kr = e.kr;
@@ -321,30 +324,30 @@ PATINA_FN LobeEval schlickEval(SchlickLobe l, vec3 wo, vec3 wi) {
     float turn = select(l.retro, 1.0f, reflects);
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
     vec3 i = vec3(wi.x * turn, wi.y * turn, wi.z * side);
-    FacetPair p = facetPair(o, i, l.alpha, select(1.0f, eta, reflects), l.facets);
+    MicrofacetPair p = microfacetPair(o, i, l.alpha, select(1.0f, eta, reflects), l.ndf);
     vec3 f = schlickReflectance(l, p.c, eta);
     float chance = schlickChance(l, f);
     if (!PATINA_ENERGY_KNOWN(l.known)) l = schlickAt(l, wo);
     LobeEval e;
     e.value = l.tint * select(f * l.kr, (vec3(1.0f) - f) * l.kt, reflects) * p.value;
-    int sampling = facetSampling(l.sampling, l.facets, l.mode);
+    int sampling = microfacetSampling(l.sampling, l.ndf, l.mode);
     e.pdf = p.pdf * select(chance, 1.0f - chance, reflects) *
-            facetDensity(o, l.alpha, p.z, p.c, l.facets, sampling);
+            microfacetDensity(o, l.alpha, p.z, p.c, l.ndf, sampling);
     if (!schlickAdds(l, wo.z)) return e;
-    float ess = albedoWhite(o, l.alpha, l.facets, l.albedo);
-    MultiLobe second = multiLobe(l.favg, ess, l.alpha, l.facets);
+    float ess = albedoWhite(o, l.alpha, l.ndf, l.albedo);
+    MultiLobe second = multiLobe(l.favg, ess, l.alpha, l.ndf);
     second.color *= l.tint;
-    return multiAdd(second, e, i.z, albedoWhite(i, l.alpha, l.facets, l.albedo));
+    return multiAdd(second, e, i.z, albedoWhite(i, l.alpha, l.ndf, l.albedo));
 }
 
 // Draws from both lobes where a second one holds the energy: the choice is u.z's.
 PATINA_FN LobeSample schlickSampleBoth(SchlickLobe l, vec3 wo, vec3 u) {
     float side = select(1.0f, -1.0f, wo.z >= 0.0f);
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
-    float ess = albedoWhite(o, l.alpha, l.facets, l.albedo);
-    bool second = u.z < multiLobe(l.favg, ess, l.alpha, l.facets).chance;
-    int sampling = facetSampling(l.sampling, l.facets, l.mode);
-    vec3 m = facetSample(o, l.alpha, vec2(u.x, u.y), l.facets, sampling);
+    float ess = albedoWhite(o, l.alpha, l.ndf, l.albedo);
+    bool second = u.z < multiLobe(l.favg, ess, l.alpha, l.ndf).chance;
+    int sampling = microfacetSampling(l.sampling, l.ndf, l.mode);
+    vec3 m = microfacetSample(o, l.alpha, vec2(u.x, u.y), l.ndf, sampling);
     vec3 wi = m * (2.0f * max(dot(o, m), 0.0f)) - o;
     wi = select(sampleCosineHemisphere(vec2(u.x, u.y)), wi, second);
     LobeSample s;
@@ -363,19 +366,20 @@ PATINA_FN LobeSample schlickSample(SchlickLobe l, vec3 wo, vec3 u) {
     float side = select(1.0f, -1.0f, wo.z >= 0.0f);
     float eta = schlickEta(l, wo.z);
     bool mirror = l.alpha.x == 0.0f;
-    int sampling = facetSampling(l.sampling, l.facets, l.mode);
+    int sampling = microfacetSampling(l.sampling, l.ndf, l.mode);
     vec3 o = vec3(wo.x, wo.y, wo.z * side);
     vec3 m = vec3(0.0f, 0.0f, 1.0f);
-    if (!mirror) m = facetSample(o, l.alpha, vec2(u.x, u.y), l.facets, sampling);
+    if (!mirror) m = microfacetSample(o, l.alpha, vec2(u.x, u.y), l.ndf, sampling);
     float c = clamp(dot(o, m), 0.0f, 1.0f);
     vec3 f = schlickReflectance(l, c, eta);
     float chance = schlickChance(l, f);
     bool reflects = u.z < chance;
-    FacetBounce b = facetBounce(o, m, c, l.alpha, eta, reflects, l.facets);
+    MicrofacetBounce b = microfacetBounce(o, m, c, l.alpha, eta, reflects, l.ndf);
     float p = select(chance, 1.0f - chance, reflects);
-    if (!b.valid || p <= 0.0f || (sampling == FACETS_ALL && c <= 0.0f)) return lobeSampleNone();
+    if (!b.valid || p <= 0.0f || (sampling == SAMPLING_FULL_NDF && c <= 0.0f))
+        return lobeSampleNone();
     float density = 1.0f;
-    if (!mirror) density = facetDensity(o, l.alpha, m.z, c, l.facets, sampling);
+    if (!mirror) density = microfacetDensity(o, l.alpha, m.z, c, l.ndf, sampling);
     if (!PATINA_ENERGY_KNOWN(l.known)) l = schlickAt(l, wo);
     bool isDelta = mirror || (!reflects && l.deltaT);
     float turn = select(l.retro, 1.0f, reflects);

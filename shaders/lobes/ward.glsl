@@ -62,7 +62,7 @@ PATINA_FN LobeSample wardSample(WardLobe l, vec3 wo, vec3 u) {
 PATINA_FN vec3 wardAlbedo(WardLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
     int plane = select(CLASSIC_WARD_EXACT, CLASSIC_WARD_BOUNDED, l.form == WARD_EXACT);
-    float e = classicAlbedo(plane, wo.z, facetAlphaSeen(wo, l.alpha));
+    float e = classicAlbedo(plane, wo.z, microfacetAlphaSeen(wo, l.alpha));
     if (l.alpha.x != l.alpha.y) e = max(e + wardTurned(plane, wo, l.alpha), 0.0f);
     return l.color * e;
 }

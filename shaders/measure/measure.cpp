@@ -18,9 +18,9 @@ void Errors::add(double e) {
 void Errors::add(double e, double truth, double place, double cosine, double sigma) {
     count(e);
     const auto cell = [](double x, int n) { return std::clamp(int(x * n), 0, n - 1); };
-    for (int bin = 0; bin < kBins; ++bin) {
-        if (place >= 0.0 && bin != cell(place, kBins)) continue;
-        const size_t i = size_t(bin * kCosines + cell(cosine, kCosines));
+    for (int bin = 0; bin < binCount; ++bin) {
+        if (place >= 0.0 && bin != cell(place, binCount)) continue;
+        const size_t i = size_t(bin * cosineCount + cell(cosine, cosineCount));
         _errors[i] += std::fabs(e);
         _squared[i] += e * e;
         _noise[i] += sigma * sigma;
@@ -52,8 +52,8 @@ void Errors::into(Row& row) const {
 }
 
 void time(const std::function<double(int)>& batch, int evaluations, Row& row) {
-    constexpr int kBatches = 31;
-    constexpr double kBatchSeconds = 3e-4;
+    constexpr int batchCount = 31;
+    constexpr double batchSeconds = 3e-4;
     volatile double kept = 0.0;
     const auto seconds = [&](int repeats) {
         const std::clock_t start = std::clock(); // of the process: others are not counted
@@ -64,14 +64,14 @@ void time(const std::function<double(int)>& batch, int evaluations, Row& row) {
         return double(std::clock() - start) / CLOCKS_PER_SEC;
     };
     // Warms up, and finds how many repeats the clock can tell apart.
-    const int repeats = int(std::clamp(kBatchSeconds / std::max(seconds(1), 1e-9), 1.0, 1000.0));
-    std::vector<double> ns(kBatches);
+    const int repeats = int(std::clamp(batchSeconds / std::max(seconds(1), 1e-9), 1.0, 1000.0));
+    std::vector<double> ns(batchCount);
     for (double& t : ns)
         t = seconds(repeats) * 1e9 / (double(repeats) * evaluations);
     std::sort(ns.begin(), ns.end());
-    row.ns = ns[kBatches / 2];
-    row.nsLow = ns[kBatches / 4];
-    row.nsHigh = ns[3 * kBatches / 4];
+    row.ns = ns[batchCount / 2];
+    row.nsLow = ns[batchCount / 4];
+    row.nsHigh = ns[3 * batchCount / 4];
 }
 
 std::vector<Row> measureMethods(const std::string& point, bool timed) {

@@ -9,9 +9,9 @@ namespace patina::measure {
 
 /// Cells of a row: errors are kept by what the method's quality hangs on, and by the cosine of the
 /// view, so that a method is chosen where it is good.
-constexpr int kBins = 8;    ///< along Row::axis
-constexpr int kCosines = 4; ///< quarters of [0, 1], grazing first
-using Cells = std::array<float, kBins * kCosines>;
+constexpr int binCount = 8;    ///< along Row::axis
+constexpr int cosineCount = 4; ///< quarters of [0, 1], grazing first
+using Cells = std::array<float, binCount * cosineCount>;
 
 /// One method at a choice point, on one subject: what it costs and how far it is off.
 struct Row {
@@ -49,7 +49,8 @@ private:
 
     double _sum = 0.0, _squares = 0.0, _largest = 0.0;
     int _count = 0;
-    std::array<double, kBins * kCosines> _errors{}, _squared{}, _noise{}, _truths{}, _counts{};
+    std::array<double, binCount * cosineCount> _errors{}, _squared{}, _noise{}, _truths{},
+        _counts{};
 };
 
 /// Times `evaluate(i)` for i in [0, count): one warm batch, then at least 31 of them, each all of

@@ -5,13 +5,13 @@ namespace patina::measure {
 
 namespace {
 
-constexpr int kSide = 32;
-constexpr int kSpread = 300;
-constexpr int kQuadrature = 96;
+constexpr int gridSide = 32;
+constexpr int spreadCount = 300;
+constexpr int quadraturePoints = 96;
 
-const char* const kMethods[] = {"table",        "fit",          "karis",     "mirror",
-                                "monteCarlo16", "monteCarlo64", "quadrature"};
-constexpr int kEvaluations[] = {1024, 1024, 1024, 1024, 256, 64, 8}; // in a batch
+const char* const methodNames[] = {"table",        "fit",          "karis",     "mirror",
+                                   "monteCarlo16", "monteCarlo64", "quadrature"};
+constexpr int evaluationsPerBatch[] = {1024, 1024, 1024, 1024, 256, 64, 8}; // in a batch
 
 /// A reflectance, exact and as a lobe.
 struct Subject {
@@ -36,20 +36,20 @@ template <typename Make, typename Albedo> Subject subject(std::string name, std:
         return double(albedo(l, sh::vec3(p.wo)).x);
     };
     s.batch = [=](int evaluations, int method) {
-        static const std::vector<Place> grid = places(kSide);
+        static const std::vector<Place> grid = places(gridSide);
         std::vector<decltype(make(0.1f))> lobes;
-        for (int i = 0; i < kSide; ++i) {
-            lobes.push_back(make(float(grid[size_t(i * kSide)].alpha)));
+        for (int i = 0; i < gridSide; ++i) {
+            lobes.push_back(make(float(grid[size_t(i * gridSide)].alpha)));
             lobes.back().albedo = method;
         }
         std::vector<sh::vec3> directions;
-        for (int i = 0; i < kSide; ++i)
+        for (int i = 0; i < gridSide; ++i)
             directions.emplace_back(grid[size_t(i)].wo);
         float sum = 0.0f;
         for (int i = 0; i < evaluations; ++i) {
             // Steps that share no factor with the grid: a few evaluations are spread over it.
             const size_t j = size_t(i) * 37;
-            sum += albedo(lobes[j / kSide % kSide], directions[j % kSide]).x;
+            sum += albedo(lobes[j / gridSide % gridSide], directions[j % gridSide]).x;
         }
         return double(sum);
     };
@@ -93,20 +93,20 @@ Subject schlick() {
 std::vector<Row> directionalAlbedo(bool timed) {
     std::vector<Subject> subjects = {dielectric(1.5, "ior 1.5"), dielectric(1.05, "ior 1.05"),
                                      dielectric(3.0, "ior 3")};
-    for (const Metal& metal : kMetals)
+    for (const Metal& metal : measuredMetals)
         subjects.push_back(conductor(metal));
     subjects.push_back(schlick());
 
-    constexpr size_t methods = std::size(kMethods);
+    constexpr size_t methods = std::size(methodNames);
     std::vector<Errors> errors(subjects.size() * methods);
-    bake::InterfaceQuadrature quadrature(kQuadrature, sh::FACETS_GGX);
-    double light[kSpread], cosine[kSpread];
-    for (const Place& p : places(kSide)) {
-        quadrature.look(p.wo, sh64::vec2(p.alpha));
-        quadrature.spread(kSpread, light, cosine);
+    bake::InterfaceQuadrature quadrature(quadraturePoints, sh::NDF_GGX);
+    double light[spreadCount], cosine[spreadCount];
+    for (const Place& p : places(gridSide)) {
+        quadrature.setView(p.wo, sh64::vec2(p.alpha));
+        quadrature.spread(spreadCount, light, cosine);
         for (size_t s = 0; s < subjects.size(); ++s) {
             double truth = 0.0;
-            for (int i = 0; i < kSpread; ++i)
+            for (int i = 0; i < spreadCount; ++i)
                 if (light[i] > 0.0) truth += light[i] * subjects[s].exact(cosine[i]);
             for (size_t m = 0; m < methods; ++m)
                 errors[s * methods + m].add(subjects[s].lobe(p, int(m)) - truth, truth,
@@ -118,14 +118,15 @@ std::vector<Row> directionalAlbedo(bool timed) {
         for (size_t m = 0; m < methods; ++m) {
             Row row;
             row.point = "directionalAlbedo";
-            row.method = kMethods[m];
+            row.method = methodNames[m];
             row.subject = subjects[s].name;
             row.error = "albedo";
             row.kind = subjects[s].kind;
             row.reflectance = subjects[s].exact(1.0);
             errors[s * methods + m].into(row);
             if (timed)
-                time([&](int n) { return subjects[s].batch(n, int(m)); }, kEvaluations[m], row);
+                time([&](int n) { return subjects[s].batch(n, int(m)); }, evaluationsPerBatch[m],
+                     row);
             rows.push_back(row);
         }
     return rows;

@@ -13,14 +13,14 @@ namespace {
 using sh::vec2;
 using sh::vec3;
 
-constexpr int kSide = 8;   ///< places: cosines, and roots of alpha
-constexpr int kFine = 100; ///< places along a side of the light, for the truth
-constexpr int kPoses = 5;
-constexpr float kPi = 3.14159265f;
+constexpr int gridSide = 8;    ///< places: cosines, and roots of alpha
+constexpr int fineSteps = 100; ///< places along a side of the light, for the truth
+constexpr int poseCount = 5;
+constexpr float pi = 3.14159265f;
 
 /// As lightTrust and the samples of the material of shaders/raster/lighting.frag.glsl.
-constexpr float kLightTrust = 8.0f;
-constexpr int kMaterialSamples = 2;
+constexpr float lightTrust = 8.0f;
+constexpr int materialSamples = 2;
 
 /// A shape of ltcOutline() with radiance 1, seen from a point in whose frame the normal is z.
 struct AreaLight {
@@ -29,20 +29,20 @@ struct AreaLight {
 
     /// @param u in the unit square @returns a place; n: the normal there, times the area for all u
     vec3 at(vec2 u, vec3& n) const {
-        const float a = 2.0f * kPi * u.y;
+        const float a = 2.0f * pi * u.y;
         vec3 p(u.x - 0.5f, u.y - 0.5f, 0.0f);
         if (kind == sh::LTC_RECT) {
             n = glm::cross(x, y);
         } else if (kind == sh::LTC_DISK) {
             p = std::sqrt(u.x) * vec3(std::cos(a), std::sin(a), 0.0f);
-            n = kPi * glm::cross(x, y);
+            n = pi * glm::cross(x, y);
         } else if (kind == sh::LTC_SPHERE) {
             const float h = 2.0f * u.x - 1.0f, r = std::sqrt(1.0f - h * h);
             p = vec3(r * std::cos(a), r * std::sin(a), h);
-            n = 4.0f * kPi * glm::dot(x, x) * glm::normalize(x * p.x + y * p.y + z * p.z);
+            n = 4.0f * pi * glm::dot(x, x) * glm::normalize(x * p.x + y * p.y + z * p.z);
         } else {
             p = vec3(u.x - 0.5f, std::cos(a), std::sin(a));
-            n = 2.0f * kPi * glm::length(x) * glm::length(y) * glm::normalize(y * p.y + z * p.z);
+            n = 2.0f * pi * glm::length(x) * glm::length(y) * glm::normalize(y * p.y + z * p.z);
         }
         return origin + x * p.x + y * p.y + z * p.z;
     }
@@ -109,7 +109,7 @@ struct AreaLight {
 /// all sides.
 AreaLight pose(int kind, bool edgeOn, bool around, const vec3& wo, int i) {
     const float aside = 0.35f * float(i - 1), turned = 2.4f * float(i);
-    const float about = around ? kPi + 0.4f * kPi * float(i) : kPi;
+    const float about = around ? pi + 0.4f * pi * float(i) : pi;
     vec3 to = glm::normalize(vec3(wo.x * std::cos(about), wo.x * std::sin(about), wo.z) +
                              aside * vec3(std::cos(turned), std::sin(turned), 0.7f));
     to.z = std::max(to.z, 0.05f);
@@ -133,13 +133,14 @@ AreaLight pose(int kind, bool edgeOn, bool around, const vec3& wo, int i) {
 
 double brute(const Reflector& f, const AreaLight& l) {
     double sum = 0.0;
-    for (int i = 0; i < kFine * kFine; ++i) {
+    for (int i = 0; i < fineSteps * fineSteps; ++i) {
         vec3 n, wi;
-        const vec3 p = l.at((vec2(float(i % kFine), float(i / kFine)) + 0.5f) / float(kFine), n);
+        const vec3 p =
+            l.at((vec2(float(i % fineSteps), float(i / fineSteps)) + 0.5f) / float(fineSteps), n);
         const float density = l.density(p, n, wi);
         if (density > 0.0f && wi.z > 0.0f) sum += f.eval(wi).value.x / density;
     }
-    return sum / (double(kFine) * kFine);
+    return sum / (double(fineSteps) * fineSteps);
 }
 
 /// As the rasterizer: a place on the light per pass, and samples of the material.
@@ -153,15 +154,15 @@ double sampled(const Reflector& f, const AreaLight& l, int passes, std::mt19937&
         if (density > 0.0f && wi.z > 0.0f) {
             const sh::LobeEval e = f.eval(wi);
             sum += e.value.x / density *
-                   heuristic(kLightTrust * density, float(kMaterialSamples) * e.pdf);
+                   heuristic(lightTrust * density, float(materialSamples) * e.pdf);
         }
-        for (int k = 0; k < kMaterialSamples; ++k) {
+        for (int k = 0; k < materialSamples; ++k) {
             const sh::LobeSample s = f.sample(vec3(u(random), u(random), u(random)));
             if (s.event == 0 || s.wi.z <= 0.0f) continue;
             const float found = l.densityAlong(s.wi);
             if (found > 0.0f)
-                sum += s.weight.x / kMaterialSamples *
-                       heuristic(float(kMaterialSamples) * s.pdf, kLightTrust * found);
+                sum += s.weight.x / materialSamples *
+                       heuristic(float(materialSamples) * s.pdf, lightTrust * found);
         }
     }
     return sum / passes;
@@ -183,7 +184,7 @@ double byOutline(const Reflector& f, const AreaLight& l) {
         outline.corners[i] = sh::ltcTurned(l.origin + l.x * c.x + l.y * c.y + l.z * c.z, f.wo);
     }
     const sh::vec4 map =
-        !f.mirrors() ? sh::vec4(1.0f, 0.0f, 1.0f, 0.0f) : sh::ltcFacets(f.wo, f.alpha);
+        !f.mirrors() ? sh::vec4(1.0f, 0.0f, 1.0f, 0.0f) : sh::ltcMicrofacets(f.wo, f.alpha);
     return double(f.albedo() * sh::ltcShare(outline.corners, outline.count, map));
 }
 
@@ -202,7 +203,7 @@ std::vector<Row> areaLight(bool timed) {
                   {"disk", sh::LTC_DISK, false},
                   {"sphere", sh::LTC_SPHERE, false},
                   {"cylinder", sh::LTC_CYLINDER, false}};
-    const std::vector<Place> grid = places(kSide);
+    const std::vector<Place> grid = places(gridSide);
     std::vector<Row> rows;
     for (const auto kind : {Reflector::Diffuse, Reflector::Dielectric, Reflector::Conductor})
         for (const auto& shape : shapes) {
@@ -210,7 +211,7 @@ std::vector<Row> areaLight(bool timed) {
             std::vector<AreaLight> lights;
             std::vector<double> truths;
             for (const Place& p : grid)
-                for (int i = 0; i < kPoses; ++i) {
+                for (int i = 0; i < poseCount; ++i) {
                     lobes.emplace_back(kind, p);
                     lights.push_back(pose(shape.kind, shape.edgeOn, !lobes.back().mirrors(),
                                           lobes.back().wo, i));

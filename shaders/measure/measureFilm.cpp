@@ -15,14 +15,14 @@ std::vector<Row> thinFilm(bool timed) {
                  {"1.5 on gold", "conductor", 0.94, 1.5, sh64::vec3(0.18, 0.42, 1.37),
                   sh64::vec3(3.4, 2.35, 1.77)}};
     const char* const names[] = {"gaussian", "table", "spectral"};
-    constexpr double kThickest = 2000.0; // nm
-    constexpr int kThicknesses = 24, kFilmCosines = 16;
+    constexpr double thickest = 2000.0; // nm
+    constexpr int thicknessCount = 24, filmCosines = 16;
     std::vector<Row> rows;
     for (const auto& base : bases) {
         std::vector<sh64::vec3> truth;
-        for (int i = 0; i < kThicknesses * kFilmCosines; ++i) {
-            const double thickness = kThickest * (i / kFilmCosines + 0.5) / kThicknesses;
-            const double c = (i % kFilmCosines + 0.5) / kFilmCosines;
+        for (int i = 0; i < thicknessCount * filmCosines; ++i) {
+            const double thickness = thickest * (i / filmCosines + 0.5) / thicknessCount;
+            const double c = (i % filmCosines + 0.5) / filmCosines;
             const double s2 = 1.0 - c * c, e = base.ior;
             const double ct = std::sqrt(1.0 - s2 / (e * e)), ec = e * ct;
             const double s12 = (c - ec) / (c + ec), p12 = (e * c - ct) / (e * c + ct);
@@ -51,29 +51,29 @@ std::vector<Row> thinFilm(bool timed) {
             row.error = "reflectance";
             const auto at = [&](int i) {
                 sh::Film film = sh::makeFilm(
-                    float(kThickest * (i / kFilmCosines % kThicknesses + 0.5) / kThicknesses),
+                    float(thickest * (i / filmCosines % thicknessCount + 0.5) / thicknessCount),
                     float(base.ior));
                 film.method = m;
-                return sh::filmReflectance(film, (float(i % kFilmCosines) + 0.5f) / kFilmCosines,
+                return sh::filmReflectance(film, (float(i % filmCosines) + 0.5f) / filmCosines,
                                            sh::vec3(base.n), sh::vec3(base.k));
             };
             row.kind = base.kind;
             row.reflectance = base.reflectance;
             row.axis = "thickness";
-            row.axisEnd = kThickest;
+            row.axisEnd = thickest;
             Errors errors;
             for (size_t i = 0; i < truth.size(); ++i)
                 for (int k = 0; k < 3; ++k)
                     errors.add(double(at(int(i))[k]) - truth[i][k], truth[i][k],
-                               (int(i) / kFilmCosines + 0.5) / kThicknesses,
-                               (int(i) % kFilmCosines + 0.5) / kFilmCosines);
+                               (int(i) / filmCosines + 0.5) / thicknessCount,
+                               (int(i) % filmCosines + 0.5) / filmCosines);
             errors.into(row);
             if (timed)
                 time(
                     [&](int n) {
                         float sum = 0.0f;
                         for (int i = 0; i < n; ++i)
-                            sum += at(i * 37 % (kThicknesses * kFilmCosines)).x;
+                            sum += at(i * 37 % (thicknessCount * filmCosines)).x;
                         return double(sum);
                     },
                     m == sh::FILM_SPECTRAL ? 48 : 384, row);

@@ -6,9 +6,9 @@ namespace patina::measure {
 
 namespace {
 
-constexpr int kSide = 16;
-constexpr int kWalks = 6000;
-constexpr int kSamples = 256;
+constexpr int gridSide = 16;
+constexpr int walkCount = 6000;
+constexpr int sampleCount = 256;
 
 /// Point i of a sequence that fills the unit cube (Roberts 2018, generalized golden ratio).
 sh::vec3 point(int i) {
@@ -60,8 +60,8 @@ std::vector<Walked> walks(const std::vector<Place>& grid,
         if (grid[i].alpha < sh64::ALPHA_MIRROR)
             result[i].all = reflectance(grid[i].wo.z);
         else
-            result[i] = walkMicrosurface(grid[i].wo, sh64::vec2(grid[i].alpha), sh::FACETS_GGX,
-                                         reflectance, kWalks, 1 + i);
+            result[i] = walkMicrosurface(grid[i].wo, sh64::vec2(grid[i].alpha), sh::NDF_GGX,
+                                         reflectance, walkCount, 1 + i);
     return result;
 }
 
@@ -89,9 +89,9 @@ std::vector<Row> energyCompensation(bool timed) {
                    {"none", sh::COMPENSATE_NONE},
                    {"kullaConty", sh::COMPENSATE_ADD}};
     const Metal white = {"white metal", 0.0, 10.0};
-    const std::vector<Place> grid = places(kSide);
+    const std::vector<Place> grid = places(gridSide);
     std::vector<Row> rows;
-    for (const Metal& metal : {white, kMetals[0], kMetals[1]}) {
+    for (const Metal& metal : {white, measuredMetals[0], measuredMetals[1]}) {
         const auto reflectance = [&](double c) {
             return sh64::fresnelConductorChannel(c, metal.n, metal.k);
         };
@@ -142,21 +142,21 @@ std::vector<Row> energyCompensation(bool timed) {
 // that reflects all, at every place.
 std::vector<Row> sampling(bool timed) {
     const char* const names[] = {"vndf", "boundedVndf", "fullNdf"};
-    const std::vector<Place> grid = places(kSide);
+    const std::vector<Place> grid = places(gridSide);
     const Metal white = {"white metal", 0.0, 10.0};
     std::vector<Row> rows;
-    for (int m = sh::FACETS_VISIBLE; m <= sh::FACETS_ALL; ++m) {
+    for (int m = sh::SAMPLING_VNDF; m <= sh::SAMPLING_FULL_NDF; ++m) {
         Row row = named("sampling", names[m], "white metal", "noise");
         auto lobes = metalLobes(grid, white, sh::COMPENSATE_NONE);
         Errors errors;
         for (size_t i = 0; i < grid.size(); ++i) {
             lobes[i].sampling = m;
             double sum = 0.0, squares = 0.0;
-            for (int k = 0; k < kSamples; ++k) {
+            for (int k = 0; k < sampleCount; ++k) {
                 const double w =
                     double(sh::conductorSample(lobes[i], sh::vec3(grid[i].wo), point(k)).weight.x);
-                sum += w / kSamples;
-                squares += w * w / kSamples;
+                sum += w / sampleCount;
+                squares += w * w / sampleCount;
             }
             addAt(errors, sum + std::sqrt(std::max(squares - sum * sum, 0.0)), sum, grid[i]);
         }
@@ -210,7 +210,7 @@ std::vector<Row> fresnel(bool timed) {
                     places, row);
             rows.push_back(row);
         }
-    for (const Metal& metal : kMetals)
+    for (const Metal& metal : measuredMetals)
         for (int m = sh::FRESNEL_EXACT; m <= sh::FRESNEL_F82; ++m) {
             Row row = named("fresnel", names[m], metal.name, "reflectance");
             const sh::ConductorLobe lobe = sh::conductorFresnel(
@@ -249,7 +249,7 @@ std::vector<Row> diffuse(bool timed) {
                   {"qualitative", sh::DIFFUSE_QUALITATIVE},
                   {"fujii", sh::DIFFUSE_FUJII},
                   {"eon", sh::DIFFUSE_EON}};
-    const std::vector<Place> grid = places(kSide);
+    const std::vector<Place> grid = places(gridSide);
     std::vector<Row> rows;
     for (const auto& model : models) {
         Row row = named("diffuse", model.name, "white", "furnace");

@@ -5,7 +5,7 @@ namespace patina::measure {
 
 namespace {
 
-constexpr int kSide = 32;
+constexpr int gridSide = 32;
 
 } // namespace
 
@@ -14,14 +14,15 @@ constexpr int kSide = 32;
 std::vector<Row> sheen(bool timed) {
     const char* const names[] = {"table", "fit", "quadrature"};
     const int evaluations[] = {1024, 1024, 8};
-    constexpr int kFine = 2;
-    const std::vector<Place> grid = places(kSide);
+    constexpr int fineSteps = 2;
+    const std::vector<Place> grid = places(gridSide);
     const auto roughnessAt = [](const Place& p) {
         return std::max(double(sh::SHEEN_ROUGHNESS_MIN), p.alpha);
     };
     std::vector<double> truth;
     for (const Place& p : grid) {
-        const int heights = sh64::SHEEN_HEIGHTS * kFine, azimuths = sh64::SHEEN_AZIMUTHS * kFine;
+        const int heights = sh64::SHEEN_HEIGHTS * fineSteps,
+                  azimuths = sh64::SHEEN_AZIMUTHS * fineSteps;
         double sum = 0.0;
         for (int i = 0; i < heights; ++i) {
             const double t = (i + 0.5) / heights, z = t * t, r = std::sqrt(1.0 - z * z);

@@ -10,8 +10,8 @@ namespace patina::measure {
 
 namespace {
 
-constexpr int kWalks = 40000;
-constexpr int kMostSteps = 1024;
+constexpr int walkCount = 40000;
+constexpr int maxSteps = 1024;
 
 /// The single scattering albedo of which a half space has this albedo under diffuse light, after
 /// van de Hulst (hdDelegate/embree/media/randomWalk.h), for isotropic scattering.
@@ -42,7 +42,7 @@ private:
 double walkHalfSpace(double single, std::mt19937_64& random) {
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     double depth = 0.0, down = std::sqrt(uniform(random)), weight = 1.0;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < maxSteps; ++step) {
         depth -= std::log(1.0 - uniform(random)) * down;
         if (depth <= 0.0) return weight;
         weight *= single;
@@ -79,12 +79,12 @@ std::vector<Row> subsurface(bool timed) {
             const double single = singleAlbedo(subject.albedo);
             std::mt19937_64 random(7);
             Mean truth;
-            for (int i = 0; i < kWalks; ++i)
+            for (int i = 0; i < walkCount; ++i)
                 truth.add(walkHalfSpace(single, random));
             Errors errors;
-            for (int i = 0; i < kCosines; ++i)
+            for (int i = 0; i < cosineCount; ++i)
                 errors.add(walks ? 0.0 : subject.albedo - truth.mean(), truth.mean(), -1.0,
-                           (i + 0.5) / kCosines, truth.sigma());
+                           (i + 0.5) / cosineCount, truth.sigma());
             errors.into(row);
             const sh::OrenNayarLobe lobe =
                 sh::orenNayarSetup(sh::vec3(float(subject.albedo)), 0.0f, false);

@@ -6,8 +6,8 @@ namespace patina::measure {
 
 namespace {
 
-constexpr int kSide = 16;
-constexpr int kTogether = 16; // walks that are timed at once
+constexpr int gridSide = 16;
+constexpr int walksTogether = 16; // walks that are timed at once
 
 } // namespace
 
@@ -19,14 +19,18 @@ std::vector<Row> energyWalk(bool timed) {
         std::function<double(double)> reflectance;
     } subjects[] = {
         {"white metal", "conductor", [](double) { return 1.0; }},
-        {kMetals[0].name, "conductor",
-         [](double c) { return sh64::fresnelConductorChannel(c, kMetals[0].n, kMetals[0].k); }},
-        {kMetals[1].name, "conductor",
-         [](double c) { return sh64::fresnelConductorChannel(c, kMetals[1].n, kMetals[1].k); }},
+        {measuredMetals[0].name, "conductor",
+         [](double c) {
+             return sh64::fresnelConductorChannel(c, measuredMetals[0].n, measuredMetals[0].k);
+         }},
+        {measuredMetals[1].name, "conductor",
+         [](double c) {
+             return sh64::fresnelConductorChannel(c, measuredMetals[1].n, measuredMetals[1].k);
+         }},
         {"ior 1.5", "dielectric", [](double c) { return sh64::fresnelDielectric(c, 1.5); }},
         {"ior 3", "dielectric", [](double c) { return sh64::fresnelDielectric(c, 3.0); }}};
     std::vector<Place> grid;
-    for (const Place& p : places(kSide))
+    for (const Place& p : places(gridSide))
         if (p.alpha >= sh64::ALPHA_MIRROR) grid.push_back(p);
     std::vector<Row> rows;
     for (const auto& subject : subjects) {
@@ -44,15 +48,16 @@ std::vector<Row> energyWalk(bool timed) {
             time(
                 [&](int n) {
                     double sum = 0.0;
-                    for (int i = 0; i < n / kTogether; ++i) {
+                    for (int i = 0; i < n / walksTogether; ++i) {
                         const Place& p = grid[size_t(i) * 37 % grid.size()];
-                        sum += walkMicrosurface(p.wo, sh64::vec2(p.alpha), sh::FACETS_GGX,
-                                                subject.reflectance, kTogether, std::uint64_t(i))
-                                   .all;
+                        sum +=
+                            walkMicrosurface(p.wo, sh64::vec2(p.alpha), sh::NDF_GGX,
+                                             subject.reflectance, walksTogether, std::uint64_t(i))
+                                .all;
                     }
                     return sum;
                 },
-                256 * kTogether, row);
+                256 * walksTogether, row);
         rows.push_back(row);
     }
     return rows;

@@ -20,9 +20,9 @@ struct Walked {
 /// energy compensation. Slow, and exact but for noise.
 /// @param wo      above the surface
 /// @param alpha   not that of a mirror
-/// @param facets  sh::FACETS_*
+/// @param ndf  sh::NDF_*
 /// @param reflectance  of a facet, from the cosine to its normal
-Walked walkMicrosurface(sh64::vec3 wo, sh64::vec2 alpha, int facets,
+Walked walkMicrosurface(sh64::vec3 wo, sh64::vec2 alpha, int ndf,
                         const std::function<double(double)>& reflectance, int walks,
                         std::uint64_t seed);
 

@@ -26,6 +26,6 @@ struct Metal {
     const char* name;
     double n, k;
 };
-constexpr Metal kMetals[] = {{"gold, red", 0.18, 3.4}, {"copper, blue", 1.1, 2.3}};
+constexpr Metal measuredMetals[] = {{"gold, red", 0.18, 3.4}, {"copper, blue", 1.1, 2.3}};
 
 } // namespace patina::measure

@@ -21,9 +21,9 @@ struct Reflector {
 
     /// @param p alpha is the roughness of sheen too, its root that of diffuse lobes
     Reflector(Kind k, const Place& p) : kind(k), wo(p.wo), alpha(float(p.alpha)) {
-        metal = sh::conductorAt(sh::conductorSetup(sh::vec3(float(kMetals[0].n)),
-                                                   sh::vec3(float(kMetals[0].k)), sh::vec2(alpha),
-                                                   false, sh::COMPENSATE_SCALE),
+        metal = sh::conductorAt(sh::conductorSetup(sh::vec3(float(measuredMetals[0].n)),
+                                                   sh::vec3(float(measuredMetals[0].k)),
+                                                   sh::vec2(alpha), false, sh::COMPENSATE_SCALE),
                                 wo);
         plastic = sh::dielectricAt(sh::dielectricSetup(sh::vec3(1.0f), 1.5f, sh::vec2(alpha), false,
                                                        sh::SCATTER_R, false, sh::COMPENSATE_SCALE),

@@ -72,7 +72,7 @@ vec3 byOutline(Light l) {
             own[k] = ltcTurned(vec3(v.xy, side * v.z), wo);
         }
         bool mirror = kind == LOBE_MIRROR;
-        vec4 map = mirror ? ltcFacets(wo, lobeAlpha(i)) : vec4(1.0, 0.0, 1.0, 0.0);
+        vec4 map = mirror ? ltcMicrofacets(wo, lobeAlpha(i)) : vec4(1.0, 0.0, 1.0, 0.0);
         sum += lobeWeight[i] * lobeAlbedo[i] * ltcShare(own, count, map) *
                (mirror ? l.inverse1.w : l.inverse0.w);
     }

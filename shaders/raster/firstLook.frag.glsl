@@ -36,7 +36,7 @@ void main() {
             sum += weight;
         }
     sum = max(sum, 1e-20);
-    const float least = 0.02; // of guides, lest what has nearly none shines
-    vec3 smoothed = light / sum * (guide.rgb + least) / (guided / sum + least);
+    const float minimum = 0.02; // of guides, lest what has nearly none shines
+    vec3 smoothed = light / sum * (guide.rgb + minimum) / (guided / sum + minimum);
     outLight = vec4(smoothed - texelFetch(noisyLight, pixel, 0).rgb, 0.0);
 }

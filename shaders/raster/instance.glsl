@@ -20,7 +20,7 @@ vec3 alongStrip() {
     return mat3(inColumn0.xyz, inColumn1.xyz, inColumn2.xyz) * inNormal;
 }
 // Of a strip's vertex: places on the cross-section of the tube, in radii; x is across, y towards who looks. A
-// vault is as high as the tube in the mean.
+// dome is as high as the tube in the mean.
 vec2 onStrip() {
     if (inPosition.w == 0.0) return vec2(0.0);
     vec2 at = length(inNormal) > 7.0 ? vec2(0.6, 0.98) : vec2(1.0, 0.0);

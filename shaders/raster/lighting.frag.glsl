@@ -49,7 +49,7 @@ bool isSunOfDome(Light l) {
     return int(l.radiance.w) == LIGHT_DISTANT && l.origin.w > 0.0 && l.cone.x != 0.0;
 }
 
-#include "shaders/raster/behind.glsl"
+#include "shaders/raster/refraction.glsl"
 
 bool outlines = false;    // lights that are their outline go another way, see areaLights.glsl
 bool lightsAlone = false; // no sample of the BSDF finds the same light

@@ -210,8 +210,8 @@ SchlickEnergy schlickEnergyBy(SchlickLobe l, vec3 wo, int curve) {
 }
 
 // lobeFixWo() of materialNetwork/cpu/lobeOps.h: looks up what depends on wo alone, and returns the
-// share that the lobe keeps from the base of a layer. fixPassed: what it refracts.
-vec3 fixPassed;
+// share that the lobe keeps from the base of a layer. fixTransmittance: what it refracts.
+vec3 fixTransmittance;
 vec3 orenNayarFix(inout OrenNayarLobe l, vec3 wo, int curve, out vec3 albedo) {
     albedo = l.color;
     return vec3(1.0);
@@ -234,26 +234,26 @@ vec3 dielectricFix(inout DielectricLobe l, vec3 wo, int curve, out vec3 albedo) 
     l.known = true;
     l.kr = e.kr;
     l.kt = e.kt;
-    float kept = ((l.mode & SCATTER_R) != 0 ? e.r : 0.0) + ((l.mode & SCATTER_T) != 0 ? e.t : 0.0);
-    albedo = l.tint * kept;
-    fixPassed = l.tint * e.t;
-    return vec3(l.mode == SCATTER_T ? 1.0 : kept);
+    float coverage = ((l.mode & SCATTER_R) != 0 ? e.r : 0.0) + ((l.mode & SCATTER_T) != 0 ? e.t : 0.0);
+    albedo = l.tint * coverage;
+    fixTransmittance = l.tint * e.t;
+    return vec3(l.mode == SCATTER_T ? 1.0 : coverage);
 }
 vec3 schlickFix(inout SchlickLobe l, vec3 wo, int curve, out vec3 albedo) {
     SchlickEnergy e = schlickEnergyBy(l, wo, curve);
     l.known = true;
     l.kr = e.kr;
     l.kt = e.kt;
-    vec3 kept = ((l.mode & SCATTER_R) != 0 ? e.r : vec3(0.0)) +
+    vec3 coverage = ((l.mode & SCATTER_R) != 0 ? e.r : vec3(0.0)) +
                 ((l.mode & SCATTER_T) != 0 ? e.t : vec3(0.0));
-    albedo = l.tint * kept;
-    fixPassed = l.tint * e.t;
-    return l.mode == SCATTER_T ? vec3(1.0) : kept;
+    albedo = l.tint * coverage;
+    fixTransmittance = l.tint * e.t;
+    return l.mode == SCATTER_T ? vec3(1.0) : coverage;
 }
 vec3 sheenFix(inout SheenLobe l, vec3 wo, int curve, out vec3 albedo) {
-    float kept = wo.z >= 0.0 ? sheenWhiteAlbedo(l, wo.z) : 0.0;
-    albedo = l.color * kept;
-    return vec3(kept);
+    float coverage = wo.z >= 0.0 ? sheenWhiteAlbedo(l, wo.z) : 0.0;
+    albedo = l.color * coverage;
+    return vec3(coverage);
 }
 vec3 phongFix(inout PhongLobe l, vec3 wo, int curve, out vec3 albedo) {
     albedo = phongAlbedo(l, wo);
@@ -276,12 +276,12 @@ vec3 chiangHairFix(inout ChiangHairLobe l, vec3 wo, int curve, out vec3 albedo) 
     return vec3(1.0);
 }
 
-// One or two faces of a thin wall, as BsdfBuilder::wallOf().
-void dielectricWall(inout DielectricLobe l, vec3 wo, inout vec3 albedo, out vec3 passed,
+// One or two faces of a thin wall, as BsdfBuilder::slabOf().
+void dielectricSlab(inout DielectricLobe l, vec3 wo, inout vec3 albedo, out vec3 transmittance,
                     out vec3 reflected, bool twoFaces) {
-    float once = l.fused ? 0.0 : dielectricEnergy(l, wo).r;
+    float once = l.sharedInterface ? 0.0 : dielectricEnergy(l, wo).r;
     float bounces = twoFaces ? once : 0.0;
-    passed = l.tint * (1.0 - once) / (1.0 + bounces);
+    transmittance = l.tint * (1.0 - once) / (1.0 + bounces);
     reflected = vec3(0.0);
     if (l.mode == SCATTER_RT) {
         reflected = vec3((twoFaces ? 2.0 : 1.0) / (1.0 + bounces));
@@ -289,11 +289,11 @@ void dielectricWall(inout DielectricLobe l, vec3 wo, inout vec3 albedo, out vec3
         albedo = l.tint * once;
     }
 }
-void schlickWall(inout SchlickLobe l, vec3 wo, inout vec3 albedo, out vec3 passed,
+void schlickSlab(inout SchlickLobe l, vec3 wo, inout vec3 albedo, out vec3 transmittance,
                  out vec3 reflected, bool twoFaces) {
-    vec3 once = l.fused ? vec3(0.0) : schlickEnergy(l, wo).r;
+    vec3 once = l.sharedInterface ? vec3(0.0) : schlickEnergy(l, wo).r;
     vec3 bounces = twoFaces ? once : vec3(0.0);
-    passed = (1.0 - once) / (1.0 + bounces);
+    transmittance = (1.0 - once) / (1.0 + bounces);
     reflected = vec3(0.0);
     if (l.mode == SCATTER_RT) {
         reflected = (twoFaces ? 2.0 : 1.0) / (1.0 + bounces);

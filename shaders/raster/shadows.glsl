@@ -13,23 +13,23 @@ layout(binding = 19) uniform sampler2DArray skyMaps;
 // Where a surface is at a place beside the middle of a texel, as far as it goes on as the map shows it on the
 // other side of the middle: how far it lies before the point's plane there, in depths. Nothing is known of it
 // where that is no plane, nor, further off than `close`, a bend that gets steeper away from the point.
-// aside: in texels, up to a half; tilt: what the point's plane sinks from texel to texel
-float planeBeside(sampler2DArray maps, ivec3 texel, float front, float depth, vec2 aside, vec2 tilt, float close) {
-    ivec2 away = ivec2(aside.x > 0.0 ? -1 : 1, aside.y > 0.0 ? -1 : 1);
+// offset: in texels, up to a half; tilt: what the point's plane sinks from texel to texel
+float planeBeside(sampler2DArray maps, ivec3 texel, float front, float depth, vec2 offset, vec2 tilt, float close) {
+    ivec2 away = ivec2(offset.x > 0.0 ? -1 : 1, offset.y > 0.0 ? -1 : 1);
     ivec3 x = ivec3(away.x, 0, 0), y = ivec3(0, away.y, 0);
     vec2 near = vec2(texelFetch(maps, texel + x, 0).x, texelFetch(maps, texel + y, 0).x) - front;
     vec2 next = vec2(texelFetch(maps, texel + 2 * x, 0).x, texelFetch(maps, texel + 2 * y, 0).x) - front - near;
     bool plane = all(lessThanEqual(abs(next - near), 0.1 * abs(near) + 1e-6));
     if (!plane && depth - front > close) return 1.0;
     vec2 rise = tilt * vec2(away) - (plane ? near : max(near, next));
-    return depth - front - dot(rise, abs(aside));
+    return depth - front - dot(rise, abs(offset));
 }
 
 // Whether a map shows nothing in front of a point. What is compared is where the plane of the surface
 // is in the middle of the texel, not the point: then a surface does not hide itself, without being
 // moved by as much as a texel may be wrong, which would be seen where things touch.
 // n: of the plane; 0 compares the point. least: how exact depths are.
-float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n, float least) {
+float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n, float minimum) {
     vec4 clip = worldToMap * vec4(p, 1.0);
     if (clip.w <= 0.0) return 1.0;
     vec3 q = clip.xyz / clip.w;
@@ -46,17 +46,17 @@ float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n,
                  (abs(area) > 1e-30 ? area : 1e-30);
     float depth = q.z + dot(slope, 2.0 * (texel + 0.5) / size - 1.0 - q.xy);
     // Corners of triangles are rounded to a part of a texel.
-    float bias = least + 0.04 * (abs(slope.x) + abs(slope.y)) / size.x;
+    float bias = minimum + 0.04 * (abs(slope.x) + abs(slope.y)) / size.x;
     float front = texelFetch(maps, ivec3(ivec2(texel), layer), 0).x;
     depth = 0.5 * depth + 0.5;
     if (depth <= front + bias) return 1.0;
     // Where two surfaces meet, the middle of the texel shows the other one, which the plane goes behind. Where a
     // surface bends towards the light, it shows what is up to half a texel before the plane.
-    vec2 aside = (0.5 * q.xy + 0.5) * size - texel - 0.5;
+    vec2 offset = (0.5 * q.xy + 0.5) * size - texel - 0.5;
     mat4 rows = transpose(worldToMap);
     float close = 0.5 * length(rows[2].xyz - q.z * rows[3].xyz) / (size.x * length(rows[0].xyz - q.x * rows[3].xyz));
     if (isTube() || n == vec3(0.0)) close = 0.0;
-    return planeBeside(maps, ivec3(ivec2(texel), layer), front, depth, aside, slope / size, close) <= bias ? 1.0 : 0.0;
+    return planeBeside(maps, ivec3(ivec2(texel), layer), front, depth, offset, slope / size, close) <= bias ? 1.0 : 0.0;
 }
 
 // Whether a map of the fibres alone shows a point.

@@ -11,8 +11,8 @@ layout(location = 16) uniform int volumeIndex;
 layout(binding = 0) uniform sampler3D scatteringMap; // w: mean cosine
 layout(binding = 1) uniform sampler3D extinctionMap;
 layout(binding = 2) uniform sampler3D emissionMap;
-layout(binding = 21) uniform sampler2D behindColor;
-layout(binding = 22) uniform sampler2D behindDepth;
+layout(binding = 21) uniform sampler2D sceneColor;
+layout(binding = 22) uniform sampler2D sceneDepth;
 
 // The shaded point, which shadows.glsl asks for.
 struct VolumePoint {
@@ -130,7 +130,7 @@ void main() {
     vec3 origin, direction;
     vec2 seen = cameraRay(origin, direction);
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float near = seen.x, far = seen.y, depth = texelFetch(behindDepth, pixel, 0).x;
+    float near = seen.x, far = seen.y, depth = texelFetch(sceneDepth, pixel, 0).x;
     if (depth < 1.0) {
         vec4 world = clipToWorld * vec4(vWindow, depth * 2.0 - 1.0, 1.0);
         far = min(far, dot(world.xyz / world.w - origin, direction));
@@ -139,15 +139,15 @@ void main() {
     vec2 u = randomAt(uvec2(pixel), uint(counts.z), 40u + 2u * uint(volumeIndex));
     vec2 v = randomAt(uvec2(pixel), uint(counts.z), 41u + 2u * uint(volumeIndex));
     float dt = (far - near) / float(CAMERA_STEPS);
-    vec3 passed = vec3(1.0), glowing = vec3(1.0), emitted = vec3(0.0), scattered = vec3(0.0), drawn = vec3(0.0);
+    vec3 transmittance = vec3(1.0), glowing = vec3(1.0), emitted = vec3(0.0), scattered = vec3(0.0), drawn = vec3(0.0);
     float total = 0.0, own = 0.0, where = near, g = 0.0, choice = u.y;
     for (int i = 0; i < CAMERA_STEPS; ++i) {
         float t = near + (float(i) + u.x) * dt;
         vec3 at = inMaps(origin + direction * t);
         vec4 s = textureLod(scatteringMap, at, 0.0);
         vec3 sigma = textureLod(extinctionMap, at, 0.0).rgb;
-        vec3 next = passed * exp(-sigma * dt);
-        vec3 stretch = mix((passed - next) / max(sigma, vec3(1e-20)), passed * dt,
+        vec3 next = transmittance * exp(-sigma * dt);
+        vec3 stretch = mix((transmittance - next) / max(sigma, vec3(1e-20)), transmittance * dt,
                            lessThan(sigma * dt, vec3(1e-4)));
         // What glows inside comes out scattered, too: only as much is lost as where it diffuses.
         vec3 lost = max(sigma - s.rgb, vec3(0.0));
@@ -171,11 +171,11 @@ void main() {
                 choice = (choice - share) / max(1.0 - share, 1e-20);
             }
         }
-        passed = next;
+        transmittance = next;
     }
     if (own > 0.0)
         scattered = drawn * (total / own) * litAt(origin + direction * where, direction, g, v.x);
-    vec4 behind = texelFetch(behindColor, pixel, 0);
-    outColor = vec4(behind.rgb * passed + (emitted + scattered) * extra.y,
-                    mix(1.0, behind.a, dot(passed, vec3(0.2126, 0.7152, 0.0722))));
+    vec4 behind = texelFetch(sceneColor, pixel, 0);
+    outColor = vec4(behind.rgb * transmittance + (emitted + scattered) * extra.y,
+                    mix(1.0, behind.a, dot(transmittance, vec3(0.2126, 0.7152, 0.0722))));
 }

@@ -88,15 +88,15 @@ private:
 
 DensityGrid::DensityGrid(const BoundLobe& lobe, vec3 wo) {
     const Integrator integrate(lobe, wo);
-    const double height = 2.0 / kRows;
-    const double width = 2.0 * sh64::PI / kColumns;
-    for (int r = 0; r < kRows; ++r)
-        for (int c = 0; c < kColumns; ++c) {
+    const double height = 2.0 / rowCount;
+    const double width = 2.0 * sh64::PI / columnCount;
+    for (int r = 0; r < rowCount; ++r)
+        for (int c = 0; c < columnCount; ++c) {
             // The row across the horizon is cut there: densities jump at it.
             const double z0 = -1.0 + r * height;
             const double z1 = z0 + height;
             const double p0 = c * width;
-            double& cell = _cells[r * kColumns + c];
+            double& cell = _cells[r * columnCount + c];
             if (z0 < 0.0 && z1 > 0.0)
                 cell = integrate(z0, 0.0, p0, p0 + width) + integrate(0.0, z1, p0, p0 + width);
             else
@@ -109,22 +109,22 @@ ChiSquared DensityGrid::test(const BoundLobe& sampler, vec3 wo, int count,
                              std::uint64_t seed) const {
     std::mt19937_64 engine(seed);
     const auto uniform = [&] { return double(engine() >> 40) * 0x1p-24; };
-    std::vector<double> histogram(kRows * kColumns, 0.0);
+    std::vector<double> histogram(rowCount * columnCount, 0.0);
     ChiSquared result;
     for (int i = 0; i < count; ++i) {
         const double x = uniform();
         const double y = uniform();
         const sh64::LobeSample s = sampler.sample(wo, vec3(x, y, uniform()));
         if (s.event == 0 || (s.event & sh::LOBE_DELTA) != 0) continue;
-        const int r = std::clamp(int((s.wi.z + 1.0) * 0.5 * kRows), 0, kRows - 1);
+        const int r = std::clamp(int((s.wi.z + 1.0) * 0.5 * rowCount), 0, rowCount - 1);
         double turn = std::atan2(s.wi.y, s.wi.x) / (2.0 * sh64::PI);
         turn -= std::floor(turn);
-        histogram[r * kColumns + std::min(int(turn * kColumns), kColumns - 1)] += 1.0;
+        histogram[r * columnCount + std::min(int(turn * columnCount), columnCount - 1)] += 1.0;
         result.hits += 1.0 / count;
     }
     // Cells that expect fewer than 5 samples are pooled, smallest first.
-    std::vector<int> order(kRows * kColumns);
-    for (int i = 0; i < kRows * kColumns; ++i)
+    std::vector<int> order(rowCount * columnCount);
+    for (int i = 0; i < rowCount * columnCount; ++i)
         order[i] = i;
     std::sort(order.begin(), order.end(), [&](int a, int b) { return _cells[a] < _cells[b]; });
     double statistic = 0.0;

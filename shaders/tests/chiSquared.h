@@ -18,8 +18,8 @@ struct ChiSquared {
 /// Density of `lobe` at `wo`, integrated over the cells of a (cos theta, phi) grid on the sphere.
 class DensityGrid {
 public:
-    static constexpr int kRows = 31;
-    static constexpr int kColumns = 40;
+    static constexpr int rowCount = 31;
+    static constexpr int columnCount = 40;
 
     DensityGrid(const BoundLobe& lobe, vec3 wo);
 
@@ -27,7 +27,7 @@ public:
     ChiSquared test(const BoundLobe& sampler, vec3 wo, int count, std::uint64_t seed) const;
 
 private:
-    double _cells[kRows * kColumns];
+    double _cells[rowCount * columnCount];
     double _total = 0.0;
 };
 

@@ -131,17 +131,17 @@ void addBeckmann(std::vector<LobeCase>& cases, int compensate) {
             c.reciprocal = compensate == 0;
             cases.push_back(c);
         };
-        const int facets = sh::FACETS_BECKMANN;
+        const int ndf = sh::NDF_BECKMANN;
         add(PATINA_LOBE_CASE_WITH(label("beckmann conductor", ax, ay, 0, 0), conductor, conductor,
-                                  l.facets = facets, vec3(0.183, 0.421, 1.373),
-                                  vec3(3.424, 2.346, 1.77), vec2(ax, ay), ax == 0.5, compensate),
+                                  l.ndf = ndf, vec3(0.183, 0.421, 1.373), vec3(3.424, 2.346, 1.77),
+                                  vec2(ax, ay), ax == 0.5, compensate),
             1.0, false);
         add(PATINA_LOBE_CASE_WITH(label("beckmann dielectric", ax, ay, 1.5, 3), dielectric,
-                                  dielectric, l.facets = facets, vec3(1.0, 0.9, 0.2), 1.5,
-                                  vec2(ax, ay), false, 3, false, compensate),
+                                  dielectric, l.ndf = ndf, vec3(1.0, 0.9, 0.2), 1.5, vec2(ax, ay),
+                                  false, 3, false, compensate),
             1.5, true);
         add(PATINA_LOBE_CASE_WITH(label("beckmann schlick", ax, ay, 0.04, 3), schlick, schlick,
-                                  l.facets = facets, vec3(0.02, 0.04, 0.06), vec3(0.9, 1.0, 0.5),
+                                  l.ndf = ndf, vec3(0.02, 0.04, 0.06), vec3(0.9, 1.0, 0.5),
                                   vec3(1.0, 0.9, 1.0), 5.0, vec2(ax, ay), false, 3, false,
                                   compensate),
             1.5, true);

@@ -15,8 +15,8 @@ using sh64::vec3;
 
 namespace {
 
-constexpr int kSide = 32;
-constexpr double kBound = 12.4; // of the reference curve that the fit had to beat
+constexpr int gridSide = 32;
+constexpr double referenceBound = 12.4; // of the reference curve that the fit had to beat
 
 /// A reflectance: exact, and the lobe's albedo in float by a method.
 struct Curve {
@@ -76,7 +76,7 @@ public:
         double square = 0.0;
         for (const Place& p : _places) {
             double truth = 0.0;
-            for (int i = 0; i < kBins; ++i)
+            for (int i = 0; i < binCount; ++i)
                 if (p.light[i] > 0.0) truth += p.light[i] * curve.exact(p.cosine[i]);
             const double e = curve.lobe(p.wo, p.alpha, method) - truth;
             square += e * e;
@@ -86,7 +86,7 @@ public:
     }
 
 private:
-    static constexpr int kBins = 300;
+    static constexpr int binCount = 300;
     struct Place {
         vec3 wo;
         double alpha;
@@ -94,16 +94,16 @@ private:
     };
 
     Grid() {
-        bake::InterfaceQuadrature quadrature(96, sh::FACETS_GGX);
-        for (int a = 0; a < kSide; ++a)
-            for (int m = 0; m < kSide; ++m) {
+        bake::InterfaceQuadrature quadrature(96, sh::NDF_GGX);
+        for (int a = 0; a < gridSide; ++a)
+            for (int m = 0; m < gridSide; ++m) {
                 Place p;
-                p.wo = bake::slanted((m + 0.5) / kSide);
-                p.alpha = std::pow((a + 0.5) / kSide, 2.0);
-                p.light.resize(kBins);
-                p.cosine.resize(kBins);
-                quadrature.look(p.wo, vec2(p.alpha));
-                quadrature.spread(kBins, p.light.data(), p.cosine.data());
+                p.wo = bake::slanted((m + 0.5) / gridSide);
+                p.alpha = std::pow((a + 0.5) / gridSide, 2.0);
+                p.light.resize(binCount);
+                p.cosine.resize(binCount);
+                quadrature.setView(p.wo, vec2(p.alpha));
+                quadrature.spread(binCount, p.light.data(), p.cosine.data());
                 _places.push_back(p);
             }
     }
@@ -120,7 +120,7 @@ double rms(const Curve& curve, int method) {
 TEST(AlbedoFit, DielectricsFromNearlyMatchedToDiamond) {
     for (int i = 0; i <= 26; ++i) {
         const double ior = 1.05 + 1.95 * std::pow(i / 26.0, 1.5);
-        EXPECT_LE(rms(dielectric(ior), sh::ALBEDO_FIT), kBound) << ior;
+        EXPECT_LE(rms(dielectric(ior), sh::ALBEDO_FIT), referenceBound) << ior;
     }
     double largest = 0.0;
     EXPECT_LE(Grid::shared().rms(dielectric(1.5), sh::ALBEDO_FIT, &largest), 2.5);
@@ -132,14 +132,14 @@ TEST(AlbedoFit, Conductors) {
     for (const Curve& c :
          {conductor(0.15, 2.5), conductor(0.27, 3.6), conductor(1.4, 1.9), conductor(1.9, 3.9),
           conductor(2.4, 0.9), conductor(4.2, 5.1), conductor(1.0, 8.0), conductor(0.05, 2.1)})
-        EXPECT_LE(rms(c, sh::ALBEDO_FIT), kBound) << c.name;
+        EXPECT_LE(rms(c, sh::ALBEDO_FIT), referenceBound) << c.name;
 }
 
 TEST(AlbedoFit, GeneralizedSchlick) {
     for (const Curve& c :
          {schlick(0.04, 1.0, 1.0, 5.0), schlick(0.6, 0.8, 1.0, 5.0), schlick(0.04, 1.0, 1.0, 4.0),
           schlick(0.04, 1.0, 0.5, 3.0), schlick(0.0, 1.0, 1.0, 6.0), schlick(1.0, 1.0, 0.2, 2.0)})
-        EXPECT_LE(rms(c, sh::ALBEDO_FIT), kBound) << c.name;
+        EXPECT_LE(rms(c, sh::ALBEDO_FIT), referenceBound) << c.name;
 }
 
 // Known figures of others, so that the scale is the same as theirs; 3 % for reading them off.

@@ -11,12 +11,12 @@
 
 namespace {
 
-const std::string kRoot = PATINA_SOURCE_DIR;
-const std::string kValidator = PATINA_GLSLANG_VALIDATOR;
+const std::string sourceRoot = PATINA_SOURCE_DIR;
+const std::string validator = PATINA_GLSLANG_VALIDATOR;
 
 // Text of a file with its #include lines replaced by what they name, as the rasterizer reads it.
 std::string flatten(const std::string& path) {
-    std::ifstream in(kRoot + "/" + path);
+    std::ifstream in(sourceRoot + "/" + path);
     EXPECT_TRUE(in.good()) << path;
     std::string text, line;
     while (std::getline(in, line)) {
@@ -34,8 +34,8 @@ std::string flatten(const std::string& path) {
 std::string compile(const std::string& source, const std::string& stage) {
     const std::string file = ::testing::TempDir() + "patinaDialect." + stage;
     std::ofstream(file) << source;
-    std::FILE* pipe = popen((kValidator + " -S " + stage + " " + file + " 2>&1").c_str(), "r");
-    if (!pipe) return "cannot run " + kValidator;
+    std::FILE* pipe = popen((validator + " -S " + stage + " " + file + " 2>&1").c_str(), "r");
+    if (!pipe) return "cannot run " + validator;
     std::string output;
     char buffer[512];
     while (std::fgets(buffer, sizeof buffer, pipe))
@@ -46,7 +46,7 @@ std::string compile(const std::string& source, const std::string& stage) {
 }
 
 // A shader that calls every lobe, so that nothing is left unlinked.
-const char* const kCalls = R"(
+const char* const lobeCalls = R"(
 vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
     OrenNayarLobe o = orenNayarSetup(vec3(0.8), 0.3, true);
     BurleyLobe b = burleySetup(vec3(0.8), 0.3);
@@ -84,8 +84,8 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
     SchlickLobe sf = schlickFilm(s, 300.0, 1.5);
     SchlickLobe df = filmDielectricSetup(vec3(1.0), 1.5, vec2(0.2), 300.0, 1.3, false, SCATTER_RT,
                                          false, 1);
-    c.facets = FACETS_BECKMANN;
-    d.facets = FACETS_BECKMANN;
+    c.ndf = NDF_BECKMANN;
+    d.ndf = NDF_BECKMANN;
     sum += conductorSample(c, wo, u).weight + dielectricEval(d, wo, wi).value;
     sum += conductorEval(cf, wo, wi).value + schlickEval(sf, wo, wi).value +
            schlickAlbedo(df, wo) + conductorAlbedo(cf, wo);
@@ -99,7 +99,7 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
 )";
 
 // The pattern functions, every file of them.
-const char* const kPatternCalls = R"(
+const char* const patternCalls = R"(
 vec3 everyPattern(vec3 p) {
     HexSpread spread;
     spread.rotation = 1.0;
@@ -126,10 +126,10 @@ vec3 everyPattern(vec3 p) {
 } // namespace
 
 TEST(GlslDialect, CompilesAsComputeShader) {
-    if (kValidator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
+    if (validator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
     const std::string source = "#version 450\n" + flatten("shaders/compat/glsl.glsl") +
-                               flatten("shaders/lobes.glsl") + kCalls +
-                               flatten("shaders/patterns.glsl") + kPatternCalls +
+                               flatten("shaders/lobes.glsl") + lobeCalls +
+                               flatten("shaders/patterns.glsl") + patternCalls +
                                "layout(local_size_x = 64) in;\n"
                                "layout(std430, binding = 0) buffer Out { vec4 result[]; };\n"
                                "void main() { result[gl_GlobalInvocationID.x] = "
@@ -139,21 +139,21 @@ TEST(GlslDialect, CompilesAsComputeShader) {
 }
 
 TEST(GlslDialect, CompilesAsEsFragmentShader) {
-    if (kValidator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
+    if (validator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
     const std::string source =
         "#version 300 es\nprecision highp float;\nprecision highp int;\n"
         "uniform highp sampler2D table;\n"
         "#define PATINA_ALBEDO_TABLE_FETCH\n"
         "float albedoTableFetch(int i) {"
         " return texelFetch(table, ivec2(i & 1023, i >> 10), 0).x; }\n" +
-        flatten("shaders/compat/glsl.glsl") + flatten("shaders/lobes.glsl") + kCalls +
-        flatten("shaders/patterns.glsl") + kPatternCalls +
+        flatten("shaders/compat/glsl.glsl") + flatten("shaders/lobes.glsl") + lobeCalls +
+        flatten("shaders/patterns.glsl") + patternCalls +
         "out vec4 color;\nvoid main() { color = vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), "
         "vec3(0.5)) + everyPattern(vec3(0.5)), 1); }\n";
     EXPECT_EQ(compile(source, "frag"), "");
 }
 
 TEST(GlslDialect, RejectsWhatIsNotGlsl) {
-    if (kValidator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
+    if (validator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
     EXPECT_NE(compile("#version 450\nvoid main() { float x = nothing(); }\n", "vert"), "");
 }

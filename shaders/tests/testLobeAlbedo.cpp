@@ -14,7 +14,7 @@ using namespace patina::test;
 
 namespace {
 
-constexpr int kPoints = 20000;
+constexpr int pointCount = 20000;
 
 // Root mean square and largest error over a set of points.
 struct Error {
@@ -46,50 +46,52 @@ double furnace(const sh64::DielectricLobe& l, vec3 wo) {
 
 TEST(AlbedoTable, MomentsAreWithinTheirError) {
     const double exponents[] = {0.0, 5.0, 6.0, 7.0, 3.0};
-    for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN}) {
-        bake::InterfaceQuadrature quadrature(96, facets);
+    for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN}) {
+        bake::InterfaceQuadrature quadrature(96, ndf);
         Error mirror, schlick, dip, cubic;
         for (int i = 0; i < 600; ++i) {
             const vec2 p = tablePoint(i);
             double e[5];
-            quadrature.look(bake::slanted(p.x), vec2(p.y));
+            quadrature.setView(bake::slanted(p.x), vec2(p.y));
             quadrature.moments(exponents, 5, e);
-            const auto place = sh64::facetPlace(bake::slanted(p.x), vec2(p.y), facets);
-            const double e0 = sh64::facetAlbedo0(place);
+            const auto place = sh64::microfacetPlace(bake::slanted(p.x), vec2(p.y), ndf);
+            const double e0 = sh64::microfacetAlbedo0(place);
             mirror.add(e0 - e[0]);
-            schlick.add(e0 * sh64::facetMean(place, 5.0) - e[1]);
-            dip.add(e0 * (sh64::facetMean(place, 6.0) - sh64::facetMean(place, 7.0)) - e[2] + e[3]);
-            cubic.add(e0 * sh64::facetMean(place, 3.0) - e[4]);
+            schlick.add(e0 * sh64::microfacetMean(place, 5.0) - e[1]);
+            dip.add(e0 * (sh64::microfacetMean(place, 6.0) - sh64::microfacetMean(place, 7.0)) -
+                    e[2] + e[3]);
+            cubic.add(e0 * sh64::microfacetMean(place, 3.0) - e[4]);
         }
-        EXPECT_LT(mirror.rms(), 4e-4) << facets;
-        EXPECT_LT(mirror.largest, 3e-3) << facets;
-        EXPECT_LT(schlick.rms(), 3e-4) << facets;
-        EXPECT_LT(schlick.largest, 2.5e-3) << facets;
-        EXPECT_LT(dip.largest, 3e-4) << facets;
-        EXPECT_LT(cubic.rms(), 6e-4) << facets;
+        EXPECT_LT(mirror.rms(), 4e-4) << ndf;
+        EXPECT_LT(mirror.largest, 3e-3) << ndf;
+        EXPECT_LT(schlick.rms(), 3e-4) << ndf;
+        EXPECT_LT(schlick.largest, 2.5e-3) << ndf;
+        EXPECT_LT(dip.largest, 3e-4) << ndf;
+        EXPECT_LT(cubic.rms(), 6e-4) << ndf;
     }
 }
 
 TEST(AlbedoTable, InterfaceIsWithinItsError) {
-    for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN})
+    for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN})
         for (double ior : {1.05, 1.2, 1.33, 1.5, 1.8, 2.4, 3.0})
             for (bool inside : {false, true}) {
-                bake::InterfaceQuadrature quadrature(64, facets);
+                bake::InterfaceQuadrature quadrature(64, ndf);
                 const double eta = inside ? 1.0 / ior : ior;
                 Error reflected, transmitted;
                 for (int i = 0; i < 150; ++i) {
                     const vec2 p = tablePoint(i);
-                    quadrature.look(bake::slanted(p.x), vec2(p.y));
+                    quadrature.setView(bake::slanted(p.x), vec2(p.y));
                     const vec2 exact = quadrature.dielectric(eta);
-                    const auto place = sh64::facetPlace(bake::slanted(p.x), vec2(p.y), facets);
-                    const vec2 table = sh64::facetInterface(place, eta) * sh64::facetAlbedo0(place);
+                    const auto place = sh64::microfacetPlace(bake::slanted(p.x), vec2(p.y), ndf);
+                    const vec2 table =
+                        sh64::microfacetInterface(place, eta) * sh64::microfacetAlbedo0(place);
                     reflected.add(table.x - exact.x);
                     transmitted.add(table.y - exact.y);
                 }
-                EXPECT_LT(reflected.rms(), inside ? 1.3e-3 : 8e-4) << eta << " " << facets;
-                EXPECT_LT(transmitted.rms(), 1.2e-3) << eta << " " << facets;
-                EXPECT_LT(reflected.largest, 6e-3) << eta << " " << facets;
-                EXPECT_LT(transmitted.largest, 8e-3) << eta << " " << facets;
+                EXPECT_LT(reflected.rms(), inside ? 1.3e-3 : 8e-4) << eta << " " << ndf;
+                EXPECT_LT(transmitted.rms(), 1.2e-3) << eta << " " << ndf;
+                EXPECT_LT(reflected.largest, 6e-3) << eta << " " << ndf;
+                EXPECT_LT(transmitted.largest, 8e-3) << eta << " " << ndf;
             }
 }
 
@@ -101,8 +103,8 @@ TEST(AlbedoTable, AnisotropyIsWithinItsError) {
     for (const Budget& b :
          {Budget{0.5, 1.5e-2, 6e-3, 1.5e-2, 2e-2}, Budget{0.2, 1.5e-2, 1e-2, 2e-2, 3e-2},
           Budget{0.02, 2e-2, 2e-2, 3e-2, 5e-2}})
-        for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN}) {
-            bake::InterfaceQuadrature quadrature(64, facets);
+        for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN}) {
+            bake::InterfaceQuadrature quadrature(64, ndf);
             Error mirror, outside, inside, furnace;
             for (int i = 0; i < 160; ++i) {
                 const vec2 p = tablePoint(i);
@@ -112,15 +114,15 @@ TEST(AlbedoTable, AnisotropyIsWithinItsError) {
                 const double eta = 1.05 + 1.5 * u.y * u.y;
                 const vec3 wo = direction(p.x, 1.57 * u.z);
                 if (std::min(alpha.x, alpha.y) < 1e-3) continue;
-                quadrature.look(wo, alpha);
+                quadrature.setView(wo, alpha);
                 double zero = 0.0, e0 = 0.0;
                 quadrature.moments(&zero, 1, &e0);
-                const auto place = sh64::facetPlace(wo, alpha, facets);
-                const double table0 = sh64::facetAlbedo0(place);
+                const auto place = sh64::microfacetPlace(wo, alpha, ndf);
+                const double table0 = sh64::microfacetAlbedo0(place);
                 const vec2 above = quadrature.dielectric(eta);
                 const vec2 below = quadrature.dielectric(1.0 / eta);
-                const vec2 a = sh64::facetInterface(place, eta) * table0;
-                const vec2 c = sh64::facetInterface(place, 1.0 / eta) * table0;
+                const vec2 a = sh64::microfacetInterface(place, eta) * table0;
+                const vec2 c = sh64::microfacetInterface(place, 1.0 / eta) * table0;
                 mirror.add(table0 - e0);
                 outside.add(a.x - above.x);
                 outside.add(a.y - above.y);
@@ -128,14 +130,14 @@ TEST(AlbedoTable, AnisotropyIsWithinItsError) {
                 inside.add(c.y - below.y);
                 furnace.add((below.x + below.y) / (c.x + c.y) - 1.0);
             }
-            EXPECT_LT(mirror.largest, b.mirror) << b.ratio << " " << facets;
-            EXPECT_LT(outside.largest, b.outside) << b.ratio << " " << facets;
-            EXPECT_LT(inside.largest, b.inside) << b.ratio << " " << facets;
-            EXPECT_LT(furnace.largest, b.furnace) << b.ratio << " " << facets;
+            EXPECT_LT(mirror.largest, b.mirror) << b.ratio << " " << ndf;
+            EXPECT_LT(outside.largest, b.outside) << b.ratio << " " << ndf;
+            EXPECT_LT(inside.largest, b.inside) << b.ratio << " " << ndf;
+            EXPECT_LT(furnace.largest, b.furnace) << b.ratio << " " << ndf;
             std::printf(
                 "alphas up to 1 : %.2g, facets %d: error of a mirror %.2g, interface outside "
                 "%.2g, inside %.2g (rms %.2g), furnace inside %.2g (rms %.2g)\n",
-                b.ratio, facets, mirror.largest, outside.largest, inside.largest, inside.rms(),
+                b.ratio, ndf, mirror.largest, outside.largest, inside.largest, inside.rms(),
                 furnace.largest, furnace.rms());
         }
 }
@@ -197,7 +199,7 @@ TEST(LobeAlbedo, EqualsTheMeanSampleWeight) {
                 const bool anisotropic = c.name.find("0.1, 0.4") != std::string::npos;
                 if (anisotropic ? &b != budgets : c.name.find(b.lobe) != 0) continue;
                 for (vec3 wo : outgoing(c)) {
-                    const vec3 e = sampledAlbedo(c.f64, wo, kPoints) - c.f64.albedo(wo);
+                    const vec3 e = sampledAlbedo(c.f64, wo, pointCount) - c.f64.albedo(wo);
                     const double error =
                         std::max(std::fabs(e.x), std::max(std::fabs(e.y), std::fabs(e.z)));
                     double& measured = wo.z > 0.0 ? b.measuredOutside : b.measuredInside;
@@ -251,7 +253,7 @@ TEST(LobeAlbedo, HairWithoutPigmentLosesNothing) {
                                                 vec2(2.0 * v, 0.3), 0.5, vec3(0.0));
             for (double phi : {0.0, 0.8, 1.57}) {
                 EXPECT_NEAR(c.f64.albedo(direction(z, phi)).x, 1.0, 1e-2) << v << z << phi;
-                EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, phi), kPoints).x, 1.0, 1e-2)
+                EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, phi), pointCount).x, 1.0, 1e-2)
                     << v << " " << z << " " << phi;
             }
         }
@@ -265,7 +267,7 @@ TEST(LobeAlbedo, WhiteMetalLosesNothing) {
             const LobeCase c =
                 PATINA_LOBE_CASE("white", conductor, vec3(0.0), vec3(1.0), vec2(alpha), false, 1);
             EXPECT_NEAR(sh64::conductorAlbedo(l, direction(z, 0.0)).x, 1.0, 1e-6);
-            EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, 0.0), kPoints).x, 1.0, 5e-3)
+            EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, 0.0), pointCount).x, 1.0, 5e-3)
                 << alpha << " " << z;
         }
 }
@@ -286,7 +288,7 @@ TEST(LobeAlbedo, WhiteGlassLosesNothing) {
                 EXPECT_NEAR(furnace(l, wo), 1.0, 2e-3) << alpha << " " << ior << " " << z;
                 const LobeCase c = PATINA_LOBE_CASE("white", dielectric, vec3(1.0), ior,
                                                     vec2(alpha), false, 3, false, 1);
-                EXPECT_NEAR(sampledAlbedo(c.f64, wo, kPoints).x, 1.0, 1.5e-2)
+                EXPECT_NEAR(sampledAlbedo(c.f64, wo, pointCount).x, 1.0, 1.5e-2)
                     << alpha << " " << ior << " " << z;
             }
 }
@@ -294,14 +296,14 @@ TEST(LobeAlbedo, WhiteGlassLosesNothing) {
 // Anisotropic white glass from both sides: no light is made, and little lost.
 TEST(LobeAlbedo, AnisotropicGlassKeepsItsBudget) {
     for (const auto& alpha : {vec2(1.0, 0.7071), vec2(0.3, 0.6), vec2(0.1, 0.4)})
-        for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN})
+        for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN})
             for (double z : {0.9, 0.3, -0.05, -0.15, -0.3, -0.5, -0.75, -1.0})
                 for (double phi : {0.0, 0.8, 1.57}) {
                     const LobeCase c = PATINA_LOBE_CASE_WITH(
-                        "white", dielectric, dielectric, l.facets = facets, vec3(1.0), 1.5,
+                        "white", dielectric, dielectric, l.ndf = ndf, vec3(1.0), 1.5,
                         vec2(alpha.x, alpha.y), false, 3, false, 1);
                     EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, phi), 5000).x, 1.0, 2.5e-2)
-                        << alpha.x << " " << alpha.y << " " << z << " " << phi << " " << facets;
+                        << alpha.x << " " << alpha.y << " " << z << " " << phi << " " << ndf;
                 }
 }
 
@@ -330,7 +332,7 @@ TEST(LobeAlbedo, SchlickInterfaceIsWithinBudget) {
         for (double z : {1.0, 0.5, 0.1, -0.5, -0.9}) {
             const LobeCase c = PATINA_LOBE_CASE("s", schlick, vec3(0.04), vec3(1.0), vec3(1.0), 5.0,
                                                 vec2(alpha), false, 3, false, 1);
-            EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, 0.0), kPoints).x, 1.0, 2e-2)
+            EXPECT_NEAR(sampledAlbedo(c.f64, direction(z, 0.0), pointCount).x, 1.0, 2e-2)
                 << alpha << " " << z;
         }
 }

@@ -11,7 +11,7 @@ using namespace patina::test;
 
 namespace {
 
-constexpr int kSamples = 400;
+constexpr int sampleCount = 400;
 
 // Rounding of a float direction, seen through a lobe of width alpha.
 double floatTolerance(const LobeCase& c, double wz) {
@@ -30,7 +30,7 @@ TEST(LobeConsistency, SampleWeightIsValueOverPdf) {
     for (int compensate : {0, 1})
         for (const LobeCase& c : lobeCases(compensate))
             for (vec3 wo : outgoing(c))
-                for (int i = 0; i < kSamples; ++i) {
+                for (int i = 0; i < sampleCount; ++i) {
                     const sh64::LobeSample s = c.f64.sample(wo, quasiRandom(i));
                     if (s.event == 0 || (s.event & sh::LOBE_DELTA) != 0) continue;
                     const sh64::LobeEval e = c.f64.eval(wo, s.wi);
@@ -47,7 +47,7 @@ TEST(LobeConsistency, SampleWeightIsValueOverPdf) {
 TEST(LobeConsistency, FloatSamplesHaveThePdfOfFloatEval) {
     for (const LobeCase& c : lobeCases(1))
         for (vec3 wo : outgoing(c))
-            for (int i = 0; i < kSamples; ++i) {
+            for (int i = 0; i < sampleCount; ++i) {
                 const sh64::LobeSample s = c.f32.sample(wo, quasiRandom(i));
                 if (s.event == 0 || (s.event & sh::LOBE_DELTA) != 0) continue;
                 if (std::fabs(s.wi.z) < 1e-4) continue; // its cosine has no digits left
@@ -66,7 +66,7 @@ TEST(LobeConsistency, FloatEqualsDouble) {
     for (const LobeCase& c : lobeCases(1))
         for (vec3 wo : outgoing(c)) {
             EXPECT_LT(largest(c.f32.albedo(wo) - c.f64.albedo(wo)), 1e-4) << c.name << wo.z;
-            for (int i = 0; i < kSamples; ++i) {
+            for (int i = 0; i < sampleCount; ++i) {
                 // Half of the directions from the lobe, half from the sphere.
                 const vec3 u = quasiRandom(i);
                 vec3 wi = direction(2.0 * u.x - 1.0, 6.2831853 * u.y);
@@ -92,7 +92,7 @@ TEST(LobeConsistency, FloatEqualsDouble) {
 TEST(LobeConsistency, PdfIsPositiveWhereTheLobeIs) {
     for (const LobeCase& c : lobeCases(1))
         for (vec3 wo : outgoing(c))
-            for (int i = 0; i < kSamples; ++i) {
+            for (int i = 0; i < sampleCount; ++i) {
                 const vec3 u = quasiRandom(i);
                 const vec3 wi = direction(2.0 * u.x - 1.0, 6.2831853 * u.y);
                 const sh64::LobeEval e = c.f32.eval(wo, wi);

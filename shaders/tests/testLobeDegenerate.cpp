@@ -13,13 +13,13 @@ using namespace patina::test;
 
 namespace {
 
-const float kNan = std::numeric_limits<float>::quiet_NaN();
-const float kInf = std::numeric_limits<float>::infinity();
+const float quietNan = std::numeric_limits<float>::quiet_NaN();
+const float infinity = std::numeric_limits<float>::infinity();
 
-const float kRoughness[] = {0.0f, 1e-8f, 1e-4f, 9.99e-4f, 1e-3f, 1e-2f,
-                            0.3f, 1.0f,  7.0f,  -1.0f,    kNan};
-const float kIor[] = {1.5f,  1.0f, 1.000001f, 0.999999f, 1.001f, 0.999f, 0.6f,
-                      10.0f, 0.0f, -2.0f,     1e9f,      1e-9f,  kNan,   kInf};
+const float roughnesses[] = {0.0f, 1e-8f, 1e-4f, 9.99e-4f, 1e-3f,   1e-2f,
+                             0.3f, 1.0f,  7.0f,  -1.0f,    quietNan};
+const float iors[] = {1.5f,  1.0f, 1.000001f, 0.999999f, 1.001f, 0.999f,   0.6f,
+                      10.0f, 0.0f, -2.0f,     1e9f,      1e-9f,  quietNan, infinity};
 
 std::vector<vec3> directions() {
     std::vector<vec3> all;
@@ -72,25 +72,25 @@ std::vector<vec3> randoms() {
 } // namespace
 
 TEST(LobeDegenerate, DielectricIsSane) {
-    for (float ax : kRoughness)
+    for (float ax : roughnesses)
         for (float ay : {ax, 0.0f, 0.5f})
-            for (float ior : kIor)
+            for (float ior : iors)
                 for (int mode : {1, 2, 3})
                     for (int variant : {0, 1, 2}) {
-                        const LobeCase c = PATINA_LOBE_CASE("d", dielectric, vec3(1.0, kNan, kInf),
-                                                            ior, vec2(ax, ay), variant == 0, mode,
-                                                            variant == 1, int(variant != 2));
+                        const LobeCase c = PATINA_LOBE_CASE(
+                            "d", dielectric, vec3(1.0, quietNan, infinity), ior, vec2(ax, ay),
+                            variant == 0, mode, variant == 1, int(variant != 2));
                         ASSERT_TRUE(sane(c.f32))
                             << ax << " " << ay << " ior " << ior << " " << mode;
                     }
 }
 
 TEST(LobeDegenerate, SchlickIsSane) {
-    for (float ax : kRoughness)
+    for (float ax : roughnesses)
         for (float ay : {ax, 0.0f})
-            for (float f0 : {0.0f, 1e-7f, 0.04f, 1.0f, 3.0f, kNan})
+            for (float f0 : {0.0f, 1e-7f, 0.04f, 1.0f, 3.0f, quietNan})
                 for (float f90 : {0.0f, 1.0f})
-                    for (float exponent : {0.0f, 0.5f, 5.0f, 200.0f, -1.0f, kNan})
+                    for (float exponent : {0.0f, 0.5f, 5.0f, 200.0f, -1.0f, quietNan})
                         for (int mode : {1, 2, 3}) {
                             const LobeCase c = PATINA_LOBE_CASE(
                                 "s", schlick, vec3(f0, 0.0, 1.0), vec3(1.0, 0.0, f0), vec3(f90),
@@ -101,10 +101,10 @@ TEST(LobeDegenerate, SchlickIsSane) {
 }
 
 TEST(LobeDegenerate, ConductorIsSane) {
-    for (float ax : kRoughness)
+    for (float ax : roughnesses)
         for (float ay : {ax, 0.0f, 0.5f})
-            for (float n : {0.0f, 1e-6f, 1.0f, 1.5f, 50.0f, 1e9f, -1.0f, kNan})
-                for (float k : {0.0f, 1e-8f, 3.0f, kInf, -1.0f}) {
+            for (float n : {0.0f, 1e-6f, 1.0f, 1.5f, 50.0f, 1e9f, -1.0f, quietNan})
+                for (float k : {0.0f, 1e-8f, 3.0f, infinity, -1.0f}) {
                     const LobeCase c =
                         PATINA_LOBE_CASE("c", conductor, vec3(n, 1.0, 0.2), vec3(k, 0.0, 3.0),
                                          vec2(ax, ay), k == 3.0f, 1);
@@ -113,32 +113,32 @@ TEST(LobeDegenerate, ConductorIsSane) {
 }
 
 TEST(LobeDegenerate, BeckmannIsSane) {
-    const int facets = sh::FACETS_BECKMANN;
-    for (float ax : kRoughness)
+    const int ndf = sh::NDF_BECKMANN;
+    for (float ax : roughnesses)
         for (float ay : {ax, 0.0f, 0.5f}) {
-            const LobeCase c = PATINA_LOBE_CASE_WITH("c", conductor, conductor, l.facets = facets,
-                                                     vec3(0.2, 1.0, 0.0), vec3(3.0, 0.0, 1.0),
-                                                     vec2(ax, ay), false, 1);
+            const LobeCase c =
+                PATINA_LOBE_CASE_WITH("c", conductor, conductor, l.ndf = ndf, vec3(0.2, 1.0, 0.0),
+                                      vec3(3.0, 0.0, 1.0), vec2(ax, ay), false, 1);
             ASSERT_TRUE(sane(c.f32)) << ax << " " << ay;
-            for (float ior : kIor)
+            for (float ior : iors)
                 for (int mode : {1, 2, 3}) {
                     const LobeCase d = PATINA_LOBE_CASE_WITH(
-                        "d", dielectric, dielectric, l.facets = facets, vec3(1.0, kNan, kInf), ior,
-                        vec2(ax, ay), false, mode, mode == 2, 1);
+                        "d", dielectric, dielectric, l.ndf = ndf, vec3(1.0, quietNan, infinity),
+                        ior, vec2(ax, ay), false, mode, mode == 2, 1);
                     ASSERT_TRUE(sane(d.f32)) << ax << " " << ay << " ior " << ior << " " << mode;
                 }
-            for (float f0 : {0.0f, 0.04f, 1.0f, kNan}) {
+            for (float f0 : {0.0f, 0.04f, 1.0f, quietNan}) {
                 const LobeCase s = PATINA_LOBE_CASE_WITH(
-                    "s", schlick, schlick, l.facets = facets, vec3(f0, 0.0, 1.0),
-                    vec3(1.0, 0.0, f0), vec3(1.0), 5.0, vec2(ax, ay), false, 3, false, 1);
+                    "s", schlick, schlick, l.ndf = ndf, vec3(f0, 0.0, 1.0), vec3(1.0, 0.0, f0),
+                    vec3(1.0), 5.0, vec2(ax, ay), false, 3, false, 1);
                 ASSERT_TRUE(sane(s.f32)) << ax << " " << ay << " f0 " << f0;
             }
         }
 }
 
 TEST(LobeDegenerate, DiffuseIsSane) {
-    for (float r : {0.0f, 1e-8f, 1.0f, 5.0f, -1.0f, kNan})
-        for (float color : {0.0f, 1.0f, 2.0f, -1.0f, kInf, kNan}) {
+    for (float r : {0.0f, 1e-8f, 1.0f, 5.0f, -1.0f, quietNan})
+        for (float color : {0.0f, 1.0f, 2.0f, -1.0f, infinity, quietNan}) {
             const LobeCase a = PATINA_LOBE_CASE("a", orenNayar, vec3(color, 1.0, 0.5), r, true);
             const LobeCase b = PATINA_LOBE_CASE("b", orenNayar, vec3(color, 1.0, 0.5), r, false);
             const LobeCase c = PATINA_LOBE_CASE("c", burley, vec3(color, 1.0, 0.5), r);
@@ -149,8 +149,8 @@ TEST(LobeDegenerate, DiffuseIsSane) {
 }
 
 TEST(LobeDegenerate, SheenIsSane) {
-    for (float r : {0.0f, 1e-8f, 0.02f, 0.3f, 1.0f, 5.0f, -1.0f, kNan})
-        for (float color : {0.0f, 1.0f, 2.0f, -1.0f, kInf, kNan})
+    for (float r : {0.0f, 1e-8f, 0.02f, 0.3f, 1.0f, 5.0f, -1.0f, quietNan})
+        for (float color : {0.0f, 1.0f, 2.0f, -1.0f, infinity, quietNan})
             for (int mode : {0, 1}) {
                 const LobeCase c = PATINA_LOBE_CASE("s", sheen, vec3(color, 1.0, 0.5), r, mode);
                 ASSERT_TRUE(sane(c.f32)) << mode << " r " << r << " color " << color;
@@ -158,14 +158,14 @@ TEST(LobeDegenerate, SheenIsSane) {
 }
 
 TEST(LobeDegenerate, ClassicsAreSane) {
-    for (float color : {0.0f, 1.0f, 2.0f, -1.0f, kInf, kNan}) {
-        for (float n : {0.0f, 1e-8f, 1.0f, 1e3f, 1e9f, -1.0f, kInf, kNan}) {
+    for (float color : {0.0f, 1.0f, 2.0f, -1.0f, infinity, quietNan}) {
+        for (float n : {0.0f, 1e-8f, 1.0f, 1e3f, 1e9f, -1.0f, infinity, quietNan}) {
             const LobeCase a = PATINA_LOBE_CASE("phong", phong, vec3(color, 1.0, 0.5), n);
             const LobeCase b = PATINA_LOBE_CASE("blinn", blinnPhong, vec3(color, 1.0, 0.5), n);
             for (const LobeCase& l : {a, b})
                 ASSERT_TRUE(sane(l.f32)) << l.name << " n " << n << " color " << color;
         }
-        for (float ax : kRoughness)
+        for (float ax : roughnesses)
             for (float ay : {ax, 0.0f, 0.5f})
                 for (int choice : {0, 1}) {
                     const LobeCase a =
@@ -190,9 +190,9 @@ TEST(LobeDegenerate, ClassicsOfPowerZeroAreLambert) {
 }
 
 TEST(LobeDegenerate, FilmsAreSane) {
-    for (float thickness : {0.0f, 1e-3f, 0.1f, 300.0f, 2000.0f, 1e9f, -1.0f, kNan, kInf})
-        for (float film : {1.0f, 1.0001f, 1.5f, 2.5f, 0.0f, kNan, kInf})
-            for (float ior : {1.5f, 1.0f, 1.0001f, 1.0f / 1.5f, 0.0f, kInf})
+    for (float thickness : {0.0f, 1e-3f, 0.1f, 300.0f, 2000.0f, 1e9f, -1.0f, quietNan, infinity})
+        for (float film : {1.0f, 1.0001f, 1.5f, 2.5f, 0.0f, quietNan, infinity})
+            for (float ior : {1.5f, 1.0f, 1.0001f, 1.0f / 1.5f, 0.0f, infinity})
                 for (float alpha : {0.0f, 0.3f, 1.0f})
                     for (int mode : {1, 2, 3}) {
                         const LobeCase c = PATINA_LOBE_CASE_AS(
@@ -204,11 +204,11 @@ TEST(LobeDegenerate, FilmsAreSane) {
 }
 
 TEST(LobeDegenerate, HairIsSane) {
-    for (float v : {0.0f, 1e-6f, 0.01f, 1.0f, 1e6f, -1.0f, kNan})
-        for (float s : {0.0f, 0.05f, 1.0f, kInf, kNan})
-            for (float ior : {1.55f, 1.0f, 0.5f, 0.0f, kNan})
-                for (float cuticle : {0.5f, 0.0f, 1.0f, kNan})
-                    for (float sigma : {0.0f, 1.0f, 1e9f, -1.0f, kNan}) {
+    for (float v : {0.0f, 1e-6f, 0.01f, 1.0f, 1e6f, -1.0f, quietNan})
+        for (float s : {0.0f, 0.05f, 1.0f, infinity, quietNan})
+            for (float ior : {1.55f, 1.0f, 0.5f, 0.0f, quietNan})
+                for (float cuticle : {0.5f, 0.0f, 1.0f, quietNan})
+                    for (float sigma : {0.0f, 1.0f, 1e9f, -1.0f, quietNan}) {
                         const LobeCase c = PATINA_LOBE_CASE(
                             "hair", chiangHair, vec3(1.0, sigma, 0.5), vec3(1.0), vec3(1.0), ior,
                             vec2(v, s), vec2(s, v), vec2(v, s), cuticle, vec3(sigma, 0.0, 1.0));

@@ -13,27 +13,25 @@ using namespace patina::test;
 
 namespace {
 
-constexpr int kCount = 100000;
-constexpr std::uint64_t kSeeds[] = {17, 171};
+constexpr int sampleCount = 100000;
+constexpr std::uint64_t seeds[] = {17, 171};
 
 double largest(vec3 v) {
     return std::max(std::fabs(v.x), std::max(std::fabs(v.y), std::fabs(v.z)));
 }
 
 /// The three microfacet lobes after CHANGE to the lobe `l`.
-#define PATINA_CHANGED_CASES(CHANGE, ALPHA, FACETS, COMPENSATE)                                    \
+#define PATINA_CHANGED_CASES(CHANGE, ALPHA, NDF, COMPENSATE)                                       \
     {                                                                                              \
-        PATINA_LOBE_CASE_WITH("conductor", conductor, conductor, (l.facets = FACETS, CHANGE),      \
+        PATINA_LOBE_CASE_WITH("conductor", conductor, conductor, (l.ndf = NDF, CHANGE),            \
                               vec3(0.2, 0.9, 1.4), vec3(3.9, 2.4, 1.8), ALPHA, false, COMPENSATE), \
-            PATINA_LOBE_CASE_WITH("dielectricR", dielectric, dielectric,                           \
-                                  (l.facets = FACETS, CHANGE), vec3(1.0), 1.5, ALPHA, false, 1,    \
-                                  false, COMPENSATE),                                              \
-            PATINA_LOBE_CASE_WITH("schlickR", schlick, schlick, (l.facets = FACETS, CHANGE),       \
+            PATINA_LOBE_CASE_WITH("dielectricR", dielectric, dielectric, (l.ndf = NDF, CHANGE),    \
+                                  vec3(1.0), 1.5, ALPHA, false, 1, false, COMPENSATE),             \
+            PATINA_LOBE_CASE_WITH("schlickR", schlick, schlick, (l.ndf = NDF, CHANGE),             \
                                   vec3(0.9, 0.5, 0.1), vec3(1.0), vec3(1.0), 5.0, ALPHA, false, 1, \
                                   false, COMPENSATE),                                              \
-            PATINA_LOBE_CASE_WITH("dielectricRT", dielectric, dielectric,                          \
-                                  (l.facets = FACETS, CHANGE), vec3(1.0), 1.5, ALPHA, false, 3,    \
-                                  false, COMPENSATE)                                               \
+            PATINA_LOBE_CASE_WITH("dielectricRT", dielectric, dielectric, (l.ndf = NDF, CHANGE),   \
+                                  vec3(1.0), 1.5, ALPHA, false, 3, false, COMPENSATE)              \
     }
 
 void expectConsistent(const LobeCase& c, double z) {
@@ -55,8 +53,8 @@ void expectDrawsFromItsPdf(const LobeCase& c, double z, double significance) {
     const DensityGrid grid(c.f64, wo);
     int rejected = 0;
     double worst = 1.0;
-    for (std::uint64_t seed : kSeeds) {
-        const ChiSquared t = grid.test(c.f32, wo, kCount, seed);
+    for (std::uint64_t seed : seeds) {
+        const ChiSquared t = grid.test(c.f32, wo, sampleCount, seed);
         EXPECT_FALSE(t.stray) << c.name << " wo.z " << z;
         rejected += t.pValue < significance;
         worst = std::min(worst, t.pValue);
@@ -66,32 +64,32 @@ void expectDrawsFromItsPdf(const LobeCase& c, double z, double significance) {
 
 } // namespace
 
-TEST(FacetSampling, WeightIsValueOverPdf) {
-    for (int sampling : {sh::FACETS_BOUNDED, sh::FACETS_ALL})
-        for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN})
+TEST(MicrofacetSampling, WeightIsValueOverPdf) {
+    for (int sampling : {sh::SAMPLING_BOUNDED_VNDF, sh::SAMPLING_FULL_NDF})
+        for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN})
             for (const LobeCase& c : std::vector<LobeCase> PATINA_CHANGED_CASES(
-                     l.sampling = sampling, vec2(0.3, 0.7), facets, 1))
+                     l.sampling = sampling, vec2(0.3, 0.7), ndf, 1))
                 for (double z : {1.0, 0.5, 0.08, -0.6})
                     if (z > 0.0 || c.name == "dielectricRT") expectConsistent(c, z);
 }
 
 // Significance 0.01 over all runs (Sidak); a case fails when both seeds reject.
-TEST(FacetSampling, DrawsFromItsPdf) {
+TEST(MicrofacetSampling, DrawsFromItsPdf) {
     const double significance = 1.0 - std::pow(1.0 - 0.01, 1.0 / 16.0);
-    for (int sampling : {sh::FACETS_BOUNDED, sh::FACETS_ALL})
-        for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN}) {
+    for (int sampling : {sh::SAMPLING_BOUNDED_VNDF, sh::SAMPLING_FULL_NDF})
+        for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN}) {
             const LobeCase c = PATINA_LOBE_CASE_WITH(
-                "conductor", conductor, conductor, (l.facets = facets, l.sampling = sampling),
-                vec3(1.0), vec3(1.0), vec2(0.4, 0.9), false, 0);
+                "conductor", conductor, conductor, (l.ndf = ndf, l.sampling = sampling), vec3(1.0),
+                vec3(1.0), vec2(0.4, 0.9), false, 0);
             for (double z : {0.9, 0.2})
                 expectDrawsFromItsPdf(c, z, significance);
         }
 }
 
 // That is what they are for: of a rough lobe at grazing angles fewer samples go below the surface.
-TEST(FacetSampling, BoundsLoseFewerSamples) {
+TEST(MicrofacetSampling, BoundsLoseFewerSamples) {
     double found[2];
-    for (int sampling : {sh::FACETS_VISIBLE, sh::FACETS_BOUNDED}) {
+    for (int sampling : {sh::SAMPLING_VNDF, sh::SAMPLING_BOUNDED_VNDF}) {
         const LobeCase c = PATINA_LOBE_CASE_WITH("c", conductor, conductor, l.sampling = sampling,
                                                  vec3(1.0), vec3(1.0), vec2(0.9), false, 0);
         int count = 0;
@@ -105,7 +103,7 @@ TEST(FacetSampling, BoundsLoseFewerSamples) {
 TEST(KullaConty, SamplesWhatItEvaluates) {
     const double significance = 1.0 - std::pow(1.0 - 0.01, 1.0 / 12.0);
     for (const LobeCase& c : std::vector<LobeCase> PATINA_CHANGED_CASES(
-             (void)l, vec2(0.8), sh::FACETS_GGX, sh::COMPENSATE_ADD)) {
+             (void)l, vec2(0.8), sh::NDF_GGX, sh::COMPENSATE_ADD)) {
         for (double z : {1.0, 0.5, 0.08})
             expectConsistent(c, z);
         if (c.name != "dielectricRT") expectDrawsFromItsPdf(c, 0.5, significance);
@@ -114,7 +112,7 @@ TEST(KullaConty, SamplesWhatItEvaluates) {
 
 TEST(KullaConty, IsReciprocal) {
     for (const LobeCase& c : std::vector<LobeCase> PATINA_CHANGED_CASES(
-             (void)l, vec2(0.8), sh::FACETS_GGX, sh::COMPENSATE_ADD)) {
+             (void)l, vec2(0.8), sh::NDF_GGX, sh::COMPENSATE_ADD)) {
         if (c.name == "dielectricRT") continue;
         for (int i = 0; i < 100; ++i) {
             const vec3 u = quasiRandom(i);
@@ -130,20 +128,21 @@ TEST(KullaConty, IsReciprocal) {
 // A white mirror keeps all light; what the lobe states as its albedo is what it reflects.
 TEST(KullaConty, KeepsAWhiteFurnace) {
     for (double alpha : {0.1, 0.3, 0.6, 1.0})
-        for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN})
+        for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN})
             for (double z : {1.0, 0.5, 0.1}) {
                 const LobeCase white = PATINA_LOBE_CASE_WITH(
-                    "white", schlick, schlick, l.facets = facets, vec3(1.0), vec3(1.0), vec3(1.0),
-                    5.0, vec2(alpha), false, 1, false, sh::COMPENSATE_ADD);
+                    "white", schlick, schlick, l.ndf = ndf, vec3(1.0), vec3(1.0), vec3(1.0), 5.0,
+                    vec2(alpha), false, 1, false, sh::COMPENSATE_ADD);
                 const vec3 wo = direction(z, 0.0);
                 EXPECT_NEAR(sampledAlbedo(white.f64, wo, 20000).x, 1.0, 1.2e-2)
-                    << alpha << " " << facets << " " << z;
+                    << alpha << " " << ndf << " " << z;
                 EXPECT_NEAR(white.f64.albedo(wo).x, 1.0, 1.2e-2) << alpha << " " << z;
                 const LobeCase metal = PATINA_LOBE_CASE_WITH(
-                    "metal", conductor, conductor, l.facets = facets, vec3(0.2, 0.9, 1.4),
+                    "metal", conductor, conductor, l.ndf = ndf, vec3(0.2, 0.9, 1.4),
                     vec3(3.9, 2.4, 1.8), vec2(alpha), false, sh::COMPENSATE_ADD);
-                EXPECT_LT(largest(sampledAlbedo(metal.f64, wo, 20000) - metal.f64.albedo(wo)), 1.5e-2)
-                    << alpha << " " << facets << " " << z;
+                EXPECT_LT(largest(sampledAlbedo(metal.f64, wo, 20000) - metal.f64.albedo(wo)),
+                          1.5e-2)
+                    << alpha << " " << ndf << " " << z;
             }
 }
 
@@ -154,7 +153,7 @@ TEST(AlbedoMethods, StayPhysicalEverywhere) {
             for (double alpha : {0.0, 1e-3, 0.02, 1.0})
                 for (const LobeCase& c : std::vector<LobeCase> PATINA_CHANGED_CASES(
                          l.albedo = method, vec2(alpha, alpha * (method % 2 ? 1.0 : 0.3)),
-    (compensate == 0 ? sh::FACETS_BECKMANN : sh::FACETS_GGX), compensate))
+    (compensate == 0 ? sh::NDF_BECKMANN : sh::NDF_GGX), compensate))
                     for (double z : {1.0, 0.3, 1e-3, 0.0, -0.3}) {
                         const vec3 e = c.f32.albedo(direction(z, 0.7));
                         for (int k = 0; k < 3; ++k)

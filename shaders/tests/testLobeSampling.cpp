@@ -14,8 +14,8 @@ using namespace patina::test;
 
 namespace {
 
-constexpr int kCount = 100000;
-constexpr std::uint64_t kSeeds[] = {11, 222, 3333};
+constexpr int sampleCount = 100000;
+constexpr std::uint64_t seeds[] = {11, 222, 3333};
 
 } // namespace
 
@@ -33,8 +33,8 @@ TEST(ChiSquared, RejectsAWrongSampler) {
         PATINA_LOBE_CASE("b", conductor, vec3(1.0), vec3(1.0), vec2(0.31), false, 0);
     const vec3 wo = direction(0.7, 0.3);
     const DensityGrid grid(right.f64, wo);
-    EXPECT_LT(grid.test(wrong.f32, wo, kCount, 1).pValue, 1e-6);
-    EXPECT_GT(grid.test(right.f32, wo, kCount, 1).pValue, 1e-3);
+    EXPECT_LT(grid.test(wrong.f32, wo, sampleCount, 1).pValue, 1e-6);
+    EXPECT_GT(grid.test(right.f32, wo, sampleCount, 1).pValue, 1e-3);
 }
 
 TEST(LobeSampling, DrawsFromItsPdf) {
@@ -51,14 +51,14 @@ TEST(LobeSampling, DrawsFromItsPdf) {
             int rejected = 0;
             int run = 0;
             double worst = 1.0;
-            for (std::uint64_t seed : kSeeds) {
+            for (std::uint64_t seed : seeds) {
                 if (run++ == 2 && rejected == 0) break; // the third cannot change the outcome
-                const ChiSquared t = grid.test(c.f32, wo, kCount, seed);
+                const ChiSquared t = grid.test(c.f32, wo, sampleCount, seed);
                 EXPECT_FALSE(t.stray) << c.name << " wo.z " << wo.z;
                 EXPECT_LT(t.expected, 1.0 + 2e-3) << c.name << " wo.z " << wo.z;
                 // Samples that find a direction are as many as the density says: 5 sigma.
                 const double p = std::min(t.expected, 1.0);
-                const double sigma = std::sqrt(p * (1.0 - p) / kCount);
+                const double sigma = std::sqrt(p * (1.0 - p) / sampleCount);
                 EXPECT_NEAR(t.hits, t.expected, 5.0 * sigma + 2e-3) << c.name << " wo.z " << wo.z;
                 rejected += t.pValue < significance;
                 worst = std::min(worst, t.pValue);

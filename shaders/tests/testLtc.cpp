@@ -15,7 +15,7 @@ using sh::vec3;
 
 namespace {
 
-constexpr int kSide = 160; // cells along a side of a rectangle, and of the facets' numbers
+constexpr int gridSide = 160; // cells along a side of a rectangle, and of the facets' numbers
 
 /// A rectangle as seen from the point that is lit.
 struct Rect {
@@ -32,11 +32,11 @@ struct Rect {
     /// The integral of a density by solid angle.
     template <typename Density> double brute(const Density& density) const {
         const vec3 normal = glm::cross(u, v);
-        const double area = 4.0 * glm::length(normal) / (double(kSide) * kSide);
+        const double area = 4.0 * glm::length(normal) / (double(gridSide) * gridSide);
         double sum = 0.0;
-        for (int i = 0; i < kSide * kSide; ++i) {
-            const float a = 2.0f * (float(i % kSide) + 0.5f) / kSide - 1.0f;
-            const float b = 2.0f * (float(i / kSide) + 0.5f) / kSide - 1.0f;
+        for (int i = 0; i < gridSide * gridSide; ++i) {
+            const float a = 2.0f * (float(i % gridSide) + 0.5f) / gridSide - 1.0f;
+            const float b = 2.0f * (float(i / gridSide) + 0.5f) / gridSide - 1.0f;
             const vec3 p = centre + u * a + v * b;
             const float d2 = glm::dot(p, p);
             const vec3 wi = p / std::sqrt(d2);
@@ -64,14 +64,15 @@ std::vector<Rect> rects(int count) {
 }
 
 /// Isotropic GGX facets that reflect all, as a density: the lobe times cosine over its albedo.
-struct Facets {
+struct MicrofacetLobe {
     vec3 wo;
     float alpha;
     double albedo = 0.0;
 
-    Facets(float mu, float a) : wo(std::sqrt(1.0f - mu * mu), 0.0f, mu), alpha(a) {
-        for (int i = 0; i < kSide * kSide; ++i) {
-            const sh::vec2 u((float(i % kSide) + 0.5f) / kSide, (float(i / kSide) + 0.5f) / kSide);
+    MicrofacetLobe(float mu, float a) : wo(std::sqrt(1.0f - mu * mu), 0.0f, mu), alpha(a) {
+        for (int i = 0; i < gridSide * gridSide; ++i) {
+            const sh::vec2 u((float(i % gridSide) + 0.5f) / gridSide,
+                             (float(i / gridSide) + 0.5f) / gridSide);
             const vec3 m = sh::ggxSampleVisible(wo, sh::vec2(alpha), u);
             const vec3 wi = 2.0f * glm::dot(m, wo) * m - wo;
             if (wi.z <= 0.0f) continue;
@@ -79,7 +80,7 @@ struct Facets {
             const float li = sh::ggxLength(wi, sh::vec2(alpha));
             albedo += double(wi.z * (wo.z + lo) / (lo * wi.z + li * wo.z));
         }
-        albedo /= double(kSide) * kSide;
+        albedo /= double(gridSide) * gridSide;
     }
 
     double operator()(const vec3& wi) const {
@@ -113,7 +114,7 @@ TEST(Ltc, AllDirectionsHaveAllLight) {
     for (const float alpha : {0.02f, 0.3f, 1.0f})
         for (const float mu : {0.02f, 0.5f, 1.0f}) {
             const vec3 wo(std::sqrt(1.0f - mu * mu), 0.0f, mu);
-            const float share = sh::ltcShare(corners, 4, sh::ltcFacets(wo, alpha));
+            const float share = sh::ltcShare(corners, 4, sh::ltcMicrofacets(wo, alpha));
             EXPECT_LE(share, 1.0f);
             EXPECT_GT(share, 0.9f) << alpha << " " << mu;
         }
@@ -124,10 +125,10 @@ TEST(Ltc, FacetsAreWithinTheirBound) {
     int count = 0;
     for (const float alpha : {0.05f, 0.1f, 0.25f, 0.5f, 1.0f})
         for (const float mu : {0.1f, 0.4f, 0.7f, 0.95f}) {
-            const Facets facets(mu, alpha);
-            const sh::vec4 map = sh::ltcFacets(facets.wo, alpha);
+            const MicrofacetLobe lobe(mu, alpha);
+            const sh::vec4 map = sh::ltcMicrofacets(lobe.wo, alpha);
             for (const Rect& rect : rects(24)) {
-                const double error = rect.share(facets.wo, map) - rect.brute(facets);
+                const double error = rect.share(lobe.wo, map) - rect.brute(lobe);
                 squares += error * error;
                 largest = std::max(largest, std::abs(error));
                 ++count;
@@ -140,7 +141,7 @@ TEST(Ltc, FacetsAreWithinTheirBound) {
 }
 
 TEST(Ltc, DegenerateOutlinesGiveNumbers) {
-    const sh::vec4 map = sh::ltcFacets(vec3(1.0f, 0.0f, 0.0f), 0.0f);
+    const sh::vec4 map = sh::ltcMicrofacets(vec3(1.0f, 0.0f, 0.0f), 0.0f);
     vec3 corners[sh::LTC_CORNERS] = {};
     EXPECT_EQ(sh::ltcShare(corners, 4, map), 0.0f);
     for (vec3& c : corners)

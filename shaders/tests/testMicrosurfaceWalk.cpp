@@ -13,17 +13,17 @@ using namespace patina;
 using sh64::vec2;
 
 TEST(MicrosurfaceWalk, FirstBounceIsSingleScatteringAndNothingIsLost) {
-    constexpr int kWalks = 40000;
-    for (int facets : {sh::FACETS_GGX, sh::FACETS_BECKMANN})
+    constexpr int walkCount = 40000;
+    for (int ndf : {sh::NDF_GGX, sh::NDF_BECKMANN})
         for (vec2 alpha : {vec2(0.1), vec2(0.5), vec2(1.0)})
             for (double z : {1.0, 0.5, 0.1}) {
                 const auto walked = measure::walkMicrosurface(
-                    bake::slanted(z), alpha, facets, [](double) { return 1.0; }, kWalks, 7);
-                bake::InterfaceQuadrature quadrature(64, facets);
-                quadrature.look(bake::slanted(z), alpha);
+                    bake::slanted(z), alpha, ndf, [](double) { return 1.0; }, walkCount, 7);
+                bake::InterfaceQuadrature quadrature(64, ndf);
+                quadrature.setView(bake::slanted(z), alpha);
                 double zero = 0.0, once = 0.0;
                 quadrature.moments(&zero, 1, &once);
-                const double sigma = std::sqrt(once * (1.0 - once) / kWalks);
+                const double sigma = std::sqrt(once * (1.0 - once) / walkCount);
                 EXPECT_NEAR(walked.once, once, 5.0 * sigma + 1e-4) << alpha.x << " " << z;
                 EXPECT_NEAR(walked.all, 1.0, 1e-4) << alpha.x << " " << z;
             }
@@ -33,7 +33,7 @@ TEST(MicrosurfaceWalk, FirstBounceIsSingleScatteringAndNothingIsLost) {
 // white ones do.
 TEST(MicrosurfaceWalk, GreyFacetsDarkenMoreThanOnce) {
     const auto grey = measure::walkMicrosurface(
-        bake::slanted(0.7), vec2(1.0), sh::FACETS_GGX, [](double) { return 0.5; }, 40000, 3);
+        bake::slanted(0.7), vec2(1.0), sh::NDF_GGX, [](double) { return 0.5; }, 40000, 3);
     EXPECT_LT(grey.all, 0.5 - 5.0 * grey.sigma);
     EXPECT_GT(grey.all, 0.5 * grey.once);
 }
@@ -57,10 +57,10 @@ TEST(EnergyCompensation, TakesTooLittleFromGrazingBounces) {
     constexpr double ior = 1.5, alpha = 0.0244140625; // centres of cells of the rows' grid
     const sh64::vec3 wo = bake::slanted(0.03125);
     const auto walked = measure::walkMicrosurface(
-        wo, vec2(alpha), sh::FACETS_GGX, [](double c) { return sh64::fresnelDielectric(c, ior); },
+        wo, vec2(alpha), sh::NDF_GGX, [](double c) { return sh64::fresnelDielectric(c, ior); },
         100000, 9);
-    bake::InterfaceQuadrature quadrature(64, sh::FACETS_GGX);
-    quadrature.look(wo, vec2(alpha));
+    bake::InterfaceQuadrature quadrature(64, sh::NDF_GGX);
+    quadrature.setView(wo, vec2(alpha));
     double zero = 0.0, white = 0.0;
     quadrature.moments(&zero, 1, &white);
     EXPECT_GT((walked.all - walked.once) / (1.0 - white), 0.5);

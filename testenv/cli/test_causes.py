@@ -56,7 +56,7 @@ def test_the_terminal_shows_twenty_causes_and_counts_the_rest():
     found = Causes([warning(f"'{i}' is unknown; box is used", f"/p{i}") for i in range(30)]
                    + [warning("the light is not finite; it is off", "/sun")])
     lines = found.lines()
-    assert len(lines) == causes.MOST + 1 and lines[0].startswith("error: /sun")
+    assert len(lines) == causes.MAX_CAUSES + 1 and lines[0].startswith("error: /sun")
     assert lines[-1] == "warning: 11 more causes are in --json"
 
 

@@ -57,7 +57,7 @@ def test_stages_without_finite_times(start):
 
 
 def test_the_most_frames_are_still_given():
-    assert len(frames.expand(f"1:{frames.MOST_FRAMES}", 1.0, 2.0)[0]) == frames.MOST_FRAMES
+    assert len(frames.expand(f"1:{frames.MAX_FRAMES}", 1.0, 2.0)[0]) == frames.MAX_FRAMES
 
 
 @pytest.mark.parametrize("change", ["/ball.elementSize=inf", "/ball.elementSize=nan", "/ball.elementSize=-inf", "/ball.elementSize=1e300",

@@ -60,7 +60,7 @@ def render(scene, backend, tolerance=None, methods=None, samples=16, **more):
 def test_edges_follow_the_tolerance(kind):
     """The same random numbers (seed 3) in all pictures of 96 samples; 1e-4 is left for noise that they do not share."""
     scene = ball(kind)
-    finest, _, most = render(scene, "embree", methods={"subdivision": "0.5px"}, samples=96)
+    finest, _, maximum = render(scene, "embree", methods={"subdivision": "0.5px"}, samples=96)
     lengths, triangles = [], []
     for tolerance in TOLERANCES:
         _, choices, statistics = render(scene, "embree", tolerance, samples=1)
@@ -73,7 +73,7 @@ def test_edges_follow_the_tolerance(kind):
         lengths.append(float(chosen["method"][:-2]))
         triangles.append(statistics["trianglesStored"])
     assert lengths == sorted(lengths, reverse=True) and triangles == sorted(triangles)
-    assert lengths[0] >= 4.0 > lengths[-1] and triangles[-1] <= most["trianglesStored"]
+    assert lengths[0] >= 4.0 > lengths[-1] and triangles[-1] <= maximum["trianglesStored"]
 
 
 def test_both_back_ends_choose_alike():

@@ -159,7 +159,7 @@ def test_purpose_of_bindings(tmp_path, scene_index):
 @MODES
 def test_mixed_shaders_and_back_shaders(tmp_path, scene_index):
     """One card mixes two surfaces; the other shows its back, which is green."""
-    shot = stages.Shot(os.path.join(os.path.dirname(__file__), "wholeShaders.usda"), tmp_path, width=32)
+    shot = stages.Shot(os.path.join(os.path.dirname(__file__), "mergeSurfaceShaders.usda"), tmp_path, width=32)
     image, text = render_with_hydra(shot, tmp_path, scene_index)
     assert sceneText.difference(text, shot.scene.dump(), native_shapes=scene_index) == ""
     compare(shot, image, scene_index)

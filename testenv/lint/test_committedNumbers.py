@@ -26,9 +26,9 @@ def test_the_shipped_table_keeps_the_promise():
     assert not any(row.problem for row in rows)
     said = [row for row in rows if row.state in (predictions.WITHIN, predictions.OUTSIDE, predictions.SAMPLES)]
     assert {row.tolerance for row in rows} == {0.001, 0.01, 0.05}
-    for tolerance, least in ((0.05, 29), (0.01, 26), (0.001, 20)):
+    for tolerance, minimum in ((0.05, 29), (0.01, 26), (0.001, 20)):
         of = [row for row in said if row.tolerance == tolerance]
-        assert len({row.stage for row in of}) == len(of) >= least
+        assert len({row.stage for row in of}) == len(of) >= minimum
         assert sum(row.state == predictions.WITHIN for row in of) >= 0.95 * len(of)
     assert all(row.error <= row.tolerance for row in said if row.state == predictions.WITHIN)
     assert all(row.methodWithin for row in rows)

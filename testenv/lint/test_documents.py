@@ -52,9 +52,9 @@ def test_links_lead_somewhere(path):
             assert fragment in anchors(documents.read(full)), target
 
 
-@pytest.mark.parametrize("path, most", [("README.md", 120), ("ARCHITECTURE.md", 150)])
-def test_the_first_pages_stay_short(path, most):
-    assert len(documents.read(path).splitlines()) <= most
+@pytest.mark.parametrize("path, maximum", [("README.md", 120), ("ARCHITECTURE.md", 150)])
+def test_the_first_pages_stay_short(path, maximum):
+    assert len(documents.read(path).splitlines()) <= maximum
 
 
 def test_every_page_can_be_found():

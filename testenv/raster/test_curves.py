@@ -71,9 +71,9 @@ def test_hair_is_as_wide_and_as_bright_as_traced(tmp_path, width, turn):
         read = _patina.read_image(image)
         values = np.array(read.pixels)
         found[backend] = {c: float(values[..., read.channels.index(c)].mean()) for c in "RGA"}
-    for channel, most in (("A", 0.03 if thin else 0.01), ("R", 0.1 if thin else 0.03), ("G", 0.1 if thin else 0.03)):
+    for channel, maximum in (("A", 0.03 if thin else 0.01), ("R", 0.1 if thin else 0.03), ("G", 0.1 if thin else 0.03)):
         assert found["embree"][channel] > (1e-6 if thin else 1e-4)
-        np.testing.assert_allclose(found["raster"][channel], found["embree"][channel], rtol=most, err_msg=channel)
+        np.testing.assert_allclose(found["raster"][channel], found["embree"][channel], rtol=maximum, err_msg=channel)
 
 
 LOCK = """#usda 1.0

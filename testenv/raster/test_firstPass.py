@@ -10,7 +10,7 @@ from test_bothBackEnds import opengl  # noqa: F401  (skips where there is no Ope
 
 SEEDS = (0, 1, 2)
 WIDTH, TRUTH = 112, 256
-MOST_FLIP = 0.08
+MAX_FLIP = 0.08
 # A tile's mean may be off by this part of its value. An eighth of the image each way holds 14 x 7 pixels at least, which share
 # 32 samples of a light, stratified in three dimensions, of a density that follows the light: what is lit by a cosine or hidden
 # in part scatters by at most its own value from one to the next, their mean by 1 / sqrt(32) = 0.18 of it without strata, and
@@ -46,7 +46,7 @@ def test_the_first_image_looks_like_the_last(name, cache):
     stage = firstPass.Stage(firstPass.stages()[name], WIDTH)
     truth = stage.truth(TRUTH, cache)
     found = [imageMetrics.mean_flip(stage.render("raster", 1, seed), truth, True) for seed in (10, 11, 12)]
-    assert max(found) <= MOST_FLIP, found
+    assert max(found) <= MAX_FLIP, found
 
 
 @pytest.mark.parametrize("name", ["lightDome", "roughConductor"])  # with maps for all samples, and without

@@ -16,11 +16,11 @@ def sphere_cosines(image):
     direction = np.stack([x, y, -np.ones_like(x)], -1)
     direction /= np.linalg.norm(direction, axis=-1, keepdims=True)
     b = 5 * direction[..., 2]
-    disc = b * b - 24
-    distance = -b - np.sqrt(np.maximum(disc, 0))
+    discriminant = b * b - 24
+    distance = -b - np.sqrt(np.maximum(discriminant, 0))
     position = np.array([0, 0, 5]) + direction * distance[..., None]
     cosine = -(position * direction).sum(-1)
-    return np.where(disc > 0, cosine, 0)
+    return np.where(discriminant > 0, cosine, 0)
 
 
 def oren_nayar_albedo(cosine, roughness, color_value):

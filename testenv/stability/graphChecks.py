@@ -42,7 +42,7 @@ def bad(values):
 class Failures(list):
     """What failed, in words; one line per kind of failure, with its first place."""
 
-    def look(self, wrong, what, places, values):
+    def check(self, wrong, what, places, values):
         """:param wrong: a flag per row"""
         wrong = np.asarray(wrong)
         if not wrong.any():
@@ -71,13 +71,13 @@ def check(probe, graph, budget=BUDGET):
     failures = Failures()
     wo, wi = pairs()
     f, pdf = probe.eval(wo, wi)
-    failures.look(rows(bad(f)), "f", {"wo": wo, "wi": wi}, f)
-    failures.look(bad(pdf), "pdf", {"wo": wo, "wi": wi}, pdf)
+    failures.check(rows(bad(f)), "f", {"wo": wo, "wi": wi}, f)
+    failures.check(bad(pdf), "pdf", {"wo": wo, "wi": wi}, pdf)
     all_wo = directions()
     albedo, emission = probe.albedo(all_wo), probe.emission(all_wo)
-    failures.look(rows(bad(albedo)), "albedo", {"wo": all_wo}, albedo)
-    failures.look(rows(albedo * present(probe, graph.thin, all_wo) > bound * (1.0 + budget)), f"albedo above {bound:g}", {"wo": all_wo}, albedo)
-    failures.look(rows(bad(emission)), "emission", {"wo": all_wo}, emission)
+    failures.check(rows(bad(albedo)), "albedo", {"wo": all_wo}, albedo)
+    failures.check(rows(albedo * present(probe, graph.thin, all_wo) > bound * (1.0 + budget)), f"albedo above {bound:g}", {"wo": all_wo}, albedo)
+    failures.check(rows(bad(emission)), "emission", {"wo": all_wo}, emission)
     _check_samples(probe, failures)
     return failures
 
@@ -88,12 +88,12 @@ def _check_samples(probe, failures):
     wo, u = np.repeat(wo, len(u), axis=0), np.tile(u, (len(wo), 1))
     s = probe.sample(wo, u)
     places = {"wo": wo, "u": u}
-    failures.look(rows(bad(s["weight"])), "weight of a sample", places, s["weight"])
-    failures.look(bad(s["pdf"]), "pdf of a sample", places, s["pdf"])
+    failures.check(rows(bad(s["weight"])), "weight of a sample", places, s["weight"])
+    failures.check(bad(s["pdf"]), "pdf of a sample", places, s["pdf"])
     drawn = s["event"] != 0
-    failures.look(drawn & ~(s["pdf"] > 0.0), "sample of pdf 0", places, s["pdf"])
+    failures.check(drawn & ~(s["pdf"] > 0.0), "sample of pdf 0", places, s["pdf"])
     length = np.linalg.norm(s["wi"], axis=1)
-    failures.look(drawn & ~(np.abs(length - 1.0) < 1e-3), "length of a sample's direction", places, length)
+    failures.check(drawn & ~(np.abs(length - 1.0) < 1e-3), "length of a sample's direction", places, length)
 
 
 def check_density(probe):
@@ -110,11 +110,11 @@ def check_density(probe):
     drawn = (s["event"] != 0) & (s["event"] & DELTA == 0) & (np.maximum(s["pdf"], pdf) < NARROW)
     places = {"wo": wo, "wi": s["wi"], "u": u}
     far = np.abs(s["pdf"] - pdf) > 0.02 * pdf + 1e-5
-    failures.look(drawn & far, "pdf of a sample is not that of eval", places, np.column_stack([s["pdf"], pdf]))
+    failures.check(drawn & far, "pdf of a sample is not that of eval", places, np.column_stack([s["pdf"], pdf]))
     value = f * np.abs(s["wi"][:, 2:])
     expected = s["weight"] * s["pdf"][:, None]
     far = rows(np.abs(value - expected) > 0.02 * value + 1e-5 * (1.0 + value.max(axis=1, keepdims=True)))
-    failures.look(drawn & far, "weight of a sample is not f cos / pdf", places, np.column_stack([expected, value]))
+    failures.check(drawn & far, "weight of a sample is not f cos / pdf", places, np.column_stack([expected, value]))
     return failures
 
 
@@ -139,11 +139,11 @@ def check_furnace(probe, graph, budget=BUDGET):
         slack = 5.0 * error + budget * max(1.0, float(albedo.max()), graph.bound if np.isfinite(graph.bound) else 1.0)
         place = {"wo": wo}
         met = mean * present(probe, graph.thin, wo)[0]
-        failures.look([(met > graph.bound + slack).any()], f"sampled albedo above {graph.bound:g}", place, [mean])
+        failures.check([(met > graph.bound + slack).any()], f"sampled albedo above {graph.bound:g}", place, [mean])
         if graph.ward or not np.isfinite(graph.bound):  # a tint of 65504 makes much of the last digit
             continue
         far = mean - albedo > slack if graph.loses else np.abs(mean - albedo) > slack
-        failures.look([far.any()], "sampled albedo is not albedo()", place, [np.append(mean, albedo)])
+        failures.check([far.any()], "sampled albedo is not albedo()", place, [np.append(mean, albedo)])
     return failures
 
 
@@ -159,12 +159,12 @@ def compare(probe, other):
     both = np.maximum(pdf, qdf) < NARROW
     places = {"wo": wo, "wi": wi}
     cosine = np.abs(wi[:, 2:])
-    failures.look(both & rows(_apart(f * cosine, g * cosine)), "f cos differs", places, np.column_stack([f, g]))
-    failures.look(both & _apart(pdf, qdf), "pdf differs", places, np.column_stack([pdf, qdf]))
+    failures.check(both & rows(_apart(f * cosine, g * cosine)), "f cos differs", places, np.column_stack([f, g]))
+    failures.check(both & _apart(pdf, qdf), "pdf differs", places, np.column_stack([pdf, qdf]))
     all_wo = directions()
     for name in ("albedo", "emission"):
         a, b = getattr(probe, name)(all_wo), getattr(other, name)(all_wo)
-        failures.look(rows(_apart(a, b)), f"{name} differs", {"wo": all_wo}, np.column_stack([a, b]))
+        failures.check(rows(_apart(a, b)), f"{name} differs", {"wo": all_wo}, np.column_stack([a, b]))
     generator = np.random.default_rng(9)
     wo = np.repeat(directions((0.9, 0.4, 0.1, -0.5), (0.7,)), 64, axis=0)
     u = generator.random((len(wo), 4), dtype=np.float32)
@@ -172,7 +172,7 @@ def compare(probe, other):
     apart = rows(_apart(s["weight"], t["weight"])) | (s["event"] != t["event"]) | rows(np.abs(s["wi"] - t["wi"]) > 3e-3)
     # A choice may fall the other way where the random number is on the border, one sample in a hundred at most.
     if apart.mean() > 0.01:
-        failures.look(apart, "sample differs", {"wo": wo, "u": u}, np.column_stack([s["weight"], t["weight"], s["wi"], t["wi"]]))
+        failures.check(apart, "sample differs", {"wo": wo, "u": u}, np.column_stack([s["weight"], t["weight"], s["wi"], t["wi"]]))
     return failures
 
 

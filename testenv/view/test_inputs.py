@@ -63,7 +63,7 @@ def test_more_choices_than_programs_are_fixed_with_the_reason():
 
     made = [choices.Choice("/m/n", "", f"c{i}", "boolean", choices.OFF_ON, 0, i == 29) for i in range(30)]
     found, left = choices.combinations(made)
-    assert len(found) == choices.MOST_PROGRAMS and len(set(found)) == len(found) and 29 not in left
-    assert len(left) == 30 - (choices.MOST_PROGRAMS - 1)
+    assert len(found) == choices.MAX_PROGRAMS and len(set(found)) == len(found) and 29 not in left
+    assert len(left) == 30 - (choices.MAX_PROGRAMS - 1)
     few, none = choices.combinations(made[:3])
     assert len(few) == 8 and not none

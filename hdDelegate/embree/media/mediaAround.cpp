@@ -18,8 +18,8 @@ struct Candidate {
 };
 
 /// Notes every object that a ray leaves without having entered it.
-void look(const EmbreeScene& scene, const vec3& point, const vec3& direction, float time,
-          std::vector<Candidate>& candidates) {
+void castRay(const EmbreeScene& scene, const vec3& point, const vec3& direction, float time,
+             std::vector<Candidate>& candidates) {
     std::vector<const MaterialProgram*> entered;
     std::vector<const MaterialProgram*> seen;
     float near = 0.0f;
@@ -65,8 +65,8 @@ MediumStack mediaAround(const EmbreeScene& scene, const vec3& point, float time)
     constexpr int count = 6;
     std::vector<Candidate> candidates;
     for (const vec3& direction : directions) {
-        look(scene, point, glm::normalize(direction), time, candidates);
-        look(scene, point, -glm::normalize(direction), time, candidates);
+        castRay(scene, point, glm::normalize(direction), time, candidates);
+        castRay(scene, point, -glm::normalize(direction), time, candidates);
     }
     for (Candidate& c : candidates)
         if (c.votes > 0) c.distance /= float(c.votes);

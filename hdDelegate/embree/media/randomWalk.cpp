@@ -14,12 +14,12 @@ namespace {
 /// A walk of so many steps is about 30 mean free paths deep; what is left of it comes out where it
 /// went in, which nobody can tell from where it should.
 constexpr int maxSteps = 1024;
-constexpr int maxFaces = 64; ///< other surfaces that one step passes
+constexpr int maxFaces = 64;       ///< other surfaces that one step passes
 constexpr int stratifiedSteps = 4; ///< that know how far the boundary is before they scatter
-constexpr int lookEvery = 4;
+constexpr int searchInterval = 4;
 constexpr int rouletteSteps = 16;
-constexpr float maxPassage = 4.0f; ///< bounds the weight of walks that leave an open mesh
-constexpr float worthOf = 0.25f;   ///< of its colour: weight below which a walk may end
+constexpr float maxPassage = 4.0f;  ///< bounds the weight of walks that leave an open mesh
+constexpr float worthOf = 0.25f;    ///< of its colour: weight below which a walk may end
 constexpr float guideLength = 1.2f; ///< of the profile that directions turn by: near 1 it is a beam
 constexpr float grazing = 0.01f;    ///< cosine from which on startWalk() looks no closer
 
@@ -58,12 +58,12 @@ public:
         : _scene(scene), _entry(entry), _back(back), _rays(rays) {}
 
     /// @param reach beyond which nothing is looked for, but for some part of the object
-    /// @param looks whether that is wanted
+    /// @param searches whether that is wanted
     /// @param inside parts around the origin
-    Boundary find(const vec3& origin, const vec3& direction, float reach, bool looks, bool first,
+    Boundary find(const vec3& origin, const vec3& direction, float reach, bool searches, bool first,
                   int inside) {
         Boundary result;
-        result.seen = !looks;
+        result.seen = !searches;
         result.inside = inside;
         _count = 0;
         const bool flat = _entry.surface->shape == Surface::Shape::Triangles;
@@ -162,8 +162,8 @@ vec3 turn(const sh::PhaseHenyeyGreensteinLobe& phase, const vec3& direction, con
     const float scale = std::log((guideLength + 1.0f) / (guideLength - 1.0f));
     vec3 result;
     if (uPart < guided) {
-        const float cosine = std::clamp(
-            guideLength - (guideLength + 1.0f) * std::exp(-u.x * scale), -1.0f, 1.0f);
+        const float cosine =
+            std::clamp(guideLength - (guideLength + 1.0f) * std::exp(-u.x * scale), -1.0f, 1.0f);
         const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
         vec3 x, y;
         completeBasis(outside, x, y);
@@ -196,8 +196,8 @@ WalkMedium walkMedium(const SubsurfaceEntry& entry, float shortest) {
         const float s = inverseSimilarity(result.color[c]);
         const float albedo = std::clamp((1.0f - s * s) / (1.0f - g * s * s), 0.0f, 1.0f);
         // Channels of a thousandth of the longest way scatter on the spot already.
-        const float least = std::max({1e-3f * longest, shortest, 1e-12f});
-        const float radius = std::clamp(entry.radius[c], least, std::max(least, 1e12f));
+        const float minimum = std::max({1e-3f * longest, shortest, 1e-12f});
+        const float radius = std::clamp(entry.radius[c], minimum, std::max(minimum, 1e12f));
         result.extinction[c] = 1.0f / radius;
         result.scattering[c] = albedo / radius;
     }
@@ -213,8 +213,7 @@ WalkStart startWalk(const WalkMedium& medium, const vec2& u, float uPart) {
     const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
     const float phi = sh::TWO_PI * u.y;
     start.direction = vec3(sine * std::cos(phi), sine * std::sin(phi), std::min(cosine, 1.0f));
-    const float density =
-        (1.0f - guided) * 2.0f * cosine + guided / ((cosine + grazing) * scale);
+    const float density = (1.0f - guided) * 2.0f * cosine + guided / ((cosine + grazing) * scale);
     start.weight = guided > 0.0f ? 2.0f * cosine / density : 1.0f;
     return start;
 }
@@ -243,8 +242,8 @@ WalkExit walkBeneath(const EmbreeScene& scene, const WalkMedium& medium, const H
         Boundary ahead;
         if (early) {
             ahead = boundaries.find(origin, direction, INFINITY, true, step == 0, inside);
-            next = chooseStep(medium, exit.weight, ahead.out ? ahead.hit.distance : INFINITY,
-                              vec2(u));
+            next =
+                chooseStep(medium, exit.weight, ahead.out ? ahead.hit.distance : INFINITY, vec2(u));
             if (ahead.out && !next.leaves)
                 ahead.inside = boundaries.insideAt(next.distance, inside);
         } else {
@@ -253,10 +252,10 @@ WalkExit walkBeneath(const EmbreeScene& scene, const WalkMedium& medium, const H
             // Where nothing scatters, the walk goes straight on to the boundary and is absorbed.
             // From inside, some part of the object lies ahead in every direction. To look so far
             // at each step would be slow; who is outside stays there for a while.
-            const bool looks = !flight.scattered || step % lookEvery == 0;
-            ahead = boundaries.find(origin, direction,
-                                    flight.scattered ? flight.distance : INFINITY, looks, false,
-                                    inside);
+            const bool searches = !flight.scattered || step % searchInterval == 0;
+            ahead =
+                boundaries.find(origin, direction, flight.scattered ? flight.distance : INFINITY,
+                                searches, false, inside);
             next.leaves = ahead.out || !flight.scattered;
             next.distance = ahead.out ? ahead.hit.distance : flight.distance;
             const auto weigh = [&](const vec3& scattering) {

@@ -9,8 +9,8 @@ namespace patina {
 
 namespace {
 
-constexpr int mostCandidates = 1 << 16; ///< along one ray
-constexpr int mostVolumes = 16;         ///< that one ray passes
+constexpr int maxCandidates = 1 << 16; ///< along one ray
+constexpr int maxVolumes = 16;         ///< that one ray passes
 constexpr float rouletteBelow = 0.05f;
 
 float mean(const vec3& v) {
@@ -136,15 +136,15 @@ VolumeScene::Collision VolumeScene::track(const vec3& origin, const vec3& direct
                                           bool camera, vec3& throughput, Sampler& sampler) const {
     Collision result;
     result.distance = end;
-    Tracker trackers[mostVolumes];
+    Tracker trackers[maxVolumes];
     int count = 0;
     for (const Placed& placed : _placed) {
         if (!(camera ? placed.visibility.camera : placed.visibility.indirect)) continue;
-        if (count == mostVolumes) break;
+        if (count == maxVolumes) break;
         trackers[count] = Tracker(placed, origin, direction, end);
         if (trackers[count].meets() && trackers[count].advance(sampler.random())) ++count;
     }
-    for (int i = 0; i < mostCandidates && count > 0; ++i) {
+    for (int i = 0; i < maxCandidates && count > 0; ++i) {
         Tracker* nearest =
             std::min_element(trackers, trackers + count, [](const Tracker& a, const Tracker& b) {
                 return a.distance < b.distance;
@@ -181,13 +181,13 @@ vec3 VolumeScene::transmittance(const vec3& origin, const vec3& direction, float
     for (const Placed& placed : _placed) {
         if (!(shadow ? placed.visibility.shadow : placed.visibility.indirect)) continue;
         Tracker tracker(placed, origin, direction, end);
-        for (int i = 0; i < mostCandidates && tracker.meets() && tracker.advance(sampler.random());
+        for (int i = 0; i < maxCandidates && tracker.meets() && tracker.advance(sampler.random());
              ++i) {
             const vec3 extinction = tracker.medium().at(tracker.at(tracker.distance)).extinction();
             through *= glm::max(1.0f - extinction / tracker.majorant, vec3(0.0f));
-            const float most = std::max({through.x, through.y, through.z});
-            if (most < rouletteBelow) {
-                const float survive = most / rouletteBelow;
+            const float maximum = std::max({through.x, through.y, through.z});
+            if (maximum < rouletteBelow) {
+                const float survive = maximum / rouletteBelow;
                 if (!(sampler.random() < survive)) return vec3(0.0f);
                 through /= survive;
             }

@@ -11,12 +11,13 @@ namespace {
 
 using glm::vec2;
 using glm::vec3;
-constexpr float kPi = 3.14159265f;
-constexpr float kTexel = 4.0f * kPi / (float(MeasuredSky::width) * float(MeasuredSky::height));
+constexpr float pi = 3.14159265f;
+constexpr float texelSolidAngle =
+    4.0f * pi / (float(MeasuredSky::width) * float(MeasuredSky::height));
 
 /// As of shaders/raster/lighting.frag.glsl, RasterRenderer and RasterPasses.
-constexpr float kLightTrust = 8.0f;
-constexpr int kDirections = 4, kMaterialSamples = 2;
+constexpr float lightTrust = 8.0f;
+constexpr int directionCount = 4, materialSamples = 2;
 
 float heuristic(float a, float b) {
     return a * a / std::max(a * a + b * b, 1e-30f);
@@ -24,7 +25,7 @@ float heuristic(float a, float b) {
 
 /// The level of the image that is as wide as a sample with this density among all is alone.
 float levelOf(float density) {
-    return 0.5f * std::log2(1.0f / std::max(density * kTexel, 1e-20f));
+    return 0.5f * std::log2(1.0f / std::max(density * texelSolidAngle, 1e-20f));
 }
 
 sh::LobeSample sampleOf(const DomePoint& p, uint32_t seed, uint32_t index) {
@@ -49,26 +50,26 @@ DomePoint::DomePoint(const Reflector& reflector, const vec3& n, float turn)
 double bySampling(const DomePoint& p, const MeasuredSky& sky, int passes, uint32_t seed) {
     double sum = 0.0;
     for (int pass = 0; pass < passes; ++pass) {
-        for (int n = 0; n < kDirections; ++n) {
-            const uint32_t index = uint32_t(pass * kDirections + n);
+        for (int n = 0; n < directionCount; ++n) {
+            const uint32_t index = uint32_t(pass * directionCount + n);
             float density = 0.0f;
             const vec3 d = sky.map.sample(Sampler(0, 1, seed, index).next2(), density);
             const vec3 wi = p.toLobe(d);
             if (density <= 0.0f || wi.z <= 0.0f) continue;
             const sh::LobeEval e = p.lobe.eval(wi);
-            const float chance = kDirections * sky.densityAt(d, 0.0f);
-            sum += double(e.value.x * sky.radiance(d) / (density * kDirections) *
-                          heuristic(kLightTrust * chance, kMaterialSamples * e.pdf));
+            const float chance = directionCount * sky.densityAt(d, 0.0f);
+            sum += double(e.value.x * sky.radiance(d) / (density * directionCount) *
+                          heuristic(lightTrust * chance, materialSamples * e.pdf));
         }
-        for (int k = 0; k < kMaterialSamples; ++k) {
-            const sh::LobeSample s = sampleOf(p, seed, uint32_t(pass * kMaterialSamples + k));
+        for (int k = 0; k < materialSamples; ++k) {
+            const sh::LobeSample s = sampleOf(p, seed, uint32_t(pass * materialSamples + k));
             if (s.event == 0) continue;
             const vec3 d = p.toDome(s.wi);
-            const float density = kMaterialSamples * s.pdf;
+            const float density = materialSamples * s.pdf;
             const float lod = levelOf(density * float(pass + 1));
-            const float chance = kDirections * sky.densityAt(d, std::max(lod, 0.0f));
-            sum += double(s.weight.x * sky.image.at(d, lod).x / kMaterialSamples *
-                          heuristic(density, kLightTrust * chance));
+            const float chance = directionCount * sky.densityAt(d, std::max(lod, 0.0f));
+            sum += double(s.weight.x * sky.image.at(d, lod).x / materialSamples *
+                          heuristic(density, lightTrust * chance));
         }
     }
     return sum / passes;
@@ -87,7 +88,7 @@ double byFiltering(const DomePoint& p, const MeasuredSky& sky, int samples, uint
 
 double byHarmonics(const DomePoint& p, const MeasuredSky& sky, bool bare) {
     const SkyHarmonics& h = bare ? sky.bare : sky.harmonics;
-    double sum = double(p.lobe.albedo() * std::max(h.at(p.normal).x, 0.0f) / kPi);
+    double sum = double(p.lobe.albedo() * std::max(h.at(p.normal).x, 0.0f) / pi);
     const vec3 wi = p.toLobe(h.sunDirection);
     if (h.sunIrradiance.x > 0.0f && wi.z > 0.0f)
         sum += double(p.lobe.eval(wi).value.x * h.sunIrradiance.x);
@@ -100,7 +101,8 @@ double byPrefiltering(const DomePoint& p, const MeasuredSky& sky) {
     const float alpha = p.lobe.alpha;
     const float sharp =
         sky.image
-            .at(d, std::log2(std::max(alpha * alpha / std::sqrt(kTexel / (4.0f * kPi)), 1e-6f)))
+            .at(d, std::log2(
+                       std::max(alpha * alpha / std::sqrt(texelSolidAngle / (4.0f * pi)), 1e-6f)))
             .x;
     if (alpha <= 0.02f) return double(p.lobe.albedo() * sharp);
     const float level = PrefilteredSky::levelOf(alpha);

@@ -10,14 +10,14 @@ namespace patina::measure {
 namespace {
 
 using glm::vec3;
-constexpr float kPi = 3.14159265f;
-constexpr int kDensityWidth = 512; ///< RasterDomes::densityWidth
+constexpr float pi = 3.14159265f;
+constexpr int densityWidth = 512; ///< RasterDomes::densityWidth
 
 constexpr int w = MeasuredSky::width, h = MeasuredSky::height;
 
 /// Of a texel.
 float solidAngle(int y) {
-    return (std::cos(float(y) / h * kPi) - std::cos(float(y + 1) / h * kPi)) * 2.0f * kPi / w;
+    return (std::cos(float(y) / h * pi) - std::cos(float(y + 1) / h * pi)) * 2.0f * pi / w;
 }
 
 std::vector<vec3> onGrid(int width, const std::function<float(const vec3&)>& value) {
@@ -32,7 +32,7 @@ float meanOf(const std::vector<vec3>& grid) {
     double sum = 0.0;
     for (size_t i = 0; i < grid.size(); ++i)
         sum += double(grid[i].x * solidAngle(int(i) / w));
-    return float(sum / (4.0 * kPi));
+    return float(sum / (4.0 * pi));
 }
 
 std::shared_ptr<const ImageRGB> imageOf(std::vector<vec3> texels) {
@@ -51,8 +51,8 @@ std::shared_ptr<const ImageRGB> imageOf(std::vector<vec3> texels) {
 
 MeasuredSky::MeasuredSky(const char* n, std::shared_ptr<const ImageRGB> sky)
     : name(n), map(sky, EnvironmentFormat::Latlong), image(w, h, sky->pixels),
-      density(kDensityWidth, kDensityWidth / 2,
-              onGrid(kDensityWidth, [&](const vec3& d) { return map.pdf(d); })) {
+      density(densityWidth, densityWidth / 2,
+              onGrid(densityWidth, [&](const vec3& d) { return map.pdf(d); })) {
     const auto light = [&](const vec3& d) { return map.radiance(d); };
     harmonics = makeSkyHarmonics(light);
     bare = makeSkyHarmonics(light, false, false);
@@ -74,7 +74,7 @@ MeasuredSky::MeasuredSky(const char* n, std::shared_ptr<const ImageRGB> sky)
 }
 
 float MeasuredSky::densityAt(const vec3& d, float lod) const {
-    const float finer = 0.5f * std::log2(2.0f * w * h) - std::log2(float(kDensityWidth));
+    const float finer = 0.5f * std::log2(2.0f * w * h) - std::log2(float(densityWidth));
     return density.at(d, std::max(lod - finer, 0.0f)).x;
 }
 

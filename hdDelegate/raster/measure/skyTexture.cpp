@@ -9,7 +9,7 @@ namespace {
 
 using glm::vec2;
 using glm::vec3;
-constexpr float kPi = 3.14159265f;
+constexpr float pi = 3.14159265f;
 
 } // namespace
 
@@ -33,13 +33,13 @@ SkyTexture::SkyTexture(int width, int height, std::vector<vec3> texels) {
 }
 
 vec2 SkyTexture::place(const vec3& d) {
-    return vec2(0.5f - std::atan2(d.x, d.z) / (2.0f * kPi),
-                std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi);
+    return vec2(0.5f - std::atan2(d.x, d.z) / (2.0f * pi),
+                std::acos(std::clamp(d.y, -1.0f, 1.0f)) / pi);
 }
 
 vec3 SkyTexture::direction(int x, int y, int width, int height) {
-    const float longitude = (0.5f - (float(x) + 0.5f) / float(width)) * 2.0f * kPi;
-    const float theta = (float(y) + 0.5f) / float(height) * kPi;
+    const float longitude = (0.5f - (float(x) + 0.5f) / float(width)) * 2.0f * pi;
+    const float theta = (float(y) + 0.5f) / float(height) * pi;
     return vec3(std::sin(theta) * std::sin(longitude), std::cos(theta),
                 std::sin(theta) * std::cos(longitude));
 }

@@ -50,13 +50,13 @@ AgreementAnswer answerOf(const BoundLobe& lobe, const AgreementPoint& p) {
 
 namespace {
 
-double relative(double a, double b, double least = 1e-6) {
-    const double d = std::fabs(a - b) / std::max(std::fabs(b), least);
+double relative(double a, double b, double minimum = 1e-6) {
+    const double d = std::fabs(a - b) / std::max(std::fabs(b), minimum);
     return std::isfinite(d) ? d : 1e30;
 }
-double relative(vec3 a, vec3 b, double least) {
-    return std::max(relative(a.x, b.x, least),
-                    std::max(relative(a.y, b.y, least), relative(a.z, b.z, least)));
+double relative(vec3 a, vec3 b, double minimum) {
+    return std::max(relative(a.x, b.x, minimum),
+                    std::max(relative(a.y, b.y, minimum), relative(a.z, b.z, minimum)));
 }
 
 } // namespace

@@ -34,7 +34,7 @@ void begin(const FieldStreamHeader& header) {
 }
 
 /// Ends the stream, early where bricks were already written.
-void tell(const std::string& problem) {
+void report(const std::string& problem) {
     if (!begun) begin({});
     FieldStreamBrick end;
     end.place[0] = -1;
@@ -120,10 +120,10 @@ std::string read(const std::string& file, const std::string& field) {
     return "the grid holds neither numbers nor vectors";
 }
 
-template <class Resource> void limit(Resource resource, rlim_t most) {
+template <class Resource> void limit(Resource resource, rlim_t maximum) {
     rlimit now;
     if (::getrlimit(resource, &now) != 0) return;
-    now.rlim_cur = std::min(now.rlim_max, most);
+    now.rlim_cur = std::min(now.rlim_max, maximum);
     ::setrlimit(resource, &now);
 }
 
@@ -163,7 +163,7 @@ int main(int argc, char** argv) {
     } catch (const std::exception& e) {
         problem = e.what();
     }
-    tell(problem);
+    report(problem);
     // Without the destructors of a tree that may be damaged.
     const bool done = std::fflush(stdout) == 0;
     ::_exit(done ? 0 : 3);

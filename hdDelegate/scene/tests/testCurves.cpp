@@ -345,9 +345,9 @@ TEST(Points, widthsNormalsAndPrimvars) {
     EXPECT_EQ(out[2], 1.0f);
     points.primvars = {makePrimvar("normals", Interpolation::Constant, 3, {0, 5, 0}),
                        makePrimvar("widths", Interpolation::Constant, 1, {3})};
-    const PointSet discs = buildPoints(points, {}, diagnostics);
-    EXPECT_EQ(discs.normals[0], (std::vector<vec3>(3, vec3(0, 1, 0))));
-    EXPECT_EQ(discs.points[0][2].w, 1.5f);
+    const PointSet disks = buildPoints(points, {}, diagnostics);
+    EXPECT_EQ(disks.normals[0], (std::vector<vec3>(3, vec3(0, 1, 0))));
+    EXPECT_EQ(disks.points[0][2].w, 1.5f);
 }
 
 TEST(Points, badOnesAreLeftOutWithTheirValues) {
@@ -364,7 +364,7 @@ TEST(Points, badOnesAreLeftOutWithTheirValues) {
     EXPECT_TRUE(warned(diagnostics, "/points", "widths"));
 }
 
-long mostMemory() { // kB that the process ever took
+long peakMemory() { // kB that the process ever took
     rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     return usage.ru_maxrss;
@@ -373,12 +373,12 @@ long mostMemory() { // kB that the process ever took
 // A layout of a billion points would take 8 GB, one of a million 8 MB.
 TEST(Curves, CountsBeyondThePointsTakeNoMemory) {
     for (CurveBasis basis : {CurveBasis::Linear, CurveBasis::Bezier, CurveBasis::CatmullRom}) {
-        const Curves curves = makeCurves(basis, CurveWrap::Nonperiodic, {4, 1000000000, 4, -1, 4},
-                                         line(4));
+        const Curves curves =
+            makeCurves(basis, CurveWrap::Nonperiodic, {4, 1000000000, 4, -1, 4}, line(4));
         Diagnostics diagnostics;
-        const long before = mostMemory();
+        const long before = peakMemory();
         const CurveSet set = buildCurves(curves, {}, diagnostics);
-        EXPECT_LT(mostMemory() - before, 8192);
+        EXPECT_LT(peakMemory() - before, 8192);
         EXPECT_EQ(std::set<int>(set.segmentCurve.begin(), set.segmentCurve.end()),
                   std::set<int>{0});
         ASSERT_GE(diagnostics.count(), 1);

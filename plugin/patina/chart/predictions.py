@@ -29,7 +29,7 @@ COLUMNS = ("stage", "backend", "tolerance", "predicted", "methodError", "methodW
 WITHIN, OUTSIDE, SAMPLES, SECONDS, REFERENCE = "within", "outside", "samples ended", "seconds ended", "reference noisy"
 
 # The error of a few pixels is a matter of chance: several such pictures, with seeds of their own, stand for a larger one.
-FEW_PIXELS, MOST_REPEATS = 64, 4
+MIN_PIXELS, MAX_REPEATS = 64, 4
 
 
 @dataclass
@@ -58,9 +58,9 @@ class Row:
         return asdict(self)
 
 
-def check(path, arguments, backend, tolerances, samples, most, seconds):
+def check(path, arguments, backend, tolerances, samples, maximum, seconds):
     """:param samples: per pixel, of the renders that methods are compared by
-    :param most: samples per pixel that the adaptive render takes
+    :param maximum: samples per pixel that the adaptive render takes
     :param seconds: for each render; twice that for the reference
     :returns: iterator of Row, one for each tolerance
     """
@@ -82,10 +82,10 @@ def check(path, arguments, backend, tolerances, samples, most, seconds):
     taken = max(1, int(min(t.samples for t in truths)))
     render(0, None, 1)
     defaults = [render(seed, None, taken) for seed in seeds]
-    repeats = min(-(-FEW_PIXELS // (renders.width * renders.height)), MOST_REPEATS)
-    every = {t: [render(arguments.seed + 7 + k, t, most, True) for k in range(repeats)] for t in tolerances}
-    least = 2.0 * max(w.most for wholes in every.values() for w in wholes)
-    reference, noise = _reference(render, arguments.seed + 100, samples, min(tolerances), seconds, least)
+    repeats = min(-(-MIN_PIXELS // (renders.width * renders.height)), MAX_REPEATS)
+    every = {t: [render(arguments.seed + 7 + k, t, maximum, True) for k in range(repeats)] for t in tolerances}
+    minimum = 2.0 * max(w.maximum for wholes in every.values() for w in wholes)
+    reference, noise = _reference(render, arguments.seed + 100, samples, min(tolerances), seconds, minimum)
     scale = np.maximum(reference, 0.0) + 0.01
     for tolerance in tolerances:
         row = Row(name, backend, tolerance, width=renders.width, height=renders.height)
@@ -103,7 +103,7 @@ def check(path, arguments, backend, tolerances, samples, most, seconds):
         row.error = max(_mean([np.abs(w.image - reference) / scale for w in wholes]) ** 2 - noise**2, 0.0) ** 0.5
         if any(w.wall >= seconds > 0.0 for w in wholes):
             row.state = SECONDS
-        elif any(w.most >= most for w in wholes):
+        elif any(w.maximum >= maximum for w in wholes):
             row.state = SAMPLES
         elif noise > tolerance / 2.0:
             row.state = REFERENCE
@@ -116,14 +116,14 @@ class _Image:
     def __init__(self, result, statistics, wall):
         self.image = result.image.astype(np.float64) @ LUMINANCE
         self.predicted = statistics.get("predictedError", 0.0)
-        self.samples, self.most, self.wall = result.samples, result.most, wall
+        self.samples, self.maximum, self.wall = result.samples, result.maximum, wall
         self.perSample = result.seconds * result.busy / max(result.samples, 1e-9)
 
 
-def _reference(render, seed, samples, tolerance, seconds, least):
+def _reference(render, seed, samples, tolerance, seconds, minimum):
     """The mean of truths, more and more samples of them, until noise takes less than half of the tolerance or time is over.
 
-    :param least: samples per pixel that it has in any case, for of light that neither half has found none is missed
+    :param minimum: samples per pixel that it has in any case, for of light that neither half has found none is missed
     :returns: it and its noise, the mean over the pixels relative to it
     """
     sums, counts, spent, noise, image = [0.0, 0.0], [0.0, 0.0], 0.0, 1.0, None
@@ -136,11 +136,11 @@ def _reference(render, seed, samples, tolerance, seconds, least):
         halves = [s / c for s, c in zip(sums, counts)]
         image = (halves[0] + halves[1]) / 2.0
         noise = _mean(np.abs(halves[0] - halves[1]) / 2.0 / (np.maximum(image, 0.0) + 0.01))
-        enough = noise <= tolerance / 2.2 and sum(counts) >= least
+        enough = noise <= tolerance / 2.2 and sum(counts) >= minimum
         if enough or (seconds and spent >= 2.0 * seconds) or counts[0] >= 1e8:
             return image, noise
         # Doubled at least; at most what noise and time ask for.
-        factor = min(max((2.2 * noise / tolerance) ** 2 - 1.0, least / sum(counts) - 1.0, 0.1), 3.0)
+        factor = min(max((2.2 * noise / tolerance) ** 2 - 1.0, minimum / sum(counts) - 1.0, 0.1), 3.0)
         if seconds:
             factor = min(factor, max(2.0 * seconds / spent - 1.0, 0.1) * 1.1)
         seed, samples = seed + 2, max(1, int(counts[0] * factor))

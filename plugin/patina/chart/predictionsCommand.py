@@ -28,7 +28,7 @@ def run(arguments):
     a.imageWidth = a.imageWidth or DEFAULT_WIDTH
     a.set = a.set or []
     given = a.tolerances or DEFAULT_TOLERANCES
-    most = a.maxSamples or recordFlags.MOST_SAMPLES
+    maximum = a.maxSamples or recordFlags.MAX_SAMPLES
     rows = []
     for stage in a.stages:
         inputs.note(stage)
@@ -37,7 +37,7 @@ def run(arguments):
     table = Table(a.out)
     for stage in dict.fromkeys(a.stages):
         for backend in (["embree", "raster"] if a.backend == "both" else [a.backend]):
-            for row in _rows(stage, a, backend, given, most):
+            for row in _rows(stage, a, backend, given, maximum):
                 rows.append(row)
                 table.add(row)
                 progress.say(f"{row.stage} {row.backend} {row.tolerance:g}: "
@@ -47,9 +47,9 @@ def run(arguments):
     return 0
 
 
-def _rows(stage, a, backend, tolerances, most):
+def _rows(stage, a, backend, tolerances, maximum):
     try:
-        yield from predictions.check(stage, a, backend, tolerances, a.methodSamples, most, a.seconds or DEFAULT_SECONDS)
+        yield from predictions.check(stage, a, backend, tolerances, a.methodSamples, maximum, a.seconds or DEFAULT_SECONDS)
     except CommandError as error:
         yield predictions.Row(os.path.splitext(os.path.basename(stage))[0], backend, 0.0, problem=str(error))
 

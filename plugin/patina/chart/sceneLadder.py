@@ -8,7 +8,7 @@ from patina.chart.sceneRenders import BACKENDS, WORDS, OutOfTime, StageRenders
 from patina.cli.errors import CommandError
 
 FACTOR = 4          # from one count of samples to the next
-LEAST = 16          # samples that renders to a tolerance take in any case
+MIN_SAMPLES = 16    # samples that renders to a tolerance take in any case
 SHORT, REPEATS = 1.0, 3  # renders below so many seconds are repeated
 
 
@@ -47,12 +47,12 @@ class Ladder:
         return self.renders.seconds_to_read + self.first[rung.backend] + rung.seconds
 
 
-def counts(most):
+def counts(maximum):
     """1, 4, 16, ... and the most itself where it is none of these."""
     found = [1]
-    while found[-1] * FACTOR <= most:
+    while found[-1] * FACTOR <= maximum:
         found.append(found[-1] * FACTOR)
-    return found + ([most] if found[-1] < most else [])
+    return found + ([maximum] if found[-1] < maximum else [])
 
 
 def climb(path, arguments, methods, truth, folder, say):
@@ -167,46 +167,46 @@ class _Climber:
                 if made:
                     break
                 raise
-        met = not tolerance or all(r.most < samples for r in made)  # no pixel stopped for want of samples
+        met = not tolerance or all(r.maximum < samples for r in made)  # no pixel stopped for want of samples
         taken = statistics.mean(r.samples for r in made) if tolerance else samples
         rung = Rung(backend, taken, tolerance or 0.0, met, made)
         self.ladder.rungs.append(rung)
         return rung
 
     def tolerances(self, backends):
-        most = max(int(r.samples) for r in self.ladder.rungs)
-        if self.arguments.tolerances and most <= LEAST:
-            self.note(f"no tolerances: these take at least {LEAST} samples, and {most} are the most that were taken")
+        maximum = max(int(r.samples) for r in self.ladder.rungs)
+        if self.arguments.tolerances and maximum <= MIN_SAMPLES:
+            self.note(f"no tolerances: these take at least {MIN_SAMPLES} samples, and {maximum} are the most that were taken")
             return
         for backend in backends:
             for tolerance in self.arguments.tolerances:
-                self.tolerance(backend, tolerance, most)
+                self.tolerance(backend, tolerance, maximum)
 
-    def tolerance(self, backend, tolerance, most):
-        if not self.fits(self.per_sample[backend] * most, most, [backend]):
+    def tolerance(self, backend, tolerance, maximum):
+        if not self.fits(self.per_sample[backend] * maximum, maximum, [backend]):
             self.note(f"{WORDS[backend]}: tolerance {tolerance:g} left out, --seconds {self.arguments.seconds:g} would not do")
             return
         step = 1000 + self.arguments.tolerances.index(tolerance)
         try:
             # Other methods are other shaders, which drivers compile in the first frame.
             self.renders.render(backend, self.settings(1, step, 0, tolerance))
-            rung = self.rung(backend, most, step, tolerance)
+            rung = self.rung(backend, maximum, step, tolerance)
         except OutOfTime:
             self.note(f"{WORDS[backend]}: tolerance {tolerance:g} was given up, --seconds {self.arguments.seconds:g} are over")
             return
         if not rung.met:
-            self.note(f"{WORDS[backend]}: tolerance {tolerance:g} was not met by {most} samples everywhere (--maxSamples)")
+            self.note(f"{WORDS[backend]}: tolerance {tolerance:g} was not met by {maximum} samples everywhere (--maxSamples)")
 
     def references(self, backends):
         a = self.arguments
-        most = max(int(r.samples) for r in self.ladder.rungs)
+        maximum = max(int(r.samples) for r in self.ladder.rungs)
         if self.renders.deadline:
             self.renders.deadline -= self.comparing()
         if a.reference:
             self.ladder.references["all"] = sceneReference.brought(a.reference, self.renders)
             if "raster" not in backends:
                 return
-        samples = a.referenceSamples or sceneReference.SAMPLES_FACTOR * most
+        samples = a.referenceSamples or sceneReference.SAMPLES_FACTOR * maximum
         wanted = [] if a.reference else [("all", None)]
         if "raster" in backends:
             wanted.append(("direct", sceneReference.DIRECT))
@@ -220,9 +220,9 @@ class _Climber:
                 self.note("no reference of direct light: the time is over")
                 continue
             self.ladder.references[name] = found
-            if found.samples < sceneReference.SAMPLES_FACTOR * most:
+            if found.samples < sceneReference.SAMPLES_FACTOR * maximum:
                 self.note(f"the reference ({name} light) has {found.samples:.0f} samples, fewer than "
-                          f"{sceneReference.SAMPLES_FACTOR} times the {most} of the finest render: its own noise is part of "
+                          f"{sceneReference.SAMPLES_FACTOR} times the {maximum} of the finest render: its own noise is part of "
                           "the errors")
 
     def look_for_other_work(self):

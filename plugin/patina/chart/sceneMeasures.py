@@ -166,8 +166,8 @@ def _level(front, error):
 
 def expected_level(traced, drawn, order):
     """When the path tracer's error falls to the rasterizer's least one, if it falls as samples to the power of -order."""
-    last, least = pareto(traced)[-1], pareto(drawn)[-1][1]
-    return last[0] * max(1.0, last[1] / least) ** (1.0 / order) if least > 0.0 else None
+    last, minimum = pareto(traced)[-1], pareto(drawn)[-1][1]
+    return last[0] * max(1.0, last[1] / minimum) ** (1.0 / order) if minimum > 0.0 else None
 
 
 def seconds_text(seconds):

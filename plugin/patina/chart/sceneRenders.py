@@ -11,7 +11,7 @@ from patina.cli.errors import CommandError
 BACKENDS = ("embree", "raster")
 WORDS = {"embree": "path tracer", "raster": "rasterizer"}
 DEFAULT_WIDTH = 256
-MOST_PIXELS = 1 << 24
+MAX_PIXELS = 1 << 24
 
 
 class OutOfTime(Exception):
@@ -25,7 +25,7 @@ class Render:
     wall: float          # all of it, from the start of the render on
     busy: float          # cores that it had, mean over its wall time
     samples: float       # per pixel, mean
-    most: float          # of any pixel
+    maximum: float       # of any pixel
     noise: float         # relMSE of its own noise, by the variance of its pixels' luminance
 
 
@@ -54,7 +54,7 @@ class StageRenders:
         aspect = apertures[0] / apertures[1] if min(apertures) > 0.0 else 16.0 / 9.0
         width = self.arguments.imageWidth or DEFAULT_WIDTH
         height = max(1, round(width / aspect))
-        if width * height > MOST_PIXELS:
+        if width * height > MAX_PIXELS:
             raise CommandError(f"an image of {width} x {height} pixels is too large for a chart")
         return width, height
 

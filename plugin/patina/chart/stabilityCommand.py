@@ -3,12 +3,12 @@ import csv
 import json
 import os
 
-from patina.chart import stabilityPage, sweepsClassic, sweepsDiffuse, sweepsEnergy, sweepsFacets, sweepsFilm, sweepsFrames
+from patina.chart import stabilityPage, sweepsClassic, sweepsDiffuse, sweepsEnergy, sweepsMicrofacets, sweepsFilm, sweepsFrames
 from patina.chart import sweepsFresnel, sweepsLayers, sweepsPlan, sweepsSky
 from patina.cli import outputs
 from patina.cli.errors import CommandError, UsageError
 
-FAMILIES = {"Fresnel": sweepsFresnel, "facets": sweepsFacets, "energy": sweepsEnergy, "diffuse": sweepsDiffuse,
+FAMILIES = {"Fresnel": sweepsFresnel, "facets": sweepsMicrofacets, "energy": sweepsEnergy, "diffuse": sweepsDiffuse,
             "film": sweepsFilm, "layers": sweepsLayers, "classic": sweepsClassic, "frames": sweepsFrames, "sky": sweepsSky,
             "plan": sweepsPlan}
 COLUMNS = ("sweep", "x", "method", "value", "truth", "error", "bound", "chosen")

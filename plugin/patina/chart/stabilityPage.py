@@ -24,7 +24,7 @@ OVERVIEW = ("alpha to 0, mirror switch", "noise of samplers at grazing views", "
             "V-cavities at grazing angles", "anisotropy in tables", "normals below the horizon, mirror", "layer over grey")
 
 
-def _most(values):
+def _maximum(values):
     """:returns: the largest, in words"""
     values = np.asarray(values, float)
     return f"{values.max():.2g}" if np.isfinite(values).all() else "no number"
@@ -32,15 +32,15 @@ def _most(values):
 
 def caption(sweep):
     used = ", then ".join(dict.fromkeys(sweep.chosen))
-    return (f"{sweep.fails} Largest error of {sweep.failing}: {_most(sweep.error(sweep.failing))}; of what is used "
-            f"({used}): {_most(sweep.held())}, bound {sweep.bound:.2g}.")
+    return (f"{sweep.fails} Largest error of {sweep.failing}: {_maximum(sweep.error(sweep.failing))}; of what is used "
+            f"({used}): {_maximum(sweep.held())}, bound {sweep.bound:.2g}.")
 
 
 def listing(sweeps):
     """The sweeps as text, for a terminal."""
     lines = [f"{'sweep':<40}{'fails':<26}{'error':>10}  {'used':<26}{'error':>10}{'bound':>10}"]
     for s in sweeps:
-        lines.append(f"{s.name:<40}{s.failing:<26}{_most(s.error(s.failing)):>10}  {s.chosen[-1]:<26}{_most(s.held()):>10}"
+        lines.append(f"{s.name:<40}{s.failing:<26}{_maximum(s.error(s.failing)):>10}  {s.chosen[-1]:<26}{_maximum(s.held()):>10}"
                      f"{s.bound:>10.2g}")
     return "\n".join(lines)
 

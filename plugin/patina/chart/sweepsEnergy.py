@@ -3,7 +3,7 @@ import numpy as np
 
 from patina.chart import probes
 from patina.chart.sweeps import Sweep, always
-from patina.chart.sweepsFacets import white_metal
+from patina.chart.sweepsMicrofacets import white_metal
 
 ALBEDOS = ("table", "fit", "karis", "mirror", "monteCarlo16", "monteCarlo64", "quadrature")
 COMPENSATIONS = ("turquin", "kullaConty", "none")

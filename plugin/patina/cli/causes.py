@@ -10,7 +10,7 @@ and within each what was met most often first.
 """
 import re
 
-MOST = 20  # causes on the terminal; all of them are in --json
+MAX_CAUSES = 20  # causes on the terminal; all of them are in --json
 SEVERITIES = ("error", "warning")
 
 # What messages say where something is missing.
@@ -80,12 +80,12 @@ class Causes:
     def lines(self, told=None, last=True):
         """:param told: dict that remembers what was shown before, which is not shown again ...
         :param last: ... unless this is the last call, and it was met more often since
-        :returns: lines of at most MOST causes for all calls with the same dict; the last call says how many there are more"""
+        :returns: lines of at most MAX_CAUSES causes for all calls with the same dict; the last call says how many more"""
         told = {} if told is None else told
         out, hidden = [], 0
         for group in self.groups:
             key = group["severity"], group["message"], group["prim"], group["input"]
-            if key not in told and len(told) >= MOST:
+            if key not in told and len(told) >= MAX_CAUSES:
                 hidden += 1
             elif key not in told or (last and group["count"] > told[key]):
                 told[key] = group["count"]

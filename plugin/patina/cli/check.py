@@ -76,7 +76,7 @@ def run(arguments):
                 _print(*results[-1], width)
     finally:  # also of what was not checked any more
         work.progress.clear()
-        statistics.tell(warnings, sys.stderr)
+        statistics.report(warnings, sys.stderr)
     outputs.write_json(arguments.json, {"materials": [{"name": name, "checks": outcomes} for name, outcomes in results],
                  "causes": statistics.Causes(warnings).groups, "warnings": warnings})
     failures = [(name, kind, outcome) for name, outcomes in results for kind, outcome in outcomes.items()

@@ -54,7 +54,7 @@ def run(arguments):
         print("\n" + "\n".join(planText.scene_lines(plans, tolerance)))
     if choices or lit:
         print("\n".join(planText.choice_lines(choices) + planText.lit_lines(lit)))
-    statistics.tell(warnings, sys.stderr)
+    statistics.report(warnings, sys.stderr)
 
 
 def _of_scene(arguments, chosen, tolerance):

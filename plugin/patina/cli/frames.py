@@ -8,7 +8,7 @@ FRAMESPEC_HELP = (
     "time codes to render: a number, START:END or START:ENDxSTRIDE, several of them separated by commas, as in "
     "1,5:8,10:20x2,1:2x0.5; STARTTIME and ENDTIME stand for the stage's own (STARTTIME:ENDTIME). The image's name "
     "then holds the frame's place as #: image.####.png or image.###.##.png")
-MOST_FRAMES = 1000000
+MAX_FRAMES = 1000000
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 _PLACE = re.compile(r"#+(\.#+)?")
 
@@ -43,9 +43,9 @@ def expand(spec, start, end):
             raise UsageError(f"patina record: --frames {spec}: a stride of {step} leads nowhere")
         stride = math.copysign(stride, b - a)
         steps = (b - a) / stride  # infinite where the stride is tiny
-        count = int(math.floor(steps + 1e-6)) + 1 if steps < MOST_FRAMES else MOST_FRAMES + 1
-        if len(frames) + count > MOST_FRAMES:
-            raise UsageError(f"patina record: --frames {spec} means more than {MOST_FRAMES} frames")
+        count = int(math.floor(steps + 1e-6)) + 1 if steps < MAX_FRAMES else MAX_FRAMES + 1
+        if len(frames) + count > MAX_FRAMES:
+            raise UsageError(f"patina record: --frames {spec} means more than {MAX_FRAMES} frames")
         frames += [a + i * stride for i in range(count)]
         decimals = max([decimals] + [_decimals(text) for text in (first, last if colon else "", step)])
     return frames, decimals

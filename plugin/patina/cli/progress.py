@@ -63,8 +63,8 @@ class Progress:
             bar = f" [{'#' * filled}{'.' * (BAR - filled)}] "
             # A line that wraps would stay: long labels, which are paths, show their ends.
             room = shutil.get_terminal_size().columns - 1
-            most = max(room - len(bar) - len(text), 12)
-            label = self.label if len(self.label) <= most else "..." + self.label[3 - most:]
+            maximum = max(room - len(bar) - len(text), 12)
+            label = self.label if len(self.label) <= maximum else "..." + self.label[3 - maximum:]
             self.stream.write("\r\033[K" + (label + bar + text)[:room])
         else:
             self.stream.write(f"{self.label}: {text}\n")

@@ -121,7 +121,7 @@ class _Job:
             width = DEFAULT_WIDTH if height is None else max(1, round(height * aspect))
         if height is None:
             height = max(1, round(width / aspect))
-        if width * height > recordFlags.MOST_PIXELS or max(width, height) > recordFlags.LARGEST_SIZE:
+        if width * height > recordFlags.MAX_PIXELS or max(width, height) > recordFlags.LARGEST_SIZE:
             raise CommandError(f"an image of {width} x {height} pixels is too large")
         return {"width": width, "height": height}
 
@@ -176,17 +176,17 @@ class _Job:
         """Shows what is new; with --strict the render ends here."""
         self.statistics.collect(self.scene)
         warnings = self.statistics.warnings()
-        self._tell(warnings)
+        self._report(warnings)
         if self.arguments.strict and warnings:
             raise CommandError(f"--strict: {len(warnings)} warnings, the worst: {statistics.lines(warnings)[0]}")
 
-    def _tell(self, warnings, last=False):
+    def _report(self, warnings, last=False):
         fresh, self.reported = len(warnings) != self.reported, len(warnings)
         if not self.arguments.quiet and (fresh or last):
             for text in statistics.Causes(warnings).lines(self.told, last):
                 Progress("").say(text)
 
     def report(self):
-        self._tell(self.statistics.warnings(), last=True)
+        self._report(self.statistics.warnings(), last=True)
         if self.arguments.json:
             self.statistics.write(self.arguments.json)

@@ -6,12 +6,12 @@ from patina.cli.errors import UsageError
 
 COMPLEXITIES = {"low": 1.0, "medium": 1.1, "high": 1.2, "veryhigh": 1.3}
 DEFAULT_SAMPLES = 64
-MOST_SAMPLES = 65536  # where only --tolerance or --seconds ends the render
+MAX_SAMPLES = 65536  # where only --tolerance or --seconds ends the render
 ALL_AOVS = ("depth", "cameraDepth", "normal", "Neye", "position", "albedo", "primvars:st", "primId", "instanceId",
             "elementId", "sampleCount", "variance")
 LARGEST_SIZE = 65536
-MOST_THREADS = 4096
-MOST_PIXELS = 1 << 28
+MAX_THREADS = 4096
+MAX_PIXELS = 1 << 28
 
 
 def add_arguments(parser):
@@ -50,13 +50,13 @@ def _add_render_flags(group):
                        help="what renders (default: embree, which also takes over where raster finds no OpenGL)")
     group.add_argument("--samples", type=_count, metavar="N",
                        help=f"samples per pixel, the most that are taken (default: {DEFAULT_SAMPLES}; with "
-                            f"--tolerance or --seconds: {MOST_SAMPLES})")
+                            f"--tolerance or --seconds: {MAX_SAMPLES})")
     group.add_argument("--minSamples", type=_count, metavar="N",
                        help="adaptive sampling takes no fewer (default: 16)")
     add_tolerance_flag(group)
     group.add_argument("--seconds", type=_not_negative, default=0.0, metavar="S", help="stop after so many seconds")
     group.add_argument("--threads", type=_threads, default=0, metavar="N",
-                       help=f"1 to {MOST_THREADS} (default: all cores)")
+                       help=f"1 to {MAX_THREADS} (default: all cores)")
     group.add_argument("--seed", type=_seed, default=0, metavar="N",
                        help="another seed, another noise; the same seed gives the same bits (default: 0)")
     group.add_argument("--maxDepth", type=_count, default=-1, metavar="N",
@@ -146,7 +146,7 @@ def settings_of(arguments):
     tolerance = -1.0 if arguments.tolerance is None else arguments.tolerance
     endless = tolerance > 0.0 or arguments.seconds > 0.0
     settings = {
-        "samples": arguments.samples or (MOST_SAMPLES if endless else DEFAULT_SAMPLES),
+        "samples": arguments.samples or (MAX_SAMPLES if endless else DEFAULT_SAMPLES),
         "pixelAspectRatio": arguments.pixelAspectRatio,
         "enableMotionBlur": not arguments.disableMotionBlur,
         "enableDepthOfField": not arguments.disableDepthOfField,
@@ -206,9 +206,9 @@ def _complexity(text):
     return value
 
 
-def _integer(text, least, most):
+def _integer(text, minimum, maximum):
     value = int(text)
-    if not least <= value <= most:
+    if not minimum <= value <= maximum:
         raise ValueError
     return value
 
@@ -218,7 +218,7 @@ def _count(text):
 
 
 def _threads(text):
-    return _integer(text, 1, MOST_THREADS)
+    return _integer(text, 1, MAX_THREADS)
 
 
 def _environment_samples(text):
@@ -267,7 +267,7 @@ def _window(text):
 
 # argparse shows the name of the function in its message about a bad value.
 for _function, _name in ((_complexity, "complexity"), (_count, "count (1 or more)"), (_size, "size in pixels"),
-                         (_threads, f"count of threads (1 to {MOST_THREADS})"),
+                         (_threads, f"count of threads (1 to {MAX_THREADS})"),
                          (_seed, "seed"), (_not_negative, "number (0 or more)"), (_positive, "number (above 0)"),
                          (_window, "window X0,Y0,X1,Y1"), (_filter_radius, "radius (0 to 1000)")):
     _function.__name__ = _name

@@ -20,7 +20,7 @@ def warning(message, prim="", name=""):
     return {"prim": prim, "input": name, "message": message, "count": 1}
 
 
-def tell(warnings, stream):
+def report(warnings, stream):
     """Prints those lines."""
     for text in lines(warnings):
         print(text, file=stream)

@@ -4,7 +4,7 @@ from pxr import Gf, Usd, UsdGeom
 
 from .errors import one_line
 
-MOST_MOTION_SAMPLES = 16
+MAX_MOTION_SAMPLES = 16
 
 
 class Context:
@@ -54,9 +54,9 @@ class Context:
         :returns: ascending times relative to the frame"""
         frame, (start, end) = self.time.GetValue(), self.shutter
         inside = sorted({float(s) - frame for s in samples if start < float(s) - frame < end})
-        if len(inside) > MOST_MOTION_SAMPLES - 2:
-            step = (end - start) / (MOST_MOTION_SAMPLES - 1)
-            inside = [start + step * i for i in range(1, MOST_MOTION_SAMPLES - 1)]
+        if len(inside) > MAX_MOTION_SAMPLES - 2:
+            step = (end - start) / (MAX_MOTION_SAMPLES - 1)
+            inside = [start + step * i for i in range(1, MAX_MOTION_SAMPLES - 1)]
         return [start, *inside, end]
 
     def attribute_offsets(self, attribute):

@@ -16,10 +16,10 @@ def texture(lobes):
     module = compiled.load()
     table = np.array(module.albedo_table())
     used = {(words[0], words[3]) for words in (lobe.split() for lobe in lobes)}
-    size = module.ALBEDO_FACET_SIZE
-    for facets in (0, 1):
-        if not any(kind in MICROFACETS and distribution == str(facets) for kind, distribution in used):
-            table[facets * size:(facets + 1) * size] = 0.0
+    size = module.ALBEDO_MICROFACET_SIZE
+    for ndf in (0, 1):
+        if not any(kind in MICROFACETS and distribution == str(ndf) for kind, distribution in used):
+            table[ndf * size:(ndf + 1) * size] = 0.0
     if not any(kind == "ward" for kind, _ in used):
         table[module.ALBEDO_WARD_TABLE:] = 0.0
     height = -(-len(table) // WIDTH)

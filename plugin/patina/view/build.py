@@ -9,7 +9,7 @@ from patina.cli import methods, outputs, statistics
 from patina.cli.errors import CommandError
 from patina.view import blobs, compareImages, controls, layers, materials, page, shapes, stageScene, surroundings
 
-MOST_MATERIALS = 64
+MAX_MATERIALS = 64
 
 
 class Builder:
@@ -27,8 +27,8 @@ class Builder:
             found, reading = reader.load(argument, self.arguments.set, every=True)
             self.warnings += reading
             for name, network in found:
-                if len(self.materials) == MOST_MATERIALS:
-                    raise CommandError(f"a page shows at most {MOST_MATERIALS} materials")
+                if len(self.materials) == MAX_MATERIALS:
+                    raise CommandError(f"a page shows at most {MAX_MATERIALS} materials")
                 self._add(reader.split(argument)[0], name, network, wanted)
         _share_presets(self.materials)
 

@@ -6,7 +6,7 @@ import os
 from patina.cli import compiled
 from patina.view import live
 
-MOST_PROGRAMS = 24  # of a material
+MAX_PROGRAMS = 24  # of a material
 OFF_ON = (("off", 0), ("on", 1))
 _WRAPS = ("constant", "clamp", "periodic", "mirror")
 _USD_WRAPS = ("useMetadata", "black", "clamp", "repeat", "mirror")
@@ -104,13 +104,13 @@ def combinations(choices):
     ranked = sorted(range(len(choices)), key=lambda i: (not choices[i].authored, i))
     for i in ranked:
         more = [start[:i] + (k,) + start[i + 1:] for k in range(len(choices[i].options)) if k != choices[i].at]
-        if len(made) + len(more) > MOST_PROGRAMS:
+        if len(made) + len(more) > MAX_PROGRAMS:
             left.append(i)
         else:
             made += more
     open_ones = [i for i in range(len(choices)) if i not in left]
     every = itertools.product(*[range(len(c.options)) if i in open_ones else (c.at,) for i, c in enumerate(choices)])
-    for picked in itertools.islice(every, 4 * MOST_PROGRAMS):
-        if len(made) < MOST_PROGRAMS and picked not in made:
+    for picked in itertools.islice(every, 4 * MAX_PROGRAMS):
+        if len(made) < MAX_PROGRAMS and picked not in made:
             made.append(picked)
     return made, left

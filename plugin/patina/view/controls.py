@@ -31,9 +31,9 @@ _NO_COLORS = ("ior", "extinction", "radius", "scale", "depth", "exponent")
 
 def _range(name, values):
     low, high, unit = 0.0, 1.0, ""
-    for names, (least, most), its_unit in _RANGES:
+    for names, (minimum, maximum), its_unit in _RANGES:
         if any(name.endswith(word) for word in names):
-            low, high, unit = least, most, its_unit
+            low, high, unit = minimum, maximum, its_unit
             break
     for value in values:
         if value < low:

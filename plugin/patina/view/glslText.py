@@ -4,7 +4,7 @@ import re
 from patina.cli import compiled
 from patina.view import live
 
-MOST_UNIFORMS = 128  # WebGL2 promises 224 vectors; more values come by a texture
+MAX_UNIFORMS = 128  # WebGL2 promises 224 vectors; more values come by a texture
 
 
 def lean(text):
@@ -27,7 +27,7 @@ def primvar_functions(primvars, count):
 
     :param count: live inputs of the material
     """
-    if count > MOST_UNIFORMS:
+    if count > MAX_UNIFORMS:
         text = ("uniform sampler2D liveTable;\n"
                 "vec4 liveAt(int i) { return texelFetch(liveTable, ivec2(i & 255, i >> 8), 0); }\n")
     else:
@@ -35,7 +35,7 @@ def primvar_functions(primvars, count):
     for slot, (name, kind) in enumerate(primvars):
         if re.fullmatch(live.PREFIX + r"\d+", name) and int(name[len(live.PREFIX):]) < count:
             i = int(name[len(live.PREFIX):])
-            value = f"liveAt({i})" if count > MOST_UNIFORMS else f"live[{i}]"
+            value = f"liveAt({i})" if count > MAX_UNIFORMS else f"live[{i}]"
         elif kind == "vector2":
             value = "vec4(vUv, 0.0, 1.0)"
         elif name == "displayColor":

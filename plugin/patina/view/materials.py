@@ -4,7 +4,7 @@ from patina.cli.errors import CommandError
 from patina.view import choices, controls, glslText, images, live
 
 LONGEST_TEXT = 200000
-MOST_TEXTURES = 12  # of 16; the page itself has albedos, environment, lights and parameters
+MAX_TEXTURES = 12  # of 16; the page itself has albedos, environment, lights and parameters
 _NOTES = (("subsurface", "subsurface scattering shows as diffuse reflection"),
           ("interior", "what light loses inside the object is not shown"),
           ("displacement", "displacement is not shown"))
@@ -33,9 +33,9 @@ def _variant(name, made, chosen, count, textures):
     if len(made["text"]) > LONGEST_TEXT:
         raise TooLarge(f"{name} is too large for a page: its shader has {len(made['text']) // 1000} thousand "
                            f"characters, and browsers give up on more than {LONGEST_TEXT // 1000} thousand")
-    if len(made["textures"]) > MOST_TEXTURES:
+    if len(made["textures"]) > MAX_TEXTURES:
         raise CommandError(f"{name} reads {len(made['textures'])} textures, and browsers promise room for "
-                           f"{MOST_TEXTURES} beside those of the page")
+                           f"{MAX_TEXTURES} beside those of the page")
     return {"text": glslText.material_text(made, count), "presence": made["presence"],
             "parameters": [float(f"{x:.7g}") for x in made["parameters"]], "live": sorted(chosen),
             "textures": [textures.add(found) for found in made["textures"]]}
@@ -92,7 +92,7 @@ def build(name, network, methods, textures):
         places[",".join(map(str, picked))] = programs.index(other)
         lobes += more
     fixed += [choices.Fixed(c.node, c.name, c.kind, c.options[c.at][0], "every value is a program of its own, and "
-                            f"a page has room for {choices.MOST_PROGRAMS} of them")
+                            f"a page has room for {choices.MAX_PROGRAMS} of them")
               for c in (found[i] for i in left)]
     material = {"name": name, "programs": programs, "places": places,
                 "inputs": [{"input": f"{i.node}.{i.name}", "kind": i.kind, "value": list(i.value)} for i in inputs],

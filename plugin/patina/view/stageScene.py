@@ -5,7 +5,7 @@ from patina.cli import compiled, openStage, overrides
 from patina.cli.errors import CommandError
 from patina.view import shapes
 
-MOST_SHAPES = 4
+MAX_SHAPES = 4
 
 
 class StageScene:
@@ -36,7 +36,7 @@ class StageScene:
                     raise CommandError(f"--shape: {self.file} has no mesh or implicit prim {path}")
             chosen = wanted
         else:
-            chosen = [path for path, material in known if material in material_paths][:MOST_SHAPES]
+            chosen = [path for path, material in known if material in material_paths][:MAX_SHAPES]
         made = []
         for path in chosen:
             try:

@@ -3,7 +3,7 @@
 // crowds where facets of GGX lean far, since that tail decides what is lost at small roughness.
 
 const int ALBEDO_QUADRATURE_ROWS = 48;
-const int ALBEDO_QUADRATURE_FACETS = ALBEDO_QUADRATURE_ROWS * ALBEDO_QUADRATURE_ROWS;
+const int ALBEDO_QUADRATURE_NORMALS = ALBEDO_QUADRATURE_ROWS * ALBEDO_QUADRATURE_ROWS;
 
 PATINA_FN float albedoFract(float x) {
     return x - floor(x);
@@ -11,16 +11,16 @@ PATINA_FN float albedoFract(float x) {
 
 // Facet j of a fixed few that stand for all that wo sees.
 const int ALBEDO_SEEN = 16;
-PATINA_FN vec3 seenFacet(vec3 wo, vec2 alpha, int facets, int j) {
+PATINA_FN vec3 visibleMicrofacet(vec3 wo, vec2 alpha, int ndf, int j) {
     float n = float(ALBEDO_SEEN);
     vec2 u = vec2((float(j) + 0.5f) / n, albedoFract((float(j) + 0.5f) * 0.618033989f));
-    return facetSampleVisible(wo, alpha, u, facets);
+    return microfacetSampleVisible(wo, alpha, u, ndf);
 }
 
-// Facet j of `count` (a square number, or ALBEDO_QUADRATURE_FACETS): (cosine between view and
+// Facet j of `count` (a square number, or ALBEDO_QUADRATURE_NORMALS): (cosine between view and
 // facet, its share of the reflected light).
-PATINA_FN vec2 sampledFacet(vec3 wo, vec2 alpha, int facets, int count, int j) {
-    bool lattice = count == ALBEDO_QUADRATURE_FACETS;
+PATINA_FN vec2 sampledMicrofacet(vec3 wo, vec2 alpha, int ndf, int count, int j) {
+    bool lattice = count == ALBEDO_QUADRATURE_NORMALS;
     int n = select(ALBEDO_QUADRATURE_ROWS, select(8, 4, count == 64), lattice);
     int row = j / n;
     int column = j - row * n;
@@ -31,13 +31,13 @@ PATINA_FN vec2 sampledFacet(vec3 wo, vec2 alpha, int facets, int count, int j) {
     x = select(0.5f, x, lattice);
     y = select(turn, y, lattice);
     float v = (float(row) + y) / float(n);
-    bool crowds = lattice && facets == FACETS_GGX;
+    bool crowds = lattice && ndf == NDF_GGX;
     vec2 u = vec2((float(column) + x) / float(n), select(1.0f - v * v * v, v, crowds));
-    vec3 m = facetSampleVisible(wo, alpha, u, facets);
+    vec3 m = microfacetSampleVisible(wo, alpha, u, ndf);
     float c = clamp(dot(wo, m), 0.0f, 1.0f);
     vec3 wi = m * (2.0f * c) - wo;
-    float left = facetG2OverG1(wo.z, facetLength(wo, alpha, facets), max(wi.z, 0.0f),
-                               facetLength(wi, alpha, facets));
+    float left = microfacetG2OverG1(wo.z, microfacetLength(wo, alpha, ndf), max(wi.z, 0.0f),
+                                    microfacetLength(wi, alpha, ndf));
     float weight = select(3.0f * v * v, 1.0f, crowds) / float(count);
     return vec2(c, select(weight * left, 0.0f, wi.z > 0.0f));
 }

@@ -13,39 +13,39 @@ const int ALBEDO_QUADRATURE = 6; // the same: truth
 // What a method can do at an interface; what it cannot is the tables'. eta: as in
 // fresnelDielectric, 1 for conductors. The fit knows isotropic GGX from the thinner side, and
 // Karis's curve the thinner side. A mirror's albedo is set where it is asked for.
-PATINA_FN int albedoMethod(int method, vec2 alpha, int facets, float eta) {
+PATINA_FN int albedoMethod(int method, vec2 alpha, int ndf, float eta) {
     bool thinner = eta >= 1.0f;
-    bool plain = alpha.x == alpha.y && facets == FACETS_GGX && thinner;
+    bool plain = alpha.x == alpha.y && ndf == NDF_GGX && thinner;
     bool can = (method != ALBEDO_FIT || plain) && (method != ALBEDO_KARIS || thinner) &&
                method != ALBEDO_MIRROR;
     return select(method, ALBEDO_TABLE, can);
 }
 
 // Whether the method is facets to be summed over, rather than the tables or Karis's curve.
-PATINA_FN bool albedoHasFacets(int method) {
+PATINA_FN bool albedoHasMicrofacets(int method) {
     return method != ALBEDO_TABLE && method != ALBEDO_KARIS;
 }
 
 // The facets of a method that has them.
-struct AlbedoFacets {
-    FacetRule rule;
+struct AlbedoMicrofacets {
+    MicrofacetRule rule;
     vec3 wo;
     vec2 alpha;
-    int facets;
+    int ndf;
     int method;
     int count;
 };
 
 // wo: on either side; alpha: not that of a mirror.
-PATINA_FN AlbedoFacets albedoFacets(vec3 wo, vec2 alpha, int facets, int method) {
-    AlbedoFacets a;
+PATINA_FN AlbedoMicrofacets albedoMicrofacets(vec3 wo, vec2 alpha, int ndf, int method) {
+    AlbedoMicrofacets a;
     a.wo = vec3(wo.x, wo.y, min(abs(wo.z), 1.0f));
     a.alpha = alpha;
-    a.facets = facets;
+    a.ndf = ndf;
     a.method = method;
     a.count = select(16, 3, method == ALBEDO_SAMPLES_16);
     a.count = select(64, a.count, method == ALBEDO_SAMPLES_64);
-    a.count = select(ALBEDO_QUADRATURE_FACETS, a.count, method == ALBEDO_QUADRATURE);
+    a.count = select(ALBEDO_QUADRATURE_NORMALS, a.count, method == ALBEDO_QUADRATURE);
     a.rule.c = vec3(0.0f);
     a.rule.w = vec3(0.0f);
     if (method == ALBEDO_FIT) a.rule = fitRule(a.wo.z, alpha.x);
@@ -53,8 +53,8 @@ PATINA_FN AlbedoFacets albedoFacets(vec3 wo, vec2 alpha, int facets, int method)
 }
 
 // Facet j: (cosine between view and facet, weight).
-PATINA_FN vec2 albedoFacet(AlbedoFacets a, int j) {
-    if (a.count > 3) return sampledFacet(a.wo, a.alpha, a.facets, a.count, j);
+PATINA_FN vec2 albedoMicrofacet(AlbedoMicrofacets a, int j) {
+    if (a.count > 3) return sampledMicrofacet(a.wo, a.alpha, a.ndf, a.count, j);
     float c = select(a.rule.c.x, select(a.rule.c.y, a.rule.c.z, j == 1), j == 0);
     float w = select(a.rule.w.x, select(a.rule.w.y, a.rule.w.z, j == 1), j == 0);
     return vec2(c, w);
@@ -62,13 +62,13 @@ PATINA_FN vec2 albedoFacet(AlbedoFacets a, int j) {
 
 // The albedo of a white mirror, single scattering, by the same method. What knows only Fresnel
 // leaves it to the tables.
-PATINA_FN float albedoWhite(vec3 wo, vec2 alpha, int facets, int method) {
-    int m = albedoMethod(method, alpha, facets, 1.0f);
-    if (!albedoHasFacets(m)) return facetAlbedo0(facetPlace(wo, alpha, facets));
-    AlbedoFacets a = albedoFacets(wo, alpha, facets, m);
+PATINA_FN float albedoWhite(vec3 wo, vec2 alpha, int ndf, int method) {
+    int m = albedoMethod(method, alpha, ndf, 1.0f);
+    if (!albedoHasMicrofacets(m)) return microfacetAlbedo0(microfacetPlace(wo, alpha, ndf));
+    AlbedoMicrofacets a = albedoMicrofacets(wo, alpha, ndf, m);
     if (m == ALBEDO_FIT) return clamp(a.rule.w.x + a.rule.w.y + a.rule.w.z, ALBEDO_MIN, 1.0f);
     float sum = 0.0f;
     for (int j = 0; j < a.count; ++j)
-        sum += albedoFacet(a, j).y;
+        sum += albedoMicrofacet(a, j).y;
     return clamp(sum, ALBEDO_MIN, 1.0f);
 }

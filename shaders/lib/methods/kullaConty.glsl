@@ -5,7 +5,7 @@
 // only, from the thinner side; others are scaled (energy.glsl).
 
 // 1 - mean E of isotropic facets: polynomials fitted to quadrature, within 1e-3.
-PATINA_FN float multiLoss(float alpha, int facets) {
+PATINA_FN float multiLoss(float alpha, int ndf) {
     float g =
         alpha * (0.0899281f +
                  alpha * (2.25982f + alpha * (-3.55654f + alpha * (2.51304f - alpha * 0.715887f))));
@@ -13,7 +13,7 @@ PATINA_FN float multiLoss(float alpha, int facets) {
         alpha *
         (0.0021705f +
          alpha * (0.463756f + alpha * (-0.021915f + alpha * (-0.155818f + alpha * 0.0480315f))));
-    return select(b, g, facets == FACETS_BECKMANN);
+    return select(b, g, ndf == NDF_BECKMANN);
 }
 
 struct MultiLobe {
@@ -23,11 +23,11 @@ struct MultiLobe {
 };
 
 // favg: mean reflectance. ess: E(wo). Below MULTI_LOSS_MIN the loss is noise of the tables.
-PATINA_FN MultiLobe multiLobe(vec3 favg, float ess, vec2 alpha, int facets) {
+PATINA_FN MultiLobe multiLobe(vec3 favg, float ess, vec2 alpha, int ndf) {
     MultiLobe l;
-    float loss = max(multiLoss(sqrt(0.5f * dot(alpha, alpha)), facets), MULTI_LOSS_MIN);
-    float kept = max(1.0f - loss, ALBEDO_MIN);
-    vec3 white = favg * favg * kept / max(vec3(1.0f) - favg * loss, vec3(ALBEDO_MIN));
+    float loss = max(multiLoss(sqrt(0.5f * dot(alpha, alpha)), ndf), MULTI_LOSS_MIN);
+    float meanAlbedo = max(1.0f - loss, ALBEDO_MIN);
+    vec3 white = favg * favg * meanAlbedo / max(vec3(1.0f) - favg * loss, vec3(ALBEDO_MIN));
     l.color = white * (1.0f - ess);
     l.rate = INV_PI / loss;
     float second = lobeMean(l.color);

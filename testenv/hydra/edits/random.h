@@ -14,13 +14,13 @@ public:
 
     /// @returns 0 to count - 1
     int index(size_t count) { return int(_engine() % uint32_t(count)); }
-    float real(float least, float most) {
-        return least + (most - least) * (float(_engine() >> 8) / 16777216.0f);
+    float real(float minimum, float maximum) {
+        return minimum + (maximum - minimum) * (float(_engine() >> 8) / 16777216.0f);
     }
     bool chance(float probability) { return real(0.0f, 1.0f) < probability; }
-    PXR_NS::GfVec3f vec3(float least, float most) {
-        const float x = real(least, most), y = real(least, most);
-        return PXR_NS::GfVec3f(x, y, real(least, most));
+    PXR_NS::GfVec3f vec3(float minimum, float maximum) {
+        const float x = real(minimum, maximum), y = real(minimum, maximum);
+        return PXR_NS::GfVec3f(x, y, real(minimum, maximum));
     }
     template <class List> const typename List::value_type& pick(const List& list) {
         return list[size_t(index(list.size()))];

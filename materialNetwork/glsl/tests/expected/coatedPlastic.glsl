@@ -6,20 +6,20 @@ vec3 lobeWeight[2];
 vec3 lobeAlbedo[2];
 float lobeChance[2];
 Frame frames[1];
-vec3 straight;
-void place() {
+vec3 passThrough;
+void instantiate() {
     frames[0] = makeFrame(vec3(0.0), vec3(0.0), true);
     lobe0 = dielectricSetup(parameters[0].xyz, parameters[1].x, parameters[2].xy, false, 1, false, 1);
-    vec3 kept0 = dielectricFix(lobe0, frames[0].wo, 3, lobeAlbedo[0]);
-    kept0 = unit(kept0);
+    vec3 coverage0 = dielectricFix(lobe0, frames[0].wo, 3, lobeAlbedo[0]);
+    coverage0 = unit(coverage0);
     lobe1 = orenNayarModel(parameters[68].xyz, parameters[69].x, false, 0);
-    vec3 kept1 = orenNayarFix(lobe1, frames[0].wo, -1, lobeAlbedo[1]);
-    kept1 = unit(kept1);
+    vec3 coverage1 = orenNayarFix(lobe1, frames[0].wo, -1, lobeAlbedo[1]);
+    coverage1 = unit(coverage1);
     vec3 kinds0 = layerKinds(0.5 * (lobe0.alpha.x + lobe0.alpha.y), frames[0].wo.z, 0.0);
     vec3 kinds1 = layerKinds(1.0, frames[0].wo.z, 0.0);
     LayerLight light0 = layerOfLobe(lobeAlbedo[0] * unit(parameters[70].x), kinds0);
     LayerLight light1 = layerOfLobe(lobeAlbedo[1] * unit(parameters[71].x), kinds1);
-    LayerLight top0 = layerThrough(unit(parameters[70].x), kept0, layerInsideDielectric(lobe0.favg, lobe0.ior, lobe0.invIor, frames[0].wo.z), 0.5 * (lobe0.alpha.x + lobe0.alpha.y), frames[0].wo.z, light1);
+    LayerLight top0 = layerThrough(unit(parameters[70].x), coverage0, layerInsideDielectric(lobe0.favg, lobe0.ior, lobe0.invIor, frames[0].wo.z), 0.5 * (lobe0.alpha.x + lobe0.alpha.y), frames[0].wo.z, light1);
     LayerLight through2 = top0;
     LayerLight light2 = layerSum(light0, layerProduct(top0, light1));
     LayerLight w0 = layerEven(vec3(0.0));
@@ -29,10 +29,10 @@ void place() {
     w1 = layerSum(w1, layerProduct(w2, through2));
     lobeWeight[1] = layerWeight(w1, kinds1) * unit(parameters[71].x);
     lobeWeight[0] = layerWeight(w0, kinds0) * unit(parameters[70].x);
-    straight = vec3(0.0);
+    passThrough = vec3(0.0);
 }
 void materialSetup() {
-    place();
+    instantiate();
     float sum = 0.0;
     int present = 0;
     bool has0 = luminance(lobeWeight[0]) > 0.0;

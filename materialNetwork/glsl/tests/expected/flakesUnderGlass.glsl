@@ -14,10 +14,10 @@ ConductorLobe lobe1;
 vec3 lobeWeight[2];
 vec3 lobeAlbedo[2];
 float lobeChance[2];
-vec3 lobePassed[2];
+vec3 lobeTransmittance[2];
 Frame frames[2];
-vec3 straight;
-void place() {
+vec3 passThrough;
+void instantiate() {
     r11 = nodeNormal(0, point.normal);
     r12 = nodeTangent(0, point.tangent);
     r13 = nodePosition(1);
@@ -29,12 +29,12 @@ void place() {
     frames[0] = makeFrame(vec3(0.0), vec3(0.0), false);
     frames[1] = makeFrame(r18.xyz, vec3(0.0), true);
     lobe0 = dielectricSetup(parameters[3].xyz, parameters[4].x, parameters[5].xy, false, 3, false, 1);
-    vec3 kept0 = dielectricFix(lobe0, frames[0].wo, 6, lobeAlbedo[0]);
-    kept0 = unit(kept0);
-    lobePassed[0] = fixPassed;
+    vec3 coverage0 = dielectricFix(lobe0, frames[0].wo, 6, lobeAlbedo[0]);
+    coverage0 = unit(coverage0);
+    lobeTransmittance[0] = fixTransmittance;
     lobe1 = conductorSetup(parameters[71].xyz, parameters[72].xyz, parameters[73].xy, false, 1);
-    vec3 kept1 = conductorFix(lobe1, frames[1].wo, -1, lobeAlbedo[1]);
-    kept1 = unit(kept1);
+    vec3 coverage1 = conductorFix(lobe1, frames[1].wo, -1, lobeAlbedo[1]);
+    coverage1 = unit(coverage1);
     vec3 w0 = vec3(0.0);
     vec3 w1 = vec3(0.0);
     vec3 w2 = vec3(1.0);
@@ -42,10 +42,10 @@ void place() {
     w1 += w2 * (1.0 - unit(r17.x));
     lobeWeight[1] = w1 * unit(parameters[75].x);
     lobeWeight[0] = w0 * unit(parameters[74].x);
-    straight = vec3(0.0);
+    passThrough = vec3(0.0);
 }
 void materialSetup() {
-    place();
+    instantiate();
     float sum = 0.0;
     int present = 0;
     bool has0 = luminance(lobeWeight[0]) > 0.0;

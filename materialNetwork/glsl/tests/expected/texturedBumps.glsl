@@ -23,8 +23,8 @@ vec3 lobeWeight[1];
 vec3 lobeAlbedo[1];
 float lobeChance[1];
 Frame frames[1];
-vec3 straight;
-void place() {
+vec3 passThrough;
+void instantiate() {
     r5 = primvar(0, parameters[0]);
     r6 = texture0(r5.xy, point.uvFootprint);
     r7 = vec4(noiseFractal2(r5.xy, int(parameters[1].x), parameters[2].x, parameters[3].x, 0) * parameters[4].x);
@@ -42,14 +42,14 @@ void place() {
     r19 = vec4(patternNormalMap(r15.xyz, parameters[18].xy, r16.xyz, r17.xyz, r18.xyz), 0.0);
     frames[0] = makeFrame(r19.xyz, vec3(0.0), true);
     lobe0 = burleySetup(r6.xyz, parameters[19].x);
-    vec3 kept0 = burleyFix(lobe0, frames[0].wo, -1, lobeAlbedo[0]);
-    kept0 = unit(kept0);
+    vec3 coverage0 = burleyFix(lobe0, frames[0].wo, -1, lobeAlbedo[0]);
+    coverage0 = unit(coverage0);
     vec3 w0 = vec3(1.0);
     lobeWeight[0] = w0 * unit(parameters[20].x);
-    straight = vec3(0.0);
+    passThrough = vec3(0.0);
 }
 void materialSetup() {
-    place();
+    instantiate();
     float sum = 0.0;
     int present = 0;
     bool has0 = luminance(lobeWeight[0]) > 0.0;

@@ -3,7 +3,7 @@
 import * as THREE from "three";
 import { makeRows } from "./textures.js";
 
-const widest = 256, coarsest = 32, most = 8;
+const widest = 256, coarsest = 32, maxTrust = 8;
 const golden = 0.6180339887498949;
 const luminance = (r, g, b) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 
@@ -86,5 +86,5 @@ export function drawSamples(texture, uniforms, passes, wanted) {
         lines.push(row);
     }
     return { texture: makeRows(lines, 2 * wanted), count: wanted, level, densityOfOne: 1 / total,
-             trust: Math.min(most, most * unevennessOf(levels, scale, ambient) ** 2) };
+             trust: Math.min(maxTrust, maxTrust * unevennessOf(levels, scale, ambient) ** 2) };
 }

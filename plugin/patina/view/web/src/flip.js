@@ -113,12 +113,12 @@ export function meanFlip(reference, test, w, h, scale = 1) {
         const c = colors(displayed(image, scale), w, h);
         return { ...c, ...features(c.grey, w, h) };
     });
-    const most = distance(huntLab(0, 1, 0), huntLab(0, 0, 1)) ** qc;
+    const maximum = distance(huntLab(0, 1, 0), huntLab(0, 0, 1)) ** qc;
     let sum = 0;
     for (let i = 0; i < w * h; ++i) {
         const color = distance(a.lab[i], b.lab[i]) ** qc;
-        const part = color < pc * most ? pt / (pc * most) * color
-            : pt + (color - pc * most) / (most - pc * most) * (1 - pt);
+        const part = color < pc * maximum ? pt / (pc * maximum) * color
+            : pt + (color - pc * maximum) / (maximum - pc * maximum) * (1 - pt);
         const feature = (max(abs(a.edge[i] - b.edge[i]), abs(a.point[i] - b.point[i])) / sqrt(2)) ** qf;
         sum += part ** (1 - feature);
     }

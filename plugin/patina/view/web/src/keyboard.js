@@ -18,8 +18,8 @@ function turn(page, across, up) {
 function nearer(page, factor) {
     const { camera } = page.viewer, { target } = page.controls;
     const arm = camera.position.clone().sub(target);
-    const least = page.data.camera.radius * 1.2;
-    camera.position.copy(target).add(arm.setLength(Math.max(least, arm.length() * factor)));
+    const minimum = page.data.camera.radius * 1.2;
+    camera.position.copy(target).add(arm.setLength(Math.max(minimum, arm.length() * factor)));
     page.viewer.invalidate();
 }
 

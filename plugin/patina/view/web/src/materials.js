@@ -7,12 +7,12 @@ export function fragmentText(data, material, variant) {
     return flags + data.library.head + variant.text + data.library.page;
 }
 
-const mostUniforms = 128; // as in glslText.py: more values come by a texture, 256 in a row
+const maxUniforms = 128; // as in glslText.py: more values come by a texture, 256 in a row
 
 export function makeMaterial(data, index, program, needsAll, shared, textures) {
     const material = data.materials[index], { lean, whole } = material.programs[program];
     const variant = needsAll && whole ? whole : lean;
-    const many = material.inputs.length > mostUniforms, rows = Math.ceil(material.inputs.length / 256);
+    const many = material.inputs.length > maxUniforms, rows = Math.ceil(material.inputs.length / 256);
     const live = new Float32Array(many ? 1024 * rows : 4 * Math.max(material.inputs.length, 1));
     const uniforms = { ...shared };
     if (many) uniforms.liveTable = { value: new THREE.DataTexture(live, 256, rows, THREE.RGBAFormat, THREE.FloatType) };

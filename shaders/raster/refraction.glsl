@@ -4,8 +4,8 @@
 // image-space approach for interactive refraction", with samples of the BSDF in place of the
 // direction.) Light between two such objects, and what the screen does not show, is not seen.
 #ifdef MATERIAL_TRANSMITS
-layout(binding = 21) uniform sampler2D behindColor;
-layout(binding = 22) uniform sampler2D behindDepth;
+layout(binding = 21) uniform sampler2D sceneColor;
+layout(binding = 22) uniform sampler2D sceneDepth;
 layout(binding = 23) uniform sampler2D backPosition; // w: 1 there is such a face
 layout(binding = 24) uniform sampler2D backNormal;   // out of the object
 
@@ -28,18 +28,18 @@ bool seenAlong(vec3 origin, vec3 direction, out vec3 color) {
         float t = extra.w * f * f;
         vec3 q = onScreen(origin + direction * t);
         if (q.z < 0.0) return false;
-        float depth = textureLod(behindDepth, q.xy, 0.0).x;
+        float depth = textureLod(sceneDepth, q.xy, 0.0).x;
         if (depth < 1.0 && q.z > depth) {
             for (int k = 0; k < 6; ++k) {
                 float middle = 0.5 * (before + t);
                 vec3 m = onScreen(origin + direction * middle);
-                if (m.z > textureLod(behindDepth, m.xy, 0.0).x)
+                if (m.z > textureLod(sceneDepth, m.xy, 0.0).x)
                     t = middle;
                 else
                     before = middle;
             }
             q = onScreen(origin + direction * t);
-            color = textureLod(behindColor, q.xy, 0.0).rgb / max(extra.y, 1e-20);
+            color = textureLod(sceneColor, q.xy, 0.0).rgb / max(extra.y, 1e-20);
             return true;
         }
         before = t;
@@ -97,18 +97,18 @@ vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
     return sum;
 }
 
-#ifdef MATERIAL_HOLDS
+#ifdef MATERIAL_HAS_INTERIOR
 // Light after a stretch through the medium: what comes from behind, what the medium gives off, and
 // light scattered once. That light is not weakened on its way in; of a white medium in even light
 // nothing is then lost, as when all orders of scattering are counted.
 vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool boundary,
-                   out vec3 passed) {
+                   out vec3 transmittance) {
     Medium m = materialMedium();
     vec3 sigma = m.absorption + m.scattering;
-    passed = exp(-sigma * distance);
-    vec3 stretch = mix((1.0 - passed) / max(sigma, vec3(1e-20)), vec3(distance),
+    transmittance = exp(-sigma * distance);
+    vec3 stretch = mix((1.0 - transmittance) / max(sigma, vec3(1e-20)), vec3(distance),
                        lessThan(sigma * distance, vec3(1e-4)));
-    vec3 sum = behind * passed + m.emission * stretch;
+    vec3 sum = behind * transmittance + m.emission * stretch;
     if (largest(m.scattering) <= 0.0) return sum;
     float mean = largest(sigma) > 0.0 ? min(1.0 / largest(sigma), 0.5 * distance) : 0.0;
     PhaseHenyeyGreensteinLobe phase = phaseHenyeyGreensteinSetup(m.anisotropy);
@@ -146,9 +146,9 @@ vec3 throughObject(MaterialSample s) {
     }
     vec3 behind;
     if (!seenAlong(q + d * (1e-3 * t), d, behind)) behind = lightsAlong(q, d, s.pdf, delta);
-#ifdef MATERIAL_HOLDS
-    vec3 passed;
-    if (goes) behind = throughMedium(behind, p, s.wi, t, true, passed);
+#ifdef MATERIAL_HAS_INTERIOR
+    vec3 transmittance;
+    if (goes) behind = throughMedium(behind, p, s.wi, t, true, transmittance);
 #endif
     return s.specularWeight * behind;
 }
@@ -162,16 +162,16 @@ vec4 fogHere() {
     float t = length(point.position - start);
     if (enters && !exitOf(start, d, t, n)) t = 0.0;
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float depth = texelFetch(behindDepth, pixel, 0).x;
+    float depth = texelFetch(sceneDepth, pixel, 0).x;
     if (depth < 1.0) {
-        vec3 at = vec3(gl_FragCoord.xy / vec2(textureSize(behindDepth, 0)), depth);
+        vec3 at = vec3(gl_FragCoord.xy / vec2(textureSize(sceneDepth, 0)), depth);
         vec4 world = clipToWorld * vec4(at * 2.0 - 1.0, 1.0);
         t = min(t, length(world.xyz / world.w - start));
     }
-    vec4 behind = texelFetch(behindColor, pixel, 0);
-    vec3 passed;
-    vec3 color = throughMedium(behind.rgb / max(extra.y, 1e-20), start, d, t, false, passed);
-    return vec4(color, mix(1.0, behind.a, luminance(passed)));
+    vec4 behind = texelFetch(sceneColor, pixel, 0);
+    vec3 transmittance;
+    vec3 color = throughMedium(behind.rgb / max(extra.y, 1e-20), start, d, t, false, transmittance);
+    return vec4(color, mix(1.0, behind.a, luminance(transmittance)));
 }
 #endif
 #endif

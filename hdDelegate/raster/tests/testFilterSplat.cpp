@@ -1,4 +1,4 @@
-#include "hdDelegate/raster/rasterShares.h"
+#include "hdDelegate/raster/rasterFilterSplat.h"
 
 #include <gtest/gtest.h>
 
@@ -11,18 +11,18 @@ using patina::PixelFilter;
 using patina::RasterSample;
 
 /// Moments of where samples lie in the pixels that they go to, by their shares.
-void expectMoments(float radius, double sharesOfOthers) {
+void expectMoments(float radius, double weightOfOthers) {
     const PixelFilter filter(radius);
     const int reach = filter.reach(), count = 4096;
     double plain[3] = {0, 0, 0}, shared[3] = {0, 0, 0}, others = 0.0;
     for (int n = 0; n < count; ++n) {
         const float x = filter.sample({(float(n) + 0.5f) / float(count), 0.5f}).x;
-        const std::vector<float> shares = filter.shares(x);
-        ASSERT_EQ(int(shares.size()), 2 * reach + 1);
+        const std::vector<float> weights = filter.splatWeights(x);
+        ASSERT_EQ(int(weights.size()), 2 * reach + 1);
         for (int k = 0; k < 3; ++k)
             plain[k] += std::pow(double(x), 2 * k) / count;
         for (int i = -reach; i <= reach; ++i) {
-            const double share = double(shares[size_t(i + reach)]);
+            const double share = double(weights[size_t(i + reach)]);
             if (i != 0) others += share / count;
             for (int k = 0; k < 3; ++k)
                 shared[k] += share * std::pow(double(x) - i, 2 * k) / count;
@@ -30,29 +30,30 @@ void expectMoments(float radius, double sharesOfOthers) {
     }
     for (int k = 0; k < 3; ++k)
         EXPECT_NEAR(shared[k], plain[k], 2e-3 * plain[k]) << "radius " << radius;
-    EXPECT_NEAR(others, sharesOfOthers, 0.01) << "radius " << radius;
+    EXPECT_NEAR(others, weightOfOthers, 0.01) << "radius " << radius;
 }
 
-TEST(RasterShares, keepThePixelFilter) {
+TEST(RasterFilterSplat, keepThePixelFilter) {
     expectMoments(0.0f, 0.0);
     expectMoments(0.5f, 0.0);
-    expectMoments(1.0f, 0.3823); // integrals of g(x) (1 - g(x) / sum over k of g(x + k)), by numbers
+    expectMoments(1.0f,
+                  0.3823); // integrals of g(x) (1 - g(x) / sum over k of g(x + k)), by numbers
     expectMoments(1.7f, 0.6372);
 }
 
-TEST(RasterShares, takeASampleToThePixelsThatItLiesIn) {
+TEST(RasterFilterSplat, takeASampleToThePixelsThatItLiesIn) {
     const int width = 5, height = 4;
     Film film;
     film.reset(width, height, {});
     RasterSample sample;
-    sample.sharesX = {0.1f, 0.7f, 0.2f}; // left, own, right
-    sample.sharesY = {0.3f, 0.6f, 0.1f}; // above, own, below
+    sample.splatX = {0.1f, 0.7f, 0.2f}; // left, own, right
+    sample.splatY = {0.3f, 0.6f, 0.1f}; // above, own, below
     std::vector<glm::vec4> pixels(size_t(width + 2) * size_t(height + 2), glm::vec4(0.0f));
     // Column 3 and, y down, row 1 of the film; row height - 1 - 1 + 1 from below with the border.
     pixels[size_t(3) * size_t(width + 2) + 4] = glm::vec4(100.0f, 200.0f, 0.0f, 1.0f);
     pixels[0] = glm::vec4(100.0f, 0.0f, 0.0f, 1.0f); // outside, beside the lower left corner
     const int window[4] = {0, 0, width - 1, height - 1};
-    addShared(pixels, width, height, sample, window, film);
+    addSplats(pixels, width, height, sample, window, film);
     const auto red = [&](int x, int y) { return film.color(x, y).x; };
     EXPECT_FLOAT_EQ(red(3, 1), 42.0f);
     EXPECT_FLOAT_EQ(red(2, 1), 6.0f);

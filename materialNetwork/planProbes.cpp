@@ -1,4 +1,4 @@
-#include "materialNetwork/sightings.h"
+#include "materialNetwork/planProbes.h"
 
 #include "materialNetwork/cpu/bsdfBuilder.h"
 #include "materialNetwork/cpu/materialProgram.h"
@@ -43,7 +43,7 @@ float rootOf(const glm::vec2& alpha) {
     return std::sqrt(std::max(0.5f * (alpha.x + alpha.y), 0.0f));
 }
 
-void describe(const BsdfLobe& l, SeenClosure& out) {
+void describe(const BsdfLobe& l, ClosureContribution& out) {
     const glm::vec3 none(0.0f);
     switch (l.kind) {
     case LobeKind::Dielectric:
@@ -82,24 +82,24 @@ bool isMetallic(const BsdfLobe& l) {
            luminance(sh::fresnelSchlick(1.0f, l.schlick.fresnel)) > 0.2f;
 }
 
-class Viewer {
+class PlanProber {
 public:
-    Viewer(const Plan& plan, TextureSource& textures)
-        : _plan(plan), _program(MaterialProgram::compile(plan, textures, _unheard)) {}
+    PlanProber(const Plan& plan, TextureSource& textures)
+        : _plan(plan), _program(MaterialProgram::compile(plan, textures, _silent)) {}
 
-    std::vector<std::vector<Sighting>> run() {
+    std::vector<std::vector<DirectionProbe>> run() {
         const int places = _program->constant() ? 1 : varyingPlaces;
-        std::vector<std::vector<Sighting>> result;
+        std::vector<std::vector<DirectionProbe>> result;
         for (int i = 0; i < places; ++i) {
             result.emplace_back();
             for (int c = 0; c < cosines; ++c)
-                result.back().push_back(sight(i, (float(c) + 0.5f) / cosines));
+                result.back().push_back(probeAt(i, (float(c) + 0.5f) / cosines));
         }
         return result;
     }
 
 private:
-    Sighting sight(int place, float cosine) {
+    DirectionProbe probeAt(int place, float cosine) {
         SpreadPrimvars primvars;
         primvars.place = place;
         ShadingPoint point;
@@ -111,47 +111,48 @@ private:
         RegisterFile registers(code);
         registers.run(code, code.surfaceCode, point);
         Bsdf bsdf;
-        BsdfBuilder::lay(code, point, registers.data(), bsdf);
+        BsdfBuilder::assemble(code, point, registers.data(), bsdf);
 
-        Sighting s;
-        s.cosine = cosine;
+        DirectionProbe probe;
+        probe.cosine = cosine;
         std::vector<float> light(code.lobes.size());
         for (size_t i = 0; i < light.size(); ++i) {
             light[i] = luminance(bsdf.lobe(int(i)).weight * bsdf.lobe(int(i)).albedo);
-            s.albedo += light[i];
+            probe.albedo += light[i];
         }
-        if (!(s.albedo > 0.0f)) return s;
+        if (!(probe.albedo > 0.0f)) return probe;
         for (size_t i = 0; i < code.bsdf.size(); ++i) {
             const ClosureOp& op = code.bsdf[i];
-            SeenClosure seen;
-            seen.closure = int(i);
+            ClosureContribution contribution;
+            contribution.closure = int(i);
             if (op.lobe >= 0) {
                 const BsdfLobe& l = bsdf.lobe(op.lobe);
-                describe(l, seen);
-                seen.share = light[size_t(op.lobe)] / s.albedo;
-                seen.tabulated = !code.lobes[size_t(op.lobe)].energy.empty();
+                describe(l, contribution);
+                contribution.share = light[size_t(op.lobe)] / probe.albedo;
+                contribution.tabulated = !code.lobes[size_t(op.lobe)].energy.empty();
             } else if (op.kind == ClosureKind::Layer && op.a >= 0 && op.b >= 0) {
-                layer(op, bsdf, light, seen);
-                seen.share /= s.albedo;
+                layer(op, bsdf, light, contribution);
+                contribution.share /= probe.albedo;
             } else {
                 continue;
             }
-            if (seen.share > 0.0f) s.closures.push_back(seen);
+            if (contribution.share > 0.0f) probe.closures.push_back(contribution);
         }
-        for (SeenClosure& seen : s.closures)
-            seen.beneath = std::min(beneath(seen.closure, light) / s.albedo, 1.0f);
-        return s;
+        for (ClosureContribution& contribution : probe.closures)
+            contribution.beneath =
+                std::min(beneath(contribution.closure, light) / probe.albedo, 1.0f);
+        return probe;
     }
 
     /// A layer shows as its roughest interface over an albedo; over metals their roughness counts
     /// too.
     void layer(const ClosureOp& op, const Bsdf& bsdf, const std::vector<float>& light,
-               SeenClosure& out) const {
+               ClosureContribution& out) const {
         out.kind = "layer";
         glm::vec3 weights(0.0f), bases(0.0f);
         float weight = 0.0f, base = 0.0f, metal = 0.0f, rough = 0.0f;
         for (int lobe : lobesOf(op.a)) {
-            SeenClosure top;
+            ClosureContribution top;
             describe(bsdf.lobe(lobe), top);
             out.roughness = std::max(out.roughness, top.roughness);
             out.share += light[size_t(lobe)];
@@ -165,7 +166,7 @@ private:
             bases += l.weight * l.albedo;
             out.share += light[size_t(lobe)];
             if (!isMetallic(l)) continue;
-            SeenClosure below;
+            ClosureContribution below;
             describe(l, below);
             metal += w * luminance(l.albedo);
             rough = std::max(rough, below.roughness);
@@ -214,15 +215,15 @@ private:
     }
 
     const Plan& _plan;
-    Diagnostics _unheard; ///< the material's own compilation says the same
+    Diagnostics _silent; ///< the material's own compilation says the same
     std::shared_ptr<const MaterialProgram> _program;
 };
 
 } // namespace
 
-std::vector<std::vector<Sighting>> lookAt(const Plan& plan, TextureSource& textures) {
+std::vector<std::vector<DirectionProbe>> probePlan(const Plan& plan, TextureSource& textures) {
     if (plan.bsdf < 0) return {};
-    return Viewer(plan, textures).run();
+    return PlanProber(plan, textures).run();
 }
 
 } // namespace patina

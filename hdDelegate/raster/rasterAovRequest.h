@@ -8,21 +8,21 @@
 namespace patina {
 
 /// What of the AOVs asked for only the fragment stage of a material can tell.
-struct RasterAovWish {
-    static constexpr size_t mostPrimvars = 4; ///< targets that drivers have beside the others
+struct RasterAovRequest {
+    static constexpr size_t maxPrimvars = 4; ///< targets that drivers have beside the others
 
     bool albedo = false;
-    std::vector<std::string> primvars; ///< names, at most `mostPrimvars`
+    std::vector<std::string> primvars; ///< names, at most `maxPrimvars`
     std::vector<std::string> leftOut;  ///< further ones
 
-    RasterAovWish() = default;
+    RasterAovRequest() = default;
     /// @param aovs by name, `primvars:NAME` for those; further primvars are told in `leftOut`
-    explicit RasterAovWish(const std::vector<std::string>& aovs) {
+    explicit RasterAovRequest(const std::vector<std::string>& aovs) {
         const std::string prefix = "primvars:";
         for (const std::string& aov : aovs) {
             albedo |= aov == "albedo" || aov == denoisingAlbedoAov;
             if (aov.rfind(prefix, 0) != 0) continue;
-            auto& list = primvars.size() < mostPrimvars ? primvars : leftOut;
+            auto& list = primvars.size() < maxPrimvars ? primvars : leftOut;
             list.push_back(aov.substr(prefix.size()));
         }
     }
@@ -47,7 +47,7 @@ struct RasterAovWish {
         return -1;
     }
 
-    bool operator==(const RasterAovWish& o) const {
+    bool operator==(const RasterAovRequest& o) const {
         return albedo == o.albedo && primvars == o.primvars && leftOut == o.leftOut;
     }
 };

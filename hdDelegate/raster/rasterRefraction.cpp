@@ -1,8 +1,8 @@
-#include "hdDelegate/raster/rasterBehind.h"
+#include "hdDelegate/raster/rasterRefraction.h"
 
 namespace patina {
 
-RasterBehind::RasterBehind(std::string& error) {
+RasterRefraction::RasterRefraction(std::string& error) {
     const std::string head = "#define PRIMVARS 0\n";
     _program = GlProgram::make(
         {{GL_VERTEX_SHADER, "surface", head + "#include \"shaders/raster/surface.vert.glsl\"\n"},
@@ -22,7 +22,7 @@ RasterBehind::RasterBehind(std::string& error) {
         error);
 }
 
-void RasterBehind::drawVolume(const RasterVolume& volume, int index) const {
+void RasterRefraction::drawVolume(const RasterVolume& volume, int index) const {
     volume.bind();
     _volume->use();
     const vec3 &low = volume.boundsMin, &high = volume.boundsMax;
@@ -33,7 +33,7 @@ void RasterBehind::drawVolume(const RasterVolume& volume, int index) const {
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-bool RasterBehind::resize(int width, int height) {
+bool RasterRefraction::resize(int width, int height) {
     if (_color.width() == width && _color.height() == height) return true;
     const auto make = [&](GLenum format) {
         GlTexture texture(GL_TEXTURE_2D, format, width, height);
@@ -52,7 +52,7 @@ bool RasterBehind::resize(int width, int height) {
     return _target.complete();
 }
 
-void RasterBehind::beginBacks() const {
+void RasterRefraction::beginBacks() const {
     const float none[4] = {0, 0, 0, 0}, far = 1.0f;
     _target.bind();
     gl.ClearNamedFramebufferfv(_target.id(), GL_COLOR, 0, none);
@@ -61,7 +61,7 @@ void RasterBehind::beginBacks() const {
     _program->use();
 }
 
-void RasterBehind::keep(const GlTexture& color, const GlTexture& depth) {
+void RasterRefraction::keep(const GlTexture& color, const GlTexture& depth) {
     const auto copy = [](const GlTexture& from, const GlTexture& to) {
         gl.CopyImageSubData(from.id(), GL_TEXTURE_2D, 0, 0, 0, 0, to.id(), GL_TEXTURE_2D, 0, 0, 0,
                             0, to.width(), to.height(), 1);
@@ -70,7 +70,7 @@ void RasterBehind::keep(const GlTexture& color, const GlTexture& depth) {
     copy(depth, _depth);
 }
 
-void RasterBehind::bind() const {
+void RasterRefraction::bind() const {
     _color.bind(21);
     _depth.bind(22);
     _backPosition.bind(23);

@@ -10,8 +10,8 @@ using glm::vec3;
 
 namespace {
 
-/// Of a sky that is blue above and brown below, with a bright side: as bright as a density by luminance
-/// leaves it.
+/// Of a sky that is blue above and brown below, with a bright side: as bright as a density by
+/// luminance leaves it.
 std::vector<DomeSample> drawn(size_t number, unsigned seed) {
     std::mt19937 numbers(seed);
     std::uniform_real_distribution<float> u;
@@ -46,7 +46,8 @@ TEST(LookWeights, FewLightPlanesAsManyDo) {
         ASSERT_EQ(factors.size(), few.size());
         for (const vec3& up : sides) {
             const vec3 truth = irradiance(all, std::vector<vec3>(all.size(), vec3(1.0f)), up);
-            const vec3 a = irradiance(few, plain, up) - truth, b = irradiance(few, factors, up) - truth;
+            const vec3 a = irradiance(few, plain, up) - truth,
+                       b = irradiance(few, factors, up) - truth;
             before += glm::dot(a, a);
             after += glm::dot(b, b);
         }

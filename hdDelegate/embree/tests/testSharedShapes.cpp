@@ -74,8 +74,8 @@ TEST(SharedShapes, HitsAreThoseOfPrimsThatAreDrawnAlone) {
             const vec3 origin(0.11f * float(i) - 10.5f, 0.02f * float(i % 7), 2.0f);
             const vec3 direction = glm::normalize(vec3(0.01f * float(i % 5), 0.01f, -1.0f));
             Hit a, b;
-            const bool found = together.embree.intersect(origin, direction, 0.0f, INFINITY, 0.0f,
-                                                         RayCamera, a);
+            const bool found =
+                together.embree.intersect(origin, direction, 0.0f, INFINITY, 0.0f, RayCamera, a);
             ASSERT_EQ(found, alone.embree.intersect(origin, direction, 0.0f, INFINITY, 0.0f,
                                                     RayCamera, b));
             if (!found) continue;
@@ -158,8 +158,7 @@ TEST(SharedShapes, PrimsThatMoveBetweenBothWaysOfBeingDrawn) {
         SceneEdit edit = built.scene.edit();
         edit.clear();
         for (int i = 0; i < prims; ++i)
-            edit.set(
-                std::shared_ptr<const Geometry>(makePrim(i, ImplicitShape::Sphere, false)));
+            edit.set(std::shared_ptr<const Geometry>(makePrim(i, ImplicitShape::Sphere, false)));
         edit.commit();
         built.update();
         EXPECT_EQ(hits(prims), prims);

@@ -7,11 +7,11 @@
 namespace patina {
 
 /// What surfaces that transmit are drawn over: the picture of all others with its depths, and the
-/// far sides of those that transmit. Read by shaders/raster/behind.glsl.
-class RasterBehind {
+/// far sides of those that transmit. Read by shaders/raster/refraction.glsl.
+class RasterRefraction {
 public:
     /// @param error is set where the driver does not take the program
-    explicit RasterBehind(std::string& error);
+    explicit RasterRefraction(std::string& error);
     bool ok() const { return _program && _volume; }
 
     /// @returns false when the driver has no room

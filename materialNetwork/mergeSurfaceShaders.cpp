@@ -1,4 +1,4 @@
-#include "materialNetwork/wholeShaders.h"
+#include "materialNetwork/mergeSurfaceShaders.h"
 
 #include "materialNetwork/nodeTable.h"
 
@@ -339,7 +339,7 @@ private:
 
 } // namespace
 
-bool mergeWholeShaders(Graph& graph, Diagnostics& diagnostics) {
+bool mergeSurfaceShaders(Graph& graph, Diagnostics& diagnostics) {
     return Merger(graph, diagnostics).run();
 }
 

@@ -1,5 +1,5 @@
-// Writes what shaders/bake/albedoFit.py is fitted to: `facetCosines BINS MU ALPHA OUT`. For MU by
-// ALPHA directions and roughnesses, the spread of the cosine between view and facet over the
+// Writes what shaders/bake/albedoFit.py is fitted to: `microfacetCosines BINS MU ALPHA OUT`. For MU
+// by ALPHA directions and roughnesses, the spread of the cosine between view and facet over the
 // reflected light of an isotropic GGX mirror. From it the albedo under any reflectance is one sum.
 //
 // Doubles: BINS; then per place mu, alpha, the light in each bin, the mean cosine of each bin. Bins
@@ -16,8 +16,8 @@ using namespace patina::sh64;
 
 namespace {
 
-constexpr int kPoints = 160;
-constexpr double kGrazing = 0.004;
+constexpr int pointCount = 160;
+constexpr double grazing = 0.004;
 
 vec2 centre(int m, int a, int mus, int alphas) {
     const double root = (a + 0.5) / alphas;
@@ -28,14 +28,14 @@ vec2 node(int m, int a, int mus, int alphas) {
     const double x = double(m) / (mus - 1);
     const double root0 = std::sqrt(double(ALPHA_MIRROR));
     const double root = root0 + (1.0 - root0) * a / (alphas - 1);
-    return vec2(kGrazing + (1.0 - kGrazing) * x * x * (1.5 - 0.5 * x), root * root);
+    return vec2(grazing + (1.0 - grazing) * x * x * (1.5 - 0.5 * x), root * root);
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
     if (argc != 5) {
-        std::fprintf(stderr, "usage: facetCosines BINS MU ALPHA OUT\n");
+        std::fprintf(stderr, "usage: microfacetCosines BINS MU ALPHA OUT\n");
         return 2;
     }
     const int bins = std::atoi(argv[1]);
@@ -43,17 +43,17 @@ int main(int argc, char** argv) {
     const int alphas = std::atoi(argv[3]);
     std::FILE* out = std::fopen(argv[4], "wb");
     if (bins < 1 || !out) {
-        std::fprintf(stderr, "facetCosines: no bins, or cannot write %s\n", argv[4]);
+        std::fprintf(stderr, "microfacetCosines: no bins, or cannot write %s\n", argv[4]);
         return 1;
     }
-    bake::InterfaceQuadrature quadrature(kPoints, FACETS_GGX);
+    bake::InterfaceQuadrature quadrature(pointCount, NDF_GGX);
     std::vector<double> light(bins), cosine(bins);
     const double head = bins;
     std::fwrite(&head, sizeof head, 1, out);
     for (int a = 0; a < std::abs(alphas); ++a)
         for (int m = 0; m < std::abs(mus); ++m) {
             const vec2 p = mus < 0 ? centre(m, a, -mus, -alphas) : node(m, a, mus, alphas);
-            quadrature.look(bake::slanted(p.x), vec2(p.y));
+            quadrature.setView(bake::slanted(p.x), vec2(p.y));
             quadrature.spread(bins, light.data(), cosine.data());
             std::fwrite(&p, sizeof(double), 2, out);
             std::fwrite(light.data(), sizeof(double), light.size(), out);

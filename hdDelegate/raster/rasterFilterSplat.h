@@ -10,25 +10,25 @@ namespace patina {
 
 /// Where one pass samples, the same in every pixel, and what of a sample goes to other pixels.
 struct RasterSample {
-    uint32_t pass = 0;                               ///< number of its samples
-    uint32_t taken = 1;                              ///< how many passes there are with this one
-    glm::vec2 offset{0.0f}, lens{0.0f};              ///< as of RasterCamera::view()
-    float time = 0.5f;                               ///< in [0,1) over the shutter
-    std::vector<float> sharesX{1.0f}, sharesY{1.0f}; ///< of PixelFilter::shares()
+    uint32_t pass = 0;                             ///< number of its samples
+    uint32_t taken = 1;                            ///< how many passes there are with this one
+    glm::vec2 offset{0.0f}, lens{0.0f};            ///< as of RasterCamera::view()
+    float time = 0.5f;                             ///< in [0,1) over the shutter
+    std::vector<float> splatX{1.0f}, splatY{1.0f}; ///< of PixelFilter::splatWeights()
 
     /// Pixels around the image that are drawn for the sake of those within.
-    int border() const { return int(sharesX.size() / 2); }
+    int border() const { return int(splatX.size() / 2); }
 };
 
 /// Gives each pixel of a film what a pass has for it.
 /// @param pixels RGBA, rows from the bottom up, with the sample's border on all sides; they are
 ///        overwritten
 /// @param window xmin, ymin, xmax, ymax of the film, inclusive, y down
-void takeShared(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
+void takeSplats(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
                 const int window[4],
                 const std::function<void(int x, int y, const glm::vec4& value)>& take);
 /// Adds a pass to a film.
-void addShared(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
+void addSplats(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
                const int window[4], Film& film);
 
 } // namespace patina

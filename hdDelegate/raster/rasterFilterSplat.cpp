@@ -1,10 +1,10 @@
-#include "hdDelegate/raster/rasterShares.h"
+#include "hdDelegate/raster/rasterFilterSplat.h"
 
 #include <cmath>
 
 namespace patina {
 
-void takeShared(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
+void takeSplats(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
                 const int window[4],
                 const std::function<void(int x, int y, const glm::vec4& value)>& take) {
     const int border = sample.border(), stride = width + 2 * border;
@@ -29,7 +29,7 @@ void takeShared(std::vector<glm::vec4>& pixels, int width, int height, const Ras
             for (int x = window[0]; x <= window[2]; ++x) {
                 glm::vec4 sum(0.0f);
                 for (int i = 0; i <= 2 * border; ++i)
-                    sum += sample.sharesX[size_t(i)] * whole[size_t(x + 2 * border - i)];
+                    sum += sample.splatX[size_t(i)] * whole[size_t(x + 2 * border - i)];
                 row[x] = sum;
             }
         }
@@ -37,16 +37,16 @@ void takeShared(std::vector<glm::vec4>& pixels, int width, int height, const Ras
         for (int x = window[0]; x <= window[2]; ++x) {
             glm::vec4 sum(0.0f);
             for (int i = 0; i <= 2 * border; ++i)
-                sum += sample.sharesY[size_t(i)] * rowOf(y + border - i)[x];
+                sum += sample.splatY[size_t(i)] * rowOf(y + border - i)[x];
             for (const auto& [brokenX, brokenY] : broken)
                 if (brokenX == x && brokenY == y) sum.x = NAN;
             take(x, y, sum);
         }
 }
 
-void addShared(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
+void addSplats(std::vector<glm::vec4>& pixels, int width, int height, const RasterSample& sample,
                const int window[4], Film& film) {
-    takeShared(pixels, width, height, sample, window, [&](int x, int y, const glm::vec4& value) {
+    takeSplats(pixels, width, height, sample, window, [&](int x, int y, const glm::vec4& value) {
         film.addColor(x, y, glm::vec3(value), value.w);
     });
 }

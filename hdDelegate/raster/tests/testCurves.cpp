@@ -53,7 +53,7 @@ TEST(RasterCurves, StripsFollowTheCurveAsFarAsIsSeen) {
     for (const float pixel : {0.5f, 0.05f, 0.005f}) {
         const RasterTriangles strips = curveTriangles(bent(0.01f), fineness(pixel), true);
         const TriangleMesh& mesh = strips.mesh;
-        ASSERT_EQ(strips.aside.size(), mesh.positions[0].size());
+        ASSERT_EQ(strips.halfWidth.size(), mesh.positions[0].size());
         ASSERT_EQ(strips.along.size(), mesh.triangles.size());
         EXPECT_GT(mesh.triangles.size(), last);
         last = mesh.triangles.size();
@@ -73,29 +73,29 @@ TEST(RasterCurves, StripsFollowTheCurveAsFarAsIsSeen) {
     }
 }
 
-TEST(RasterCurves, VaultsAreStripsWithMoreColumns) {
+TEST(RasterCurves, DomedStripsHaveMoreColumns) {
     const CurveSet set = bent(0.01f);
     const RasterFineness fine = fineness(0.05f);
     const RasterTriangles flat = curveTriangles(set, fine, true);
-    const RasterTriangles vaulted = curveTriangles(set, fine, true, true);
-    EXPECT_EQ(vaulted.mesh.triangles.size(), 3 * flat.mesh.triangles.size());
-    EXPECT_EQ(vaulted.aside.size(), 2 * flat.aside.size());
-    ASSERT_EQ(vaulted.aside.size() % 4, 0u);
-    for (size_t i = 0; i < vaulted.aside.size(); i += 4) {
-        EXPECT_GT(vaulted.aside[i], 0.0f);
-        EXPECT_EQ(vaulted.aside[i], vaulted.aside[i + 1]);
-        EXPECT_EQ(vaulted.aside[i], -vaulted.aside[i + 2]);
-        EXPECT_EQ(vaulted.aside[i], -vaulted.aside[i + 3]);
-        EXPECT_EQ(vaulted.ends[i] + StripVault, vaulted.ends[i + 1]);
-        EXPECT_EQ(vaulted.ends[i + 1], vaulted.ends[i + 2]);
-        EXPECT_EQ(vaulted.ends[i], vaulted.ends[i + 3]);
+    const RasterTriangles domed = curveTriangles(set, fine, true, true);
+    EXPECT_EQ(domed.mesh.triangles.size(), 3 * flat.mesh.triangles.size());
+    EXPECT_EQ(domed.halfWidth.size(), 2 * flat.halfWidth.size());
+    ASSERT_EQ(domed.halfWidth.size() % 4, 0u);
+    for (size_t i = 0; i < domed.halfWidth.size(); i += 4) {
+        EXPECT_GT(domed.halfWidth[i], 0.0f);
+        EXPECT_EQ(domed.halfWidth[i], domed.halfWidth[i + 1]);
+        EXPECT_EQ(domed.halfWidth[i], -domed.halfWidth[i + 2]);
+        EXPECT_EQ(domed.halfWidth[i], -domed.halfWidth[i + 3]);
+        EXPECT_EQ(domed.ends[i] + StripDome, domed.ends[i + 1]);
+        EXPECT_EQ(domed.ends[i + 1], domed.ends[i + 2]);
+        EXPECT_EQ(domed.ends[i], domed.ends[i + 3]);
     }
-    for (const uvec3& t : vaulted.mesh.triangles)
+    for (const uvec3& t : domed.mesh.triangles)
         for (int k = 0; k < 3; ++k)
-            ASSERT_LT(t[k], vaulted.mesh.positions[0].size());
-    const size_t needs = vaulted.mesh.triangles.size();
-    EXPECT_TRUE(vaultsFit(set, fine, needs));
-    EXPECT_FALSE(vaultsFit(set, fine, needs - 1));
+            ASSERT_LT(t[k], domed.mesh.positions[0].size());
+    const size_t needs = domed.mesh.triangles.size();
+    EXPECT_TRUE(domedStripsFit(set, fine, needs));
+    EXPECT_FALSE(domedStripsFit(set, fine, needs - 1));
 }
 
 TEST(RasterCurves, StripsEndWhereTheCurveDoes) {
@@ -105,7 +105,7 @@ TEST(RasterCurves, StripsEndWhereTheCurveDoes) {
         std::map<float, int> count;
         for (const float end : strips.ends)
             ++count[end];
-        EXPECT_EQ(strips.ends.size(), strips.aside.size());
+        EXPECT_EQ(strips.ends.size(), strips.halfWidth.size());
         return count;
     };
     // Two curves, each with a beginning and an end of two vertices.

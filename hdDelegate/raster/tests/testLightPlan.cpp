@@ -1,7 +1,7 @@
 // What the planner sees of a sky, and of materials under lights.
 #include "hdDelegate/raster/measure/measuredSky.h"
 #include "hdDelegate/raster/rasterLightPlan.h"
-#include "materialNetwork/sightings.h"
+#include "materialNetwork/planProbes.h"
 
 #include <gtest/gtest.h>
 
@@ -9,24 +9,24 @@ namespace patina {
 
 namespace {
 
-MethodPlan facets(float roughness) {
-    SeenClosure seen;
-    seen.kind = "conductor";
-    seen.share = 1.0f;
-    seen.reflectance = 0.9f;
-    seen.roughness = roughness;
-    auto places = std::make_shared<std::vector<std::vector<Sighting>>>(1);
+MethodPlan microfacetPlan(float roughness) {
+    ClosureContribution contribution;
+    contribution.kind = "conductor";
+    contribution.share = 1.0f;
+    contribution.reflectance = 0.9f;
+    contribution.roughness = roughness;
+    auto places = std::make_shared<std::vector<std::vector<DirectionProbe>>>(1);
     for (float cosine : {0.125f, 0.375f, 0.625f, 0.875f})
-        places->front().push_back({cosine, 0.9f, {seen}});
+        places->front().push_back({cosine, 0.9f, {contribution}});
     MethodPlan plan;
-    plan.seen = places;
+    plan.probes = places;
     return plan;
 }
 
 std::string domeMethod(const RasterLightPlan& lights, float roughness, double tolerance) {
     RenderSettings settings;
     settings.tolerance = tolerance;
-    return lights.choose(facets(roughness), settings, false).front().method;
+    return lights.choose(microfacetPlan(roughness), settings, false).front().method;
 }
 
 } // namespace
@@ -56,7 +56,8 @@ TEST(LightPlan, largerTolerancesAreNeverSlower) {
         for (double tolerance : {0.001, 0.01, 0.03, 0.1, 0.3}) {
             RenderSettings settings;
             settings.tolerance = tolerance;
-            const PlannedMethod m = lights.choose(facets(roughness), settings, false).front();
+            const PlannedMethod m =
+                lights.choose(microfacetPlan(roughness), settings, false).front();
             EXPECT_LE(m.ns, before);
             EXPECT_LE(m.ns, m.nsDefault);
             EXPECT_LE(m.error, 0.4 * tolerance);
@@ -70,10 +71,10 @@ TEST(LightPlan, whatLooksAtSamplesKeepsThem) {
     lights.addDome(nullptr);
     RenderSettings settings;
     settings.tolerance = 0.3;
-    EXPECT_EQ(lights.choose(facets(0.1f), settings, true).front().method, "sampled");
-    EXPECT_NE(lights.choose(facets(0.1f), settings, false).front().method, "sampled");
+    EXPECT_EQ(lights.choose(microfacetPlan(0.1f), settings, true).front().method, "sampled");
+    EXPECT_NE(lights.choose(microfacetPlan(0.1f), settings, false).front().method, "sampled");
     lights.needSamples();
-    EXPECT_EQ(lights.choose(facets(0.1f), settings, false).front().method, "sampled");
+    EXPECT_EQ(lights.choose(microfacetPlan(0.1f), settings, false).front().method, "sampled");
 }
 
 } // namespace patina

@@ -49,7 +49,7 @@ TEST(Subsurface, ThickObjectsHaveTheColourAskedFor) {
     }
 }
 
-// Significance as in mediaTest.cpp: five standard errors.
+// Significance as in testMedia.cpp: five standard errors.
 TEST(Subsurface, WhiteObjectsLoseNothing) {
     for (float radius : {1e-4f, 0.1f, 1.0f, 100.0f}) {
         MediaScene s;

@@ -10,7 +10,7 @@
 namespace patina {
 
 /// A lobe, or a layer as a whole, as one place of a material shows it from one angle.
-struct SeenClosure {
+struct ClosureContribution {
     int closure = -1; ///< in Plan::closures
     const char* kind =
         "";               ///< `dielectric`, `conductor`, `schlick`, `layer`...; as in methodTable.h
@@ -24,15 +24,15 @@ struct SeenClosure {
 };
 
 /// One place of a material from one angle.
-struct Sighting {
+struct DirectionProbe {
     float cosine = 1.0f;
     float albedo = 0.0f; ///< luminance, all that does not pass straight on
-    std::vector<SeenClosure> closures;
+    std::vector<ClosureContribution> closures;
 };
 
-/// Looks at a material: at one place when it is constant, else at some that spread over its
+/// Probes a material: at one place when it is constant, else at some that spread over its
 /// textures, with primvars from 0 to 1; each from the middles of the quarters of the cosine.
 /// @returns place by place
-std::vector<std::vector<Sighting>> lookAt(const Plan& plan, TextureSource& textures);
+std::vector<std::vector<DirectionProbe>> probePlan(const Plan& plan, TextureSource& textures);
 
 } // namespace patina

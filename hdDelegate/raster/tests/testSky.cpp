@@ -77,7 +77,7 @@ TEST(SkyHarmonics, oneBrightPixelIsSplitOff) {
     const SkyHarmonics sky = makeSkyHarmonics(onePixel);
     EXPECT_GT(glm::dot(sky.sunDirection, sun), std::cos(0.01f));
     const vec3 facing = irradiance(onePixel, sun);
-    // Both grids see a disc of few directions: its area is known to a sixth.
+    // Both grids see a disk of few directions: its area is known to a sixth.
     EXPECT_NEAR(sky.sunIrradiance.x / (facing.x - 0.3f * pi), 1.0f, 0.17f);
     for (const vec3& n : {sun, -sun, vec3(0, 1, 0), vec3(1, 0, 0)})
         EXPECT_NEAR(sky.at(n).x, 0.3f * pi, 0.02f);
@@ -88,22 +88,22 @@ TEST(SkyHarmonics, withoutTheSplitOneBrightPixelRingsOrIsSpread) {
     // keeps it from being negative, and cannot keep it from being wrong.
     const SkyHarmonics whole = makeSkyHarmonics(onePixel, false);
     EXPECT_GT(whole.window, 0.0f);
-    float most = 0.0f;
+    float maximum = 0.0f;
     for (int i = 0; i < 200; ++i) {
         const vec3 n = directionAt(i % 20, i / 20, 20, 10);
         EXPECT_GE(whole.at(n).x, -1e-3f);
-        if (glm::dot(n, sun) < 0.0f) most = std::max(most, whole.at(n).x);
+        if (glm::dot(n, sun) < 0.0f) maximum = std::max(maximum, whole.at(n).x);
     }
-    EXPECT_GT(most, 2.0f * 0.3f * pi);
+    EXPECT_GT(maximum, 2.0f * 0.3f * pi);
 }
 
 TEST(SkyHarmonics, withoutAWindowOneBrightPixelRingsBelowZero) {
     const SkyHarmonics bare = makeSkyHarmonics(onePixel, false, false);
     EXPECT_EQ(bare.window, 0.0f);
-    float least = 0.0f;
+    float minimum = 0.0f;
     for (int i = 0; i < 200; ++i)
-        least = std::min(least, bare.at(directionAt(i % 20, i / 20, 20, 10)).x);
-    EXPECT_LT(least, -0.1f);
+        minimum = std::min(minimum, bare.at(directionAt(i % 20, i / 20, 20, 10)).x);
+    EXPECT_LT(minimum, -0.1f);
 }
 
 TEST(SkyHarmonics, survivesWhatIsNoLight) {

@@ -41,11 +41,11 @@ TEST(RasterContext, ComputesWithALobe) {
 
 TEST(RasterContext, ASmallBufferHoldsNothingOfWhatFollowsItsData) {
     PATINA_NEED_CONTEXT();
-    const unsigned char data[GlBuffer::leastSize] = {
-        1, 2, 3, 4, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa};
+    const unsigned char data[GlBuffer::minSize] = {1,    2,    3,    4,    0xaa, 0xaa, 0xaa, 0xaa,
+                                                   0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa, 0xaa};
     const GlBuffer buffer(4, data);
-    ASSERT_EQ(buffer.size(), GlBuffer::leastSize);
-    unsigned char held[GlBuffer::leastSize] = {};
+    ASSERT_EQ(buffer.size(), GlBuffer::minSize);
+    unsigned char held[GlBuffer::minSize] = {};
     buffer.read(held, sizeof held);
     for (size_t i = 0; i < sizeof held; ++i)
         EXPECT_EQ(held[i], i < 4 ? data[i] : 0) << i;

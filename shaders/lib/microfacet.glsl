@@ -4,33 +4,33 @@
 //   G2(o, i) / (o.z i.z) = 2 / (l(o) i.z + l(i) o.z)
 // Reflection and refraction use the same G2.
 
-const int FACETS_GGX = 0;
-const int FACETS_BECKMANN = 1;
+const int NDF_GGX = 0;
+const int NDF_BECKMANN = 1;
 
-PATINA_FN float facetLength(vec3 w, vec2 alpha, int facets) {
-    if (facets == FACETS_BECKMANN) return beckmannLength(w, alpha);
+PATINA_FN float microfacetLength(vec3 w, vec2 alpha, int ndf) {
+    if (ndf == NDF_BECKMANN) return beckmannLength(w, alpha);
     return ggxLength(w, alpha);
 }
 
 // Density of facet normals m (unit) per solid angle and projected area.
-PATINA_FN float facetD(vec3 m, vec2 alpha, int facets) {
-    if (facets == FACETS_BECKMANN) return beckmannDensity(m, alpha);
+PATINA_FN float microfacetD(vec3 m, vec2 alpha, int ndf) {
+    if (ndf == NDF_BECKMANN) return beckmannDensity(m, alpha);
     return ggxD(m, alpha);
 }
 
 // Draws a facet normal with density G1(o) max(0, o.m) D(m) / o.z.
-PATINA_FN vec3 facetSampleVisible(vec3 wo, vec2 alpha, vec2 u, int facets) {
-    if (facets == FACETS_BECKMANN) return beckmannSampleVisible(wo, alpha, u);
+PATINA_FN vec3 microfacetSampleVisible(vec3 wo, vec2 alpha, vec2 u, int ndf) {
+    if (ndf == NDF_BECKMANN) return beckmannSampleVisible(wo, alpha, u);
     return ggxSampleVisible(wo, alpha, u);
 }
 
-// G2 / (o.z i.z); lo and li are facetLength of both directions.
-PATINA_FN float facetG2Ratio(float oz, float lo, float iz, float li) {
+// G2 / (o.z i.z); lo and li are microfacetLength of both directions.
+PATINA_FN float microfacetG2Ratio(float oz, float lo, float iz, float li) {
     return 2.0f / max(lo * iz + li * oz, TINY);
 }
 
 // G2 / G1(o): what is left of the weight after visible normal sampling. In [0, 1].
-PATINA_FN float facetG2OverG1(float oz, float lo, float iz, float li) {
+PATINA_FN float microfacetG2OverG1(float oz, float lo, float iz, float li) {
     return iz * (oz + lo) / max(lo * iz + li * oz, TINY);
 }
 
@@ -38,7 +38,7 @@ PATINA_FN float facetG2OverG1(float oz, float lo, float iz, float li) {
 // surface) to i, which lies above the surface when it reflects and below when it refracts. All
 // without Fresnel. value: D G2 |o.h| / o.z dh/di, which is BSDF times |cos i|; pdf: density of i
 // after visible normal sampling; c: o.h in [0, 1].
-struct FacetPair {
+struct MicrofacetPair {
     float value;
     float pdf;
     float c;
@@ -52,13 +52,13 @@ struct FacetPair {
 // The half vector is never normalised for D: with H = o + eta i the lengths cancel in D dh/di
 // |o.h|, which saves a root and stays in range for short H. t is bounded for H = 0, where o.H = 0
 // too.
-PATINA_FN FacetPair facetPair(vec3 o, vec3 i, vec2 alpha, float eta, int facets) {
+PATINA_FN MicrofacetPair microfacetPair(vec3 o, vec3 i, vec2 alpha, float eta, int ndf) {
     vec3 h = o + i * eta;
     h = select(h, -h, h.z >= 0.0f);
     float oh = dot(o, h);
     float ih = dot(i, h);
     vec3 shapes;
-    if (facets == FACETS_BECKMANN) {
+    if (ndf == NDF_BECKMANN) {
         shapes = beckmannPair(o, i, h, alpha);
     } else {
         float a = alpha.x * alpha.y;
@@ -76,8 +76,8 @@ PATINA_FN FacetPair facetPair(vec3 o, vec3 i, vec2 alpha, float eta, int facets)
     float iz = abs(i.z);
     float lo = shapes.y;
     float li = shapes.z;
-    FacetPair p;
-    p.value = shape * iz * facetG2Ratio(oz, lo, iz, li);
+    MicrofacetPair p;
+    p.value = shape * iz * microfacetG2Ratio(oz, lo, iz, li);
     p.pdf = shape * 2.0f / max(oz + lo, TINY);
     float len = sqrt(max(dot(h, h), TINY));
     p.c = clamp(oh / len, 0.0f, 1.0f);
@@ -86,42 +86,42 @@ PATINA_FN FacetPair facetPair(vec3 o, vec3 i, vec2 alpha, float eta, int facets)
 }
 
 // c - eta ct without cancellation for eta near 1, with ct the cosine of the refracted direction:
-// that is along m facetShift - o.
-PATINA_FN float facetShift(float c, float ct, float eta) {
+// that is along m microfacetShift - o.
+PATINA_FN float microfacetShift(float c, float ct, float eta) {
     return (1.0f - eta) * (1.0f + eta) / max(c + eta * ct, TINY);
 }
 
-// Where light from o goes at facet m; c, eta and reflects as in facetBounce.
-PATINA_FN vec3 facetDirection(vec3 o, vec3 m, float c, float eta, bool reflects) {
-    float len = facetShift(c, cosRefracted(c, eta), eta);
+// Where light from o goes at facet m; c, eta and reflects as in microfacetBounce.
+PATINA_FN vec3 microfacetDirection(vec3 o, vec3 m, float c, float eta, bool reflects) {
+    float len = microfacetShift(c, cosRefracted(c, eta), eta);
     return select(m * (2.0f * c) - o, normalize(m * len - o), reflects);
 }
 
 // The same from the sampling side: o meets a facet m that was drawn from the visible normals (or z
 // for a mirror). ratio: G2 / G1; pdf as above; both 1 for a mirror. valid: i is on the side where
 // it should be.
-struct FacetBounce {
+struct MicrofacetBounce {
     vec3 wi;
     float ratio;
     float pdf;
     bool valid;
 };
 
-// c: o.m in [0, 1]. eta as in facetPair; it is not used for reflection.
-PATINA_FN FacetBounce facetBounce(vec3 o, vec3 m, float c, vec2 alpha, float eta, bool reflects,
-                                  int facets) {
+// c: o.m in [0, 1]. eta as in microfacetPair; it is not used for reflection.
+PATINA_FN MicrofacetBounce microfacetBounce(vec3 o, vec3 m, float c, vec2 alpha, float eta,
+                                            bool reflects, int ndf) {
     bool mirror = alpha.x == 0.0f;
     vec2 a = max(alpha, vec2(ALPHA_MIRROR));
     float ct = cosRefracted(c, eta);
-    float len = facetShift(c, ct, eta);
+    float len = microfacetShift(c, ct, eta);
     float jacobian = select(0.25f, c * eta * eta * ct / max(len * len, TINY), reflects);
-    FacetBounce b;
-    b.wi = facetDirection(o, m, c, eta, reflects);
+    MicrofacetBounce b;
+    b.wi = microfacetDirection(o, m, c, eta, reflects);
     float iz = select(b.wi.z, -b.wi.z, reflects);
-    float lo = facetLength(o, a, facets);
-    float li = facetLength(b.wi, a, facets);
+    float lo = microfacetLength(o, a, ndf);
+    float li = microfacetLength(b.wi, a, ndf);
     b.valid = iz > 0.0f && (reflects || ct > 0.0f);
-    b.ratio = select(1.0f, facetG2OverG1(o.z, lo, iz, li), mirror);
-    b.pdf = select(1.0f, facetD(m, a, facets) * jacobian * 2.0f / max(o.z + lo, TINY), mirror);
+    b.ratio = select(1.0f, microfacetG2OverG1(o.z, lo, iz, li), mirror);
+    b.pdf = select(1.0f, microfacetD(m, a, ndf) * jacobian * 2.0f / max(o.z + lo, TINY), mirror);
     return b;
 }

@@ -18,6 +18,6 @@ namespace patina {
 ///
 /// @param graph simplified
 /// @returns true when something was replaced, so that it pays to simplify again
-bool mergeWholeShaders(Graph& graph, Diagnostics& diagnostics);
+bool mergeSurfaceShaders(Graph& graph, Diagnostics& diagnostics);
 
 } // namespace patina

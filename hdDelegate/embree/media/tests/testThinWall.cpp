@@ -58,13 +58,13 @@ TEST(ThinWalls, ShadowsHaveTheColourOfTheWall) {
     };
     const vec3 without = lit(false), with = lit(true);
     const float once = sh::fresnelDielectric(std::sqrt(0.5f), 1.5f);
-    const float passed = (1.0f - once) / (1.0f + once);
+    const float transmittance = (1.0f - once) / (1.0f + once);
     ASSERT_GT(without.x, 0.1f);
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(with[c] / without[c], tint[c] * passed, 1e-3f);
+        EXPECT_NEAR(with[c] / without[c], tint[c] * transmittance, 1e-3f);
 }
 
-// Significance: five standard errors, as in mediaTest.cpp.
+// Significance: five standard errors, as in testMedia.cpp.
 TEST(ThinWalls, WhiteWallsLoseNothing) {
     for (float roughness : {0.0f, 0.4f}) {
         MediaScene s;
@@ -93,8 +93,8 @@ TEST(ThinWalls, PassedLightIsTintedOnceByEachWall) {
     s.camera(vec3(0, 0, 5), 0.1f);
     s.settings.maxDepth = 0; // without light that bounces between the walls
     const auto image = s.render(16, 256);
-    const float passed = 0.96f / 1.04f;
+    const float transmittance = 0.96f / 1.04f;
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(image.mean[c], tint[c] * tint[c] * passed * passed,
+        EXPECT_NEAR(image.mean[c], tint[c] * tint[c] * transmittance * transmittance,
                     5.0f * image.error[c] + 1e-4f);
 }

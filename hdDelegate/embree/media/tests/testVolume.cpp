@@ -58,13 +58,13 @@ TEST(FieldGrid, InterpolatesLinearlyAndBounds) {
     for (const vec3& p : {vec3(0.1f, -0.2f, 0.3f), vec3(0.0f), vec3(-0.7f, 0.61f, 0.0f)})
         EXPECT_NEAR(grid->sample(p).x, 1.0f + p.x + 2.0f * p.y, 1e-5f);
     EXPECT_EQ(grid->sample(vec3(1.5f)).x, 0.0f);
-    vec3 least(INFINITY), most(-INFINITY);
-    grid->range(vec3(-0.1f), vec3(0.1f), least, most);
-    EXPECT_LE(least.x, 0.7f);
-    EXPECT_GE(most.x, 1.3f);
+    vec3 minimum(INFINITY), maximum(-INFINITY);
+    grid->range(vec3(-0.1f), vec3(0.1f), minimum, maximum);
+    EXPECT_LE(minimum.x, 0.7f);
+    EXPECT_GE(maximum.x, 1.3f);
 }
 
-// Significance as in mediaTest.cpp: five standard errors.
+// Significance as in testMedia.cpp: five standard errors.
 TEST(Volumes, AbsorptionFollowsTheIntegralOfDensity) {
     MediaScene s;
     const vec3 absorption(0.5f, 1.0f, 2.0f);

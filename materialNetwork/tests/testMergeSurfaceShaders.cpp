@@ -47,7 +47,7 @@ const glm::vec3 back(0, 0, -1);
 
 } // namespace
 
-TEST(WholeShaders, MixesCountByTheirPresence) {
+TEST(MergeSurfaceShaders, MixesCountByTheirPresence) {
     const auto mixed = [](float opacityA, float opacityB, float m) {
         return std::vector<NetworkNode>{
             lambert("red", color(0.8f, 0.0f, 0.0f)),
@@ -76,7 +76,7 @@ TEST(WholeShaders, MixesCountByTheirPresence) {
     EXPECT_NEAR(chosen.program->opacity(ShadingPoint()), 0.2f, 1e-6f);
 }
 
-TEST(WholeShaders, MixesOfModelsNestAndVaryOverTheSurface) {
+TEST(MergeSurfaceShaders, MixesOfModelsNestAndVaryOverTheSurface) {
     std::vector<NetworkNode> nodes = {
         makeNode("paint", "ND_standard_surface_surfaceshader",
                  {{"base_color", color(1, 0, 0)}, {"specular", number(0.0f)}}),
@@ -100,7 +100,7 @@ TEST(WholeShaders, MixesOfModelsNestAndVaryOverTheSurface) {
     }
 }
 
-TEST(WholeShaders, BackShadersShowFromBehind) {
+TEST(MergeSurfaceShaders, BackShadersShowFromBehind) {
     const std::vector<NetworkNode> parts = {
         lambert("red", color(0.8f, 0.0f, 0.0f)), lambert("blue", color(0.0f, 0.0f, 0.4f)),
         surfaceOf("front", "red"), surfaceOf("behind", "blue", {{"opacity", number(0.5f)}})};
@@ -131,7 +131,7 @@ TEST(WholeShaders, BackShadersShowFromBehind) {
     expectColor(albedo(alone, back), 0.0f, 0.0f, 0.4f);
 }
 
-TEST(WholeShaders, UnlitSurfacesPassLight) {
+TEST(MergeSurfaceShaders, UnlitSurfacesPassLight) {
     Compiled c(makeNetwork({makeNode("surface", "ND_surface_unlit",
                                      {{"emission", number(2.0f)},
                                       {"transmission", number(0.5f)},
@@ -148,7 +148,7 @@ TEST(WholeShaders, UnlitSurfacesPassLight) {
     expectColor(albedo(c), 0.0f, 0.0f, 0.0f);
 }
 
-TEST(WholeShaders, ThinAndSolidPartsKeepTheirWays) {
+TEST(MergeSurfaceShaders, ThinAndSolidPartsKeepTheirWays) {
     const NetworkNode glass = makeNode("glass", "ND_dielectric_bsdf",
                                        {{"scatter_mode", text("RT")}, {"roughness", pair(0.0f)}});
     const auto of = [&](std::vector<NetworkNode> more) {
@@ -160,9 +160,9 @@ TEST(WholeShaders, ThinAndSolidPartsKeepTheirWays) {
     const Compiled half =
         of({surfaceOf("thin", "glass", {{"thin_walled", Value::makeBool(1)}}),
             surfaceOf("solid", "glass"), mixOf("ND_mix_surfaceshader", "thin", "solid", 0.5f)});
-    const float passed = 1.0f - wall.program->opacity(ShadingPoint());
-    EXPECT_GT(passed, 0.9f);
-    EXPECT_NEAR(1.0f - half.program->opacity(ShadingPoint()), 0.5f * passed, 1e-5f);
+    const float transmittance = 1.0f - wall.program->opacity(ShadingPoint());
+    EXPECT_GT(transmittance, 0.9f);
+    EXPECT_NEAR(1.0f - half.program->opacity(ShadingPoint()), 0.5f * transmittance, 1e-5f);
     EXPECT_TRUE(half.program->hasTransmission());
     EXPECT_FALSE(wall.program->hasTransmission());
     // thin_walled that varies is the same mix.
@@ -178,11 +178,11 @@ TEST(WholeShaders, ThinAndSolidPartsKeepTheirWays) {
                                     {{"st", glm::vec4(u)}, {"UV0", glm::vec4(u)}});
         ShadingPoint point;
         point.primvars = &primvars;
-        EXPECT_NEAR(1.0f - varying.program->opacity(point), u * passed, 1e-5f);
+        EXPECT_NEAR(1.0f - varying.program->opacity(point), u * transmittance, 1e-5f);
     }
 }
 
-TEST(WholeShaders, DisplacementsAreMixed) {
+TEST(MergeSurfaceShaders, DisplacementsAreMixed) {
     Network network = makeNetwork(
         {makeNode("surface", "ND_surface"),
          makeNode("up", "ND_displacement_float",
@@ -197,7 +197,7 @@ TEST(WholeShaders, DisplacementsAreMixed) {
     expectColor(c.program->displacement(ShadingPoint()), 1.5f, 3.0f, 4.75f);
 }
 
-TEST(WholeShaders, VolumesAreMixed) {
+TEST(MergeSurfaceShaders, VolumesAreMixed) {
     Network network;
     network.path = "/m";
     network.nodes = {
@@ -217,7 +217,7 @@ TEST(WholeShaders, VolumesAreMixed) {
     expectColor(medium.scattering(), 2.0f, 2.0f, 2.0f);
 }
 
-TEST(WholeShaders, MediaOfMixedSurfacesAreMixed) {
+TEST(MergeSurfaceShaders, MediaOfMixedSurfacesAreMixed) {
     const auto glass = [](const std::string& name, float absorption) {
         return std::vector<NetworkNode>{
             makeNode(name + "T", "ND_dielectric_bsdf", {{"scatter_mode", text("RT")}}),
@@ -237,7 +237,7 @@ TEST(WholeShaders, MediaOfMixedSurfacesAreMixed) {
 }
 
 // Everything that the models have at once, front and back, fits.
-TEST(WholeShaders, LargeModelsFit) {
+TEST(MergeSurfaceShaders, LargeModelsFit) {
     const auto everything = [](const std::string& name, float metalness) {
         return makeNode(name, "ND_standard_surface_surfaceshader",
                         {{"metalness", number(metalness)},
@@ -260,7 +260,7 @@ TEST(WholeShaders, LargeModelsFit) {
     EXPECT_LE(albedo(c).y, 1.01f);
 }
 
-TEST(WholeShaders, WhatIsNoSurfaceIsReportedOnce) {
+TEST(MergeSurfaceShaders, WhatIsNoSurfaceIsReportedOnce) {
     Compiled c(
         makeNetwork({lambert("red", color(0.8f, 0.0f, 0.0f)), surfaceOf("a", "red"),
                      makeNode("wave", "ND_displacement_float"),
@@ -271,7 +271,7 @@ TEST(WholeShaders, WhatIsNoSurfaceIsReportedOnce) {
     expectColor(albedo(c), 0.4f, 0.0f, 0.0f);
 }
 
-TEST(WholeShaders, OverridesReachTheFront) {
+TEST(MergeSurfaceShaders, OverridesReachTheFront) {
     const Network network = makeNetwork(
         {makeNode("front", "ND_surface_unlit"), makeNode("behind", "ND_surface_unlit"),
          makeNode("surface", "ND_surfacematerial", {},
@@ -284,9 +284,9 @@ TEST(WholeShaders, OverridesReachTheFront) {
     EXPECT_EQ(c.program->emission(seenFrom(back), back).x, 1.0f);
 }
 
-TEST(WholeShaders, DocumentsHaveThem) {
+TEST(MergeSurfaceShaders, DocumentsHaveThem) {
     const std::string path =
-        (std::filesystem::temp_directory_path() / "patinaWholeShaders.mtlx").string();
+        (std::filesystem::temp_directory_path() / "patinaMergeSurfaceShaders.mtlx").string();
     std::ofstream(path) << R"(<?xml version="1.0"?>
 <materialx version="1.39">
   <surface_unlit name="red" type="surfaceshader">

@@ -1,10 +1,12 @@
 #include "hdDelegate/raster/rasterBsdf.h"
 
 #include "hdDelegate/raster/eglContext.h"
-#include "hdDelegate/raster/glKernel.h"
+#include "hdDelegate/raster/glProgram.h"
 #include "hdDelegate/raster/rasterTextures.h"
 #include "materialNetwork/glsl/glslMaterial.h"
 #include "shaders/shaders.h"
+
+#include <algorithm>
 
 namespace patina {
 
@@ -20,14 +22,14 @@ std::string shaderOf(const MaterialProgram& program, const GlslMaterial& glsl) {
            "#include \"shaders/raster/material.glsl\"\n"
            "layout(location = 0) uniform vec4 probeUv;\n" +
            glsl.text + glsl.albedoText + primvars +
-           "    return fallback;\n}\n#include \"shaders/raster/bsdf.glsl\"\n";
+           "    return fallback;\n}\n#include \"shaders/raster/bsdf.comp.glsl\"\n";
 }
 
 } // namespace
 
 struct RasterBsdf::Gpu {
     std::unique_ptr<EglContext> context;
-    std::unique_ptr<GlKernel> kernel;
+    std::unique_ptr<GlProgram> program;
     GlBuffer parameters, albedoTable;
     std::vector<std::shared_ptr<const GlTexture>> textures;
 };
@@ -55,8 +57,9 @@ std::unique_ptr<RasterBsdf> RasterBsdf::make(std::shared_ptr<const MaterialProgr
     const GlslMaterial glsl = makeGlslMaterial(*program);
     for (const std::string& line : glsl.leftOut)
         diagnostics.warn("", "", line);
-    gpu->kernel = GlKernel::make("material", shaderOf(*program, glsl), error);
-    if (!gpu->kernel) return nullptr;
+    gpu->program =
+        GlProgram::make({{GL_COMPUTE_SHADER, "material", shaderOf(*program, glsl)}}, error);
+    if (!gpu->program) return nullptr;
     gpu->parameters = GlBuffer(glsl.parameters);
     gpu->albedoTable = GlBuffer(sh::ALBEDO_TABLE_SIZE * sizeof(float), patinaAlbedoTable);
     RasterTextures uploaded(textures, diagnostics, GL_RGBA32F);
@@ -69,18 +72,23 @@ std::vector<RasterBsdf::Answer> RasterBsdf::evaluate(const std::vector<Query>& q
     std::vector<Answer> answers(queries.size());
     if (queries.empty()) return answers;
     const EglContext::Use use(*_gpu->context);
-    const GlBuffer in(queries.size() * sizeof(Query), queries.data());
-    const GlBuffer out(queries.size() * sizeof(Answer), nullptr);
-    in.bindStorage(0);
-    out.bindStorage(6);
-    _gpu->albedoTable.bindStorage(7);
-    _gpu->parameters.bindUniform(1);
-    for (size_t i = 0; i < _gpu->textures.size(); ++i)
-        _gpu->textures[i]->bind(GLuint(i));
-    _gpu->kernel->use();
-    gl.Uniform4f(0, uv ? uv->x : 0.0f, uv ? uv->y : 0.0f, uv ? 1.0f : 0.0f, 0.0f);
-    _gpu->kernel->run(int(queries.size()));
-    out.read(answers.data(), answers.size() * sizeof(Answer));
+    constexpr size_t batch = 65535; // groups that every driver takes at once
+    for (size_t begin = 0; begin < queries.size(); begin += batch) {
+        const size_t count = std::min(batch, queries.size() - begin);
+        const GlBuffer in(count * sizeof(Query), &queries[begin]);
+        const GlBuffer out(count * sizeof(Answer), nullptr);
+        in.bindStorage(0);
+        out.bindStorage(6);
+        _gpu->albedoTable.bindStorage(7);
+        _gpu->parameters.bindUniform(1);
+        for (size_t i = 0; i < _gpu->textures.size(); ++i)
+            _gpu->textures[i]->bind(GLuint(i));
+        _gpu->program->use();
+        gl.Uniform4f(0, uv ? uv->x : 0.0f, uv ? uv->y : 0.0f, uv ? 1.0f : 0.0f, 0.0f);
+        gl.DispatchCompute(GLuint(count), 1, 1);
+        gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        out.read(&answers[begin], count * sizeof(Answer));
+    }
     return answers;
 }
 

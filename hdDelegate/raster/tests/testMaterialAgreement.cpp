@@ -1,7 +1,7 @@
 // Whole materials as the driver runs their generated text, against the program that the path tracer
 // runs: values, densities, presence and emission at one shading point.
 
-#include "hdDelegate/raster/glKernel.h"
+#include "hdDelegate/raster/glProgram.h"
 #include "hdDelegate/raster/glResources.h"
 #include "hdDelegate/raster/tests/rasterTest.h"
 #include "materialNetwork/glsl/glslMaterial.h"
@@ -142,9 +142,10 @@ std::string shaderOf(const MaterialProgram& program, const GlslMaterial& glsl) {
     primvars += "    return fallback;\n}\n";
     return glsl.definitions + "#include \"shaders/raster/material.glsl\"\n" + glsl.text + primvars +
            R"(
+layout(local_size_x = 1) in;
 layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };
 layout(std430, binding = 6) writeonly buffer Answers { vec4 answers[]; };
-void item(int i) {
+void main() {
     point.position = point.objectPosition = vec3(0.1, 0.2, 0.3);
     point.geometricNormal = point.normal = vec3(0.0, 0.0, 1.0);
     point.tangent = vec3(1.0, 0.0, 0.0);
@@ -152,6 +153,7 @@ void item(int i) {
     point.view = points[0].xyz;
     point.objectToWorldNormal = mat3(1.0);
     point.uvFootprint = 0.0;
+    int i = int(gl_GlobalInvocationID.x);
     vec3 passes;
     float presence = materialPresence(passes);
     materialSetup();
@@ -176,8 +178,9 @@ TEST_P(MaterialAgreement, OfTextWithProgram) {
     const GlslMaterial glsl = makeGlslMaterial(*c.program);
     EXPECT_TRUE(glsl.leftOut.empty());
     std::string error;
-    const auto kernel = GlKernel::make(named.name, shaderOf(*c.program, glsl), error);
-    ASSERT_TRUE(kernel) << error << "\n" << glsl.text;
+    const auto program =
+        GlProgram::make({{GL_COMPUTE_SHADER, named.name, shaderOf(*c.program, glsl)}}, error);
+    ASSERT_TRUE(program) << error << "\n" << glsl.text;
 
     const FakePrimvars primvars(*c.program, {{"st", {0.4f, 0.6f, 0, 0}}});
     const ShadingPoint point = pointOf(primvars);
@@ -203,7 +206,9 @@ TEST_P(MaterialAgreement, OfTextWithProgram) {
     pointBuffer.bindStorage(0);
     answerBuffer.bindStorage(6);
     tableBuffer.bindStorage(7);
-    kernel->run(directions);
+    program->use();
+    gl.DispatchCompute(directions, 1, 1);
+    gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     std::vector<glm::vec4> answers(size_t(directions) * 4);
     answerBuffer.read(answers.data(), answers.size() * sizeof(glm::vec4));
 

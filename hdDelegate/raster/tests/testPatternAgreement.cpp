@@ -1,6 +1,6 @@
 // Every pattern node, as the driver runs its GLSL, against its C++ function.
 
-#include "hdDelegate/raster/glKernel.h"
+#include "hdDelegate/raster/glProgram.h"
 #include "hdDelegate/raster/glResources.h"
 #include "hdDelegate/raster/tests/rasterTest.h"
 #include "materialNetwork/glsl/glslPatterns.h"
@@ -201,23 +201,27 @@ TEST_P(PatternAgreement, OfNodesWithTheirFunctions) {
                 "    answers[" + std::to_string(slot++) + " * TRIALS + t] = " + expression + ";\n";
     }
     std::string error;
-    const auto kernel = GlKernel::make(
-        "patterns",
-        "#include \"shaders/raster/material.glsl\"\n"
-        "#include \"shaders/raster/moreNodes.glsl\"\n"
-        "#define TRIALS " +
-            std::to_string(trials) +
-            "\n"
-            "layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };\n"
-            "layout(std430, binding = 6) writeonly buffer Answers { vec4 answers[]; };\n" +
-            somewhereInGlsl + "void item(int t) {\n    somewhere();\n" + body + "}\n",
+    const auto program = GlProgram::make(
+        {{GL_COMPUTE_SHADER, "patterns",
+          "#include \"shaders/raster/material.glsl\"\n"
+          "#include \"shaders/raster/moreNodes.glsl\"\n"
+          "#define TRIALS " +
+              std::to_string(trials) +
+              "\nlayout(local_size_x = 1) in;\n"
+              "layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };\n"
+              "layout(std430, binding = 6) writeonly buffer Answers { vec4 answers[]; };\n" +
+              somewhereInGlsl +
+              "void main() {\n    somewhere();\n    int t = int(gl_GlobalInvocationID.x);\n" +
+              body + "}\n"}},
         error);
-    ASSERT_TRUE(kernel) << error;
+    ASSERT_TRUE(program) << error;
     const GlBuffer inputBuffer(inputs),
         answerBuffer(size_t(slot) * trials * sizeof(glm::vec4), nullptr);
     inputBuffer.bindStorage(0);
     answerBuffer.bindStorage(6);
-    kernel->run(trials);
+    program->use();
+    gl.DispatchCompute(trials, 1, 1);
+    gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     std::vector<glm::vec4> answers(size_t(slot) * trials);
     answerBuffer.read(answers.data(), answers.size() * sizeof(glm::vec4));
 

@@ -1,9 +1,10 @@
-// Numbers of a material at one point, one query per item; see hdDelegate/raster/rasterBsdf.h.
+// Numbers of a material at one point, one query per invocation; see hdDelegate/raster/rasterBsdf.h.
+layout(local_size_x = 1) in;
 layout(std430, binding = 0) readonly buffer Queries { vec4 queries[]; };
 layout(std430, binding = 6) writeonly buffer Answers { vec4 answers[]; };
 
-void item(int query) {
-    int i = 3 * query;
+void main() {
+    int i = 3 * int(gl_GlobalInvocationID.x);
     point.position = point.objectPosition = vec3(probeUv.z != 0.0 ? probeUv.xy : vec2(0.0), 0.0);
     point.geometricNormal = point.normal = vec3(0.0, 0.0, 1.0);
     point.tangent = vec3(1.0, 0.0, 0.0);
@@ -18,7 +19,7 @@ void item(int query) {
     materialSetup();
     MaterialEval e = materialEval(queries[i + 1].xyz);
     MaterialSample s = materialSample(queries[i + 2].xyz, queries[i + 2].w);
-    int o = 7 * query;
+    int o = 7 * int(gl_GlobalInvocationID.x);
     answers[o] = vec4(e.diffuse, e.pdf);
     answers[o + 1] = vec4(e.specular, presence);
     answers[o + 2] = vec4(s.wi, float(s.event));

@@ -53,6 +53,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("shaders/tests::testLobeAlbedo::*", "smoke", None),
     ("shaders/tests::testLobeDegenerate::*", "smoke", None),
     ("hdDelegate/raster/tests::testGlsl*", "full", "raster shaders materialNetwork"),
+    ("hdDelegate/raster/tests::testGlslAgreement::CostlyLobe*", "long", None),
     ("hdDelegate/raster/tests::testGlslMaterial::*", "smoke", None),
     ("hdDelegate/raster/measure/tests::testDomeMethods::*", "full", "raster lights"),
     ("hdDelegate/embree/media/tests::testMedia::*", "smoke", "embree scene"),

@@ -18,13 +18,15 @@ RUNS = {  # --tier: the tiers of the tests that it runs
     "long": ("long",),
     "all": TIERS,
 }
-ROOMS = ("shaders", "materialNetwork", "scene", "film", "lights", "embree", "raster", "backends", "hydra", "python", "stage",
-         "cli", "view", "chart", "testenv")
+ROOMS = ("shaders", "materialNetwork", "scene", "geometry", "image", "plan", "film", "lights", "embree", "raster", "backends",
+         "hydra", "python", "stage", "cli", "view", "chart", "testenv")
 
 FOLDERS = {  # folder: tier, rooms
     "shaders/": ("unit", "shaders"),
     "materialNetwork/": ("unit", "materialNetwork"),
     "hdDelegate/scene/": ("unit", "scene"),
+    "hdDelegate/geometry/": ("unit", "geometry"),
+    "hdDelegate/image/": ("unit", "image"),
     "hdDelegate/film/": ("unit", "film"),
     "hdDelegate/lights/": ("unit", "lights"),
     "hdDelegate/embree/": ("smoke", "embree"),
@@ -38,7 +40,7 @@ FOLDERS = {  # folder: tier, rooms
     "testenv/hydra/": ("full", "hydra"),
     "testenv/mitsuba/": ("long", "embree lights shaders"),
     "testenv/raster/": ("full", "raster"),
-    "testenv/render/": ("full", "embree lights scene"),
+    "testenv/render/": ("full", "embree lights scene geometry image"),
     "testenv/stability/": ("full", "shaders materialNetwork raster"),
     "testenv/view/": ("full", "view"),
     "testenv/lint/": ("lint", "testenv"),  # reads files that are committed, and renders nothing
@@ -71,14 +73,14 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("plugin/patina/stage/*", "unit", None),
     ("testenv/cli/test_chart.py::*", "full", "chart materialNetwork"),
     ("testenv/cli/test_chartScenes.py::*", "full", "chart"),
-    ("testenv/cli/test_subdivisionPlan.py::*", "full", "scene materialNetwork"),
+    ("testenv/cli/test_subdivisionPlan.py::*", "full", "geometry plan materialNetwork"),
     ("testenv/cli/test_predictions.py::*", "full", "chart materialNetwork"),
     ("testenv/cli/test_check.py::*", "full", "cli materialNetwork shaders"),
     ("testenv/cli/test_bsdf.py::*", "full", "cli materialNetwork raster shaders"),
     ("testenv/cli/test_layers.py::*", None, "cli materialNetwork shaders"),
     ("testenv/stability/test_atlas.py::*", None, "chart shaders"),
-    ("testenv/render/test_badInput.py::*", "smoke", "cli stage scene"),
-    ("testenv/render/test_features.py::*", "smoke", "embree lights scene stage"),
+    ("testenv/render/test_badInput.py::*", "smoke", "cli stage scene geometry"),
+    ("testenv/render/test_features.py::*", "smoke", "embree lights scene geometry stage"),
     ("testenv/render/test_lightUnits.py::*", "smoke", "lights"),
     ("testenv/render/test_mergeSurfaceShaders.py::*", "smoke", "materialNetwork embree"),
     ("testenv/render/test_classicScenes.py::*", "smoke", "shaders materialNetwork"),

@@ -4,8 +4,8 @@
 #include "hdDelegate/embree/integrator.h"
 #include "hdDelegate/embree/lightsKey.h"
 #include "hdDelegate/embree/tileSchedule.h"
+#include "hdDelegate/image/textureSystem.h"
 #include "hdDelegate/renderer.h"
-#include "hdDelegate/scene/textureSystem.h"
 
 #include <atomic>
 #include <chrono>

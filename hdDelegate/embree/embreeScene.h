@@ -5,8 +5,8 @@
 #include "hdDelegate/embree/media/volumeScene.h"
 #include "hdDelegate/scene/camera.h"
 #include "hdDelegate/scene/scene.h"
-#include "hdDelegate/scene/scenePlan.h"
-#include "hdDelegate/scene/subdivisionPlan.h"
+#include "hdDelegate/plan/scenePlan.h"
+#include "hdDelegate/plan/subdivisionPlan.h"
 #include "hdDelegate/scene/settings.h"
 #include "materialNetwork/textureSource.h"
 

@@ -4,11 +4,11 @@
 #include "hdDelegate/embree/drawnPrims.h"
 #include "hdDelegate/embree/embreeScene.h"
 #include "hdDelegate/embree/surfaceSpace.h"
-#include "hdDelegate/scene/displace.h"
+#include "hdDelegate/geometry/displace.h"
+#include "hdDelegate/geometry/primvarExpand.h"
+#include "hdDelegate/geometry/splitTriangles.h"
+#include "hdDelegate/geometry/tessellate.h"
 #include "hdDelegate/scene/primCompare.h"
-#include "hdDelegate/scene/primvarExpand.h"
-#include "hdDelegate/scene/splitTriangles.h"
-#include "hdDelegate/scene/tessellate.h"
 #include "materialNetwork/material.h"
 
 #include <algorithm>

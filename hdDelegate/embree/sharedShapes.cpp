@@ -1,7 +1,7 @@
 #include "hdDelegate/embree/sharedShapes.h"
 
+#include "hdDelegate/geometry/tessellate.h"
 #include "hdDelegate/scene/instancerCheck.h"
-#include "hdDelegate/scene/tessellate.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

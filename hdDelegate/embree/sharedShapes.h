@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hdDelegate/embree/compat.h"
-#include "hdDelegate/scene/triangleMesh.h"
+#include "hdDelegate/geometry/triangleMesh.h"
 #include "materialNetwork/diagnostics.h"
 
 #include <array>

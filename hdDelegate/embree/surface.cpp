@@ -1,8 +1,8 @@
 #include "hdDelegate/embree/surface.h"
 
-#include "hdDelegate/scene/curveSegments.h"
-#include "hdDelegate/scene/primvarEval.h"
-#include "hdDelegate/scene/tangentFrames.h"
+#include "hdDelegate/geometry/curveSegments.h"
+#include "hdDelegate/geometry/primvarEval.h"
+#include "hdDelegate/geometry/tangentFrames.h"
 #include "materialNetwork/cpu/hashedNumbers.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "hdDelegate/embree/sharedShapes.h"
+#include "hdDelegate/geometry/triangleMesh.h"
 #include "hdDelegate/scene/geometry.h"
-#include "hdDelegate/scene/triangleMesh.h"
 #include "materialNetwork/cpu/materialProgram.h"
 #include "materialNetwork/cpu/shadingPoint.h"
 
@@ -27,7 +27,7 @@ struct Surface {
     /// Of one implicit prim among many: the triangles stand here, `mesh` has no more than what is
     /// the prim's own, and its hits are those of an instance.
     std::shared_ptr<const SharedShape> shared;
-    std::vector<mat4> places; ///< from the shared shape to the group, at uniform steps
+    std::vector<mat4> places;            ///< from the shared shape to the group, at uniform steps
     std::vector<MaterialSlot> materials; ///< [0] the prim's, [i + 1] that of subset i
     mat4 groupToObject{1.0f};            ///< at the middle of the shutter
     vec3 worldOrigin{0.0f};              ///< of the space that rays are traced in

@@ -1,7 +1,7 @@
 #include "hdDelegate/hydra/sourceForms.h"
 
+#include "hdDelegate/geometry/nurbs.h"
 #include "hdDelegate/hydra/values.h"
-#include "hdDelegate/scene/nurbs.h"
 
 #include <pxr/base/gf/vec2d.h>
 #include <pxr/base/gf/vec3i.h>

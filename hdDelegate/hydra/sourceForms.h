@@ -1,8 +1,8 @@
 #pragma once
 
+#include "hdDelegate/geometry/curveForms.h"
+#include "hdDelegate/geometry/tetSurface.h"
 #include "hdDelegate/hydra/compat.h"
-#include "hdDelegate/scene/curveForms.h"
-#include "hdDelegate/scene/tetSurface.h"
 
 #include <pxr/imaging/hd/sceneDelegate.h>
 

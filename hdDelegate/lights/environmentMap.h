@@ -1,7 +1,7 @@
 #pragma once
 
+#include "hdDelegate/image/imageTextureLoad.h"
 #include "hdDelegate/lights/skyDistribution.h"
-#include "hdDelegate/scene/imageTextureLoad.h"
 #include "hdDelegate/scene/types.h"
 
 #include <memory>

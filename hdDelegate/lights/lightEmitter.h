@@ -2,8 +2,8 @@
 
 #include "hdDelegate/lights/areaShape.h"
 #include "hdDelegate/lights/environmentMap.h"
+#include "hdDelegate/lights/lightShaping.h"
 #include "hdDelegate/lights/lightTree.h"
-#include "hdDelegate/scene/lightShaping.h"
 
 #include <memory>
 

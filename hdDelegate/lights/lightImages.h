@@ -1,7 +1,7 @@
 #pragma once
 
+#include "hdDelegate/image/imageTextureLoad.h"
 #include "hdDelegate/lights/environmentMap.h"
-#include "hdDelegate/scene/imageTextureLoad.h"
 
 #include <functional>
 #include <map>

@@ -1,12 +1,12 @@
 #include "hdDelegate/raster/rasterRenderer.h"
 
 #include "hdDelegate/film/sampler.h"
-#include "hdDelegate/raster/deviceError.h"
+#include "hdDelegate/raster/gl/deviceError.h"
 #include "hdDelegate/film/relativeError.h"
-#include "hdDelegate/raster/eglContext.h"
-#include "hdDelegate/raster/glFaults.h"
-#include "hdDelegate/raster/programCompiler.h"
-#include "hdDelegate/raster/rasterPasses.h"
+#include "hdDelegate/raster/gl/eglContext.h"
+#include "hdDelegate/raster/gl/glFaults.h"
+#include "hdDelegate/raster/gl/programCompiler.h"
+#include "hdDelegate/raster/passes/rasterPasses.h"
 #include "hdDelegate/scene/instancerCheck.h"
 
 #include <algorithm>

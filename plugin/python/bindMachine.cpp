@@ -1,7 +1,7 @@
 // What this build and this machine's driver call themselves: for pages that show measured times.
 
 #ifdef PATINA_HAS_RASTER
-#include "hdDelegate/raster/eglContext.h"
+#include "hdDelegate/raster/gl/eglContext.h"
 #endif
 
 #include <pybind11/pybind11.h>

@@ -1,7 +1,7 @@
 // Materials of the Python module: numbers of a BSDF, explanations, MaterialX documents. Arrays of
 // directions have a row of three for each; unit vectors in the shading frame (z normal, x tangent).
 
-#include "hdDelegate/scene/textureSystem.h"
+#include "hdDelegate/image/textureSystem.h"
 #include "materialNetwork/material.h"
 #include "materialNetwork/mtlx/document.h"
 #include "materialNetwork/nodeTable.h"

@@ -2,8 +2,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "hdDelegate/image/textureSystem.h"
 #include "hdDelegate/raster/measure/measureDome.h"
-#include "hdDelegate/scene/textureSystem.h"
 #include "materialNetwork/material.h"
 #include "materialNetwork/measure/measureLayers.h"
 #include "materialNetwork/methodTable.h"

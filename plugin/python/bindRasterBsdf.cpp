@@ -2,7 +2,7 @@
 // MaterialProbe.
 #ifdef PATINA_HAS_RASTER
 
-#include "hdDelegate/raster/rasterBsdf.h"
+#include "hdDelegate/raster/scene/rasterBsdf.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

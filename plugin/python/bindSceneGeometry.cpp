@@ -1,9 +1,9 @@
 // Geometry of a scene edit.
 
 #include "plugin/python/sceneEdit.h"
-#include "hdDelegate/scene/curveForms.h"
-#include "hdDelegate/scene/nurbs.h"
-#include "hdDelegate/scene/tetSurface.h"
+#include "hdDelegate/geometry/curveForms.h"
+#include "hdDelegate/geometry/nurbs.h"
+#include "hdDelegate/geometry/tetSurface.h"
 #include "plugin/python/fields.h"
 
 namespace py = pybind11;

@@ -1,6 +1,6 @@
 // What a page needs to show a material in WebGL2: its text, its textures, and what all share.
 
-#include "hdDelegate/scene/textureSystem.h"
+#include "hdDelegate/image/textureSystem.h"
 #include "materialNetwork/cpu/programCode.h"
 #include "materialNetwork/glsl/glslLobes.h"
 #include "materialNetwork/glsl/glslWeb.h"

@@ -1,13 +1,13 @@
 // Lights of a scene, as the material page takes them.
 
+#include "hdDelegate/geometry/tessellate.h"
+#include "hdDelegate/image/iesProfile.h"
 #include "hdDelegate/lights/areaShape.h"
 #include "hdDelegate/lights/environmentMap.h"
 #include "hdDelegate/lights/lightImages.h"
-#include "hdDelegate/scene/iesProfile.h"
-#include "hdDelegate/scene/lightShaping.h"
+#include "hdDelegate/lights/lightShaping.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/scene.h"
-#include "hdDelegate/scene/tessellate.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

@@ -1,8 +1,8 @@
 // Meshes of a scene, as the material page takes them.
 
+#include "hdDelegate/geometry/tessellate.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/scene.h"
-#include "hdDelegate/scene/tessellate.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

@@ -1,4 +1,4 @@
-// Numbers of a material at one point, one query per invocation; see hdDelegate/raster/rasterBsdf.h.
+// Numbers of a material at one point, one query per invocation; see hdDelegate/raster/scene/rasterBsdf.h.
 layout(local_size_x = 1) in;
 layout(std430, binding = 0) readonly buffer Queries { vec4 queries[]; };
 layout(std430, binding = 6) writeonly buffer Answers { vec4 answers[]; };

@@ -1,4 +1,4 @@
-// Lights as a pass knows them, and their shapes. See hdDelegate/raster/rasterLight.h.
+// Lights as a pass knows them, and their shapes. See hdDelegate/raster/lights/rasterLight.h.
 
 #include "shaders/lib/sphereLight.glsl"
 

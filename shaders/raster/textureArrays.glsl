@@ -1,5 +1,5 @@
 // Textures that are layers of an array: UDIM tiles, and those that have no unit of their own.
-// As hdDelegate/scene/textureSystem.cpp.
+// As hdDelegate/image/textureSystem.cpp.
 vec4 nodeLayerAt(sampler2DArray s, vec2 uv, float footprint, int layer) {
     ivec3 size = textureSize(s, 0);
     float lambda = log2(max(footprint * float(max(size.x, size.y)), 1e-6));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hdDelegate/film/sampler.h"
-#include "hdDelegate/scene/volumeMedium.h"
+#include "hdDelegate/image/volumeMedium.h"
 
 #include <cmath>
 #include <functional>

@@ -1,7 +1,7 @@
 #include "hdDelegate/embree/embreeScene.h"
 
 #include "hdDelegate/embree/drawnPrims.h"
-#include "hdDelegate/scene/textureSystem.h"
+#include "hdDelegate/image/textureSystem.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "hdDelegate/embree/embreeScene.h"
 
-#include "hdDelegate/scene/textureSystem.h"
+#include "hdDelegate/image/textureSystem.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

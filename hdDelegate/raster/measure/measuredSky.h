@@ -1,9 +1,9 @@
 #pragma once
 
 #include "hdDelegate/lights/environmentMap.h"
+#include "hdDelegate/raster/lights/prefilteredSky.h"
+#include "hdDelegate/raster/lights/skyHarmonics.h"
 #include "hdDelegate/raster/measure/skyTexture.h"
-#include "hdDelegate/raster/prefilteredSky.h"
-#include "hdDelegate/raster/skyHarmonics.h"
 
 #include <memory>
 #include <string>

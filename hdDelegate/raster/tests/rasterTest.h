@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hdDelegate/raster/eglContext.h"
+#include "hdDelegate/raster/gl/eglContext.h"
 
 #include <gtest/gtest.h>
 

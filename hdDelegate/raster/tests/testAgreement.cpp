@@ -1,7 +1,7 @@
 // Every lobe as the driver runs it, against the same text as C++ in double precision.
 
-#include "hdDelegate/raster/glProgram.h"
-#include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/gl/glProgram.h"
+#include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/tests/agreement.h"
 #include "hdDelegate/raster/tests/rasterTest.h"
 

@@ -1,7 +1,7 @@
 // The context, and a program on it: what is drawn comes back, and what is wrong is told by name.
 
-#include "hdDelegate/raster/glProgram.h"
-#include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/gl/glProgram.h"
+#include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/tests/rasterTest.h"
 
 #include <EGL/egl.h>

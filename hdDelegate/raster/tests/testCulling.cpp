@@ -1,6 +1,6 @@
 // Culling leaves out what no view shows, and nothing else.
 
-#include "hdDelegate/raster/rasterCulling.h"
+#include "hdDelegate/raster/shadows/rasterCulling.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

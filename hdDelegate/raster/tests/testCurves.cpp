@@ -1,6 +1,6 @@
 // Curves as triangles: how many, how wide, and along what.
 
-#include "hdDelegate/raster/rasterShapes.h"
+#include "hdDelegate/raster/scene/rasterShapes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Images while programs are compiled: what is not ready shows displayColor, and nothing of that
 // reaches the final image.
 
-#include "hdDelegate/raster/glProgram.h"
-#include "hdDelegate/raster/glResources.h"
-#include "hdDelegate/raster/programCompiler.h"
+#include "hdDelegate/raster/gl/glProgram.h"
+#include "hdDelegate/raster/gl/glResources.h"
+#include "hdDelegate/raster/gl/programCompiler.h"
 #include "hdDelegate/raster/rasterRenderer.h"
 #include "hdDelegate/raster/tests/rasterTest.h"
 

@@ -1,4 +1,4 @@
-#include "hdDelegate/raster/rasterFilterSplat.h"
+#include "hdDelegate/raster/passes/rasterFilterSplat.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include "hdDelegate/raster/lightChoice.h"
-#include "hdDelegate/raster/rasterLights.h"
+#include "hdDelegate/raster/lights/lightChoice.h"
+#include "hdDelegate/raster/lights/rasterLights.h"
 #include "hdDelegate/raster/tests/rasterTest.h"
 #include "hdDelegate/scene/settings.h"
 

@@ -1,6 +1,6 @@
 // What the planner sees of a sky, and of materials under lights.
+#include "hdDelegate/raster/lights/rasterLightPlan.h"
 #include "hdDelegate/raster/measure/measuredSky.h"
-#include "hdDelegate/raster/rasterLightPlan.h"
 #include "materialNetwork/planProbes.h"
 
 #include <gtest/gtest.h>

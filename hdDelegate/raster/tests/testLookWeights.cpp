@@ -1,4 +1,4 @@
-#include "hdDelegate/raster/lookWeights.h"
+#include "hdDelegate/raster/passes/lookWeights.h"
 
 #include <gtest/gtest.h>
 

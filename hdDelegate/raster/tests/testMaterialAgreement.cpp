@@ -1,8 +1,8 @@
 // Whole materials as the driver runs their generated text, against the program that the path tracer
 // runs: values, densities, presence and emission at one shading point.
 
-#include "hdDelegate/raster/glProgram.h"
-#include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/gl/glProgram.h"
+#include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/tests/rasterTest.h"
 #include "materialNetwork/glsl/glslMaterial.h"
 #include "materialNetwork/tests/materialTest.h"

@@ -1,7 +1,7 @@
 // Every pattern node, as the driver runs its GLSL, against its C++ function.
 
-#include "hdDelegate/raster/glProgram.h"
-#include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/gl/glProgram.h"
+#include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/tests/rasterTest.h"
 #include "materialNetwork/glsl/glslPatterns.h"
 #include "materialNetwork/nodeTable.h"

@@ -1,8 +1,8 @@
 // Programs come back from disk as they went there; what is damaged is made anew.
 
-#include "hdDelegate/raster/programCache.h"
-#include "hdDelegate/raster/glProgram.h"
-#include "hdDelegate/raster/glResources.h"
+#include "hdDelegate/raster/gl/programCache.h"
+#include "hdDelegate/raster/gl/glProgram.h"
+#include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/tests/rasterTest.h"
 
 #include <chrono>

@@ -1,6 +1,6 @@
 // Harmonics and prefiltered maps against sums over all directions, and where they fail.
-#include "hdDelegate/raster/prefilteredSky.h"
-#include "hdDelegate/raster/skyHarmonics.h"
+#include "hdDelegate/raster/lights/prefilteredSky.h"
+#include "hdDelegate/raster/lights/skyHarmonics.h"
 #include "shaders/shaders.h"
 
 #include <gtest/gtest.h>

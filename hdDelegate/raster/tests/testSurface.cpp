@@ -1,6 +1,6 @@
 // Meshes become buffers: corners that agree share a vertex, those that do not are kept apart.
 
-#include "hdDelegate/raster/rasterSurface.h"
+#include "hdDelegate/raster/scene/rasterSurface.h"
 #include "hdDelegate/raster/tests/rasterTest.h"
 
 using namespace patina;

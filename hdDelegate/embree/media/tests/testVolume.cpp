@@ -1,7 +1,7 @@
 // Volumes of fields against closed forms and homogeneous media.
 
 #include "hdDelegate/embree/media/tests/mediaScene.h"
-#include "hdDelegate/scene/fieldGrid.h"
+#include "hdDelegate/image/fieldGrid.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,389 @@
+// NURBS patches as triangles: every vertex is on the surface and has its normal.
+
+#include "hdDelegate/geometry/drawnFaces.h"
+#include "hdDelegate/geometry/nurbs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+using dvec3 = glm::dvec3;
+using Rate = MeshAttribute::Rate;
+
+constexpr int maxPieces = 64;      // of a span, along one direction
+constexpr int minCurvedPieces = 4; // of a span that may be curved
+constexpr double poleStep = 1e-4;  // of a span: how far from a pole its normal is looked for
+
+/// A line of vertices: where it is in one direction, and the basis there.
+struct Line {
+    NurbsBasis::Span span;
+    double t = 0.0;
+    std::vector<double> values, slopes;
+    bool joined = false; ///< to the line before it by triangles
+};
+
+class Direction {
+public:
+    explicit Direction(const NurbsDirection& direction) : basis(direction) {}
+
+    void chooseLines(const std::vector<int>& pieces) {
+        const auto& spans = basis.spans();
+        for (size_t s = 0; s < spans.size(); ++s) {
+            // One line ends a span and begins the next, unless there may be an edge.
+            const bool own = s == 0 || basis.breaksBefore(spans[s]);
+            for (int i = own ? 0 : 1; i <= pieces[s]; ++i) {
+                const double x = double(i) / pieces[s];
+                add(spans[s], spans[s].low + (spans[s].high - spans[s].low) * x, i > 0);
+            }
+        }
+    }
+    /// The basis a little further into the span.
+    Line inside(const Line& line) const {
+        Line moved;
+        moved.span = line.span;
+        const double middle = 0.5 * (line.span.low + line.span.high);
+        moved.t = line.t + poleStep * (middle - line.t);
+        evaluate(moved);
+        return moved;
+    }
+
+    NurbsBasis basis;
+    std::vector<Line> lines;
+
+private:
+    void add(const NurbsBasis::Span& span, double t, bool joined) {
+        Line line;
+        line.span = span;
+        line.t = t;
+        line.joined = joined;
+        evaluate(line);
+        lines.push_back(std::move(line));
+    }
+    void evaluate(Line& line) const {
+        line.values.resize(size_t(basis.order()));
+        line.slopes.resize(size_t(basis.order()));
+        basis.evaluate(line.span, line.t, line.values.data(), line.slopes.data());
+    }
+};
+
+class PatchDrawer {
+public:
+    PatchDrawer(const Mesh& mesh, const PointSteps& points, std::vector<double> weights)
+        : _mesh(mesh), _points(points), _weights(std::move(weights)), _u(mesh.patch->u),
+          _v(mesh.patch->v), _stride(size_t(mesh.patch->u.vertexCount)) {}
+
+    TriangleMesh draw(const TessellationOptions& options, Diagnostics& diagnostics) {
+        chooseLines(options);
+        TriangleMesh out;
+        const size_t vertices = _u.lines.size() * _v.lines.size();
+        out.positions.resize(_points.steps.size());
+        out.normals.resize(_points.steps.size());
+        for (size_t step = 0; step < _points.steps.size(); ++step) {
+            out.positions[step].reserve(vertices + 1); // Embree reads 16 bytes of the last point
+            out.normals[step].reserve(vertices);
+            placeVertices(_points.steps[step], out.positions[step], out.normals[step]);
+        }
+        addTriangles(out);
+        addPrimvars(diagnostics, out);
+        out.refineLevel = int(std::lround(std::log2(double(_pieces))));
+        finish(diagnostics, out);
+        return out;
+    }
+
+private:
+    void chooseLines(const TessellationOptions& options) {
+        std::vector<int> u = piecesOf(_u.basis, 1, _stride, _mesh.patch->v.vertexCount, options);
+        std::vector<int> v = piecesOf(_v.basis, _stride, 1, int(_stride), options);
+        const int floor = 1 << std::clamp(_mesh.refineLevel, 0, options.maxRefineLevel);
+        const auto sum = [](const std::vector<int>& list) {
+            double all = 0.0;
+            for (int n : list)
+                all += n;
+            return all;
+        };
+        // Too many: every span is cut half as often, down to the floor, then on to the budget.
+        for (int minimum : {std::max(floor, minCurvedPieces), 1}) {
+            const double budget =
+                double(minimum > 1 ? std::min(options.edgeBudget, options.triangleBudget)
+                                   : options.triangleBudget);
+            for (int maximum = maxPieces; maximum > minimum && 2.0 * sum(u) * sum(v) > budget;) {
+                maximum /= 2;
+                for (auto* list : {&u, &v})
+                    for (int& n : *list)
+                        n = std::min(n, std::max(maximum, 1));
+            }
+        }
+        _u.chooseLines(u);
+        _v.chooseLines(v);
+        for (const auto* list : {&u, &v})
+            for (int n : *list)
+                _pieces = std::max(_pieces, n);
+    }
+
+    /// @param stride, across from one control point to the next along this direction and the other
+    std::vector<int> piecesOf(const NurbsBasis& basis, size_t stride, size_t across, int rows,
+                              const TessellationOptions& options) const {
+        const int floor = 1 << std::clamp(_mesh.refineLevel, 0, options.maxRefineLevel);
+        const int minimum = basis.order() > 2 ? std::max(floor, minCurvedPieces) : floor;
+        std::vector<int> pieces;
+        for (const NurbsBasis::Span& span : basis.spans()) {
+            double longest = 0.0;
+            if (options.targetEdge > 0.0f)
+                for (int row = 0; row < rows; ++row)
+                    longest = std::max(
+                        longest,
+                        basis.longest(span, &_points.steps[0][size_t(row) * across], stride));
+            int n = minimum;
+            while (n < maxPieces && longest > double(n) * double(options.targetEdge))
+                n *= 2;
+            pieces.push_back(n);
+        }
+        return pieces;
+    }
+
+    /// What a vertex has of one value per control point, and the derivatives of that.
+    /// @param add (index of control point, weight here, by u, by v)
+    template <class Add> void combine(const Line& u, const Line& v, const Add& add) const {
+        const int ou = _u.basis.order(), ov = _v.basis.order();
+        double sum = 0.0, sumU = 0.0, sumV = 0.0;
+        const auto each = [&](const auto& use) {
+            for (int j = 0; j < ov; ++j) {
+                const size_t row = size_t(v.span.knot - ov + 1 + j) * _stride;
+                for (int i = 0; i < ou; ++i) {
+                    const size_t point = row + size_t(u.span.knot - ou + 1 + i);
+                    const double w = _weights.empty() ? 1.0 : _weights[point];
+                    const size_t a = size_t(i), b = size_t(j);
+                    use(point, w * u.values[a] * v.values[b], w * u.slopes[a] * v.values[b],
+                        w * u.values[a] * v.slopes[b]);
+                }
+            }
+        };
+        if (_weights.empty()) {
+            each(add);
+            return;
+        }
+        each([&](size_t, double n, double nu, double nv) {
+            sum += n;
+            sumU += nu;
+            sumV += nv;
+        });
+        each([&](size_t point, double n, double nu, double nv) {
+            const double share = n / sum;
+            add(point, share, (nu - share * sumU) / sum, (nv - share * sumV) / sum);
+        });
+    }
+
+    struct Place {
+        dvec3 p{0.0}, byU{0.0}, byV{0.0};
+    };
+    Place place(const std::vector<vec3>& points, const Line& u, const Line& v) const {
+        Place at;
+        combine(u, v, [&](size_t point, double n, double nu, double nv) {
+            const dvec3 p(points[point]);
+            at.p += n * p;
+            at.byU += nu * p;
+            at.byV += nv * p;
+        });
+        return at;
+    }
+
+    void placeVertices(const std::vector<vec3>& points, std::vector<vec3>& positions,
+                       std::vector<vec3>& normals) const {
+        dvec3 low(INFINITY), high(-INFINITY);
+        for (const vec3& p : points) {
+            low = glm::min(low, dvec3(p));
+            high = glm::max(high, dvec3(p));
+        }
+        const double size = glm::length(high - low);
+        const double flat =
+            1e-8 * size * size /
+            ((_u.basis.high() - _u.basis.low()) * (_v.basis.high() - _v.basis.low()));
+        for (const Line& v : _v.lines)
+            for (const Line& u : _u.lines) {
+                const Place at = place(points, u, v);
+                positions.push_back(vec3(at.p));
+                dvec3 n = glm::cross(at.byU, at.byV);
+                if (!(glm::length(n) > flat)) { // a pole: an edge that is one point
+                    const Place near = place(points, _u.inside(u), _v.inside(v));
+                    n = glm::cross(near.byU, near.byV);
+                }
+                const double length = glm::length(n);
+                normals.push_back(length > 0.0 && std::isfinite(length) ? vec3(n / length)
+                                                                        : vec3(0, 0, 1));
+            }
+    }
+
+    void addTriangles(TriangleMesh& out) const {
+        const uint32_t row = uint32_t(_u.lines.size());
+        const auto& p = out.positions[0];
+        const auto add = [&](uint32_t a, uint32_t b, uint32_t c, int segment) {
+            if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) return; // at a pole
+            out.triangles.push_back(_mesh.leftHanded ? uvec3(a, c, b) : uvec3(a, b, c));
+            out.triangleFace.push_back(segment);
+        };
+        for (uint32_t j = 1; j < _v.lines.size(); ++j) {
+            if (!_v.lines[j].joined) continue;
+            const int segmentRow = _v.basis.segment(_v.lines[j].span) * _u.basis.segments();
+            for (uint32_t i = 1; i < row; ++i) {
+                if (!_u.lines[i].joined) continue;
+                const int segment = segmentRow + _u.basis.segment(_u.lines[i].span);
+                const uint32_t d = j * row + i, c = d - 1, b = d - row, a = b - 1;
+                if (glm::dot(p[d] - p[a], p[d] - p[a]) <= glm::dot(p[c] - p[b], p[c] - p[b])) {
+                    add(a, b, d, segment);
+                    add(a, d, c, segment);
+                } else {
+                    add(a, b, c, segment);
+                    add(b, d, c, segment);
+                }
+            }
+        }
+        if (_mesh.leftHanded)
+            for (auto& step : out.normals)
+                for (vec3& n : step)
+                    n = -n;
+    }
+
+    void addPrimvars(Diagnostics& diagnostics, TriangleMesh& out) const {
+        ElementCounts counts;
+        const size_t nu = size_t(_u.basis.segments()), nv = size_t(_v.basis.segments());
+        counts.uniform = nu * nv;
+        counts.varying = counts.faceVarying = (nu + 1) * (nv + 1);
+        counts.vertex = _stride * size_t(_mesh.patch->v.vertexCount);
+        bool hasSt = false;
+        for (const Primvar& primvar : _mesh.primvars) {
+            if (primvar.name == "normals") continue; // the surface has its own
+            MeshAttribute attribute;
+            attribute.name = primvar.name;
+            attribute.components = primvar.components;
+            std::vector<float> values;
+            if (!expandPrimvar(primvar, counts, _mesh.path, diagnostics, values)) continue;
+            switch (primvar.interpolation) {
+            case Interpolation::Constant:
+            case Interpolation::Uniform:
+                attribute.rate = primvar.interpolation == Interpolation::Constant ? Rate::Constant
+                                                                                  : Rate::PerFace;
+                attribute.data = std::move(values);
+                break;
+            case Interpolation::Varying:
+            case Interpolation::FaceVarying:
+                attribute.rate = Rate::PerVertex;
+                varying(values, attribute);
+                break;
+            case Interpolation::Vertex:
+                attribute.rate = Rate::PerVertex;
+                vertex(values, attribute);
+                break;
+            }
+            hasSt = hasSt || primvar.name == "st";
+            out.attributes.push_back(std::move(attribute));
+        }
+        if (!hasSt) addSt(out);
+    }
+
+    void varying(const std::vector<float>& values, MeshAttribute& out) const {
+        const size_t row = size_t(_u.basis.segments()) + 1, n = size_t(out.components);
+        for (const Line& v : _v.lines)
+            for (const Line& u : _u.lines) {
+                const float x = float(_u.basis.along(u.span, u.t));
+                const float y = float(_v.basis.along(v.span, v.t));
+                const size_t corner =
+                    size_t(_v.basis.segment(v.span)) * row + size_t(_u.basis.segment(u.span));
+                const float* a = &values[corner * n];
+                const float* b = a + row * n;
+                for (size_t k = 0; k < n; ++k)
+                    out.data.push_back((1.0f - y) * ((1.0f - x) * a[k] + x * a[n + k]) +
+                                       y * ((1.0f - x) * b[k] + x * b[n + k]));
+            }
+    }
+
+    void vertex(const std::vector<float>& values, MeshAttribute& out) const {
+        const size_t n = size_t(out.components);
+        double sum[16];
+        for (const Line& v : _v.lines)
+            for (const Line& u : _u.lines) {
+                std::fill_n(sum, n, 0.0);
+                combine(u, v, [&](size_t point, double weight, double, double) {
+                    for (size_t k = 0; k < n; ++k)
+                        sum[k] += weight * double(values[point * n + k]);
+                });
+                out.data.insert(out.data.end(), sum, sum + n);
+            }
+    }
+
+    void addSt(TriangleMesh& out) const {
+        MeshAttribute st;
+        st.name = "st";
+        st.components = 2;
+        st.rate = Rate::PerVertex;
+        const auto across = [](const NurbsBasis& basis, double t) {
+            return float((t - basis.low()) / (basis.high() - basis.low()));
+        };
+        for (const Line& v : _v.lines)
+            for (const Line& u : _u.lines) {
+                st.data.push_back(across(_u.basis, u.t));
+                st.data.push_back(across(_v.basis, v.t));
+            }
+        out.attributes.push_back(std::move(st));
+    }
+
+    void finish(Diagnostics& diagnostics, TriangleMesh& out) const {
+        const std::vector<uint16_t> subsetOf = subsetOfElements(
+            _mesh, size_t(_u.basis.segments()) * size_t(_v.basis.segments()), diagnostics);
+        if (!subsetOf.empty())
+            for (int segment : out.triangleFace)
+                out.triangleSubset.push_back(subsetOf[size_t(segment)]);
+        growBounds(out);
+    }
+
+    const Mesh& _mesh;
+    const PointSteps& _points;
+    std::vector<double> _weights;
+    Direction _u, _v;
+    size_t _stride;
+    int _pieces = 1;
+};
+
+} // namespace
+
+TriangleMesh drawPatch(const Mesh& mesh, const PointSteps& points,
+                       const TessellationOptions& options, Diagnostics& diagnostics) {
+    const NurbsPatch& patch = *mesh.patch;
+    TriangleMesh nothing;
+    nothing.positions = points.steps;
+    for (const auto& problem :
+         {NurbsBasis::problem(patch.u, "u"), NurbsBasis::problem(patch.v, "v")})
+        if (problem) {
+            diagnostics.warn(mesh.path, problem.input,
+                             problem.message + "; the patch is not drawn");
+            return nothing;
+        }
+    const size_t needed = size_t(patch.u.vertexCount) * size_t(patch.v.vertexCount);
+    if (points.count() != needed) {
+        diagnostics.warn(mesh.path, "points",
+                         std::to_string(points.count()) + " points where " +
+                             std::to_string(patch.u.vertexCount) + " by " +
+                             std::to_string(patch.v.vertexCount) +
+                             " are needed; the patch is not drawn");
+        return nothing;
+    }
+    if (!points.bad.empty()) {
+        diagnostics.warn(mesh.path, "points", "are not all finite; the patch is not drawn");
+        return nothing;
+    }
+    PatchDrawer drawer(mesh, points, usableWeights(patch.weights, needed, mesh.path, diagnostics));
+    TriangleMesh out = drawer.draw(options, diagnostics);
+    for (const auto& step : out.positions)
+        for (const vec3& p : step)
+            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+                diagnostics.warn(mesh.path, "points",
+                                 "give places that are not finite, with these knots and weights; "
+                                 "the patch is not drawn");
+                return nothing;
+            }
+    return out;
+}
+
+} // namespace patina

@@ -1,0 +1,106 @@
+#include "hdDelegate/geometry/primvarExpand.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+const char* nameOf(Interpolation interpolation) {
+    switch (interpolation) {
+    case Interpolation::Constant: return "constant";
+    case Interpolation::Uniform: return "uniform";
+    case Interpolation::Varying: return "varying";
+    case Interpolation::Vertex: return "vertex";
+    case Interpolation::FaceVarying: return "faceVarying";
+    }
+    return "";
+}
+
+const MeshAttribute* find(const std::vector<MeshAttribute>& list, const std::string& name) {
+    for (const MeshAttribute& attribute : list)
+        if (attribute.name == name) return &attribute;
+    return nullptr;
+}
+
+} // namespace
+
+const MeshAttribute* TriangleMesh::attribute(const std::string& name) const {
+    return find(attributes, name);
+}
+const MeshAttribute* CurveSet::attribute(const std::string& name) const {
+    return find(attributes, name);
+}
+const MeshAttribute* PointSet::attribute(const std::string& name) const {
+    return find(attributes, name);
+}
+
+size_t ElementCounts::of(Interpolation interpolation) const {
+    switch (interpolation) {
+    case Interpolation::Constant: return 1;
+    case Interpolation::Uniform: return uniform;
+    case Interpolation::Varying: return varying;
+    case Interpolation::Vertex: return vertex;
+    case Interpolation::FaceVarying: return faceVarying;
+    }
+    return 1;
+}
+
+bool expandPrimvar(const Primvar& primvar, const ElementCounts& counts, const std::string& prim,
+                   Diagnostics& diagnostics, std::vector<float>& out) {
+    const std::string input = "primvars:" + primvar.name;
+    const int n = primvar.components;
+    if (n < 1 || n > 16) {
+        diagnostics.warn(prim, input,
+                         std::to_string(n) + " components per element; the primvar is ignored");
+        return false;
+    }
+    const size_t stored = primvar.values.size() / size_t(n);
+    const size_t elements = primvar.indices.empty() ? stored : primvar.indices.size();
+    const size_t expected = counts.of(primvar.interpolation);
+    const bool constant = primvar.interpolation == Interpolation::Constant;
+    if (constant ? elements < 1 : elements != expected) {
+        diagnostics.warn(prim, input,
+                         std::to_string(elements) + " elements where " +
+                             nameOf(primvar.interpolation) + " interpolation needs " +
+                             std::to_string(expected) + "; the primvar is ignored");
+        return false;
+    }
+    size_t badIndices = 0, badValues = 0;
+    if (primvar.indices.empty()) {
+        out.assign(primvar.values.begin(), primvar.values.begin() + expected * n);
+    } else {
+        out.assign(expected * n, 0.0f);
+        for (size_t i = 0; i < expected; ++i) {
+            const int index = primvar.indices[i];
+            if (index < 0 || size_t(index) >= stored) {
+                ++badIndices;
+                continue;
+            }
+            std::copy_n(&primvar.values[size_t(index) * n], n, &out[i * n]);
+        }
+    }
+    for (float& value : out)
+        if (!std::isfinite(value)) {
+            value = 0.0f;
+            ++badValues;
+        }
+    if (badIndices > 0)
+        diagnostics.warn(prim, input,
+                         std::to_string(badIndices) + " indices are out of range and read as 0");
+    if (badValues > 0)
+        diagnostics.warn(prim, input,
+                         std::to_string(badValues) + " values are not finite and read as 0");
+    return true;
+}
+
+bool expandConstant(const Primvar& primvar, const std::string& prim, Diagnostics& diagnostics,
+                    MeshAttribute& out) {
+    out.name = primvar.name;
+    out.components = primvar.components;
+    out.rate = MeshAttribute::Rate::Constant;
+    return expandPrimvar(primvar, ElementCounts(), prim, diagnostics, out.data);
+}
+
+} // namespace patina

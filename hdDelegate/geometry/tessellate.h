@@ -1,0 +1,74 @@
+#pragma once
+
+#include "hdDelegate/geometry/triangleMesh.h"
+#include "materialNetwork/diagnostics.h"
+
+#include <cstdint>
+
+namespace patina {
+
+/// Segments around everything that is round by itself, at most.
+inline constexpr int roundSegments = 128;
+
+/// How finely, and when, shapes are drawn.
+struct TessellationOptions {
+    float shutterOpen = 0.0f, shutterClose = 0.0f; ///< time codes relative to the frame
+    float targetEdge =
+        0.0f; ///< object units: subdivide until no edge is longer; 0: refineLevel only
+    float roundEdge = 0.0f; ///< object units: implicit prims take fewer segments, while none is
+                            ///< longer; 0: all 128 around
+    size_t edgeBudget = SIZE_MAX;    ///< targetEdge alone refines to no more triangles than this
+    int maxRefineLevel = 6;          ///< 0..6
+    size_t triangleBudget = 1000000; ///< a prim is not refined to more triangles than this
+};
+
+/// Tessellates a mesh.
+///
+/// With scheme `none` the polygons are drawn as they are: concave ones are cut by ear clipping,
+/// quads along their shorter diagonal. Authored normals are used, and stand still when points
+/// move; without them faces are flat, as UsdGeomMesh says of polygonal meshes.
+///
+/// With a subdivision scheme the level is the smallest that satisfies targetEdge, at least
+/// Mesh::refineLevel, at most maxRefineLevel and what the triangle budget allows. From level 1 on
+/// vertices lie on the limit surface and have its normals (bilinear: flat faces). Level 0 draws the
+/// control cage with smooth normals. Authored normals are ignored, as UsdGeomMesh says.
+///
+/// A NURBS patch has its vertices on the surface, with the surface's normals, and is cut as
+/// subdivision surfaces are, each span of knots by itself. Vertex primvars are rational like
+/// points; a segment, from one knot to the next, counts as a face: uniform primvars have a value
+/// for each, varying ones one at each of its corners. Without a primvar `st` there is one, 0..1
+/// over what is drawn.
+///
+/// Primvars: vertex ones are subdivided like points, varying ones linearly, faceVarying ones by
+/// faceVaryingLinearInterpolation with seams where values differ, uniform ones stay on their face.
+///
+/// Bad input is reported with the prim and attribute and left out: faces with indices out of range
+/// or points that are not finite, faces of fewer than three vertices, primvars with a wrong number
+/// of elements, creases and corners that do not fit the mesh. Topology that OpenSubdiv rejects is
+/// drawn as polygons.
+TriangleMesh tessellate(const Mesh& mesh, const TessellationOptions& options,
+                        Diagnostics& diagnostics);
+
+/// Tessellates an implicit prim with exact normals, hard edges at caps, and an attribute `st`
+/// (round sides: once around and from bottom to top; caps and faces of the cube: 0..1 across).
+/// Sizes that are negative or not finite become 0 with a warning; a prim of size 0 is not drawn.
+TriangleMesh tessellate(const Implicit& implicit, const TessellationOptions& options,
+                        Diagnostics& diagnostics);
+
+/// By how much fewer segments a round prim takes for TessellationOptions::roundEdge: 1, 2, 4 or 8.
+int roundCoarseness(const Implicit& prim, float roundEdge);
+/// A roundEdge that gives a prim of this radius so many times fewer segments.
+float roundEdgeOf(float radius, int coarser);
+
+/// Prepares curves. Phantom points of pinned curves and wrapped points of periodic ones are added.
+/// Widths (diameters) may have any interpolation; without them they are 1, the fallback that
+/// OpenUSD's own renderer uses. Curves with a vertex count that their basis cannot use are left out
+/// with a warning.
+CurveSet buildCurves(const Curves& curves, const TessellationOptions& options,
+                     Diagnostics& diagnostics);
+
+/// Prepares points. Widths as for curves. Points that are not finite are left out with a warning.
+PointSet buildPoints(const Points& points, const TessellationOptions& options,
+                     Diagnostics& diagnostics);
+
+} // namespace patina

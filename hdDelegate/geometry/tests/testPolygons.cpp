@@ -1,0 +1,227 @@
+#include "hdDelegate/geometry/tests/meshFixtures.h"
+#include "hdDelegate/geometry/triangulate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace patina {
+namespace {
+
+TriangleMesh draw(const Mesh& mesh) {
+    Diagnostics diagnostics;
+    TriangleMesh result = tessellate(mesh, {}, diagnostics);
+    for (const Diagnostic& d : diagnostics.all())
+        ADD_FAILURE() << d.prim << " " << d.input << ": " << d.message;
+    return result;
+}
+
+/// Areas of a triangulation: sum, and the smallest along the polygon's normal.
+void expectFillsPolygon(const std::vector<vec3>& polygon) {
+    std::vector<uvec3> triangles;
+    triangulatePolygon(polygon.data(), int(polygon.size()), triangles);
+    ASSERT_EQ(triangles.size(), polygon.size() - 2);
+    const vec3 normal = newellNormal(polygon.data(), int(polygon.size()));
+    float sum = 0.0f;
+    for (const uvec3& t : triangles) {
+        const float area =
+            glm::dot(glm::cross(polygon[t.y] - polygon[t.x], polygon[t.z] - polygon[t.x]),
+                     glm::normalize(normal));
+        EXPECT_GE(area, -1e-5f) << "a triangle outside the polygon";
+        sum += area;
+    }
+    EXPECT_NEAR(sum, glm::length(normal), 1e-4f * glm::length(normal));
+}
+
+TEST(Triangulation, concavePolygonsAreFilledWithoutOverlap) {
+    expectFillsPolygon({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 1, 0}, {0, 4, 0}});
+    expectFillsPolygon(
+        {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}});
+    // The same L upside down and in another plane.
+    expectFillsPolygon({{0, 0, 0}, {0, 2, 0}, {0, 2, 1}, {0, 1, 1}, {0, 1, 2}, {0, 0, 2}});
+    expectFillsPolygon({{0, 0, 2}, {0, 1, 2}, {0, 1, 1}, {0, 2, 1}, {0, 2, 0}, {0, 0, 0}});
+}
+
+TEST(Triangulation, starsAndCombsOfManyCorners) {
+    std::vector<vec3> star, comb;
+    for (int i = 0; i < 200; ++i) {
+        const float phi = 6.2831853f * float(i) / 200, r = i % 2 ? 1.0f : 3.0f;
+        star.push_back(vec3(r * std::cos(phi), r * std::sin(phi), 0.5f * r * std::cos(phi)));
+    }
+    expectFillsPolygon(star);
+    for (int i = 0; i < 50; ++i) {
+        comb.push_back(vec3(2 * i, 0, 0));
+        comb.push_back(vec3(2 * i + 1, i % 2 ? 5 : 1, 0));
+    }
+    comb.push_back(vec3(100, -1, 0));
+    comb.push_back(vec3(-1, -1, 0));
+    std::reverse(comb.begin(), comb.end());
+    expectFillsPolygon(comb);
+}
+
+TEST(Triangulation, concaveQuadsAreCutFromTheirReflexCorner) {
+    for (int shift = 0; shift < 4; ++shift) {
+        std::vector<vec3> dart = {{0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}};
+        std::rotate(dart.begin(), dart.begin() + shift, dart.end());
+        expectFillsPolygon(dart);
+    }
+}
+
+TEST(Triangulation, degeneratePolygonsStillGiveAllTriangles) {
+    const std::vector<vec3> point(7, vec3(1, 2, 3));
+    std::vector<vec3> line, bowtie = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0.5f, 0}};
+    for (int i = 0; i < 9; ++i)
+        line.push_back(vec3(i % 5, 0, 0));
+    for (const auto& polygon : {point, line, bowtie}) {
+        std::vector<uvec3> triangles;
+        triangulatePolygon(polygon.data(), int(polygon.size()), triangles);
+        EXPECT_EQ(triangles.size(), polygon.size() - 2);
+        for (const uvec3& t : triangles)
+            EXPECT_LT(std::max({t.x, t.y, t.z}), polygon.size());
+    }
+}
+
+TEST(Triangulation, hugePolygonsEnd) {
+    std::vector<vec3> zigzag;
+    const int n = 40000;
+    for (int i = 0; i < n; ++i) {
+        const float phi = 6.2831853f * float(i) / n, r = i % 2 ? 1.0f : 1.01f;
+        zigzag.push_back(vec3(r * std::cos(phi), r * std::sin(phi), 0));
+    }
+    std::vector<uvec3> triangles;
+    triangulatePolygon(zigzag.data(), n, triangles);
+    EXPECT_EQ(triangles.size(), size_t(n - 2));
+}
+
+TEST(Polygons, cubeFacesOut) {
+    const TriangleMesh mesh = draw(cubeMesh());
+    EXPECT_EQ(mesh.triangles.size(), 12u);
+    EXPECT_NEAR(volume(mesh), 8.0, 1e-5);
+    EXPECT_TRUE(mesh.normals.empty()) << "polygons without normals are flat";
+    EXPECT_EQ(mesh.boundsMin, vec3(-1));
+    EXPECT_EQ(mesh.boundsMax, vec3(1));
+    EXPECT_EQ(mesh.triangleFace[2], 1);
+    EXPECT_TRUE(mesh.triangleSubset.empty());
+}
+
+TEST(Polygons, leftHandedTurnsTheWindingOnly) {
+    Mesh cube = cubeMesh();
+    cube.leftHanded = true;
+    std::vector<float> up, corner;
+    for (int i = 0; i < 24; ++i) {
+        up.insert(up.end(), {0, 0, 1});
+        corner.push_back(float(i));
+    }
+    cube.primvars.push_back(makePrimvar("normals", Interpolation::FaceVarying, 3, up));
+    cube.primvars.push_back(makePrimvar("corner", Interpolation::FaceVarying, 1, corner));
+    const TriangleMesh mesh = draw(cube);
+    EXPECT_NEAR(volume(mesh), -8.0, 1e-5);
+    EXPECT_EQ(cornerNormal(mesh, 0, 0), vec3(0, 0, 1)) << "authored normals are taken as they are";
+    const MeshAttribute* attribute = mesh.attribute("corner");
+    for (size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_EQ(cube.faceVertexIndices[int(attribute->data[3 * t + k])],
+                      int(mesh.triangles[t][k]))
+                << "values turn with the corners";
+}
+
+TEST(Polygons, normalsOfEveryInterpolation) {
+    const std::vector<vec3> points = cubeMesh().points.first();
+    std::vector<float> vertex, face = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
+    for (const vec3& p : points)
+        vertex.insert(vertex.end(), {2 * p.x, 2 * p.y, 2 * p.z});
+    for (auto interpolation : {Interpolation::Vertex, Interpolation::Varying}) {
+        Mesh cube = cubeMesh();
+        cube.primvars = {makePrimvar("normals", interpolation, 3, vertex)};
+        const TriangleMesh mesh = draw(cube);
+        ASSERT_EQ(mesh.normalRate, MeshAttribute::Rate::PerVertex);
+        for (int i = 0; i < 8; ++i)
+            EXPECT_LT(glm::length(mesh.normals[0][i] - glm::normalize(points[i])), 1e-6f);
+        EXPECT_EQ(mesh.attribute("normals"), nullptr);
+    }
+    Mesh cube = cubeMesh();
+    cube.primvars = {makePrimvar("normals", Interpolation::Uniform, 3, face)};
+    const TriangleMesh uniform = draw(cube);
+    std::vector<int> indices;
+    for (int c = 0; c < 24; ++c)
+        indices.push_back(c / 4);
+    cube.primvars = {makePrimvar("normals", Interpolation::FaceVarying, 3, face, indices)};
+    const TriangleMesh corners = draw(cube);
+    for (size_t t = 0; t < 12; ++t)
+        for (int k = 0; k < 3; ++k) {
+            const vec3 n = glm::normalize(triangleCross(uniform, t));
+            EXPECT_LT(glm::length(cornerNormal(uniform, t, k) - n), 1e-6f);
+            EXPECT_LT(glm::length(cornerNormal(corners, t, k) - n), 1e-6f);
+        }
+    cube.primvars = {makePrimvar("normals", Interpolation::Constant, 3, {0, 3, 0})};
+    EXPECT_EQ(cornerNormal(draw(cube), 5, 1), vec3(0, 1, 0));
+}
+
+TEST(Polygons, holesAndSubsets) {
+    Mesh cube = cubeMesh();
+    cube.holeIndices = {5};
+    cube.subsets = {{"/cube/a", "", {0, 2}}, {"/cube/b", "", {4}}};
+    const TriangleMesh mesh = draw(cube);
+    EXPECT_EQ(mesh.triangles.size(), 10u);
+    EXPECT_EQ(mesh.triangleSubset, (std::vector<uint16_t>{1, 1, 0, 0, 1, 1, 0, 0, 2, 2}));
+}
+
+TEST(Polygons, primvarsOfEveryInterpolation) {
+    Mesh grid = gridMesh(2);
+    std::vector<float> ramp9(9), ramp16(16);
+    std::iota(ramp9.begin(), ramp9.end(), 0.0f);
+    std::iota(ramp16.begin(), ramp16.end(), 0.0f);
+    grid.primvars = {makePrimvar("c", Interpolation::Constant, 2, {5, 6}),
+                     makePrimvar("u", Interpolation::Uniform, 1, {7, 8}, {0, 1, 1, 0}),
+                     makePrimvar("v", Interpolation::Vertex, 1, ramp9),
+                     makePrimvar("y", Interpolation::Varying, 1, ramp9),
+                     makePrimvar("f", Interpolation::FaceVarying, 1, ramp16)};
+    const TriangleMesh mesh = draw(grid);
+    ASSERT_EQ(mesh.attributes.size(), 5u);
+    EXPECT_EQ(mesh.attribute("c")->rate, MeshAttribute::Rate::Constant);
+    EXPECT_EQ(mesh.attribute("c")->data, (std::vector<float>{5, 6}));
+    EXPECT_EQ(mesh.attribute("u")->data, (std::vector<float>{7, 8, 8, 7}));
+    EXPECT_EQ(mesh.attribute("v")->data, ramp9);
+    EXPECT_EQ(mesh.attribute("y")->rate, MeshAttribute::Rate::PerVertex);
+    const MeshAttribute* f = mesh.attribute("f");
+    for (size_t t = 0; t < mesh.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k)
+            EXPECT_EQ(grid.faceVertexIndices[int(f->data[3 * t + k])], int(mesh.triangles[t][k]));
+}
+
+TEST(Polygons, motionIsResampledOverTheShutter) {
+    Mesh grid = gridMesh(1);
+    grid.points.times = {-1, 0, 1};
+    const std::vector<vec3> rest = grid.points.first();
+    grid.points.values.clear();
+    for (float height : {4.0f, 0.0f, 2.0f}) {
+        grid.points.values.push_back(rest);
+        for (vec3& p : grid.points.values.back())
+            p.z = height;
+    }
+    Diagnostics diagnostics;
+    TessellationOptions options;
+    EXPECT_EQ(tessellate(grid, options, diagnostics).positions.size(), 1u);
+    EXPECT_EQ(tessellate(grid, options, diagnostics).positions[0][0].z, 0.0f);
+    options.shutterOpen = -0.5f;
+    options.shutterClose = 0.5f;
+    const TriangleMesh centred = tessellate(grid, options, diagnostics);
+    ASSERT_EQ(centred.positions.size(), 3u) << "the sample at 0 falls on a step";
+    EXPECT_FLOAT_EQ(centred.positions[0][0].z, 2.0f);
+    EXPECT_FLOAT_EQ(centred.positions[1][0].z, 0.0f);
+    EXPECT_FLOAT_EQ(centred.positions[2][0].z, 1.0f);
+    EXPECT_EQ(centred.boundsMax.z, 2.0f);
+    options.shutterOpen = 0.25f;
+    options.shutterClose = 0.75f;
+    EXPECT_EQ(tessellate(grid, options, diagnostics).positions.size(), 2u);
+    options.shutterOpen = 2.0f;
+    options.shutterClose = 3.0f;
+    const TriangleMesh after = tessellate(grid, options, diagnostics);
+    EXPECT_EQ(after.positions.size(), 1u);
+    EXPECT_EQ(after.positions[0][0].z, 2.0f);
+    EXPECT_EQ(diagnostics.count(), 0);
+}
+
+} // namespace
+} // namespace patina

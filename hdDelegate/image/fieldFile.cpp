@@ -1,0 +1,202 @@
+// Runs patinaReadField and takes what it writes.
+#include "hdDelegate/image/fieldGrid.h"
+
+#include "hdDelegate/image/fieldReader/fieldStream.h"
+#include "materialNetwork/regularFile.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace patina {
+
+#ifdef PATINA_FIELD_READER
+
+namespace {
+
+static_assert(FieldGrid::edge == fieldStreamEdge, "bricks are passed on as they are");
+
+/// The program that knows OpenVDB: beside the library that this is part of, or where it was built.
+std::string readerProgram() {
+    Dl_info here;
+    if (::dladdr(reinterpret_cast<const void*>(&readFieldGrid), &here) && here.dli_fname) {
+        const std::string library = here.dli_fname;
+        const size_t slash = library.rfind('/');
+        if (slash != std::string::npos) {
+            const std::string beside = library.substr(0, slash + 1) + "patinaReadField";
+            if (::access(beside.c_str(), X_OK) == 0) return beside;
+        }
+    }
+    return PATINA_FIELD_READER;
+}
+
+/// A running program whose output is read. It is started by posix_spawn, which is safe where other
+/// threads run, and inherits nothing but that output.
+class Program {
+public:
+    Program(const std::string& file, const std::string& field) {
+        int ends[2];
+        if (::pipe2(ends, O_CLOEXEC) != 0) fail(errno);
+        const std::string program = readerProgram();
+        char* const arguments[] = {const_cast<char*>(program.c_str()),
+                                   const_cast<char*>(file.c_str()),
+                                   const_cast<char*>(field.c_str()), nullptr};
+        posix_spawn_file_actions_t files;
+        posix_spawn_file_actions_init(&files);
+        posix_spawn_file_actions_adddup2(&files, ends[1], 1);
+        posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
+        posix_spawn_file_actions_addopen(&files, 2, "/dev/null", O_WRONLY, 0);
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 34)
+        posix_spawn_file_actions_addclosefrom_np(&files, 3);
+#endif
+        // Whatever the host does about signals, the program ends by them.
+        posix_spawnattr_t attributes;
+        sigset_t none, all;
+        sigemptyset(&none);
+        sigfillset(&all);
+        posix_spawnattr_init(&attributes);
+        posix_spawnattr_setsigmask(&attributes, &none);
+        posix_spawnattr_setsigdefault(&attributes, &all);
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+        const int error =
+            ::posix_spawn(&_process, program.c_str(), &files, &attributes, arguments, environ);
+        posix_spawn_file_actions_destroy(&files);
+        posix_spawnattr_destroy(&attributes);
+        ::close(ends[1]);
+        _output = error ? nullptr : ::fdopen(ends[0], "rb");
+        if (!_output) {
+            ::close(ends[0]);
+            _process = error ? -1 : _process;
+            end();
+            throw std::runtime_error("the program that reads it, " + program +
+                                     ", cannot be run: " + std::strerror(error ? error : errno));
+        }
+    }
+    ~Program() {
+        end();
+    }
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+
+    /// @throws std::runtime_error when the program has ended before
+    void read(void* data, size_t bytes) {
+        if (bytes && std::fread(data, 1, bytes, _output) != bytes)
+            throw std::runtime_error("OpenVDB failed on it" + end() + "; the file is damaged");
+    }
+
+private:
+    [[noreturn]] static void fail(int error) {
+        throw std::runtime_error("no program can be started to read it: " +
+                                 std::string(std::strerror(error)));
+    }
+
+    /// @returns how the program ended, where that is known and not what it should be
+    std::string end() {
+        if (_output) std::fclose(_output);
+        _output = nullptr;
+        if (_process <= 0) return {};
+        ::kill(_process, SIGKILL); // of one that has ended already nothing is changed
+        int status = 0;
+        pid_t waited;
+        while ((waited = ::waitpid(_process, &status, 0)) < 0 && errno == EINTR) {
+        }
+        _process = -1;
+        if (waited < 0 || !WIFSIGNALED(status) || WTERMSIG(status) == SIGKILL) return {};
+        return std::string(" (") + ::strsignal(WTERMSIG(status)) + ")";
+    }
+
+    pid_t _process = -1;
+    FILE* _output = nullptr;
+};
+
+mat4 transformOf(const FieldStreamHeader& header) {
+    mat4 m;
+    std::memcpy(&m[0][0], header.indexToObject, sizeof header.indexToObject);
+    const mat4 inverse = glm::inverse(m);
+    for (int i = 0; i < 16; ++i)
+        if (!std::isfinite(m[i / 4][i % 4]) || !std::isfinite(inverse[i / 4][i % 4]))
+            throw std::runtime_error("the grid's transform cannot be inverted");
+    return m;
+}
+
+std::shared_ptr<const FieldGrid> take(Program& program) {
+    FieldStreamHeader header;
+    const FieldStreamHeader ours;
+    program.read(&header, sizeof header);
+    int64_t places = 1;
+    bool good = std::memcmp(header.magic, ours.magic, sizeof ours.magic) == 0 &&
+                (header.components == 1 || header.components == 3);
+    for (int axis = 0; axis < 3; ++axis) {
+        places *= std::clamp<int64_t>(header.brickCount[axis], 0, fieldStreamPlaces);
+        good &= places <= fieldStreamPlaces && header.brickCount[axis] >= 0 &&
+                std::abs(int64_t(header.firstVoxel[axis])) <= fieldStreamFar + fieldStreamEdge;
+    }
+    if (!good) throw std::runtime_error("the program that reads it is another than it should be");
+    std::shared_ptr<FieldGrid> grid;
+    if (places > 0)
+        grid = std::make_shared<FieldGrid>(
+            ivec3(header.firstVoxel[0], header.firstVoxel[1], header.firstVoxel[2]),
+            ivec3(header.brickCount[0], header.brickCount[1], header.brickCount[2]),
+            header.components, transformOf(header));
+    std::vector<float> values(size_t(FieldGrid::voxels) * size_t(header.components));
+    FieldStreamBrick brick;
+    for (program.read(&brick, sizeof brick); brick.place[0] >= 0;
+         program.read(&brick, sizeof brick)) {
+        for (int axis = 0; axis < 3; ++axis)
+            if (brick.place[axis] < 0 || brick.place[axis] >= header.brickCount[axis])
+                throw std::runtime_error("a brick lies outside of the grid");
+        program.read(values.data(), values.size() * sizeof(float));
+        grid->setBrick(ivec3(brick.place[0], brick.place[1], brick.place[2]), values);
+    }
+    std::string problem(size_t(std::clamp<int64_t>(brick.place[1], 0, fieldStreamText)), ' ');
+    program.read(&problem[0], problem.size());
+    if (!problem.empty()) throw std::runtime_error(problem);
+    if (!grid) throw std::runtime_error("the grid is empty");
+    return grid;
+}
+
+} // namespace
+
+std::shared_ptr<const FieldGrid> readFieldGrid(const std::string& file, const std::string& field,
+                                               const std::string& prim, Diagnostics& diagnostics) {
+    std::string problem = whyUnreadable(file, maxImageBytes);
+    if (problem.empty()) {
+        try {
+            Program program(file, field);
+            return take(program);
+        } catch (const std::bad_alloc&) {
+            problem = "it takes more memory than there is";
+        } catch (const std::exception& e) {
+            problem = e.what();
+        }
+    } else {
+        problem = "the file " + problem;
+    }
+    diagnostics.warn(prim, "field",
+                     "grid '" + field + "' of " + file + " cannot be read: " + problem);
+    return nullptr;
+}
+
+#else
+
+std::shared_ptr<const FieldGrid> readFieldGrid(const std::string& file, const std::string&,
+                                               const std::string& prim, Diagnostics& diagnostics) {
+    diagnostics.warn(prim, "field", file + " is not read: this build has no OpenVDB");
+    return nullptr;
+}
+
+#endif
+
+} // namespace patina

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "hdDelegate/image/imageTexture.h"
+#include "materialNetwork/color/colorSpaces.h"
+#include "materialNetwork/diagnostics.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// Where an image comes from, and whom to name when something is wrong with it.
+struct ImageSource {
+    std::string file;
+    std::string colorSpace = "auto";
+    std::string prim, input;
+};
+
+/// Looks at the file's header only.
+/// @param layout receives what its channels mean
+/// @returns an empty text, or the reason in one line why it cannot be read
+std::string probeImage(const std::string& file, TexelLayout& layout);
+
+/// Reads any format of OIIO into a mip pyramid in linear Rec.709. 8-bit files stay 8-bit where
+/// their colour space works channel by channel; 16-bit data stays 16-bit; half stays half.
+/// Colour space "auto" is that of UsdUVTexture: 8-bit RGB and RGBA are sRGB unless the file says
+/// that it is linear; everything else is data.
+/// Alpha is neither decoded nor multiplied in or out. Of more than four channels the first three
+/// (and a fourth named A) are used. NaN and infinite texels become 0, with a warning.
+/// @returns null after a warning when the file cannot be read
+std::shared_ptr<ImageTexture> loadImageTexture(const ImageSource& source,
+                                               const ColorSpaces& colorSpaces,
+                                               Diagnostics& diagnostics);
+
+/// A colour image in linear Rec.709 floats.
+struct ImageRGB {
+    int width = 0, height = 0;
+    std::vector<glm::vec3> pixels; ///< top row first
+    bool valid = false; ///< false: the file could not be read, one magenta pixel stands for it
+};
+
+/// Reads an environment or a light's texture; warns and gives magenta when it cannot.
+/// @param colorSpace as of loadImageTexture()
+ImageRGB loadImageLinear(const std::string& file, const std::string& colorSpace,
+                         Diagnostics& diagnostics, const std::string& prim,
+                         const std::string& input);
+
+} // namespace patina

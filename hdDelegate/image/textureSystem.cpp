@@ -1,0 +1,277 @@
+#include "hdDelegate/image/textureSystem.h"
+
+#include "hdDelegate/image/iesProfile.h"
+#include "hdDelegate/parallel.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+namespace fs = std::filesystem;
+
+namespace patina {
+
+namespace {
+
+const glm::vec4 magenta(1, 0, 1, 1);
+const std::string udimToken = "<UDIM>";
+constexpr int firstTile = 1001, lastTile = 9999;
+
+std::string withTile(std::string file, int tile) {
+    for (size_t at; (at = file.find(udimToken)) != std::string::npos;)
+        file.replace(at, udimToken.size(), std::to_string(tile));
+    return file;
+}
+
+/// The tiles of a UDIM name that exist, in order.
+std::vector<int> existingTiles(const std::string& pattern) {
+    std::vector<int> tiles;
+    fs::path path(pattern);
+    std::string name = path.filename().string();
+    size_t at = name.find(udimToken);
+    std::error_code error;
+    if (at == std::string::npos || name.find(udimToken, at + 1) != std::string::npos ||
+        path.parent_path().string().find(udimToken) != std::string::npos) {
+        for (int tile = firstTile; tile < firstTile + 100; ++tile)
+            if (fs::exists(withTile(pattern, tile), error)) tiles.push_back(tile);
+        return tiles;
+    }
+    // One look at the folder instead of thousands of guesses.
+    std::string start = name.substr(0, at), end = name.substr(at + udimToken.size());
+    fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    for (fs::directory_iterator i(folder, error), last; !error && i != last; i.increment(error)) {
+        std::string file = i->path().filename().string();
+        if (file.size() != start.size() + 4 + end.size() || file.compare(0, at, start) != 0 ||
+            file.compare(at + 4, end.size(), end) != 0)
+            continue;
+        int tile = 0;
+        for (size_t c = at; c < at + 4 && tile >= 0; ++c)
+            tile = std::isdigit((unsigned char)file[c]) ? tile * 10 + (file[c] - '0') : -1;
+        if (tile >= firstTile && tile <= lastTile) tiles.push_back(tile);
+    }
+    std::sort(tiles.begin(), tiles.end());
+    return tiles;
+}
+
+} // namespace
+
+/// A file in a colour space; read once, by the first thread that wants a texel.
+struct TextureSystem::Image {
+    ImageSource source;
+    const ColorSpaces& colorSpaces;
+    Diagnostics& diagnostics;
+    TexelLayout layout = TexelLayout::Rgb;
+    std::string problem; ///< of the header
+
+    mutable std::once_flag once;
+    mutable std::shared_ptr<ImageTexture> texture;
+    mutable std::atomic<bool> loaded{false};
+
+    Image(const ImageSource& s, const ColorSpaces& c, Diagnostics& d)
+        : source(s), colorSpaces(c), diagnostics(d), problem(probeImage(s.file, layout)) {}
+
+    const ImageTexture* get() const {
+        if (!loaded.load(std::memory_order_acquire)) load();
+        return texture.get();
+    }
+    void load() const {
+        std::call_once(once, [this] {
+            if (problem.empty()) texture = loadImageTexture(source, colorSpaces, diagnostics);
+            loaded.store(true, std::memory_order_release);
+        });
+    }
+};
+
+struct TextureSystem::Entry {
+    TextureRequest request;
+    bool udim = false, valid = false;
+    std::vector<std::shared_ptr<Image>> tiles; ///< one, or by UDIM number with gaps
+    size_t watched = 0;                        ///< tiles that are warned of one by one
+    mutable std::unique_ptr<std::atomic<bool>[]>
+        warned; ///< per watched tile; the last for the rest
+
+    ImageSource source(const std::string& file) const {
+        return {file, request.colorSpace, request.prim, request.input};
+    }
+    const Image* firstImage() const {
+        for (auto& image : tiles)
+            if (image && image->problem.empty()) return image.get();
+        return nullptr;
+    }
+};
+
+TextureSystem::TextureSystem(Diagnostics& diagnostics, const ColorSpaces& colorSpaces)
+    : _diagnostics(diagnostics), _colorSpaces(colorSpaces) {
+    if (&colorSpaces == &ColorSpaces::shared() && !ColorSpaces::sharedProblem().empty())
+        diagnostics.warn("", "OCIO", ColorSpaces::sharedProblem());
+}
+
+TextureSystem::~TextureSystem() = default;
+
+std::shared_ptr<TextureSystem::Image> TextureSystem::shareImage(const ImageSource& source) {
+    std::shared_ptr<Image>& image = _images[source.file + '\n' + source.colorSpace];
+    if (!image) image = std::make_shared<Image>(source, _colorSpaces, _diagnostics);
+    return image;
+}
+
+void TextureSystem::openTiles(Entry& entry) {
+    const std::string& file = entry.request.file;
+    entry.udim = file.find(udimToken) != std::string::npos;
+    if (!entry.udim) {
+        entry.tiles.push_back(shareImage(entry.source(file)));
+        return;
+    }
+    std::vector<int> tiles = existingTiles(file);
+    if (!tiles.empty()) entry.tiles.resize(size_t(tiles.back() - firstTile) + 1);
+    for (int tile : tiles)
+        entry.tiles[size_t(tile - firstTile)] = shareImage(entry.source(withTile(file, tile)));
+    entry.watched = std::max<size_t>(entry.tiles.size(), 100);
+    entry.warned.reset(new std::atomic<bool>[entry.watched + 1]());
+}
+
+std::shared_ptr<const EmissionProfile> TextureSystem::openProfile(const TextureRequest& request) {
+    std::lock_guard<std::mutex> lock(_mutex);
+    const auto known = _profiles.find(request.file);
+    if (known != _profiles.end()) return known->second;
+    auto profile = std::make_shared<IesProfile>();
+    std::string error;
+    if (!profile->load(request.file, error)) {
+        _diagnostics.warn(request.prim, request.input,
+                          "'" + request.file + "' " + error + "; it emits the same everywhere");
+        profile = nullptr;
+    }
+    _profiles[request.file] = profile;
+    return profile;
+}
+
+int TextureSystem::open(const TextureRequest& request) {
+    std::string key = request.file + '\n' + request.colorSpace + '\n' +
+                      char('0' + int(request.wrapS)) + char('0' + int(request.wrapT)) +
+                      (request.nearest ? 'n' : 'l');
+    std::lock_guard<std::mutex> lock(_mutex);
+    auto known = _handles.find(key);
+    int handle = known == _handles.end() ? -1 : known->second;
+    if (handle < 0) {
+        auto entry = std::make_unique<Entry>();
+        entry->request = request;
+        openTiles(*entry);
+        entry->valid = entry->firstImage() != nullptr;
+        handle = int(_entries.push_back(std::move(entry)) - _entries.begin());
+        _handles[key] = handle;
+        _count.store(handle + 1, std::memory_order_release);
+    }
+    const Entry& entry = *_entries[size_t(handle)];
+    if (!entry.valid) {
+        // Everyone who asks is named: each of them shows magenta.
+        std::string reason = entry.tiles.empty() ? "no tile of it exists" : "no tile can be read";
+        if (!entry.udim) reason = entry.tiles[0]->problem;
+        _diagnostics.warn(request.prim, request.input,
+                          "texture '" + request.file + "': " + reason +
+                              "; its authored fallback, else magenta, is shown");
+    }
+    return handle;
+}
+
+bool TextureSystem::valid(int handle) const {
+    return handle >= 0 && handle < _count.load(std::memory_order_acquire) &&
+           _entries[size_t(handle)]->valid;
+}
+
+int TextureSystem::channels(int handle) const {
+    const Image* image = valid(handle) ? _entries[size_t(handle)]->firstImage() : nullptr;
+    return image ? channelCount(image->layout) : 4;
+}
+
+TextureTiling TextureSystem::tiling(int handle) const {
+    TextureTiling out;
+    if (!valid(handle)) return out;
+    const Entry& entry = *_entries[size_t(handle)];
+    out.wrapS = entry.request.wrapS;
+    out.wrapT = entry.request.wrapT;
+    for (size_t i = 0; entry.udim && i < entry.tiles.size(); ++i)
+        if (entry.tiles[i] && entry.tiles[i]->problem.empty())
+            out.tiles.push_back(firstTile + int(i));
+    return out;
+}
+
+const TextureSystem::Image* TextureSystem::tileAt(const Entry& entry, glm::vec2& uv) const {
+    if (!entry.udim) return entry.tiles[0].get();
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) uv = glm::vec2(0);
+    glm::vec2 corner = glm::floor(uv), local = uv - corner;
+    auto find = [&](float column, float row) -> const Image* {
+        if (!(column >= 0 && column < 10 && row >= 0 && row < 1000)) return nullptr;
+        size_t i = size_t(column) + 10 * size_t(row);
+        return i < entry.tiles.size() ? entry.tiles[i].get() : nullptr;
+    };
+    const Image* image = find(corner.x, corner.y);
+    // The far edge of a tile, at a whole number, belongs to it when there is no next one.
+    for (int edge = 1; !image && edge < 4; ++edge) {
+        bool s = edge & 1, t = edge & 2;
+        if ((s && local.x != 0) || (t && local.y != 0)) continue;
+        image = find(corner.x - float(s), corner.y - float(t));
+        if (image) local += glm::vec2(s, t);
+    }
+    if (image) {
+        uv = local;
+        return image;
+    }
+    bool inside = corner.x >= 0 && corner.x < 10 && corner.y >= 0 && corner.y < 1000;
+    size_t number = inside ? size_t(corner.x) + 10 * size_t(corner.y) : entry.watched;
+    auto& warned = entry.warned[std::min(number, entry.watched)];
+    if (!warned.exchange(true, std::memory_order_relaxed)) {
+        std::string which = inside ? "tile " + std::to_string(firstTile + int(number))
+                                   : std::string("texture coordinates outside of all tiles");
+        _diagnostics.warn(entry.request.prim, entry.request.input,
+                          "texture '" + entry.request.file + "' has nothing for " + which +
+                              "; magenta is shown");
+    }
+    return nullptr;
+}
+
+glm::vec4 TextureSystem::sample(int handle, glm::vec2 uv, float footprint) const {
+    if (!valid(handle)) return magenta;
+    const Entry& entry = *_entries[size_t(handle)];
+    const Image* image = tileAt(entry, uv);
+    const ImageTexture* texture = image ? image->get() : nullptr;
+    if (!texture) return magenta;
+    TextureWrap s = entry.udim ? TextureWrap::Clamp : entry.request.wrapS;
+    TextureWrap t = entry.udim ? TextureWrap::Clamp : entry.request.wrapT;
+    return entry.request.nearest ? texture->sampleNearest(uv, s, t)
+                                 : texture->sample(uv, footprint, s, t);
+}
+
+std::shared_ptr<const ImageTexture> TextureSystem::image(int handle, int tile) const {
+    if (!valid(handle)) return nullptr;
+    const Entry& entry = *_entries[size_t(handle)];
+    size_t i = entry.udim ? size_t(std::max(0, tile - firstTile)) : 0;
+    if (i >= entry.tiles.size() || !entry.tiles[i]) return nullptr;
+    entry.tiles[i]->get();
+    return entry.tiles[i]->texture;
+}
+
+const TextureRequest& TextureSystem::request(int handle) const {
+    return _entries[size_t(handle)]->request;
+}
+
+void TextureSystem::loadAll() const {
+    std::vector<const Image*> images;
+    for (auto& entry : _entries)
+        for (auto& image : entry->tiles)
+            if (image) images.push_back(image.get());
+    parallelFor(size_t(0), images.size(), [&](size_t i) { images[i]->get(); });
+}
+
+size_t TextureSystem::memoryBytes() const {
+    std::map<const ImageTexture*, size_t> sizes; // handles share images
+    for (auto& entry : _entries)
+        for (auto& image : entry->tiles)
+            if (image && image->loaded.load(std::memory_order_acquire) && image->texture)
+                sizes[image->texture.get()] = image->texture->memoryBytes();
+    size_t sum = 0;
+    for (auto& s : sizes)
+        sum += s.second;
+    return sum;
+}
+
+} // namespace patina

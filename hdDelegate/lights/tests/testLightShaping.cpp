@@ -1,0 +1,192 @@
+// Focus, cone and IES against spot values of the documented formulas.
+
+#include "hdDelegate/lights/lightShaping.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+using namespace patina;
+
+namespace {
+
+constexpr float pi = 3.14159265358979f;
+
+/// A direction at an angle off the axis -z, about it by phi from +x.
+vec3 off(float degrees, float phi = 0.3f) {
+    const float t = degrees * pi / 180.0f;
+    return vec3(std::sin(t) * std::cos(phi), std::sin(t) * std::sin(phi), -std::cos(t));
+}
+
+std::string iesText(const std::string& horizontal, const std::string& vertical,
+                    const std::string& candela, int h, int v, const std::string& tilt = "NONE",
+                    int type = 1) {
+    std::ostringstream out;
+    out << "IESNA:LM-63-2002\r\n[TEST] synthetic\r\nTILT=" << tilt << "\r\n";
+    if (tilt == "INCLUDE") out << "1\r\n3\r\n0 45 90\r\n1 1 1\r\n";
+    out << "1 1000 2.0 " << v << ' ' << h << ' ' << type << " 2 0 0 0\r\n0.5 1.0 100\r\n"
+        << vertical << "\r\n"
+        << horizontal << "\r\n"
+        << candela << "\r\n";
+    return out.str();
+}
+
+} // namespace
+
+TEST(Shaping, plainLightsAreNotShaped) {
+    Light light;
+    light.shapingConeAngle = 20.0f; // the API is not applied
+    const LightShaping shaping(light, mat4(1.0f), nullptr);
+    EXPECT_FALSE(shaping.active());
+    EXPECT_EQ(shaping.factor(off(150.0f)), vec3(1.0f));
+}
+
+TEST(Shaping, hardCone) {
+    Light light;
+    light.shapingConeAuthored = true;
+    light.shapingConeAngle = 30.0f;
+    const LightShaping shaping(light, mat4(1.0f), nullptr);
+    EXPECT_EQ(shaping.factor(off(29.9f)), vec3(1.0f));
+    EXPECT_EQ(shaping.factor(off(30.1f)), vec3(0.0f));
+    EXPECT_NEAR(shaping.cutoff(), pi / 6.0f, 1e-6f);
+}
+
+TEST(Shaping, softCone) {
+    Light light;
+    light.shapingConeAuthored = true;
+    light.shapingConeAngle = 40.0f;
+    light.shapingConeSoftness = 0.5f; // falls from 20 to 40 degrees
+    const LightShaping shaping(light, mat4(1.0f), nullptr);
+    EXPECT_NEAR(shaping.factor(off(19.0f)).x, 1.0f, 1e-5f);
+    EXPECT_NEAR(shaping.factor(off(25.0f)).x, 1.0f - 0.15625f, 1e-4f);
+    EXPECT_NEAR(shaping.factor(off(30.0f)).x, 0.5f, 1e-4f);
+    EXPECT_NEAR(shaping.factor(off(35.0f)).x, 0.15625f, 1e-4f);
+    EXPECT_EQ(shaping.factor(off(40.1f)).x, 0.0f);
+    light.shapingConeSoftness = 7.0f; // clamped: from the axis on
+    const LightShaping softest(light, mat4(1.0f), nullptr);
+    EXPECT_NEAR(softest.factor(off(20.0f)).x, 0.5f, 1e-4f);
+}
+
+TEST(Shaping, focusAndTint) {
+    Light light;
+    light.shapingFocus = 3.0f;
+    const LightShaping shaping(light, mat4(1.0f), nullptr);
+    EXPECT_NEAR(shaping.factor(off(60.0f)).x, 0.125f, 1e-5f);
+    EXPECT_NEAR(shaping.factor(off(120.0f)).x, 0.125f, 1e-5f); // |cos|
+    light.shapingFocusTint = vec3(1.0f, 0.5f, 0.0f);
+    const LightShaping tinted(light, mat4(1.0f), nullptr);
+    const vec3 f = tinted.factor(off(60.0f));
+    EXPECT_NEAR(f.x, 1.0f, 1e-5f);
+    EXPECT_NEAR(f.y, 0.5f + 0.5f * 0.125f, 1e-5f);
+    EXPECT_NEAR(f.z, 0.125f, 1e-5f);
+    EXPECT_LT(glm::length(tinted.factor(off(0.0f)) - vec3(1.0f)), 1e-5f);
+}
+
+TEST(Shaping, axisFollowsTheTransform) {
+    Light light;
+    light.shapingConeAuthored = true;
+    light.shapingConeAngle = 10.0f;
+    const mat4 m = glm::scale(glm::rotate(mat4(1.0f), pi / 2.0f, vec3(0.0f, 1.0f, 0.0f)),
+                              vec3(1.0f, 1.0f, 5.0f));
+    const LightShaping shaping(light, m, nullptr);
+    EXPECT_EQ(shaping.factor(vec3(-1.0f, 0.0f, 0.0f)), vec3(1.0f));
+    EXPECT_EQ(shaping.factor(vec3(0.0f, 0.0f, -1.0f)), vec3(0.0f));
+}
+
+TEST(Ies, axiallySymmetric) {
+    IesProfile profile;
+    std::string error;
+    // multiplier 2, ballast factor 0.5: candela as they stand
+    ASSERT_TRUE(profile.parse(iesText("0", "0 45 90", "100 50 0", 1, 3), error)) << error;
+    EXPECT_NEAR(profile.candela(0.0f, 1.0f), 100.0f, 1e-3f);
+    EXPECT_NEAR(profile.candela(22.5f * pi / 180.0f, 4.0f), 75.0f, 1e-2f);
+    EXPECT_NEAR(profile.candela(67.5f * pi / 180.0f, -2.0f), 25.0f, 1e-2f);
+    EXPECT_EQ(profile.candela(2.0f, 0.0f), 0.0f);
+    EXPECT_EQ(profile.peak(), 100.0f);
+}
+
+TEST(Ies, symmetries) {
+    std::string error;
+    const float t = 45.0f * pi / 180.0f, r = pi / 180.0f;
+    IesProfile quadrant, half, full, turned;
+    ASSERT_TRUE(quadrant.parse(iesText("0 45 90", "0 90", "1 1 2 2 3 3", 3, 2), error)) << error;
+    for (const float phi : {90.0f, 270.0f, -90.0f})
+        EXPECT_NEAR(quadrant.candela(t, phi * r), 3.0f, 1e-3f);
+    for (const float phi : {45.0f, 135.0f, 225.0f, 315.0f})
+        EXPECT_NEAR(quadrant.candela(t, phi * r), 2.0f, 1e-3f);
+    EXPECT_NEAR(quadrant.candela(t, 180.0f * r), 1.0f, 1e-3f);
+    ASSERT_TRUE(half.parse(iesText("0,90,180", "0 90", "1 1 2 2 5 5", 3, 2), error)) << error;
+    EXPECT_NEAR(half.candela(t, 270.0f * r), 2.0f, 1e-3f);
+    EXPECT_NEAR(half.candela(t, 180.0f * r), 5.0f, 1e-3f);
+    EXPECT_NEAR(half.candela(t, 225.0f * r), 3.5f, 1e-2f);
+    ASSERT_TRUE(
+        full.parse(iesText("0 90 180 270 360", "0 90", "1 1 2 2 3 3 4 4 1 1", 5, 2), error));
+    EXPECT_NEAR(full.candela(t, 270.0f * r), 4.0f, 1e-3f);
+    EXPECT_NEAR(full.candela(t, 315.0f * r), 2.5f, 1e-2f);
+    ASSERT_TRUE(turned.parse(iesText("90 180 270", "0 90", "1 1 2 2 5 5", 3, 2), error)) << error;
+    EXPECT_NEAR(turned.candela(t, 90.0f * r), 1.0f, 1e-3f);
+    EXPECT_NEAR(turned.candela(t, 0.0f), 2.0f, 1e-3f);
+    EXPECT_NEAR(turned.candela(t, 315.0f * r), 3.5f, 1e-2f);
+}
+
+TEST(Ies, powerAndNormalization) {
+    std::string error;
+    auto sphere = std::make_shared<IesProfile>();
+    ASSERT_TRUE(sphere->parse(iesText("0", "0 90 180", "7 7 7", 1, 3), error));
+    EXPECT_NEAR(sphere->mean(), 7.0f, 1e-4f);
+    IesProfile hemisphere;
+    ASSERT_TRUE(hemisphere.parse(iesText("0", "0 90", "7 7", 1, 2), error));
+    EXPECT_NEAR(hemisphere.mean(), 7.0f, 1e-4f);
+    IesProfile slope; // mean over the hemisphere of 1 - 2 t / pi is 1 - 2 / pi
+    ASSERT_TRUE(slope.parse(iesText("0", "0 90", "1 0", 1, 2), error));
+    EXPECT_NEAR(slope.mean(), 1.0f - 2.0f / pi, 1e-4f);
+    Light light;
+    const LightShaping raw(light, mat4(1.0f), sphere);
+    EXPECT_NEAR(raw.factor(off(50.0f)).x, 7.0f, 1e-3f);
+    light.iesNormalize = true;
+    const LightShaping normalized(light, mat4(1.0f), sphere);
+    EXPECT_NEAR(normalized.factor(off(50.0f)).x, 1.0f, 1e-4f);
+}
+
+TEST(Ies, angleScale) {
+    EXPECT_FLOAT_EQ(IesProfile::scaledTheta(1.0f, 0.0f), 1.0f);
+    EXPECT_FLOAT_EQ(IesProfile::scaledTheta(1.0f, 2.0f), 0.5f);
+    EXPECT_FLOAT_EQ(IesProfile::scaledTheta(2.0f, 0.5f), pi); // clamped
+    EXPECT_FLOAT_EQ(IesProfile::scaledTheta(1.0f, -2.0f), (1.0f - pi) / 2.0f + pi);
+    EXPECT_FLOAT_EQ(IesProfile::scaledTheta(1.0f, -0.5f), 0.0f); // clamped
+}
+
+TEST(Ies, tiltData) {
+    IesProfile profile;
+    std::string error;
+    ASSERT_TRUE(profile.parse(iesText("0", "0 90", "4 4", 1, 2, "INCLUDE"), error)) << error;
+    EXPECT_NEAR(profile.candela(0.5f, 0.0f), 4.0f, 1e-4f);
+}
+
+TEST(Ies, badFilesSayWhy) {
+    const std::string bad[] = {"",
+                               "not an IES file",
+                               "TILT=NONE",
+                               iesText("0", "0 90", "4", 1, 2),
+                               iesText("0", "90 0", "4 4", 1, 2),
+                               iesText("0", "0 90", "4 4", 1, 2, "NONE", 2),
+                               iesText("0 77", "0 90", "1 1 1 1", 2, 2),
+                               iesText("0", "0", "1", 1, 1),
+                               "TILT=NONE\n1 1 1 99999999 99999999 1 1 0 0 0 1 1 1",
+                               "TILT=NONE\n1 1 1 nan 1 1",
+                               "TILT=NONE\n1 1 1 -3 1 1 1 0 0 0 1 1 1 0 0"};
+    for (const std::string& text : bad) {
+        IesProfile profile;
+        std::string error;
+        EXPECT_FALSE(profile.parse(text, error)) << text;
+        EXPECT_FALSE(error.empty());
+        EXPECT_TRUE(profile.empty());
+        EXPECT_EQ(profile.candela(0.5f, 0.5f), 0.0f);
+    }
+    IesProfile profile;
+    std::string error;
+    EXPECT_FALSE(profile.load("/no/such/file.ies", error));
+    EXPECT_FALSE(error.empty());
+}

@@ -1,0 +1,21 @@
+#include "hdDelegate/raster/gl/glFunctions.h"
+
+#include <EGL/egl.h>
+
+namespace patina {
+
+GlFunctions gl;
+
+bool loadGlFunctions(std::string& error) {
+#define PATINA_GL_LOAD(name, NAME)                                                                 \
+    gl.name = reinterpret_cast<PFNGL##NAME##PROC>(eglGetProcAddress("gl" #name));                  \
+    if (!gl.name) {                                                                                \
+        error = "the OpenGL driver has no function gl" #name;                                      \
+        return false;                                                                              \
+    }
+    PATINA_GL_FUNCTIONS(PATINA_GL_LOAD)
+#undef PATINA_GL_LOAD
+    return true;
+}
+
+} // namespace patina

@@ -1,0 +1,83 @@
+#include "hdDelegate/raster/gl/programCompiler.h"
+
+#include <algorithm>
+#include <string>
+
+namespace patina {
+
+ProgramCompiler::ProgramCompiler(const EglContext& shared, int threads)
+    : _shared(shared), _maximum(std::max(threads, 0)) {}
+
+ProgramCompiler::~ProgramCompiler() {
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        _stop = true;
+        _work.clear();
+    }
+    _changed.notify_all();
+    for (std::thread& thread : _threads)
+        thread.join();
+}
+
+void ProgramCompiler::add(std::function<void()> work) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _work.push_back(std::move(work));
+    if (_idle < int(_work.size()) && int(_threads.size()) < _maximum) {
+        std::string error;
+        if (auto context = EglContext::sharing(_shared, error)) {
+            _contexts.push_back(std::move(context));
+            ++_idle;
+            _threads.emplace_back(&ProgramCompiler::run, this, _contexts.back().get());
+        } else {
+            _maximum = 0;
+        }
+    }
+    _changed.notify_one();
+}
+
+bool ProgramCompiler::help() {
+    std::function<void()> work;
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        if (_work.empty()) return false;
+        work = std::move(_work.front());
+        _work.pop_front();
+    }
+    work();
+    finished();
+    return true;
+}
+
+void ProgramCompiler::wait(std::chrono::milliseconds maximum) {
+    std::unique_lock<std::mutex> lock(_mutex);
+    const size_t before = _count;
+    _ended.wait_for(lock, maximum, [&] { return _count != before; });
+}
+
+void ProgramCompiler::finished() {
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        ++_count;
+    }
+    _ended.notify_all();
+}
+
+void ProgramCompiler::run(EglContext* context) {
+    const EglContext::Use use(*context);
+    std::unique_lock<std::mutex> lock(_mutex);
+    while (use.ok()) {
+        _changed.wait(lock, [&] { return _stop || !_work.empty(); });
+        if (_stop) return;
+        --_idle;
+        std::function<void()> work = std::move(_work.front());
+        _work.pop_front();
+        lock.unlock();
+        work();
+        work = nullptr; // what it holds goes while the context is there
+        finished();
+        lock.lock();
+        ++_idle;
+    }
+}
+
+} // namespace patina

@@ -1,0 +1,113 @@
+#include "hdDelegate/raster/lights/rasterDomes.h"
+
+#include "hdDelegate/raster/lights/prefilteredSky.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+using glm::vec3;
+using glm::vec4;
+constexpr float pi = 3.14159265f;
+
+vec3 latlongDirection(int x, int y, int w, int h) {
+    const float longitude = (0.5f - (float(x) + 0.5f) / float(w)) * 2.0f * pi;
+    const float theta = (float(y) + 0.5f) / float(h) * pi;
+    return vec3(std::sin(theta) * std::sin(longitude), std::cos(theta),
+                std::sin(theta) * std::cos(longitude));
+}
+
+void smoothLatlong(const GlTexture& texture, GLint smaller) {
+    texture.parameter(GL_TEXTURE_MIN_FILTER, smaller);
+    texture.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    texture.parameter(GL_TEXTURE_WRAP_S, GL_REPEAT);
+    texture.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+} // namespace
+
+int RasterDomes::layer(const std::shared_ptr<const EnvironmentMap>& map) {
+    for (size_t i = 0; i < _wanted.size(); ++i)
+        if (_wanted[i] == map) return int(i);
+    _wanted.push_back(map);
+    return int(_wanted.size()) - 1;
+}
+
+const SkyHarmonics& RasterDomes::harmonics(const std::shared_ptr<const EnvironmentMap>& map,
+                                           bool bare) {
+    const auto found = _harmonics.find({map, bare});
+    if (found != _harmonics.end()) return found->second;
+    return _harmonics
+        .emplace(std::make_pair(map, bare),
+                 makeSkyHarmonics([&](const vec3& d) { return map->radiance(d); }, !bare, !bare))
+        .first->second;
+}
+
+void RasterDomes::upload(bool prefiltered) {
+    if (prefiltered && _filtered != _wanted) uploadPrefiltered();
+    for (auto it = _harmonics.begin(); it != _harmonics.end();)
+        it = std::find(_wanted.begin(), _wanted.end(), it->first.first) == _wanted.end()
+                 ? _harmonics.erase(it)
+                 : std::next(it);
+    if (_uploaded == _wanted) return;
+    _uploaded = _wanted;
+    _maps = GlTexture();
+    _densities = GlTexture();
+    if (_wanted.empty()) return;
+    int w = 1;
+    bool same = true; // texels are the image's pixels, so that interpolating twice blurs no kinks
+    for (const auto& map : _wanted)
+        w = std::max(w, map->width());
+    for (const auto& map : _wanted)
+        same &= map->width() == w && 2 * map->height() == w;
+    if (!same || (w & (w - 1)) != 0 || w > 2048) {
+        const int widest = w;
+        for (w = 1024; w < 4 * widest && w < 2048;)
+            w *= 2;
+    }
+    const int h = w / 2, dw = densityWidth, dh = dw / 2, layers = int(_wanted.size());
+    _maps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_RGBA32F, w, h, layers, 0);
+    _densities = GlTexture(GL_TEXTURE_2D_ARRAY, GL_R32F, dw, dh, layers, 0);
+    std::vector<vec4> image(size_t(w) * size_t(h));
+    std::vector<float> density(size_t(dw) * size_t(dh));
+    for (int k = 0; k < layers; ++k) {
+        const EnvironmentMap& map = *_wanted[size_t(k)];
+        for (int y = 0; y < h; ++y)
+            for (int x = 0; x < w; ++x)
+                image[size_t(y) * size_t(w) + size_t(x)] =
+                    vec4(map.radiance(latlongDirection(x, y, w, h)), 1.0f);
+        for (int y = 0; y < dh; ++y)
+            for (int x = 0; x < dw; ++x)
+                density[size_t(y) * size_t(dw) + size_t(x)] =
+                    map.pdf(latlongDirection(x, y, dw, dh));
+        gl.TextureSubImage3D(_maps.id(), 0, 0, 0, k, w, h, 1, GL_RGBA, GL_FLOAT, image.data());
+        gl.TextureSubImage3D(_densities.id(), 0, 0, 0, k, dw, dh, 1, GL_RED, GL_FLOAT,
+                             density.data());
+    }
+    gl.GenerateTextureMipmap(_maps.id());
+    smoothLatlong(_maps, GL_LINEAR_MIPMAP_LINEAR);
+    gl.GenerateTextureMipmap(_densities.id());
+    smoothLatlong(_densities, GL_LINEAR_MIPMAP_LINEAR);
+    _densities.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+void RasterDomes::uploadPrefiltered() {
+    _filtered = _wanted;
+    _prefiltered = GlTexture();
+    if (_wanted.empty()) return;
+    const int w = PrefilteredSky::width, h = PrefilteredSky::height;
+    _prefiltered = GlTexture(GL_TEXTURE_2D_ARRAY, GL_RGBA32F, w, h,
+                             int(_wanted.size()) * PrefilteredSky::levels);
+    for (size_t k = 0; k < _wanted.size(); ++k) {
+        const PrefilteredSky sky([&](const vec3& d) { return _wanted[k]->radiance(d); });
+        for (int i = 0; i < PrefilteredSky::levels; ++i)
+            gl.TextureSubImage3D(_prefiltered.id(), 0, 0, 0, int(k) * PrefilteredSky::levels + i, w,
+                                 h, 1, GL_RGBA, GL_FLOAT, sky.level(i).data());
+    }
+    smoothLatlong(_prefiltered, GL_LINEAR);
+}
+
+} // namespace patina

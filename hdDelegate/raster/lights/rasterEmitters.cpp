@@ -1,0 +1,263 @@
+#include "hdDelegate/raster/lights/rasterEmitters.h"
+
+#include "hdDelegate/geometry/primvarEval.h"
+#include "hdDelegate/geometry/tangentFrames.h"
+#include "hdDelegate/parallel.h"
+#include "materialNetwork/cpu/programCode.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+constexpr float pi = 3.14159265f;
+constexpr size_t manyTriangles = 20000; ///< that are looked at in one place each
+
+float luminance(const vec3& c) {
+    return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+vec3 unitOr(const vec3& v, const vec3& fallback) {
+    const float length = glm::length(v);
+    return length > 1e-30f && std::isfinite(length) ? v / length : fallback;
+}
+
+/// Whether what a program emits may depend on where it is seen from.
+bool dependsOnView(const ProgramCode& code) {
+    return !code.emissionCode.empty() ||
+           std::any_of(code.edf.begin(), code.edf.end(), [](const ClosureOp& op) {
+               return op.kind == ClosureKind::ConicalEdf || op.kind == ClosureKind::SchlickEdf ||
+                      op.kind == ClosureKind::MeasuredEdf;
+           });
+}
+
+} // namespace
+
+/// A place on a triangle of a source, as the path tracer's computeSurfacePoint() has it.
+class RasterEmitters::Place : public PrimvarReader {
+public:
+    Place(const Source& source, unsigned triangle, const vec2& uv)
+        : _source(source), _triangle(triangle), _uv(uv) {
+        const TriangleMesh& mesh = *source.mesh;
+        const uvec3& t = mesh.triangles[triangle];
+        const std::vector<vec3>& p = mesh.positions[0];
+        ShadingPoint& s = shading;
+        s.primvars = this;
+        s.objectPosition = p[t.x] * (1.0f - uv.x - uv.y) + p[t.y] * uv.x + p[t.z] * uv.y;
+        s.position = source.origin + vec3(source.toWorld * vec4(s.objectPosition, 1.0f));
+        const vec3 flat = unitOr(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]), vec3(0, 0, 1));
+        s.geometricNormal = unitOr(source.normalMatrix * flat, vec3(0, 0, 1));
+        s.normal =
+            unitOr(source.normalMatrix * evalNormal(mesh, triangle, uv.x, uv.y), s.geometricNormal);
+        if (glm::dot(s.normal, s.geometricNormal) < 0.0f) s.normal = -s.normal;
+        const TangentFrame frame = tangentFrame(mesh, source.st, triangle);
+        const mat3 linear(source.toWorld);
+        vec3 tangent = linear * frame.dpdu;
+        tangent -= s.normal * glm::dot(s.normal, tangent);
+        const float length = glm::length(tangent);
+        if (frame.fromTexture && length > 1e-20f && std::isfinite(length)) {
+            s.tangent = tangent / length;
+            const vec3 across = glm::cross(s.normal, s.tangent);
+            s.bitangent = glm::dot(across, linear * frame.dpdv) < 0.0f ? -across : across;
+        } else {
+            orthonormalBasis(s.normal, s.tangent, s.bitangent);
+        }
+        s.objectToWorldNormal = source.normalMatrix;
+        if (frame.fromTexture)
+            s.lengthPerUv =
+                std::sqrt(glm::length(linear * frame.dpdu) * glm::length(linear * frame.dpdv));
+    }
+    Place(const Place&) = delete;
+    Place& operator=(const Place&) = delete;
+
+    bool read(int slot, float out[4]) const override {
+        const int attribute = _source.attributes[size_t(slot)];
+        return attribute >= 0 &&
+               evalAttribute(*_source.mesh, _source.mesh->attributes[size_t(attribute)], _triangle,
+                             _uv.x, _uv.y, out);
+    }
+
+    /// Radiance towards a direction, as SceneLights::triangleRadiance() has it.
+    vec3 towards(const vec3& direction) {
+        const RasterMeshLight& light = _source.light;
+        shading.viewDirection = direction;
+        const bool front = glm::dot(shading.geometricNormal, direction) > 0.0f;
+        const vec3 lit = front ? light.radiance : vec3(0.0f);
+        float presence = 1.0f;
+        if (!_source.program->isOpaque()) _source.program->opacity(shading, nullptr, &presence);
+        vec3 sum = lit;
+        if (_source.glows && light.mode != RasterMeshLight::Alone) {
+            const vec3 glow = _source.program->emission(shading, direction);
+            sum = light.mode == RasterMeshLight::None    ? glow
+                  : light.mode == RasterMeshLight::Tints ? lit * glow
+                                                         : lit + glow;
+        }
+        sum = glm::max(sum * presence, vec3(0.0f));
+        return std::isfinite(sum.x + sum.y + sum.z) ? sum : vec3(0.0f);
+    }
+    /// The same by angles about the shading normal.
+    vec3 towards(float theta, float turn) {
+        const vec3& n = shading.normal;
+        const float s = std::sin(theta);
+        const vec3 d = n * std::cos(theta) + shading.tangent * (s * std::cos(turn)) +
+                       glm::cross(n, shading.tangent) * (s * std::sin(turn));
+        return towards(glm::normalize(d));
+    }
+
+    ShadingPoint shading;
+
+private:
+    const Source& _source;
+    unsigned _triangle;
+    vec2 _uv;
+};
+
+void RasterEmitters::clear() {
+    _sources.clear();
+    _emitters.clear();
+    _sums.clear();
+}
+
+/// Mean luminance over some places and directions, by which triangles are chosen.
+float RasterEmitters::brightness(const Source& source, unsigned triangle, bool coarse) const {
+    static const vec2 places[] = {vec2(1 / 3.0f), vec2(0.1f), vec2(0.8f, 0.1f), vec2(0.1f, 0.8f)};
+    float sum = 0.0f;
+    const int count = coarse ? 1 : 4;
+    for (int i = 0; i < count; ++i) {
+        Place place(source, triangle, places[i]);
+        if (source.even && !source.sides) {
+            sum += luminance(place.towards(0.0f, 0.0f));
+            continue;
+        }
+        // Light that leaves at an angle counts by its cosine.
+        float front = 0.0f, back = 0.0f, weights = 0.0f;
+        for (const float theta : {0.05f, 0.5f, 0.9f, 1.3f}) {
+            const float weight = std::cos(theta) * std::sin(theta);
+            front += weight * luminance(place.towards(theta, 1.0f));
+            back += weight * luminance(place.towards(pi - theta, 1.0f));
+            weights += weight;
+        }
+        sum += 0.5f * (front + back) / weights;
+    }
+    return sum / float(count);
+}
+
+void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t subset,
+                         const std::shared_ptr<const MaterialProgram>& program,
+                         const RasterMeshLight& light, const mat4& toWorld, int category,
+                         bool closed, const vec3& origin) {
+    Source source;
+    source.glows = program->hasEmission();
+    if (!source.glows && light.mode == RasterMeshLight::None) return;
+    const bool looksAtGlow = source.glows && light.mode != RasterMeshLight::Alone;
+    const bool constant = !looksAtGlow || program->code().emissionCode.empty();
+    source.mesh = mesh;
+    source.program = program;
+    source.light = light;
+    source.toWorld = toWorld;
+    source.normalMatrix = glm::transpose(glm::inverse(mat3(toWorld)));
+    source.origin = origin;
+    source.st = mesh->attribute("st");
+    source.even = (!looksAtGlow || !dependsOnView(program->code())) && program->isOpaque();
+    source.sides = light.mode == RasterMeshLight::Adds || !source.even;
+    for (const MaterialPrimvar& primvar : program->primvars()) {
+        const MeshAttribute* a = mesh->attribute(primvar.name);
+        source.attributes.push_back(a ? int(a - mesh->attributes.data()) : -1);
+    }
+    const bool mirrored = glm::determinant(mat3(toWorld)) < 0.0f;
+    const size_t first = _emitters.size();
+    for (size_t t = 0; t < mesh->triangles.size() && _emitters.size() < maxTriangles; ++t) {
+        const size_t own = t < mesh->triangleSubset.size() ? mesh->triangleSubset[t] : 0;
+        if (own != subset) continue;
+        vec3 p[3];
+        for (int k = 0; k < 3; ++k)
+            p[k] = vec3(toWorld * vec4(mesh->positions[0][mesh->triangles[t][k]], 1.0f));
+        RasterEmitter e;
+        e.corner = p[0];
+        e.edge1 = p[1] - p[0];
+        e.edge2 = p[2] - p[0];
+        e.area = 0.5f * glm::length(glm::cross(e.edge1, e.edge2));
+        if (!(e.area > 0.0f) || !std::isfinite(e.area)) continue;
+        e.twoSided = source.glows && !closed &&
+                     (light.mode == RasterMeshLight::None || light.mode == RasterMeshLight::Adds);
+        e.mirrored = mirrored;
+        e.category = category;
+        e.triangle = unsigned(t);
+        e.source = int(_sources.size());
+        _emitters.push_back(e);
+    }
+    std::vector<float> bright(_emitters.size() - first, 1.0f);
+    if (constant && !bright.empty()) {
+        std::fill(bright.begin(), bright.end(),
+                  brightness(source, _emitters[first].triangle, true));
+    } else {
+        const bool coarse = bright.size() > manyTriangles;
+        parallelFor(size_t(0), bright.size(), [&](size_t i) {
+            bright[i] = brightness(source, _emitters[first + i].triangle, coarse);
+        });
+    }
+    // What was not found bright may be so elsewhere.
+    double mean = 0.0;
+    for (const float b : bright)
+        mean += double(b) / double(bright.size());
+    const double minimum = constant ? 0.0 : std::max(0.02 * mean, 1e-6);
+    size_t kept = first;
+    for (size_t i = 0; i < bright.size(); ++i) {
+        const RasterEmitter e = _emitters[first + i];
+        const double power = double(e.area) * (double(bright[i]) + minimum);
+        if (!(power > 0.0) || !std::isfinite(power)) continue;
+        _sums.push_back((_sums.empty() ? 0.0 : _sums.back()) + power);
+        _emitters[kept++] = e;
+    }
+    _emitters.resize(kept);
+    if (kept > first) _sources.push_back(std::move(source));
+}
+
+RasterEmission RasterEmitters::emission(const RasterEmitter& e, const vec2& uv) const {
+    const Source& source = _sources[size_t(e.source)];
+    RasterEmission out;
+    Place place(source, e.triangle, uv);
+    if (source.even && !source.sides) {
+        out.radiance = place.towards(0.0f, 0.0f);
+        return out;
+    }
+    out.axis = place.shading.normal;
+    out.x = place.shading.tangent;
+    out.y = glm::cross(out.axis, out.x);
+    // Angles to the axis alone, unless some directions tell otherwise.
+    bool round = true, flat = true;
+    const vec3 along = place.towards(0.0f, 0.0f);
+    for (const float theta : {0.4f, 0.9f, 1.3f, 1.8f, 2.5f}) {
+        const vec3 first = place.towards(theta, 0.7f);
+        const float scale = 1e-4f * luminance(first) + 1e-20f;
+        flat &= glm::length(first - along) <= scale;
+        for (const float turn : {1.3f, 2.9f, 3.8f, 5.1f})
+            round &= glm::length(place.towards(theta, turn) - first) <= scale;
+    }
+    if (round && flat && source.program->code().emissionCode.empty()) {
+        out.radiance = along;
+        return out;
+    }
+    out.stepsOfTheta = round ? RasterEmission::thetas : RasterEmission::turnThetas;
+    out.stepsOfTurn = round ? 1 : RasterEmission::turns;
+    for (int k = 0; k < out.stepsOfTurn; ++k)
+        for (int i = 0; i < out.stepsOfTheta; ++i)
+            out.values.push_back(
+                place.towards(pi * float(i) / float(out.stepsOfTheta - 1),
+                              2.0f * pi * float(k) / float(RasterEmission::turns - 1)));
+    return out;
+}
+
+const RasterEmitter& RasterEmitters::choose(float u, float& within, float& chance) const {
+    const double at = double(u) * _sums.back();
+    const size_t i = std::min(
+        size_t(std::upper_bound(_sums.begin(), _sums.end(), at) - _sums.begin()), _sums.size() - 1);
+    const double before = i > 0 ? _sums[i - 1] : 0.0, own = _sums[i] - before;
+    within = std::clamp(float((at - before) / own), 0.0f, 0.9999999f);
+    chance = float(own / _sums.back());
+    return _emitters[i];
+}
+
+} // namespace patina

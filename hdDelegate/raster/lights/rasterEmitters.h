@@ -1,0 +1,86 @@
+#pragma once
+
+#include "hdDelegate/geometry/triangleMesh.h"
+#include "hdDelegate/raster/scene/rasterInstances.h"
+#include "materialNetwork/cpu/materialProgram.h"
+
+#include <memory>
+
+namespace patina {
+
+/// What a UsdLuxMeshLightAPI adds to the surface of a mesh.
+struct RasterMeshLight {
+    enum Mode { None, Tints, Adds, Alone }; ///< of materialSyncMode, for the shader
+    Mode mode = None;
+    vec3 radiance{0.0f};
+    std::string lightLink;
+};
+
+/// A triangle that gives light, world space.
+struct RasterEmitter {
+    vec3 corner, edge1, edge2;
+    bool twoSided = true;
+    bool mirrored = false; ///< the front is the side that the cross product points away from
+    float area = 0.0f;
+    int category = -1;     ///< that is lit; -1: everything
+    unsigned triangle = 0; ///< of the mesh of its source
+    int source = 0;
+};
+
+/// The light that one place of a triangle gives.
+struct RasterEmission {
+    static constexpr int thetas = 128;    ///< of what depends on the angle to the axis alone
+    static constexpr int turnThetas = 64; ///< of what depends on the turn about it, too
+    static constexpr int turns = 13;      ///< the last is the first again
+
+    vec3 radiance{0.0f}; ///< where values is empty: towards everywhere
+    /// Else: the axis, and what turns begin at and go towards.
+    vec3 axis{0, 0, 1}, x{1, 0, 0}, y{0, 1, 0};
+    /// Radiance over even steps from the axis (0..pi), for every turn one after the other.
+    std::vector<vec3> values;
+    int stepsOfTheta = 0, stepsOfTurn = 0;
+};
+
+/// Glowing triangles of a scene, to be chosen in proportion to about their power.
+class RasterEmitters {
+public:
+    static constexpr size_t maxTriangles = 200000; ///< those beyond give no light to others
+
+    void clear();
+    /// Adds the triangles of one subset of a mesh at one place.
+    /// @param category as of RasterEmitter
+    /// @param closed no light from inside gets out: of tubes, whose maps show strips alone
+    /// @param origin that `toWorld` is relative to
+    void add(const std::shared_ptr<const TriangleMesh>& mesh, size_t subset,
+             const std::shared_ptr<const MaterialProgram>& program, const RasterMeshLight& light,
+             const mat4& toWorld, int category, bool closed, const vec3& origin);
+    bool empty() const { return _emitters.empty(); }
+
+    /// @returns a triangle; `within` a number in [0,1) that is left of u, `chance` the probability
+    const RasterEmitter& choose(float u, float& within, float& chance) const;
+    /// What a triangle gives at a place. @param uv as evalAttribute() has them
+    RasterEmission emission(const RasterEmitter& emitter, const vec2& uv) const;
+
+private:
+    /// What triangles of a subset at a place have in common.
+    struct Source {
+        std::shared_ptr<const TriangleMesh> mesh;
+        std::shared_ptr<const MaterialProgram> program;
+        RasterMeshLight light;
+        mat4 toWorld{1.0f};
+        mat3 normalMatrix{1.0f};
+        vec3 origin{0.0f};
+        std::vector<int> attributes; ///< of the mesh, per primvar of the program; -1: none
+        const MeshAttribute* st = nullptr;
+        bool glows = false, even = false; ///< even: alike towards all directions of a side
+        bool sides = false;               ///< one side may give other light than the other
+    };
+    class Place;
+    float brightness(const Source& source, unsigned triangle, bool coarse) const;
+
+    std::vector<Source> _sources;
+    std::vector<RasterEmitter> _emitters;
+    std::vector<double> _sums; ///< running sums of power
+};
+
+} // namespace patina

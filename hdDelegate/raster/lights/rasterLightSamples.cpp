@@ -1,0 +1,257 @@
+// The samples that a pass takes of the lights.
+
+#include "hdDelegate/raster/lights/lightChoice.h"
+#include "hdDelegate/raster/lights/rasterLights.h"
+#include "hdDelegate/raster/passes/passNumbers.h"
+#include "shaders/areaLights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+constexpr float pi = 3.14159265f;
+
+vec3 onSphere(vec2 u) {
+    const float z = 1.0f - 2.0f * u.x, r = std::sqrt(std::max(0.0f, 1.0f - z * z));
+    return vec3(r * std::cos(2.0f * pi * u.y), r * std::sin(2.0f * pi * u.y), z);
+}
+
+} // namespace
+
+GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
+    GpuLight g = s.fixed;
+    vec3 radiance = s.radiance;
+    switch (s.kind) {
+    case Rect:
+    case Disk: {
+        vec2 q = vec2(u) - 0.5f;
+        float density = 1.0f;
+        if (s.image) density = s.image->sample(vec2(u), q); // shaders look the image up
+        if (s.kind == Disk)
+            q = std::sqrt(u.x) * vec2(std::cos(2.0f * pi * u.y), std::sin(2.0f * pi * u.y));
+        g.sampled = vec4(s.shape.origin + s.shape.axes * vec3(q, 0.0f), 1.0f);
+        g.normal = vec4(s.shape.normal, density / s.shape.area);
+        g.shadowColor.w = 1.0f / s.shape.area;
+        break;
+    }
+    case Sphere:
+        g.sampled = vec4(s.shape.origin + s.shape.axes * sh::sphereLightPlace(u), 1.0f);
+        break;
+    case Cylinder: {
+        const vec3 n(0.0f, std::cos(2.0f * pi * u.y), std::sin(2.0f * pi * u.y));
+        const vec3 wide = glm::transpose(s.shape.inverse) * n;
+        const float length = glm::length(wide);
+        const float stretched = std::fabs(s.shape.determinant) * length;
+        g.sampled = vec4(s.shape.origin + s.shape.axes * (n + vec3(u.x - 0.5f, 0.0f, 0.0f)), 1.0f);
+        g.normal = vec4(wide / length, 1.0f / (2.0f * pi * stretched));
+        break;
+    }
+    case Triangle: break; // see takeEmitters()
+    case Point: g.sampled = vec4(s.position, 1.0f); break;
+    case Line:
+        g.sampled = vec4(s.position + (u.x - 0.5f) * s.toLight, 1.0f);
+        g.normal.w = 0.5f / s.extent;
+        break;
+    case Distant: {
+        const float z = 1.0f - g.cone.z * u.x;
+        const float r = std::sqrt(std::max(0.0f, 1.0f - z * z)), phi = 2.0f * pi * u.y;
+        const vec3 helper = std::fabs(s.toLight.x) < 0.7f ? vec3(1, 0, 0) : vec3(0, 1, 0);
+        const vec3 x = glm::normalize(glm::cross(helper, s.toLight));
+        const vec3 y = glm::cross(s.toLight, x);
+        g.sampled = vec4(x * (r * std::cos(phi)) + y * (r * std::sin(phi)) + s.toLight * z, 0.0f);
+        g.normal = vec4(0.0f, 0.0f, 0.0f, s.delta ? 1.0f : 1.0f / g.cone.w);
+        break;
+    }
+    case Dome:
+    case MoreDome: {
+        vec3 d;
+        float pdf = 0.25f / pi;
+        if (s.environment) {
+            d = s.environment->sample(vec2(u), pdf);
+            radiance *= s.environment->radiance(d);
+        } else {
+            d = onSphere(vec2(u));
+        }
+        g.sampled = vec4(s.domeToWorld * d, 0.0f);
+        g.normal = vec4(0.0f, 0.0f, 0.0f, pdf);
+        if (!(pdf > 0.0f)) radiance = vec3(0.0f), g.normal.w = 1.0f;
+        break;
+    }
+    }
+    g.radiance = vec4(radiance, float(s.kind));
+    return g;
+}
+
+/// Small images gain nothing from finer maps, and drawing these is most of a pass there.
+int RasterLights::enoughFor(int pixels, int mapSize) {
+    while (mapSize / 2 >= std::max(texelsPerPixel * pixels, int(smallestMap)))
+        mapSize /= 2;
+    return mapSize;
+}
+
+/// The shadow maps that samples of a light need at most; see castShadow().
+int RasterLights::mapsOf(const Source& s, const ShadowBounds& bounds) const {
+    if (!_shadows || !s.shadows) return 0;
+    if (s.kind == Dome) return _domeSamples;
+    if (s.kind == Distant) return 1;
+    return shadowTangent(s.position, s.extent, bounds) <= ShadowView::widestTangent ? 1 : 6;
+}
+
+/// Lights by how many maps they need, each kind with its own share of the room.
+/// @returns index of the source and how often it counts
+std::vector<std::pair<size_t, float>>
+RasterLights::choose(uint32_t pass, const ShadowBounds& bounds, int room) const {
+    std::vector<std::pair<size_t, float>> out;
+    std::vector<size_t> groups[3]; // no maps, one, six
+    std::vector<size_t> domes;
+    for (size_t i = 0; i < _sources.size(); ++i) {
+        const int maps = mapsOf(_sources[i], bounds);
+        if (_sources[i].kind == Dome)
+            domes.push_back(i);
+        else
+            groups[maps == 0 ? 0 : maps == 1 ? 1 : 2].push_back(i);
+    }
+    // What domes light shows everywhere: up to `maxDomes` none is ever missing.
+    const float turn = passNumbers(_seed, pass, 23).x;
+    for (const ChosenLight& c :
+         chooseLights(std::vector<float>(domes.size(), 1.0f), maxDomes, turn)) {
+        out.emplace_back(domes[c.index], c.share);
+        room -= mapsOf(_sources[domes[c.index]], bounds);
+    }
+    room = std::max(room, 7);
+    const int others = int(out.size()) * std::max(_domeSamples, 1) + maxCoarseSamples;
+    const int left = std::max(maxTaken - others, 3);
+    const int ones = int(groups[1].size()), sixes = int(groups[2].size());
+    const int forSixes = std::min(sixes, std::max(1, (room - std::min(ones, room / 4)) / 6));
+    int maximum[3] = {maxUnshadowed, sixes > 0 ? room - 6 * forSixes : room, forSixes};
+    for (int k = 0, given = left; k < 3; ++k) { // a third each at least
+        const int wanted = std::min(maximum[k], int(groups[k].size()));
+        maximum[k] = std::min(wanted, given / (3 - k));
+        given -= maximum[k];
+    }
+    const vec3 center = 0.5f * (bounds.receiverMin + bounds.receiverMax);
+    const float radius = 0.25f * glm::length(bounds.receiverMax - bounds.receiverMin);
+    for (int k = 0; k < 3; ++k) {
+        std::vector<float> weights;
+        float sum = 0.0f;
+        for (size_t i : groups[k]) {
+            const Source& s = _sources[i];
+            const float d = std::max(glm::length(s.position - center), radius);
+            weights.push_back(s.kind == Distant ? s.weight : s.weight / std::max(d * d, 1e-20f));
+            sum += weights.back();
+        }
+        // A light that does little to the whole may do much to what is near.
+        for (float& w : weights)
+            w = 1.0f / float(weights.size()) + (sum > 0.0f && std::isfinite(sum) ? w / sum : 0.0f);
+        const float u = passNumbers(_seed, pass, 20 + uint32_t(k)).x;
+        for (const ChosenLight& c : chooseLights(weights, size_t(std::max(maximum[k], 0)), u))
+            out.emplace_back(groups[k][c.index], c.share);
+    }
+    return out;
+}
+
+RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& emitters,
+                                           const ShadowBounds& bounds, int mapSize,
+                                           int pixels) const {
+    Sampled out;
+    int wanted = 0;
+    for (const Source& s : _sources)
+        wanted += mapsOf(s, bounds);
+    if (bounds.hasFibres()) {
+        int more = 0;
+        for (const Source& s : _sources)
+            more += mapsOf(s, bounds.ofFibres());
+        out.fibres = wanted + more + (emitters.empty() ? 0 : 6 * minEmitterSamples) <= maxMaps;
+        if (out.fibres) wanted += more;
+    }
+    // Maps of half the size are still finer than a small image, and more samples gain more.
+    const bool coarse = mapSize / 2 >= 4 * pixels;
+    const int emitterSamples =
+        emitters.empty()
+            ? 0
+            : std::clamp(((coarse ? maxSmallMaps : maxMaps) - wanted) / 6, minEmitterSamples,
+                         coarse ? maxCoarseSamples : maxEmitterSamples);
+    const int forEmitters = _shadows ? 6 * emitterSamples : 0;
+    wanted += forEmitters;
+    int maximum = maxMaps;
+    out.mapSize = mapSize;
+    if (wanted > maxMaps) {
+        maximum = maxSmallMaps;
+        out.mapSize = mapSize / 2;
+    }
+    // As many texels in more maps, as long as they are no coarser than the image.
+    while (wanted > maximum && maximum < maxTinyMaps && out.mapSize / 2 >= pixels) {
+        maximum *= 4;
+        out.mapSize /= 2;
+    }
+    out.mapSize = enoughFor(pixels, out.mapSize);
+    int room = maximum - forEmitters;
+    std::vector<bool> taken(_sources.size(), false);
+    for (const auto& choice : choose(pass, bounds, room)) {
+        const Source& s = _sources[choice.first];
+        taken[choice.first] = true;
+        const uint32_t set = 100 + 16 * uint32_t(choice.first);
+        const int samples = s.kind == Dome ? std::max(_domeSamples, 1) : 1;
+        for (int n = 0; n < samples; ++n) {
+            const uint32_t index = pass * uint32_t(samples) + uint32_t(n);
+            GpuLight g = draw(s, threeNumbers(_seed, index, set));
+            g.fade.w = choice.second;
+            // The first of a dome also stands for what samples of the BSDF find.
+            if (n > 0) g.radiance.w = float(MoreDome);
+            if (_shadows && s.shadows && s.kind == Dome && _domeSamples == 0)
+                g.shadow.x = 0.0f; // has no map of its own, but shadows
+            else if (_shadows && s.shadows)
+                castShadow(g, s.shadowCategory, passNumbers(_seed, index, set + 1), bounds, room,
+                           out);
+            out.lights.push_back(g);
+        }
+    }
+    takeEmitters(pass, emitterSamples, emitters, bounds, maximum, out);
+    if (out.lights.size() > size_t(maxTaken)) out.lights.resize(size_t(maxTaken));
+    out.taken = int(out.lights.size());
+    out.look[0] = out.look[2] = out.taken;
+    for (size_t i = 0; i < _sources.size(); ++i)
+        if (!taken[i] && _sources[i].fixed.inverse[2].w != 0.0f)
+            out.lights.push_back(draw(_sources[i], vec3(0.5f)));
+    return out;
+}
+
+void RasterLights::takeEmitters(uint32_t pass, int samples, const RasterEmitters& emitters,
+                                const ShadowBounds& bounds, int maximum, Sampled& out) const {
+    for (uint32_t n = 0; n < uint32_t(samples); ++n) {
+        const vec2 u = passNumbers(_seed, pass * uint32_t(samples) + n, 17);
+        const vec2 turn = passNumbers(_seed, pass * uint32_t(samples) + n, 18);
+        float within, chance;
+        const RasterEmitter& e = emitters.choose(u.x, within, chance);
+        // Uniform over the triangle (Turk 1990).
+        const float root = std::sqrt(within);
+        GpuLight g = GpuLight::none();
+        g.sampled = vec4(e.corner + e.edge1 * (root * (1.0f - u.y)) + e.edge2 * (root * u.y), 1.0f);
+        g.normal = vec4(glm::normalize(glm::cross(e.edge1, e.edge2)), chance / e.area);
+        if (e.mirrored) g.normal = vec4(-vec3(g.normal), g.normal.w);
+        const RasterEmission glow = emitters.emission(e, vec2(root * (1.0f - u.y), root * u.y));
+        g.radiance = vec4(glow.radiance, float(Triangle));
+        if (!glow.values.empty()) {
+            g.radiance = vec4(1.0f, 1.0f, 1.0f, float(Triangle));
+            g.table = vec4(float(_tables.firstOfPass() + int(out.tables.size())),
+                           float(glow.stepsOfTheta), float(glow.stepsOfTurn), -1.0f);
+            g.shaping = vec4(glow.axis, 0.0f);
+            g.shapingX = vec4(glow.x, 0.0f);
+            g.shapingY = vec4(glow.y, 0.0f);
+            for (const vec3& value : glow.values)
+                out.tables.emplace_back(value, 0.0f);
+        }
+        g.axis[0] = vec4(e.edge1, 0.0f);
+        g.axis[1] = vec4(e.edge2, 0.0f);
+        g.cone = vec4(0.0f, 0.0f, e.twoSided ? 1.0f : 0.0f, 0.0f);
+        g.fade.w = 1.0f / float(samples);
+        g.axis[2].w = float(e.category);
+        if (_shadows) castShadow(g, -1, turn, bounds, maximum, out);
+        out.lights.push_back(g);
+    }
+}
+
+} // namespace patina

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "hdDelegate/image/iesProfile.h"
+#include "hdDelegate/lights/distribution2d.h"
+#include "hdDelegate/lights/lightImages.h"
+#include "hdDelegate/raster/gl/glResources.h"
+#include "hdDelegate/scene/light.h"
+
+namespace patina {
+
+/// An image on a rect light with the density that its samples are drawn with.
+struct RectImage {
+    int first = 0, width = 0, height = 0; ///< in the buffer: rgb, w density relative to uniform
+    std::shared_ptr<const ImageRGB> image;
+    Distribution2d distribution;
+
+    /// @param q receives the position in the unit shape's coordinates
+    /// @returns the density relative to uniform
+    float sample(const vec2& u, vec2& q) const;
+    /// Radiance factor at a position of the unit shape, as LightEmitter has it.
+    vec3 radiance(const vec2& q) const;
+};
+
+/// A profile as a table over even steps of theta (0..pi) and phi (a whole turn; its last column is
+/// the first again).
+struct ProfileTable {
+    int first = -1, thetas = 0, phis = 0;
+};
+
+/// What shaders look up of lights in one buffer: images of rects, profiles, harmonics of domes.
+class RasterLightTables {
+public:
+    static constexpr int largestImage = 512; ///< texels along a side; larger ones are averaged
+
+    explicit RasterLightTables(Diagnostics& diagnostics) : _diagnostics(diagnostics) {}
+
+    /// The image of a rect light. @returns null when there is none
+    const RectImage* rect(const Light& light, LightImages& images);
+    /// The IES profile of a light, scaled as the light wants it.
+    ProfileTable profile(const Light& light);
+    /// Values of any kind. @returns the place of the first
+    int add(const std::vector<vec4>& values);
+
+    /// Makes the buffer of all that was added.
+    /// @param room for values of a pass behind them
+    void upload(int room = 0);
+    /// Where the values of a pass begin.
+    int firstOfPass() const { return _firstOfPass; }
+    /// Replaces them; those beyond the room are left out.
+    void writePass(const std::vector<vec4>& values) const;
+    const GlBuffer& buffer() const { return _buffer; }
+
+private:
+    Diagnostics& _diagnostics;
+    std::vector<vec4> _values;
+    std::vector<std::unique_ptr<RectImage>> _rects;
+    mutable GlBuffer _buffer; ///< of which passes write the end
+    int _firstOfPass = 0, _room = 0;
+};
+
+} // namespace patina

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "hdDelegate/raster/gl/glResources.h"
+#include "hdDelegate/raster/lights/rasterLight.h"
+
+#include <vector>
+
+namespace patina {
+
+/// What can be seen of the sky, for directions that are no light's samples: small shadow maps, one
+/// for each cell of an octahedral grid of directions. Passes redraw some of them from other
+/// directions of their cells, so that the edges of shadows blur instead of standing still.
+class RasterSky {
+public:
+    static constexpr int side = 12; ///< cells
+    static constexpr int mapSize = 512;
+
+    /// A map that has to be drawn.
+    struct Task {
+        int layer = 0;
+        ShadowView view;
+    };
+
+    /// Forgets all maps.
+    void reset() { _drawn.clear(); }
+    /// Chooses the cells that a pass draws, at most `maximum` (at least 1; the first pass twice as
+    /// many).
+    std::vector<Task> begin(uint32_t pass, uint32_t seed, const ShadowBounds& bounds, int maximum);
+    /// Binds maps and cells; cells that have no map yet borrow the nearest one.
+    void bind(GLuint buffer, GLuint texture);
+
+    const GlTexture& maps();
+
+private:
+    struct Cell {
+        glm::mat4 worldToMap{1.0f}, worldToFibres{1.0f};
+        glm::vec4 towards{0.0f};
+        int map[4] = {-1, -1, 0, 0};
+    };
+    std::vector<Cell> _drawn; ///< all cells, map[0] -1 where nothing was drawn
+    GlTexture _maps;
+    int _layers = 0;      ///< of _maps
+    bool _fibres = false; ///< maps for fibres lie behind the others
+    GlBuffer _buffer;
+};
+
+} // namespace patina

@@ -1,0 +1,131 @@
+// Ids, positions and normals of what is seen, and what follows from where it is.
+
+#include "hdDelegate/raster/gl/deviceError.h"
+#include "hdDelegate/raster/passes/rasterAovs.h"
+#include "hdDelegate/raster/passes/rasterPassBlock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace patina {
+
+/// The targets of aovs.frag.glsl.
+void RasterPasses::makeAovTarget(const RasterAovRequest& request) {
+    const auto make = [&] { return GlTexture(GL_TEXTURE_2D, GL_RGBA32F, _width, _height); };
+    _aovRequest = request;
+    _albedo = request.albedo || !request.primvars.empty() ? make() : GlTexture();
+    _primvars.clear();
+    std::vector<const GlTexture*> targets = {&_position, &_normal, &_ids};
+    if (_albedo) targets.push_back(&_albedo);
+    for (size_t i = 0; i < request.primvars.size(); ++i)
+        _primvars.push_back(make());
+    for (const GlTexture& primvar : _primvars)
+        targets.push_back(&primvar);
+    _aovTarget = GlFramebuffer(targets, &_depth);
+}
+
+void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera) {
+    if (!(scene.aovs() == _aovRequest)) makeAovTarget(scene.aovs());
+    if (!_aovTarget.complete()) throw DeviceError("the driver has no room for the AOVs");
+    const RasterView view =
+        camera.view(vec2(0.0f), vec2(0.0f), 0.5f, scene.boundsMin(), scene.boundsMax());
+    const PassBlock b = block(scene, view);
+    _timer.mark(Aovs);
+    _passBuffer.write(&b, sizeof b);
+    _passBuffer.bindUniform(0);
+    _albedoTable.bindStorage(7);
+    _aovTarget.bind();
+    gl.Viewport(0, 0, _width, _height);
+    const float none[4] = {0, 0, 0, 0}, far = 1.0f;
+    const GLint noIds[4] = {-1, -1, -1, -1};
+    gl.ClearNamedFramebufferfv(_aovTarget.id(), GL_COLOR, 0, none);
+    gl.ClearNamedFramebufferfv(_aovTarget.id(), GL_COLOR, 1, none);
+    gl.ClearNamedFramebufferiv(_aovTarget.id(), GL_COLOR, 2, noIds);
+    for (size_t i = 0; i < _primvars.size() + (_albedo ? 1 : 0); ++i)
+        gl.ClearNamedFramebufferfv(_aovTarget.id(), GL_COLOR, 3 + GLint(i), none);
+    gl.ClearNamedFramebufferfv(_aovTarget.id(), GL_DEPTH, 0, &far);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    gl.DepthMask(GL_TRUE);
+    gl.BindVertexArray(_vertexArray);
+    {
+        const Clipping clipping(view);
+        drawSurfaces(scene, scene.visible(view.worldToClip), AllForAovs);
+    }
+
+    _timer.mark(ReadBack);
+    const size_t pixels = size_t(_width) * size_t(_height);
+    const auto read = [&](const GlTexture& from, std::vector<vec4>& to) {
+        to.resize(pixels);
+        gl.GetTextureImage(from.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels * sizeof(vec4)),
+                           to.data());
+    };
+    read(_position, _seen.positions);
+    read(_normal, _seen.normals);
+    if (_albedo) read(_albedo, _seen.albedos);
+    _seen.primvars.resize(_primvars.size());
+    for (size_t i = 0; i < _primvars.size(); ++i)
+        read(_primvars[i], _seen.primvars[i]);
+    _seen.ids.resize(pixels * 4);
+    gl.GetTextureImage(_ids.id(), 0, GL_RGBA_INTEGER, GL_INT, GLsizei(pixels * 4 * sizeof(int)),
+                       _seen.ids.data());
+    _timer.collect(_seconds);
+    measureReceivers(scene, camera, view);
+}
+
+void RasterPasses::writeAovs(const RasterScene& scene, const RasterCamera& camera,
+                             const std::vector<AovSpec>& aovs, Film& film) const {
+    const RasterAovs target{camera, aovs, scene.origin(), _width, _height, _window};
+    target.write(_seen, _aovRequest, film);
+}
+
+/// What the camera sees, which is all that shadows have to be found on.
+void RasterPasses::measureReceivers(const RasterScene& scene, const RasterCamera& camera,
+                                    const RasterView& view) {
+    vec3 low(INFINITY), high(-INFINITY), fibresLow = low, fibresHigh = high;
+    std::set<int> fibres;
+    for (const RasterDraw& d : scene.draws())
+        if (d.flags & RasterShape::strip) fibres.insert(d.primId);
+    for (size_t i = 0; i < _seen.positions.size(); ++i) {
+        const vec4& p = _seen.positions[i];
+        if (!(p.w > 0.0f) || !std::isfinite(p.x + p.y + p.z)) continue;
+        // What is beside the pixel's centre, through the lens too.
+        const float away = glm::length(vec3(p) - view.eye);
+        const float beside =
+            2.0f * (view.perspective ? away : 1.0f) * view.pixelSpread + camera.blurAt(away);
+        low = glm::min(low, vec3(p) - beside);
+        high = glm::max(high, vec3(p) + beside);
+        if (fibres.count(_seen.ids[4 * i]) == 0) continue;
+        fibresLow = glm::min(fibresLow, vec3(p) - beside);
+        fibresHigh = glm::max(fibresHigh, vec3(p) + beside);
+    }
+    _bounds.sceneMin = scene.boundsMin();
+    _bounds.sceneMax = scene.boundsMax();
+    if (low.x > high.x) {
+        low = _bounds.sceneMin;
+        high = _bounds.sceneMax;
+    }
+    _seenMin = low;
+    _seenMax = high;
+    const vec3 margin = 0.02f * (high - low) + 1e-4f * glm::length(high - low);
+    _bounds.receiverMin = glm::max(low - margin, _bounds.sceneMin);
+    _bounds.receiverMax = glm::min(high + margin, _bounds.sceneMax);
+    // Texels of maps for all that is seen would be wider than fibres are apart.
+    const bool closer = 2.0f * glm::length(fibresHigh - fibresLow) < glm::length(high - low);
+    _bounds.fibresMin = closer ? fibresLow : vec3(1.0f);
+    _bounds.fibresMax = closer ? fibresHigh : vec3(0.0f);
+    _sky.reset();
+}
+
+vec3 RasterPasses::originOfSeen(const RasterScene& scene) const {
+    const glm::dvec3 low(_seenMin), high(_seenMax), half = 0.5 * (high - low);
+    const glm::dvec3 middle = glm::dvec3(scene.origin()) + 0.5 * (low + high);
+    const double size = std::max({half.x, half.y, half.z});
+    const double far = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)});
+    if (!(size > 0.0) || !std::isfinite(far) || far <= 16.0 * size) return vec3(0.0f);
+    const double cell = std::exp2(std::ceil(std::log2(4.0 * size)));
+    return vec3(glm::round(middle / cell) * cell);
+}
+
+} // namespace patina

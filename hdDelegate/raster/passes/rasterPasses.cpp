@@ -1,0 +1,381 @@
+#include "hdDelegate/raster/passes/rasterPasses.h"
+
+#include "hdDelegate/raster/gl/deviceError.h"
+#include "hdDelegate/raster/passes/rasterPassBlock.h"
+#include "shaders/shaders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace patina {
+
+RasterPasses::RasterPasses(std::string& error)
+    : _passBuffer(sizeof(PassBlock), nullptr),
+      _albedoTable(sh::ALBEDO_TABLE_SIZE * sizeof(float), patinaAlbedoTable) {
+    gl.CreateVertexArrays(1, &_vertexArray);
+    RasterScene::describe(_vertexArray);
+    gl.CreateFramebuffers(1, &_shadowTarget);
+    _background = GlProgram::make(
+        {{GL_VERTEX_SHADER, "background", "#include \"shaders/raster/background.vert.glsl\"\n"},
+         {GL_FRAGMENT_SHADER, "background", "#include \"shaders/raster/background.frag.glsl\"\n"}},
+        error);
+    if (!_background) return;
+    _shadow = GlProgram::make(
+        {{GL_VERTEX_SHADER, "shadow", "#include \"shaders/raster/shadow.vert.glsl\"\n"},
+         {GL_FRAGMENT_SHADER, "shadow", "#include \"shaders/raster/shadow.frag.glsl\"\n"}},
+        error);
+    if (!_shadow) return;
+    _shadowAround =
+        GlProgram::make({{GL_VERTEX_SHADER, "shadow",
+                          "#define AROUND_LIGHT\n#include \"shaders/raster/shadow.vert.glsl\"\n"},
+                         {GL_FRAGMENT_SHADER, "shadow",
+                          "#define AROUND_LIGHT\n#include \"shaders/raster/shadow.frag.glsl\"\n"}},
+                        error);
+    if (!_shadowAround) return;
+    _look = std::make_unique<RasterLook>(error);
+    if (!_look->ok()) return;
+    _depthOnly = GlProgram::make(
+        {{GL_VERTEX_SHADER, "surface",
+          "#define PRIMVARS 0\n#include \"shaders/raster/surface.vert.glsl\"\n"},
+         {GL_FRAGMENT_SHADER, "shadow", "#include \"shaders/raster/shadow.frag.glsl\"\n"}},
+        error);
+}
+
+RasterPasses::~RasterPasses() {
+    gl.DeleteVertexArrays(1, &_vertexArray);
+    gl.DeleteFramebuffers(1, &_shadowTarget);
+}
+
+bool RasterPasses::resize(const RenderSettings& settings, int& border) {
+    const int width = settings.width, height = settings.height;
+    const int* crop = settings.dataWindow;
+    const bool all = crop[2] < crop[0] || crop[3] < crop[1];
+    _window[0] = all ? 0 : std::clamp(crop[0], 0, width);
+    _window[1] = all ? 0 : std::clamp(crop[1], 0, height);
+    _window[2] = all ? width - 1 : std::min(crop[2], width - 1);
+    _window[3] = all ? height - 1 : std::min(crop[3], height - 1);
+    GLint largest = 0;
+    gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (width > largest || height > largest) return false;
+    if (std::max(width, height) + 2 * border > largest) border = 0;
+    if (width == _width && height == _height && border == _border) return true;
+    const auto make = [&](GLenum format, int beside) {
+        return GlTexture(GL_TEXTURE_2D, format, width + 2 * beside, height + 2 * beside);
+    };
+    _color = make(GL_RGBA32F, border);
+    _depth = make(GL_DEPTH_COMPONENT32F, border);
+    _position = make(GL_RGBA32F, 0);
+    _normal = make(GL_RGBA32F, 0);
+    _ids = make(GL_RGBA32I, 0);
+    _colorTarget = GlFramebuffer({&_color}, &_depth);
+    _width = width;
+    _height = height;
+    _border = border;
+    makeAovTarget(_aovRequest);
+    return _colorTarget.complete() && _aovTarget.complete() && _look->resize(_color, _depth);
+}
+
+RasterPasses::PassBlock RasterPasses::block(const RasterScene& scene,
+                                            const RasterView& view) const {
+    PassBlock b;
+    b.origin = vec4(scene.origin(), 0.0f);
+    const int planes = Clipping::planesOf(view);
+    b.range = vec4(view.fitted, view.reach, float(planes), 0.0f);
+    std::copy_n(view.planes.begin(), planes, b.clipPlanes);
+    b.worldToClip = view.worldToClip;
+    b.clipToWorld = view.clipToWorld;
+    b.eye = vec4(view.eye, view.perspective ? 1.0f : 0.0f);
+    b.forward = vec4(view.forward, view.pixelSpread);
+    return b;
+}
+
+void RasterPasses::drawRuns(const RasterDraw& draw, const RasterSurface& surface,
+                            const RasterVisible& visible) const {
+    const auto [begin, end] = visible.group[size_t(draw.group)];
+    if (begin == end) return;
+    for (const RasterChunk& chunk : surface.chunks) {
+        chunk.bind(_vertexArray);
+        for (size_t r = begin; r < end; ++r)
+            gl.DrawElementsInstancedBaseInstance(GL_TRIANGLES, chunk.indexCount(), GL_UNSIGNED_INT,
+                                                 chunk.firstIndex(), visible.runs[r].count,
+                                                 GLuint(visible.runs[r].first));
+    }
+}
+
+/// Only what is in front has to be shaded, which takes far longer than to find it.
+static bool isDrawnByDepth(const RasterDraw& d) {
+    return !d.material->glsl.presence && !d.material->glsl.volumeOnly &&
+           !d.material->glsl.transmits;
+}
+
+void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& visible,
+                                Which which) const {
+    const bool aovs = which == AllForAovs;
+    scene.bind(_vertexArray);
+    const GlProgram* last = nullptr;
+    const RasterMaterial* lastMaterial = nullptr;
+    for (const RasterDraw& d : scene.draws()) {
+        const GlslMaterial& glsl = d.material->glsl;
+        const RasterPrograms& programs = *d.material->programs;
+        if (which == ColoredPresence ? !programs.tint
+            : aovs                   ? glsl.volumeOnly
+                                     : glsl.transmits != (which == Transmitting))
+            continue;
+        const GlProgram* program = (which == ColoredPresence ? programs.tint
+                                    : aovs                   ? programs.aovs
+                                                             : programs.color)
+                                       .get();
+        if (program != last) program->use();
+        last = program;
+        if (d.material != lastMaterial) {
+            d.material->parameters.bindUniform(1);
+            for (size_t i = 0; i < d.material->textures.size(); ++i)
+                d.material->textures[i]->bind(GLuint(i));
+        }
+        lastMaterial = d.material;
+        gl.Uniform4i(1, d.surface->primvarBits, d.primId, d.flags, 0);
+        if (aovs && !_aovRequest.primvars.empty()) {
+            int slots[RasterAovRequest::maxPrimvars] = {-1, -1, -1, -1};
+            for (size_t i = 0; i < _aovRequest.primvars.size(); ++i)
+                slots[i] = RasterAovRequest::slot(d.material->primvars, _aovRequest.primvars[i]);
+            gl.Uniform4i(8, slots[0], slots[1], slots[2], slots[3]);
+        }
+        if (!aovs && which != ColoredPresence) {
+            const vec3& l = d.meshLight.radiance;
+            gl.Uniform4f(7, l.x, l.y, l.z, float(d.meshLight.mode));
+        }
+        const bool known = which == Solid && isDrawnByDepth(d);
+        if (known) gl.DepthFunc(GL_LEQUAL);
+        drawRuns(d, *d.surface, visible);
+        if (known) gl.DepthFunc(GL_LESS);
+        if (!aovs && which != ColoredPresence && !programs.drawn) {
+            programs.drawn = true;
+            if (_firstDraws) _firstDraws();
+        }
+    }
+}
+
+void RasterPasses::drawDepths(const RasterScene& scene, const RasterVisible& visible) const {
+    bool used = false;
+    for (const RasterDraw& d : scene.draws()) {
+        if (!isDrawnByDepth(d)) continue;
+        if (!used) {
+            scene.bind(_vertexArray);
+            _depthOnly->use();
+            gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        }
+        used = true;
+        drawRuns(d, *d.surface, visible);
+    }
+    if (used) gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+void RasterPasses::resumeAt(const RasterScene& scene, const RasterLights& lights, uint32_t from,
+                            uint32_t taken, const std::function<void(uint32_t)>& moveTo) {
+    if (!lights.needsSky()) return;
+    std::map<int, std::pair<uint32_t, RasterSky::Task>> last; // by cell
+    for (uint32_t pass = from; pass < taken; ++pass)
+        for (const RasterSky::Task& task :
+             _sky.begin(pass, lights.seed(), _bounds, skyCells(scene)))
+            last[task.layer] = {pass, task};
+    std::multimap<uint32_t, RasterSky::Task> byPass;
+    for (const auto& item : last)
+        byPass.insert(item.second);
+    gl.BindVertexArray(_vertexArray);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    gl.DepthMask(GL_TRUE);
+    for (const auto& [pass, task] : byPass) {
+        moveTo(pass);
+        PassBlock b;
+        b.origin = vec4(scene.origin(), 0.0f);
+        b.counts[2] = int(pass);
+        b.counts[3] = int(lights.seed());
+        _passBuffer.write(&b, sizeof b);
+        _passBuffer.bindUniform(0);
+        drawCasters(scene, task.view, _sky.maps(), task.layer);
+    }
+}
+
+void RasterPasses::needRefraction() {
+    if (!_refraction) {
+        std::string error;
+        _refraction = std::make_unique<RasterRefraction>(error);
+        if (!_refraction->ok()) throw DeviceError("the driver does not take the shaders: " + error);
+    }
+    if (!_refraction->resize(_color.width(), _color.height()))
+        throw DeviceError("the driver has no room for an image of this size");
+}
+
+void RasterPasses::drawVolumes(const RasterScene& scene) {
+    if (scene.volumes().empty()) return;
+    needRefraction();
+    gl.Disable(GL_DEPTH_TEST);
+    int index = 0;
+    for (const RasterVolume* volume : scene.volumes()) {
+        _refraction->keep(_color, _depth);
+        _refraction->bind();
+        _refraction->drawVolume(*volume, index++);
+    }
+    gl.Enable(GL_DEPTH_TEST);
+}
+
+/// Over what is drawn already.
+void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisible& visible) {
+    const auto transmits = [](const RasterDraw& d) { return d.material->glsl.transmits; };
+    if (std::none_of(scene.draws().begin(), scene.draws().end(), transmits)) return;
+    needRefraction();
+    _refraction->keep(_color, _depth);
+    _refraction->beginBacks();
+    for (const RasterDraw& d : scene.draws()) {
+        if (!transmits(d)) continue;
+        gl.Uniform4i(1, 0, d.primId, d.flags, 0);
+        drawRuns(d, *d.surface, visible);
+    }
+    _look->target().bind();
+    _refraction->bind();
+    drawSurfaces(scene, visible, Transmitting);
+}
+
+void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
+                        const RasterDomes& domes, int environmentSamples,
+                        const RasterCamera& camera, const RasterSample& sample, Film& film) {
+    const uint32_t pass = sample.pass;
+    const int longer = std::max(_width, _height);
+    // A volume is lit by all of a pass's lights, each of which takes long.
+    const bool look =
+        pass < uint32_t(RasterLook::passes) && scene.volumes().empty() && lights.samplesDomes();
+    const RasterLights::Sampled sampled =
+        look ? lights.sampleLook(pass, scene.emitters(), _bounds, shadowMapSize, longer,
+                                 skyCells(scene))
+             : lights.sample(pass, scene.emitters(), _bounds, shadowMapSize, longer);
+    std::vector<vec4> pixels, smoothing;
+    if (pass == 0) _first.clear();
+    if (pass == 0 && look && !sampled.many) {
+        const RasterLights::Sampled first =
+            lights.sampleFirst(scene.emitters(), _bounds, shadowMapSize, longer, skyCells(scene));
+        if (first.taken > 0) {
+            drawImage(scene, lights, domes, environmentSamples, camera, sample, first, true,
+                      pixels);
+            _look->read(smoothing);
+            for (size_t i = 0; i < pixels.size(); ++i)
+                pixels[i] += vec4(vec3(smoothing[i]), 0.0f);
+            beginFirst(pixels, sample, film);
+            return;
+        }
+    }
+    drawImage(scene, lights, domes, environmentSamples, camera, sample, sampled, look, pixels);
+    if (!_first.empty()) {
+        showFirst(pixels, sample, film);
+        return;
+    }
+    if (look) _look->read(smoothing);
+    addSplats(pixels, _width, _height, sample, _window, film);
+    smooth(sample, look, smoothing, film);
+}
+
+void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& lights,
+                             const RasterDomes& domes, int environmentSamples,
+                             const RasterCamera& camera, const RasterSample& sample,
+                             const RasterLights::Sampled& sampled, bool look,
+                             std::vector<vec4>& pixels) {
+    const uint32_t pass = sample.pass;
+    std::vector<mat4> matrices;
+    for (const ShadowView& v : sampled.shadows)
+        matrices.push_back(v.worldToMap);
+    static_assert(RasterLights::maxTaken * sizeof(GpuLight) <= 63232, "see isEnough()");
+    std::vector<GpuLight> taken(sampled.lights.begin(), sampled.lights.begin() + sampled.taken);
+    taken.resize(RasterLights::maxTaken, GpuLight::none());
+    const GlBuffer lightBuffer(sampled.lights), takenBuffer(taken), matrixBuffer(matrices);
+
+    const RasterView view = camera.view(sample.offset, sample.lens, sample.time, scene.boundsMin(),
+                                        scene.boundsMax(), _border);
+    PassBlock b = block(scene, view);
+    b.counts[0] = sampled.taken;
+    b.counts[1] = look && lights.needsSky() ? RasterLook::bsdfSamples : bsdfSamples;
+    b.counts[2] = int(pass);
+    b.counts[3] = int(lights.seed());
+    b.extra = vec4(1.0f, camera.camera().exposureScale, float(sample.taken),
+                   glm::length(scene.boundsMax() - scene.boundsMin()));
+    b.lightInfo[0] = int(sampled.lights.size());
+    std::copy_n(sampled.look, 4, b.look);
+    if (const GlTexture& map = domes.maps()) {
+        map.bind(16);
+        domes.densities().bind(17);
+        if (domes.prefiltered()) domes.prefiltered().bind(20);
+        b.lightInfo[1] = map.levels() - 1;
+        b.extra.x = float(map.width()) * float(map.height());
+    }
+    const bool sky = lights.needsSky();
+    if (sky) b.lightInfo[2] = RasterSky::side;
+    b.lightInfo[3] = std::clamp(environmentSamples, 4, 1024);
+    _passBuffer.write(&b, sizeof b);
+    _passBuffer.bindUniform(0);
+    gl.BindVertexArray(_vertexArray);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_LESS);
+    gl.DepthMask(GL_TRUE);
+    _albedoTable.bindStorage(7);
+    _timer.mark(Shadows);
+    drawShadows(scene, sampled.shadows, sampled.mapSize);
+    if (sky) {
+        drawSky(scene, lights, pass);
+        _sky.bind(10, 19);
+    }
+    lights.tables().writePass(sampled.tables);
+    lights.tables().buffer().bindStorage(8);
+    _timer.mark(Surfaces);
+    lightBuffer.bindStorage(4);
+    takenBuffer.bindUniform(4);
+    matrixBuffer.bindStorage(5);
+    _shadowMaps.bind(18);
+
+    _colorTarget.bind();
+    gl.Viewport(0, 0, _color.width(), _color.height());
+    const float none[4] = {0, 0, 0, 0}, far = 1.0f;
+    gl.ClearNamedFramebufferfv(_colorTarget.id(), GL_COLOR, 0, none);
+    gl.ClearNamedFramebufferfv(_colorTarget.id(), GL_DEPTH, 0, &far);
+    gl.DepthFunc(GL_LEQUAL);
+    if (look) _look->clear();
+    _background->use();
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    gl.DepthFunc(GL_LESS);
+    const RasterVisible visible = scene.visible(view.worldToClip);
+    {
+        const Clipping clipping(view);
+        drawDepths(scene, visible);
+        _look->target().bind();
+        drawSurfaces(scene, visible, Solid);
+    }
+    {
+        const Clipping clipping(view);
+        drawTransmitting(scene, visible);
+    }
+    if (look) _look->smooth();
+    {
+        const Clipping clipping(view);
+        gl.DepthMask(GL_FALSE);
+        gl.Enable(GL_BLEND);
+        gl.BlendFunc(GL_ZERO, GL_SRC_COLOR);
+        _colorTarget.bind();
+        drawSurfaces(scene, visible, ColoredPresence);
+        if (look) {
+            _look->difference().bind();
+            drawSurfaces(scene, visible, ColoredPresence);
+        }
+        _colorTarget.bind();
+    }
+    gl.Disable(GL_BLEND);
+    drawVolumes(scene);
+    gl.DepthMask(GL_TRUE);
+
+    _timer.mark(ReadBack);
+    pixels.resize(size_t(_color.width()) * size_t(_color.height()));
+    gl.GetTextureImage(_color.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels.size() * sizeof(vec4)),
+                       pixels.data());
+    _timer.collect(_seconds);
+}
+
+} // namespace patina

@@ -1,0 +1,127 @@
+#pragma once
+
+#include "hdDelegate/film/film.h"
+#include "hdDelegate/raster/gl/glTimer.h"
+#include "hdDelegate/raster/lights/rasterLights.h"
+#include "hdDelegate/raster/lights/rasterSky.h"
+#include "hdDelegate/raster/passes/rasterAovs.h"
+#include "hdDelegate/raster/passes/rasterFilterSplat.h"
+#include "hdDelegate/raster/passes/rasterLook.h"
+#include "hdDelegate/raster/passes/rasterRefraction.h"
+#include "hdDelegate/raster/scene/rasterScene.h"
+
+#include <functional>
+
+namespace patina {
+
+/// Draws passes over a scene and hands their pixels to a film. Lives with one context.
+class RasterPasses {
+public:
+    /// @param error is set, and ok() false, when the driver does not take what every pass needs
+    explicit RasterPasses(std::string& error);
+    bool ok() const {
+        return _background && _shadow && _shadowAround && _depthOnly && _look && _look->ok();
+    }
+
+    /// Sets the size of the image, and which of its pixels reach the film.
+    /// @param border of the samples, which becomes 0 where the driver has no room for one
+    /// @returns false when the driver has no room for the image
+    bool resize(const RenderSettings& settings, int& border);
+    bool inWindow(int x, int y) const {
+        return x >= _window[0] && y >= _window[1] && x <= _window[2] && y <= _window[3];
+    }
+    const int* window() const { return _window; } ///< xmin, ymin, xmax, ymax, inclusive
+
+    /// Ids, positions and normals through the pixels' centres.
+    void drawAovs(const RasterScene& scene, const RasterCamera& camera);
+    /// Writes them to the film's AOVs.
+    void writeAovs(const RasterScene& scene, const RasterCamera& camera,
+                   const std::vector<AovSpec>& aovs, Film& film) const;
+    /// Where the scene's origin should be for what drawAovs() has seen: 0, unless that is far from
+    /// it beside its size. The same for small moves of the camera.
+    vec3 originOfSeen(const RasterScene& scene) const;
+
+    /// One sample of every pixel.
+    /// @param environmentSamples of domes per pixel, where they are filtered
+    void draw(const RasterScene& scene, const RasterLights& lights, const RasterDomes& domes,
+              int environmentSamples, const RasterCamera& camera, const RasterSample& sample,
+              Film& film);
+
+    /// Is told whenever a program is drawn with for the first time.
+    void setFirstDraws(std::function<void()> told) { _firstDraws = std::move(told); }
+
+    /// Draws what earlier passes have left for later ones, for a film that holds `taken` of them.
+    /// @param moveTo brings the scene to the shutter time of a pass
+    /// @param from the first pass that was not drawn again
+    void resumeAt(const RasterScene& scene, const RasterLights& lights, uint32_t from,
+                  uint32_t taken, const std::function<void(uint32_t)>& moveTo);
+    /// Passes that have to be drawn again to continue a film of `taken`.
+    static uint32_t passesToRepeat(uint32_t taken) {
+        return taken < RasterLook::smoothed ? taken : 0;
+    }
+
+    /// What the driver's seconds go into, of all that was drawn since clearSeconds().
+    enum Share { Aovs, Shadows, Surfaces, ReadBack, ShareCount };
+    double seconds(Share share) const { return _seconds[share]; }
+    void clearSeconds() { _seconds.assign(ShareCount, 0.0); }
+
+    static constexpr int shadowMapSize = 1024;
+    static constexpr int bsdfSamples = 2; ///< per pixel and pass
+    static constexpr int maxPlanes = 8;   ///< that a camera clips with; see passBlock.glsl
+
+private:
+    struct PassBlock;
+    class Clipping;
+    void makeAovTarget(const RasterAovRequest& request);
+    PassBlock block(const RasterScene& scene, const RasterView& view) const;
+    void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);
+    static int skyCells(const RasterScene& scene);
+    void drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass);
+    void drawCasters(const RasterScene& scene, const ShadowView& view, const GlTexture& maps,
+                     int layer) const;
+    enum Which { AllForAovs, Solid, Transmitting, ColoredPresence };
+    void drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which) const;
+    void drawDepths(const RasterScene& scene, const RasterVisible& visible) const;
+    void drawTransmitting(const RasterScene& scene, const RasterVisible& visible);
+    void drawVolumes(const RasterScene& scene);
+    void needRefraction();
+    void drawImage(const RasterScene& scene, const RasterLights& lights, const RasterDomes& domes,
+                   int environmentSamples, const RasterCamera& camera, const RasterSample& sample,
+                   const RasterLights::Sampled& sampled, bool look, std::vector<vec4>& pixels);
+    void smooth(const RasterSample& sample, bool look, std::vector<vec4>& pixels, Film& film);
+    void beginFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film);
+    void showFirst(std::vector<vec4>& pixels, const RasterSample& sample, Film& film);
+    void drawRuns(const RasterDraw& draw, const RasterSurface& surface,
+                  const RasterVisible& visible) const;
+    void measureReceivers(const RasterScene& scene, const RasterCamera& camera,
+                          const RasterView& view);
+
+    std::unique_ptr<GlProgram> _background, _shadow, _shadowAround, _depthOnly;
+    std::unique_ptr<RasterLook> _look;
+    std::unique_ptr<RasterRefraction> _refraction; ///< made when something transmits
+    GlBuffer _passBuffer, _albedoTable;
+    GLuint _vertexArray = 0;
+    int _width = 0, _height = 0, _border = 0;
+    int _window[4] = {0, 0, -1, -1};
+    GlTexture _color, _depth, _position, _normal, _ids, _shadowMaps;
+    GlTexture _albedo;
+    std::vector<GlTexture> _primvars;
+    GlFramebuffer _colorTarget, _aovTarget;
+    RasterAovRequest _aovRequest; ///< that _aovTarget is for
+    GLuint _shadowTarget = 0;
+    int _shadowLayers = 0;
+    RasterSky _sky;
+    std::vector<vec4> _first, _sums; ///< see showFirst(); of the film's pixels
+    std::vector<vec4> _smoothing;    ///< what it does to the sums of the film's pixels
+    ShadowBounds _bounds;
+    RasterAovImages _seen; ///< of drawAovs()
+    vec3 _seenMin{0.0f}, _seenMax{0.0f};
+    std::function<void()> _firstDraws;
+    GlTimer _timer;
+    std::vector<double> _seconds = std::vector<double>(ShareCount, 0.0);
+
+public:
+    ~RasterPasses();
+};
+
+} // namespace patina

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "hdDelegate/raster/gl/glProgram.h"
+#include "hdDelegate/raster/gl/glResources.h"
+#include "hdDelegate/raster/scene/rasterVolumes.h"
+
+namespace patina {
+
+/// What surfaces that transmit are drawn over: the picture of all others with its depths, and the
+/// far sides of those that transmit. Read by shaders/raster/refraction.glsl.
+class RasterRefraction {
+public:
+    /// @param error is set where the driver does not take the program
+    explicit RasterRefraction(std::string& error);
+    bool ok() const { return _program && _volume; }
+
+    /// @returns false when the driver has no room
+    bool resize(int width, int height);
+    /// Clears the far sides, and makes them what is drawn into.
+    void beginBacks() const;
+    /// Keeps a picture as it is now.
+    void keep(const GlTexture& color, const GlTexture& depth);
+    void bind() const;
+    /// Draws a volume over the picture that is kept. @param index of the volume in the pass
+    void drawVolume(const RasterVolume& volume, int index) const;
+
+private:
+    std::unique_ptr<GlProgram> _program, _volume;
+    GlTexture _color, _depth, _backPosition, _backNormal, _backDepth;
+    GlFramebuffer _target;
+};
+
+} // namespace patina

@@ -1,0 +1,95 @@
+#include "hdDelegate/raster/scene/rasterBsdf.h"
+
+#include "hdDelegate/raster/gl/eglContext.h"
+#include "hdDelegate/raster/gl/glProgram.h"
+#include "hdDelegate/raster/scene/rasterTextures.h"
+#include "materialNetwork/glsl/glslMaterial.h"
+#include "shaders/shaders.h"
+
+#include <algorithm>
+
+namespace patina {
+
+namespace {
+
+std::string shaderOf(const MaterialProgram& program, const GlslMaterial& glsl) {
+    std::string primvars = "vec4 primvar(int slot, vec4 fallback) {\n";
+    for (size_t i = 0; i < program.primvars().size(); ++i)
+        if (program.primvars()[i].type == ValueType::Vec2)
+            primvars += "    if (slot == " + std::to_string(i) +
+                        ") return probeUv.z != 0.0 ? vec4(probeUv.xy, fallback.zw) : fallback;\n";
+    return glsl.definitions +
+           "#include \"shaders/raster/material.glsl\"\n"
+           "layout(location = 0) uniform vec4 probeUv;\n" +
+           glsl.text + glsl.albedoText + primvars +
+           "    return fallback;\n}\n#include \"shaders/raster/bsdf.comp.glsl\"\n";
+}
+
+} // namespace
+
+struct RasterBsdf::Gpu {
+    std::unique_ptr<EglContext> context;
+    std::unique_ptr<GlProgram> program;
+    GlBuffer parameters, albedoTable;
+    std::vector<std::shared_ptr<const GlTexture>> textures;
+};
+
+RasterBsdf::RasterBsdf(std::unique_ptr<Gpu> gpu) : _gpu(std::move(gpu)) {}
+
+RasterBsdf::~RasterBsdf() {
+    // What was made with the context goes before it.
+    const std::unique_ptr<EglContext> context = std::move(_gpu->context);
+    const EglContext::Use use(*context);
+    _gpu.reset();
+}
+
+std::unique_ptr<RasterBsdf> RasterBsdf::make(std::shared_ptr<const MaterialProgram> program,
+                                             const TextureSystem& textures,
+                                             Diagnostics& diagnostics, std::string& error) {
+    auto gpu = std::make_unique<Gpu>();
+    gpu->context = EglContext::create(error);
+    if (!gpu->context) return nullptr;
+    const EglContext::Use use(*gpu->context);
+    if (!use.ok()) {
+        error = "the OpenGL context cannot be used";
+        return nullptr;
+    }
+    const GlslMaterial glsl = makeGlslMaterial(*program);
+    for (const std::string& line : glsl.leftOut)
+        diagnostics.warn("", "", line);
+    gpu->program =
+        GlProgram::make({{GL_COMPUTE_SHADER, "material", shaderOf(*program, glsl)}}, error);
+    if (!gpu->program) return nullptr;
+    gpu->parameters = GlBuffer(glsl.parameters);
+    gpu->albedoTable = GlBuffer(sh::ALBEDO_TABLE_SIZE * sizeof(float), patinaAlbedoTable);
+    RasterTextures uploaded(textures, diagnostics, GL_RGBA32F);
+    gpu->textures = uploaded.units(glsl.textures);
+    return std::unique_ptr<RasterBsdf>(new RasterBsdf(std::move(gpu)));
+}
+
+std::vector<RasterBsdf::Answer> RasterBsdf::evaluate(const std::vector<Query>& queries,
+                                                     const glm::vec2* uv) const {
+    std::vector<Answer> answers(queries.size());
+    if (queries.empty()) return answers;
+    const EglContext::Use use(*_gpu->context);
+    constexpr size_t batch = 65535; // groups that every driver takes at once
+    for (size_t begin = 0; begin < queries.size(); begin += batch) {
+        const size_t count = std::min(batch, queries.size() - begin);
+        const GlBuffer in(count * sizeof(Query), &queries[begin]);
+        const GlBuffer out(count * sizeof(Answer), nullptr);
+        in.bindStorage(0);
+        out.bindStorage(6);
+        _gpu->albedoTable.bindStorage(7);
+        _gpu->parameters.bindUniform(1);
+        for (size_t i = 0; i < _gpu->textures.size(); ++i)
+            _gpu->textures[i]->bind(GLuint(i));
+        _gpu->program->use();
+        gl.Uniform4f(0, uv ? uv->x : 0.0f, uv ? uv->y : 0.0f, uv ? 1.0f : 0.0f, 0.0f);
+        gl.DispatchCompute(GLuint(count), 1, 1);
+        gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        out.read(&answers[begin], count * sizeof(Answer));
+    }
+    return answers;
+}
+
+} // namespace patina

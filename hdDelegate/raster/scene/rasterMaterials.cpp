@@ -1,0 +1,318 @@
+#include "hdDelegate/raster/scene/rasterMaterials.h"
+
+#include "hdDelegate/raster/gl/deviceError.h"
+#include "hdDelegate/raster/gl/glFaults.h"
+#include "materialNetwork/material.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+#include <thread>
+
+namespace patina {
+
+namespace {
+
+/// Methods as the planner may use them here: random walks are the path tracer's, so that the errors
+/// of what stands in for them are counted.
+MethodChoices drawable(MethodChoices methods, double tolerance) {
+    if (tolerance < 0.0) return methods;
+    for (const char* point : {"energyCompensation", "layering"})
+        methods.emplace(point, chosenMethod({}, point));
+    return methods;
+}
+
+/// Text that the default methods do not need is kept from the driver: compiling it takes long.
+std::string lightingText(const std::string& dome, const std::string& area) {
+    const std::string text = dome == "filtered"      ? "#define DOME_METHOD DOME_FILTERED\n"
+                             : dome == "prefiltered" ? "#define DOME_METHOD DOME_PREFILTERED\n"
+                             : dome == "harmonics" || dome == "harmonicsUnwindowed"
+                                 ? "#define DOME_METHOD DOME_HARMONICS\n"
+                                 : "";
+    return text + (area == "linearlyTransformedCosines" ? "#define AREA_OUTLINES\n" : "");
+}
+
+} // namespace
+
+RasterMaterials::RasterMaterials(Diagnostics& diagnostics, ProgramCompiler* compiler)
+    : _compiler(compiler), _diagnostics(diagnostics), _textures(diagnostics),
+      _uploaded(_textures, diagnostics) {}
+
+void RasterMaterials::update(const SceneState& state, const RenderSettings& settings,
+                             const RasterLightPlan& lights) {
+    _lights = lights;
+    if (const RasterAovRequest aovs(settings.aovs); !(aovs == _aovs)) {
+        _aovs = aovs;
+        _materials.clear();
+        for (const std::string& name : _aovs.leftOut)
+            _diagnostics.warn("", "",
+                              "the AOV primvars:" + name +
+                                  " is left empty: the rasterizer writes " +
+                                  std::to_string(RasterAovRequest::maxPrimvars) + " primvars");
+    }
+    _domeMethods.clear();
+    _standIns = 0;
+    _environmentSamples = std::max(settings.environmentSamples, 0);
+    for (auto it = _materials.begin(); it != _materials.end();) {
+        const auto found = state.materials.find(it->first);
+        const auto now = found != state.materials.end() && settings.enableSceneMaterials
+                             ? found->second
+                             : nullptr;
+        it = it->second.prim == now && it->second.methods == settings.methods &&
+                     it->second.tolerance == settings.tolerance
+                 ? std::next(it)
+                 : _materials.erase(it);
+    }
+    for (auto& item : _materials)
+        item.second.lit = false;
+}
+
+RasterMaterials::Cached& RasterMaterials::compiled(const std::string& path, const std::string& user,
+                                                   const SceneState& state,
+                                                   const RenderSettings& settings) {
+    std::shared_ptr<const MaterialPrim> prim;
+    if (!path.empty() && settings.enableSceneMaterials) {
+        const auto found = state.materials.find(path);
+        if (found != state.materials.end())
+            prim = found->second;
+        else
+            _diagnostics.warn(user, "material:binding",
+                              "material " + path + " does not exist; displayColor is shown");
+    }
+    const std::string key = prim ? path : std::string();
+    const auto known = _materials.find(key);
+    if (known != _materials.end()) return known->second;
+    Cached& cached = _materials[key];
+    cached.prim = prim;
+    cached.methods = settings.methods;
+    cached.tolerance = settings.tolerance;
+    cached.material.program = compileMaterial(
+        prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork(), _textures,
+        _diagnostics, drawable(settings.methods, settings.tolerance), settings.tolerance);
+    return cached;
+}
+
+const MethodPlan& RasterMaterials::planned(const std::string& path, const std::string& user,
+                                           const SceneState& state,
+                                           const RenderSettings& settings) {
+    return compiled(path, user, state, settings).material.program->planned();
+}
+
+RasterMaterials::Cached& RasterMaterials::asked(const std::string& path, const std::string& user,
+                                                const SceneState& state,
+                                                const RenderSettings& settings) {
+    Cached& cached = compiled(path, user, state, settings);
+    RasterMaterial& m = cached.material;
+    const bool first = !cached.built;
+    if (first) m.glsl = makeGlslMaterial(*m.program);
+    const bool relit = !cached.lit && light(cached, settings);
+    if (!first && !relit) return cached;
+    cached.built = true;
+    cached.taken = false;
+    const std::string key = cached.prim ? path : std::string();
+    if (first)
+        for (const std::string& line : m.glsl.leftOut)
+            _diagnostics.warn(key, "", line);
+    std::vector<std::string> primvars;
+    for (const MaterialPrimvar& p : m.program->primvars())
+        primvars.push_back(p.name);
+    m.primvars = _aovs.with(primvars);
+    cached.pending = build(m.glsl, int(m.primvars.size()), cached.lighting, key);
+    return cached;
+}
+
+void RasterMaterials::prepare(const std::string& path, const SceneState& state,
+                              const RenderSettings& settings) {
+    if (path.empty() || state.materials.count(path) > 0)
+        asked(path, std::string(), state, settings);
+}
+
+void RasterMaterials::copyDisplayColor(RasterMaterial& to, const std::string& user,
+                                       const SceneState& state, const RenderSettings& settings) {
+    const RasterMaterial& shown = get(std::string(), user, state, settings);
+    to.program = shown.program;
+    to.glsl = shown.glsl;
+    to.programs = shown.programs;
+    to.primvars = shown.primvars;
+    to.parameters = GlBuffer(to.glsl.parameters);
+    to.textures = _uploaded.units(to.glsl.textures);
+}
+
+const RasterMaterial& RasterMaterials::get(const std::string& path, const std::string& user,
+                                           const SceneState& state,
+                                           const RenderSettings& settings) {
+    Cached& cached = asked(path, user, state, settings);
+    if (cached.taken) return cached.material;
+    const std::string key = cached.prim ? path : std::string();
+    if (!cached.pending->done && _showStandIns && !key.empty()) {
+        ++_standIns;
+        if (cached.standIn.programs != get(std::string(), user, state, settings).programs)
+            copyDisplayColor(cached.standIn, user, state, settings);
+        return cached.standIn;
+    }
+    await(*cached.pending);
+    cached.taken = true;
+    RasterMaterial& m = cached.material;
+    m.programs = cached.pending->programs;
+    if (!m.programs) {
+        _diagnostics.warn(key, "",
+                          "the driver does not take the material's shader; displayColor is "
+                          "shown: " +
+                              cached.pending->error);
+        if (key.empty()) throw DeviceError("the driver does not take the shader of displayColor");
+        copyDisplayColor(m, user, state, settings);
+        return m;
+    }
+    m.parameters = GlBuffer(m.glsl.parameters);
+    m.textures = _uploaded.units(m.glsl.textures);
+    return m;
+}
+
+void RasterMaterials::await(const PendingPrograms& pending) {
+    while (!pending.done)
+        if (!_compiler->help()) _compiler->wait(std::chrono::milliseconds(50));
+}
+
+RasterMaterials::Ready RasterMaterials::ready() const {
+    std::set<const PendingPrograms*> wanted;
+    for (const auto& item : _materials)
+        if (item.second.pending) wanted.insert(item.second.pending.get());
+    Ready count;
+    count.wanted = wanted.size();
+    for (const PendingPrograms* pending : wanted)
+        count.ready += pending->done ? 1 : 0;
+    return count;
+}
+
+void RasterMaterials::finish(const std::atomic<bool>& stop,
+                             const std::function<void(const Ready&)>& told) {
+    while (!stop) {
+        const Ready now = ready();
+        if (told) told(now);
+        if (now.ready == now.wanted) return;
+        if (!_compiler->help()) _compiler->wait(std::chrono::milliseconds(50));
+    }
+}
+
+void RasterMaterials::waitForMore(std::chrono::milliseconds maximum) {
+    if (_compiler->hasThreads() || !_compiler->help()) _compiler->wait(maximum);
+}
+
+bool RasterMaterials::light(Cached& cached, const RenderSettings& settings) {
+    cached.lit = true;
+    cached.light =
+        _lights.choose(withoutWalks(cached.material.program->planned()), settings,
+                       cached.material.glsl.transmits || cached.material.glsl.hasInterior);
+    std::string dome = chosenMethod(settings.methods, "domeLight");
+    std::string area = chosenMethod(settings.methods, "areaLight");
+    for (const PlannedMethod& m : cached.light) {
+        if (m.point == "domeLight") dome = m.method;
+        if (m.point == "areaLight") area = m.method;
+        if (m.point == "environmentSamples")
+            _environmentSamples = std::max(_environmentSamples, std::atoi(m.method.c_str()));
+    }
+    _domeMethods.insert(dome);
+    const std::string text = lightingText(dome, area);
+    const bool changed = text != cached.lighting;
+    cached.lighting = text;
+    return changed;
+}
+
+ScenePlan RasterMaterials::plan() const {
+    ScenePlan plan;
+    for (const auto& item : _materials) {
+        MethodPlan material = withoutWalks(item.second.material.program->planned());
+        for (const PlannedMethod& m : item.second.light) {
+            material.error += m.error;
+            material.choices.push_back(m);
+        }
+        plan.add(item.first, material);
+    }
+    return plan;
+}
+
+namespace {
+
+/// The texts of a material's programs, for any thread with a context.
+struct ProgramTexts {
+    GlStage vertex, color, aovs, shadowVertex, shadow, tint;
+    bool lets = false, hasColoredPresence = false; ///< light may pass; and is coloured
+};
+
+std::shared_ptr<const RasterPrograms> makePrograms(const ProgramTexts& texts, std::string& error) {
+    auto programs = std::make_shared<RasterPrograms>();
+    programs->color = GlProgram::make({texts.vertex, texts.color}, error);
+    if (programs->color) programs->aovs = GlProgram::make({texts.vertex, texts.aovs}, error);
+    if (!programs->aovs) return nullptr;
+    if (texts.lets) {
+        programs->shadow = GlProgram::make({texts.shadowVertex, texts.shadow}, error);
+        if (!programs->shadow) return nullptr;
+    }
+    if (texts.hasColoredPresence) {
+        programs->tint = GlProgram::make({texts.vertex, texts.tint}, error);
+        if (!programs->tint) return nullptr;
+    }
+    return programs;
+}
+
+} // namespace
+
+std::shared_ptr<const PendingPrograms> RasterMaterials::build(const GlslMaterial& glsl,
+                                                              int primvars,
+                                                              const std::string& lighting,
+                                                              const std::string& user) {
+    const bool faulty = !user.empty() && glFault("material") == user;
+    const std::string head = "#define PRIMVARS " + std::to_string(primvars) + "\n" +
+                             (glsl.presence ? "#define PRESENCE\n" : "") +
+                             "#define MATERIAL_GLOWS " + (glsl.emission ? "true\n" : "false\n") +
+                             (glsl.transmits ? "#define MATERIAL_TRANSMITS\n" : "") +
+                             (glsl.hasInterior ? "#define MATERIAL_HAS_INTERIOR\n" : "") +
+                             (glsl.volumeOnly ? "#define MATERIAL_IS_VOLUME\n" : "") +
+                             (glsl.fibre ? "#define MATERIAL_IS_FIBRE\n" : "") +
+                             "#define MATERIAL_IS_THIN " + (glsl.thin ? "true\n" : "false\n") +
+                             glsl.definitions;
+    const std::string aovs = _aovs.text();
+    auto& shared = _programs[head + lighting + aovs + glsl.text + (faulty ? "faulty" : "")];
+    if (shared) return shared;
+    ++_built;
+    const std::string surface = head +
+                                "#include \"shaders/raster/material.glsl\"\n"
+                                "#include \"shaders/raster/pass.glsl\"\n" +
+                                glsl.text + "#include \"shaders/raster/surface.frag.glsl\"\n" +
+                                (faulty ? "#error asked for by PATINA_GL_FAULT\n" : "");
+    const auto fragment = [&](const std::string& more) {
+        return GlStage{GL_FRAGMENT_SHADER, "material", surface + more};
+    };
+    ProgramTexts texts;
+    texts.vertex = {GL_VERTEX_SHADER, "surface",
+                    head + "#include \"shaders/raster/surface.vert.glsl\"\n"};
+    texts.color = fragment(lighting + (lighting.empty() ? "" : glsl.traitsText) +
+                           "#include \"shaders/raster/lighting.frag.glsl\"\n");
+    texts.aovs = fragment(aovs + (_aovs.albedo ? glsl.albedoText : std::string()) +
+                          "#include \"shaders/raster/aovs.frag.glsl\"\n");
+    texts.shadowVertex = {GL_VERTEX_SHADER, "shadow",
+                          "#define SHADOW\n" + head +
+                              "#include \"shaders/raster/surface.vert.glsl\"\n"};
+    texts.shadow = fragment((glsl.passesText.empty() ? "" : "#define MATERIAL_PASSES\n") +
+                            glsl.passesText + "#include \"shaders/raster/presence.frag.glsl\"\n");
+    texts.tint = fragment("#include \"shaders/raster/tint.frag.glsl\"\n");
+    texts.lets = glsl.presence || !glsl.passesText.empty();
+    texts.hasColoredPresence = glsl.presence && glsl.hasColoredPresence;
+    shared = std::make_shared<PendingPrograms>();
+    const auto make = [pending = shared, texts = std::move(texts)] {
+        if (const std::string slow = glFault("compiling"); !slow.empty())
+            std::this_thread::sleep_for(std::chrono::milliseconds(std::atoi(slow.c_str())));
+        std::string error;
+        pending->programs = makePrograms(texts, error);
+        if (!pending->programs) pending->error = oneLine(error);
+        pending->done = true;
+    };
+    // displayColor stands in for all others.
+    if (_compiler && !user.empty())
+        _compiler->add(make);
+    else
+        make();
+    return shared;
+}
+
+} // namespace patina

@@ -1,0 +1,142 @@
+#pragma once
+
+#include "hdDelegate/image/textureSystem.h"
+#include "hdDelegate/plan/scenePlan.h"
+#include "hdDelegate/raster/gl/glProgram.h"
+#include "hdDelegate/raster/gl/glResources.h"
+#include "hdDelegate/raster/gl/programCompiler.h"
+#include "hdDelegate/raster/lights/rasterLightPlan.h"
+#include "hdDelegate/raster/passes/rasterAovRequest.h"
+#include "hdDelegate/raster/scene/rasterTextures.h"
+#include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/settings.h"
+#include "materialNetwork/glsl/glslMaterial.h"
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <map>
+
+namespace patina {
+
+/// Programs of one text.
+struct RasterPrograms {
+    std::unique_ptr<GlProgram> color, aovs;
+    std::unique_ptr<GlProgram> shadow; ///< only of what light may pass
+    std::unique_ptr<GlProgram> tint;   ///< only of what colours the light that passes
+    mutable bool drawn = false;        ///< `color` was, for which some drivers compile once more
+};
+
+/// Programs that may still be compiled.
+struct PendingPrograms {
+    std::atomic<bool> done{false};
+    std::shared_ptr<const RasterPrograms> programs; ///< null where the driver does not take them
+    std::string error;
+};
+
+/// A material on the GPU.
+struct RasterMaterial {
+    std::shared_ptr<const MaterialProgram> program;
+    GlslMaterial glsl;
+    std::shared_ptr<const RasterPrograms> programs; ///< displayColor's where its own do not compile
+    GlBuffer parameters;
+    std::vector<std::shared_ptr<const GlTexture>> textures;
+    std::vector<std::string> primvars; ///< that its surfaces carry, in the shaders' order
+};
+
+/// The materials of a scene. Equal texts share a program, for as long as this lives; an edit of a
+/// parameter writes a buffer.
+class RasterMaterials {
+public:
+    /// How far the programs are that a scene asks for.
+    struct Ready {
+        size_t ready = 0, wanted = 0;
+    };
+
+    /// @param compiler of programs; null: this thread compiles them
+    explicit RasterMaterials(Diagnostics& diagnostics, ProgramCompiler* compiler = nullptr);
+
+    /// Lets a material be compiled that get() will be asked for.
+    void prepare(const std::string& path, const SceneState& state, const RenderSettings& settings);
+    /// Waits for the programs of all materials that are in use.
+    /// @param told how far they are, again and again
+    void finish(const std::atomic<bool>& stop, const std::function<void(const Ready&)>& told);
+    /// The same until one more is ready, or for so long.
+    void waitForMore(std::chrono::milliseconds maximum);
+    Ready ready() const;
+    /// Whether get() gives displayColor in place of what is not ready, instead of waiting for it.
+    void showStandIns(bool show) { _showStandIns = show; }
+    /// How often get() has done so since update().
+    size_t standIns() const { return _standIns; }
+
+    /// @param path of a material, or empty for displayColor
+    /// @param user who is told about in messages
+    const RasterMaterial& get(const std::string& path, const std::string& user,
+                              const SceneState& state, const RenderSettings& settings);
+    /// How its methods are chosen; nothing of it is on the GPU before get() asks for it.
+    const MethodPlan& planned(const std::string& path, const std::string& user,
+                              const SceneState& state, const RenderSettings& settings);
+    /// Forgets materials whose prim has changed; programs and textures stay.
+    /// @param lights that materials are lit by, for how they are
+    void update(const SceneState& state, const RenderSettings& settings,
+                const RasterLightPlan& lights);
+    /// What programs write beside light.
+    const RasterAovRequest& aovs() const { return _aovs; }
+    /// Methods of `domeLight` that materials have been built with since update().
+    const std::set<std::string>& domeMethods() const { return _domeMethods; }
+    /// Samples where domes are filtered: the most that a material asks for.
+    int environmentSamples() const {
+        return _environmentSamples > 0 ? _environmentSamples : standardEnvironmentSamples;
+    }
+    static constexpr int standardEnvironmentSamples = 16;
+
+    size_t programsBuilt() const { return _built; }
+
+    /// What the methods of the materials in use are expected to cost.
+    ScenePlan plan() const;
+
+private:
+    struct Cached {
+        std::shared_ptr<const MaterialPrim> prim;
+        std::map<std::string, std::string> methods;
+        double tolerance = -1.0;
+        RasterMaterial material;
+        std::vector<PlannedMethod> light; ///< how it is lit
+        std::string lighting;             ///< text in front of the lighting: methods in force
+        bool lit = false;                 ///< `light` is of this update
+        bool built = false;               ///< its text, and its programs are asked for
+        bool taken = false;               ///< its GPU objects are there
+        std::shared_ptr<const PendingPrograms> pending;
+        RasterMaterial standIn; ///< until it is taken
+    };
+
+    Cached& compiled(const std::string& path, const std::string& user, const SceneState& state,
+                     const RenderSettings& settings);
+    Cached& asked(const std::string& path, const std::string& user, const SceneState& state,
+                  const RenderSettings& settings);
+    std::shared_ptr<const PendingPrograms> build(const GlslMaterial& glsl, int primvars,
+                                                 const std::string& lighting,
+                                                 const std::string& user);
+    void await(const PendingPrograms& pending);
+    /// Shows displayColor in place of a material.
+    void copyDisplayColor(RasterMaterial& to, const std::string& user, const SceneState& state,
+                          const RenderSettings& settings);
+    /// Chooses how a material is lit. @returns whether that is new
+    bool light(Cached& cached, const RenderSettings& settings);
+
+    ProgramCompiler* _compiler;
+    RasterLightPlan _lights;
+    RasterAovRequest _aovs;
+    std::set<std::string> _domeMethods;
+    int _environmentSamples = 0; ///< 0: nobody has said how many
+    Diagnostics& _diagnostics;
+    TextureSystem _textures;
+    std::map<std::string, Cached> _materials;
+    std::map<std::string, std::shared_ptr<PendingPrograms>> _programs; ///< by text
+    bool _showStandIns = false;
+    size_t _standIns = 0;
+    RasterTextures _uploaded;
+    size_t _built = 0;
+};
+
+} // namespace patina

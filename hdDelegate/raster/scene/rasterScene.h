@@ -1,0 +1,153 @@
+#pragma once
+
+#include "hdDelegate/plan/subdivisionPlan.h"
+#include "hdDelegate/raster/lights/rasterEmitters.h"
+#include "hdDelegate/raster/scene/rasterCamera.h"
+#include "hdDelegate/raster/scene/rasterDetail.h"
+#include "hdDelegate/raster/scene/rasterInstances.h"
+#include "hdDelegate/raster/scene/rasterMaterials.h"
+#include "hdDelegate/raster/scene/rasterShapeCache.h"
+#include "hdDelegate/raster/scene/rasterVolumes.h"
+#include "hdDelegate/raster/shadows/rasterCulling.h"
+
+#include <atomic>
+
+namespace patina {
+
+/// Places of one prim that share a tessellation.
+struct RasterGroup {
+    std::shared_ptr<const Geometry> prim;
+    std::shared_ptr<const RasterShape> shape;
+    std::vector<uint32_t> places; ///< of the prim's RasterInstances::places(), one per instance
+    /// What other times of the shutter are made from; null where the points stay.
+    std::shared_ptr<const RasterShapeCache::Request> deforms;
+    int firstInstance = 0;
+};
+
+/// Triangles of one prim with one material, drawn at every place of a group.
+struct RasterDraw {
+    void show(const RasterShape& shape) {
+        surface = &shape.surfaces[size_t(subset)];
+        casting = shape.casting.empty() ? surface : &shape.casting[size_t(subset)];
+    }
+
+    const RasterMaterial* material = nullptr;
+    std::shared_ptr<const Geometry> prim;
+    const RasterSurface* surface = nullptr;
+    const RasterSurface* casting = nullptr; ///< what shadow maps show
+    int group = 0, subset = 0;
+    int primId = 0, flags = 0; ///< flags: of RasterShape
+    RasterMeshLight meshLight;
+};
+
+/// What of a scene a view may show.
+struct RasterVisible {
+    std::vector<RasterRun> runs;                  ///< of instances
+    std::vector<std::pair<size_t, size_t>> group; ///< first run and the one after the last
+};
+
+/// The geometry of a scene in buffers, at one time of the shutter.
+class RasterScene {
+public:
+    static constexpr int deformationSteps = 8;
+
+    /// @param compiler see RasterMaterials
+    explicit RasterScene(Diagnostics& diagnostics, ProgramCompiler* compiler = nullptr)
+        : _diagnostics(diagnostics), _materials(diagnostics, compiler), _shapes(diagnostics),
+          _volumes(diagnostics) {}
+
+    /// @param origin that all places are relative to, those of the camera too: numbers of 32 bits
+    /// are too coarse for shadows where places are large beside what is seen
+    /// @param lights that materials are lit by: with a tolerance they decide how
+    /// @param compiling is told how far the programs are; empty: what is not ready is shown as
+    /// displayColor, instead of being waited for
+    void update(const SceneState& state, const vec3& origin, const RasterCamera& camera,
+                const RenderSettings& settings, const RasterLightPlan& lights,
+                const std::atomic<bool>& stop,
+                const std::function<void(const RasterMaterials::Ready&)>& compiling);
+    /// How far the programs are that update() has asked for.
+    RasterMaterials::Ready programsReady() const { return _materials.ready(); }
+    /// How many materials displayColor stands in for since update().
+    size_t standIns() const { return _materials.standIns(); }
+    /// Waits until one more is ready, or for so long.
+    void waitForPrograms(std::chrono::milliseconds maximum) { _materials.waitForMore(maximum); }
+    /// Moves to another time of the shutter: transforms exactly, points that move to the nearest of
+    /// deformationSteps times. @returns false when nothing moves
+    bool moveTo(const SceneState& state, const RenderSettings& settings, float timeCode);
+
+    const std::vector<RasterDraw>& draws() const { return _draws; }
+    const std::vector<const RasterVolume*>& volumes() const { return _volumes.placed(); }
+    const RasterEmitters& emitters() const { return _emitters; }
+    /// @param clampsNear what is before the near plane shows, too
+    RasterVisible visible(const mat4& worldToClip, bool clampsNear = false) const;
+    const std::map<std::string, int>& categories() const { return _categories; }
+    const vec3& origin() const { return _origin; }
+    const vec3& boundsMin() const { return _boundsMin; }
+    const vec3& boundsMax() const { return _boundsMax; }
+    size_t triangles() const { return _triangles; }
+    size_t bytes() const { return _shapes.bytes(); }              ///< of shapes in buffers
+    size_t shapesBuilt() const { return _shapes.built(); }        ///< since this was made
+    size_t instancesWritten() const { return _instancesWritten; } ///< since this was made
+    size_t trianglesDrawn() const; ///< those of every instance counted
+    size_t programsBuilt() const { return _materials.programsBuilt(); }
+    ScenePlan plan() const;
+    const RasterAovRequest& aovs() const { return _materials.aovs(); }
+    /// Methods of `domeLight` that materials are drawn by.
+    const std::set<std::string>& domeMethods() const { return _materials.domeMethods(); }
+    int environmentSamples() const { return _materials.environmentSamples(); }
+    size_t instanceCount() const { return _instances.size(); }
+    /// Binds the instances to a vertex array (binding 1).
+    void bind(GLuint vertexArray) const;
+    /// Tells a vertex array the attributes of instance.glsl.
+    static void describe(GLuint vertexArray);
+
+private:
+    /// As shaders/raster/instance.glsl has it.
+    struct GpuInstance {
+        vec4 columns[4], normals[3];
+        int ids[4] = {-1, 0, 0, 0};
+        void place(const mat4& toWorld);
+    };
+
+    /// Chooses how long edges of subdivision surfaces are on screen. @returns pixels
+    float planSubdivision(const SceneState& state, const RasterCamera& camera,
+                          const RenderSettings& settings, RasterInstances& places);
+    void prepareMaterials(const SceneState& state, const RenderSettings& settings,
+                          RasterInstances& places);
+    void addPrim(const std::shared_ptr<const Geometry>& prim, int rank, const SceneState& state,
+                 const RasterCamera& camera, const RenderSettings& settings,
+                 RasterInstances& places);
+    void addGroup(RasterGroup group, const std::vector<RasterPlace>& places, const mat4& toGroup);
+    void addDraws(const std::shared_ptr<const Geometry>& prim, int rank,
+                  const std::vector<const RasterMaterial*>& materials, size_t firstGroup,
+                  const std::vector<RasterPlace>& places, const mat4& toGroup,
+                  const RenderSettings& settings);
+    void upload();
+    void deform(float timeCode);
+    void collectCategories(const SceneState& state);
+    void collectMeshLights(const SceneState& state, const RenderSettings& settings);
+    int linksOf(const std::vector<std::string>& prim, const std::vector<std::string>& place);
+
+    Diagnostics& _diagnostics;
+    RasterMaterials _materials;
+    std::vector<RasterDraw> _draws;
+    RasterShapeCache _shapes;
+    std::map<std::string, std::pair<std::shared_ptr<const Geometry>, RasterExtent>> _extents;
+    RasterVolumes _volumes;
+    std::vector<RasterGroup> _groups;
+    RasterEmitters _emitters;
+    std::map<std::string, std::shared_ptr<const Light>> _meshLights; ///< by the mesh's path
+    std::vector<GpuInstance> _instances, _written;
+    std::vector<RasterBox> _boxes;          ///< of instances, world space
+    std::map<std::string, int> _categories; ///< of light and shadow links
+    std::vector<int> _links;                ///< see shaders/raster/links.glsl
+    std::map<std::vector<int>, int> _linkRows;
+    GlBuffer _instanceBuffer, _linkBuffer;
+    vec3 _origin{0.0f}, _boundsMin{0.0f}, _boundsMax{0.0f};
+    size_t _triangles = 0, _instancesWritten = 0;
+    float _shutterOpen = 0.0f, _shutterClose = 0.0f; ///< time codes
+    bool _moves = false;
+    PlannedMethod _subdivision; ///< of this update; without a name where nothing was planned
+};
+
+} // namespace patina

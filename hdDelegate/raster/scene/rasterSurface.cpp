@@ -1,0 +1,150 @@
+#include "hdDelegate/raster/scene/rasterSurface.h"
+
+#include "hdDelegate/geometry/primvarEval.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace patina {
+
+namespace {
+
+constexpr uint32_t none = ~0u;
+constexpr size_t alignment = 256; ///< the largest that OpenGL lets a driver ask for
+
+template <class T> size_t append(std::vector<char>& bytes, const std::vector<T>& values) {
+    const size_t offset = (bytes.size() + alignment - 1) / alignment * alignment;
+    bytes.resize(offset + std::max<size_t>(values.size() * sizeof(T), 16));
+    if (!values.empty()) std::memcpy(&bytes[offset], values.data(), values.size() * sizeof(T));
+    return offset;
+}
+
+} // namespace
+
+RasterChunk::RasterChunk(const std::vector<Vertex>& vertices, const std::vector<vec4>& primvars,
+                         const std::vector<Triangle>& triangles,
+                         const std::vector<uint32_t>& indices)
+    : _indexCount(GLsizei(indices.size())) {
+    std::vector<char> bytes;
+    append(bytes, vertices);
+    _primvars = append(bytes, primvars);
+    _triangles = append(bytes, triangles);
+    _indices = append(bytes, indices);
+    _buffer = GlBuffer(bytes);
+}
+
+void RasterChunk::bind(GLuint vertexArray) const {
+    gl.VertexArrayVertexBuffer(vertexArray, 0, _buffer.id(), 0, sizeof(Vertex));
+    gl.VertexArrayElementBuffer(vertexArray, _buffer.id());
+    _buffer.bindStorage(2, _triangles, _indices - _triangles);
+    _buffer.bindStorage(6, _primvars, _triangles - _primvars);
+}
+
+RasterSurfaceBuilder::RasterSurfaceBuilder(const TriangleMesh& mesh, size_t storageLimit)
+    : _mesh(mesh), _storageLimit(storageLimit), _st(mesh.attribute("st")),
+      _first(mesh.positions[0].size(), none) {}
+
+RasterSurfaceBuilder::RasterSurfaceBuilder(const RasterTriangles& triangles, size_t storageLimit)
+    : RasterSurfaceBuilder(triangles.mesh, storageLimit) {
+    _form = &triangles;
+}
+
+RasterSurface RasterSurfaceBuilder::make(size_t subset, const std::vector<std::string>& primvars) {
+    using Rate = MeshAttribute::Rate;
+    RasterSurface surface;
+    _attributes.clear();
+    _sharesAll = _mesh.normals.empty() || _mesh.normalRate == Rate::PerVertex;
+    for (const std::string& name : primvars) {
+        const MeshAttribute* attribute = _mesh.attribute(name);
+        if (attribute) {
+            surface.primvarBits |= 1 << _attributes.size();
+            _sharesAll &= attribute->rate == Rate::PerVertex || attribute->rate == Rate::Constant;
+        }
+        _attributes.push_back(attribute);
+    }
+    const size_t perTriangle = std::max(sizeof(RasterChunk::Triangle),
+                                        3 * sizeof(vec4) * std::max<size_t>(1, primvars.size()));
+    const size_t maximum = std::max<size_t>(1, _storageLimit / perTriangle);
+    for (unsigned t = 0; t < _mesh.triangles.size(); ++t) {
+        const size_t own = t < _mesh.triangleSubset.size() ? _mesh.triangleSubset[t] : 0;
+        if (own != subset) continue;
+        if (_triangles.size() == maximum) surface.chunks.push_back(take());
+        for (int c = 0; c < 3; ++c)
+            _indices.push_back(vertex(t, c));
+        _triangles.push_back(triangle(t));
+        ++surface.triangles;
+    }
+    if (!_triangles.empty()) surface.chunks.push_back(take());
+    return surface;
+}
+
+uint32_t RasterSurfaceBuilder::vertex(unsigned t, int c) {
+    const uint32_t position = _mesh.triangles[t][c];
+    uint32_t& first = _first[position];
+    if (_sharesAll && first != none) return first;
+    const float u = c == 1 ? 1.0f : 0.0f, v = c == 2 ? 1.0f : 0.0f;
+    RasterChunk::Vertex own;
+    own.position = _mesh.positions[0][position];
+    if (_form && !_form->halfWidth.empty()) own.halfWidth = _form->halfWidth[position];
+    if (!_mesh.normals.empty()) own.normal = evalNormal(_mesh, t, u, v);
+    if (_form && !_form->ends.empty()) own.normal *= _form->ends[position];
+    const size_t count = _attributes.size(), at = _primvars.size();
+    for (const MeshAttribute* attribute : _attributes) {
+        float value[4] = {0, 0, 0, 0};
+        if (attribute) evalAttribute(_mesh, *attribute, t, u, v, value);
+        _primvars.emplace_back(value[0], value[1], value[2], value[3]);
+    }
+    for (uint32_t other = first; other != none; other = _next[other])
+        if (_vertices[other].normal == own.normal &&
+            std::equal(_primvars.begin() + std::ptrdiff_t(at), _primvars.end(),
+                       _primvars.begin() + std::ptrdiff_t(other * count))) {
+            _primvars.resize(at);
+            return other;
+        }
+    if (first == none) _used.push_back(position);
+    const uint32_t made = uint32_t(_vertices.size());
+    _vertices.push_back(own);
+    _next.push_back(first);
+    return first = made;
+}
+
+RasterChunk::Triangle RasterSurfaceBuilder::triangle(unsigned t) const {
+    RasterChunk::Triangle out;
+    const uvec3 tri = _mesh.triangles[t];
+    const auto& positions = _mesh.positions[0];
+    const vec3 p[3] = {positions[tri.x], positions[tri.y], positions[tri.z]};
+    out.normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+    out.element = t < _mesh.triangleFace.size() ? _mesh.triangleFace[t] : int(t);
+    if (_form && !_form->along.empty()) {
+        out.dPdu = _form->along[t];
+        return out;
+    }
+    float uv[3][4];
+    if (!_st || !evalAttribute(_mesh, *_st, t, 0, 0, uv[0]) ||
+        !evalAttribute(_mesh, *_st, t, 1, 0, uv[1]) || !evalAttribute(_mesh, *_st, t, 0, 1, uv[2]))
+        return out;
+    const float du1 = uv[1][0] - uv[0][0], dv1 = uv[1][1] - uv[0][1];
+    const float du2 = uv[2][0] - uv[0][0], dv2 = uv[2][1] - uv[0][1];
+    const float determinant = du1 * dv2 - du2 * dv1;
+    if (determinant == 0.0f || !std::isfinite(determinant)) return out;
+    out.dPdu = ((p[1] - p[0]) * dv2 - (p[2] - p[0]) * dv1) / determinant;
+    out.dPdv = ((p[2] - p[0]) * du1 - (p[1] - p[0]) * du2) / determinant;
+    out.uvPerLength = std::sqrt(std::abs(determinant) / std::max(glm::length(out.normal), 1e-30f));
+    return out;
+}
+
+RasterChunk RasterSurfaceBuilder::take() {
+    RasterChunk chunk(_vertices, _primvars, _triangles, _indices);
+    for (const uint32_t position : _used)
+        _first[position] = none;
+    _used.clear();
+    _next.clear();
+    _vertices.clear();
+    _primvars.clear();
+    _triangles.clear();
+    _indices.clear();
+    return chunk;
+}
+
+} // namespace patina

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "hdDelegate/geometry/triangleMesh.h"
+#include "hdDelegate/raster/gl/glResources.h"
+#include "hdDelegate/raster/scene/rasterShapes.h"
+
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// Triangles in one buffer: vertices (position, normal), primvars (a vec4 each per vertex), what
+/// belongs to whole triangles, and indices.
+class RasterChunk {
+public:
+    /// A triangle as shaders/raster/triangles.glsl has it.
+    struct Triangle {
+        vec3 dPdu{0.0f};
+        float uvPerLength = 0.0f;
+        vec3 dPdv{0.0f};
+        int element = 0;
+        vec3 normal{0.0f}; ///< geometric, not of unit length
+        float reserved = 0.0f;
+    };
+    struct Vertex {
+        vec3 position;
+        float halfWidth = 0.0f; ///< of strips, see RasterTriangles
+        vec3 normal{0.0f};
+    };
+
+    RasterChunk(const std::vector<Vertex>& vertices, const std::vector<vec4>& primvars,
+                const std::vector<Triangle>& triangles, const std::vector<uint32_t>& indices);
+
+    /// Vertices and indices to a vertex array (binding 0), the rest to storage bindings 2 and 6.
+    void bind(GLuint vertexArray) const;
+    GLsizei indexCount() const { return _indexCount; }
+    const void* firstIndex() const { return reinterpret_cast<const void*>(_indices); }
+    size_t bytes() const { return _buffer.size(); }
+
+private:
+    GlBuffer _buffer;
+    size_t _primvars = 0, _triangles = 0, _indices = 0; ///< offsets in bytes
+    GLsizei _indexCount = 0;
+};
+
+/// The triangles of one prim that share a material.
+struct RasterSurface {
+    std::vector<RasterChunk> chunks;
+    int primvarBits = 0; ///< of the primvars asked for: those that the mesh has
+    size_t triangles = 0;
+};
+
+/// Makes surfaces of one mesh. Corners that agree in all they carry become one vertex.
+class RasterSurfaceBuilder {
+public:
+    /// @param storageLimit in bytes, of what one storage binding shows; more triangles go into
+    ///        further chunks
+    RasterSurfaceBuilder(const TriangleMesh& mesh, size_t storageLimit);
+    /// @param triangles must outlive this
+    RasterSurfaceBuilder(const RasterTriangles& triangles, size_t storageLimit);
+
+    /// @param subset as of TriangleMesh::triangleSubset
+    /// @param primvars that a material reads, in its order
+    RasterSurface make(size_t subset, const std::vector<std::string>& primvars);
+
+private:
+    struct Corner;
+    uint32_t vertex(unsigned triangle, int corner);
+    RasterChunk::Triangle triangle(unsigned t) const;
+    RasterChunk take();
+
+    const TriangleMesh& _mesh;
+    const RasterTriangles* _form = nullptr;
+    size_t _storageLimit;
+    const MeshAttribute* _st;
+    std::vector<const MeshAttribute*> _attributes; ///< null where the mesh has none
+    bool _sharesAll = false;                       ///< every corner at a position carries the same
+    std::vector<uint32_t> _first, _next;           ///< vertices of the chunk at a position: a list
+    std::vector<uint32_t> _used;                   ///< positions with a list
+    std::vector<RasterChunk::Vertex> _vertices;
+    std::vector<vec4> _primvars;
+    std::vector<RasterChunk::Triangle> _triangles;
+    std::vector<uint32_t> _indices;
+};
+
+} // namespace patina

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "hdDelegate/image/textureSystem.h"
+#include "hdDelegate/raster/gl/glResources.h"
+#include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/settings.h"
+#include "materialNetwork/cpu/materialProgram.h"
+
+#include <map>
+#include <memory>
+
+namespace patina {
+
+/// The medium of a volume prim in textures of at most 64 texels along a side, each the medium at
+/// its place; coefficients per scene unit. See shaders/raster/volume.frag.glsl.
+struct RasterVolume {
+    GlTexture scattering, extinction, emission;
+    vec3 boundsMin{0.0f}, boundsMax{0.0f}; ///< object space
+    mat4 worldToObject{1.0f};
+
+    void bind() const; ///< units 0 to 2
+};
+
+/// The volume prims of a scene.
+class RasterVolumes {
+public:
+    explicit RasterVolumes(Diagnostics& diagnostics)
+        : _diagnostics(diagnostics), _textures(diagnostics) {}
+
+    /// Begins an update; what add() does not name again is forgotten by end().
+    void begin() { _placed.clear(); }
+    /// @param toWorld of every place of the prim
+    /// @param minimum, maximum are widened by its bounds
+    void add(const std::shared_ptr<const Volume>& prim, const SceneState& state,
+             const RenderSettings& settings, const std::vector<mat4>& toWorld, vec3& minimum,
+             vec3& maximum);
+    void end();
+
+    const std::vector<const RasterVolume*>& placed() const { return _placed; }
+
+private:
+    struct Cached {
+        std::shared_ptr<const Volume> prim;
+        std::shared_ptr<const MaterialPrim> material;
+        std::vector<mat4> places;
+        std::vector<RasterVolume> volumes; ///< per place
+        bool used = false;
+    };
+    void build(Cached& cached, const RenderSettings& settings);
+
+    Diagnostics& _diagnostics;
+    TextureSystem _textures;
+    std::map<std::string, Cached> _cache; ///< by path
+    std::vector<const RasterVolume*> _placed;
+};
+
+} // namespace patina

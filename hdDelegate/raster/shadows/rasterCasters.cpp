@@ -1,0 +1,84 @@
+// What casts shadows, drawn into the maps of lights and of the sky's cells.
+
+#include "hdDelegate/raster/passes/rasterPasses.h"
+
+#include <algorithm>
+
+namespace patina {
+
+void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views,
+                               int size) {
+    const int layers = std::max(1, int(views.size()));
+    if (layers > _shadowLayers || _shadowMaps.width() != size) {
+        _shadowMaps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layers);
+        _shadowLayers = layers;
+        _shadowMaps.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        _shadowMaps.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    }
+    for (size_t i = 0; i < views.size(); ++i)
+        drawCasters(scene, views[i], _shadowMaps, int(i));
+}
+
+/// The first pass of a small scene draws all cells; a large one gets them by and by, and one whose
+/// casters let light pass, too, since their materials are evaluated for every texel.
+int RasterPasses::skyCells(const RasterScene& scene) {
+    const auto& draws = scene.draws();
+    const bool slow = std::any_of(draws.begin(), draws.end(), [](const RasterDraw& d) {
+        return d.prim->visibility.shadow && d.material->programs->shadow;
+    });
+    const size_t triangles = std::max<size_t>(1, scene.trianglesDrawn());
+    return int(std::clamp<size_t>(2000000 / triangles, 4, slow ? 24 : 1000));
+}
+
+void RasterPasses::drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass) {
+    for (const RasterSky::Task& task : _sky.begin(pass, lights.seed(), _bounds, skyCells(scene)))
+        drawCasters(scene, task.view, _sky.maps(), task.layer);
+}
+
+void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
+                               const GlTexture& maps, int layer) const {
+    scene.bind(_vertexArray);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, _shadowTarget);
+    gl.Viewport(0, 0, maps.width(), maps.height());
+    const GLenum noColor = GL_NONE;
+    gl.NamedFramebufferDrawBuffers(_shadowTarget, 1, &noColor);
+    const float far = 1.0f;
+    gl.NamedFramebufferTextureLayer(_shadowTarget, GL_DEPTH_ATTACHMENT, maps.id(), 0, layer);
+    gl.ClearNamedFramebufferfv(_shadowTarget, GL_DEPTH, 0, &far);
+    const vec4& to = view.towards;
+    const RasterVisible visible = scene.visible(view.worldToMap, view.clampsNear);
+    // Few lights have anything inside, and in few planes of emitters there is more than the
+    // emitter.
+    const RasterVisible inside =
+        view.own != ShadowView::Nothing ? scene.visible(view.worldToLight) : RasterVisible();
+    if (view.clampsNear) gl.Enable(GL_DEPTH_CLAMP);
+    const GlProgram* last = nullptr;
+    for (const RasterDraw& d : scene.draws()) {
+        if (!d.prim->visibility.shadow || d.material->glsl.volumeOnly) continue;
+        const GlProgram* own = d.material->programs->shadow.get();
+        const bool around = !inside.group.empty() && inside.group[size_t(d.group)].first <
+                                                         inside.group[size_t(d.group)].second;
+        const GlProgram* program = own ? own : around ? _shadowAround.get() : _shadow.get();
+        if (program != last) {
+            program->use();
+            gl.UniformMatrix4fv(2, 1, GL_FALSE, &view.worldToMap[0][0]);
+            gl.Uniform1i(3, view.category);
+            gl.Uniform4f(6, to.x, to.y, to.z, to.w);
+            if (own || around) {
+                gl.UniformMatrix4fv(11, 1, GL_FALSE, &view.worldToLight[0][0]);
+                gl.Uniform1i(12, int(view.own));
+            }
+        }
+        last = program;
+        if (own) {
+            d.material->parameters.bindUniform(1);
+            for (size_t t = 0; t < d.material->textures.size(); ++t)
+                d.material->textures[t]->bind(GLuint(t));
+            gl.Uniform4i(1, d.casting->primvarBits, d.primId, d.flags, 0);
+        }
+        drawRuns(d, *d.casting, visible);
+    }
+    gl.Disable(GL_DEPTH_CLAMP);
+}
+
+} // namespace patina

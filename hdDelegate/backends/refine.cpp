@@ -1,6 +1,7 @@
 #include "hdDelegate/backends/refine.h"
 
 #include "hdDelegate/parallel.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 
@@ -20,10 +21,6 @@ template <class Body> void eachPixel(const Picture& p, const Body& body) {
         for (size_t i = size_t(y) * size_t(p.width), n = i + size_t(p.width); i < n; ++i)
             body(i);
     });
-}
-
-float luminance(vec4 c) {
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
 
 } // namespace
@@ -56,7 +53,7 @@ Picture refine(Picture rasterized, const Picture& traced, const Picture& noise, 
     Picture result = traced;
     eachPixel(result, [&](size_t i) {
         if (traced.pixels[i].w == 0.0f) return; // nothing there: no light of neighbours leaks in
-        const float l = luminance(tracedMean.pixels[i]) + 1e-4f;
+        const float l = luminance(vec3(tracedMean.pixels[i])) + 1e-4f;
         const float relative = localNoise.pixels[i].x / (l * l) + localNoise.pixels[i].y;
         const float clear = halfAt * halfAt / (halfAt * halfAt + relative);
         const float weight = clear + (1.0f - clear) * done * done;

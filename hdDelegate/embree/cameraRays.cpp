@@ -1,5 +1,7 @@
 #include "hdDelegate/embree/cameraRays.h"
 
+#include "materialNetwork/maths.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,21 +21,6 @@ mat4 interpolate(const MotionTransform& transform, float time, const dvec3& orig
 namespace {
 
 /// Points of the unit disk, equal areas to equal areas (Shirley and Chiu 1997).
-vec2 concentricDisk(vec2 u) {
-    const vec2 p = 2.0f * u - 1.0f;
-    if (p.x == 0.0f && p.y == 0.0f) return vec2(0.0f);
-    constexpr float quarterPi = 0.78539816339744831f;
-    float r, phi;
-    if (std::abs(p.x) > std::abs(p.y)) {
-        r = p.x;
-        phi = quarterPi * (p.y / p.x);
-    } else {
-        r = p.y;
-        phi = 2.0f * quarterPi - quarterPi * (p.x / p.y);
-    }
-    return r * vec2(std::cos(phi), std::sin(phi));
-}
-
 /// Fits the aperture to the image as UsdRenderSettings.aspectRatioConformPolicy names it.
 vec2 conform(vec2 aperture, float imageAspect, const std::string& policy) {
     const float aspect = aperture.x / aperture.y;

@@ -4,8 +4,9 @@
 #include "hdDelegate/embree/embreeScene.h"
 #include "hdDelegate/embree/media/phaseMixture.h"
 #include "hdDelegate/embree/path.h"
-#include "hdDelegate/film/pixelFilter.h"
 #include "hdDelegate/embree/sceneLights.h"
+#include "hdDelegate/film/pixelFilter.h"
+#include "materialNetwork/maths.h"
 
 namespace patina {
 
@@ -15,10 +16,6 @@ struct TraceCounters {
 };
 
 constexpr int maxPassThroughs = 256; ///< surfaces that presence lets one ray through
-
-inline float luminance(const vec3& c) {
-    return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
-}
 
 inline float powerHeuristic(float a, float b) {
     if (!std::isfinite(a)) return 1.0f;

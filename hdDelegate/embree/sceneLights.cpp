@@ -1,6 +1,7 @@
 #include "hdDelegate/embree/sceneLights.h"
 
 #include "hdDelegate/scene/lightUnits.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +9,6 @@
 namespace patina {
 
 namespace {
-
-float luminance(const vec3& c) {
-    return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
-}
 
 Hit hitOn(const Surface* surface, unsigned primitive, const mat4& place, vec2 uv) {
     Hit hit;

@@ -4,6 +4,7 @@
 #include "hdDelegate/geometry/primvarEval.h"
 #include "hdDelegate/geometry/tangentFrames.h"
 #include "materialNetwork/cpu/hashedNumbers.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "hdDelegate/geometry/tangentFrames.h"
 
 #include "hdDelegate/geometry/primvarEval.h"
+#include "materialNetwork/maths.h"
 
 #include <cmath>
 
@@ -14,14 +15,6 @@ bool usable(const vec3& v) {
 }
 
 } // namespace
-
-void orthonormalBasis(const vec3& n, vec3& t, vec3& b) {
-    const float sign = std::copysign(1.0f, n.z);
-    const float a = -1.0f / (sign + n.z);
-    const float c = n.x * n.y * a;
-    t = vec3(1.0f + sign * n.x * n.x * a, sign * c, -sign * n.x);
-    b = vec3(c, sign + n.y * n.y * a, -n.y);
-}
 
 TangentFrame tangentFrame(const vec3 positions[3], const vec2 st[3]) {
     TangentFrame frame;

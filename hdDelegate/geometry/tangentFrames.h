@@ -2,6 +2,8 @@
 
 #include "hdDelegate/geometry/triangleMesh.h"
 
+#include "materialNetwork/maths.h"
+
 namespace patina {
 
 /// Derivatives of position by texture coordinates.
@@ -19,8 +21,5 @@ TangentFrame tangentFrame(const vec3 positions[3], const vec2 st[3]);
 /// The same for a triangle of a mesh. @param st attribute of two or more components, or null
 TangentFrame tangentFrame(const TriangleMesh& mesh, const MeshAttribute* st, unsigned triangle,
                           size_t step = 0);
-
-/// A right-handed orthonormal frame around a unit vector: t x b = n (Duff et al. 2017).
-void orthonormalBasis(const vec3& n, vec3& t, vec3& b);
 
 } // namespace patina

@@ -3,6 +3,7 @@
 #include "hdDelegate/hydra/values.h"
 
 #include "materialNetwork/color/colorSpaces.h"
+#include "materialNetwork/maths.h"
 
 #include <pxr/imaging/hd/light.h>
 #include <pxr/imaging/hd/material.h>
@@ -182,7 +183,6 @@ void readLightParams(HdSceneDelegate& delegate, HdPatinaRenderParam& param, cons
 
     // Hosts' own camera light carries what a rasterizer needs to know of it.
     if (light.type == LightType::Distant && p.has("params")) {
-        constexpr float pi = 3.14159265358979f;
         light.diffuse = light.specular = pi;
         light.cameraVisible = false;
     }

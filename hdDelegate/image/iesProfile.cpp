@@ -1,5 +1,6 @@
 #include "hdDelegate/image/iesProfile.h"
 
+#include "materialNetwork/maths.h"
 #include "materialNetwork/regularFile.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 namespace patina {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 constexpr size_t largestTable = 4u << 20;
 
 /// Numbers of the data block, separated by blanks, line ends or commas.
@@ -207,9 +206,10 @@ void IesProfile::measure() {
     const size_t rows = _vertical.size();
     double total = 0.0;
     for (size_t h = 0; h + 1 < _horizontal.size(); ++h) {
-        const double dphi = (_horizontal[h + 1] - _horizontal[h]) * pi / 180.0;
+        const double dphi = (_horizontal[h + 1] - _horizontal[h]) * piDouble / 180.0;
         for (size_t v = 0; v + 1 < rows; ++v) {
-            const double t0 = _vertical[v] * pi / 180.0, t1 = _vertical[v + 1] * pi / 180.0;
+            const double t0 = _vertical[v] * piDouble / 180.0,
+                         t1 = _vertical[v + 1] * piDouble / 180.0;
             if (!(t1 > t0)) continue;
             const double i0 = 0.5 * (_candela[h * rows + v] + _candela[(h + 1) * rows + v]);
             const double i1 = 0.5 * (_candela[h * rows + v + 1] + _candela[(h + 1) * rows + v + 1]);
@@ -221,14 +221,15 @@ void IesProfile::measure() {
             total += dphi * (antiderivative(t1) - antiderivative(t0));
         }
     }
-    const bool sphere = (_vertical.back() - _vertical.front()) * pi / 180.0 > 0.5 * pi + 0.1;
-    _mean = float(total / (sphere ? 4.0 * pi : 2.0 * pi));
+    const bool sphere =
+        (_vertical.back() - _vertical.front()) * piDouble / 180.0 > 0.5 * piDouble + 0.1;
+    _mean = float(total / (sphere ? 4.0 * piDouble : 2.0 * piDouble));
     _peak = *std::max_element(_candela.begin(), _candela.end());
 }
 
 float IesProfile::candela(float theta, float phi) const {
     if (empty()) return 0.0f;
-    const float degrees = float(180.0 / pi);
+    const float degrees = float(180.0 / piDouble);
     float around = std::fmod(phi * degrees, 360.0f);
     if (around < 0.0f) around += 360.0f;
     size_t h, v;
@@ -242,7 +243,7 @@ float IesProfile::candela(float theta, float phi) const {
 }
 
 float IesProfile::scaledTheta(float theta, float angleScale) {
-    const float half = float(pi);
+    const float half = float(piDouble);
     if (angleScale > 0.0f)
         theta = theta / angleScale;
     else if (angleScale < 0.0f)

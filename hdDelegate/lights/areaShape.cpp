@@ -3,6 +3,7 @@
 #include "hdDelegate/lights/areaShapeParts.h"
 #include "hdDelegate/lights/sphericalRect.h"
 #include "hdDelegate/scene/lightUnits.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,20 +29,6 @@ bool facesPlane(const AreaShape& shape, const vec3& point) {
 }
 
 /// Concentric map of the square to the disk (Shirley and Chiu 1997).
-vec2 concentricDisk(const vec2& u) {
-    const vec2 o = 2.0f * u - 1.0f;
-    if (o.x == 0.0f && o.y == 0.0f) return vec2(0.0f);
-    float r, theta;
-    if (std::abs(o.x) > std::abs(o.y)) {
-        r = o.x;
-        theta = 0.25f * lightPi * (o.y / o.x);
-    } else {
-        r = o.y;
-        theta = 0.5f * lightPi - 0.25f * lightPi * (o.x / o.y);
-    }
-    return r * vec2(std::cos(theta), std::sin(theta));
-}
-
 } // namespace
 
 AreaShape makeAreaShape(const Light& light, const mat4& toWorld) {

@@ -4,11 +4,11 @@
 
 #include "hdDelegate/lights/areaShape.h"
 
+#include "materialNetwork/maths.h"
+
 #include <cmath>
 
 namespace patina {
-
-constexpr float lightPi = 3.14159265358979f;
 
 /// Turns a density over area into one over solid angle; 0 where the surface faces away.
 inline float areaToSolidAngle(float pdfArea, const vec3& point, const vec3& position,
@@ -23,13 +23,5 @@ float spherePdf(const AreaShape& shape, const vec3& point, const vec3& position)
 bool sampleCylinder(const AreaShape& shape, const vec3& point, const vec2& u, ShapeSample& out);
 float cylinderPdf(const AreaShape& shape, const vec3& point, const vec3& position,
                   const vec3& normal);
-
-/// Two unit vectors that complete a right-handed frame (Duff et al. 2017).
-inline void makeFrame(const vec3& n, vec3& x, vec3& y) {
-    const float sign = std::copysign(1.0f, n.z);
-    const float a = -1.0f / (sign + n.z), b = n.x * n.y * a;
-    x = vec3(1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x);
-    y = vec3(b, sign + n.y * n.y * a, -n.y);
-}
 
 } // namespace patina

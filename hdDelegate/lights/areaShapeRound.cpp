@@ -2,6 +2,8 @@
 
 #include "hdDelegate/lights/areaShapeParts.h"
 
+#include "materialNetwork/maths.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -67,10 +69,10 @@ bool sampleSphere(const AreaShape& shape, const vec3& point, const vec2& u, Shap
     const float height = coneHeight(d2);
     const float h = u.x * height; // 1 - cos
     const float sine2 = h * (2.0f - h), cosine = 1.0f - h;
-    const float d = std::sqrt(d2), phi = 2.0f * lightPi * u.y;
+    const float d = std::sqrt(d2), phi = 2.0f * pi * u.y;
     const vec3 axis = q / -d;
     vec3 x, y;
-    makeFrame(axis, x, y);
+    orthonormalBasis(axis, x, y);
     const float sine = std::sqrt(sine2);
     const vec3 w = cosine * axis + sine * (std::cos(phi) * x + std::sin(phi) * y);
     const float t = d * cosine - std::sqrt(std::max(0.0f, 1.0f - d2 * sine2));
@@ -85,7 +87,7 @@ float spherePdf(const AreaShape& shape, const vec3& point, const vec3& position)
     const vec3 q = shape.local(point);
     const float d2 = glm::dot(q, q);
     if (!(d2 > 1.0f)) return 0.0f;
-    const float local = 1.0f / (2.0f * lightPi * coneHeight(d2));
+    const float local = 1.0f / (2.0f * pi * coneHeight(d2));
     // d(local solid angle) = d(solid angle) |det inverse| / |inverse direction|^3
     const vec3 v = position - point;
     const float length = glm::length(v), localLength = glm::length(shape.inverse * v);

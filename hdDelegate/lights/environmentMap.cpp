@@ -1,18 +1,14 @@
 #include "hdDelegate/lights/environmentMap.h"
 
+#include "materialNetwork/maths.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace patina {
 
 namespace {
-
-constexpr float pi = 3.14159265358979f;
 constexpr int largestGridWidth = 2048;
-
-float luminance(const vec3& c) {
-    return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
-}
 
 float longitudeFraction(const vec3& d) {
     const float u = 0.5f - std::atan2(d.x, d.z) / (2.0f * pi);
@@ -166,7 +162,7 @@ void EnvironmentMap::build() {
     const std::vector<vec3> grid = latlongGrid(width, height);
     _cosines.resize(size_t(height) + 1);
     for (int y = 0; y <= height; ++y)
-        _cosines[y] = float(std::cos(3.14159265358979323846 * y / height));
+        _cosines[y] = float(std::cos(piDouble * y / height));
 
     // A cell's share of bilinear interpolation is (1, 6, 1) / 8 of itself and its neighbours, along
     // both axes.

@@ -2,6 +2,7 @@
 
 #include "hdDelegate/lights/areaShapeParts.h"
 #include "hdDelegate/scene/lightUnits.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,12 +114,12 @@ bool LightEmitter::sampleDistant(const Pose& pose, const vec2& u, EmitterSample&
         return true;
     }
     const float h = u.x * _oneMinusCos;
-    const float sine = std::sqrt(std::max(0.0f, h * (2.0f - h))), phi = 2.0f * lightPi * u.y;
+    const float sine = std::sqrt(std::max(0.0f, h * (2.0f - h))), phi = 2.0f * pi * u.y;
     vec3 x, y;
-    makeFrame(pose.toLight, x, y);
+    orthonormalBasis(pose.toLight, x, y);
     out.direction =
         glm::normalize((1.0f - h) * pose.toLight + sine * (std::cos(phi) * x + std::sin(phi) * y));
-    out.pdf = 1.0f / (2.0f * lightPi * _oneMinusCos);
+    out.pdf = 1.0f / (2.0f * pi * _oneMinusCos);
     return true;
 }
 
@@ -133,11 +134,11 @@ bool LightEmitter::sampleDome(const Pose& pose, const vec3& normal, bool twoSide
         return out.pdf > 0.0f && std::isfinite(out.pdf);
     }
     out.radiance = _radiance;
-    const float phi = 2.0f * lightPi * u.y;
+    const float phi = 2.0f * pi * u.y;
     if (normal == vec3(0.0f)) {
         const float z = 1.0f - 2.0f * u.x, s = std::sqrt(std::max(0.0f, 1.0f - z * z));
         out.direction = vec3(s * std::cos(phi), s * std::sin(phi), z);
-        out.pdf = 0.25f / lightPi;
+        out.pdf = 0.25f / pi;
         return true;
     }
     float r = u.x, side = 1.0f;
@@ -147,10 +148,10 @@ bool LightEmitter::sampleDome(const Pose& pose, const vec3& normal, bool twoSide
     }
     const float cosine = std::sqrt(1.0f - r), sine = std::sqrt(r);
     vec3 x, y;
-    makeFrame(normal, x, y);
+    orthonormalBasis(normal, x, y);
     out.direction =
         glm::normalize(side * cosine * normal + sine * (std::cos(phi) * x + std::sin(phi) * y));
-    out.pdf = cosine / (twoSided ? 2.0f * lightPi : lightPi);
+    out.pdf = cosine / (twoSided ? 2.0f * pi : pi);
     return out.pdf > 0.0f;
 }
 
@@ -191,20 +192,18 @@ float LightEmitter::environmentPdf(const vec3& normal, bool twoSided, const vec3
     const Pose& pose = poseAt(time, scratch);
     if (_kind == Kind::Distant) {
         const vec3 d = direction - pose.toLight;
-        return 0.5f * glm::dot(d, d) <= _oneMinusCos ? 1.0f / (2.0f * lightPi * _oneMinusCos)
-                                                     : 0.0f;
+        return 0.5f * glm::dot(d, d) <= _oneMinusCos ? 1.0f / (2.0f * pi * _oneMinusCos) : 0.0f;
     }
     if (_environment)
         return _environment->pdf(direction * pose.domeToWorld, normal * pose.domeToWorld, twoSided);
-    if (normal == vec3(0.0f)) return 0.25f / lightPi;
+    if (normal == vec3(0.0f)) return 0.25f / pi;
     const float cosine = glm::dot(normal, direction);
-    return twoSided ? std::abs(cosine) / (2.0f * lightPi) : std::max(0.0f, cosine) / lightPi;
+    return twoSided ? std::abs(cosine) / (2.0f * pi) : std::max(0.0f, cosine) / pi;
 }
 
 bool LightEmitter::reaches(const vec3& normal, bool twoSided) const {
     if (_kind != Kind::Distant || _moves || twoSided || normal == vec3(0.0f)) return true;
-    return glm::dot(_pose.toLight, normal) >
-           -std::sin(std::min(_halfAngle, 0.5f * lightPi)) - 1e-4f;
+    return glm::dot(_pose.toLight, normal) > -std::sin(std::min(_halfAngle, 0.5f * pi)) - 1e-4f;
 }
 
 } // namespace patina

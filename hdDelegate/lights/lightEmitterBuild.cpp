@@ -5,6 +5,7 @@
 #include "hdDelegate/lights/lightImages.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "materialNetwork/diagnostics.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +13,6 @@
 namespace patina {
 
 namespace {
-
-float luminance(const vec3& c) {
-    return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
-}
 
 bool isFinite(const vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -118,7 +115,7 @@ bool LightEmitter::choosesKind(const mat4& toWorld, Diagnostics& diagnostics) {
         _kind = Kind::Distant;
         if (!std::isfinite(_light.angle))
             return off("inputs:angle", "the angle is not finite; the light is off");
-        _halfAngle = 0.5f * std::clamp(_light.angle, 0.0f, 360.0f) * (lightPi / 180.0f);
+        _halfAngle = 0.5f * std::clamp(_light.angle, 0.0f, 360.0f) * (pi / 180.0f);
         // 1 - cos without cancellation.
         const float s = std::sin(0.5f * _halfAngle);
         _oneMinusCos = 2.0f * s * s;
@@ -140,7 +137,7 @@ bool LightEmitter::choosesKind(const mat4& toWorld, Diagnostics& diagnostics) {
         if (hint || (size == 0.0 && _light.normalize)) {
             // The mean projected area of a convex body is a quarter of its surface (Cauchy); a thin
             // line's projected width is its surface / (pi length).
-            const double projected = sphere ? 0.25 : 1.0 / (3.14159265358979 * length);
+            const double projected = sphere ? 0.25 : 1.0 / (piDouble * length);
             _radiance = vec3(glm::dvec3(base) * projected * (_light.normalize ? 1.0 : size));
             _kind = sphere ? Kind::Point : Kind::Line;
             _delta = true;
@@ -170,13 +167,13 @@ void LightEmitter::loadProfile(Diagnostics& diagnostics) {
 
 bool LightEmitter::setUpDome(LightImages& images) {
     if (_light.textureFile.empty()) {
-        _irradiance = lightPi * luminance(_radiance);
+        _irradiance = pi * luminance(_radiance);
         return true;
     }
     _environment = images.environment(_light.textureFile, _light.textureColorSpace,
                                       environmentFormat(_light.textureFormat), _light.path,
                                       "inputs:texture:file");
-    _irradiance = lightPi * luminance(_radiance * _environment->mean());
+    _irradiance = pi * luminance(_radiance * _environment->mean());
     return !_environment->black();
 }
 
@@ -218,11 +215,11 @@ LightTreeLeaf LightEmitter::leaf(int id) const {
             leaf.high = glm::max(leaf.high, pose.position + extent);
         }
         // A round light shines everywhere, unless a cone keeps it together.
-        DirectionCone here{pose.shaping.axis(), lightPi, 0.5f * lightPi};
+        DirectionCone here{pose.shaping.axis(), pi, 0.5f * pi};
         const float cutoff = pose.shaping.cutoff();
         if (!round)
-            here = {pose.shape.normal, 0.0f, std::min(0.5f * lightPi, cutoff)};
-        else if (cutoff < lightPi)
+            here = {pose.shape.normal, 0.0f, std::min(0.5f * pi, cutoff)};
+        else if (cutoff < pi)
             here = {pose.shaping.axis(), cutoff, 0.0f};
         cone = i == 0 ? here : unite(cone, here);
         const float area = _kind != Kind::Area

@@ -1,13 +1,13 @@
 #include "hdDelegate/lights/lightShaping.h"
 
+#include "materialNetwork/maths.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace patina {
 
 namespace {
-
-constexpr float pi = 3.14159265358979f;
 
 vec3 normalized(const vec3& v, const vec3& fallback) {
     const float l = glm::length(v);

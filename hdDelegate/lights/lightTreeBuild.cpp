@@ -1,13 +1,13 @@
 #include "hdDelegate/lights/lightTree.h"
 
+#include "materialNetwork/maths.h"
+
 #include <algorithm>
 #include <array>
 
 namespace patina {
 
 namespace {
-
-constexpr float pi = 3.14159265358979f;
 constexpr int binCount = 12;
 
 /// A running union of leaves.

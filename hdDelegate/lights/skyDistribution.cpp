@@ -1,6 +1,7 @@
 #include "hdDelegate/lights/skyDistribution.h"
 
 #include "hdDelegate/lights/cumulative.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,6 @@
 namespace patina {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 constexpr int maxColumns = 32, maxRows = 16; ///< of blocks
 constexpr int partsAcross = 4;               ///< of a block, each with a cosine of its own
 constexpr int normalsAcross = 16;            ///< octahedral map
@@ -130,8 +129,8 @@ std::vector<SkyDistribution::Part> SkyDistribution::parts(const std::vector<floa
                         for (int x = xa; x < xb; ++x)
                             weight += weights[size_t(y) * size_t(_width) + size_t(x)];
                     if (!(weight > 0.0)) continue;
-                    const double longitude = (1.0 - double(xa + xb) / _width) * pi;
-                    const double theta = 0.5 * double(ya + yb) / _height * pi;
+                    const double longitude = (1.0 - double(xa + xb) / _width) * piDouble;
+                    const double theta = 0.5 * double(ya + yb) / _height * piDouble;
                     const double sine = std::sin(theta);
                     result.push_back({row * columns + column,
                                       glm::vec3(sine * std::sin(longitude), std::cos(theta),

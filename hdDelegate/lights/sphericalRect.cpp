@@ -1,5 +1,7 @@
 #include "hdDelegate/lights/sphericalRect.h"
 
+#include "materialNetwork/maths.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +11,6 @@ using glm::dvec3;
 
 bool SphericalRect::setup(const vec3& corner, const vec3& edgeX, const vec3& edgeY,
                           const vec3& point) {
-    constexpr double pi = 3.14159265358979323846;
     _point = dvec3(point);
     const double lengthX = glm::length(dvec3(edgeX)), lengthY = glm::length(dvec3(edgeY));
     _x = dvec3(edgeX) / lengthX;
@@ -36,7 +37,7 @@ bool SphericalRect::setup(const vec3& corner, const vec3& edgeX, const vec3& edg
     const double g0 = angle(n0, n1), g1 = angle(n1, n2), g2 = angle(n2, n3), g3 = angle(n3, n0);
     _b0 = n0;
     _b1 = n2;
-    _k = 2.0 * pi - g2 - g3;
+    _k = 2.0 * piDouble - g2 - g3;
     _solidAngle = g0 + g1 - _k;
     return _solidAngle > 1e-7;
 }

@@ -1,5 +1,7 @@
 #include "hdDelegate/lights/sphericalTriangle.h"
 
+#include "materialNetwork/maths.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,8 +10,6 @@ namespace patina {
 using glm::dvec3;
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 // Below, the triangle looks flat from here and area sampling is as good; above, the point all but
 // lies in the triangle's plane.
 constexpr double smallestAngle = 1e-3, largestAngle = 6.2;

@@ -1,6 +1,7 @@
 #include "hdDelegate/scene/lightUnits.h"
 
 #include "hdDelegate/scene/motionSteps.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,6 @@
 namespace patina {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 // The Planckian locus in Rec.709 at 1000, 1500 ... 10000 K, scaled so that the largest is 1 and
 // kept inside the gamut.
@@ -43,7 +42,7 @@ bool equalAxes(const dvec3& a, const dvec3& b, const dvec3& c) {
 }
 
 double ellipsoidArea(const dvec3& a, const dvec3& b, const dvec3& c) {
-    if (equalAxes(a, b, c)) return 4.0 * pi * glm::dot(a, a);
+    if (equalAxes(a, b, c)) return 4.0 * piDouble * glm::dot(a, a);
     // dA = |cofactor(M) n| domega over the unit sphere; midpoints in z and angle.
     const dvec3 bc = glm::cross(b, c), ca = glm::cross(c, a), ab = glm::cross(a, b);
     constexpr int rows = 128, columns = 128;
@@ -51,11 +50,11 @@ double ellipsoidArea(const dvec3& a, const dvec3& b, const dvec3& c) {
     for (int i = 0; i < rows; ++i) {
         const double z = 1.0 - 2.0 * (i + 0.5) / rows, s = std::sqrt(1.0 - z * z);
         for (int k = 0; k < columns; ++k) {
-            const double phi = 2.0 * pi * (k + 0.5) / columns;
+            const double phi = 2.0 * piDouble * (k + 0.5) / columns;
             sum += glm::length(bc * (s * std::cos(phi)) + ca * (s * std::sin(phi)) + ab * z);
         }
     }
-    return 4.0 * pi * sum / (rows * columns);
+    return 4.0 * piDouble * sum / (rows * columns);
 }
 
 double cylinderArea(const dvec3& along, const dvec3& b, const dvec3& c) {
@@ -64,17 +63,17 @@ double cylinderArea(const dvec3& along, const dvec3& b, const dvec3& c) {
     const dvec3 ab = glm::cross(along, b), ac = glm::cross(along, c);
     double sum = 0.0;
     for (int i = 0; i < steps; ++i) {
-        const double phi = 2.0 * pi * i / steps;
+        const double phi = 2.0 * piDouble * i / steps;
         sum += glm::length(ac * std::cos(phi) - ab * std::sin(phi));
     }
-    return 2.0 * pi * sum / steps;
+    return 2.0 * piDouble * sum / steps;
 }
 
 double distantFactor(double degrees) {
     if (!(degrees > 0.0)) return 1.0;
-    const double half = std::min(degrees, 360.0) * pi / 360.0;
+    const double half = std::min(degrees, 360.0) * piDouble / 360.0;
     const double s = std::sin(half);
-    return half <= 0.5 * pi ? pi * s * s : pi * (2.0 - s * s);
+    return half <= 0.5 * piDouble ? piDouble * s * s : piDouble * (2.0 - s * s);
 }
 
 } // namespace
@@ -120,7 +119,7 @@ double lightSizeFactor(const Light& light, const mat4& toWorld) {
         return glm::length(
             glm::cross(column(toWorld, 0, light.width), column(toWorld, 1, light.height)));
     case LightType::Disk:
-        return pi * glm::length(glm::cross(column(toWorld, 0, r), column(toWorld, 1, r)));
+        return piDouble * glm::length(glm::cross(column(toWorld, 0, r), column(toWorld, 1, r)));
     case LightType::Sphere:
         return ellipsoidArea(column(toWorld, 0, r), column(toWorld, 1, r), column(toWorld, 2, r));
     case LightType::Cylinder:

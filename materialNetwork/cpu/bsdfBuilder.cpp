@@ -6,6 +6,7 @@
 #include "materialNetwork/cpu/microsurface.h"
 #include "materialNetwork/cpu/scratch.h"
 #include "materialNetwork/cpu/shadingFrame.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +15,6 @@ namespace patina {
 
 namespace {
 
-float luminance(const glm::vec3& c) {
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
-}
 float largest(const glm::vec4& c) {
     return std::max(c.x, std::max(c.y, c.z));
 }

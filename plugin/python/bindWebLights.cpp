@@ -8,6 +8,7 @@
 #include "hdDelegate/lights/lightShaping.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/scene.h"
+#include "materialNetwork/maths.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -23,7 +24,7 @@ namespace patina {
 
 namespace {
 
-constexpr float pi = 3.14159265358979f, degree = pi / 180.0f;
+constexpr float degree = pi / 180.0f;
 constexpr int largestImage = 128;          ///< of rect lights, texels along a side
 constexpr int domeWidth = 512;             ///< of domes that are no latlong maps
 constexpr size_t maxTriangles = 4096;      ///< of a mesh light

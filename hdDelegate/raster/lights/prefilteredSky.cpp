@@ -1,5 +1,7 @@
 #include "hdDelegate/raster/lights/prefilteredSky.h"
 
+#include "materialNetwork/maths.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +10,6 @@ namespace patina {
 namespace {
 
 using glm::vec3;
-constexpr float pi = 3.14159265f;
 constexpr int w = PrefilteredSky::width, h = PrefilteredSky::height;
 
 vec3 directionAt(int x, int y, int columns, int rows) {

@@ -1,6 +1,7 @@
 #include "hdDelegate/raster/lights/rasterDomes.h"
 
 #include "hdDelegate/raster/lights/prefilteredSky.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@ namespace {
 
 using glm::vec3;
 using glm::vec4;
-constexpr float pi = 3.14159265f;
 
 vec3 latlongDirection(int x, int y, int w, int h) {
     const float longitude = (0.5f - (float(x) + 0.5f) / float(w)) * 2.0f * pi;

@@ -4,6 +4,7 @@
 #include "hdDelegate/geometry/tangentFrames.h"
 #include "hdDelegate/parallel.h"
 #include "materialNetwork/cpu/programCode.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +12,7 @@
 namespace patina {
 
 namespace {
-
-constexpr float pi = 3.14159265f;
 constexpr size_t manyTriangles = 20000; ///< that are looked at in one place each
-
-float luminance(const vec3& c) {
-    return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
-}
 
 vec3 unitOr(const vec3& v, const vec3& fallback) {
     const float length = glm::length(v);

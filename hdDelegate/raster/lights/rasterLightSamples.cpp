@@ -3,6 +3,7 @@
 #include "hdDelegate/raster/lights/lightChoice.h"
 #include "hdDelegate/raster/lights/rasterLights.h"
 #include "hdDelegate/raster/passes/passNumbers.h"
+#include "materialNetwork/maths.h"
 #include "shaders/areaLights.h"
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 namespace patina {
 
 namespace {
-
-constexpr float pi = 3.14159265f;
 
 vec3 onSphere(vec2 u) {
     const float z = 1.0f - 2.0f * u.x, r = std::sqrt(std::max(0.0f, 1.0f - z * z));

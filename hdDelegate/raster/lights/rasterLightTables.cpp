@@ -1,6 +1,7 @@
 #include "hdDelegate/raster/lights/rasterLightTables.h"
 
 #include "materialNetwork/diagnostics.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,6 @@
 namespace patina {
 
 namespace {
-
-constexpr float pi = 3.14159265f;
 
 vec3 bilinear(const ImageRGB& image, const vec2& q) {
     const int w = image.width, h = image.height;

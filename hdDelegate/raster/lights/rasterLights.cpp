@@ -3,6 +3,7 @@
 #include "hdDelegate/lights/lightShaping.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "materialNetwork/diagnostics.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,6 @@
 namespace patina {
 
 namespace {
-
-constexpr float pi = 3.14159265f;
 
 /// The rotation nearest to a transform in the order z, y, x; its scale is dropped.
 mat3 rotationOf(const mat4& m) {
@@ -26,10 +25,6 @@ mat3 rotationOf(const mat4& m) {
 
 bool isFinite(const vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-float luminance(const vec3& c) {
-    return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
 /// @returns -1 for an empty link, which is everything
@@ -183,7 +178,7 @@ bool RasterLights::addShape(Source& s, const Light& light, const mat4& toWorld, 
         (sphere || length > 0.0)) {
         s.kind = sphere ? Point : Line;
         s.delta = true;
-        const double projected = sphere ? 0.25 : 1.0 / (3.14159265358979 * length);
+        const double projected = sphere ? 0.25 : 1.0 / (piDouble * length);
         s.radiance = vec3(glm::dvec3(glm::max(lightBaseRadiance(light), vec3(0.0f))) * projected *
                           (light.normalize ? 1.0 : size));
         s.weight = luminance(s.radiance);

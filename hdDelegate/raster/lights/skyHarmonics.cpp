@@ -1,5 +1,7 @@
 #include "hdDelegate/raster/lights/skyHarmonics.h"
 
+#include "materialNetwork/maths.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -9,13 +11,8 @@ namespace patina {
 namespace {
 
 using glm::vec3;
-constexpr float pi = 3.14159265f;
 constexpr int width = 256, height = 128, fine = 6;
 constexpr float sunRadius = 0.105f; ///< radians
-
-float luminance(const vec3& c) {
-    return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
-}
 
 vec3 directionAt(float x, float y) {
     const float phi = (x + 0.5f) / width * 2.0f * pi;

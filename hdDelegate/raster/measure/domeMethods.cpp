@@ -1,6 +1,7 @@
 #include "hdDelegate/raster/measure/domeMethods.h"
 
 #include "hdDelegate/film/sampler.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@ namespace {
 
 using glm::vec2;
 using glm::vec3;
-constexpr float pi = 3.14159265f;
 constexpr float texelSolidAngle =
     4.0f * pi / (float(MeasuredSky::width) * float(MeasuredSky::height));
 

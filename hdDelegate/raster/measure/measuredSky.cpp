@@ -1,6 +1,7 @@
 #include "hdDelegate/raster/measure/measuredSky.h"
 
 #include "hdDelegate/film/sampler.h"
+#include "materialNetwork/maths.h"
 
 #include <cmath>
 #include <functional>
@@ -10,7 +11,6 @@ namespace patina::measure {
 namespace {
 
 using glm::vec3;
-constexpr float pi = 3.14159265f;
 constexpr int densityWidth = 512; ///< RasterDomes::densityWidth
 
 constexpr int w = MeasuredSky::width, h = MeasuredSky::height;

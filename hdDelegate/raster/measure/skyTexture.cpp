@@ -1,5 +1,7 @@
 #include "hdDelegate/raster/measure/skyTexture.h"
 
+#include "materialNetwork/maths.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +11,6 @@ namespace {
 
 using glm::vec2;
 using glm::vec3;
-constexpr float pi = 3.14159265f;
 
 } // namespace
 

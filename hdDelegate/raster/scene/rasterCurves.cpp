@@ -1,6 +1,7 @@
 #include "hdDelegate/geometry/curveSegments.h"
 #include "hdDelegate/geometry/tangentFrames.h"
 #include "hdDelegate/raster/scene/rasterShapes.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,6 @@
 namespace patina {
 
 namespace {
-
-constexpr float pi = 3.14159265f;
 constexpr int maxSides = 63, maxSteps = 64;
 constexpr float largestTurn = 0.15f; ///< of a curve's direction or a ribbon's normal in a step
 

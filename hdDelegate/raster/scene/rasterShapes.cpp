@@ -1,6 +1,7 @@
 #include "hdDelegate/raster/scene/rasterShapes.h"
 
 #include "hdDelegate/geometry/tangentFrames.h"
+#include "materialNetwork/maths.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,10 +10,12 @@ layout(std430, binding = 10) readonly buffer SkyCells { SkyCell skyCells[]; };
 layout(binding = 18) uniform sampler2DArray shadowMaps;
 layout(binding = 19) uniform sampler2DArray skyMaps;
 
-// Where a surface is at a place beside the middle of a texel, as far as it goes on as the map shows it on the
-// other side of the middle: how far it lies before the point's plane there, in depths. Nothing is known of it
-// where that is no plane, nor, further off than `close`, a bend that gets steeper away from the point.
-// offset: in texels, up to a half; tilt: what the point's plane sinks from texel to texel
+// How far the surface that a texel shows lies in front of the point's plane at the point itself, in depths. The
+// surface is continued from the middle of the texel by the texels on the side away from the point. Where these
+// do not lie in a plane, it is continued only if it is within `close` of the point's plane, by the lesser of the
+// two slopes; else the answer is 1, which hides the point.
+// offset: of the point from the middle, in texels, up to a half
+// tilt: change of the depth of the point's plane from texel to texel
 float planeBeside(sampler2DArray maps, ivec3 texel, float front, float depth, vec2 offset, vec2 tilt, float close) {
     ivec2 away = ivec2(offset.x > 0.0 ? -1 : 1, offset.y > 0.0 ? -1 : 1);
     ivec3 x = ivec3(away.x, 0, 0), y = ivec3(0, away.y, 0);
@@ -28,7 +30,7 @@ float planeBeside(sampler2DArray maps, ivec3 texel, float front, float depth, ve
 // Whether a map shows nothing in front of a point. What is compared is where the plane of the surface
 // is in the middle of the texel, not the point: then a surface does not hide itself, without being
 // moved by as much as a texel may be wrong, which would be seen where things touch.
-// n: of the plane; 0 compares the point. least: how exact depths are.
+// n: of the plane; 0 compares the point. minimum: of the bias, which is how exact depths are.
 float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n, float minimum) {
     vec4 clip = worldToMap * vec4(p, 1.0);
     if (clip.w <= 0.0) return 1.0;
@@ -50,10 +52,11 @@ float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n,
     float front = texelFetch(maps, ivec3(ivec2(texel), layer), 0).x;
     depth = 0.5 * depth + 0.5;
     if (depth <= front + bias) return 1.0;
-    // Where two surfaces meet, the middle of the texel shows the other one, which the plane goes behind. Where a
-    // surface bends towards the light, it shows what is up to half a texel before the plane.
+    // Where two surfaces meet, the middle of the texel may show the other one, and the point's plane goes on
+    // behind that. Where a surface bends towards the light, the middle is nearer to the light than the plane.
     vec2 offset = (0.5 * q.xy + 0.5) * size - texel - 0.5;
     mat4 rows = transpose(worldToMap);
+    // Half a texel, as a depth. Fibres, and points without a plane, are compared as they are.
     float close = 0.5 * length(rows[2].xyz - q.z * rows[3].xyz) / (size.x * length(rows[0].xyz - q.x * rows[3].xyz));
     if (isTube() || n == vec3(0.0)) close = 0.0;
     return planeBeside(maps, ivec3(ivec2(texel), layer), front, depth, offset, slope / size, close) <= bias ? 1.0 : 0.0;

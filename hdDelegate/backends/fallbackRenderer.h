@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hdDelegate/renderer.h"
+#include "hdDelegate/renderer/renderer.h"
 
 #include <atomic>
 #include <mutex>

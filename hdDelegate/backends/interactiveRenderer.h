@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hdDelegate/backends/picture.h"
-#include "hdDelegate/renderer.h"
+#include "hdDelegate/renderer/renderer.h"
 
 #include <atomic>
 #include <chrono>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hdDelegate/hydra/settings.h"
-#include "hdDelegate/renderer.h"
+#include "hdDelegate/renderer/renderer.h"
 
 #include <condition_variable>
 #include <map>

@@ -1,6 +1,6 @@
 // The renderer of the Python module. Settings are a dict with the names of RenderSettings' fields.
 
-#include "hdDelegate/renderer.h"
+#include "hdDelegate/renderer/renderer.h"
 #include "hdDelegate/backends/backends.h"
 #include "plugin/python/plans.h"
 

@@ -1,4 +1,4 @@
-#include "hdDelegate/renderer.h"
+#include "hdDelegate/renderer/renderer.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "hdDelegate/renderer.h"
+#include "hdDelegate/renderer/renderer.h"
 
 #include <gtest/gtest.h>
 

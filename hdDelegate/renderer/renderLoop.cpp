@@ -1,0 +1,164 @@
+#include "hdDelegate/renderer/renderLoop.h"
+
+#include "hdDelegate/scene/instancerCheck.h"
+
+#include <stdexcept>
+
+namespace patina {
+
+RenderLoop::RenderLoop(std::string backend) {
+    _progress.backend = std::move(backend);
+}
+
+void RenderLoop::start(std::shared_ptr<Scene> scene, const std::string& camera,
+                       const RenderSettings& settings, std::shared_ptr<Film> film) {
+    stop();
+    const std::lock_guard<std::mutex> control(_control);
+    _scene = std::move(scene);
+    _film = std::move(film);
+    _settings = settings;
+    _stop = _interrupt = _pause = false;
+    _deviceFailed = _told = false;
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        RenderProgress fresh;
+        fresh.backend = _progress.backend;
+        _progress = fresh;
+        _idle = false;
+    }
+    _running = true;
+    _started = _sampling = _lastCheckpoint = Clock::now();
+    _thread = std::thread(&RenderLoop::run, this, _scene->snapshot(), camera);
+}
+
+void RenderLoop::stop() {
+    const std::lock_guard<std::mutex> control(_control);
+    {
+        // Locked, or waitWhilePaused() could overwrite _interrupt, and a whole pass would go on.
+        const std::lock_guard<std::mutex> lock(_mutex);
+        _stop = _interrupt = true;
+        _pause = false;
+    }
+    _changed.notify_all();
+    if (_thread.joinable()) _thread.join();
+}
+
+void RenderLoop::pause() {
+    std::unique_lock<std::mutex> lock(_mutex);
+    _pause = _interrupt = true;
+    _changed.wait(lock, [&] { return _idle || !_running; });
+}
+
+void RenderLoop::resume() {
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        _pause = false;
+    }
+    _changed.notify_all();
+}
+
+void RenderLoop::wait() {
+    std::unique_lock<std::mutex> lock(_mutex);
+    _changed.wait(lock, [&] { return !_running; });
+}
+
+RenderProgress RenderLoop::progress() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _progress;
+}
+
+void RenderLoop::run(std::shared_ptr<const SceneState> state, std::string camera) {
+    std::string failure;
+    try {
+        prepareAndRender(*state, camera);
+    } catch (const std::exception& error) {
+        failure = error.what();
+    }
+    finish(failure);
+}
+
+void RenderLoop::prepareAndRender(const SceneState& state, const std::string& path) {
+    if (_settings.width < 1 || _settings.height < 1)
+        throw std::runtime_error("the image has no pixels");
+    const auto camera = state.cameras.find(path);
+    if (camera == state.cameras.end()) throw std::runtime_error("there is no camera " + path);
+    for (const dmat4& transform : camera->second->transform.values)
+        if (!hasInverse(mat4(transform)))
+            throw std::runtime_error("the camera " + path + " has a transform without an inverse");
+    render(state, *camera->second);
+}
+
+void RenderLoop::notify() {
+    constexpr double pause = 0.03; // seconds: hosts do not draw more often
+    if (!_listener || (_told && secondsSince(_lastTold) < pause)) return;
+    _told = true;
+    _listener(*_film, progress());
+    _lastTold = Clock::now();
+}
+
+/// The listener hears the end before progress() tells it.
+void RenderLoop::finish(const std::string& failure) {
+    RenderProgress last = progress();
+    if (!failure.empty()) {
+        last.failed = true;
+        last.deviceFailed = _deviceFailed;
+        last.error = failure;
+    } else if (!_stop) {
+        last.converged = true;
+        last.fraction = 1.0;
+        last.secondsLeft = 0.0;
+    }
+    if (_listener && (last.converged || last.failed)) _listener(*_film, last);
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        _progress = last;
+        _running = false;
+        _idle = true;
+    }
+    _changed.notify_all();
+}
+
+bool RenderLoop::waitWhilePaused() {
+    std::unique_lock<std::mutex> lock(_mutex);
+    if (_pause) {
+        _idle = true;
+        _changed.notify_all();
+        _changed.wait(lock, [&] { return !_pause; });
+        _idle = false;
+    }
+    _interrupt = bool(_stop);
+    return !_stop;
+}
+
+bool RenderLoop::wantsCheckpoint() const {
+    return !_settings.checkpointFile.empty() &&
+           secondsSince(_lastCheckpoint) > _settings.checkpointSeconds;
+}
+
+void RenderLoop::maybeCheckpoint() {
+    if (!wantsCheckpoint()) return;
+    try {
+        _film->saveCheckpoint(_settings.checkpointFile);
+    } catch (const std::exception& e) { // a full disk: the render is worth more
+        _scene->diagnostics().warn("", "", e.what());
+    }
+    _lastCheckpoint = Clock::now();
+}
+
+void RenderLoop::reportFraction(RenderProgress& progress, double fraction, int samplesDone) const {
+    progress.fraction = fraction;
+    progress.samplesDone = samplesDone;
+    progress.secondsRendering = secondsSince(_sampling);
+    progress.secondsLeft =
+        fraction > 0.0 ? progress.secondsRendering * (1.0 - fraction) / fraction : 0.0;
+}
+
+std::vector<AovSpec> RenderLoop::writtenAovs() const {
+    std::vector<AovSpec> aovs;
+    for (const std::string& name : _settings.aovs)
+        if (name != "color" && name != "alpha" && name != "sampleCount" && name != "variance")
+            aovs.push_back(standardAov(name));
+    return aovs;
+}
+
+} // namespace patina

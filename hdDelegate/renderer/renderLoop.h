@@ -1,0 +1,97 @@
+#pragma once
+
+#include "hdDelegate/renderer/renderer.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace patina {
+
+/// What every back end does around its samples: a thread that renders one state of the scene, and
+/// is stopped, paused and asked for its progress by others; a listener; checkpoints; a time limit.
+///
+/// A back end overrides render(), and calls stop() first in its destructor.
+class RenderLoop : public Renderer {
+public:
+    void start(std::shared_ptr<Scene> scene, const std::string& camera,
+               const RenderSettings& settings, std::shared_ptr<Film> film) final;
+    void stop() final;
+    void pause() final;
+    void resume() final;
+    bool isRunning() const final { return _running; }
+    void wait() final;
+    RenderProgress progress() const final;
+    void setListener(FilmListener listener) final { _listener = std::move(listener); }
+
+protected:
+    using Clock = std::chrono::steady_clock;
+    static double secondsSince(Clock::time_point start) {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    }
+
+    /// @param backend as RenderProgress::backend names it
+    explicit RenderLoop(std::string backend);
+
+    /// Renders until all is done, the time is out or stopped() is true. On the render thread.
+    /// @throws std::exception with what failed, in one line
+    virtual void render(const SceneState& state, const Camera& camera) = 0;
+    /// Around render(), on the same thread: for what a back end needs before it can begin.
+    /// @throws as render() does, and where the camera or the image's size allow no render
+    virtual void prepareAndRender(const SceneState& state, const std::string& camera);
+    /// Called by an override before it throws: RenderProgress::deviceFailed.
+    void blameDevice() { _deviceFailed = true; }
+
+    bool stopped() const { return _stop; }
+    /// Becomes true as soon as the render is stopped, and when anything is to happen between two
+    /// passes: cuts a pass short.
+    bool interrupted() const { return _interrupt; }
+    void interrupt() { _interrupt = true; }
+    const std::atomic<bool>& stopFlag() const { return _stop; } ///< for builds that poll it
+
+    /// Between passes. @returns false when the render is stopped
+    bool waitWhilePaused();
+    bool wantsCheckpoint() const;
+    void maybeCheckpoint();
+    bool outOfTime() const { ///< RenderSettings::seconds are over
+        return _settings.seconds > 0.0 && secondsSince(_started) > _settings.seconds;
+    }
+    /// Building is over: checkpoints count their time from here on.
+    void beginSampling() { _sampling = _lastCheckpoint = Clock::now(); }
+    /// Changes what progress() tells, under the lock.
+    template <class Change> void report(const Change& change) {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        change(_progress);
+    }
+    /// Of the samples: fraction, times and the estimate that follows from both.
+    void reportFraction(RenderProgress& progress, double fraction, int samplesDone) const;
+    /// The listener hears of the film, unless it did just now.
+    void notify();
+    double secondsSinceStart() const { return secondsSince(_started); }
+    /// AOVs of the settings that a back end writes; the film makes the others.
+    std::vector<AovSpec> writtenAovs() const;
+
+    std::shared_ptr<Scene> _scene;
+    std::shared_ptr<Film> _film;
+    RenderSettings _settings;
+    FilmListener _listener;
+
+private:
+    void run(std::shared_ptr<const SceneState> state, std::string camera);
+    void finish(const std::string& failure);
+
+    std::thread _thread;
+    std::mutex _control; ///< start, stop and wait exclude each other
+    mutable std::mutex _mutex;
+    std::condition_variable _changed;
+    RenderProgress _progress; ///< guarded by _mutex
+    std::atomic<bool> _running{false}, _stop{false}, _interrupt{false}, _pause{false};
+    bool _idle = true; ///< no thread touches the film; guarded by _mutex
+    bool _deviceFailed = false;
+    bool _told = false; ///< the listener heard of this render
+    Clock::time_point _started, _sampling, _lastCheckpoint, _lastTold;
+};
+
+} // namespace patina

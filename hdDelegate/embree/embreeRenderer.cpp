@@ -47,22 +47,20 @@ std::map<std::string, double> EmbreeRenderer::buildCounts() const {
 }
 
 void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) {
-    if (!_textures || _builtFor != _scene) {
+    if (!_compiled || _compiled->scene() != _scene) {
         _builtBefore = buildCounts();
         _lights.reset();
         _lightsKey = LightsKey();
         _embree.reset();
-        _textures = std::make_unique<TextureSystem>(_scene->diagnostics());
-        _lightImages = std::make_unique<LightImages>(_scene->diagnostics());
+        _compiled = CompiledScene::of(_scene);
         _embree = std::make_unique<EmbreeScene>(_scene->diagnostics());
-        _builtFor = _scene;
         _origin = dvec3(0.0);
     }
     // Few scenes are seen so far from the origin that they are built once more; while the camera
     // stays there, the origin does too.
     constexpr int maxMoves = 2;
     for (int i = 0; i <= maxMoves; ++i) {
-        _embree->update(state, camera, _settings, *_textures, stopFlag(), _origin);
+        _embree->update(state, camera, _settings, _compiled->materials(), stopFlag(), _origin);
         if (stopped()) return;
         const dvec3 origin = originOfSeen(*_embree, camera, _settings);
         if (origin == _origin || i == maxMoves) break;
@@ -70,8 +68,8 @@ void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) 
     }
     LightsKey key = makeLightsKey(state, *_embree, camera, _settings);
     if (_lights && key == _lightsKey) return;
-    _lights = std::make_unique<SceneLights>(state, *_embree, camera, _settings, *_lightImages,
-                                            _scene->diagnostics());
+    _lights = std::make_unique<SceneLights>(state, *_embree, camera, _settings,
+                                            _compiled->lightImages(), _scene->diagnostics());
     _lightsKey = std::move(key);
     ++_lightsBuilt;
 }

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "hdDelegate/compiled/compiledScene.h"
 #include "hdDelegate/embree/embreeScene.h"
 #include "hdDelegate/embree/integrator.h"
 #include "hdDelegate/embree/lightsKey.h"
 #include "hdDelegate/embree/tileSchedule.h"
-#include "hdDelegate/image/textureSystem.h"
 #include "hdDelegate/renderer/renderLoop.h"
 
 #include <atomic>
@@ -25,10 +25,8 @@ private:
     void publish(const TileSchedule& schedule);
 
     // Kept between renders, so that an edit rebuilds only what it touched.
-    std::shared_ptr<Scene> _builtFor;
+    std::shared_ptr<CompiledScene> _compiled;
     std::unique_ptr<EmbreeScene> _embree;
-    std::unique_ptr<TextureSystem> _textures;
-    std::unique_ptr<LightImages> _lightImages;
     LightsKey _lightsKey;
     std::unique_ptr<SceneLights> _lights;
     std::map<std::string, double> _builtBefore; ///< counts of scenes rendered earlier

@@ -63,7 +63,7 @@ int EmbreeScene::category(const std::string& name) const {
 }
 
 void EmbreeScene::update(const SceneState& state, const Camera& camera, const RenderSettings& asked,
-                         TextureSource& textures, const std::atomic<bool>& stop,
+                         CompiledMaterials& materials, const std::atomic<bool>& stop,
                          const dvec3& origin) {
     RenderSettings settings = asked;
     const float open = float(camera.shutterOpen);
@@ -108,7 +108,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera, const Re
     std::set<std::string> drawn;
     size_t primRank = 0;
     std::map<std::string, std::vector<mat4>> transformsOf;
-    settings.edgeLength = planSubdivision(state, rays, settings, textures);
+    settings.edgeLength = planSubdivision(state, rays, settings, materials);
     for (const auto& item : state.geometry) {
         const auto& prim = item.second;
         const int rank = int(primRank++);
@@ -118,13 +118,13 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera, const Re
             continue;
         }
         drawn.insert(item.first);
-        Programs moved = displacers(*prim, state, settings, textures);
+        Programs moved = displacers(*prim, state, settings, materials);
         float edge = targetEdge(*prim, !moved.empty(), camera, rays, settings, transformsOf);
         std::optional<ShapeKey> key;
         // Prims of prototypes are shared already, and Embree may know a single level of instances.
         // Lights are made of the triangles that there are, and displacement of many.
         if (prim->kind == GeometryKind::Implicit && prim->group.empty() && moved.empty() &&
-            !meshLights.count(item.first) && !glows(*prim, state, settings, textures)) {
+            !meshLights.count(item.first) && !glows(*prim, state, settings, materials)) {
             const Implicit& shape = static_cast<const Implicit&>(*prim);
             edge = roundEdge(shape, camera, rays);
             key = SharedShapes::keyOf(shape, edge);
@@ -165,11 +165,11 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera, const Re
         surface.categories = intern(surface.prim->categories);
         surface.materials.clear();
         surface.materials.push_back(
-            makeSlot(surface, surface.prim->material, state, settings, textures));
+            makeSlot(surface, surface.prim->material, state, settings, materials));
         for (const GeomSubset& subset : surface.prim->subsets)
             surface.materials.push_back(makeSlot(
                 surface, subset.material.empty() ? surface.prim->material : subset.material, state,
-                settings, textures));
+                settings, materials));
         for (const MaterialSlot& slot : surface.materials) {
             _allOpaque &= slot.opaque;
             _hasMedia |= slot.program->hasInterior();
@@ -191,12 +191,12 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera, const Re
     _boundsMax = vec3(bounds.upper_x, bounds.upper_y, bounds.upper_z);
     const auto volumeProgram = [&](const Volume& prim, const Network& plain) {
         if (!prim.material.empty()) {
-            auto own = program(prim.material, prim.path, state, settings, textures);
+            auto own = program(prim.material, prim.path, state, settings, materials);
             if (own->hasInterior()) return own;
             _diagnostics.warn(prim.path, "material:binding",
                               "the material is not a volume; a white one is shown");
         }
-        if (!_plainVolume) _plainVolume = compileMaterial(plain, textures, _diagnostics);
+        if (!_plainVolume) _plainVolume = materials.compile(plain);
         return _plainVolume;
     };
     _volumes.update(

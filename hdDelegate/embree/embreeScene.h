@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hdDelegate/compiled/compiledMaterials.h"
 #include "hdDelegate/embree/embreeGroup.h"
 #include "hdDelegate/embree/surfaceSpace.h"
 #include "hdDelegate/embree/media/volumeScene.h"
@@ -8,7 +9,6 @@
 #include "hdDelegate/plan/scenePlan.h"
 #include "hdDelegate/plan/subdivisionPlan.h"
 #include "hdDelegate/scene/settings.h"
-#include "materialNetwork/textureSource.h"
 
 #include <atomic>
 #include <map>
@@ -52,7 +52,7 @@ public:
     /// @param origin in the world: all places and rays are relative to it, those of instances
     /// inside of groups aside
     void update(const SceneState& state, const Camera& camera, const RenderSettings& settings,
-                TextureSource& textures, const std::atomic<bool>& stop,
+                CompiledMaterials& materials, const std::atomic<bool>& stop,
                 const dvec3& origin = dvec3(0.0));
     const dvec3& origin() const { return _origin; }
 
@@ -103,17 +103,17 @@ private:
     std::vector<int> intern(const std::vector<std::string>& categories);
     MaterialSlot makeSlot(const Surface& surface, const std::string& materialPath,
                           const SceneState& state, const RenderSettings& settings,
-                          TextureSource& textures);
+                          CompiledMaterials& materials);
     std::shared_ptr<const MaterialProgram> program(const std::string& path, const std::string& user,
                                                    const SceneState& state,
                                                    const RenderSettings& settings,
-                                                   TextureSource& textures);
+                                                   CompiledMaterials& materials);
     /// The programs of a prim's materials as displace() takes them; empty when none displaces.
     Programs displacers(const Geometry& prim, const SceneState& state,
-                        const RenderSettings& settings, TextureSource& textures);
+                        const RenderSettings& settings, CompiledMaterials& materials);
     /// Chooses how long edges of subdivision surfaces are on screen. @returns pixels
     float planSubdivision(const SceneState& state, const CameraRays& rays,
-                          const RenderSettings& settings, TextureSource& textures);
+                          const RenderSettings& settings, CompiledMaterials& materials);
     /// How long the edges of a tessellated prim may be, in its own space: --edgeLength pixels where
     /// it is nearest, rounded to a power of two so that small moves of the camera change nothing.
     /// 0: it is drawn as it is.
@@ -126,7 +126,7 @@ private:
     float roundEdge(const Implicit& prim, const Camera& camera, const CameraRays& rays) const;
     /// Whether a material of a prim makes it a light.
     bool glows(const Geometry& prim, const SceneState& state, const RenderSettings& settings,
-               TextureSource& textures);
+               CompiledMaterials& materials);
     /// Not baked yet.
     std::shared_ptr<Surface> shape(const std::shared_ptr<const Geometry>& prim, float edgeLength,
                                    const Programs& displacers) const;

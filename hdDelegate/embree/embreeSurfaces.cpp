@@ -25,7 +25,7 @@ float maxScale(const mat4& m) {
 } // namespace
 
 float EmbreeScene::planSubdivision(const SceneState& state, const CameraRays& rays,
-                                   const RenderSettings& settings, TextureSource& textures) {
+                                   const RenderSettings& settings, CompiledMaterials& materials) {
     const ScreenScale screen{vec3(glm::inverse(rays.worldToCamera())[3]), !rays.orthographic(),
                              rays.pixelSpread(), rays.camera().clipNear,
                              double(settings.width) * settings.height};
@@ -37,7 +37,7 @@ float EmbreeScene::planSubdivision(const SceneState& state, const CameraRays& ra
         for (mat4& place : places)
             place = place * interpolate(prim.transform, 0.0f, originOf(prim.group));
         plan.add(CageSize(static_cast<const Mesh&>(prim)), places,
-                 program(prim.material, prim.path, state, settings, textures)->planned());
+                 program(prim.material, prim.path, state, settings, materials)->planned());
     }
     _subdivision = plan.chosen();
     return plan.edgeLength();
@@ -142,10 +142,10 @@ float EmbreeScene::roundEdge(const Implicit& prim, const Camera& camera,
 }
 
 bool EmbreeScene::glows(const Geometry& prim, const SceneState& state,
-                        const RenderSettings& settings, TextureSource& textures) {
+                        const RenderSettings& settings, CompiledMaterials& materials) {
     const auto material = [&](const std::string& path) {
         return state.materials.count(path) > 0 &&
-               program(path, prim.path, state, settings, textures)->hasEmission();
+               program(path, prim.path, state, settings, materials)->hasEmission();
     };
     return material(prim.material) ||
            std::any_of(prim.subsets.begin(), prim.subsets.end(), [&](const GeomSubset& subset) {
@@ -212,16 +212,8 @@ void EmbreeScene::updateSurface(CachedSurface& cached, const std::shared_ptr<con
 
 std::shared_ptr<const MaterialProgram>
 EmbreeScene::program(const std::string& path, const std::string& user, const SceneState& state,
-                     const RenderSettings& settings, TextureSource& textures) {
-    std::shared_ptr<const MaterialPrim> prim;
-    if (!path.empty() && settings.enableSceneMaterials) {
-        const auto found = state.materials.find(path);
-        if (found != state.materials.end())
-            prim = found->second;
-        else
-            _diagnostics.warn(user, "material:binding",
-                              "material " + path + " does not exist; displayColor is shown");
-    }
+                     const RenderSettings& settings, CompiledMaterials& materials) {
+    const auto prim = materials.find(path, user, state, settings);
     const std::string key = prim ? path : std::string();
     CachedProgram& cached = _programs[key];
     if (!cached.program || cached.prim != prim || cached.methods != settings.methods ||
@@ -230,16 +222,14 @@ EmbreeScene::program(const std::string& path, const std::string& user, const Sce
         cached.tolerance = settings.tolerance;
         cached.methods = settings.methods;
         ++_counts.programs;
-        cached.program = compileMaterial(
-            prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork(), textures,
-            _diagnostics, settings.methods, settings.tolerance);
+        cached.program = materials.program(prim, settings.methods, settings.tolerance);
     }
     return cached.program;
 }
 
 EmbreeScene::Programs EmbreeScene::displacers(const Geometry& prim, const SceneState& state,
                                               const RenderSettings& settings,
-                                              TextureSource& textures) {
+                                              CompiledMaterials& materials) {
     if (prim.kind != GeometryKind::Mesh && prim.kind != GeometryKind::Implicit) return {};
     const auto mayDisplace = [&](const std::string& path) {
         const auto found = state.materials.find(path);
@@ -249,7 +239,7 @@ EmbreeScene::Programs EmbreeScene::displacers(const Geometry& prim, const SceneS
     bool any = false;
     Programs result;
     const auto add = [&](const std::string& path) {
-        result.push_back(mayDisplace(path) ? program(path, prim.path, state, settings, textures)
+        result.push_back(mayDisplace(path) ? program(path, prim.path, state, settings, materials)
                                            : nullptr);
         any |= result.back() && result.back()->hasDisplacement();
     };
@@ -261,9 +251,9 @@ EmbreeScene::Programs EmbreeScene::displacers(const Geometry& prim, const SceneS
 
 MaterialSlot EmbreeScene::makeSlot(const Surface& surface, const std::string& materialPath,
                                    const SceneState& state, const RenderSettings& settings,
-                                   TextureSource& textures) {
+                                   CompiledMaterials& materials) {
     MaterialSlot slot;
-    slot.program = program(materialPath, surface.prim->path, state, settings, textures);
+    slot.program = program(materialPath, surface.prim->path, state, settings, materials);
     for (const auto& primvar : slot.program->primvars())
         slot.attributes.push_back(surface.findAttribute(primvar.name));
     slot.opaque = slot.program->isOpaqueWith(slot.attributes);

@@ -46,6 +46,7 @@ std::shared_ptr<const EnvironmentMap> LightImages::environment(const std::string
                                                                const std::string& prim,
                                                                const std::string& input) {
     const std::string key = std::to_string(int(format)) + '\n' + colorSpace + '\n' + file;
+    const std::lock_guard<std::mutex> building(_building);
     {
         std::lock_guard<std::mutex> lock(_mutex);
         const auto found = _environments.find(key);

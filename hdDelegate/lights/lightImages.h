@@ -33,6 +33,7 @@ public:
 private:
     Loader _loader;
     std::mutex _mutex;
+    std::mutex _building; ///< of environments: who waits for one shares it
     std::map<std::string, std::shared_ptr<const ImageRGB>> _images;
     std::map<std::string, std::shared_ptr<const EnvironmentMap>> _environments;
 };

@@ -46,9 +46,8 @@ private:
         _lights.reset();
         _passes.reset();
         _raster.reset();
-        _images.reset();
         _domes.reset();
-        _builtFor.reset();
+        _compiled.reset();
     }
 
     void prepareAndRender(const SceneState& state, const std::string& camera) override {
@@ -76,7 +75,7 @@ private:
 
     /// @param standIns shows displayColor where programs are not ready, instead of waiting
     void build(const SceneState& state, const RasterCamera& camera, bool standIns) {
-        if (_builtFor != _scene) {
+        if (!_compiled || _compiled->scene() != _scene) {
             release();
             std::string error;
             _passes = std::make_unique<RasterPasses>(error);
@@ -84,11 +83,10 @@ private:
                 throw DeviceError("the driver does not take the shaders: " + oneLine(error));
             _passes->setFirstDraws(
                 [this] { report([](RenderProgress& p) { ++p.statistics["materialsDrawn"]; }); });
+            _compiled = CompiledScene::of(_scene);
             if (!_compiler) _compiler = std::make_unique<ProgramCompiler>(*_context, helpers());
-            _raster = std::make_unique<RasterScene>(_scene->diagnostics(), _compiler.get());
-            _images = std::make_unique<LightImages>(_scene->diagnostics());
+            _raster = std::make_unique<RasterScene>(*_compiled, _compiler.get());
             _domes = std::make_unique<RasterDomes>();
-            _builtFor = _scene;
         }
         std::function<void(const RasterMaterials::Ready&)> compiling;
         if (!standIns)
@@ -101,7 +99,7 @@ private:
         RasterInstances places(state, _settings, camera.timeCode(0.5f), _origin);
         _lights = std::make_unique<RasterLights>(
             state, _settings, places, camera.timeCode(0.5f), domeSamples, _raster->domeMethods(),
-            *_images, *_domes, _raster->categories(), _scene->diagnostics());
+            _compiled->lightImages(), *_domes, _raster->categories(), _scene->diagnostics());
     }
 
     /// Threads that compile beside this one.
@@ -143,9 +141,9 @@ private:
             }
             std::shared_ptr<const EnvironmentMap> map;
             if (!light.textureFile.empty())
-                map = _images->environment(light.textureFile, light.textureColorSpace,
-                                           environmentFormat(light.textureFormat), light.path,
-                                           "inputs:texture:file");
+                map = _compiled->lightImages().environment(
+                    light.textureFile, light.textureColorSpace,
+                    environmentFormat(light.textureFormat), light.path, "inputs:texture:file");
             plan.addDome(map.get());
         }
         return plan;
@@ -334,13 +332,11 @@ private:
 
     std::unique_ptr<EglContext> _context;
     std::unique_ptr<ProgramCompiler> _compiler; ///< goes before its context
-    std::shared_ptr<Scene> _builtFor;
-
     // Kept between renders, so that an edit rebuilds less than everything.
+    std::shared_ptr<CompiledScene> _compiled;
     std::unique_ptr<RasterPasses> _passes;
     std::unique_ptr<RasterScene> _raster;
     std::unique_ptr<RasterLights> _lights;
-    std::unique_ptr<LightImages> _images;
     std::unique_ptr<RasterDomes> _domes;
 
     vec3 _origin{0.0f};                         ///< see RasterScene::update()

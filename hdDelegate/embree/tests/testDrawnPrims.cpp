@@ -43,6 +43,7 @@ struct Built {
     Camera camera;
     RenderSettings settings;
     TextureSystem textures{scene.diagnostics()};
+    CompiledMaterials materials{textures, scene.diagnostics()};
     EmbreeScene embree{scene.diagnostics()};
     std::atomic<bool> stop{false};
     Hit hit;
@@ -53,7 +54,7 @@ struct Built {
     void setMesh(const std::shared_ptr<Mesh>& prim) {
         scene.edit().set(std::shared_ptr<const Geometry>(prim));
     }
-    void update() { embree.update(*scene.snapshot(), camera, settings, textures, stop); }
+    void update() { embree.update(*scene.snapshot(), camera, settings, materials, stop); }
     bool seen(float x, unsigned mask = RayCamera) {
         return embree.intersect({x, 0.1f, 5}, {0, 0, -1}, 0, INFINITY, 0, mask, hit);
     }

@@ -38,10 +38,11 @@ struct Built {
     Camera camera;
     RenderSettings settings;
     TextureSystem textures{scene.diagnostics()};
+    CompiledMaterials materials{textures, scene.diagnostics()};
     EmbreeScene embree{scene.diagnostics()};
     std::atomic<bool> stop{false};
 
-    void update() { embree.update(*scene.snapshot(), camera, settings, textures, stop); }
+    void update() { embree.update(*scene.snapshot(), camera, settings, materials, stop); }
     bool hit(const vec3& origin, const vec3& direction, Hit& out, float time = 0.0f) {
         return embree.intersect(origin, direction, 0, INFINITY, time, RayCamera, out);
     }

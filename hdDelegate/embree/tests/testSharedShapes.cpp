@@ -16,10 +16,11 @@ struct Built {
     Camera camera;
     RenderSettings settings;
     TextureSystem textures{scene.diagnostics()};
+    CompiledMaterials materials{textures, scene.diagnostics()};
     EmbreeScene embree{scene.diagnostics()};
     std::atomic<bool> stop{false};
 
-    void update() { embree.update(*scene.snapshot(), camera, settings, textures, stop); }
+    void update() { embree.update(*scene.snapshot(), camera, settings, materials, stop); }
 };
 
 mat4 placeOf(int i) {

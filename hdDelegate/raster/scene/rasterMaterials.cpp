@@ -2,7 +2,6 @@
 
 #include "hdDelegate/raster/gl/deviceError.h"
 #include "hdDelegate/raster/gl/glFaults.h"
-#include "materialNetwork/material.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -34,9 +33,9 @@ std::string lightingText(const std::string& dome, const std::string& area) {
 
 } // namespace
 
-RasterMaterials::RasterMaterials(Diagnostics& diagnostics, ProgramCompiler* compiler)
-    : _compiler(compiler), _diagnostics(diagnostics), _textures(diagnostics),
-      _uploaded(_textures, diagnostics) {}
+RasterMaterials::RasterMaterials(CompiledScene& compiled, ProgramCompiler* compiler)
+    : _compiler(compiler), _diagnostics(compiled.scene()->diagnostics()),
+      _compiledMaterials(compiled.materials()), _uploaded(compiled.textures(), _diagnostics) {}
 
 void RasterMaterials::update(const SceneState& state, const RenderSettings& settings,
                              const RasterLightPlan& lights) {
@@ -70,15 +69,7 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
 RasterMaterials::Cached& RasterMaterials::compiled(const std::string& path, const std::string& user,
                                                    const SceneState& state,
                                                    const RenderSettings& settings) {
-    std::shared_ptr<const MaterialPrim> prim;
-    if (!path.empty() && settings.enableSceneMaterials) {
-        const auto found = state.materials.find(path);
-        if (found != state.materials.end())
-            prim = found->second;
-        else
-            _diagnostics.warn(user, "material:binding",
-                              "material " + path + " does not exist; displayColor is shown");
-    }
+    const auto prim = _compiledMaterials.find(path, user, state, settings);
     const std::string key = prim ? path : std::string();
     const auto known = _materials.find(key);
     if (known != _materials.end()) return known->second;
@@ -86,9 +77,8 @@ RasterMaterials::Cached& RasterMaterials::compiled(const std::string& path, cons
     cached.prim = prim;
     cached.methods = settings.methods;
     cached.tolerance = settings.tolerance;
-    cached.material.program = compileMaterial(
-        prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork(), _textures,
-        _diagnostics, drawable(settings.methods, settings.tolerance), settings.tolerance);
+    cached.material.program = _compiledMaterials.program(
+        prim, drawable(settings.methods, settings.tolerance), settings.tolerance);
     return cached;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hdDelegate/image/textureSystem.h"
+#include "hdDelegate/compiled/compiledScene.h"
 #include "hdDelegate/plan/scenePlan.h"
 #include "hdDelegate/raster/gl/glProgram.h"
 #include "hdDelegate/raster/gl/glResources.h"
@@ -54,7 +54,7 @@ public:
     };
 
     /// @param compiler of programs; null: this thread compiles them
-    explicit RasterMaterials(Diagnostics& diagnostics, ProgramCompiler* compiler = nullptr);
+    explicit RasterMaterials(CompiledScene& compiled, ProgramCompiler* compiler = nullptr);
 
     /// Lets a material be compiled that get() will be asked for.
     void prepare(const std::string& path, const SceneState& state, const RenderSettings& settings);
@@ -130,7 +130,7 @@ private:
     std::set<std::string> _domeMethods;
     int _environmentSamples = 0; ///< 0: nobody has said how many
     Diagnostics& _diagnostics;
-    TextureSystem _textures;
+    CompiledMaterials& _compiledMaterials;
     std::map<std::string, Cached> _materials;
     std::map<std::string, std::shared_ptr<PendingPrograms>> _programs; ///< by text
     bool _showStandIns = false;

@@ -52,9 +52,9 @@ public:
     static constexpr int deformationSteps = 8;
 
     /// @param compiler see RasterMaterials
-    explicit RasterScene(Diagnostics& diagnostics, ProgramCompiler* compiler = nullptr)
-        : _diagnostics(diagnostics), _materials(diagnostics, compiler), _shapes(diagnostics),
-          _volumes(diagnostics) {}
+    explicit RasterScene(CompiledScene& compiled, ProgramCompiler* compiler = nullptr)
+        : _diagnostics(compiled.scene()->diagnostics()), _materials(compiled, compiler),
+          _shapes(_diagnostics), _volumes(compiled.materials(), _diagnostics) {}
 
     /// @param origin that all places are relative to, those of the camera too: numbers of 32 bits
     /// are too coarse for shadows where places are large beside what is seen

@@ -41,14 +41,13 @@ void RasterVolumes::build(Cached& cached, const RenderSettings& settings) {
     cached.volumes.clear();
     std::shared_ptr<const MaterialProgram> program;
     if (cached.material && !cached.material->network.empty())
-        program = compileMaterial(cached.material->network, _textures, _diagnostics,
-                                  settings.methods, settings.tolerance);
+        program = _materials.program(cached.material, settings.methods, settings.tolerance);
     if (program && !program->hasInterior()) {
         _diagnostics.warn(cached.prim->path, "material:binding",
                           "the material is not a volume; a white one is shown");
         program = nullptr;
     }
-    if (!program) program = compileMaterial(plainVolume(), _textures, _diagnostics);
+    if (!program) program = _materials.compile(plainVolume());
     const VolumeMedium medium(*cached.prim, program, _diagnostics);
     if (medium.empty()) return;
     const vec3 low = medium.boundsMin(), extent = medium.boundsMax() - low;

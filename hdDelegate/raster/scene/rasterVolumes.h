@@ -1,10 +1,9 @@
 #pragma once
 
-#include "hdDelegate/image/textureSystem.h"
+#include "hdDelegate/compiled/compiledMaterials.h"
 #include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
-#include "materialNetwork/cpu/materialProgram.h"
 
 #include <map>
 #include <memory>
@@ -24,8 +23,8 @@ struct RasterVolume {
 /// The volume prims of a scene.
 class RasterVolumes {
 public:
-    explicit RasterVolumes(Diagnostics& diagnostics)
-        : _diagnostics(diagnostics), _textures(diagnostics) {}
+    RasterVolumes(CompiledMaterials& materials, Diagnostics& diagnostics)
+        : _diagnostics(diagnostics), _materials(materials) {}
 
     /// Begins an update; what add() does not name again is forgotten by end().
     void begin() { _placed.clear(); }
@@ -49,7 +48,7 @@ private:
     void build(Cached& cached, const RenderSettings& settings);
 
     Diagnostics& _diagnostics;
-    TextureSystem _textures;
+    CompiledMaterials& _materials;
     std::map<std::string, Cached> _cache; ///< by path
     std::vector<const RasterVolume*> _placed;
 };

@@ -1,0 +1,54 @@
+#include "hdDelegate/compiled/compiledMaterials.h"
+
+#include <chrono>
+
+namespace patina {
+
+std::shared_ptr<const MaterialPrim> CompiledMaterials::find(const std::string& path,
+                                                            const std::string& user,
+                                                            const SceneState& state,
+                                                            const RenderSettings& settings) const {
+    if (path.empty() || !settings.enableSceneMaterials) return nullptr;
+    const auto found = state.materials.find(path);
+    if (found != state.materials.end()) return found->second;
+    _diagnostics.warn(user, "material:binding",
+                      "material " + path + " does not exist; displayColor is shown");
+    return nullptr;
+}
+
+std::shared_ptr<const MaterialProgram>
+CompiledMaterials::program(const std::shared_ptr<const MaterialPrim>& prim,
+                           const MethodChoices& methods, double tolerance) {
+    std::promise<Program> promise;
+    {
+        std::unique_lock<std::mutex> lock(_mutex);
+        const auto range = _entries.equal_range(prim.get());
+        for (auto it = range.first; it != range.second; ++it) {
+            const Entry& entry = it->second;
+            if (entry.methods != methods || entry.tolerance != tolerance) continue;
+            const std::shared_future<Program> known = entry.program;
+            lock.unlock();
+            return known.get();
+        }
+        const auto unused = [](const std::shared_future<Program>& program) {
+            return program.wait_for(std::chrono::seconds(0)) == std::future_status::ready &&
+                   program.get().use_count() == 1;
+        };
+        for (auto it = _entries.begin(); it != _entries.end();)
+            it = unused(it->second.program) ? _entries.erase(it) : std::next(it);
+        _entries.emplace(prim.get(), Entry{prim, methods, tolerance, promise.get_future().share()});
+        ++_built;
+    }
+    Program program =
+        compileMaterial(prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork(),
+                        _textures, _diagnostics, methods, tolerance);
+    promise.set_value(program);
+    return program;
+}
+
+size_t CompiledMaterials::programsBuilt() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _built;
+}
+
+} // namespace patina

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/settings.h"
+#include "materialNetwork/material.h"
+
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// The programs of a scene's materials, each compiled once for all who ask for it. Thread safe.
+class CompiledMaterials {
+public:
+    CompiledMaterials(TextureSource& textures, Diagnostics& diagnostics)
+        : _textures(textures), _diagnostics(diagnostics) {}
+
+    /// The material that a prim is bound to.
+    /// @param path empty: none is bound
+    /// @param user the prim, which is named where there is no such material
+    /// @returns null where displayColor is shown
+    std::shared_ptr<const MaterialPrim> find(const std::string& path, const std::string& user,
+                                             const SceneState& state,
+                                             const RenderSettings& settings) const;
+
+    /// Its program, which is kept for as long as anybody holds it.
+    /// @param prim null: displayColor
+    /// @param methods, tolerance as compileMaterial() takes them
+    std::shared_ptr<const MaterialProgram> program(const std::shared_ptr<const MaterialPrim>& prim,
+                                                   const MethodChoices& methods, double tolerance);
+
+    /// The program of what is no material of the scene.
+    std::shared_ptr<const MaterialProgram> compile(const Network& network) const {
+        return compileMaterial(network, _textures, _diagnostics);
+    }
+
+    size_t programsBuilt() const; ///< by program(), since this was made
+
+private:
+    using Program = std::shared_ptr<const MaterialProgram>;
+    struct Entry {
+        std::shared_ptr<const MaterialPrim> prim;
+        MethodChoices methods;
+        double tolerance;
+        std::shared_future<Program> program;
+    };
+
+    TextureSource& _textures;
+    Diagnostics& _diagnostics;
+    mutable std::mutex _mutex;
+    std::multimap<const MaterialPrim*, Entry> _entries;
+    size_t _built = 0;
+};
+
+} // namespace patina

@@ -1,0 +1,75 @@
+#include "hdDelegate/compiled/compiledMaterials.h"
+#include "hdDelegate/image/textureSystem.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace patina {
+namespace {
+
+class CompiledMaterialsTest : public ::testing::Test {
+protected:
+    static std::shared_ptr<const MaterialPrim> material(const std::string& path) {
+        auto prim = std::make_shared<MaterialPrim>();
+        prim->path = path;
+        prim->network = makeDisplayColorNetwork();
+        return prim;
+    }
+
+    Diagnostics diagnostics;
+    TextureSystem textures{diagnostics};
+    CompiledMaterials materials{textures, diagnostics};
+};
+
+TEST_F(CompiledMaterialsTest, SharesTheProgramOfOneMaterial) {
+    const auto prim = material("/a");
+    const auto first = materials.program(prim, {}, -1.0);
+    EXPECT_EQ(materials.program(prim, {}, -1.0), first);
+    EXPECT_EQ(materials.programsBuilt(), 1u);
+    EXPECT_NE(materials.program(material("/a"), {}, -1.0), first) << "an edit makes a new prim";
+    EXPECT_EQ(materials.programsBuilt(), 2u);
+}
+
+TEST_F(CompiledMaterialsTest, CompilesForEachChoiceOfMethods) {
+    const auto prim = material("/a");
+    const auto plain = materials.program(prim, {}, -1.0);
+    EXPECT_NE(materials.program(prim, {{"sheen", "fitted"}}, -1.0), plain);
+    EXPECT_NE(materials.program(prim, {}, 0.01), plain);
+    EXPECT_EQ(materials.program(prim, {}, -1.0), plain);
+}
+
+TEST_F(CompiledMaterialsTest, ForgetsWhatNobodyHolds) {
+    const auto prim = material("/a");
+    materials.program(prim, {}, -1.0);
+    const auto other = materials.program(material("/b"), {}, -1.0); // looks for what is unused
+    EXPECT_EQ(prim.use_count(), 1) << "the material is still held";
+    const auto again = materials.program(prim, {}, -1.0);
+    EXPECT_EQ(materials.programsBuilt(), 3u);
+}
+
+TEST_F(CompiledMaterialsTest, CompilesOnceForThreadsThatAskTogether) {
+    const auto prim = material("/a");
+    std::vector<std::shared_ptr<const MaterialProgram>> programs(8);
+    std::vector<std::thread> threads;
+    for (auto& program : programs)
+        threads.emplace_back([&] { program = materials.program(prim, {}, -1.0); });
+    for (std::thread& thread : threads)
+        thread.join();
+    for (const auto& program : programs)
+        EXPECT_EQ(program, programs[0]);
+    EXPECT_EQ(materials.programsBuilt(), 1u);
+}
+
+TEST_F(CompiledMaterialsTest, NamesThePrimOfAMaterialThatIsNotThere) {
+    Scene scene;
+    EXPECT_EQ(materials.find("/none", "/user", *scene.snapshot(), RenderSettings()), nullptr);
+    ASSERT_EQ(diagnostics.all().size(), 1u);
+    EXPECT_EQ(diagnostics.all()[0].prim, "/user");
+    EXPECT_NE(diagnostics.all()[0].message.find("/none"), std::string::npos);
+    EXPECT_EQ(materials.find("", "/user", *scene.snapshot(), RenderSettings()), nullptr);
+    EXPECT_EQ(diagnostics.all().size(), 1u) << "no material is no mistake";
+}
+
+} // namespace
+} // namespace patina

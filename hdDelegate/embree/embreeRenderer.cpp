@@ -258,10 +258,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         _progress.statistics["maxDepth"] = plan.depth(_settings);
     }
 
-    std::vector<AovSpec> aovs;
-    for (const std::string& name : _settings.aovs)
-        if (name != "color" && name != "alpha" && name != "sampleCount" && name != "variance")
-            aovs.push_back(standardAov(name));
+    const std::vector<AovSpec> aovs = renderedAovs(_settings.aovs);
     _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
 
     const CameraRays rays(camera, _settings, _origin);

@@ -261,10 +261,7 @@ private:
                               std::to_string(_settings.width) + " x " +
                               std::to_string(_settings.height) + " pixels");
         checkDevice(0);
-        std::vector<AovSpec> aovs;
-        for (const std::string& name : _settings.aovs)
-            if (name != "color" && name != "alpha" && name != "sampleCount" && name != "variance")
-                aovs.push_back(standardAov(name));
+        const std::vector<AovSpec> aovs = renderedAovs(_settings.aovs);
         _passes->clearSeconds();
         _passes->drawAovs(*_raster, camera);
         if (const vec3 origin = _passes->originOfSeen(*_raster); origin != _origin) {

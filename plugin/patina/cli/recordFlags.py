@@ -1,14 +1,14 @@
 """The flags of `patina record`, and the render settings that they mean."""
 import math
 
-from patina.cli import denoiser, frames, methods, overrides, settingFlags
+from patina.cli import denoiser, frames, methods, overrides, rows, settingFlags
 from patina.cli.errors import UsageError
 
 COMPLEXITIES = {"low": 1.0, "medium": 1.1, "high": 1.2, "veryhigh": 1.3}
 DEFAULT_SAMPLES = 64
 MAX_SAMPLES = 65536  # where only --tolerance or --seconds ends the render
-ALL_AOVS = ("depth", "cameraDepth", "normal", "Neye", "position", "albedo", "primvars:st", "primId", "instanceId",
-            "elementId", "sampleCount", "variance")
+ALL_AOVS = tuple(name for row in rows.read("hdDelegate/film/aovs.def", "AOV") if "all" in row.words
+                 for name in row.words["all"] or [row.values[0]])
 LARGEST_SIZE = 65536
 MAX_PIXELS = 1 << 28
 _TEXTS = {"DEFAULT_SAMPLES": DEFAULT_SAMPLES, "MAX_SAMPLES": MAX_SAMPLES}  # of helps in the table of settings

@@ -16,6 +16,9 @@ class Row:
     values: tuple  # what stands before the words, as it is written
     words: dict  # word -> list of arguments: texts and numbers
 
+    def text(self, i):
+        return _argument(self.values[i])
+
 
 @functools.lru_cache(maxsize=None)
 def read(path, macro):

@@ -15,10 +15,12 @@ TEST(SettingRows, AreEachFieldOnceWithADefaultThatIsTaken) {
         std::visit(
             [&](auto member) {
                 using T = std::decay_t<decltype(defaults.*member)>;
+                bool taken = true;
                 if constexpr (std::is_arithmetic_v<T>)
-                    EXPECT_TRUE(row.takes(double(defaults.*member))) << row.name;
+                    taken = row.takes(double(defaults.*member));
                 else if constexpr (std::is_same_v<T, std::string>)
-                    EXPECT_TRUE(row.takes(defaults.*member)) << row.name;
+                    taken = row.takes(defaults.*member);
+                EXPECT_TRUE(taken) << row.name;
             },
             row.member);
     }

@@ -19,7 +19,7 @@ struct AovSpec {
     float clearValue = 0.0f; ///< of pixels that no sample reached
     bool isInteger = false;  ///< ids: stored as float bits of int32 (glm::intBitsToFloat)
     AovId id = AovId::unknown;
-    std::string primvar; ///< NAME of primvars:NAME
+    std::string primvar = {}; ///< NAME of primvars:NAME
 };
 
 /// The standard spec of an AOV by name.

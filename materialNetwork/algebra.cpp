@@ -106,7 +106,7 @@ bool foldPattern(const GraphNode& node, std::vector<Value>& outputs) {
     data.size = std::max(
         1, valueTypeComponents(def.inputs.empty() ? ValueType::Float : def.inputs[0].type));
     const PatternContext context;
-    def.function({registers, inputs, uint16_t(first), data, context});
+    def.pattern->function({registers, inputs, uint16_t(first), data, context});
     for (size_t k = 0; k < def.outputs.size(); ++k) {
         Value value;
         value.type = def.outputs[k].type;

@@ -85,7 +85,7 @@ struct NodeDef {
     std::vector<InputDef> inputs;
     std::vector<OutputDef> outputs;
     ClosureKind closure = ClosureKind::None;
-    PatternFunction function = nullptr;
+    const Pattern* pattern = nullptr; ///< null for closures, and for strings
     PatternPrepare prepare = nullptr; ///< reads strings, opens textures, asks for primvars
     bool varying = false;             ///< reads the shading point, so it cannot be folded
     Algebra algebra = Algebra::None;

@@ -140,7 +140,7 @@ void NodeTable::addOne(const NodeRow& row, const std::string& type) {
         def->outputs.push_back({space == std::string::npos ? "out" : text.substr(space + 1),
                                 valueTypeFromName(text.substr(0, space))});
     }
-    def->function = row.function;
+    def->pattern = row.pattern.pattern;
     def->prepare = row.prepare;
     def->algebra = row.algebra;
     def->varying = row.varying;

@@ -2,12 +2,21 @@
 
 #include "materialNetwork/nodeDef.h"
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace patina {
+
+/// A pattern, or none; rows name it.
+struct PatternRef {
+    constexpr PatternRef(std::nullptr_t = nullptr) {}
+    constexpr PatternRef(const Pattern& named) : pattern(&named) {}
+
+    const Pattern* pattern = nullptr;
+};
 
 /// One row of the table of node definitions, as it is written in materialNetwork/nodes.
 ///
@@ -18,8 +27,8 @@ struct NodeRow {
     const char* id;
     const char* category;
     const char* inputs;
-    const char* outputs; ///< "float out" or just "float", which is named out
-    PatternFunction function = nullptr;
+    const char* outputs;          ///< "float out" or just "float", which is named out
+    PatternRef pattern = nullptr; ///< the C++ function with its GLSL
     Algebra algebra = Algebra::None;
     const char* types = nullptr; ///< for `$`, separated by spaces
     PatternPrepare prepare = nullptr;

@@ -53,7 +53,7 @@ private:
     /// Runs the pattern function when all inputs are constants.
     bool fold(const GraphNode& node, std::vector<Operand>& results) const {
         const NodeDef& def = *node.def;
-        if (!def.function || def.varying || def.algebra == Algebra::IsUniform) return false;
+        if (!def.pattern || def.varying || def.algebra == Algebra::IsUniform) return false;
         for (const Operand& operand : node.inputs)
             if (!operand.isConstant()) return false;
         std::vector<Value> values;

@@ -137,32 +137,22 @@ def methods():
     return lines
 
 
-AOV_WORDS = {  # what the comment of standardAov() says of each; a new row of the table needs one
-    "color": "linear radiance, multiplied by alpha", "alpha": "coverage", "sampleCount": "samples that were taken",
-    "variance": "of the luminance of the pixel's mean", "albedo": "directional albedo of what is seen",
-    "denoisingAlbedo": "albedo of the first surface that is no mirror, at most 1 where only mirrors, lamps or sky are seen",
-    "denoisingNormal": "shading normal of that surface, world space",
-    "depth": "distance along the camera's axis, scene units", "cameraDepth": "distance from the camera's centre, scene units",
-    "deviceDepth": "OpenGL's window depth, 0 to 1", "normal": "shading normal, world space",
-    "Neye": "shading normal, camera space", "position": "world space", "primId": "number of the prim",
-    "instanceId": "number of the instance", "elementId": "number of the face",
-}
-
-
 def aovs():
-    from patina.cli import recordFlags
+    from patina.cli import recordFlags, rows as tables
 
-    source = read("hdDelegate/film/standardAovs.cpp")
-    found = re.findall(r'\{"(\w+)", (\d), AovKind::(\w+), ([^,]+), (?:true|false)\}', source)
-    assert len(found) == source.count("AovKind::") - 1, "a row of standardAovs.cpp that is not understood"
     kinds = {"Mean": "mean of the samples", "First": "of the sample nearest the pixel's centre"}
     counted = {"sampleCount": "count", "variance": "estimate"}
-    rows = [(f"`{name}`", components, AOV_WORDS[name], counted.get(name, kinds[kind]), re.sub(r"intBits\((.*)\)", r"\1", clear).rstrip("f"),
-             "yes" if name in recordFlags.ALL_AOVS else "")
-            for name, components, kind, clear in found]
+    table_rows = [row for row in tables.read("hdDelegate/film/aovs.def", "AOV") if row.values[0] != "primvars"]
+    # What the film makes, then means.
+    table_rows.sort(key=lambda row: ("film" not in row.words, row.values[2] != "Mean"))
+    rows = []
+    for row in table_rows:
+        name, components, kind, clear, _ = row.values
+        rows.append((f"`{name}`", components, row.text(4), counted.get(name, kinds[kind]), clear.rstrip("f"),
+                     "yes" if name in recordFlags.ALL_AOVS else ""))
     rows.append(("`primvars:NAME`", "1 to 3", "a primvar; texture coordinates have two components", kinds["First"], "0.0",
                  "`primvars:st`"))
-    return ["# AOVs", "", "The table is `hdDelegate/film/standardAovs.cpp`. `color` and `alpha` are always written.", "",
+    return ["# AOVs", "", "The table is `hdDelegate/film/aovs.def`. `color` and `alpha` are always written.", "",
             *table(("name", "components", "holds", "per pixel", "where nothing is", "in `--aov all`"), rows)]
 
 

@@ -1,53 +1,61 @@
 #include "hdDelegate/embree/aovWriter.h"
 
-#include "hdDelegate/film/denoiser.h"
+#include "hdDelegate/film/aovValues.h"
 
 namespace patina {
 
 namespace {
 
-constexpr char primvarPrefix[] = "primvars:";
+/// For aovValue().
+class HitPoint {
+public:
+    static constexpr bool denoisingOfPaths = true;
+
+    HitPoint(const CameraRays& camera, const SurfacePoint& point, const Bsdf& bsdf)
+        : _camera(camera), _shading(point.shading), _hit(*point.hit), _bsdf(bsdf),
+          _inCamera(vec3(camera.worldToCamera() * vec4(point.shading.position, 1.0f))) {}
+
+    const vec3& inCamera() const { return _inCamera; }
+    float windowDepth() const { return _camera.windowDepth(_inCamera); }
+    vec3 position() const { return _shading.worldPosition(); }
+    const vec3& normal() const { return _shading.normal; }
+    const mat4& worldToCamera() const { return _camera.worldToCamera(); }
+    int primId() const { return _hit.surface->primId; }
+    int instanceId() const { return _hit.instanceId; }
+    int elementId() const { return _hit.surface->element(_hit.primitive); }
+    bool albedo(float out[4]) const {
+        const vec3 a = _bsdf.albedo();
+        out[0] = a.x, out[1] = a.y, out[2] = a.z;
+        return true;
+    }
+    /// A surface without it has zeros.
+    bool primvar(float out[4]) const {
+        const int attribute = _hit.surface->findAttribute(*primvarName);
+        if (attribute >= 0)
+            readAttribute(*_hit.surface, attribute, _hit.primitive, _hit.u, _hit.v, out);
+        return true;
+    }
+
+    const std::string* primvarName = nullptr;
+
+private:
+    const CameraRays& _camera;
+    const ShadingPoint& _shading;
+    const Hit& _hit;
+    const Bsdf& _bsdf;
+    vec3 _inCamera;
+};
 
 } // namespace
 
 void writeAovs(const std::vector<AovSpec>& aovs, const AovTarget& target, const CameraRays& camera,
                const SurfacePoint& point, const Bsdf& bsdf) {
-    const ShadingPoint& s = point.shading;
-    const Hit& hit = *point.hit;
-    const vec3 inCamera = vec3(camera.worldToCamera() * vec4(s.position, 1.0f));
+    HitPoint hit(camera, point, bsdf);
     for (size_t i = 0; i < aovs.size(); ++i) {
-        const std::string& name = aovs[i].name;
-        if (name == denoisingAlbedoAov || name == denoisingNormalAov) continue; // of whole paths
         float out[4] = {0, 0, 0, 0};
-        const auto put3 = [&](const vec3& v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; };
-        if (name == "depth")
-            out[0] = -inCamera.z;
-        else if (name == "cameraDepth")
-            out[0] = glm::length(inCamera);
-        else if (name == "deviceDepth")
-            out[0] = camera.windowDepth(inCamera);
-        else if (name == "normal")
-            put3(s.normal);
-        else if (name == "Neye") {
-            const vec3 n = mat3(camera.worldToCamera()) * s.normal;
-            put3(n / std::max(1e-30f, glm::length(n)));
-        } else if (name == "position")
-            put3(s.worldPosition());
-        else if (name == "albedo")
-            put3(bsdf.albedo());
-        else if (name == "primId")
-            out[0] = glm::intBitsToFloat(hit.surface->primId);
-        else if (name == "instanceId")
-            out[0] = glm::intBitsToFloat(hit.instanceId);
-        else if (name == "elementId")
-            out[0] = glm::intBitsToFloat(hit.surface->element(hit.primitive));
-        else if (name.rfind(primvarPrefix, 0) == 0) {
-            const int attribute =
-                hit.surface->findAttribute(name.substr(sizeof(primvarPrefix) - 1));
-            if (attribute >= 0)
-                readAttribute(*hit.surface, attribute, hit.primitive, hit.u, hit.v, out);
-        }
-        target.film.addAov(int(i), target.x, target.y, out, target.distance);
+        hit.primvarName = &aovs[i].primvar;
+        if (aovValue(aovs[i].id, hit, out))
+            target.film.addAov(int(i), target.x, target.y, out, target.distance);
     }
 }
 

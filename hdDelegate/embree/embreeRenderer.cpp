@@ -95,7 +95,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         progress.statistics["maxDepth"] = plan.depth(_settings);
     });
 
-    const std::vector<AovSpec> aovs = writtenAovs();
+    const std::vector<AovSpec> aovs = renderedAovs(_settings.aovs);
     _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
 
     const CameraRays rays(camera, _settings, _origin);

@@ -5,7 +5,6 @@
 #include "hdDelegate/embree/media/freeFlight.h"
 #include "hdDelegate/embree/media/mediaAround.h"
 #include "hdDelegate/embree/path.h"
-#include "hdDelegate/film/denoiser.h"
 #include "hdDelegate/film/pixelFilter.h"
 #include "hdDelegate/embree/sceneLights.h"
 
@@ -22,8 +21,8 @@ Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
       _cullFront(settings.cullStyle.rfind("front", 0) == 0),
       _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos) {
     for (size_t i = 0; i < aovs.size(); ++i) {
-        if (aovs[i].name == denoisingAlbedoAov) _denoisingAlbedo = int(i);
-        if (aovs[i].name == denoisingNormalAov) _denoisingNormal = int(i);
+        if (aovs[i].id == AovId::denoisingAlbedo) _denoisingAlbedo = int(i);
+        if (aovs[i].id == AovId::denoisingNormal) _denoisingNormal = int(i);
     }
     const vec3 eye = vec3(glm::inverse(camera.worldToCamera())[3]);
     if (std::isfinite(eye.x + eye.y + eye.z)) _cameraMedia = mediaAround(scene, eye, 0.5f);

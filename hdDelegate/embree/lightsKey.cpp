@@ -1,19 +1,16 @@
 #include "hdDelegate/embree/lightsKey.h"
 
+#include "hdDelegate/scene/settingRows.h"
+
 namespace patina {
 
 LightsKey makeLightsKey(const SceneState& state, const EmbreeScene& scene, const Camera& camera,
                         const RenderSettings& settings) {
     LightsKey key;
-    key.numbers = {double(settings.enableSceneLights),
-                   double(settings.domeLightCameraVisibility),
-                   double(settings.enableMotionBlur),
-                   camera.shutterOpen,
-                   camera.shutterClose,
-                   scene.origin().x,
-                   scene.origin().y,
-                   scene.origin().z,
-                   double(scene.categoryCount())};
+    key.numbers = {camera.shutterOpen, camera.shutterClose, scene.origin().x,
+                   scene.origin().y,   scene.origin().z,    double(scene.categoryCount())};
+    for (const SettingRow& setting : settingRows())
+        if (setting.ofLights) key.numbers.push_back(setting.number(settings));
     bool inGroups = false;
     for (const auto& item : state.lights) {
         const Light& light = *item.second;

@@ -192,6 +192,7 @@ void Film::loadCheckpoint(const std::string& file) {
     std::vector<AovSpec> specs(count);
     for (AovSpec& spec : specs) {
         spec.name = r.text();
+        spec.id = aovIdOf(spec.name);
         spec.components = r.value<int32_t>();
         int32_t kind = r.value<int32_t>();
         spec.clearValue = r.value<float>();

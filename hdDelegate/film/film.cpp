@@ -34,7 +34,8 @@ bool sameSpec(const AovSpec& a, const AovSpec& b) {
 constexpr char noisyColor[] = "color.noisy";
 
 bool alwaysThere(const std::string& name) {
-    return name == "color" || name == "alpha" || name == "sampleCount" || name == "variance";
+    const AovId id = aovIdOf(name);
+    return id != AovId::unknown && aovRows()[size_t(id)].ofFilm;
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "hdDelegate/film/aovTable.h"
+
 #include <glm/glm.hpp>
 
 #include <atomic>
@@ -9,22 +11,15 @@
 
 namespace patina {
 
-/// How the samples of a pixel become one value.
-enum class AovKind {
-    Mean,  ///< average over the samples that were added (albedo)
-    First, ///< the sample nearest the pixel's centre: no mixing (depth, ids, position, normal,
-           ///< primvars)
-};
-
 /// One channel group of the film.
 struct AovSpec {
-    std::string name; ///< color, alpha, depth, cameraDepth, deviceDepth, normal, Neye, position,
-                      ///< albedo, denoisingAlbedo, denoisingNormal, primvars:NAME, primId,
-                      ///< instanceId, elementId, sampleCount, variance
+    std::string name;   ///< of aovs.def, or primvars:NAME
     int components = 3; ///< floats per pixel
     AovKind kind = AovKind::Mean;
     float clearValue = 0.0f; ///< of pixels that no sample reached
     bool isInteger = false;  ///< ids: stored as float bits of int32 (glm::intBitsToFloat)
+    AovId id = AovId::unknown;
+    std::string primvar = {}; ///< NAME of primvars:NAME
 };
 
 /// The standard spec of an AOV by name.
@@ -36,6 +31,10 @@ struct AovSpec {
 /// coordinates (st*, uv*, UV*), one for displayOpacity and widths, otherwise three.
 /// @throws std::invalid_argument naming an unknown AOV.
 AovSpec standardAov(const std::string& name);
+
+/// The specs of those that a renderer writes: all but the film's own.
+/// @throws std::invalid_argument naming an unknown AOV.
+std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names);
 
 /// Accumulates what a renderer finds. Row 0 is the top row. One thread writes one pixel at a time;
 /// different pixels may be written at once. Sums are kept in double so that the order of passes

@@ -13,9 +13,8 @@ namespace {
 
 ChannelStore storeOf(const AovSpec& spec, const ImageOptions& options) {
     if (spec.isInteger) return options.integerIds ? ChannelStore::Int : ChannelStore::Float;
-    bool picture = spec.name == "color" || spec.name == "alpha" || spec.name == "albedo" ||
-                   spec.name == "color.noisy";
-    return picture && options.half ? ChannelStore::Half : ChannelStore::Float;
+    const bool mayBeHalf = spec.id != AovId::unknown && aovRows()[size_t(spec.id)].mayBeHalf;
+    return mayBeHalf && options.half ? ChannelStore::Half : ChannelStore::Float;
 }
 
 void checkOptions(const ImageOptions& options) {
@@ -37,21 +36,15 @@ void checkAovs(const std::string& path, const std::vector<std::string>& aovs) {
 } // namespace
 
 std::vector<std::string> channelNames(const AovSpec& spec) {
-    static const char* const color[] = {"R", "G", "B", "A"};
-    static const char* const space[] = {"X", "Y", "Z", "W"};
-    if (spec.name == "color") return {"R", "G", "B"};
-    if (spec.name == "alpha") return {"A"};
-    if (spec.name == "depth" || spec.name == "cameraDepth" || spec.name == "deviceDepth")
-        return {spec.name + ".Z"};
-    bool primvar = spec.name.compare(0, 9, "primvars:") == 0;
-    if (spec.components == 1 && !primvar) return {spec.name};
-    const bool isColor =
-        spec.name == "albedo" || spec.name == "denoisingAlbedo" || spec.name == "color.noisy";
+    const AovRow row = spec.id == AovId::unknown ? AovRow() : aovRows()[size_t(spec.id)];
+    std::string letters = row.letters;
+    if (letters.empty() && spec.components == 1) return {spec.name};
+    if (letters.empty() && spec.components <= 4) letters = "XYZW";
     std::vector<std::string> names;
-    for (int i = 0; i < spec.components; ++i) {
-        std::string component = std::to_string(i);
-        if (spec.components <= 4) component = isColor ? color[i] : space[i];
-        names.push_back(spec.name + "." + component);
+    for (size_t i = 0; i < size_t(spec.components); ++i) {
+        const std::string part = letters.empty() ? std::to_string(i) : std::string(1, letters[i]);
+        // The colour before denoising has the row of the colour and another name.
+        names.push_back(row.isBare && spec.name == row.name ? part : spec.name + "." + part);
     }
     return names;
 }

@@ -26,34 +26,33 @@ int primvarComponents(const std::string& primvar) {
 } // namespace
 
 AovSpec standardAov(const std::string& name) {
-    static const AovSpec table[] = {
-        {"color", 3, AovKind::Mean, 0.0f, false},
-        {"alpha", 1, AovKind::Mean, 0.0f, false},
-        {"sampleCount", 1, AovKind::Mean, 0.0f, false},
-        {"variance", 1, AovKind::Mean, 0.0f, false},
-        {"albedo", 3, AovKind::Mean, 0.0f, false},
-        {"denoisingAlbedo", 3, AovKind::Mean, 0.0f, false},
-        {"denoisingNormal", 3, AovKind::Mean, 0.0f, false},
-        {"depth", 1, AovKind::First, 1e10f, false},
-        {"cameraDepth", 1, AovKind::First, 1e10f, false},
-        {"deviceDepth", 1, AovKind::First, 1.0f, false},
-        {"normal", 3, AovKind::First, 0.0f, false},
-        {"Neye", 3, AovKind::First, 0.0f, false},
-        {"position", 3, AovKind::First, 0.0f, false},
-        {"primId", 1, AovKind::First, intBits(-1), true},
-        {"instanceId", 1, AovKind::First, intBits(-1), true},
-        {"elementId", 1, AovKind::First, intBits(-1), true},
-    };
-    for (const AovSpec& spec : table)
-        if (spec.name == name) return spec;
-    const std::string prefix = "primvars:";
-    if (startsWith(name, prefix.c_str()) && name.size() > prefix.size())
-        return {name, primvarComponents(name.substr(prefix.size())), AovKind::First, 0.0f, false};
-    throw std::invalid_argument(
-        "unknown AOV '" + name +
-        "'; known are color, alpha, depth, cameraDepth, deviceDepth, "
-        "normal, Neye, position, albedo, denoisingAlbedo, denoisingNormal, primId, "
-        "instanceId, elementId, sampleCount, variance and primvars:NAME");
+    const AovId id = aovIdOf(name);
+    if (id == AovId::unknown) {
+        std::string known;
+        for (const AovRow& row : aovRows())
+            if (row.id != AovId::primvars)
+                known += (known.empty() ? "" : ", ") + std::string(row.name);
+        throw std::invalid_argument("unknown AOV '" + name + "'; known are " + known + " and " +
+                                    primvarAovs + "NAME");
+    }
+    const AovRow& row = aovRows()[size_t(id)];
+    const float clear = row.isInteger ? intBits(int32_t(row.clear)) : float(row.clear);
+    AovSpec spec{name, row.components, row.kind, clear, row.isInteger, id, {}};
+    if (id == AovId::primvars) {
+        spec.primvar = name.substr(sizeof primvarAovs - 1);
+        spec.components = primvarComponents(spec.primvar);
+    }
+    return spec;
+}
+
+std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names) {
+    std::vector<AovSpec> aovs;
+    for (const std::string& name : names) {
+        const AovId id = aovIdOf(name);
+        if (id == AovId::unknown || !aovRows()[size_t(id)].ofFilm)
+            aovs.push_back(standardAov(name));
+    }
+    return aovs;
 }
 
 } // namespace patina

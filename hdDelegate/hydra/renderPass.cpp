@@ -58,7 +58,7 @@ HdPatinaSettings HdPatinaRenderPass::settingsFor(const HdPatinaView& view,
     HdPatinaSettings settings = _state->settings();
     settings.width = view.width;
     settings.height = view.height;
-    std::copy(view.dataWindow, view.dataWindow + 4, settings.dataWindow);
+    std::copy(view.dataWindow, view.dataWindow + 4, settings.dataWindow.begin());
     settings.pixelAspectRatio = view.pixelAspectRatio;
     settings.aspectRatioConformPolicy = view.policy;
     for (const TfToken& tag : renderTags)

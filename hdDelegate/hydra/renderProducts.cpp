@@ -133,7 +133,8 @@ void HdPatinaRenderProducts::write(const Output& output) {
     options.aovs = output.order;
     options.displayWidth = output.settings.width;
     options.displayHeight = output.settings.height;
-    std::copy(output.settings.dataWindow, output.settings.dataWindow + 4, options.dataWindow);
+    const PixelWindow& window = output.settings.dataWindow;
+    std::copy(window.begin(), window.end(), options.dataWindow);
     options.pixelAspectRatio = output.settings.pixelAspectRatio;
     for (const auto& product : _state.products())
         if (product.productPath == output.path) {

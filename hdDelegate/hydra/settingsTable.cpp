@@ -1,12 +1,14 @@
 #include "hdDelegate/hydra/settingsTable.h"
 
+#include "hdDelegate/scene/settingRows.h"
+
+#include <pxr/base/tf/diagnostic.h>
 #include <pxr/base/tf/stringUtils.h>
-#include <pxr/imaging/hd/tokens.h>
 
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace patina {
@@ -42,56 +44,56 @@ std::optional<std::string> textOf(const VtValue& value) {
     return std::nullopt;
 }
 
-Row flag(const char* key, const char* label, bool RenderSettings::*member, bool initial) {
-    return {TfToken(key), label, VtValue(initial), [member](HdPatinaSettings& s, const VtValue& v) {
-                s.*member = v.UncheckedGet<bool>();
-                return true;
-            }};
+/// A row for a setting of the renderer: Hydra knows booleans, integers, floats and texts.
+Row rowFor(const SettingRow& setting) {
+    Row row{TfToken(setting.name), setting.shown, {}, {}};
+    const auto numeric = [&](auto member, auto as) {
+        using Shown = decltype(as);
+        row.initial = VtValue(Shown(HdPatinaSettings().*member));
+        row.set = [&setting, member](HdPatinaSettings& s, const VtValue& v) {
+            const Shown value = v.UncheckedGet<Shown>();
+            if (!setting.takes(double(value))) return false;
+            s.*member = std::decay_t<decltype(s.*member)>(value);
+            return true;
+        };
+    };
+    const auto text = [&](std::string RenderSettings::*member) {
+        row.initial = VtValue(HdPatinaSettings().*member);
+        row.set = [&setting, member](HdPatinaSettings& s, const VtValue& v) {
+            const std::string& value = v.UncheckedGet<std::string>();
+            if (!setting.takes(value)) return false;
+            s.*member = value;
+            return true;
+        };
+    };
+    std::visit(
+        [&](auto member) {
+            using T = std::decay_t<decltype(RenderSettings().*member)>;
+            if constexpr (std::is_same_v<T, bool>)
+                numeric(member, bool());
+            else if constexpr (std::is_same_v<T, int> || std::is_same_v<T, uint32_t>)
+                numeric(member, int());
+            else if constexpr (std::is_floating_point_v<T>)
+                numeric(member, float());
+            else if constexpr (std::is_same_v<T, std::string>)
+                text(member);
+            else
+                TF_CODING_ERROR("hosts cannot show the setting %s", setting.name.c_str());
+        },
+        setting.member);
+    return row;
 }
 
-Row flag(const char* key, const char* label, bool RenderSettings::*member) {
-    return flag(key, label, member, RenderSettings().*member);
-}
-
-Row integer(const char* key, const char* label, int RenderSettings::*member, int minimum,
-            int maximum) {
-    return {TfToken(key), label, VtValue(RenderSettings().*member),
-            [=](HdPatinaSettings& s, const VtValue& v) {
-                const int value = v.UncheckedGet<int>();
-                if (value < minimum || value > maximum) return false;
-                s.*member = value;
-                return true;
-            }};
-}
-
-template <class T> Row real(const char* key, const char* label, T RenderSettings::*member) {
-    return {TfToken(key), label, VtValue(float(RenderSettings().*member)),
-            [=](HdPatinaSettings& s, const VtValue& v) {
-                const float value = v.UncheckedGet<float>();
-                if (!(value >= 0.0f)) return false;
-                s.*member = value;
-                return true;
-            }};
-}
-
-Row choice(const char* key, const char* label, std::string HdPatinaSettings::*member,
-           std::vector<std::string> names) {
-    return {TfToken(key), label, VtValue(HdPatinaSettings().*member),
-            [=](HdPatinaSettings& s, const VtValue& v) {
+Row backendRow() {
+    return {TfToken("backend"), "Back end (auto, embree, raster, interactive)",
+            VtValue(HdPatinaSettings().backend), [](HdPatinaSettings& s, const VtValue& v) {
                 const std::string& value = v.UncheckedGet<std::string>();
-                for (const std::string& name : names)
-                    if (name == value) {
-                        s.*member = value;
+                for (const char* name : {"auto", "embree", "raster", "interactive"})
+                    if (value == name) {
+                        s.backend = value;
                         return true;
                     }
                 return false;
-            }};
-}
-
-Row seedRow() {
-    return {TfToken("seed"), "Random seed", VtValue(0), [](HdPatinaSettings& s, const VtValue& v) {
-                s.seed = uint32_t(v.UncheckedGet<int>());
-                return true;
             }};
 }
 
@@ -103,65 +105,17 @@ Row denoiseRow() {
             }};
 }
 
-/// Negative, as it is at first: all samples by the default methods.
-Row toleranceRow() {
-    return {TfToken("tolerance"), "Tolerance (mean relative error; 0: truth, -1: all samples)",
-            VtValue(float(RenderSettings().tolerance)), [](HdPatinaSettings& s, const VtValue& v) {
-                const float value = v.UncheckedGet<float>();
-                if (!(value >= 0.0f) && value != -1.0f) return false;
-                s.tolerance = value;
-                return true;
-            }};
-}
-
-/// Negative, as it is at first: planned.
-Row edgeLengthRow() {
-    return {TfToken("edgeLength"),
-            "Edge length of subdivided meshes (pixels; -1: as the tolerance asks)",
-            VtValue(RenderSettings().edgeLength), [](HdPatinaSettings& s, const VtValue& v) {
-                const float value = v.UncheckedGet<float>();
-                if (!(value >= 0.0f) && value != -1.0f) return false;
-                s.edgeLength = value;
-                return true;
-            }};
-}
-
 const std::vector<Row>& rows() {
-    using S = RenderSettings;
-    constexpr int maximum = std::numeric_limits<int>::max();
-    static const std::vector<Row> table = {
-        choice("backend", "Back end (auto, embree, raster, interactive)",
-               &HdPatinaSettings::backend, {"auto", "embree", "raster", "interactive"}),
-        integer("samples", "Samples per pixel", &S::samples, 1, maximum),
-        integer("minSamples", "Least samples per pixel", &S::minSamples, 1, maximum),
-        toleranceRow(),
-        real("seconds", "Time limit (seconds, 0: none)", &S::seconds),
-        integer("threads", "Threads (0: all)", &S::threads, 0, 4096),
-        seedRow(),
-        integer("maxDepth", "Path depth (-1: as the tolerance asks)", &S::maxDepth, -1, 4096),
-        integer("lightSamples", "Light samples at what the camera sees", &S::lightSamples, 1, 1024),
-        integer("rouletteDepth", "Russian roulette from depth", &S::rouletteDepth, 0, 4096),
-        real("indirectClamp", "Clamp of indirect samples (0: none)", &S::indirectClamp),
-        denoiseRow(),
-        real("filterRadius", "Pixel filter radius (pixels)", &S::filterRadius),
-        flag("enableSceneLights", "Scene lights", &S::enableSceneLights),
-        flag("enableSceneMaterials", "Scene materials", &S::enableSceneMaterials),
-        flag("enableShadows", "Shadows", &S::enableShadows),
-        flag("enableMotionBlur", "Motion blur", &S::enableMotionBlur),
-        flag("enableDepthOfField", "Depth of field", &S::enableDepthOfField),
-        flag("domeLightCameraVisibility", "Dome lights seen by the camera",
-             &S::domeLightCameraVisibility),
-        choice("cullStyle", "Faces culled for the camera", &S::cullStyle,
-               {"nothing", "back", "front", "backUnlessDoubleSided", "frontUnlessDoubleSided"}),
-        edgeLengthRow(),
-        choice("integrator", "Integrator (path, ambientOcclusion)", &S::integrator,
-               {"path", "ambientOcclusion"}),
-        integer("ambientOcclusionSamples", "Ambient occlusion rays per hit",
-                &S::ambientOcclusionSamples, 1, 65536),
-        integer("environmentSamples", "Rasterizer: samples of domes (-1: as the tolerance asks)",
-                &S::environmentSamples, -1, 1024),
-        flag("interactive", "Interactive (quick starts before speed)", &S::interactive, true),
-    };
+    static const std::vector<Row> table = [] {
+        std::vector<Row> made = {backendRow()};
+        for (const SettingRow& setting : settingRows()) {
+            if (setting.shown.empty()) continue;
+            made.push_back(rowFor(setting));
+            if (setting.name == "interactive") made.back().initial = VtValue(true);
+            if (setting.name == "indirectClamp") made.push_back(denoiseRow());
+        }
+        return made;
+    }();
     return table;
 }
 
@@ -189,10 +143,8 @@ std::string backendOf(const HdPatinaSettings& settings) {
 }
 
 TfToken settingKey(const TfToken& name) {
-    if (name == HdRenderSettingsTokens->convergedSamplesPerPixel) return TfToken("samples");
-    if (name == HdRenderSettingsTokens->convergedVariance) return TfToken("tolerance");
-    if (name == HdRenderSettingsTokens->threadLimit) return TfToken("threads");
-    if (name == HdRenderSettingsTokens->enableInteractive) return TfToken("interactive");
+    for (const SettingRow& setting : settingRows())
+        if (!setting.hydraName.empty() && name == setting.hydraName) return TfToken(setting.name);
     std::string text = name.GetString();
     for (const char* prefix : {"patina:global:", "patina:"})
         if (TfStringStartsWith(text, prefix)) {

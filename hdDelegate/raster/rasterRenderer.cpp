@@ -174,7 +174,7 @@ private:
                               std::to_string(_settings.width) + " x " +
                               std::to_string(_settings.height) + " pixels");
         checkDevice(0);
-        const std::vector<AovSpec> aovs = writtenAovs();
+        const std::vector<AovSpec> aovs = renderedAovs(_settings.aovs);
         _passes->clearSeconds();
         _passes->drawAovs(*_raster, camera);
         if (const vec3 origin = _passes->originOfSeen(*_raster); origin != _origin) {

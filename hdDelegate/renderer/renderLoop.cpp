@@ -153,12 +153,4 @@ void RenderLoop::reportFraction(RenderProgress& progress, double fraction, int s
         fraction > 0.0 ? progress.secondsRendering * (1.0 - fraction) / fraction : 0.0;
 }
 
-std::vector<AovSpec> RenderLoop::writtenAovs() const {
-    std::vector<AovSpec> aovs;
-    for (const std::string& name : _settings.aovs)
-        if (name != "color" && name != "alpha" && name != "sampleCount" && name != "variance")
-            aovs.push_back(standardAov(name));
-    return aovs;
-}
-
 } // namespace patina

@@ -70,8 +70,6 @@ protected:
     /// The listener hears of the film, unless it did just now.
     void notify();
     double secondsSinceStart() const { return secondsSince(_started); }
-    /// AOVs of the settings that a back end writes; the film makes the others.
-    std::vector<AovSpec> writtenAovs() const;
 
     std::shared_ptr<Scene> _scene;
     std::shared_ptr<Film> _film;

@@ -49,6 +49,35 @@ struct PatternCall {
 
 using PatternFunction = void (*)(const PatternCall& call);
 
+/// What a node computes, for both back ends: rows of nodes name it, and so does what is compiled of
+/// them.
+///
+/// The text has the outputs as GLSL expressions, separated by `;`. $0..$9 and ${10}... are inputs
+/// (all vec4), $A0 and $B0 input 0 as mat3 and mat4; $s is the size of the first input, $m the
+/// mode, $p the slot of the primvar. $t(uv, footprint) reads the texture and is input 1 where there
+/// is none; $X, $Y and $Z do so with the three textures of a projection and input 3. A text that
+/// begins with `3|` or `4|` is a matrix: an output for each of its rows.
+struct Pattern {
+    PatternFunction function = nullptr;
+    const char* glsl = nullptr;
+    const char* glslWithout = nullptr; ///< in place of `glsl` where there is no texture
+    bool rare = false;                 ///< the text needs shaders/raster/moreNodes.glsl
+};
+
+constexpr Pattern pattern(const char* glsl, PatternFunction function) {
+    return {function, glsl, nullptr, false};
+}
+constexpr Pattern pattern(const char* glsl, const char* without, PatternFunction function) {
+    return {function, glsl, without, false};
+}
+/// With functions of shaders/raster/moreNodes.glsl beside those of shaders/raster/material.glsl.
+constexpr Pattern rarePattern(const char* glsl, PatternFunction function) {
+    return {function, glsl, nullptr, true};
+}
+constexpr Pattern rarePattern(const char* glsl, const char* without, PatternFunction function) {
+    return {function, glsl, without, true};
+}
+
 /// What a node may ask for when its instruction is compiled.
 class PatternSetup {
 public:

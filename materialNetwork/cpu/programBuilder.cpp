@@ -107,10 +107,11 @@ void ProgramBuilder::emit(const std::vector<bool>& roots, std::vector<Instructio
                 mark(operand, needed);
     for (size_t i = 0; i < needed.size(); ++i) {
         const GraphNode& node = nodeOf(int(i));
-        if (!needed[i] || !node.def->function) continue;
+        if (!needed[i] || !node.def->pattern) continue;
         prepareNode(int(i));
         Instruction instruction;
-        instruction.function = node.def->function;
+        instruction.pattern = node.def->pattern;
+        instruction.function = node.def->pattern->function;
         instruction.output = Register(_register[i]);
         instruction.firstInput = uint32_t(_code->inputPool.size());
         instruction.data = _data[i];
@@ -174,7 +175,7 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
     constant(Value::makeFloat(1.0f));
     _code->registerCount = int(_code->constants.size());
     for (size_t i = 0; i < n; ++i)
-        if (nodeOf(int(i)).def->function) {
+        if (nodeOf(int(i)).def->pattern) {
             int count = 0;
             for (const OutputDef& output : nodeOf(int(i)).def->outputs)
                 count += registerCount(output.type);
@@ -218,8 +219,8 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
     _code->opacityFromPrimvars = !_code->opacityCode.empty();
     for (const Instruction& instruction : _code->opacityCode)
         for (size_t i = 0; i < n; ++i)
-            if (nodeOf(int(i)).def->function == instruction.function &&
-                nodeOf(int(i)).def->varying && instruction.output == _register[i])
+            if (nodeOf(int(i)).def->pattern == instruction.pattern && nodeOf(int(i)).def->varying &&
+                instruction.output == _register[i])
                 _code->opacityFromPrimvars &=
                     _data[i].slot >= 0 || nodeOf(int(i)).def->category == "UsdPrimvarReader";
     setFlags();

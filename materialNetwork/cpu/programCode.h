@@ -14,7 +14,8 @@ namespace patina {
 using Register = uint16_t;
 
 struct Instruction {
-    PatternFunction function;
+    PatternFunction function; ///< the pattern's
+    const Pattern* pattern;
     Register output;
     uint32_t firstInput; ///< into ProgramCode::inputPool
     PatternData data;

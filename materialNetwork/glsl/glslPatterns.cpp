@@ -1,43 +1,13 @@
 #include "materialNetwork/glsl/glslPatterns.h"
 
-#include "materialNetwork/glsl/glslPatternRows.h"
-#include "materialNetwork/nodeTable.h"
-
 #include <cctype>
-#include <cstring>
 #include <map>
-#include <unordered_map>
 
 namespace patina {
 
 namespace {
 
-struct Known {
-    const GlslPatternRow* row;
-    bool rare;
-};
-
-PatternFunction functionOf(const char* id) {
-    const NodeDef* def = NodeTable::get().find(id);
-    return def ? def->function : nullptr;
-}
-
-const std::unordered_map<void*, Known>& table() {
-    static const auto made = [] {
-        std::unordered_map<void*, Known> t;
-        const auto add = [&](const GlslPatternRows& rows, bool rare) {
-            for (size_t i = 0; i < rows.size; ++i)
-                if (const PatternFunction f = functionOf(rows.begin[i].id))
-                    t[reinterpret_cast<void*>(f)] = {&rows.begin[i], rare};
-        };
-        add(glslRarePatterns(), true);
-        add(glslCommonPatterns(), false);
-        return t;
-    }();
-    return made;
-}
-
-/// Fills a row's text in for one instruction.
+/// Fills a pattern's text in for one instruction.
 class Filler {
 public:
     Filler(const PatternData& data, const GlslPatternNames& names) : _data(data), _names(names) {}
@@ -111,28 +81,16 @@ std::vector<std::string> split(const std::string& text) {
     return parts;
 }
 
-std::vector<std::string> uvTexture(Filler& filler, bool valid) {
-    const std::string t = filler.fill(valid ? "($t($1.xy, point.uvFootprint) * $2 + $3)" : "$4");
-    return {
-        "vec4(" + t + ".x)", "vec4(" + t + ".y)", "vec4(" + t + ".z)", "vec4(" + t + ".w)", t, t};
-}
-
 } // namespace
 
 GlslPattern glslPattern(const Instruction& instruction, const GlslPatternNames& names) {
     GlslPattern out;
     const PatternData& data = instruction.data;
     Filler filler(data, names);
-    static const PatternFunction texture = functionOf("UsdUVTexture");
-    if (instruction.function == texture) {
-        out.outputs = uvTexture(filler, data.handle >= 0);
-        return out;
-    }
-    const auto found = table().find(reinterpret_cast<void*>(instruction.function));
-    if (found == table().end()) return out;
-    const GlslPatternRow& row = *found->second.row;
-    out.rare = found->second.rare;
-    const char* text = row.without && data.handle < 0 ? row.without : row.text;
+    const Pattern& pattern = *instruction.pattern;
+    if (!pattern.glsl) return out;
+    out.rare = pattern.rare;
+    const char* text = pattern.glslWithout && data.handle < 0 ? pattern.glslWithout : pattern.glsl;
     if (text[1] == '|') {
         const int n = text[0] - '0';
         const std::string matrix = "(" + filler.fill(text + 2) + ")[";
@@ -143,8 +101,6 @@ GlslPattern glslPattern(const Instruction& instruction, const GlslPatternNames& 
         return out;
     }
     out.outputs = split(filler.fill(text));
-    static const PatternFunction separate = functionOf("ND_separate4_color4");
-    if (instruction.function == separate) out.outputs.resize(size_t(data.size));
     return out;
 }
 

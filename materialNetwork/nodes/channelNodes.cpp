@@ -10,50 +10,44 @@ namespace {
 using glm::vec4;
 using Call = const PatternCall&;
 
-void same(Call c) {
-    c.out() = c.in(0);
-}
-void opaque(Call c) {
-    c.out() = vec4(c.in(0).x, c.in(0).y, c.in(0).z, 1.0f);
-}
-void twoToThree(Call c) {
-    c.out() = vec4(c.in(0).x, c.in(0).y, 0.0f, 0.0f);
-}
-void opaqueZero(Call c) {
-    c.out() = vec4(c.in(0).x, c.in(0).y, 0.0f, 1.0f);
-}
-void toInteger(Call c) {
-    c.out() = glm::floor(c.in(0));
-}
-void toBoolean(Call c) {
+constexpr Pattern same = pattern("$0", [](Call c) { c.out() = c.in(0); });
+constexpr Pattern opaque = pattern(
+    "vec4($0.xyz, 1.0)", [](Call c) { c.out() = vec4(c.in(0).x, c.in(0).y, c.in(0).z, 1.0f); });
+constexpr Pattern twoToThree = pattern(
+    "vec4($0.xy, 0.0, 0.0)", [](Call c) { c.out() = vec4(c.in(0).x, c.in(0).y, 0.0f, 0.0f); });
+constexpr Pattern opaqueZero = rarePattern(
+    "vec4($0.xy, 0.0, 1.0)", [](Call c) { c.out() = vec4(c.in(0).x, c.in(0).y, 0.0f, 1.0f); });
+constexpr Pattern toInteger = pattern("floor($0)", [](Call c) { c.out() = glm::floor(c.in(0)); });
+constexpr Pattern toBoolean = rarePattern("vec4($0.x != 0.0 ? 1.0 : 0.0)", [](Call c) {
     c.out() = vec4(c.in(0).x != 0.0f ? 1.0f : 0.0f);
-}
-void combine2(Call c) {
-    c.out() = vec4(c.x(0), c.x(1), 0.0f, 0.0f);
-}
-void combine3(Call c) {
-    c.out() = vec4(c.x(0), c.x(1), c.x(2), 0.0f);
-}
-void combine4(Call c) {
-    c.out() = vec4(c.x(0), c.x(1), c.x(2), c.x(3));
-}
-void combine31(Call c) {
-    c.out() = vec4(c.in(0).x, c.in(0).y, c.in(0).z, c.x(1));
-}
-void combine22(Call c) {
-    c.out() = vec4(c.in(0).x, c.in(0).y, c.in(1).x, c.in(1).y);
-}
+});
 
-void extract(Call c) {
+constexpr Pattern combine2 = pattern("vec4($0.x, $1.x, 0.0, 0.0)",
+                                     [](Call c) { c.out() = vec4(c.x(0), c.x(1), 0.0f, 0.0f); });
+constexpr Pattern combine3 = pattern("vec4($0.x, $1.x, $2.x, 0.0)",
+                                     [](Call c) { c.out() = vec4(c.x(0), c.x(1), c.x(2), 0.0f); });
+constexpr Pattern combine4 = pattern(
+    "vec4($0.x, $1.x, $2.x, $3.x)", [](Call c) { c.out() = vec4(c.x(0), c.x(1), c.x(2), c.x(3)); });
+constexpr Pattern combine31 = pattern(
+    "vec4($0.xyz, $1.x)", [](Call c) { c.out() = vec4(c.in(0).x, c.in(0).y, c.in(0).z, c.x(1)); });
+constexpr Pattern combine22 = pattern("vec4($0.xy, $1.xy)", [](Call c) {
+    c.out() = vec4(c.in(0).x, c.in(0).y, c.in(1).x, c.in(1).y);
+});
+
+constexpr Pattern extract = pattern("vec4($0[clamp(int($1.x), 0, $s - 1)])", [](Call c) {
     const int i = glm::clamp(c.whole(1), 0, c.data.size - 1);
     c.out() = vec4(c.in(0)[i]);
-}
+});
 
-void separate(Call c) {
+template <int Size> constexpr const char* separateGlsl =
+    Size == 2   ? "vec4($0.x); vec4($0.y)"
+    : Size == 3 ? "vec4($0.x); vec4($0.y); vec4($0.z)"
+                : "vec4($0.x); vec4($0.y); vec4($0.z); vec4($0.w)";
+template <int Size> constexpr Pattern separate = pattern(separateGlsl<Size>, [](Call c) {
     const vec4 v = c.in(0);
-    for (int i = 0; i < c.data.size; ++i)
+    for (int i = 0; i < Size; ++i)
         c.out(i) = vec4(v[i]);
-}
+});
 
 const NodeRow rows[] = {
     {"ND_convert_float_$", "convert", "float in=0", "$", same, Algebra::Alias,
@@ -97,15 +91,15 @@ const NodeRow rows[] = {
      combine4, Algebra::None, "color4 vector4"},
     {"ND_extract_$", "extract", "$ in=0, integer index=0", "float", extract, Algebra::None,
      tupleTypes},
-    {"ND_separate2_vector2", "separate2", "vector2 in=0", "float outx, float outy", separate},
+    {"ND_separate2_vector2", "separate2", "vector2 in=0", "float outx, float outy", separate<2>},
     {"ND_separate3_color3", "separate3", "color3 in=0", "float outr, float outg, float outb",
-     separate},
+     separate<3>},
     {"ND_separate3_vector3", "separate3", "vector3 in=0", "float outx, float outy, float outz",
-     separate},
+     separate<3>},
     {"ND_separate4_color4", "separate4", "color4 in=0",
-     "float outr, float outg, float outb, float outa", separate},
+     "float outr, float outg, float outb, float outa", separate<4>},
     {"ND_separate4_vector4", "separate4", "vector4 in=0",
-     "float outx, float outy, float outz, float outw", separate},
+     "float outx, float outy, float outz, float outw", separate<4>},
 };
 
 } // namespace

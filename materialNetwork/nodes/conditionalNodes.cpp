@@ -10,42 +10,43 @@ namespace {
 using glm::vec4;
 using Call = const PatternCall&;
 
-void ifGreater(Call c) {
-    c.out() = c.x(0) > c.x(1) ? c.in(2) : c.in(3);
-}
-void ifGreaterEq(Call c) {
-    c.out() = c.x(0) >= c.x(1) ? c.in(2) : c.in(3);
-}
-void ifEqual(Call c) {
-    c.out() = c.x(0) == c.x(1) ? c.in(2) : c.in(3);
-}
-void isGreater(Call c) {
-    c.out() = vec4(c.x(0) > c.x(1) ? 1.0f : 0.0f);
-}
-void isGreaterEq(Call c) {
+constexpr char ifGreaterGlsl[] = "$0.x > $1.x ? $2 : $3";
+constexpr Pattern ifGreater =
+    pattern(ifGreaterGlsl, [](Call c) { c.out() = c.x(0) > c.x(1) ? c.in(2) : c.in(3); });
+constexpr Pattern ifGreaterEq = pattern(
+    "$0.x >= $1.x ? $2 : $3", [](Call c) { c.out() = c.x(0) >= c.x(1) ? c.in(2) : c.in(3); });
+constexpr Pattern ifEqual = pattern("$0.x == $1.x ? $2 : $3",
+                                    [](Call c) { c.out() = c.x(0) == c.x(1) ? c.in(2) : c.in(3); });
+constexpr Pattern isGreater = pattern(
+    "vec4($0.x > $1.x ? 1.0 : 0.0)", [](Call c) { c.out() = vec4(c.x(0) > c.x(1) ? 1.0f : 0.0f); });
+constexpr Pattern isGreaterEq = pattern("vec4($0.x >= $1.x ? 1.0 : 0.0)", [](Call c) {
     c.out() = vec4(c.x(0) >= c.x(1) ? 1.0f : 0.0f);
-}
-void isEqual(Call c) {
-    c.out() = vec4(c.x(0) == c.x(1) ? 1.0f : 0.0f);
-}
-void logicAnd(Call c) {
+});
+
+constexpr Pattern isEqual = pattern("vec4($0.x == $1.x ? 1.0 : 0.0)",
+                                    [](Call c) { c.out() = vec4(c.x(0) == c.x(1) ? 1.0f : 0.0f); });
+constexpr Pattern logicAnd = pattern("vec4($0.x != 0.0 && $1.x != 0.0 ? 1.0 : 0.0)", [](Call c) {
     c.out() = vec4(c.x(0) != 0.0f && c.x(1) != 0.0f ? 1.0f : 0.0f);
-}
-void logicOr(Call c) {
+});
+
+constexpr Pattern logicOr = pattern("vec4($0.x != 0.0 || $1.x != 0.0 ? 1.0 : 0.0)", [](Call c) {
     c.out() = vec4(c.x(0) != 0.0f || c.x(1) != 0.0f ? 1.0f : 0.0f);
-}
-void logicXor(Call c) {
+});
+
+constexpr char logicXorGlsl[] = "vec4(($0.x != 0.0) != ($1.x != 0.0) ? 1.0 : 0.0)";
+constexpr Pattern logicXor = rarePattern(logicXorGlsl, [](Call c) {
     c.out() = vec4((c.x(0) != 0.0f) != (c.x(1) != 0.0f) ? 1.0f : 0.0f);
-}
-void logicNot(Call c) {
-    c.out() = vec4(c.x(0) == 0.0f ? 1.0f : 0.0f);
-}
+});
+
+constexpr Pattern logicNot = pattern("vec4($0.x == 0.0 ? 1.0 : 0.0)",
+                                     [](Call c) { c.out() = vec4(c.x(0) == 0.0f ? 1.0f : 0.0f); });
 
 /// What is below the first is the first; there is nothing above the last.
-void switched(Call c) {
-    const float which = std::fmax(std::floor(c.x(10)), 0.0f);
-    c.out() = which < 10.0f ? c.in(int(which)) : vec4(0.0f);
-}
+constexpr Pattern switched = rarePattern(
+    "nodeSwitch(${10}.x, vec4[10]($0, $1, $2, $3, $4, $5, $6, $7, $8, $9))", [](Call c) {
+        const float which = std::fmax(std::floor(c.x(10)), 0.0f);
+        c.out() = which < 10.0f ? c.in(int(which)) : vec4(0.0f);
+    });
 
 const char* const types = "float integer color3 color4 vector2 vector3 vector4";
 #define PATINA_SWITCH_INPUTS                                                                       \

@@ -36,61 +36,68 @@ vec3 tangentTo(Call c, const vec3& t) {
     return unit(glm::transpose(c.point().objectToWorldNormal) * t, vec3(1, 0, 0));
 }
 
-void position(Call c) {
+constexpr char positionGlsl[] = "nodePosition($m)";
+constexpr Pattern position = pattern(positionGlsl, [](Call c) {
     c.out() = vec4(c.data.mode == SpaceWorld ? c.point().worldPosition() : c.point().objectPosition,
                    0.0f);
-}
-void normal(Call c) {
+});
+
+constexpr Pattern normal = pattern("nodeNormal($m, point.normal)", [](Call c) {
     c.out() = vec4(normalTo(c, c.point().normal), 0.0f);
-}
-void tangent(Call c) {
+});
+
+constexpr Pattern tangent = pattern("nodeTangent($m, point.tangent)", [](Call c) {
     c.out() = vec4(tangentTo(c, c.point().tangent), 0.0f);
-}
-void bitangent(Call c) {
+});
+
+constexpr Pattern bitangent = pattern("nodeTangent($m, point.bitangent)", [](Call c) {
     c.out() = vec4(tangentTo(c, c.point().bitangent), 0.0f);
-}
-void backSide(Call c) {
-    c.out() =
-        vec4(glm::dot(c.point().viewDirection, c.point().geometricNormal) < 0.0f ? 1.0f : 0.0f);
-}
-void viewDirection(Call c) {
+});
+
+constexpr Pattern backSide =
+    pattern("vec4(dot(point.view, point.geometricNormal) < 0.0 ? 1.0 : 0.0)", [](Call c) {
+        c.out() =
+            vec4(glm::dot(c.point().viewDirection, c.point().geometricNormal) < 0.0f ? 1.0f : 0.0f);
+    });
+
+constexpr Pattern viewDirection = pattern("nodeTangent($m, point.view)", [](Call c) {
     c.out() = vec4(tangentTo(c, c.point().viewDirection), 0.0f);
-}
+});
 
 bool readPrimvar(Call c, float* out) {
     return c.data.slot >= 0 && c.context.point->primvars &&
            c.context.point->primvars->read(c.data.slot, out);
 }
 
-void texcoord(Call c) {
+constexpr Pattern texcoord = pattern("vec4(primvar($p, vec4(0.0)).xyz, 0.0)", [](Call c) {
     float v[4] = {0, 0, 0, 0};
     readPrimvar(c, v);
     c.out() = vec4(v[0], v[1], v[2], 0.0f);
-}
+});
 
-void scalarPrimvar(Call c) {
+constexpr Pattern scalarPrimvar = pattern("vec4(primvar($p, $1).x)", [](Call c) {
     float v[4] = {c.x(1), 0, 0, 0};
     readPrimvar(c, v);
     c.out() = vec4(v[0]);
-}
+});
 
-void tuplePrimvar(Call c) {
+constexpr Pattern tuplePrimvar = pattern("primvar($p, $1)", [](Call c) {
     vec4 v = c.in(1);
     readPrimvar(c, &v.x);
     c.out() = v;
-}
+});
 
-void geomColor(Call c) {
+constexpr Pattern geomColor = pattern("primvar($p, vec4(0.0, 0.0, 0.0, 1.0))", [](Call c) {
     vec4 v(0.0f, 0.0f, 0.0f, 1.0f);
     readPrimvar(c, &v.x);
     c.out() = v;
-}
+});
 
-void geomScalar(Call c) {
+constexpr Pattern geomScalar = pattern("vec4(primvar($p, vec4(0.0)).x)", [](Call c) {
     vec4 v(0.0f);
     readPrimvar(c, &v.x);
     c.out() = vec4(v.x);
-}
+});
 
 /// Set 0 is "st", as every exporter to USD writes it; set n is "stn".
 void prepareTexcoord(PatternSetup& setup, PatternData& data) {
@@ -121,13 +128,12 @@ void prepareVarname(PatternSetup& setup, PatternData& data) {
 }
 
 /// Primvars of strings and matrices have no consumer among the nodes; their fallback is passed on.
-void fallbackOnly(Call c) {
-    c.out() = c.in(1);
-}
-void fallbackMatrix(Call c) {
+constexpr Pattern fallbackOnly = rarePattern("$1", [](Call c) { c.out() = c.in(1); });
+constexpr Pattern fallbackMatrix = rarePattern("4|$B1", [](Call c) {
     for (int i = 0; i < 4; ++i)
         c.out(i) = c.registers[c.inputs[1] + i];
-}
+});
+
 void prepareFallback(PatternSetup& setup, PatternData&) {
     setup.warn("varname", "primvars of this type are not read; the fallback is used");
 }

@@ -21,7 +21,10 @@ float opticalDepth(float transmittance) {
 }
 
 /// Chiang et al. 2016, eq. 7 and 8: perceptually even roughness to variance and logistic scale.
-void roughness(Call c) {
+constexpr char roughnessGlsl[] =
+    "nodeHairRoughness($0.x, $1.x, 1.0); nodeHairRoughness($0.x, $1.x, $2.x); "
+    "nodeHairRoughness($0.x, $1.x, $3.x)";
+constexpr Pattern roughness = rarePattern(roughnessGlsl, [](Call c) {
     const float longitudinal = between(c.x(0), 1e-3f, 1.0f),
                 azimuthal = between(c.x(1), 1e-3f, 1.0f);
     const float root = 0.726f * longitudinal + 0.812f * longitudinal * longitudinal +
@@ -32,10 +35,10 @@ void roughness(Call c) {
     c.out(0) = vec4(v, s, 0.0f, 0.0f);
     c.out(1) = vec4(v * c.x(2) * c.x(2), s, 0.0f, 0.0f);
     c.out(2) = vec4(v * c.x(3) * c.x(3), s, 0.0f, 0.0f);
-}
+});
 
 /// Chiang et al. 2016, eq. 9: the absorption for which many hairs look like the colour.
-void absorptionFromColor(Call c) {
+constexpr Pattern absorptionFromColor = rarePattern("nodeHairFromColor($0, $1.x)", [](Call c) {
     const float b = between(c.x(1), 0.0f, 1.0f);
     const float scale =
         5.969f + b * (-0.215f + b * (2.532f + b * (-10.73f + b * (5.574f + b * 0.245f))));
@@ -45,10 +48,11 @@ void absorptionFromColor(Call c) {
         sigma[i] = x * x;
     }
     c.out() = sigma;
-}
+});
 
 /// d'Eon et al. 2011, section 6.1, with the concentrations of both pigments as MaterialX has them.
-void absorptionFromMelanin(Call c) {
+constexpr char absorptionFromMelaninGlsl[] = "nodeHairFromMelanin($0.x, $1.x, $2, $3)";
+constexpr Pattern absorptionFromMelanin = rarePattern(absorptionFromMelaninGlsl, [](Call c) {
     const float melanin = -std::log(std::max(1.0f - between(c.x(0), 0.0f, 1.0f), 1e-4f));
     const float red = between(c.x(1), 0.0f, 1.0f);
     vec4 sigma(0.0f);
@@ -56,7 +60,7 @@ void absorptionFromMelanin(Call c) {
         sigma[i] =
             melanin * ((1.0f - red) * opticalDepth(c.in(2)[i]) + red * opticalDepth(c.in(3)[i]));
     c.out() = sigma;
-}
+});
 
 const NodeRow rows[] = {
     {"ND_chiang_hair_roughness", "chiang_hair_roughness",

@@ -11,36 +11,37 @@ using glm::vec2;
 using glm::vec4;
 using Call = const PatternCall&;
 
-void roughnessAnisotropy(Call c) {
-    c.out() = vec4(sh::patternRoughnessAnisotropy(c.x(0), c.x(1)), 0.0f, 0.0f);
-}
+constexpr Pattern roughnessAnisotropy =
+    pattern("vec4(patternRoughnessAnisotropy($0.x, $1.x), 0.0, 0.0)", [](Call c) {
+        c.out() = vec4(sh::patternRoughnessAnisotropy(c.x(0), c.x(1)), 0.0f, 0.0f);
+    });
 
-void roughnessDual(Call c) {
-    c.out() = vec4(sh::patternRoughnessDual(vec2(c.in(0))), 0.0f, 0.0f);
-}
+constexpr Pattern roughnessDual =
+    pattern("vec4(patternRoughnessDual($0.xy), 0.0, 0.0)",
+            [](Call c) { c.out() = vec4(sh::patternRoughnessDual(vec2(c.in(0))), 0.0f, 0.0f); });
 
-void glossinessAnisotropy(Call c) {
-    c.out() = vec4(sh::patternRoughnessAnisotropy(1.0f - c.x(0), c.x(1)), 0.0f, 0.0f);
-}
+constexpr Pattern glossinessAnisotropy =
+    pattern("vec4(patternRoughnessAnisotropy(1.0 - $0.x, $1.x), 0.0, 0.0)", [](Call c) {
+        c.out() = vec4(sh::patternRoughnessAnisotropy(1.0f - c.x(0), c.x(1)), 0.0f, 0.0f);
+    });
 
-void artisticIor(Call c) {
-    vec4 ior(0.0f), extinction(0.0f);
-    for (int i = 0; i < 3; ++i) {
-        ior[i] = sh::patternArtisticIor(c.in(0)[i], c.in(1)[i]);
-        extinction[i] = sh::patternArtisticExtinction(c.in(0)[i], ior[i]);
-    }
-    c.out(0) = ior;
-    c.out(1) = extinction;
-}
+constexpr Pattern artisticIor =
+    pattern("nodeArtisticIor($0, $1); nodeArtisticExtinction($0, $1)", [](Call c) {
+        vec4 ior(0.0f), extinction(0.0f);
+        for (int i = 0; i < 3; ++i) {
+            ior[i] = sh::patternArtisticIor(c.in(0)[i], c.in(1)[i]);
+            extinction[i] = sh::patternArtisticExtinction(c.in(0)[i], ior[i]);
+        }
+        c.out(0) = ior;
+        c.out(1) = extinction;
+    });
 
-void blackbody(Call c) {
+constexpr Pattern blackbody = pattern("vec4(patternBlackbody($0.x), 0.0)", [](Call c) {
     c.out() = vec4(sh::patternBlackbody(c.x(0)), 0.0f);
-}
+});
 
 /// Reached at run time only by an input that varies.
-void isUniform(Call c) {
-    c.out() = vec4(0.0f);
-}
+constexpr Pattern isUniform = rarePattern("vec4(0.0)", [](Call c) { c.out() = vec4(0.0f); });
 
 const NodeRow rows[] = {
     {"ND_roughness_anisotropy", "roughness_anisotropy", "float roughness=0, float anisotropy=0",

@@ -36,7 +36,12 @@ vec4 texel(Call c, const sh::HexTile& tile) {
 }
 
 /// Further inputs (falloffcontrast, lumacoeffs).
-void hexImage(Call c) {
+constexpr char hexImageGlsl[] =
+    "(nodeHexSet($2, $3, $4.x, $5, $6.x, $7, $8.x, $9), nodeHexImage($t(nodeHex.a.uv, "
+    "nodeHexFootprint(nodeHex.a, $3)), $t(nodeHex.b.uv, nodeHexFootprint(nodeHex.b, "
+    "$3)), $t(nodeHex.c.uv, nodeHexFootprint(nodeHex.c, $3)), ${10}.x, ${11}.x, "
+    "${12}.xyz))";
+constexpr Pattern hexImage = rarePattern(hexImageGlsl, "$1", [](Call c) {
     if (c.data.handle < 0) {
         c.out() = c.in(1);
         return;
@@ -49,7 +54,7 @@ void hexImage(Call c) {
     const vec3 even = sh::hexShares(tiles, vec3(1.0f), c.x(10));
     c.out() = vec4(vec3(a) * w.x + vec3(b) * w.y + vec3(d) * w.z,
                    a.w * even.x + b.w * even.y + d.w * even.z);
-}
+});
 
 /// The normal that a tile's texel stands for; its tangents turn with the tile.
 vec3 tileNormal(Call c, const sh::HexTile& tile) {
@@ -67,7 +72,12 @@ vec3 tileNormal(Call c, const sh::HexTile& tile) {
 }
 
 /// Further inputs (strength, flip_g, normal, tangent, bitangent).
-void hexNormalMap(Call c) {
+constexpr char hexNormalMapGlsl[] =
+    "(nodeHexSet($2, $3, $4.x, $5, $6.x, $7, $8.x, $9), nodeHexNormal($t(nodeHex.a.uv, "
+    "nodeHexFootprint(nodeHex.a, $3)), $t(nodeHex.b.uv, nodeHexFootprint(nodeHex.b, "
+    "$3)), $t(nodeHex.c.uv, nodeHexFootprint(nodeHex.c, $3)), ${10}.x, ${11}.x, ${12}.x, "
+    "${13}.xyz, ${14}.xyz, ${15}.xyz))";
+constexpr Pattern hexNormalMap = rarePattern(hexNormalMapGlsl, "vec4(${13}.xyz, 0.0)", [](Call c) {
     const vec3 n(c.in(13));
     c.out() = vec4(n, 0.0f);
     if (c.data.handle < 0) return;
@@ -78,7 +88,7 @@ void hexNormalMap(Call c) {
                            sh::normalGradient(n, tileNormal(c, tiles.c)) * w.z);
     const float length = glm::length(bent);
     if (length > 0.0f && std::isfinite(length)) c.out() = vec4(bent / length, 0.0f);
-}
+});
 
 #define PATINA_HEX                                                                                 \
     "vector2 texcoord=@UV0, vector2 tiling=1, float rotation=1, vector2 rotationrange=0 360, "     \

@@ -87,43 +87,56 @@ float smaller(float a, float b) {
     return a < b ? a : b;
 }
 
-void constant(Call c) {
-    c.out() = c.in(0);
-}
-void add(Call c) {
-    c.out() = c.in(0) + c.in(1);
-}
-void subtract(Call c) {
-    c.out() = c.in(0) - c.in(1);
-}
-void multiply(Call c) {
-    c.out() = c.in(0) * c.in(1);
-}
-void invert(Call c) {
-    c.out() = c.in(1) - c.in(0);
-}
-void clamped(Call c) {
+constexpr Pattern constant = pattern("$0", [](Call c) { c.out() = c.in(0); });
+constexpr Pattern add = pattern("$0 + $1", [](Call c) { c.out() = c.in(0) + c.in(1); });
+constexpr Pattern subtract = pattern("$0 - $1", [](Call c) { c.out() = c.in(0) - c.in(1); });
+constexpr Pattern multiply = pattern("$0 * $1", [](Call c) { c.out() = c.in(0) * c.in(1); });
+constexpr Pattern invert = pattern("$1 - $0", [](Call c) { c.out() = c.in(1) - c.in(0); });
+constexpr Pattern clamped = pattern("min(max($0, $1), $2)", [](Call c) {
     c.out() = glm::min(glm::max(c.in(0), c.in(1)), c.in(2));
-}
-void mixed(Call c) {
-    c.out() = c.in(1) + (c.in(0) - c.in(1)) * c.in(2);
-}
+});
 
-void smoothstep(Call c) {
+constexpr Pattern mixed = pattern(
+    "$1 + ($0 - $1) * $2", [](Call c) { c.out() = c.in(1) + (c.in(0) - c.in(1)) * c.in(2); });
+
+constexpr Pattern smoothstep = pattern("nodeSmoothstep($0, $1, $2)", [](Call c) {
     for (int i = 0; i < 4; ++i) {
         const float low = c.in(1)[i], high = c.in(2)[i], x = c.in(0)[i];
         const float t =
             high > low ? glm::clamp((x - low) / (high - low), 0.0f, 1.0f) : float(x >= high);
         c.out()[i] = t * t * (3.0f - 2.0f * t);
     }
-}
+});
 
-void remap(Call c) {
+constexpr Pattern remap = pattern("$3 + nodeDivide($0 - $1, $2 - $1) * ($4 - $3)", [](Call c) {
     for (int i = 0; i < 4; ++i) {
         const float t = divided(c.in(0)[i] - c.in(1)[i], c.in(2)[i] - c.in(1)[i]);
         c.out()[i] = c.in(3)[i] + t * (c.in(4)[i] - c.in(3)[i]);
     }
-}
+});
+
+constexpr Pattern divideNode = pattern("nodeDivide($0, $1)", map2<divided>);
+constexpr Pattern moduloNode = pattern("nodeModulo($0, $1)", map2<modulo>);
+constexpr Pattern powerNode = pattern("nodePower($0, $1)", map2<powered>);
+constexpr Pattern minNode = pattern("min($0, $1)", map2<smaller>);
+constexpr Pattern maxNode = pattern("max($0, $1)", map2<larger>);
+constexpr Pattern absvalNode = pattern("abs($0)", map1<absolute>);
+constexpr Pattern signNode = pattern("sign($0)", map1<sign>);
+constexpr Pattern floorNode = pattern("floor($0)", map1<floored>);
+constexpr Pattern ceilNode = pattern("ceil($0)", map1<ceiled>);
+constexpr Pattern roundNode = pattern("nodeRound($0)", map1<rounded>);
+constexpr Pattern fractNode = pattern("$0 - floor($0)", map1<fraction>);
+constexpr Pattern sqrtNode = pattern("sqrt(max($0, vec4(0.0)))", map1<root>);
+constexpr Pattern lnNode = pattern("log(max($0, vec4(1e-37)))", map1<logarithm>);
+constexpr Pattern expNode = pattern("exp(min($0, vec4(80.0)))", map1<exponential>);
+constexpr Pattern sinNode = pattern("sin($0)", map1<sine>);
+constexpr Pattern cosNode = pattern("cos($0)", map1<cosine>);
+constexpr Pattern tanNode = pattern("tan($0)", map1<tangent>);
+constexpr Pattern asinNode = pattern("nodeAsin($0)", map1<arcsine>);
+constexpr Pattern acosNode = pattern("nodeAcos($0)", map1<arccosine>);
+constexpr Pattern atan2Node = pattern("atan($0, $1)", map2<arctangent>);
+constexpr Pattern trianglewaveNode =
+    pattern("0.5 - abs(abs($0) - floor(abs($0)) - 0.5)", map1<triangleWave>);
 
 const char* const types = allTypes;
 const char* const tuples = tupleTypes;
@@ -150,17 +163,16 @@ const NodeRow rows[] = {
     {"ND_multiply_$", "multiply", "$ in1=0, $ in2=1", "$", multiply, Algebra::Multiply, types},
     {"ND_multiply_$FA", "multiply", "$ in1=0, float in2=1", "$", multiply, Algebra::Multiply,
      tuples},
-    {"ND_divide_$", "divide", "$ in1=0, $ in2=1", "$", map2<divided>, Algebra::Divide, types},
-    {"ND_divide_$FA", "divide", "$ in1=0, float in2=1", "$", map2<divided>, Algebra::Divide,
-     tuples},
-    {"ND_modulo_$", "modulo", "$ in1=0, $ in2=1", "$", map2<modulo>, Algebra::None, types},
-    {"ND_modulo_$FA", "modulo", "$ in1=0, float in2=1", "$", map2<modulo>, Algebra::None, tuples},
-    {"ND_power_$", "power", "$ in1=0, $ in2=1", "$", map2<powered>, Algebra::None, types},
-    {"ND_power_$FA", "power", "$ in1=0, float in2=1", "$", map2<powered>, Algebra::None, tuples},
-    {"ND_min_$", "min", "$ in1=0, $ in2=0", "$", map2<smaller>, Algebra::None, types},
-    {"ND_min_$FA", "min", "$ in1=0, float in2=0", "$", map2<smaller>, Algebra::None, tuples},
-    {"ND_max_$", "max", "$ in1=0, $ in2=0", "$", map2<larger>, Algebra::None, types},
-    {"ND_max_$FA", "max", "$ in1=0, float in2=0", "$", map2<larger>, Algebra::None, tuples},
+    {"ND_divide_$", "divide", "$ in1=0, $ in2=1", "$", divideNode, Algebra::Divide, types},
+    {"ND_divide_$FA", "divide", "$ in1=0, float in2=1", "$", divideNode, Algebra::Divide, tuples},
+    {"ND_modulo_$", "modulo", "$ in1=0, $ in2=1", "$", moduloNode, Algebra::None, types},
+    {"ND_modulo_$FA", "modulo", "$ in1=0, float in2=1", "$", moduloNode, Algebra::None, tuples},
+    {"ND_power_$", "power", "$ in1=0, $ in2=1", "$", powerNode, Algebra::None, types},
+    {"ND_power_$FA", "power", "$ in1=0, float in2=1", "$", powerNode, Algebra::None, tuples},
+    {"ND_min_$", "min", "$ in1=0, $ in2=0", "$", minNode, Algebra::None, types},
+    {"ND_min_$FA", "min", "$ in1=0, float in2=0", "$", minNode, Algebra::None, tuples},
+    {"ND_max_$", "max", "$ in1=0, $ in2=0", "$", maxNode, Algebra::None, types},
+    {"ND_max_$FA", "max", "$ in1=0, float in2=0", "$", maxNode, Algebra::None, tuples},
     {"ND_clamp_$", "clamp", "$ in=0, $ low=0, $ high=1", "$", clamped, Algebra::None, types},
     {"ND_clamp_$FA", "clamp", "$ in=0, float low=0, float high=1", "$", clamped, Algebra::None,
      tuples},
@@ -168,33 +180,26 @@ const NodeRow rows[] = {
     {"ND_mix_$_$", "mix", "$ fg=0, $ bg=0, $ mix=0", "$", mixed, Algebra::Mix, tuples},
     {"ND_invert_$", "invert", "$ in=0, $ amount=1", "$", invert, Algebra::None, types},
     {"ND_invert_$FA", "invert", "$ in=0, float amount=1", "$", invert, Algebra::None, tuples},
-    {"ND_absval_$", "absval", "$ in=0", "$", map1<absolute>, Algebra::None, types},
-    {"ND_sign_$", "sign", "$ in=0", "$", map1<sign>, Algebra::None, types},
-    {"ND_floor_$", "floor", "$ in=0", "$", map1<floored>, Algebra::None, types},
-    {"ND_ceil_$", "ceil", "$ in=0", "$", map1<ceiled>, Algebra::None, types},
-    {"ND_round_$", "round", "$ in=0", "$", map1<rounded>, Algebra::None, types},
-    {"ND_fract_$", "fract", "$ in=0", "$", map1<fraction>, Algebra::None, types},
-    {"ND_sqrt_$", "sqrt", "$ in=0", "$", map1<root>, Algebra::None,
+    {"ND_absval_$", "absval", "$ in=0", "$", absvalNode, Algebra::None, types},
+    {"ND_sign_$", "sign", "$ in=0", "$", signNode, Algebra::None, types},
+    {"ND_floor_$", "floor", "$ in=0", "$", floorNode, Algebra::None, types},
+    {"ND_ceil_$", "ceil", "$ in=0", "$", ceilNode, Algebra::None, types},
+    {"ND_round_$", "round", "$ in=0", "$", roundNode, Algebra::None, types},
+    {"ND_fract_$", "fract", "$ in=0", "$", fractNode, Algebra::None, types},
+    {"ND_sqrt_$", "sqrt", "$ in=0", "$", sqrtNode, Algebra::None, "float vector2 vector3 vector4"},
+    {"ND_ln_$", "ln", "$ in=1", "$", lnNode, Algebra::None, "float vector2 vector3 vector4"},
+    {"ND_exp_$", "exp", "$ in=0", "$", expNode, Algebra::None, "float vector2 vector3 vector4"},
+    {"ND_sin_$", "sin", "$ in=0", "$", sinNode, Algebra::None, "float vector2 vector3 vector4"},
+    {"ND_cos_$", "cos", "$ in=0", "$", cosNode, Algebra::None, "float vector2 vector3 vector4"},
+    {"ND_tan_$", "tan", "$ in=0", "$", tanNode, Algebra::None, "float vector2 vector3 vector4"},
+    {"ND_asin_$", "asin", "$ in=0", "$", asinNode, Algebra::None, "float vector2 vector3 vector4"},
+    {"ND_acos_$", "acos", "$ in=0", "$", acosNode, Algebra::None, "float vector2 vector3 vector4"},
+    {"ND_atan2_$", "atan2", "$ iny=0, $ inx=1", "$", atan2Node, Algebra::None,
      "float vector2 vector3 vector4"},
-    {"ND_ln_$", "ln", "$ in=1", "$", map1<logarithm>, Algebra::None,
-     "float vector2 vector3 vector4"},
-    {"ND_exp_$", "exp", "$ in=0", "$", map1<exponential>, Algebra::None,
-     "float vector2 vector3 vector4"},
-    {"ND_sin_$", "sin", "$ in=0", "$", map1<sine>, Algebra::None, "float vector2 vector3 vector4"},
-    {"ND_cos_$", "cos", "$ in=0", "$", map1<cosine>, Algebra::None,
-     "float vector2 vector3 vector4"},
-    {"ND_tan_$", "tan", "$ in=0", "$", map1<tangent>, Algebra::None,
-     "float vector2 vector3 vector4"},
-    {"ND_asin_$", "asin", "$ in=0", "$", map1<arcsine>, Algebra::None,
-     "float vector2 vector3 vector4"},
-    {"ND_acos_$", "acos", "$ in=0", "$", map1<arccosine>, Algebra::None,
-     "float vector2 vector3 vector4"},
-    {"ND_atan2_$", "atan2", "$ iny=0, $ inx=1", "$", map2<arctangent>, Algebra::None,
-     "float vector2 vector3 vector4"},
-    {"ND_trianglewave_float", "trianglewave", "float in=0", "float", map1<triangleWave>},
-    {"ND_floor_integer", "floor", "float in=0", "integer", map1<floored>},
-    {"ND_ceil_integer", "ceil", "float in=0", "integer", map1<ceiled>},
-    {"ND_round_integer", "round", "float in=0", "integer", map1<rounded>},
+    {"ND_trianglewave_float", "trianglewave", "float in=0", "float", trianglewaveNode},
+    {"ND_floor_integer", "floor", "float in=0", "integer", floorNode},
+    {"ND_ceil_integer", "ceil", "float in=0", "integer", ceilNode},
+    {"ND_round_integer", "round", "float in=0", "integer", roundNode},
     {"ND_smoothstep_$", "smoothstep", "$ in=0, $ low=0, $ high=1", "$", smoothstep, Algebra::None,
      types},
     {"ND_smoothstep_$FA", "smoothstep", "$ in=0, float low=0, float high=1", "$", smoothstep,

@@ -41,120 +41,110 @@ template <class M> M inverted(const M& m) {
     return d != 0.0f && std::isfinite(1.0f / d) ? glm::inverse(m) : M(1.0f);
 }
 
-void copy3(Call c) {
-    store(c, in3(c, 0));
-}
-void copy4(Call c) {
-    store(c, in4(c, 0));
-}
-void add3(Call c) {
-    store(c, in3(c, 0) + in3(c, 1));
-}
-void add4(Call c) {
-    store(c, in4(c, 0) + in4(c, 1));
-}
-void addScalar3(Call c) {
-    store(c, in3(c, 0) + c.x(1));
-}
-void addScalar4(Call c) {
-    store(c, in4(c, 0) + c.x(1));
-}
-void subtract3(Call c) {
-    store(c, in3(c, 0) - in3(c, 1));
-}
-void subtract4(Call c) {
-    store(c, in4(c, 0) - in4(c, 1));
-}
-void subtractScalar3(Call c) {
-    store(c, in3(c, 0) - c.x(1));
-}
-void subtractScalar4(Call c) {
-    store(c, in4(c, 0) - c.x(1));
-}
-void multiply3(Call c) {
-    store(c, in3(c, 1) * in3(c, 0));
-}
-void multiply4(Call c) {
-    store(c, in4(c, 1) * in4(c, 0));
-}
-void divide3(Call c) {
-    store(c, inverted(in3(c, 1)) * in3(c, 0));
-}
-void divide4(Call c) {
-    store(c, inverted(in4(c, 1)) * in4(c, 0));
-}
-void transpose3(Call c) {
-    store(c, glm::transpose(in3(c, 0)));
-}
-void transpose4(Call c) {
-    store(c, glm::transpose(in4(c, 0)));
-}
-void invert3(Call c) {
-    store(c, inverted(in3(c, 0)));
-}
-void invert4(Call c) {
-    store(c, inverted(in4(c, 0)));
-}
-void determinant3(Call c) {
-    c.out() = vec4(glm::determinant(in3(c, 0)));
-}
-void determinant4(Call c) {
-    c.out() = vec4(glm::determinant(in4(c, 0)));
-}
+constexpr char copy3Glsl[] = "3|$A0";
+constexpr Pattern copy3 = rarePattern(copy3Glsl, [](Call c) { store(c, in3(c, 0)); });
+constexpr Pattern copy4 = rarePattern("4|$B0", [](Call c) { store(c, in4(c, 0)); });
+constexpr Pattern add3 =
+    rarePattern("3|$A0 + $A1", [](Call c) { store(c, in3(c, 0) + in3(c, 1)); });
+constexpr Pattern add4 =
+    rarePattern("4|$B0 + $B1", [](Call c) { store(c, in4(c, 0) + in4(c, 1)); });
+constexpr Pattern addScalar3 =
+    rarePattern("3|$A0 + $1.x", [](Call c) { store(c, in3(c, 0) + c.x(1)); });
+constexpr Pattern addScalar4 =
+    rarePattern("4|$B0 + $1.x", [](Call c) { store(c, in4(c, 0) + c.x(1)); });
+constexpr Pattern subtract3 =
+    rarePattern("3|$A0 - $A1", [](Call c) { store(c, in3(c, 0) - in3(c, 1)); });
+constexpr Pattern subtract4 =
+    rarePattern("4|$B0 - $B1", [](Call c) { store(c, in4(c, 0) - in4(c, 1)); });
+constexpr Pattern subtractScalar3 =
+    rarePattern("3|$A0 - $1.x", [](Call c) { store(c, in3(c, 0) - c.x(1)); });
+constexpr Pattern subtractScalar4 =
+    rarePattern("4|$B0 - $1.x", [](Call c) { store(c, in4(c, 0) - c.x(1)); });
+constexpr Pattern multiply3 =
+    rarePattern("3|$A1 * $A0", [](Call c) { store(c, in3(c, 1) * in3(c, 0)); });
+constexpr Pattern multiply4 =
+    rarePattern("4|$B1 * $B0", [](Call c) { store(c, in4(c, 1) * in4(c, 0)); });
+constexpr Pattern divide3 = rarePattern("3|nodeInverse($A1) * $A0",
+                                        [](Call c) { store(c, inverted(in3(c, 1)) * in3(c, 0)); });
+constexpr Pattern divide4 = rarePattern("4|nodeInverse($B1) * $B0",
+                                        [](Call c) { store(c, inverted(in4(c, 1)) * in4(c, 0)); });
+constexpr Pattern transpose3 =
+    rarePattern("3|transpose($A0)", [](Call c) { store(c, glm::transpose(in3(c, 0))); });
+constexpr Pattern transpose4 =
+    rarePattern("4|transpose($B0)", [](Call c) { store(c, glm::transpose(in4(c, 0))); });
+constexpr Pattern invert3 =
+    rarePattern("3|nodeInverse($A0)", [](Call c) { store(c, inverted(in3(c, 0))); });
+constexpr Pattern invert4 =
+    rarePattern("4|nodeInverse($B0)", [](Call c) { store(c, inverted(in4(c, 0))); });
+constexpr Pattern determinant3 = rarePattern(
+    "vec4(determinant($A0))", [](Call c) { c.out() = vec4(glm::determinant(in3(c, 0))); });
+constexpr Pattern determinant4 = rarePattern(
+    "vec4(determinant($B0))", [](Call c) { c.out() = vec4(glm::determinant(in4(c, 0))); });
 
-void create3(Call c) {
-    for (int i = 0; i < 3; ++i)
-        c.out(i) = vec4(vec3(c.in(i)), 0.0f);
-}
-void create4(Call c) {
-    for (int i = 0; i < 4; ++i)
-        c.out(i) = vec4(vec3(c.in(i)), i == 3 ? 1.0f : 0.0f);
-}
-void create4Full(Call c) {
+constexpr Pattern create3 =
+    rarePattern("vec4($0.xyz, 0.0); vec4($1.xyz, 0.0); vec4($2.xyz, 0.0)", [](Call c) {
+        for (int i = 0; i < 3; ++i)
+            c.out(i) = vec4(vec3(c.in(i)), 0.0f);
+    });
+
+constexpr Pattern create4 = rarePattern(
+    "vec4($0.xyz, 0.0); vec4($1.xyz, 0.0); vec4($2.xyz, 0.0); vec4($3.xyz, 1.0)", [](Call c) {
+        for (int i = 0; i < 4; ++i)
+            c.out(i) = vec4(vec3(c.in(i)), i == 3 ? 1.0f : 0.0f);
+    });
+
+constexpr Pattern create4Full = rarePattern("$0; $1; $2; $3", [](Call c) {
     for (int i = 0; i < 4; ++i)
         c.out(i) = c.in(i);
-}
+});
 
 /// A row by its index.
-template <int Rows> void extractRow(Call c) {
+template <int Rows> constexpr const char* extractRowGlsl =
+    Rows == 3 ? "vec4($A0[clamp(nodeWhole($1.x), 0, 2)], 0.0)"
+              : "$B0[clamp(nodeWhole($1.x), 0, 3)]";
+template <int Rows> constexpr Pattern extractRow = rarePattern(extractRowGlsl<Size>, [](Call c) {
     c.out() = row(c, 0, glm::clamp(c.whole(1), 0, Rows - 1));
-}
+});
 
 template <int Rows> void copyRows(Call c, int input) {
     for (int i = 0; i < Rows; ++i)
         c.out(i) = row(c, input, i);
 }
 /// Inputs (value1, value2, in1, in2).
-template <int Rows> void ifGreater(Call c) {
-    copyRows<Rows>(c, c.x(0) > c.x(1) ? 2 : 3);
-}
-template <int Rows> void ifGreaterEq(Call c) {
-    copyRows<Rows>(c, c.x(0) >= c.x(1) ? 2 : 3);
-}
-template <int Rows> void ifEqual(Call c) {
-    copyRows<Rows>(c, c.x(0) == c.x(1) ? 2 : 3);
-}
+template <int Rows> constexpr Pattern
+    ifGreater = rarePattern(Rows == 3 ? "3|$0.x > $1.x ? $A2 : $A3" : "4|$0.x > $1.x ? $B2 : $B3",
+                            [](Call c) { copyRows<Rows>(c, c.x(0) > c.x(1) ? 2 : 3); });
+template <int Rows> constexpr Pattern ifGreaterEq =
+    rarePattern(Rows == 3 ? "3|$0.x >= $1.x ? $A2 : $A3" : "4|$0.x >= $1.x ? $B2 : $B3",
+                [](Call c) { copyRows<Rows>(c, c.x(0) >= c.x(1) ? 2 : 3); });
+template <int Rows> constexpr Pattern
+    ifEqual = rarePattern(Rows == 3 ? "3|$0.x == $1.x ? $A2 : $A3" : "4|$0.x == $1.x ? $B2 : $B3",
+                          [](Call c) { copyRows<Rows>(c, c.x(0) == c.x(1) ? 2 : 3); });
 /// Inputs (in1, ..., in10, which).
-template <int Rows> void switched(Call c) {
-    const float which = std::fmax(std::floor(c.x(10)), 0.0f);
-    const bool known = which < 10.0f;
-    for (int i = 0; i < Rows; ++i)
-        c.out(i) = known ? row(c, int(which), i) : vec4(0.0f);
-}
+template <int Rows> constexpr Pattern switched = rarePattern(
+    Rows == 3
+        ? "3|nodeSwitch3(${10}.x, mat3[10]($A0, $A1, $A2, $A3, $A4, $A5, $A6, $A7, $A8, $A9))"
+        : "4|nodeSwitch4(${10}.x, mat4[10]($B0, $B1, $B2, $B3, $B4, $B5, $B6, $B7, $B8, $B9))",
+    [](Call c) {
+        const float which = std::fmax(std::floor(c.x(10)), 0.0f);
+        const bool known = which < 10.0f;
+        for (int i = 0; i < Rows; ++i)
+            c.out(i) = known ? row(c, int(which), i) : vec4(0.0f);
+    });
 
-void transformPoint2(Call c) {
-    const vec3 v = in3(c, 1) * vec3(vec2(c.in(0)), 1.0f);
-    c.out() = vec4(v.x, v.y, 0.0f, 0.0f);
-}
-void transform3(Call c) {
-    c.out() = vec4(in3(c, 1) * vec3(c.in(0)), 0.0f);
-}
-void transformPoint3(Call c) {
-    c.out() = vec4(vec3(in4(c, 1) * vec4(vec3(c.in(0)), 1.0f)), 0.0f);
-}
-void transform4(Call c) {
-    c.out() = in4(c, 1) * c.in(0);
-}
+constexpr Pattern transformPoint2 =
+    rarePattern("vec4(($A1 * vec3($0.xy, 1.0)).xy, 0.0, 0.0)", [](Call c) {
+        const vec3 v = in3(c, 1) * vec3(vec2(c.in(0)), 1.0f);
+        c.out() = vec4(v.x, v.y, 0.0f, 0.0f);
+    });
+
+constexpr Pattern transform3 = rarePattern(
+    "vec4($A1 * $0.xyz, 0.0)", [](Call c) { c.out() = vec4(in3(c, 1) * vec3(c.in(0)), 0.0f); });
+constexpr Pattern transformPoint3 =
+    rarePattern("vec4(($B1 * vec4($0.xyz, 1.0)).xyz, 0.0)",
+                [](Call c) { c.out() = vec4(vec3(in4(c, 1) * vec4(vec3(c.in(0)), 1.0f)), 0.0f); });
+constexpr Pattern transform4 =
+    rarePattern("$B1 * $0", [](Call c) { c.out() = in4(c, 1) * c.in(0); });
 
 #define PATINA_ONE3 "=1 0 0 0 1 0 0 0 1"
 #define PATINA_ONE4 "=1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"

@@ -19,34 +19,39 @@ const vec2 second2(19.0f, 193.0f);
 const vec3 second3(19.0f, 193.0f, 17.0f);
 
 /// Inputs (amplitude, pivot, texcoord) and (amplitude, pivot, position).
-void noise2Scalar(Call c) {
+constexpr Pattern noise2Scalar = pattern("vec4(noisePerlin2($2.xy, 0) * $0.x + $1.x)", [](Call c) {
     c.out() = vec4(sh::noisePerlin2(vec2(c.in(2)), 0) * c.x(0) + c.x(1));
-}
+});
+
 vec4 triple2(const vec2& p) {
     return {sh::noisePerlin2(p, 0), sh::noisePerlin2(p, 8), sh::noisePerlin2(p, 16), 0.0f};
 }
-void noise2Triple(Call c) {
+constexpr Pattern noise2Triple = pattern("nodeNoise2($2.xy) * $0 + $1.x", [](Call c) {
     c.out() = triple2(vec2(c.in(2))) * c.in(0) + c.x(1);
-}
-void noise2Quad(Call c) {
+});
+
+constexpr Pattern noise2Quad = rarePattern("nodeNoise2Quad($2.xy) * $0 + $1.x", [](Call c) {
     vec4 v = triple2(vec2(c.in(2)));
     v.w = sh::noisePerlin2(vec2(c.in(2)) + vec2(19.0f, 73.0f), 0);
     c.out() = v * c.in(0) + c.x(1);
-}
-void noise3Scalar(Call c) {
+});
+
+constexpr Pattern noise3Scalar = pattern("vec4(noisePerlin3($2.xyz, 0) * $0.x + $1.x)", [](Call c) {
     c.out() = vec4(sh::noisePerlin3(vec3(c.in(2)), 0) * c.x(0) + c.x(1));
-}
+});
+
 vec4 triple3(const vec3& p) {
     return {sh::noisePerlin3(p, 0), sh::noisePerlin3(p, 8), sh::noisePerlin3(p, 16), 0.0f};
 }
-void noise3Triple(Call c) {
+constexpr Pattern noise3Triple = pattern("nodeNoise3($2.xyz) * $0 + $1.x", [](Call c) {
     c.out() = triple3(vec3(c.in(2))) * c.in(0) + c.x(1);
-}
-void noise3Quad(Call c) {
+});
+
+constexpr Pattern noise3Quad = rarePattern("nodeNoise3Quad($2.xyz) * $0 + $1.x", [](Call c) {
     vec4 v = triple3(vec3(c.in(2)));
     v.w = sh::noisePerlin3(vec3(c.in(2)) + vec3(19.0f, 73.0f, 29.0f), 0);
     c.out() = v * c.in(0) + c.x(1);
-}
+});
 
 /// Inputs (amplitude, octaves, lacunarity, diminish, texcoord or position).
 float octaves2(Call c, const vec2& offset, int shift) {
@@ -55,59 +60,71 @@ float octaves2(Call c, const vec2& offset, int shift) {
 float octaves3(Call c, const vec3& offset, int shift) {
     return sh::noiseFractal3(vec3(c.in(4)) + offset, c.whole(1), c.x(2), c.x(3), shift);
 }
-void fractal2Scalar(Call c) {
-    c.out() = vec4(octaves2(c, vec2(0.0f), 0) * c.x(0));
-}
-void fractal2Pair(Call c) {
-    c.out() = vec4(octaves2(c, vec2(0.0f), 0), octaves2(c, second2, 0), 0.0f, 0.0f) * c.in(0);
-}
-void fractal2Triple(Call c) {
-    const vec2 o(0.0f);
-    c.out() = vec4(octaves2(c, o, 0), octaves2(c, o, 8), octaves2(c, o, 16), 0.0f) * c.in(0);
-}
-void fractal2Quad(Call c) {
+constexpr Pattern fractal2Scalar =
+    pattern("vec4(noiseFractal2($4.xy, int($1.x), $2.x, $3.x, 0) * $0.x)",
+            [](Call c) { c.out() = vec4(octaves2(c, vec2(0.0f), 0) * c.x(0)); });
+constexpr Pattern fractal2Pair =
+    rarePattern("nodeFractal2Pair($4.xy, nodeWhole($1.x), $2.x, $3.x) * $0", [](Call c) {
+        c.out() = vec4(octaves2(c, vec2(0.0f), 0), octaves2(c, second2, 0), 0.0f, 0.0f) * c.in(0);
+    });
+
+constexpr Pattern fractal2Triple =
+    pattern("nodeFractal2($4.xy, int($1.x), $2.x, $3.x) * $0", [](Call c) {
+        const vec2 o(0.0f);
+        c.out() = vec4(octaves2(c, o, 0), octaves2(c, o, 8), octaves2(c, o, 16), 0.0f) * c.in(0);
+    });
+
+constexpr char fractal2QuadGlsl[] = "nodeFractal2Quad($4.xy, nodeWhole($1.x), $2.x, $3.x) * $0";
+constexpr Pattern fractal2Quad = rarePattern(fractal2QuadGlsl, [](Call c) {
     const vec2 o(0.0f);
     c.out() =
         vec4(octaves2(c, o, 0), octaves2(c, o, 8), octaves2(c, o, 16), octaves2(c, second2, 0)) *
         c.in(0);
-}
-void fractal3Scalar(Call c) {
-    c.out() = vec4(octaves3(c, vec3(0.0f), 0) * c.x(0));
-}
-void fractal3Pair(Call c) {
-    c.out() = vec4(octaves3(c, vec3(0.0f), 0), octaves3(c, second3, 0), 0.0f, 0.0f) * c.in(0);
-}
-void fractal3Triple(Call c) {
-    const vec3 o(0.0f);
-    c.out() = vec4(octaves3(c, o, 0), octaves3(c, o, 8), octaves3(c, o, 16), 0.0f) * c.in(0);
-}
-void fractal3Quad(Call c) {
+});
+
+constexpr Pattern fractal3Scalar =
+    pattern("vec4(noiseFractal3($4.xyz, int($1.x), $2.x, $3.x, 0) * $0.x)",
+            [](Call c) { c.out() = vec4(octaves3(c, vec3(0.0f), 0) * c.x(0)); });
+constexpr Pattern fractal3Pair =
+    rarePattern("nodeFractal3Pair($4.xyz, nodeWhole($1.x), $2.x, $3.x) * $0", [](Call c) {
+        c.out() = vec4(octaves3(c, vec3(0.0f), 0), octaves3(c, second3, 0), 0.0f, 0.0f) * c.in(0);
+    });
+
+constexpr Pattern fractal3Triple =
+    pattern("nodeFractal3($4.xyz, int($1.x), $2.x, $3.x) * $0", [](Call c) {
+        const vec3 o(0.0f);
+        c.out() = vec4(octaves3(c, o, 0), octaves3(c, o, 8), octaves3(c, o, 16), 0.0f) * c.in(0);
+    });
+
+constexpr char fractal3QuadGlsl[] = "nodeFractal3Quad($4.xyz, nodeWhole($1.x), $2.x, $3.x) * $0";
+constexpr Pattern fractal3Quad = rarePattern(fractal3QuadGlsl, [](Call c) {
     const vec3 o(0.0f);
     c.out() =
         vec4(octaves3(c, o, 0), octaves3(c, o, 8), octaves3(c, o, 16), octaves3(c, second3, 0)) *
         c.in(0);
-}
+});
 
-void cell2(Call c) {
-    c.out() = vec4(sh::noiseCell2(vec2(c.in(0))));
-}
-void cell3(Call c) {
-    c.out() = vec4(sh::noiseCell3(vec3(c.in(0))));
-}
+constexpr Pattern cell2 = pattern("vec4(noiseCell2($0.xy))",
+                                  [](Call c) { c.out() = vec4(sh::noiseCell2(vec2(c.in(0)))); });
+constexpr Pattern cell3 = pattern("vec4(noiseCell3($0.xyz))",
+                                  [](Call c) { c.out() = vec4(sh::noiseCell3(vec3(c.in(0)))); });
 
 /// Inputs (texcoord or position, jitter, style).
-void worley2Scalar(Call c) {
-    c.out() = vec4(sh::worleyScalar2(vec2(c.in(0)), c.x(1), c.whole(2)));
-}
-void worley2Tuple(Call c) {
-    c.out() = vec4(sh::worleyNoise2(vec2(c.in(0)), c.x(1), c.whole(2)), 0.0f);
-}
-void worley3Scalar(Call c) {
-    c.out() = vec4(sh::worleyScalar3(vec3(c.in(0)), c.x(1), c.whole(2)));
-}
-void worley3Tuple(Call c) {
-    c.out() = vec4(sh::worleyNoise3(vec3(c.in(0)), c.x(1), c.whole(2)), 0.0f);
-}
+constexpr Pattern worley2Scalar =
+    pattern("vec4(worleyScalar2($0.xy, $1.x, int($2.x)))",
+            [](Call c) { c.out() = vec4(sh::worleyScalar2(vec2(c.in(0)), c.x(1), c.whole(2))); });
+constexpr Pattern worley2Tuple =
+    pattern("vec4(worleyNoise2($0.xy, $1.x, int($2.x)), 0.0)", [](Call c) {
+        c.out() = vec4(sh::worleyNoise2(vec2(c.in(0)), c.x(1), c.whole(2)), 0.0f);
+    });
+
+constexpr Pattern worley3Scalar =
+    pattern("vec4(worleyScalar3($0.xyz, $1.x, int($2.x)))",
+            [](Call c) { c.out() = vec4(sh::worleyScalar3(vec3(c.in(0)), c.x(1), c.whole(2))); });
+constexpr Pattern worley3Tuple =
+    pattern("vec4(worleyNoise3($0.xyz, $1.x, int($2.x)), 0.0)", [](Call c) {
+        c.out() = vec4(sh::worleyNoise3(vec3(c.in(0)), c.x(1), c.whole(2)), 0.0f);
+    });
 
 /// The unified nodes: (at, freq, offset, jitter, outmin, outmax, clampoutput, octaves, lacunarity,
 /// diminish, type, style). A jitter other than 1 turns the lattice of all but Worley noise.
@@ -116,19 +133,26 @@ void toRange(Call c, float x) {
     const float v = low + x * (high - low);
     c.out() = vec4(c.x(6) != 0.0f ? glm::min(glm::max(v, low), high) : v);
 }
-void unified2(Call c) {
-    const vec2 p = vec2(c.in(0)) * vec2(c.in(1)) + vec2(c.in(2));
-    const float angle = (c.x(3) - 1.0f) * 90000.0f;
-    const vec2 turned = sh::patternRotate2d(p, angle);
-    switch (c.whole(10)) {
-    case 0: return toRange(c, 0.5f * sh::noisePerlin2(turned, 0) + 0.5f);
-    case 1: return toRange(c, sh::noiseCell2(turned));
-    case 2: return toRange(c, sh::worleyScalar2(p, c.x(3), c.whole(11)));
-    case 3: return toRange(c, sh::noiseFractal3(vec3(p, angle), c.whole(7), c.x(8), c.x(9), 0));
-    default: return toRange(c, 0.0f);
-    }
-}
-void unified3(Call c) {
+constexpr Pattern unified2 = rarePattern(
+    "nodeToRange(nodeUnified2($0.xy * $1.xy + $2.xy, $3.x, nodeWhole($7.x), $8.x, $9.x, "
+    "nodeWhole(${10}.x), nodeWhole(${11}.x)), $4.x, $5.x, $6.x)",
+    [](Call c) {
+        const vec2 p = vec2(c.in(0)) * vec2(c.in(1)) + vec2(c.in(2));
+        const float angle = (c.x(3) - 1.0f) * 90000.0f;
+        const vec2 turned = sh::patternRotate2d(p, angle);
+        switch (c.whole(10)) {
+        case 0: return toRange(c, 0.5f * sh::noisePerlin2(turned, 0) + 0.5f);
+        case 1: return toRange(c, sh::noiseCell2(turned));
+        case 2: return toRange(c, sh::worleyScalar2(p, c.x(3), c.whole(11)));
+        case 3: return toRange(c, sh::noiseFractal3(vec3(p, angle), c.whole(7), c.x(8), c.x(9), 0));
+        default: return toRange(c, 0.0f);
+        }
+    });
+
+constexpr char unified3Glsl[] =
+    "nodeToRange(nodeUnified3($0.xyz * $1.xyz + $2.xyz, $3.x, nodeWhole($7.x), $8.x, "
+    "$9.x, nodeWhole(${10}.x), nodeWhole(${11}.x)), $4.x, $5.x, $6.x)";
+constexpr Pattern unified3 = rarePattern(unified3Glsl, [](Call c) {
     const vec3 p = vec3(c.in(0)) * vec3(c.in(1)) + vec3(c.in(2));
     const vec3 turned = sh::patternRotate3d(p, (c.x(3) - 1.0f) * 90000.0f, vec3(0.1f, 1.0f, 0.0f));
     switch (c.whole(10)) {
@@ -138,7 +162,7 @@ void unified3(Call c) {
     case 3: return toRange(c, sh::noiseFractal3(turned, c.whole(7), c.x(8), c.x(9), 0));
     default: return toRange(c, 0.0f);
     }
-}
+});
 
 /// Inputs (size, roughness, coverage, at, normal, tangent, bitangent).
 void flake(Call c, const vec3& at) {
@@ -149,12 +173,16 @@ void flake(Call c, const vec3& at) {
     c.out(2) = vec4(hit.presence);
     c.out(3) = vec4(hit.normal, 0.0f);
 }
-void flake2(Call c) {
-    flake(c, vec3(c.in(3).x, c.in(3).y, 0.0f));
-}
-void flake3(Call c) {
-    flake(c, vec3(c.in(3)));
-}
+constexpr Pattern flake2 =
+    rarePattern("nodeFlake($0.x, $1.x, $2.x, vec3($3.xy, 0.0), $4.xyz, $5.xyz, $6.xyz); "
+                "vec4(nodeFlakeHit.random); vec4(nodeFlakeHit.presence); vec4(nodeFlakeHit.normal, "
+                "0.0)",
+                [](Call c) { flake(c, vec3(c.in(3).x, c.in(3).y, 0.0f)); });
+constexpr Pattern flake3 =
+    rarePattern("nodeFlake($0.x, $1.x, $2.x, $3.xyz, $4.xyz, $5.xyz, $6.xyz); "
+                "vec4(nodeFlakeHit.random); vec4(nodeFlakeHit.presence); vec4(nodeFlakeHit.normal, "
+                "0.0)",
+                [](Call c) { flake(c, vec3(c.in(3))); });
 
 float randomIn(float x, float seed, float low, float high) {
     const float v = low + sh::noiseCell2(vec2(x, seed)) * (high - low);
@@ -164,7 +192,9 @@ float randomIn(float x, float seed, float low, float high) {
 template <int Scale> void randomFloat(Call c) {
     c.out() = vec4(randomIn(c.x(0) * float(Scale), c.x(3), c.x(1), c.x(2)));
 }
-void randomColor(Call c) {
+constexpr char randomColorGlsl[] =
+    "nodeRandomColor($0.x, vec2($1.x, $2.x), vec2($3.x, $4.x), vec2($5.x, $6.x), $7.x)";
+constexpr Pattern randomColor = rarePattern(randomColorGlsl, [](Call c) {
     const float seed = c.x(7);
     const auto channel = [&](float salt, int low) {
         const float u = randomIn(c.x(0) * 4096.0f, std::ceil(seed + salt), 0.0f, 1.0f);
@@ -172,7 +202,12 @@ void randomColor(Call c) {
     };
     const vec3 hsv(channel(413.3f, 1), channel(1522.4f, 3), channel(1813.8f, 5));
     c.out() = vec4(sh::patternHsvToRgb(hsv), 0.0f);
-}
+});
+
+constexpr Pattern randomOfFloat =
+    rarePattern("vec4(nodeRandom($0.x * 4096.0, $3.x, $1.x, $2.x))", randomFloat<4096>);
+constexpr Pattern randomOfInteger =
+    rarePattern("vec4(nodeRandom($0.x, $3.x, $1.x, $2.x))", randomFloat<1>);
 
 const char* const pairAndTriples = "vector2 vector3 color3";
 const char* const triples = "vector3 color3";
@@ -268,9 +303,9 @@ const NodeRow rows[] = {
      "position=@Pobject, " PATINA_FLAKE,
      PATINA_FLAKE_OUT, flake3},
     {"ND_randomfloat_float", "randomfloat", "float in=0, float min=0, float max=1, integer seed=0",
-     "float", randomFloat<4096>},
+     "float", randomOfFloat},
     {"ND_randomfloat_integer", "randomfloat",
-     "integer in=0, float min=0, float max=1, integer seed=0", "float", randomFloat<1>},
+     "integer in=0, float min=0, float max=1, integer seed=0", "float", randomOfInteger},
     {"ND_randomcolor_float", "randomcolor", "float in=0, " PATINA_HSV, "color3", randomColor},
     {"ND_randomcolor_integer", "randomcolor", "integer in=0, " PATINA_HSV, "color3", randomColor},
 };

@@ -32,42 +32,61 @@ vec4 gltfTexel(Call c, int order) {
     const float widest = std::fmax(std::fabs(scale.x), std::fabs(scale.y));
     return texel(c, c.data.handle, uv, c.point().uvFootprint * widest, 1);
 }
-void gltfImage(Call c) {
-    c.out() = gltfTexel(c, c.whole(7)) * c.in(8);
-}
-void gltfScalarImage(Call c) {
-    c.out() = vec4(gltfTexel(c, c.whole(7)).x * c.x(8));
-}
+constexpr char gltfImageGlsl[] =
+    "$t(nodeGltfUv($2, $3, $4, $5, $6, nodeWhole($7.x)), point.uvFootprint * "
+    "max(abs($4.x), abs($4.y))) * $8";
+constexpr Pattern gltfImage =
+    rarePattern(gltfImageGlsl, [](Call c) { c.out() = gltfTexel(c, c.whole(7)) * c.in(8); });
+constexpr Pattern gltfScalarImage =
+    rarePattern("vec4($t(nodeGltfUv($2, $3, $4, $5, $6, nodeWhole($7.x)), point.uvFootprint * "
+                "max(abs($4.x), abs($4.y))).x * $8.x)",
+                [](Call c) { c.out() = vec4(gltfTexel(c, c.whole(7)).x * c.x(8)); });
 /// Further inputs (color, geomcolor).
-void gltfColorImage(Call c) {
+constexpr char gltfColorImageGlsl[] =
+    "$t(nodeGltfUv($2, $3, $4, $5, $6, 0), point.uvFootprint * max(abs($4.x), "
+    "abs($4.y))) * $8 * $9; vec4(($t(nodeGltfUv($2, $3, $4, $5, $6, 0), "
+    "point.uvFootprint * max(abs($4.x), abs($4.y))) * $8 * $9).w)";
+constexpr Pattern gltfColorImage = rarePattern(gltfColorImageGlsl, [](Call c) {
     const vec4 t = gltfTexel(c, 0) * c.in(8) * c.in(9);
     c.out(0) = t;
     c.out(1) = vec4(t.w);
-}
+});
+
 /// Further inputs (normal, tangent, bitangent).
-void gltfNormalMap(Call c) {
+constexpr char gltfNormalMapGlsl[] =
+    "vec4(patternNormalMap($t(nodeGltfUv($2, $3, $4, $5, $6, nodeWhole($7.x)), "
+    "point.uvFootprint * max(abs($4.x), abs($4.y))).xyz, vec2(1.0), $8.xyz, $9.xyz, "
+    "${10}.xyz), 0.0)";
+constexpr Pattern gltfNormalMap = rarePattern(gltfNormalMapGlsl, [](Call c) {
     c.out() = vec4(sh::patternNormalMap(vec3(gltfTexel(c, c.whole(7))), vec2(1.0f), vec3(c.in(8)),
                                         vec3(c.in(9)), vec3(c.in(10))),
                    0.0f);
-}
+});
+
 /// Further inputs (thicknessMin, thicknessMax). Black texels are the thickest, as MaterialX has it.
-void gltfThickness(Call c) {
-    c.out() = vec4(c.x(9) + (c.x(8) - c.x(9)) * gltfTexel(c, 0).y);
-}
+constexpr Pattern gltfThickness =
+    rarePattern("vec4($9.x + ($8.x - $9.x) * $t(nodeGltfUv($2, $3, $4, $5, $6, 0), "
+                "point.uvFootprint * max(abs($4.x), abs($4.y))).y)",
+                [](Call c) { c.out() = vec4(c.x(9) + (c.x(8) - c.x(9)) * gltfTexel(c, 0).y); });
 /// Further inputs (anisotropy_strength, anisotropy_rotation).
-void gltfAnisotropy(Call c) {
-    const vec4 t = gltfTexel(c, 0);
-    c.out(0) = vec4(c.x(8) * t.z);
-    c.out(1) = vec4(c.x(9) + std::atan2(t.y * 2.0f - 1.0f, t.x * 2.0f - 1.0f));
-}
+constexpr Pattern gltfAnisotropy = rarePattern(
+    "vec4($8.x * $t(nodeGltfUv($2, $3, $4, $5, $6, 0), point.uvFootprint * "
+    "max(abs($4.x), abs($4.y))).z); vec4($9.x + atan($t(nodeGltfUv($2, $3, $4, $5, $6, "
+    "0), point.uvFootprint * max(abs($4.x), abs($4.y))).y * 2.0 - 1.0, $t(nodeGltfUv($2, "
+    "$3, $4, $5, $6, 0), point.uvFootprint * max(abs($4.x), abs($4.y))).x * 2.0 - 1.0))",
+    [](Call c) {
+        const vec4 t = gltfTexel(c, 0);
+        c.out(0) = vec4(c.x(8) * t.z);
+        c.out(1) = vec4(c.x(9) + std::atan2(t.y * 2.0f - 1.0f, t.x * 2.0f - 1.0f));
+    });
 
 /// Inputs (file, default, viewdir, rotation in degrees).
-void latLongImage(Call c) {
+constexpr Pattern latLongImage = rarePattern("$t(nodeLatLong($2.xyz, $3.x), 0.0)", [](Call c) {
     const vec3 d(c.in(2));
     const float u = std::atan2(d.x, d.z) * -0.15915494f + 0.5f + c.x(3) / 360.0f;
     const float v = std::asin(glm::clamp(d.y, -1.0f, 1.0f)) * 0.31830989f + 0.5f;
     c.out() = texel(c, c.data.handle, vec2(u, v), 0.0f, 1);
-}
+});
 
 /// Inputs (filex, filey, filez, default, position, normal, upaxis, blend); data.value holds the
 /// three handles.
@@ -92,12 +111,16 @@ vec4 triplanarTexel(Call c) {
         if (w[i] > 0.0f) result += texel(c, int(c.data.value[i]), at[i], width, 3) * (w[i] / total);
     return result;
 }
-void triplanar(Call c) {
-    c.out() = triplanarTexel(c);
-}
-void triplanarScalar(Call c) {
-    c.out() = vec4(triplanarTexel(c).x);
-}
+constexpr Pattern triplanar =
+    rarePattern("nodeTriplanar($X(nodePlane(0, $4.xyz, nodeWhole($6.x)), nodePlaneFootprint()), "
+                "$Y(nodePlane(1, $4.xyz, nodeWhole($6.x)), nodePlaneFootprint()), $Z(nodePlane(2, "
+                "$4.xyz, nodeWhole($6.x)), nodePlaneFootprint()), $3, $5.xyz, $7.x)",
+                [](Call c) { c.out() = triplanarTexel(c); });
+constexpr Pattern triplanarScalar = rarePattern(
+    "vec4(nodeTriplanar($X(nodePlane(0, $4.xyz, nodeWhole($6.x)), nodePlaneFootprint()), "
+    "$Y(nodePlane(1, $4.xyz, nodeWhole($6.x)), nodePlaneFootprint()), $Z(nodePlane(2, "
+    "$4.xyz, nodeWhole($6.x)), nodePlaneFootprint()), $3, $5.xyz, $7.x).x)",
+    [](Call c) { c.out() = vec4(triplanarTexel(c).x); });
 void prepareTriplanar(PatternSetup& setup, PatternData& data) {
     data.value = vec4(float(openImage(setup, "filex")), float(openImage(setup, "filey")),
                       float(openImage(setup, "filez")), 0.0f);

@@ -33,60 +33,63 @@ mat3 objectToWorld(Call c) {
     return glm::transpose(glm::inverse(c.point().objectToWorldNormal));
 }
 
-void transformPoint(Call c) {
+constexpr Pattern transformPoint = rarePattern("nodeTransformPoint($m, $0)", [](Call c) {
     const vec3 p(c.in(0));
     if (c.data.mode == Same) {
         c.out() = c.in(0);
     } else if (c.data.mode == ToWorld) {
-        c.out() =
-            vec4(objectToWorld(c) * (p - c.point().objectPosition) + c.point().worldPosition(),
-                 0.0f);
+        c.out() = vec4(
+            objectToWorld(c) * (p - c.point().objectPosition) + c.point().worldPosition(), 0.0f);
     } else {
         const mat3 inverse = glm::transpose(c.point().objectToWorldNormal);
         c.out() = vec4(inverse * (p - c.point().worldPosition()) + c.point().objectPosition, 0.0f);
     }
-}
+});
 
-void transformVector(Call c) {
+constexpr char transformVectorGlsl[] = "nodeTransformVector($m, $0)";
+constexpr Pattern transformVector = rarePattern(transformVectorGlsl, [](Call c) {
     const vec3 v(c.in(0));
     c.out() = c.data.mode == Same      ? c.in(0)
               : c.data.mode == ToWorld ? vec4(objectToWorld(c) * v, 0.0f)
                                        : vec4(glm::transpose(c.point().objectToWorldNormal) * v, 0);
-}
+});
 
-void transformNormal(Call c) {
+constexpr char transformNormalGlsl[] = "nodeTransformNormal($m, $0)";
+constexpr Pattern transformNormal = rarePattern(transformNormalGlsl, [](Call c) {
     const vec3 n(c.in(0));
     const vec3 m = c.data.mode == Same      ? n
                    : c.data.mode == ToWorld ? c.point().objectToWorldNormal * n
                                             : glm::inverse(c.point().objectToWorldNormal) * n;
     const float length = glm::length(m);
     c.out() = vec4(length > 0.0f && std::isfinite(length) ? m / length : n, 0.0f);
-}
+});
 
-void reflect(Call c) {
-    const vec3 i(c.in(0)), n(c.in(1));
-    c.out() = vec4(i - n * (2.0f * glm::dot(n, i)), 0.0f);
-}
+constexpr Pattern reflect =
+    rarePattern("vec4($0.xyz - $1.xyz * (2.0 * dot($1.xyz, $0.xyz)), 0.0)", [](Call c) {
+        const vec3 i(c.in(0)), n(c.in(1));
+        c.out() = vec4(i - n * (2.0f * glm::dot(n, i)), 0.0f);
+    });
 
 /// ior is the ratio from the side that the vector comes from to the other. 0 at total reflection.
-void refract(Call c) {
+constexpr Pattern refract = rarePattern("nodeRefract($0.xyz, $1.xyz, $2.x)", [](Call c) {
     const vec3 i(c.in(0)), n(c.in(1));
     const float eta = c.x(2), d = glm::dot(i, n);
     const float k = 1.0f - eta * eta * (1.0f - d * d);
     c.out() = k < 0.0f ? vec4(0.0f) : vec4(i * eta - n * (eta * d + std::sqrt(k)), 0.0f);
-}
+});
 
 /// Inputs (viewdirection, normal, faceforward, invert). MaterialX's view direction points away
 /// from the eye, the network's towards it, so the sign is the other here.
-void facingRatio(Call c) {
-    const float d = glm::dot(vec3(c.in(0)), vec3(c.in(1)));
-    const float facing = c.x(2) != 0.0f ? std::fabs(d) : d;
-    c.out() = vec4(c.x(3) != 0.0f ? 1.0f - facing : facing);
-}
+constexpr Pattern facingRatio =
+    rarePattern("nodeFacingRatio($0.xyz, $1.xyz, $2.x, $3.x)", [](Call c) {
+        const float d = glm::dot(vec3(c.in(0)), vec3(c.in(1)));
+        const float facing = c.x(2) != 0.0f ? std::fabs(d) : d;
+        c.out() = vec4(c.x(3) != 0.0f ? 1.0f - facing : facing);
+    });
 
 /// Inputs (warm_color, cool_color, specular_intensity, shininess, light_direction). Gooch et al.
 /// 1998, "A non-photorealistic lighting model for automatic technical illustration".
-void goochShade(Call c) {
+constexpr Pattern goochShade = rarePattern("nodeGooch($0, $1, $2.x, $3.x, $4.xyz)", [](Call c) {
     const vec3 n = c.point().normal, v = -c.point().viewDirection;
     const vec3 raw(c.in(4));
     const float length = glm::length(raw);
@@ -96,15 +99,13 @@ void goochShade(Call c) {
     const float highlight =
         sh::powSchlick(glm::max(glm::dot(-l, reflected), 0.0f), c.x(3)) * c.x(2);
     c.out() = c.in(0) + (c.in(1) - c.in(0)) * cool + highlight;
-}
+});
 
-void frame(Call c) {
-    c.out() = vec4(c.x(0));
-}
+constexpr Pattern frame = rarePattern("vec4($0.x)", [](Call c) { c.out() = vec4(c.x(0)); });
 /// Inputs (fps, frame).
-void time(Call c) {
+constexpr Pattern time = rarePattern("vec4($0.x != 0.0 ? $1.x / $0.x : 0.0)", [](Call c) {
     c.out() = vec4(c.x(0) != 0.0f ? c.x(1) / c.x(0) : 0.0f);
-}
+});
 
 #define PATINA_SPACES "string fromspace=, string tospace="
 

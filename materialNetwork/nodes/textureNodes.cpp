@@ -49,18 +49,18 @@ float tiledFootprint(Call c) {
     return c.point().uvFootprint * std::max(scale.x, scale.y);
 }
 
-void imageTuple(Call c) {
-    write(c, vec2(c.in(2)), c.point().uvFootprint);
-}
-void imageScalar(Call c) {
+constexpr Pattern imageTuple = pattern(
+    "$t($2.xy, point.uvFootprint)", [](Call c) { write(c, vec2(c.in(2)), c.point().uvFootprint); });
+constexpr Pattern imageScalar = pattern("vec4($t($2.xy, point.uvFootprint).x)", [](Call c) {
     writeScalar(c, vec2(c.in(2)), c.point().uvFootprint);
-}
-void tiledTuple(Call c) {
-    write(c, tiledUv(c), tiledFootprint(c));
-}
-void tiledScalar(Call c) {
-    writeScalar(c, tiledUv(c), tiledFootprint(c));
-}
+});
+
+constexpr Pattern tiledTuple =
+    pattern("$t(nodeTiledUv($2, $3, $4, $5, $6), nodeTiledFootprint($3))",
+            [](Call c) { write(c, tiledUv(c), tiledFootprint(c)); });
+constexpr Pattern tiledScalar =
+    pattern("vec4($t(nodeTiledUv($2, $3, $4, $5, $6), nodeTiledFootprint($3)).x)",
+            [](Call c) { writeScalar(c, tiledUv(c), tiledFootprint(c)); });
 
 #define PATINA_IMAGE "filename file=, $ default=0, vector2 texcoord=@UV0, "
 #define PATINA_ADDRESS                                                                             \

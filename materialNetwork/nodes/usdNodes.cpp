@@ -42,17 +42,24 @@ void prepareUvTexture(PatternSetup& setup, PatternData& data) {
 }
 
 /// Outputs r, g, b, a, rgb, rgba.
-void uvTexture(Call c) {
-    vec4 t = c.in(4);
-    if (c.data.handle >= 0)
-        t = c.context.textures->sample(c.data.handle, vec2(c.in(1)), c.point().uvFootprint) *
-                c.in(2) +
-            c.in(3);
-    for (int i = 0; i < 4; ++i)
-        c.out(i) = vec4(t[i]);
-    c.out(4) = t;
-    c.out(5) = t;
-}
+constexpr char uvTextureGlsl[] = "vec4(($t($1.xy, point.uvFootprint) * $2 + $3).x); "
+                                 "vec4(($t($1.xy, point.uvFootprint) * $2 + $3).y); "
+                                 "vec4(($t($1.xy, point.uvFootprint) * $2 + $3).z); "
+                                 "vec4(($t($1.xy, point.uvFootprint) * $2 + $3).w); "
+                                 "($t($1.xy, point.uvFootprint) * $2 + $3); "
+                                 "($t($1.xy, point.uvFootprint) * $2 + $3)";
+constexpr Pattern uvTexture =
+    pattern(uvTextureGlsl, "vec4($4.x); vec4($4.y); vec4($4.z); vec4($4.w); $4; $4", [](Call c) {
+        vec4 t = c.in(4);
+        if (c.data.handle >= 0)
+            t = c.context.textures->sample(c.data.handle, vec2(c.in(1)), c.point().uvFootprint) *
+                    c.in(2) +
+                c.in(3);
+        for (int i = 0; i < 4; ++i)
+            c.out(i) = vec4(t[i]);
+        c.out(4) = t;
+        c.out(5) = t;
+    });
 
 #define PATINA_UV_TEXTURE                                                                          \
     "filename file=, vector2 st=@UV0, vector4 scale=1, vector4 bias=0, vector4 fallback=0 0 0 1, "

@@ -21,36 +21,36 @@ float dotOf(Call c, int a, int b) {
     return sum;
 }
 
-void dotProduct(Call c) {
-    c.out() = vec4(dotOf(c, 0, 1));
-}
-void magnitude(Call c) {
-    c.out() = vec4(std::sqrt(dotOf(c, 0, 0)));
-}
+constexpr char dotProductGlsl[] = "vec4(nodeDot($0, $1, $s))";
+constexpr Pattern dotProduct =
+    pattern(dotProductGlsl, [](Call c) { c.out() = vec4(dotOf(c, 0, 1)); });
+constexpr Pattern magnitude = pattern("vec4(sqrt(nodeDot($0, $0, $s)))",
+                                      [](Call c) { c.out() = vec4(std::sqrt(dotOf(c, 0, 0))); });
 
-void distance(Call c) {
+constexpr Pattern distance = pattern("vec4(sqrt(nodeDot($0 - $1, $0 - $1, $s)))", [](Call c) {
     float sum = 0.0f;
     for (int i = 0; i < c.data.size; ++i)
         sum += (c.in(0)[i] - c.in(1)[i]) * (c.in(0)[i] - c.in(1)[i]);
     c.out() = vec4(std::sqrt(sum));
-}
+});
 
-void normalized(Call c) {
+constexpr Pattern normalized = pattern("nodeNormalize($0, $s)", [](Call c) {
     const float length = std::sqrt(dotOf(c, 0, 0));
     c.out() = length > 0.0f ? c.in(0) / length : vec4(0.0f);
-}
+});
 
-void crossProduct(Call c) {
+constexpr Pattern crossProduct = pattern("vec4(cross($0.xyz, $1.xyz), 0.0)", [](Call c) {
     c.out() = vec4(glm::cross(vec3(c.in(0)), vec3(c.in(1))), 0.0f);
-}
+});
 
-void rotate2d(Call c) {
+constexpr Pattern rotate2d = pattern("vec4(patternRotate2d($0.xy, $1.x), 0.0, 0.0)", [](Call c) {
     c.out() = vec4(sh::patternRotate2d(vec2(c.in(0)), c.x(1)), 0.0f, 0.0f);
-}
+});
 
-void rotate3d(Call c) {
-    c.out() = vec4(sh::patternRotate3d(vec3(c.in(0)), c.x(1), vec3(c.in(2))), 0.0f);
-}
+constexpr Pattern rotate3d =
+    pattern("vec4(patternRotate3d($0.xyz, $1.x, $2.xyz), 0.0)", [](Call c) {
+        c.out() = vec4(sh::patternRotate3d(vec3(c.in(0)), c.x(1), vec3(c.in(2))), 0.0f);
+    });
 
 template <bool Largest> void component(Call c) {
     float x = c.in(0).x;
@@ -59,35 +59,44 @@ template <bool Largest> void component(Call c) {
     c.out() = vec4(x);
 }
 
-void place2d(Call c) {
+constexpr char place2dGlsl[] =
+    "vec4(patternPlace2d($0.xy, $1.xy, $2.xy, $3.x, $4.xy, int($5.x)), 0.0, 0.0)";
+constexpr Pattern place2d = pattern(place2dGlsl, [](Call c) {
     c.out() = vec4(sh::patternPlace2d(vec2(c.in(0)), vec2(c.in(1)), vec2(c.in(2)), c.x(3),
                                       vec2(c.in(4)), c.whole(5)),
                    0.0f, 0.0f);
-}
+});
 
-void transform2d(Call c) {
+constexpr char transform2dGlsl[] = "vec4(patternTransform2d($0.xy, $2.xy, $1.x, $3.xy), 0.0, 0.0)";
+constexpr Pattern transform2d = pattern(transform2dGlsl, [](Call c) {
     c.out() = vec4(sh::patternTransform2d(vec2(c.in(0)), vec2(c.in(2)), c.x(1), vec2(c.in(3))),
                    0.0f, 0.0f);
-}
+});
 
-void luminance(Call c) {
-    const float y = sh::patternLuminance(vec3(c.in(0)), vec3(c.in(1)));
-    c.out() = vec4(y, y, y, c.in(0).w);
-}
+constexpr Pattern luminance =
+    pattern("vec4(vec3(patternLuminance($0.xyz, $1.xyz)), $0.w)", [](Call c) {
+        const float y = sh::patternLuminance(vec3(c.in(0)), vec3(c.in(1)));
+        c.out() = vec4(y, y, y, c.in(0).w);
+    });
 
-void rgbToHsv(Call c) {
+constexpr Pattern rgbToHsv = pattern("vec4(patternRgbToHsv($0.xyz), $0.w)", [](Call c) {
     c.out() = vec4(sh::patternRgbToHsv(vec3(c.in(0))), c.in(0).w);
-}
+});
 
-void hsvToRgb(Call c) {
+constexpr Pattern hsvToRgb = pattern("vec4(patternHsvToRgb($0.xyz), $0.w)", [](Call c) {
     c.out() = vec4(sh::patternHsvToRgb(vec3(c.in(0))), c.in(0).w);
-}
+});
 
-void normalMap(Call c) {
+constexpr char normalMapGlsl[] =
+    "vec4(patternNormalMap($0.xyz, $1.xy, $2.xyz, $3.xyz, $4.xyz), 0.0)";
+constexpr Pattern normalMap = pattern(normalMapGlsl, [](Call c) {
     c.out() = vec4(sh::patternNormalMap(vec3(c.in(0)), vec2(c.in(1)), vec3(c.in(2)), vec3(c.in(3)),
                                         vec3(c.in(4))),
                    0.0f);
-}
+});
+
+constexpr Pattern maxComponent = pattern("vec4(nodeLargest($0, $s))", component<true>);
+constexpr Pattern minComponent = pattern("vec4(-nodeLargest(-$0, $s))", component<false>);
 
 const char* const vectors = "vector2 vector3 vector4";
 const char* const normalMapFrame =
@@ -113,9 +122,9 @@ const NodeRow rows[] = {
     {"UsdTransform2d", "UsdTransform2d",
      "vector2 in=0, float rotation=0, vector2 scale=1, vector2 translation=0", "vector2 result",
      transform2d},
-    {"ND_maxcomponent_$", "maxcomponent", "$ in=0", "float", component<true>, Algebra::None,
+    {"ND_maxcomponent_$", "maxcomponent", "$ in=0", "float", maxComponent, Algebra::None,
      tupleTypes},
-    {"ND_mincomponent_$", "mincomponent", "$ in=0", "float", component<false>, Algebra::None,
+    {"ND_mincomponent_$", "mincomponent", "$ in=0", "float", minComponent, Algebra::None,
      tupleTypes},
     {"ND_luminance_$", "luminance", "$ in=0, color3 lumacoeffs=0.2722287 0.6740818 0.0536895", "$",
      luminance, Algebra::None, "color3 color4"},

@@ -2,15 +2,14 @@
 
 #include "hdDelegate/renderer/renderer.h"
 #include "hdDelegate/backends/backends.h"
+#include "hdDelegate/scene/settingRows.h"
 #include "plugin/python/plans.h"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <array>
+#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <functional>
 #include <stdexcept>
 #include <thread>
 
@@ -20,75 +19,32 @@ namespace patina {
 
 namespace {
 
-struct Field {
-    std::function<void(RenderSettings&, py::handle)> set;
-    std::function<py::object(const RenderSettings&)> get;
-};
-
-template <class T> Field field(T RenderSettings::*member) {
-    return {[member](RenderSettings& s, py::handle v) { s.*member = v.cast<T>(); },
-            [member](const RenderSettings& s) { return py::cast(s.*member); }};
+void set(RenderSettings& settings, const SettingRow& row, py::handle value) {
+    std::visit(
+        [&](auto member) {
+            settings.*member = value.cast<std::decay_t<decltype(settings.*member)>>();
+        },
+        row.member);
 }
 
-const std::map<std::string, Field>& fields() {
-    static const std::map<std::string, Field> all = {
-        {"width", field(&RenderSettings::width)},
-        {"height", field(&RenderSettings::height)},
-        {"dataWindow",
-         {[](RenderSettings& s, py::handle v) {
-              auto window = v.cast<std::array<int, 4>>();
-              std::copy(window.begin(), window.end(), s.dataWindow);
-          },
-          [](const RenderSettings& s) {
-              const int* w = s.dataWindow;
-              return py::object(py::make_tuple(w[0], w[1], w[2], w[3]));
-          }}},
-        {"pixelAspectRatio", field(&RenderSettings::pixelAspectRatio)},
-        {"aspectRatioConformPolicy", field(&RenderSettings::aspectRatioConformPolicy)},
-        {"samples", field(&RenderSettings::samples)},
-        {"minSamples", field(&RenderSettings::minSamples)},
-        {"tolerance", field(&RenderSettings::tolerance)},
-        {"seconds", field(&RenderSettings::seconds)},
-        {"threads", field(&RenderSettings::threads)},
-        {"seed", field(&RenderSettings::seed)},
-        {"maxDepth", field(&RenderSettings::maxDepth)},
-        {"maxScatterings", field(&RenderSettings::maxScatterings)},
-        {"lightSamples", field(&RenderSettings::lightSamples)},
-        {"rouletteDepth", field(&RenderSettings::rouletteDepth)},
-        {"indirectClamp", field(&RenderSettings::indirectClamp)},
-        {"filterRadius", field(&RenderSettings::filterRadius)},
-        {"enableSceneLights", field(&RenderSettings::enableSceneLights)},
-        {"enableSceneMaterials", field(&RenderSettings::enableSceneMaterials)},
-        {"enableShadows", field(&RenderSettings::enableShadows)},
-        {"enableMotionBlur", field(&RenderSettings::enableMotionBlur)},
-        {"enableDepthOfField", field(&RenderSettings::enableDepthOfField)},
-        {"domeLightCameraVisibility", field(&RenderSettings::domeLightCameraVisibility)},
-        {"cullStyle", field(&RenderSettings::cullStyle)},
-        {"edgeLength", field(&RenderSettings::edgeLength)},
-        {"interactive", field(&RenderSettings::interactive)},
-        {"renderTags", field(&RenderSettings::renderTags)},
-        {"rootPaths", field(&RenderSettings::rootPaths)},
-        {"excludePaths", field(&RenderSettings::excludePaths)},
-        {"integrator", field(&RenderSettings::integrator)},
-        {"ambientOcclusionSamples", field(&RenderSettings::ambientOcclusionSamples)},
-        {"environmentSamples", field(&RenderSettings::environmentSamples)},
-        {"aovs", field(&RenderSettings::aovs)},
-        {"checkpointFile", field(&RenderSettings::checkpointFile)},
-        {"checkpointSeconds", field(&RenderSettings::checkpointSeconds)},
-        {"methods", field(&RenderSettings::methods)},
-    };
-    return all;
+py::object get(const RenderSettings& settings, const SettingRow& row) {
+    const py::object value =
+        std::visit([&](auto member) { return py::cast(settings.*member); }, row.member);
+    return std::holds_alternative<PixelWindow RenderSettings::*>(row.member)
+               ? py::object(py::tuple(value))
+               : value;
 }
 
 RenderSettings settingsFrom(const py::dict& dict) {
     RenderSettings settings;
     for (auto item : dict) {
         const std::string name = py::str(item.first);
-        const auto field = fields().find(name);
-        if (field == fields().end())
-            throw py::value_error("there is no render setting '" + name + "'");
+        const auto& rows = settingRows();
+        const auto row = std::find_if(rows.begin(), rows.end(),
+                                      [&](const SettingRow& r) { return r.name == name; });
+        if (row == rows.end()) throw py::value_error("there is no render setting '" + name + "'");
         try {
-            field->second.set(settings, item.second);
+            set(settings, *row, item.second);
         } catch (const py::cast_error&) {
             throw py::value_error("render setting '" + name +
                                   "' has a value of the wrong type or size");
@@ -100,8 +56,8 @@ RenderSettings settingsFrom(const py::dict& dict) {
 py::dict defaults() {
     const RenderSettings settings;
     py::dict dict;
-    for (const auto& [name, field] : fields())
-        dict[py::str(name)] = field.get(settings);
+    for (const SettingRow& row : settingRows())
+        dict[py::str(row.name)] = get(settings, row);
     return dict;
 }
 

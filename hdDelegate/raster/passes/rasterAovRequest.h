@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hdDelegate/film/denoiser.h"
+#include "hdDelegate/film/aovTable.h"
 
 #include <string>
 #include <vector>
@@ -18,12 +18,12 @@ struct RasterAovRequest {
     RasterAovRequest() = default;
     /// @param aovs by name, `primvars:NAME` for those; further primvars are told in `leftOut`
     explicit RasterAovRequest(const std::vector<std::string>& aovs) {
-        const std::string prefix = "primvars:";
         for (const std::string& aov : aovs) {
-            albedo |= aov == "albedo" || aov == denoisingAlbedoAov;
-            if (aov.rfind(prefix, 0) != 0) continue;
+            const AovId id = aovIdOf(aov);
+            albedo |= id == AovId::albedo || id == AovId::denoisingAlbedo;
+            if (id != AovId::primvars) continue;
             auto& list = primvars.size() < maxPrimvars ? primvars : leftOut;
-            list.push_back(aov.substr(prefix.size()));
+            list.push_back(aov.substr(sizeof primvarAovs - 1));
         }
     }
 

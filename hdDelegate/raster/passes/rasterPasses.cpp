@@ -50,7 +50,7 @@ RasterPasses::~RasterPasses() {
 
 bool RasterPasses::resize(const RenderSettings& settings, int& border) {
     const int width = settings.width, height = settings.height;
-    const int* crop = settings.dataWindow;
+    const PixelWindow& crop = settings.dataWindow;
     const bool all = crop[2] < crop[0] || crop[3] < crop[1];
     _window[0] = all ? 0 : std::clamp(crop[0], 0, width);
     _window[1] = all ? 0 : std::clamp(crop[1], 0, height);

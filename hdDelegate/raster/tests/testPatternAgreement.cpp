@@ -52,20 +52,20 @@ bool hasSpaces(const NodeDef& def) {
     return false;
 }
 
-/// Every node with a function, once for all that share it, and once for each space.
+/// Every node with a pattern, once for all that share it, and once for each space.
 std::vector<Case> cases(std::vector<std::string>& without) {
     std::vector<Case> out;
-    std::set<void*> seen;
+    std::set<const Pattern*> seen;
     Random random(5);
     for (const auto& def : NodeTable::get().all()) {
-        if (!def->function || !seen.insert(reinterpret_cast<void*>(def->function)).second) continue;
+        if (!def->pattern || !seen.insert(def->pattern).second) continue;
         if (def->outputs.empty() || def->outputs[0].type == ValueType::String ||
             def->outputs[0].type == ValueType::Filename)
             continue; // strings have no register
         for (int mode = 0; mode < (hasSpaces(*def) ? 3 : 1); ++mode) {
             Case c;
             c.def = def.get();
-            c.instruction.function = def->function;
+            c.instruction.pattern = def->pattern;
             c.instruction.output = 0;
             c.instruction.firstInput = 0;
             c.instruction.data.mode = mode;
@@ -159,7 +159,7 @@ std::vector<glm::vec4> reference(const Case& c, int trial) {
     const OnePrimvar primvars;
     const ShadingPoint point = somewhere(primvars);
     const PatternContext context{&point, &textures};
-    c.def->function({registers.data(), pool.data(), 0, c.instruction.data, context});
+    c.def->pattern->function({registers.data(), pool.data(), 0, c.instruction.data, context});
     registers.resize(24);
     return registers;
 }

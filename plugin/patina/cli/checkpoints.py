@@ -3,8 +3,7 @@ import hashlib
 import json
 import os
 
-# What may change between the two halves of a render: how far it goes and who does the work.
-_FREE = ("samples", "minSamples", "seconds", "threads", "checkpointFile", "checkpointSeconds")
+from patina.cli import settingFlags
 
 
 def path_of(image):
@@ -29,7 +28,8 @@ def token(stage, settings, others, backend):
             layers.append([layer.identifier, status.st_size, status.st_mtime_ns])
         except OSError:
             layers.append([layer.identifier])
-    kept = {name: value for name, value in settings.items() if name not in _FREE}
+    free = settingFlags.of_resumed_renders()
+    kept = {name: value for name, value in settings.items() if name not in free}
     text = json.dumps([sorted(layers, key=str), kept, others], sort_keys=True, default=str)
     return backend + ":" + hashlib.sha256(text.encode()).hexdigest()
 

@@ -31,7 +31,7 @@ def run(arguments):
     outputs.check_all([arguments.json])
     module = compiled.load()
     chosen = methods.parse(arguments.method)
-    tolerance = -1.0 if arguments.tolerance is None else arguments.tolerance
+    tolerance = arguments.tolerance
     plans = [(name, module.plan_material(network, chosen, tolerance)) for name, network in found]
     choices, lit = _of_scene(arguments, chosen, tolerance)
     texts = []

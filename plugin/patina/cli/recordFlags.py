@@ -1,17 +1,17 @@
 """The flags of `patina record`, and the render settings that they mean."""
 import math
 
-from patina.cli import denoiser, frames, methods, overrides
+from patina.cli import denoiser, frames, methods, overrides, rows, settingFlags
 from patina.cli.errors import UsageError
 
 COMPLEXITIES = {"low": 1.0, "medium": 1.1, "high": 1.2, "veryhigh": 1.3}
 DEFAULT_SAMPLES = 64
 MAX_SAMPLES = 65536  # where only --tolerance or --seconds ends the render
-ALL_AOVS = ("depth", "cameraDepth", "normal", "Neye", "position", "albedo", "primvars:st", "primId", "instanceId",
-            "elementId", "sampleCount", "variance")
+ALL_AOVS = tuple(name for row in rows.read("hdDelegate/film/aovs.def", "AOV") if "all" in row.words
+                 for name in row.words["all"] or [row.values[0]])
 LARGEST_SIZE = 65536
-MAX_THREADS = 4096
 MAX_PIXELS = 1 << 28
+_TEXTS = {"DEFAULT_SAMPLES": DEFAULT_SAMPLES, "MAX_SAMPLES": MAX_SAMPLES}  # of helps in the table of settings
 
 
 def add_arguments(parser):
@@ -48,65 +48,25 @@ def _add_stage_flags(group):
 def _add_render_flags(group):
     group.add_argument("--backend", default="embree", choices=["embree", "raster"],
                        help="what renders (default: embree, which also takes over where raster finds no OpenGL)")
-    group.add_argument("--samples", type=_count, metavar="N",
-                       help=f"samples per pixel, the most that are taken (default: {DEFAULT_SAMPLES}; with "
-                            f"--tolerance or --seconds: {MAX_SAMPLES})")
-    group.add_argument("--minSamples", type=_count, metavar="N",
-                       help="adaptive sampling takes no fewer (default: 16)")
-    add_tolerance_flag(group)
-    group.add_argument("--seconds", type=_not_negative, default=0.0, metavar="S", help="stop after so many seconds")
-    group.add_argument("--threads", type=_threads, default=0, metavar="N",
-                       help=f"1 to {MAX_THREADS} (default: all cores)")
-    group.add_argument("--seed", type=_seed, default=0, metavar="N",
-                       help="another seed, another noise; the same seed gives the same bits (default: 0)")
-    group.add_argument("--maxDepth", type=_count, default=-1, metavar="N",
-                       help="bounces of a path (default: 16, or as many as the tolerance needs)")
-    group.add_argument("--lightSamples", type=_light_samples, default=2, metavar="N",
-                       help="path tracer: light samples where a path from the camera meets a surface (default: 2)")
-    group.add_argument("--rouletteDepth", type=_count, default=4, metavar="N",
-                       help="bounces before paths are ended by chance (default: 4)")
-    group.add_argument("--indirectClamp", type=_not_negative, default=0.0, metavar="L",
-                       help="largest luminance of one indirect sample: less noise, too dark (default: 0, off)")
+    settingFlags.add(group, "the render", _TEXTS, after={"indirectClamp": _add_denoise_flag, "environmentSamples": methods.add_flag})
+
+
+def _add_denoise_flag(group):
     group.add_argument("--denoise", action="store_true",
                        help="the colour as Open Image Denoise cleans it, led by albedo and normals; OpenEXR files keep the "
                             "noisy one as color.noisy (./patina installs pyoidn for it; else $PATINA_OIDN_LIBRARY names "
                             "the library)")
-    group.add_argument("--filterRadius", type=_filter_radius, default=1.0, metavar="R",
-                       help="radius of the pixel filter in pixels, up to 1000; 0.5 is a box (default: 1)")
-    group.add_argument("--edgeLength", type=_positive, default=-1.0, metavar="PIXELS",
-                       help="subdivision surfaces are refined until edges are this short (default: 4, or as long as the "
-                            "tolerance allows)")
-    group.add_argument("--environmentSamples", type=_environment_samples, default=-1, metavar="N",
-                       help="rasterizer: samples of domes per pixel and pass, 4 to 1024, where --method domeLight is not "
-                            "sampled (default: 16, or as many as the tolerance needs)")
-    methods.add_flag(group)
-    group.add_argument("--cullStyle", default="nothing", metavar="STYLE",
-                       choices=["nothing", "back", "front", "backUnlessDoubleSided", "frontUnlessDoubleSided"],
-                       help="faces that camera rays pass: nothing, back, front, backUnlessDoubleSided, "
-                            "frontUnlessDoubleSided (default: nothing)")
-    group.add_argument("--disableMotionBlur", action="store_true", help="everything as at the frame's time")
-    group.add_argument("--disableDepthOfField", action="store_true", help="a lens without size")
-    group.add_argument("--disableShadows", action="store_true", help="lights pass through everything")
-    dome = group.add_mutually_exclusive_group()
-    dome.add_argument("--enableDomeLightVisibility", action="store_true", default=True,
-                      help="the camera sees dome lights (the default)")
-    dome.add_argument("--disableDomeLightVisibility", action="store_false", dest="enableDomeLightVisibility",
-                      help="dome lights light, but the camera sees through them")
 
 
 def add_tolerance_flag(group):
-    group.add_argument("--tolerance", type=_not_negative, metavar="ERROR",
-                       help="mean relative error of the luminance, such as 0.02: the fastest methods whose measured "
-                            "errors fit are chosen, and sampling stops where noise does; 0: the truth at every choice "
-                            "point (default: default methods, all samples)")
+    settingFlags.add_one(group, "tolerance")
 
 
 def _add_output_flags(group):
     group.add_argument("--imageWidth", "-w", type=_size, metavar="PIXELS", help="default: 960")
     group.add_argument("--imageHeight", type=_size, metavar="PIXELS",
                        help="default: from the width and the camera's aperture")
-    group.add_argument("--pixelAspectRatio", type=_positive, default=1.0, metavar="R",
-                       help="width of a pixel over its height (default: 1)")
+    settingFlags.add(group, "the image", _TEXTS)
     group.add_argument("--dataWindow", type=_window, metavar="X0,Y0,X1,Y1",
                        help="render only these pixels, both corners included, counted from the upper left")
     group.add_argument("--aov", action="append", default=[], metavar="NAME",
@@ -129,9 +89,7 @@ def _add_output_flags(group):
 def _add_run_flags(group):
     group.add_argument("--resume", action="store_true",
                        help="continue from IMAGE.checkpoint, if it is there and fits")
-    group.add_argument("--checkpointSeconds", type=_not_negative, default=60.0, metavar="S",
-                       help="save IMAGE.checkpoint so often; it is removed when the image is written; 0: never "
-                            "(default: 60)")
+    settingFlags.add(group, "the run", _TEXTS)
     group.add_argument("--keepCheckpoint", action="store_true",
                        help="save the checkpoint at the end and keep it, to add samples later with --resume")
     group.add_argument("--strict", action="store_true", help="warnings make the render fail")
@@ -143,25 +101,11 @@ def _add_run_flags(group):
 
 def settings_of(arguments):
     """:returns: dict of render settings; width, height and checkpointFile are not known yet"""
-    tolerance = -1.0 if arguments.tolerance is None else arguments.tolerance
-    endless = tolerance > 0.0 or arguments.seconds > 0.0
-    settings = {
-        "samples": arguments.samples or (MAX_SAMPLES if endless else DEFAULT_SAMPLES),
-        "pixelAspectRatio": arguments.pixelAspectRatio,
-        "enableMotionBlur": not arguments.disableMotionBlur,
-        "enableDepthOfField": not arguments.disableDepthOfField,
-        "enableShadows": not arguments.disableShadows,
-        "domeLightCameraVisibility": arguments.enableDomeLightVisibility,
-        "aovs": list(dict.fromkeys(aovs_of(arguments) + list(denoiser.GUIDES if arguments.denoise else ()))),
-        "methods": methods.parse(arguments.method),
-        "checkpointSeconds": arguments.checkpointSeconds,
-    }
-    settings["tolerance"] = tolerance
-    for name in ("seconds", "threads", "seed", "maxDepth", "lightSamples", "rouletteDepth", "indirectClamp",
-                 "filterRadius", "edgeLength", "environmentSamples", "cullStyle"):
-        settings[name] = getattr(arguments, name)
-    if arguments.minSamples is not None:
-        settings["minSamples"] = arguments.minSamples
+    settings = {name: getattr(arguments, name) for name in settingFlags.names()}
+    endless = arguments.tolerance > 0.0 or arguments.seconds > 0.0
+    settings["samples"] = arguments.samples or (MAX_SAMPLES if endless else DEFAULT_SAMPLES)
+    settings["aovs"] = list(dict.fromkeys(aovs_of(arguments) + list(denoiser.GUIDES if arguments.denoise else ())))
+    settings["methods"] = methods.parse(arguments.method)
     if arguments.dataWindow:
         settings["dataWindow"] = arguments.dataWindow
     return settings
@@ -217,18 +161,6 @@ def _count(text):
     return _integer(text, 1, 2**31 - 1)
 
 
-def _threads(text):
-    return _integer(text, 1, MAX_THREADS)
-
-
-def _environment_samples(text):
-    return _integer(text, 4, 1024)
-
-
-def _light_samples(text):
-    return _integer(text, 1, 1024)
-
-
 def _size(text):
     return _integer(text, 1, LARGEST_SIZE)
 
@@ -244,20 +176,6 @@ def _not_negative(text):
     return value
 
 
-def _filter_radius(text):
-    value = _not_negative(text)
-    if value > 1000.0:
-        raise ValueError
-    return value
-
-
-def _positive(text):
-    value = float(text)
-    if not (value > 0.0 and math.isfinite(value)):
-        raise ValueError
-    return value
-
-
 def _window(text):
     values = [int(word) for word in text.split(",")]
     if len(values) != 4 or values[0] < 0 or values[1] < 0 or values[2] < values[0] or values[3] < values[1]:
@@ -267,7 +185,5 @@ def _window(text):
 
 # argparse shows the name of the function in its message about a bad value.
 for _function, _name in ((_complexity, "complexity"), (_count, "count (1 or more)"), (_size, "size in pixels"),
-                         (_threads, f"count of threads (1 to {MAX_THREADS})"),
-                         (_seed, "seed"), (_not_negative, "number (0 or more)"), (_positive, "number (above 0)"),
-                         (_window, "window X0,Y0,X1,Y1"), (_filter_radius, "radius (0 to 1000)")):
+                         (_seed, "seed"), (_not_negative, "number (0 or more)"), (_window, "window X0,Y0,X1,Y1")):
     _function.__name__ = _name

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// How the samples of a pixel become one value.
+enum class AovKind {
+    Mean,  ///< average over the samples that were added (albedo)
+    First, ///< the sample nearest the pixel's centre: no mixing (depth, ids, position, normal,
+           ///< primvars)
+};
+
+enum class AovId {
+#define AOV(name, ...) name,
+#include "hdDelegate/film/aovs.def"
+#undef AOV
+    unknown ///< none of the table
+};
+
+/// What aovs.def says of one AOV.
+struct AovRow {
+    AovId id = AovId::unknown;
+    const char* name = "";
+    int components = 3;
+    AovKind kind = AovKind::Mean;
+    double clear = 0.0; ///< of pixels that no sample reached
+    bool ofFilm = false;
+    bool isInteger = false;
+    bool mayBeHalf = false;
+    bool isBare = false;
+    const char* letters = ""; ///< of channels in files; empty: X, Y, Z or none
+    const char* hydraName = nullptr;
+
+    // The words of aovs.def.
+    AovRow& film() {
+        ofFilm = true;
+        return *this;
+    }
+    AovRow& integer() {
+        isInteger = true;
+        return *this;
+    }
+    AovRow& half() {
+        mayBeHalf = true;
+        return *this;
+    }
+    AovRow& bare() {
+        isBare = true;
+        return *this;
+    }
+    AovRow& channels(const char* text) {
+        letters = text;
+        return *this;
+    }
+    AovRow& hydra(const char* text) {
+        hydraName = text;
+        return *this;
+    }
+    AovRow& all(const char* = "") { return *this; } // for plugin/patina/cli
+};
+
+/// By AovId, without AovId::unknown.
+const std::vector<AovRow>& aovRows();
+
+/// What follows the prefix of the AOVs of primvars.
+inline constexpr char primvarAovs[] = "primvars:";
+
+/// @returns AovId::unknown for a name that standardAov() does not take
+AovId aovIdOf(const std::string& name);
+
+} // namespace patina

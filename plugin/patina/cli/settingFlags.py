@@ -1,0 +1,87 @@
+"""Flags of render settings, made from the rows of hdDelegate/scene/settings.def."""
+import math
+
+from patina.cli import rows
+
+TABLE = "hdDelegate/scene/settings.def"
+FLAG_WORDS = ("flag", "flagOn", "flagOff")
+_WHOLE = {"int": 2**31 - 1, "uint32_t": 2**32 - 1}  # types of whole numbers, with the largest
+
+
+def table():
+    """:returns: dict of name -> rows.Row"""
+    return {row.values[1]: row for row in rows.read(TABLE, "SETTING")}
+
+
+def names():
+    """:returns: of the settings that have a flag; the parsed arguments have them as attributes"""
+    return [name for name, row in table().items() if any(word in row.words for word in FLAG_WORDS)]
+
+
+def of_resumed_renders():
+    """:returns: names of settings that may differ between the halves of a render"""
+    return [name for name, row in table().items() if "resumes" in row.words]
+
+
+def add(group, title, texts, after=None):
+    """Adds all flags of a group.
+
+    :param texts: dict of what {NAMES} in helps stand for
+    :param after: dict of setting -> function(group) that adds flags which are no settings behind it
+    """
+    for name in names():
+        row = table()[name]
+        if row.words.get("group", ["the render"])[0] == title:
+            add_one(group, name, texts)
+            (after or {}).get(name, lambda group: None)(group)
+
+
+def add_one(group, name, texts=None):
+    row = table()[name]
+    if "flag" not in row.words:
+        _add_switch(group, name, row)
+        return
+    metavar, text = row.words["flag"]
+    text = text.format(**texts) if texts else text
+    keywords = {"choices": row.words["choices"][0].split()} if "choices" in row.words else {"type": _parser(row)}
+    group.add_argument("--" + name, metavar=metavar, default=_default(row), help=text, **keywords)
+
+
+def _add_switch(group, name, row):
+    if "flagOn" in row.words and "flagOff" in row.words:
+        group = group.add_mutually_exclusive_group()
+    for word, action in (("flagOn", "store_true"), ("flagOff", "store_false")):
+        if word in row.words:
+            flag, text = row.words[word]
+            group.add_argument(flag, dest=name, action=action, default=_default(row), help=text)
+
+
+def _default(row):
+    if "flagDefault" in row.words:
+        return row.words["flagDefault"][0]
+    kind, _, text = row.values
+    if kind == "bool":
+        return text == "true"
+    if kind == "std::string":
+        return text.strip('"')
+    return int(text) if kind in _WHOLE else float(text.rstrip("f"))
+
+
+def _parser(row):
+    """:returns: function of a text, named as argparse's message about a bad value shall call it"""
+    whole = _WHOLE.get(row.values[0])
+    above = row.words.get("flagAbove", [None])[0]
+    least, most = row.words.get("flagRange", row.words.get("range", [-math.inf, math.inf]))
+
+    def parse(text):
+        value = int(text) if whole else float(text)
+        if not math.isfinite(value) or not least <= value <= (min(most, whole) if whole else most):
+            raise ValueError
+        if above is not None and not value > above:
+            raise ValueError
+        return value
+
+    kind = "count" if whole and least == 1 else "whole number" if whole else "number"
+    bounds = (f"above {above}" if above is not None else f"{least} or more" if most == math.inf else f"{least} to {most}")
+    parse.__name__ = f"{kind} ({bounds})"
+    return parse

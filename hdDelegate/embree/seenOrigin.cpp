@@ -18,6 +18,17 @@ double largest(const dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
+/// Where rays meet nothing, it may be for their few digits: at the eye they have more. What is beside
+/// the origin is left there, and what was found to be far stays where it is.
+dvec3 originAtEye(const EmbreeScene& scene, const dvec3& eye) {
+    const double extent = largest(dvec3(scene.boundsMax()) - dvec3(scene.boundsMin()));
+    const double away = largest(eye);
+    if (!std::isfinite(away) || !(extent >= 0.0) || away <= farAway * extent || away == 0.0)
+        return dvec3(0.0);
+    const double moved = largest(eye - scene.origin());
+    return moved <= farAway * extent && scene.origin() != dvec3(0.0) ? scene.origin() : eye;
+}
+
 } // namespace
 
 dvec3 originOfSeen(const EmbreeScene& scene, const Camera& camera, const RenderSettings& settings) {
@@ -45,7 +56,7 @@ dvec3 originOfSeen(const EmbreeScene& scene, const Camera& camera, const RenderS
             glm::clamp(eye, scene.volumes().boundsMin(), scene.volumes().boundsMax());
         seen.push_back({glm::length(nearest - eye), nearest});
     }
-    if (seen.empty()) return dvec3(0.0);
+    if (seen.empty()) return originAtEye(scene, dvec3(eye) + scene.origin());
     // What is near is seen largest; the horizon would pull the origin away from it.
     std::sort(seen.begin(), seen.end(),
               [](const Seen& a, const Seen& b) { return a.distance < b.distance; });

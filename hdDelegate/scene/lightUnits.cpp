@@ -101,6 +101,16 @@ mat4 transformAt(const MotionTransform& transform, float time, const dvec3& orig
            seenFrom(origin, transform.values[span.index + 1]) * span.fraction;
 }
 
+dmat4 exactTransformAt(const MotionTransform& transform, float time) {
+    if (transform.empty()) return dmat4(1.0);
+    if (!transform.moves()) return transform.first();
+    const SampleSpan span = sampleSpan(transform.times, time);
+    const dmat4& a = transform.values[span.index];
+    if (span.fraction <= 0.0f) return a;
+    const double share = double(span.fraction);
+    return a * (1.0 - share) + transform.values[span.index + 1] * share;
+}
+
 std::string lightSizeInput(const Light& light) {
     const auto none = [](float size) { return size == 0.0f || !std::isfinite(size); };
     const bool rect = light.type == LightType::Rect;

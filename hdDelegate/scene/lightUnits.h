@@ -12,6 +12,8 @@ vec3 blackbodyColor(float kelvin);
 /// Transform of something that moves, at a time; interpolated element by element.
 /// @param origin of the space that it is wanted in, see seenFrom()
 mat4 transformAt(const MotionTransform& transform, float time, const dvec3& origin = dvec3(0.0));
+/// The same in all digits, for what is far from the origin.
+dmat4 exactTransformAt(const MotionTransform& transform, float time);
 
 /// World-space area that `normalize` divides by: rect and disk one side, sphere and cylinder
 /// (without its caps) all of the outside, under any affine transform. Distant lights: the projected

@@ -2,6 +2,7 @@
 import numpy as np
 import pytest
 
+import inProcess
 from usdaText import render_text
 
 pytest.importorskip("pxr.Usd")
@@ -97,6 +98,27 @@ def test_shadows_stay_and_so_do_positions_depths_and_normals():
     difference = np.abs(color - far["color"][..., :3]).mean() / color.mean()
     assert difference < 0.01, difference
     compare(far, near, at)
+
+
+def test_what_floats_cannot_place_at_all_is_seen():
+    """Floats are 8 apart there: rays from the world's origin meet nothing of the scene."""
+    near, far = look((0, 0, 0)), look((80000000.0, 0.0, 50000000.0))
+    color = near["color"][..., :3]
+    difference = np.abs(color - far["color"][..., :3]).mean() / color.mean()
+    assert difference < 0.01, difference
+
+
+def test_the_rasterizer_places_as_the_path_tracer_does():
+    """Transforms are added up in double, too. Floats are a quarter apart there, which is five times the block."""
+    if inProcess.without_opengl():
+        pytest.skip(inProcess.without_opengl())
+    at = (3000000.3337, 12.1, 2000000.1234)
+    near, far = look((0, 0, 0), backend="raster"), look(at, backend="raster")
+    seen = near["depth"].reshape(32, 32) < 100.0
+    assert seen.mean() > 0.5
+    # Doubles are 5e-10 apart there, so only edges may be another pixel's.
+    off = np.abs(near["depth"] - far["depth"]).reshape(32, 32)[seen] > 1e-4
+    assert off.mean() < 0.01, off.mean()
 
 
 def test_places_between_the_numbers_that_there_are_stay_apart():

@@ -10,7 +10,7 @@ def open_text(text):
     return Usd.Stage.Open(layer)
 
 
-def render_text(text, aovs=("color",), **settings):
+def render_text(text, aovs=("color",), backend="embree", **settings):
     """:param text: of a usda layer
     :param settings: of the renderer; 32 x 32 pixels, 16 samples and one thread where they say nothing else
     :returns: dict of float arrays (height, width, channels), warnings as text, processor seconds of the render"""
@@ -23,7 +23,7 @@ def render_text(text, aovs=("color",), **settings):
     scene, film = _patina.Scene(), _patina.Film()
     with scene.edit() as edit:
         info = read_stage(open_text(text), edit, StageOptions(headlight=False))
-    renderer = _patina.make_renderer("embree")
+    renderer = _patina.make_renderer(backend)
     start = time.process_time()
     renderer.start(scene, info.camera, {"width": 32, "height": 32, "samples": 16, "threads": 1, "tolerance": 0.0,
                                         "aovs": list(aovs), **settings}, film)

@@ -51,8 +51,8 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
             if (!light.visible) continue;
             if (light.type == LightType::Mesh) continue; // see RasterEmitters
             for (const RasterPlace& place : places.places(light.group))
-                add(light, place.groupToWorld * transformAt(light.transform, timeCode), settings,
-                    images, domes, categories, diagnostics);
+                add(light, mat4(place.groupToWorld * exactTransformAt(light.transform, timeCode)),
+                    settings, images, domes, categories, diagnostics);
         }
     _tables.upload(maxTables);
     domes.upload(_domeMethods.count("prefiltered") > 0);

@@ -78,7 +78,7 @@ RasterDetail::RasterDetail(const RasterExtent& extent, const MotionTransform& tr
     if (!(settings.edgeLength > 0.0f) || !(extent.refines || displaced)) return;
     const vec3 &low = extent.low, &high = extent.high;
     _view = camera.view(vec2(0.0f), vec2(0.0f), 0.5f, low, high);
-    _toGroup = transformAt(transform, camera.timeCode(0.5f));
+    _toGroup = exactTransformAt(transform, camera.timeCode(0.5f));
     _center = 0.5f * (low + high);
     _radius = 0.5f * glm::length(high - low);
     _nearest = camera.camera().clipNear;
@@ -102,7 +102,7 @@ size_t RasterDetail::trianglesFor(float edge) const {
 
 float RasterDetail::edgeAt(const RasterPlace& place) const {
     if (!(_edgeLength > 0.0f) || !(_radius > 0.0f)) return 0.0f;
-    const mat4 m = place.groupToWorld * _toGroup;
+    const mat4 m(place.groupToWorld * _toGroup);
     const float scale =
         std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
     const vec3 center = vec3(m * vec4(_center, 1.0f));

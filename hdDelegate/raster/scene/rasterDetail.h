@@ -49,7 +49,7 @@ private:
     /// The longest chord, for `unit` object units a pixel.
     float chord(float unit) const;
 
-    mat4 _toGroup{1.0f};
+    dmat4 _toGroup{1.0};
     vec3 _center{0.0f};
     float _gap = largestGap; ///< pixels
     float _radius = 0.0f, _area = 0.0f, _edgeLength = 0.0f, _nearest = 0.0f;

@@ -48,7 +48,7 @@ RasterInstances::RasterInstances(const SceneState& state, const RenderSettings& 
         if (item.second->visibility.camera && !anyContains(settings.excludePaths, item.first))
             _instancers.push_back(item.second);
     _places[""] = {RasterPlace()};
-    _places[""][0].groupToWorld[3] -= vec4(origin, 0.0f);
+    _places[""][0].groupToWorld[3] -= glm::dvec4(origin, 0.0);
 }
 
 const std::vector<RasterPlace>& RasterInstances::places(const std::string& group) {
@@ -64,7 +64,7 @@ void RasterInstances::gather(const std::string& group, const RasterPlace& inner,
     if (group.empty()) {
         if (!usable(inner.groupToWorld)) return;
         out.push_back(inner);
-        out.back().groupToWorld[3] -= vec4(_origin, 0.0f);
+        out.back().groupToWorld[3] -= glm::dvec4(_origin, 0.0);
         return;
     }
     if (depth > maxDepth) return;
@@ -76,7 +76,8 @@ void RasterInstances::gather(const std::string& group, const RasterPlace& inner,
                 instancer->prototypes[size_t(p)] != group)
                 continue;
             RasterPlace place = inner;
-            place.groupToWorld = transformAt(instancer->transforms[i], _time) * inner.groupToWorld;
+            place.groupToWorld =
+                exactTransformAt(instancer->transforms[i], _time) * inner.groupToWorld;
             const int own = i < instancer->ids.size() ? instancer->ids[i] : int(i);
             if (depth == 0)
                 place.id = own;

@@ -78,7 +78,7 @@ void RasterScene::GpuInstance::place(const mat4& toWorld) {
 }
 
 void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& places,
-                           const mat4& toGroup) {
+                           const dmat4& toGroup) {
     if (group.places.size() > maxUnsortedPlaces) {
         std::vector<vec3> centers;
         for (const uint32_t i : group.places)
@@ -91,7 +91,7 @@ void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& pl
     group.firstInstance = int(_instances.size());
     for (const uint32_t i : group.places) {
         GpuInstance instance;
-        const mat4 toWorld = places[i].groupToWorld * toGroup;
+        const mat4 toWorld(places[i].groupToWorld * toGroup);
         instance.place(toWorld);
         instance.ids[0] = places[i].id;
         instance.ids[1] = linksOf(group.prim->categories, places[i].categories);
@@ -116,11 +116,11 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
         materials.push_back(
             &_materials.get(subset.material.empty() ? prim->material : subset.material, prim->path,
                             state, settings));
-    const mat4 toGroup = transformAt(prim->transform, camera.timeCode(0.5f));
+    const dmat4 toGroup = exactTransformAt(prim->transform, camera.timeCode(0.5f));
     RasterShapeCache::Request request;
     request.prim = prim;
     request.timeCode = camera.timeCode(0.5f);
-    request.toWorld = where[0].groupToWorld * toGroup;
+    request.toWorld = mat4(where[0].groupToWorld * toGroup);
     request.toWorld[3] += vec4(_origin, 0.0f);
     request.needsMesh = _meshLights.count(prim->path) != 0;
     for (const RasterMaterial* material : materials) {
@@ -171,7 +171,7 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
 
 void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank,
                            const std::vector<const RasterMaterial*>& materials, size_t firstGroup,
-                           const std::vector<RasterPlace>& places, const mat4& toGroup,
+                           const std::vector<RasterPlace>& places, const dmat4& toGroup,
                            const RenderSettings& settings) {
     if (firstGroup == _groups.size()) return;
     RasterDraw draw;
@@ -188,7 +188,7 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
                                                                  : RasterMeshLight::Adds;
         if (light.normalize)
             draw.meshLight.radiance /= std::max(
-                areaOf(*_groups[firstGroup].shape->mesh, places[0].groupToWorld * toGroup), 1e-30f);
+                areaOf(*_groups[firstGroup].shape->mesh, mat4(places[0].groupToWorld * toGroup)), 1e-30f);
         const auto category = _categories.find(light.lightLink);
         if (category != _categories.end()) lit = category->second;
     }
@@ -202,7 +202,7 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
             if (settings.enableSceneLights && group.shape->mesh)
                 for (const uint32_t i : group.places)
                     _emitters.add(group.shape->mesh, subset, draw.material->program, draw.meshLight,
-                                  places[i].groupToWorld * toGroup, lit,
+                                  mat4(places[i].groupToWorld * toGroup), lit,
                                   (draw.flags & RasterShape::tube) != 0, _origin);
             draw.subset = int(subset);
             draw.show(*group.shape);
@@ -222,10 +222,10 @@ float RasterScene::planSubdivision(const SceneState& state, const RasterCamera& 
     for (const auto& item : state.geometry) {
         const Geometry& prim = *item.second;
         if (!plan.isActive() || !subdivides(prim) || !isDrawnInRaster(prim, settings)) continue;
-        const mat4 toGroup = transformAt(prim.transform, camera.timeCode(0.5f));
+        const dmat4 toGroup = exactTransformAt(prim.transform, camera.timeCode(0.5f));
         std::vector<mat4> toWorld;
         for (const RasterPlace& place : places.places(prim.group))
-            toWorld.push_back(place.groupToWorld * toGroup);
+            toWorld.push_back(mat4(place.groupToWorld * toGroup));
         plan.add(CageSize(static_cast<const Mesh&>(prim)), toWorld,
                  _materials.planned(prim.material, prim.path, state, settings));
     }
@@ -286,10 +286,10 @@ void RasterScene::update(const SceneState& state, const vec3& origin, const Rast
         if (!isDrawnInRaster(*item.second, settings)) continue;
         if (item.second->kind == GeometryKind::Volume) {
             const auto volume = std::static_pointer_cast<const Volume>(item.second);
-            const mat4 toGroup = transformAt(volume->transform, camera.timeCode(0.0f));
+            const dmat4 toGroup = exactTransformAt(volume->transform, camera.timeCode(0.0f));
             std::vector<mat4> toWorld;
             for (const RasterPlace& place : places.places(volume->group))
-                toWorld.push_back(place.groupToWorld * toGroup);
+                toWorld.push_back(mat4(place.groupToWorld * toGroup));
             _volumes.add(volume, state, settings, toWorld, _boundsMin, _boundsMax);
             continue;
         }
@@ -346,10 +346,10 @@ bool RasterScene::moveTo(const SceneState& state, const RenderSettings& settings
     RasterInstances places(state, settings, timeCode, _origin);
     for (const RasterGroup& group : _groups) {
         const auto& where = places.places(group.prim->group);
-        const mat4 toGroup = transformAt(group.prim->transform, timeCode);
+        const dmat4 toGroup = exactTransformAt(group.prim->transform, timeCode);
         for (size_t i = 0; i < group.places.size(); ++i) {
             if (group.places[i] >= where.size()) continue;
-            const mat4 toWorld = where[group.places[i]].groupToWorld * toGroup;
+            const mat4 toWorld(where[group.places[i]].groupToWorld * toGroup);
             const size_t at = size_t(group.firstInstance) + i;
             _instances[at].place(toWorld);
             _boxes[at] = RasterBox::around(group.shape->boundsMin, group.shape->boundsMax, toWorld);

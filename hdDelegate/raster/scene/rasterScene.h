@@ -117,10 +117,10 @@ private:
     void addPrim(const std::shared_ptr<const Geometry>& prim, int rank, const SceneState& state,
                  const RasterCamera& camera, const RenderSettings& settings,
                  RasterInstances& places);
-    void addGroup(RasterGroup group, const std::vector<RasterPlace>& places, const mat4& toGroup);
+    void addGroup(RasterGroup group, const std::vector<RasterPlace>& places, const dmat4& toGroup);
     void addDraws(const std::shared_ptr<const Geometry>& prim, int rank,
                   const std::vector<const RasterMaterial*>& materials, size_t firstGroup,
-                  const std::vector<RasterPlace>& places, const mat4& toGroup,
+                  const std::vector<RasterPlace>& places, const dmat4& toGroup,
                   const RenderSettings& settings);
     void upload();
     void deform(float timeCode);

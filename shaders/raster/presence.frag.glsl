@@ -2,7 +2,10 @@
 layout(location = 6) uniform vec4 towardsLight; // position of the light, or direction where w is 0
 #include "shaders/raster/lightShape.glsl"
 
+#include "shaders/raster/slope.glsl"
+
 void main() {
+    writeSlope();
     if (isOfLight(vPosition)) discard;
     setPoint(towardsLight.w != 0.0 ? normalize(towardsLight.xyz - vPosition) : towardsLight.xyz, 0.0);
 #ifdef PRESENCE

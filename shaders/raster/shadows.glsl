@@ -9,6 +9,7 @@ struct SkyCell {
 layout(std430, binding = 10) readonly buffer SkyCells { SkyCell skyCells[]; };
 layout(binding = 18) uniform sampler2DArray shadowMaps;
 layout(binding = 19) uniform sampler2DArray skyMaps;
+layout(binding = 25) uniform sampler2DArray shadowSlopes; // of what shadowMaps show, in depths per texel
 
 // How far the surface that a texel shows lies in front of the point's plane at the point itself, in depths. The
 // surface is continued from the middle of the texel by the texels on the side away from the point. Where these
@@ -30,8 +31,9 @@ float planeBeside(sampler2DArray maps, ivec3 texel, float front, float depth, ve
 // Whether a map shows nothing in front of a point. What is compared is where the plane of the surface
 // is in the middle of the texel, not the point: then a surface does not hide itself, without being
 // moved by as much as a texel may be wrong, which would be seen where things touch.
-// n: of the plane; 0 compares the point. minimum: of the bias, which is how exact depths are.
-float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n, float minimum) {
+// hasSlopes: maps are shadowMaps. n: of the plane; 0 compares the point. minimum: of the bias, which is how exact
+// depths are.
+float isInFront(bool hasSlopes, sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n, float minimum) {
     vec4 clip = worldToMap * vec4(p, 1.0);
     if (clip.w <= 0.0) return 1.0;
     vec3 q = clip.xyz / clip.w;
@@ -55,6 +57,11 @@ float isInFront(sampler2DArray maps, mat4 worldToMap, int layer, vec3 p, vec3 n,
     // Where two surfaces meet, the middle of the texel may show the other one, and the point's plane goes on
     // behind that. Where a surface bends towards the light, the middle is nearer to the light than the plane.
     vec2 offset = (0.5 * q.xy + 0.5) * size - texel - 0.5;
+    if (hasSlopes && !isTube()) {
+        // What the middle shows hides the point only if its own plane also does so at the point.
+        vec2 rise = texelFetch(shadowSlopes, ivec3(ivec2(texel), layer), 0).xy;
+        return depth - front + dot(slope / size - rise, offset) <= bias ? 1.0 : 0.0;
+    }
     mat4 rows = transpose(worldToMap);
     // Half a texel, as a depth. Fibres, and points without a plane, are compared as they are.
     float close = 0.5 * length(rows[2].xyz - q.z * rows[3].xyz) / (size.x * length(rows[0].xyz - q.x * rows[3].xyz));
@@ -91,7 +98,7 @@ float reaches(Light l, vec3 p) {
         if (isShown(shadowMatrices[finer], p)) map = finer;
     }
     vec3 towards = l.sampled.w != 0.0 ? -d : l.sampled.xyz;
-    return isInFront(shadowMaps, shadowMatrices[map], map, p, planeTowards(normalize(towards)), 1e-6);
+    return isInFront(true, shadowMaps, shadowMatrices[map], map, p, planeTowards(normalize(towards)), 1e-6);
 }
 
 vec2 octahedral(vec3 w) {
@@ -120,11 +127,11 @@ float skyReaches(vec3 wi) {
         m = skyCells[cell].worldToFibres;
         layer = skyCells[cell].map.y;
     }
-    float seen = isInFront(skyMaps, m, layer, p, isTube() ? planeTowards(towards) : up, 3e-5);
+    float seen = isInFront(false, skyMaps, m, layer, p, isTube() ? planeTowards(towards) : up, 3e-5);
     if (seen == 0.0 || isTube()) return seen;
     // These texels are wide: the plane of what is small or round reaches through what is near.
     float texel = 2.0 / (float(textureSize(skyMaps, 0).x) * length(vec3(m[0].x, m[1].x, m[2].x)));
-    return isInFront(skyMaps, m, layer, point.position + up * (0.9 * texel), vec3(0.0), 3e-5);
+    return isInFront(false, skyMaps, m, layer, point.position + up * (0.9 * texel), vec3(0.0), 3e-5);
 }
 
 // Share of the light's sample that arrives; the colour of shadows where it does not.

@@ -83,7 +83,7 @@ STAIRS = """    def DistantLight "sun"
     {
         float inputs:angle = 2
         float inputs:intensity = 300
-        float3 xformOp:rotateXYZ = (-75, 0, 0)
+        float3 xformOp:rotateXYZ = (%s, 0, 0)
         uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
     }
     def Mesh "stairs"
@@ -91,7 +91,7 @@ STAIRS = """    def DistantLight "sun"
         int[] faceVertexCounts = %s
         int[] faceVertexIndices = %s
         point3f[] points = %s
-        uniform token subdivisionScheme = "catmullClark"
+        uniform token subdivisionScheme = "%s"
         color3f[] primvars:displayColor = [(0.6, 0.6, 0.6)]
     }"""
 
@@ -99,6 +99,14 @@ STAIRS = """    def DistantLight "sun"
 def _write(folder, contents):
     (folder / "stage.usda").write_text(STAGE % contents)
     return str(folder / "stage.usda")
+
+
+def _extruded(profile, turn, scheme):
+    """:param profile: (z, y) along the stairs
+    :param turn: of the sun about x, in degrees; -90 is straight above"""
+    points = [(x, y, z) for z, y in profile for x in (-2.0, -1.0, 0.0, 1.0, 2.0)]
+    faces = [(5 * k + i, 5 * k + i + 1, 5 * k + i + 6, 5 * k + i + 5) for k in range(len(profile) - 1) for i in range(4)]
+    return STAIRS % (turn, [4] * len(faces), [i for face in faces for i in face], points, scheme)
 
 
 def test_a_cutout_casts_the_same_shadow_however_light_is_found(tmp_path):
@@ -118,7 +126,11 @@ def test_a_surface_that_bends_towards_the_light_does_not_hide_itself(tmp_path):
     for i in range(8):
         z, y, r = 2.1 - 0.5 * i, 0.2 * i, 0.04
         profile += [(z + r, y), (z, y), (z, y + r), (z, y + 0.2 - r), (z, y + 0.2), (z - r, y + 0.2)]
-    points = [(x, y, z) for z, y in profile for x in (-2.0, -1.0, 0.0, 1.0, 2.0)]
-    faces = [(5 * k + i, 5 * k + i + 1, 5 * k + i + 6, 5 * k + i + 5) for k in range(len(profile) - 1) for i in range(4)]
-    mesh = STAIRS % ([4] * len(faces), [i for face in faces for i in face], points)
-    sameImage.assert_same(_write(tmp_path, mesh), None, "--disableCameraLight", width=32)
+    sameImage.assert_same(_write(tmp_path, _extruded(profile, -75, "catmullClark")), None, "--disableCameraLight", width=32)
+
+
+def test_grooves_as_narrow_as_texels_do_not_hide_themselves(tmp_path):
+    """Both walls of every groove face the sun, at 60 degrees: no point is in shadow, and a texel (0.02 wide here) says
+    nothing of its neighbours."""
+    profile = [(1.5 - 0.018 * i, 0.031 * (i % 2)) for i in range(167)]
+    sameImage.assert_same(_write(tmp_path, _extruded(profile, -90, "none")), None, "--disableCameraLight", width=32)

@@ -36,11 +36,11 @@ RasterPasses::RasterPasses(std::string& error)
     if (!_shadowAround) return;
     _look = std::make_unique<RasterLook>(error);
     if (!_look->ok()) return;
-    _depthOnly = GlProgram::make(
-        {{GL_VERTEX_SHADER, "surface",
-          "#define PRIMVARS 0\n#include \"shaders/raster/surface.vert.glsl\"\n"},
-         {GL_FRAGMENT_SHADER, "shadow", "#include \"shaders/raster/shadow.frag.glsl\"\n"}},
-        error);
+    _depthOnly =
+        GlProgram::make({{GL_VERTEX_SHADER, "surface",
+                          "#define PRIMVARS 0\n#include \"shaders/raster/surface.vert.glsl\"\n"},
+                         {GL_FRAGMENT_SHADER, "shadow", "void main() {}\n"}},
+                        error);
 }
 
 RasterPasses::~RasterPasses() {
@@ -331,6 +331,7 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
     takenBuffer.bindUniform(4);
     matrixBuffer.bindStorage(5);
     _shadowMaps.bind(18);
+    _shadowSlopes.bind(25);
 
     _colorTarget.bind();
     gl.Viewport(0, 0, _color.width(), _color.height());

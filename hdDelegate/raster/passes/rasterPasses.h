@@ -77,8 +77,9 @@ private:
     void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);
     static int skyCells(const RasterScene& scene);
     void drawSky(const RasterScene& scene, const RasterLights& lights, uint32_t pass);
+    /// @param slopes null: only depths are wanted
     void drawCasters(const RasterScene& scene, const ShadowView& view, const GlTexture& maps,
-                     int layer) const;
+                     int layer, const GlTexture* slopes = nullptr) const;
     enum Which { AllForAovs, Solid, Transmitting, ColoredPresence };
     void drawSurfaces(const RasterScene& scene, const RasterVisible& visible, Which which) const;
     void drawDepths(const RasterScene& scene, const RasterVisible& visible) const;
@@ -103,7 +104,7 @@ private:
     GLuint _vertexArray = 0;
     int _width = 0, _height = 0, _border = 0;
     int _window[4] = {0, 0, -1, -1};
-    GlTexture _color, _depth, _position, _normal, _ids, _shadowMaps;
+    GlTexture _color, _depth, _position, _normal, _ids, _shadowMaps, _shadowSlopes;
     GlTexture _albedo;
     std::vector<GlTexture> _primvars;
     GlFramebuffer _colorTarget, _aovTarget;

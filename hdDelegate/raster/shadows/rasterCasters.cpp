@@ -11,12 +11,15 @@ void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<Shado
     const int layers = std::max(1, int(views.size()));
     if (layers > _shadowLayers || _shadowMaps.width() != size) {
         _shadowMaps = GlTexture(GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layers);
+        _shadowSlopes = GlTexture(GL_TEXTURE_2D_ARRAY, GL_RG16F, size, size, layers);
         _shadowLayers = layers;
-        _shadowMaps.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        _shadowMaps.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        for (const GlTexture* maps : {&_shadowMaps, &_shadowSlopes}) {
+            maps->parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+            maps->parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        }
     }
     for (size_t i = 0; i < views.size(); ++i)
-        drawCasters(scene, views[i], _shadowMaps, int(i));
+        drawCasters(scene, views[i], _shadowMaps, int(i), &_shadowSlopes);
 }
 
 /// The first pass of a small scene draws all cells; a large one gets them by and by, and one whose
@@ -36,12 +39,14 @@ void RasterPasses::drawSky(const RasterScene& scene, const RasterLights& lights,
 }
 
 void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
-                               const GlTexture& maps, int layer) const {
+                               const GlTexture& maps, int layer, const GlTexture* slopes) const {
     scene.bind(_vertexArray);
     gl.BindFramebuffer(GL_FRAMEBUFFER, _shadowTarget);
     gl.Viewport(0, 0, maps.width(), maps.height());
-    const GLenum noColor = GL_NONE;
-    gl.NamedFramebufferDrawBuffers(_shadowTarget, 1, &noColor);
+    const GLenum color = slopes ? GL_COLOR_ATTACHMENT0 : GL_NONE;
+    gl.NamedFramebufferDrawBuffers(_shadowTarget, 1, &color);
+    gl.NamedFramebufferTextureLayer(_shadowTarget, GL_COLOR_ATTACHMENT0, slopes ? slopes->id() : 0,
+                                    0, slopes ? layer : 0);
     const float far = 1.0f;
     gl.NamedFramebufferTextureLayer(_shadowTarget, GL_DEPTH_ATTACHMENT, maps.id(), 0, layer);
     gl.ClearNamedFramebufferfv(_shadowTarget, GL_DEPTH, 0, &far);

@@ -102,7 +102,7 @@ constexpr Pattern create4Full = rarePattern("$0; $1; $2; $3", [](Call c) {
 template <int Rows> constexpr const char* extractRowGlsl =
     Rows == 3 ? "vec4($A0[clamp(nodeWhole($1.x), 0, 2)], 0.0)"
               : "$B0[clamp(nodeWhole($1.x), 0, 3)]";
-template <int Rows> constexpr Pattern extractRow = rarePattern(extractRowGlsl<Size>, [](Call c) {
+template <int Rows> constexpr Pattern extractRow = rarePattern(extractRowGlsl<Rows>, [](Call c) {
     c.out() = row(c, 0, glm::clamp(c.whole(1), 0, Rows - 1));
 });
 

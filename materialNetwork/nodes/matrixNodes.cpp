@@ -66,8 +66,10 @@ constexpr Pattern multiply4 =
     rarePattern("4|$B1 * $B0", [](Call c) { store(c, in4(c, 1) * in4(c, 0)); });
 constexpr Pattern divide3 = rarePattern("3|nodeInverse($A1) * $A0",
                                         [](Call c) { store(c, inverted(in3(c, 1)) * in3(c, 0)); });
-constexpr Pattern divide4 = rarePattern("4|nodeInverse($B1) * $B0",
-                                        [](Call c) { store(c, inverted(in4(c, 1)) * in4(c, 0)); });
+void divided4(Call c) {
+    store(c, inverted(in4(c, 1)) * in4(c, 0));
+}
+constexpr Pattern divide4 = rarePattern("4|nodeInverse($B1) * $B0", divided4);
 constexpr Pattern transpose3 =
     rarePattern("3|transpose($A0)", [](Call c) { store(c, glm::transpose(in3(c, 0))); });
 constexpr Pattern transpose4 =

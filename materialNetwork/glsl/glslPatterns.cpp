@@ -75,7 +75,8 @@ std::vector<std::string> split(const std::string& text) {
     while (from <= text.size()) {
         size_t to = text.find(';', from);
         if (to == std::string::npos) to = text.size();
-        parts.push_back(text.substr(text[from] == ' ' ? from + 1 : from, to - from));
+        if (text[from] == ' ') ++from;
+        parts.push_back(text.substr(from, to - from));
         from = to + 1;
     }
     return parts;

@@ -66,8 +66,10 @@ constexpr Pattern multiply4 =
     rarePattern("4|$B1 * $B0", [](Call c) { store(c, in4(c, 1) * in4(c, 0)); });
 constexpr Pattern divide3 = rarePattern("3|nodeInverse($A1) * $A0",
                                         [](Call c) { store(c, inverted(in3(c, 1)) * in3(c, 0)); });
-constexpr Pattern divide4 = rarePattern("4|nodeInverse($B1) * $B0",
-                                        [](Call c) { store(c, inverted(in4(c, 1)) * in4(c, 0)); });
+void divided4(Call c) {
+    store(c, inverted(in4(c, 1)) * in4(c, 0));
+}
+constexpr Pattern divide4 = rarePattern("4|nodeInverse($B1) * $B0", divided4);
 constexpr Pattern transpose3 =
     rarePattern("3|transpose($A0)", [](Call c) { store(c, glm::transpose(in3(c, 0))); });
 constexpr Pattern transpose4 =
@@ -102,7 +104,7 @@ constexpr Pattern create4Full = rarePattern("$0; $1; $2; $3", [](Call c) {
 template <int Rows> constexpr const char* extractRowGlsl =
     Rows == 3 ? "vec4($A0[clamp(nodeWhole($1.x), 0, 2)], 0.0)"
               : "$B0[clamp(nodeWhole($1.x), 0, 3)]";
-template <int Rows> constexpr Pattern extractRow = rarePattern(extractRowGlsl<Size>, [](Call c) {
+template <int Rows> constexpr Pattern extractRow = rarePattern(extractRowGlsl<Rows>, [](Call c) {
     c.out() = row(c, 0, glm::clamp(c.whole(1), 0, Rows - 1));
 });
 

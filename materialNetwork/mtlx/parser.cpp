@@ -40,6 +40,11 @@ std::vector<std::string> splitList(std::string text) {
     return parts;
 }
 
+/// Of the paths of a graph's nodes.
+std::string prefixOf(const pugi::xml_node& graph) {
+    return "/" + std::string(graph.attribute("name").value()) + "/";
+}
+
 /// Gives each material the nodes that its terminals reach, in the order of the document.
 void giveNodes(const std::vector<NetworkNode>& nodes, std::vector<Network>& materials) {
     std::map<std::string, size_t> places;
@@ -225,7 +230,7 @@ bool MtlxParser::connect(const Element& port, const Scope& scope, Connection& ou
                 --_depth;
                 return false;
             }
-            const Scope inner{graph->second, "/" + graph->first + "/", false};
+            const Scope inner{graph->second, prefixOf(graph->second), false};
             const bool found = connect(child, inner, out);
             --_depth;
             return found;
@@ -300,33 +305,48 @@ void MtlxParser::readModel(const Element& graph, const NodeDef& def, ShadingMode
 }
 
 void MtlxParser::indexNames(const Element& root) {
+    std::vector<std::pair<Element, std::map<std::string, Element>*>> spaced;
     for (const Element& child : root.children()) {
         const std::string name = child.attribute("name").value();
-        if (!std::strcmp(child.name(), "nodedef"))
-            _defs[name] = child;
-        else if (!std::strcmp(child.name(), "nodegraph") && !child.attribute("nodedef"))
-            _graphs[name] = child;
-        else if (isNode(child))
+        const bool isDef = !std::strcmp(child.name(), "nodedef");
+        if (isDef || (!std::strcmp(child.name(), "nodegraph") && !child.attribute("nodedef"))) {
+            auto& known = isDef ? _defs : _graphs;
+            if (qualifiedName(child, name) == name)
+                known[name] = child;
+            else
+                spaced.push_back({child, &known});
+        } else if (isNode(child)) {
             _topmost.emplace(name, child);
+        }
     }
-    for (const Element& child : root.children("nodedef"))
-        _defs.emplace(qualifiedName(child, child.attribute("name").value()), child);
+    // A name that several namespaces have is written with the namespace, but for the first.
+    for (auto& [element, known] : spaced) {
+        pugi::xml_attribute name = element.attribute("name");
+        const std::string qualified = qualifiedName(element, name.value());
+        if (!known->emplace(name.value(), element).second) name.set_value(qualified.c_str());
+        known->emplace(qualified, element);
+    }
 }
 
 void MtlxParser::parse(const pugi::xml_node& root, bool wantMaterials, MtlxDocument& out) {
     _useLibrary = wantMaterials;
     indexNames(root);
     std::map<std::string, Element> functional;
+    std::set<std::string> implementing; // graphs that implementations name
     for (const Element& child : root.children("nodegraph"))
         if (const auto def = child.attribute("nodedef"))
             functional[referenced(child, def.value(), _defs)] = child;
     for (const Element& child : root.children("implementation")) {
         const auto graph =
             _graphs.find(referenced(child, child.attribute("nodegraph").value(), _graphs));
-        if (graph != _graphs.end())
-            functional[referenced(child, child.attribute("nodedef").value(), _defs)] =
-                graph->second;
+        if (graph == _graphs.end()) continue;
+        functional[referenced(child, child.attribute("nodedef").value(), _defs)] = graph->second;
+        implementing.insert(graph->second.attribute("name").value());
     }
+    // Their interface is that of the definition.
+    for (auto it = _graphs.begin(); it != _graphs.end();)
+        it = implementing.count(it->second.attribute("name").value()) ? _graphs.erase(it)
+                                                                      : std::next(it);
     // The interfaces come first, because graphs use each other's definitions.
     std::vector<Element> bodies;
     for (const auto& [name, element] : _defs) {
@@ -351,7 +371,8 @@ void MtlxParser::readMaterials(const Element& root, MtlxDocument& out) {
     std::vector<NetworkNode> nodes;
     readNodes({root, "/", false}, nodes);
     for (const auto& [name, element] : _graphs)
-        readNodes({element, "/" + name + "/", false}, nodes);
+        if (name == element.attribute("name").value()) // not known by another name as well
+            readNodes({element, prefixOf(element), false}, nodes);
     const auto addMaterial = [&](const std::string& name) -> Network& {
         out.materials.emplace_back();
         out.materials.back().path = _path + ":" + name;

@@ -114,6 +114,38 @@ TEST_F(MtlxNamespaces, OtherNamespacesAreNotMeant) {
     EXPECT_NEAR(albedoOf(networks.at(0)), 0.75f, 1e-5f);
 }
 
+// All names of two namespaces are alike: of definitions, of graphs that implementations give them,
+// and of graphs that stand for themselves.
+TEST_F(MtlxNamespaces, TheSameNamesInTwoNamespacesAreTold) {
+    const auto in = [](const std::string& space, const std::string& value) {
+        const std::string own = "namespace='" + space + "'";
+        const std::string number = "<input name='value' type='color3' value='" + value + "'/>";
+        return "<nodedef name='ND_toon' node='toon_shade' " + own +
+               "><input name='x' type='color3' value='" + value +
+               "'/><output name='out' type='color3'/></nodedef>"
+               "<implementation name='I_toon' nodedef='ND_toon' nodegraph='" +
+               space + ":NG_toon' " + own + "/><nodegraph name='NG_toon' " + own +
+               "><constant name='c' type='color3'><input name='value' type='color3' "
+               "interfacename='x'/></constant><output name='out' type='color3' nodename='c'/>"
+               "</nodegraph><nodegraph name='G' " +
+               own + "><constant name='c' type='color3'>" + number +
+               "</constant><output name='out' type='color3' nodename='c'/></nodegraph>";
+    };
+    const std::string both = in("a", ".75,.75,.75") + in("b", ".25,.25,.25");
+    EXPECT_NEAR(albedoOf(read(both + use("a:toon_shade")).at(0)), 0.75f, 1e-5f);
+    EXPECT_NEAR(albedoOf(read(both + use("b:toon_shade")).at(0)), 0.25f, 1e-5f);
+    for (const auto& [space, expected] : {std::pair{"a", 0.75f}, std::pair{"b", 0.25f}}) {
+        std::string body = both + use("constant");
+        const std::string node = "<constant name='t' type='color3' />";
+        body.replace(body.find(node), node.size(),
+                     "<constant name='t' type='color3'><input name='value' type='color3' "
+                     "nodegraph='" +
+                         std::string(space) + ":G' output='out'/></constant>");
+        EXPECT_NEAR(albedoOf(read(body).at(0)), expected, 1e-5f) << space;
+    }
+    EXPECT_EQ(diagnostics.count(), 0) << warnings(diagnostics);
+}
+
 TEST_F(MtlxNamespaces, AnIncludedDocumentKeepsItsNamesApart) {
     write(
         "library.mtlx",

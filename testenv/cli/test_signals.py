@@ -79,6 +79,30 @@ def test_a_signal_outside_of_rendering_tidies_up(number, said, folder, monkeypat
     assert os.listdir() == ["stage.usda"]
 
 
+@pytest.mark.parametrize("dropped", ("open_stage", "_translate"))
+def test_a_signal_that_a_library_drops_ends_the_command(dropped, folder, monkeypatch, capsys):
+    """An import of pxr prints the exception as an error of its own and goes on."""
+    from patina.cli import openStage
+
+    owner = openStage if dropped == "open_stage" else record._Job
+    name = "_open" if dropped == "open_stage" else dropped
+    run = getattr(owner, name)
+
+    def swallow(*arguments):
+        try:
+            os.kill(os.getpid(), signal.SIGTERM)
+            for _ in range(100000):  # until the signal is handled
+                pass
+        except KeyboardInterrupt:
+            pass
+        return run(*arguments)
+
+    monkeypatch.setattr(owner, name, swallow)
+    assert main.main(["record", "stage.usda", "a.png", *LONG]) == 1
+    assert capsys.readouterr().err == "patina: terminated\n"
+    assert os.listdir() == ["stage.usda"]
+
+
 def test_ignored_signals_stay_ignored(folder):
     """As nohup wants it."""
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)

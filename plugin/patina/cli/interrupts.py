@@ -40,11 +40,28 @@ class Interrupts(_Handlers):
 class Endings(_Handlers):
     """While a command runs: the first signal ends it as an exception does, so that what it has begun is tidied up.
 
-    `met` stays set, because libraries turn the exception into others: an interrupted import into a missing module."""
+    `met` stays set, because libraries turn the exception into others (an interrupted import into a missing module) or drop
+    it with a message of their own: check() then raises it again."""
+
+    _open = None
 
     def __init__(self):
         super().__init__()
         self.met = 0
+
+    def __enter__(self):
+        Endings._open = self
+        return super().__enter__()
+
+    def __exit__(self, *problem):
+        Endings._open = None
+        return super().__exit__(*problem)
+
+    @staticmethod
+    def check():
+        """:raises KeyboardInterrupt: where the command that runs was told to end"""
+        if Endings._open and Endings._open.met:
+            raise KeyboardInterrupt
 
     def _note(self, number, _frame):
         self.met = number

@@ -2,6 +2,7 @@
 import os
 
 from patina import inputs
+from patina.cli import interrupts
 from patina.cli.errors import CommandError
 
 
@@ -12,6 +13,7 @@ def open_stage(path, mask=None, session_layer=None):
 
     from patina.stage import StageError, compat, errors
 
+    interrupts.Endings.check()  # importing pxr prints exceptions and goes on
     if not os.path.exists(path):
         raise CommandError(f"there is no file {path}")
     try:
@@ -25,6 +27,7 @@ def open_stage(path, mask=None, session_layer=None):
             problem = "it is no USD file"
         except Tf.ErrorException as error:
             stage, problem = None, errors.one_line(error)
+    interrupts.Endings.check()
     if not stage:
         raise StageError(f"{path} cannot be opened: {quiet.texts[0] if quiet.texts else problem}")
     for layer in stage.GetUsedLayers():

@@ -14,7 +14,7 @@ import os
 
 from patina.cli import checkpoints, compiled, denoiser, frames, openStage, outputs, overrides, recordFlags, statistics
 from patina.cli.errors import CommandError
-from patina.cli.interrupts import Interrupts
+from patina.cli.interrupts import Endings, Interrupts
 from patina.cli.progress import Progress
 
 add_arguments = recordFlags.add_arguments
@@ -142,6 +142,7 @@ class _Job:
     def _render(self, film, image, settings, camera):
         a = self.arguments
         progress = Progress(image, a.quiet)
+        Endings.check()  # what a library made of the exception
         with self.statistics.phase("render"), Interrupts() as interrupts:
             self.renderer.start(self.scene, camera, settings, film)
             self._check_warnings()  # of a back end that cannot start

@@ -18,7 +18,7 @@ RUNS = {  # --tier: the tiers of the tests that it runs
     "long": ("long",),
     "all": TIERS,
 }
-ROOMS = ("shaders", "materialNetwork", "scene", "geometry", "image", "plan", "film", "lights", "embree", "raster", "backends",
+ROOMS = ("shaders", "materialNetwork", "scene", "geometry", "image", "plan", "film", "lights", "compiled", "embree", "raster", "backends",
          "hydra", "python", "stage", "cli", "view", "chart", "testenv")
 
 FOLDERS = {  # folder: tier, rooms
@@ -29,6 +29,7 @@ FOLDERS = {  # folder: tier, rooms
     "hdDelegate/image/": ("unit", "image"),
     "hdDelegate/film/": ("unit", "film"),
     "hdDelegate/lights/": ("unit", "lights"),
+    "hdDelegate/compiled/": ("unit", "compiled"),
     "hdDelegate/embree/": ("smoke", "embree"),
     "hdDelegate/raster/": ("full", "raster"),
     "hdDelegate/backends/": ("smoke", "backends"),

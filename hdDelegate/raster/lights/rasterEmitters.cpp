@@ -28,6 +28,18 @@ bool dependsOnView(const ProgramCode& code) {
            });
 }
 
+/// Own normals of the cones that a program emits by at a point.
+std::vector<vec3> coneAxes(const ProgramCode& code, const ShadingPoint& point) {
+    RegisterFile registers(code);
+    registers.run(code, code.emissionCode, point);
+    std::vector<vec3> out;
+    for (const ClosureOp& op : code.edf)
+        if (op.kind == ClosureKind::ConicalEdf)
+            out.push_back(op.normal < 0 ? point.normal
+                                        : unitOr(vec3(registers.data()[op.normal]), point.normal));
+    return out;
+}
+
 } // namespace
 
 /// A place on a triangle of a source, as the path tracer's computeSurfacePoint() has it.
@@ -63,6 +75,8 @@ public:
         if (frame.fromTexture)
             s.lengthPerUv =
                 std::sqrt(glm::length(linear * frame.dpdu) * glm::length(linear * frame.dpdv));
+        axis = s.normal;
+        x = s.tangent;
     }
     Place(const Place&) = delete;
     Place& operator=(const Place&) = delete;
@@ -92,16 +106,29 @@ public:
         sum = glm::max(sum * presence, vec3(0.0f));
         return std::isfinite(sum.x + sum.y + sum.z) ? sum : vec3(0.0f);
     }
-    /// The same by angles about the shading normal.
+    /// The same by angles about the axis.
     vec3 towards(float theta, float turn) {
-        const vec3& n = shading.normal;
         const float s = std::sin(theta);
-        const vec3 d = n * std::cos(theta) + shading.tangent * (s * std::cos(turn)) +
-                       glm::cross(n, shading.tangent) * (s * std::sin(turn));
+        const vec3 d = axis * std::cos(theta) + x * (s * std::cos(turn)) +
+                       glm::cross(axis, x) * (s * std::sin(turn));
         return towards(glm::normalize(d));
     }
 
+    /// A narrow cone that is inclined shows itself about its own axis. @returns whether it has any
+    bool aimAtCone() {
+        if (!_source.glows || _source.light.mode == RasterMeshLight::Alone) return false;
+        const std::vector<vec3> axes = coneAxes(_source.program->code(), shading);
+        if (axes.empty()) return false;
+        if (glm::dot(axes[0], axis) < 0.99999f) {
+            vec3 across;
+            axis = axes[0];
+            orthonormalBasis(axis, x, across);
+        }
+        return true;
+    }
+
     ShadingPoint shading;
+    vec3 axis{0, 0, 1}, x{1, 0, 0}; ///< the shading normal and tangent, or those of a cone
 
 private:
     const Source& _source;
@@ -126,6 +153,7 @@ float RasterEmitters::brightness(const Source& source, unsigned triangle, bool c
             sum += luminance(place.towards(0.0f, 0.0f));
             continue;
         }
+        place.aimAtCone();
         // Light that leaves at an angle counts by its cosine.
         float front = 0.0f, back = 0.0f, weights = 0.0f;
         for (const float theta : {0.05f, 0.5f, 0.9f, 1.3f}) {
@@ -197,7 +225,7 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
     double mean = 0.0;
     for (const float b : bright)
         mean += double(b) / double(bright.size());
-    const double minimum = constant ? 0.0 : std::max(0.02 * mean, 1e-6);
+    const double minimum = constant && source.even ? 0.0 : std::max(0.02 * mean, 1e-6);
     size_t kept = first;
     for (size_t i = 0; i < bright.size(); ++i) {
         const RasterEmitter e = _emitters[first + i];
@@ -218,13 +246,14 @@ RasterEmission RasterEmitters::emission(const RasterEmitter& e, const vec2& uv) 
         out.radiance = place.towards(0.0f, 0.0f);
         return out;
     }
-    out.axis = place.shading.normal;
-    out.x = place.shading.tangent;
+    const bool cones = place.aimAtCone();
+    out.axis = place.axis;
+    out.x = place.x;
     out.y = glm::cross(out.axis, out.x);
     // Angles to the axis alone, unless some directions tell otherwise.
-    bool round = true, flat = true;
+    bool round = true, flat = !cones;
     const vec3 along = place.towards(0.0f, 0.0f);
-    for (const float theta : {0.4f, 0.9f, 1.3f, 1.8f, 2.5f}) {
+    for (const float theta : {0.05f, 0.2f, 0.4f, 0.9f, 1.3f, 1.8f, 2.5f}) {
         const vec3 first = place.towards(theta, 0.7f);
         const float scale = 1e-4f * luminance(first) + 1e-20f;
         flat &= glm::length(first - along) <= scale;
@@ -237,11 +266,24 @@ RasterEmission RasterEmitters::emission(const RasterEmitter& e, const vec2& uv) 
     }
     out.stepsOfTheta = round ? RasterEmission::thetas : RasterEmission::turnThetas;
     out.stepsOfTurn = round ? 1 : RasterEmission::turns;
+    // Means by solid angle over what a value is interpolated for: all light of an edge is kept.
+    const int parts = cones && round ? 8 : 0;
+    const float step = pi / float(out.stepsOfTheta - 1);
     for (int k = 0; k < out.stepsOfTurn; ++k)
-        for (int i = 0; i < out.stepsOfTheta; ++i)
-            out.values.push_back(
-                place.towards(pi * float(i) / float(out.stepsOfTheta - 1),
-                              2.0f * pi * float(k) / float(RasterEmission::turns - 1)));
+        for (int i = 0; i < out.stepsOfTheta; ++i) {
+            const float turn = 2.0f * pi * float(k) / float(RasterEmission::turns - 1);
+            vec3 sum = parts > 0 ? vec3(0.0f) : place.towards(step * float(i), turn);
+            float weights = parts > 0 ? 0.0f : 1.0f;
+            for (int j = -parts; j < parts; ++j) {
+                const float offset = (float(j) + 0.5f) / float(parts);
+                const float theta = step * (float(i) + offset);
+                if (theta < 0.0f || theta > pi) continue;
+                const float weight = (1.0f - std::fabs(offset)) * std::sin(theta);
+                sum += weight * place.towards(theta, turn);
+                weights += weight;
+            }
+            out.values.push_back(sum / weights);
+        }
     return out;
 }
 

@@ -21,6 +21,7 @@ def DomeLight "dome"
 }
 """
 LONG = ("-w", "64", "--samples", "65536", "--maxDepth", "1", "--quiet")
+SHORT = ("-w", "16", "--samples", "4", "--maxDepth", "1", "--quiet")  # where a test that fails renders all of it
 
 
 @pytest.fixture
@@ -98,7 +99,7 @@ def test_a_signal_that_a_library_drops_ends_the_command(dropped, folder, monkeyp
         return run(*arguments)
 
     monkeypatch.setattr(owner, name, swallow)
-    assert main.main(["record", "stage.usda", "a.png", *LONG]) == 1
+    assert main.main(["record", "stage.usda", "a.png", *SHORT]) == 1
     assert capsys.readouterr().err == "patina: terminated\n"
     assert os.listdir() == ["stage.usda"]
 

@@ -169,23 +169,10 @@ bool rewriteClosure(const Graph& graph, const GraphNode& node, Operand& out, std
         reason = why;
         return true;
     };
-    switch (node.def->closure) {
-    case ClosureKind::OrenNayar:
-    case ClosureKind::Burley:
-    case ClosureKind::Translucent:
-    case ClosureKind::Subsurface:
-    case ClosureKind::Unsupported:
-    case ClosureKind::Dielectric:
-    case ClosureKind::Conductor:
-    case ClosureKind::Schlick:
-    case ClosureKind::Sheen:
-    case ClosureKind::Phong:
-    case ClosureKind::BlinnPhong:
-    case ClosureKind::Ward:
-    case ClosureKind::CookTorrance:
-    case ClosureKind::ChiangHair:
+    if (isLobe(node.def->closure) || node.def->closure == ClosureKind::Unsupported)
         return !in.empty() && node.def->inputs[0].name == "weight" &&
                isConstantValue(in[0], 0.0f) && cut("weight 0");
+    switch (node.def->closure) {
     case ClosureKind::UniformEdf:
     case ClosureKind::ConicalEdf:
     case ClosureKind::MeasuredEdf: return isConstantValue(in[0], 0.0f) && cut("black");

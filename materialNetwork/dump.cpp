@@ -160,10 +160,8 @@ private:
             const std::string weight = node.def->inputs[0].name == "weight"
                                            ? operandText(_plan.graph, node.inputs[0])
                                            : "1";
-            const bool interface = c.kind == ClosureKind::Dielectric ||
-                                   c.kind == ClosureKind::Schlick || c.kind == ClosureKind::Sheen;
             const std::string e = "E" + std::to_string(_lobe[size_t(i)]);
-            return "(1 - " + (interface ? product(weight, e) : weight) + ")";
+            return "(1 - " + (c.has(lobe::Covers) ? product(weight, e) : weight) + ")";
         }
         switch (c.kind) {
         case ClosureKind::Layer: return product(transmittance(c.a), transmittance(c.b));

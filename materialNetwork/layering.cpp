@@ -12,13 +12,13 @@ namespace {
 constexpr int maxLayerDepth = 4;
 
 bool isInterface(const PlanClosure& c) {
-    return c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Schlick;
+    return c.has(lobe::Interface);
 }
 
 /// Why no light can be walked over this closure, apart from its parts.
 std::string whyNotOver(const Plan& plan, const PlanClosure& c) {
     if (walksBeneath(plan, c)) return "light goes beneath the surface of its base";
-    if (c.kind == ClosureKind::ChiangHair) return "its base is hair";
+    if (c.has(lobe::Fibre)) return "its base is hair";
     if (!isInterface(c)) return "";
     const int mode = scatterMode(plan, c);
     if (mode == sh::SCATTER_T) return "its top and base are halves of one interface";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "materialNetwork/cpu/pattern.h"
+#include "materialNetwork/lobes.h"
 #include "materialNetwork/network.h"
 
 #include <string>
@@ -11,19 +12,8 @@ namespace patina {
 /// What a node that is not a pattern does.
 enum class ClosureKind {
     None, ///< a pattern
-    OrenNayar,
-    Burley,
-    Translucent,
-    Subsurface,
-    Dielectric,
-    Conductor,
-    Schlick,
-    Sheen,
-    Phong,
-    BlinnPhong,
-    Ward,
-    CookTorrance,
-    ChiangHair,
+#define PATINA_LOBE(Kind, prefix, traits, probe, lit) Kind,
+#include "materialNetwork/lobeTable.inc"
     ThinFilm, ///< MaterialX 1.38: as the top of a layer it coats the base
     UniformEdf,
     ConicalEdf,
@@ -44,6 +34,18 @@ enum class ClosureKind {
     Unsupported ///< known by name and inputs; renders as nothing, with a warning
 };
 
+constexpr bool isLobe(ClosureKind kind) {
+    return kind > ClosureKind::None && kind < ClosureKind::ThinFilm;
+}
+/// @param kind of a lobe
+constexpr LobeKind lobeKind(ClosureKind kind) {
+    return LobeKind(int(kind) - int(ClosureKind::None) - 1);
+}
+/// False of what is no lobe.
+constexpr bool lobeHas(ClosureKind kind, lobe::Trait trait) {
+    return isLobe(kind) && lobeHas(lobeKind(kind), trait);
+}
+
 struct InputDef {
     std::string name;
     ValueType type = ValueType::Unknown;
@@ -53,6 +55,7 @@ struct InputDef {
     /// Names that stand for numbers when a string is authored on a numeric input.
     std::vector<std::string> enumNames;
     std::vector<float> enumValues;
+    std::vector<std::string> words; ///< a string's choices; the first stands in for any other text
 };
 
 struct OutputDef {
@@ -96,5 +99,8 @@ struct NodeDef {
 
 /// A closure or shader type: not a number, not a string.
 bool isClosureType(ValueType type);
+
+/// Place of a text among an input's words; 0 where it is none of them.
+int wordIndex(const InputDef& input, const std::string& text);
 
 } // namespace patina

@@ -49,7 +49,11 @@ InputDef parseInput(const std::string& text) {
     input.name = text.substr(space + 1, nameEnd - space - 1);
     const std::string value = equals == std::string::npos ? "" : text.substr(equals + 1);
     if (!value.empty() && value[0] == '@') input.geomprop = value.substr(1);
-    input.value = parseDefault(input.type, input.geomprop.empty() ? value : "");
+    if (value.find('|') != std::string::npos) input.words = split(value, '|');
+    std::string standard = input.words.empty() ? value : input.words[0];
+    for (std::string& word : input.words)
+        if (word[0] == '*') standard = word = word.substr(1);
+    input.value = parseDefault(input.type, input.geomprop.empty() ? standard : "");
     return input;
 }
 
@@ -71,6 +75,12 @@ int NodeDef::findOutput(const std::string& name) const {
 
 bool isClosureType(ValueType type) {
     return type >= ValueType::Bsdf;
+}
+
+int wordIndex(const InputDef& input, const std::string& text) {
+    for (size_t i = 0; i < input.words.size(); ++i)
+        if (input.words[i] == text) return int(i);
+    return 0;
 }
 
 const NodeTable& NodeTable::get() {

@@ -22,7 +22,9 @@ struct PatternRef {
 ///
 /// Inputs and outputs are text: "color3 color=.18, float roughness=0, vector3 normal=@Nworld,
 /// string mode=R". One number stands for all components; a space separates components; `@` names a
-/// default geometric property. `$` in id, inputs and outputs stands for each of the types in turn.
+/// default geometric property, `|` separates the words that a string may be, of which `*` marks the
+/// default where it is not the first. `$` in id, inputs and outputs stands for each of the types in
+/// turn.
 struct NodeRow {
     const char* id;
     const char* category;

@@ -206,21 +206,6 @@ private:
             closure.a = build(node.inputs[3], place);
             if (closure.a < 0) return -1;
             break;
-        case ClosureKind::Dielectric:
-        case ClosureKind::Schlick:
-            closure.sharedInterface = _sharesInterfaces && place.underReflection &&
-                                      scatterMode(_plan, closure) == sh::SCATTER_T;
-            closure.reflects = (scatterMode(_plan, closure) & sh::SCATTER_R) != 0;
-            checkMicrofacet(node);
-            break;
-        case ClosureKind::Conductor: checkMicrofacet(node); break;
-        case ClosureKind::Sheen: checkChoice(node, "mode", {"conty_kulla", "zeltner"}); break;
-        case ClosureKind::Subsurface:
-            if (closure.thin)
-                leaveOut(node, "a thin wall has no inside; subsurface scattering is diffuse");
-            break;
-        case ClosureKind::Ward: checkChoice(node, "form", {"bounded", "exact"}); break;
-        case ClosureKind::CookTorrance: checkChoice(node, "fresnel", {"exact", "schlick"}); break;
         case ClosureKind::ThinFilm:
             _diagnostics.warn(node.path, "",
                               "thin_film_bsdf coats only as the top of a layer; it is left out");
@@ -228,18 +213,16 @@ private:
         case ClosureKind::Unsupported:
             leaveOut(node, node.def->category + " is not modelled");
             return -1;
-        case ClosureKind::OrenNayar:
-        case ClosureKind::Burley:
-        case ClosureKind::Translucent:
-        case ClosureKind::Phong:
-        case ClosureKind::BlinnPhong:
-        case ClosureKind::ChiangHair:
         case ClosureKind::UniformEdf:
         case ClosureKind::ConicalEdf:
         case ClosureKind::MeasuredEdf:
         case ClosureKind::AbsorptionVdf:
         case ClosureKind::AnisotropicVdf: break;
         default:
+            if (closure.isLobe()) {
+                planLobe(node, place, closure);
+                break;
+            }
             _diagnostics.warn(node.path, "",
                               node.def->category + " cannot stand here; it is left out");
             return -1;
@@ -247,6 +230,19 @@ private:
         closure.reflects |= reflects(closure.a) || reflects(closure.b);
         _plan.closures.push_back(closure);
         return int(_plan.closures.size()) - 1;
+    }
+
+    void planLobe(const GraphNode& node, Place place, PlanClosure& closure) {
+        if (closure.has(lobe::Interface)) {
+            const int mode = scatterMode(_plan, closure);
+            closure.sharedInterface =
+                _sharesInterfaces && place.underReflection && mode == sh::SCATTER_T;
+            closure.reflects = (mode & sh::SCATTER_R) != 0;
+        }
+        for (size_t i = 0; i < node.inputs.size(); ++i)
+            checkWord(node, i);
+        if (closure.kind == ClosureKind::Subsurface && closure.thin)
+            leaveOut(node, "a thin wall has no inside; subsurface scattering is diffuse");
     }
 
     /// The same closures with the film on every interface that reflects, as MaterialX 1.39 reads
@@ -276,20 +272,13 @@ private:
 
     bool reflects(int index) const { return index >= 0 && _plan.closures[size_t(index)].reflects; }
 
-    /// Warns about a string that is none of the choices; the first choice stands in.
-    void checkChoice(const GraphNode& node, const char* name,
-                     std::initializer_list<const char*> choices) {
-        const std::string& text = input(node, name).value.text;
-        for (const char* choice : choices)
-            if (text == choice) return;
-        _diagnostics.warn(node.path, name,
-                          "'" + text + "' is not known; " + *choices.begin() + " is used");
-    }
-
-    void checkMicrofacet(const GraphNode& node) {
-        checkChoice(node, "distribution", {"ggx", "beckmann"});
-        if (node.def->findInput("scatter_mode") < 0) return;
-        checkChoice(node, "scatter_mode", {"R", "T", "RT"});
+    /// Warns about a string that is none of its input's words.
+    void checkWord(const GraphNode& node, size_t i) {
+        const InputDef& input = node.def->inputs[i];
+        const std::string& text = node.inputs[i].value.text;
+        if (input.words.empty() || text == input.words[size_t(wordIndex(input, text))]) return;
+        _diagnostics.warn(node.path, input.name,
+                          "'" + text + "' is not known; " + input.words[0] + " is used");
     }
 
     Plan& _plan;

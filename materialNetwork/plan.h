@@ -21,9 +21,9 @@ struct PlanClosure {
     /// Where the network has it, whatever the methods make of that.
     bool inThinWall = false, underReflection = false;
 
-    bool isLobe() const {
-        return kind >= ClosureKind::OrenNayar && kind <= ClosureKind::ChiangHair;
-    }
+    bool isLobe() const { return patina::isLobe(kind); }
+    /// False of what is no lobe.
+    bool has(lobe::Trait trait) const { return lobeHas(kind, trait); }
 };
 
 /// What a back end has to render: closures with their parameters, and the patterns these need.
@@ -74,8 +74,8 @@ int scatterMode(const Plan& plan, const PlanClosure& closure);
 /// The distribution of facets of a microfacet lobe: sh::NDF_*.
 int microfacetDistribution(const Plan& plan, const PlanClosure& closure);
 
-/// Which of the models of a lobe its string inputs choose: sh::SHEEN_*,
-/// sh::WARD_*, sh::COOK_TORRANCE_*. 0 for lobes with one model.
+/// Which of the models of a lobe its string input chooses, the place of the word in its list:
+/// sh::SHEEN_*, sh::WARD_*, sh::COOK_TORRANCE_*. 0 for lobes with one model.
 int lobeVariant(const Plan& plan, const PlanClosure& closure);
 
 /// Whether a lobe may have a thin film; false when it certainly shows none.

@@ -44,35 +44,26 @@ float rootOf(const glm::vec2& alpha) {
 }
 
 void describe(const BsdfLobe& l, ClosureContribution& out) {
-    const glm::vec3 none(0.0f);
+    out.kind = lobeRow(l.kind).probe;
     switch (l.kind) {
     case LobeKind::Dielectric:
-        out.kind = "dielectric";
         out.roughness = rootOf(l.dielectric.alpha);
         out.reflectance = sh::fresnelDielectric(1.0f, l.dielectric.ior);
         return;
     case LobeKind::Conductor:
-        out.kind = "conductor";
         out.roughness = rootOf(l.conductor.alpha);
         out.reflectance =
             luminance(sh::fresnelConductor(1.0f, l.conductor.ior, l.conductor.extinction));
         out.thickness = l.conductor.film.thickness;
         return;
     case LobeKind::Schlick:
-        out.kind = "schlick";
         out.roughness = rootOf(l.schlick.alpha);
         out.reflectance = luminance(sh::fresnelSchlick(1.0f, l.schlick.fresnel));
         out.thickness = l.schlick.film.thickness;
         return;
-    case LobeKind::Sheen:
-        out.kind = "sheen";
-        out.roughness = std::sqrt(std::max(l.sheen.roughness, 0.0f));
-        return;
-    case LobeKind::Subsurface: out.kind = "subsurface"; break;
-    case LobeKind::OrenNayar: out.kind = "diffuse"; break;
-    default: out.kind = "other"; break;
+    case LobeKind::Sheen: out.roughness = std::sqrt(std::max(l.sheen.roughness, 0.0f)); return;
+    default: out.reflectance = luminance(l.albedo);
     }
-    out.reflectance = luminance(l.albedo);
 }
 
 /// Schlick's curve stands for metals where it begins this high, and lets nothing through.

@@ -10,9 +10,8 @@ namespace patina {
 
 std::set<std::string> choicesOf(const Plan& plan, const PlanClosure& c) {
     std::set<std::string> matter;
-    const bool interface = c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Schlick;
-    if (interface || c.kind == ClosureKind::Conductor)
-        matter.insert({"energyCompensation", "directionalAlbedo", "sampling"});
+    const bool interface = c.has(lobe::Interface);
+    if (c.has(lobe::Facets)) matter.insert({"energyCompensation", "directionalAlbedo", "sampling"});
     if (c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Conductor)
         matter.insert("fresnel");
     if (hasFilm(plan, c)) matter.insert("thinFilm");
@@ -43,30 +42,34 @@ const Operand& closureInput(const Plan& plan, const PlanClosure& closure, const 
     return node.inputs[size_t(node.def->findInput(name))];
 }
 
+namespace {
+
+/// Place of what a string input says in its list of words.
+int chosenWord(const Plan& plan, const PlanClosure& closure, const char* name) {
+    const GraphNode& node = plan.graph.nodes[size_t(closure.node)];
+    const size_t i = size_t(node.def->findInput(name));
+    return wordIndex(node.def->inputs[i], node.inputs[i].value.text);
+}
+
+} // namespace
+
 int scatterMode(const Plan& plan, const PlanClosure& closure) {
-    const std::string& mode = closureInput(plan, closure, "scatter_mode").value.text;
-    return mode == "T" ? sh::SCATTER_T : mode == "RT" ? sh::SCATTER_RT : sh::SCATTER_R;
+    return sh::SCATTER_R + chosenWord(plan, closure, "scatter_mode");
 }
 
 int microfacetDistribution(const Plan& plan, const PlanClosure& closure) {
     const GraphNode& node = plan.graph.nodes[size_t(closure.node)];
-    if (node.def->findInput("distribution") < 0) return sh::NDF_GGX;
-    return closureInput(plan, closure, "distribution").value.text == "beckmann" ? sh::NDF_BECKMANN
-                                                                                : sh::NDF_GGX;
+    return node.def->findInput("distribution") < 0
+               ? sh::NDF_GGX
+               : sh::NDF_GGX + chosenWord(plan, closure, "distribution");
 }
 
 int lobeVariant(const Plan& plan, const PlanClosure& closure) {
-    const auto chosen = [&](const char* name, const char* text) {
-        return closureInput(plan, closure, name).value.text == text;
-    };
-    switch (closure.kind) {
-    case ClosureKind::Sheen:
-        return chosen("mode", "zeltner") ? sh::SHEEN_ZELTNER : sh::SHEEN_CONTY_KULLA;
-    case ClosureKind::Ward: return chosen("form", "exact") ? sh::WARD_EXACT : sh::WARD_BOUNDED;
-    case ClosureKind::CookTorrance:
-        return chosen("fresnel", "schlick") ? sh::COOK_TORRANCE_SCHLICK : sh::COOK_TORRANCE_EXACT;
-    default: return 0;
-    }
+    if (closure.has(lobe::Facets)) return 0;
+    const NodeDef& def = *plan.graph.nodes[size_t(closure.node)].def;
+    for (const InputDef& input : def.inputs)
+        if (!input.words.empty()) return chosenWord(plan, closure, input.name.c_str());
+    return 0;
 }
 
 bool hasFilm(const Plan& plan, const PlanClosure& closure) {
@@ -86,8 +89,7 @@ bool walksBeneath(const Plan& plan, const PlanClosure& closure) {
 }
 
 bool refracts(const Plan& plan, const PlanClosure& closure) {
-    if (closure.kind != ClosureKind::Dielectric && closure.kind != ClosureKind::Schlick)
-        return false;
+    if (!closure.has(lobe::Interface)) return false;
     if ((scatterMode(plan, closure) & sh::SCATTER_T) == 0) return false;
     return closure.kind == ClosureKind::Schlick ||
            !isConstantValue(closureInput(plan, closure, "ior"), 1.0f);

@@ -5,7 +5,11 @@ string(APPEND text "#include \"shaders/shaderText.h\"\n\nnamespace patina {\n\n"
 string(APPEND text "const EmbeddedShader embeddedShaders[] = {\n")
 string(REPLACE "," ";" SHADERS "${SHADERS}")
 foreach(file ${SHADERS})
-    file(READ ${ROOT}/${file} content)
+    set(folder ${ROOT})
+    if(NOT EXISTS ${ROOT}/${file}) # generated
+        set(folder ${BUILD})
+    endif()
+    file(READ ${folder}/${file} content)
     string(LENGTH "${content}" length)
     string(APPEND text "    {\"${file}\",\n")
     set(at 0)

@@ -1,5 +1,6 @@
 // Every lobe of the dialect, in the order of their dependencies. The files have no guards, since
-// C++ includes them once per scalar type; GLSL needs shaders/compat/glsl.glsl in front.
+// C++ includes them once per scalar type; GLSL needs shaders/compat/glsl.glsl in front. everyLobe.glsl
+// is made by shaders/CMakeLists.txt: the files of shaders/lobes in the order of their names.
 #include "shaders/lib/degenerate.glsl"
 #include "shaders/lib/lobe.glsl"
 #include "shaders/lib/sampling.glsl"
@@ -27,17 +28,4 @@
 #include "shaders/lib/methods/sheenReflects.glsl"
 #include "shaders/lib/classicAlbedo.glsl"
 #include "shaders/lib/vCavity.glsl"
-#include "shaders/lobes/orenNayarDiffuse.glsl"
-#include "shaders/lobes/burleyDiffuse.glsl"
-#include "shaders/lobes/translucent.glsl"
-#include "shaders/lobes/conductor.glsl"
-#include "shaders/lobes/dielectric.glsl"
-#include "shaders/lobes/generalizedSchlick.glsl"
-#include "shaders/lobes/phaseHenyeyGreenstein.glsl"
-#include "shaders/lobes/sheen.glsl"
-#include "shaders/lobes/phong.glsl"
-#include "shaders/lobes/blinnPhong.glsl"
-#include "shaders/lobes/ward.glsl"
-#include "shaders/lobes/cookTorrance.glsl"
-#include "shaders/lobes/chiangHair.glsl"
-#include "shaders/lobes/edf.glsl"
+#include "shaders/everyLobe.glsl"

@@ -10,6 +10,14 @@
 //   1)^3) -> LobeSample xAlbedo(lobe, wo) -> directional albedo; xAlbedoReflect where a lobe also
 //   transmits: the layer
 //     below is scaled by 1 minus this
+//   Where a lobe differs from the default, its file overloads one of these for its struct; C++
+//   looks which there are (materialNetwork/cpu/lobeFacts.h): lobeFix(lobe, wo, albedo) -> what
+//   depends on wo alone is looked up; albedo is exact for
+//     interfaces and else an estimate that is good enough to choose lobes by. Returns the share
+//     that the lobe keeps from the base of a layer, without tint. Default: xAlbedo, and 1
+//   lobeRoughness(lobe) -> GGX alpha, mean of both axes. Default: 1
+//   lobePasses(lobe, z) -> the share of its light that an interface of mode RT sends down for good
+//   lobeIsDelta(lobe) -> whether eval is 0 everywhere. Default: false
 //   xAt(lobe, wo) -> lobe (microfacet lobes only): with the energy factors for this wo looked up,
 //     for a caller that evaluates or samples several times from there
 
@@ -32,6 +40,7 @@ namespace sh {
 #undef PATINA_FN
 #undef PATINA_FN_RARE
 #undef PATINA_OUT
+#undef PATINA_INOUT
 #undef PATINA_UNUSED
 #undef PATINA_ENERGY_KNOWN
 #undef PATINA_COMPENSATE
@@ -48,6 +57,7 @@ namespace sh64 {
 #undef PATINA_FN
 #undef PATINA_FN_RARE
 #undef PATINA_OUT
+#undef PATINA_INOUT
 #undef PATINA_UNUSED
 #undef PATINA_ENERGY_KNOWN
 #undef PATINA_COMPENSATE

@@ -20,6 +20,7 @@ ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 FOLDER = os.path.join(ROOT, "docs", "generated")
 NODES = "materialNetwork/nodes"
 MODELS = "materialNetwork/models"
+LOBES = "materialNetwork/lobeTable.inc"
 STRING = r'"((?:[^"\\]|\\.)*)"'
 
 
@@ -63,6 +64,8 @@ def categories(source):
     """:param source: of a family of nodes
     :returns: the rows' categories in their order, each once"""
     body = source.split("const NodeRow rows[] = {", 1)[1].split("\n};", 1)[0]
+    lobes = "".join(f"closure({row})," for row in re.findall(r'PATINA_LOBE_NODE\(\w+, ("[^"]*", "[^"]*")', read(LOBES)))
+    body = re.sub(r'#define PATINA_LOBE_NODE.*?#include "materialNetwork/lobeTable.inc"\n', lobes, body, flags=re.DOTALL)
     found = []
     for entry in entries(re.sub(r"//[^\n]*", "", body)):
         strings = re.findall(STRING, entry)

@@ -207,7 +207,7 @@ void Bsdf::preferWalks() {
 }
 
 SubsurfaceEntry Bsdf::subsurface(const BsdfSample& sample) const {
-    const SubsurfaceLobe& l = _lobes[sample.lobe].subsurface;
+    const sh::SubsurfaceLobe& l = _lobes[sample.lobe].subsurface;
     return {l.diffuse.color, l.radius, l.anisotropy};
 }
 

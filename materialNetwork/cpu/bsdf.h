@@ -1,5 +1,7 @@
 #pragma once
 
+#include "materialNetwork/lobes.h"
+
 #include "shaders/shaders.h"
 
 #include <glm/glm.hpp>
@@ -42,30 +44,6 @@ struct BsdfSample {
     float roughness = 0.0f; ///< GGX alpha of the lobe drawn (1 for diffuse), to widen the ray cone
 };
 
-enum class LobeKind : uint8_t {
-    OrenNayar,
-    Burley,
-    Translucent,
-    Dielectric,
-    Conductor,
-    Schlick,
-    Subsurface,
-    Sheen,
-    Phong,
-    BlinnPhong,
-    Ward,
-    CookTorrance,
-    ChiangHair,
-    Layered
-};
-
-/// Subsurface scattering. Where nobody walks beneath the surface it shows as diffuse.
-struct SubsurfaceLobe {
-    sh::OrenNayarLobe diffuse;
-    glm::vec3 radius;
-    float anisotropy;
-};
-
 /// A layer between whose top and base light is walked, see layerWalk.h.
 struct LayeredLobe {
     int op; ///< of the program's BSDF
@@ -83,19 +61,8 @@ struct BsdfLobe {
     glm::vec3
         albedo; ///< directional albedo at wo without weight; an estimate unless a layer needs it
     union {
-        sh::OrenNayarLobe orenNayar;
-        sh::BurleyLobe burley;
-        sh::TranslucentLobe translucent;
-        sh::DielectricLobe dielectric;
-        sh::ConductorLobe conductor;
-        sh::SchlickLobe schlick;
-        SubsurfaceLobe subsurface;
-        sh::SheenLobe sheen;
-        sh::PhongLobe phong;
-        sh::BlinnPhongLobe blinnPhong;
-        sh::WardLobe ward;
-        sh::CookTorranceLobe cookTorrance;
-        sh::ChiangHairLobe chiangHair;
+#define PATINA_LOBE(Kind, prefix, traits, probe, lit) sh::Kind##Lobe prefix;
+#include "materialNetwork/lobeTable.inc"
         LayeredLobe layered;
     };
 };

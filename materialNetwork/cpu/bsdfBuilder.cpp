@@ -45,9 +45,7 @@ glm::vec3 coverOf(const ProgramCode& code, const glm::vec4& c) {
 glm::vec3 baseCoverage(const ProgramCode& code, const BsdfLobe& l, const glm::vec3& coverage) {
     if (code.layerTransmittance == LayerTransmittance::Returned) return unit(coverage);
     if (code.layerTransmittance != LayerTransmittance::Tinted) return shareOf(code, coverage);
-    const bool tinted = (l.kind == LobeKind::Dielectric && l.dielectric.mode == sh::SCATTER_R) ||
-                        (l.kind == LobeKind::Schlick && l.schlick.mode == sh::SCATTER_R) ||
-                        l.kind == LobeKind::Sheen;
+    const bool tinted = lobeHas(l.kind, lobe::Covers) && !lobeTransmits(l);
     return unit(tinted ? l.albedo : coverage);
 }
 

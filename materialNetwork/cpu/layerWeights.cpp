@@ -19,23 +19,6 @@ float unit(float x) {
     return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
 }
 
-/// The share of its light that a lobe sends down for good.
-float passesOf(const BsdfLobe& l, float z) {
-    const float c = std::fmin(std::fabs(z), 1.0f);
-    switch (l.kind) {
-    case LobeKind::Translucent:
-    case LobeKind::ChiangHair: return 1.0f;
-    case LobeKind::Dielectric:
-        if (l.dielectric.mode != sh::SCATTER_RT) return l.dielectric.mode == sh::SCATTER_T;
-        return 1.0f - sh::dielectricFresnel(l.dielectric, c, sh::dielectricEta(l.dielectric, z));
-    case LobeKind::Schlick:
-        if (l.schlick.mode != sh::SCATTER_RT) return l.schlick.mode == sh::SCATTER_T;
-        return 1.0f -
-               sh::lobeMean(sh::schlickReflectance(l.schlick, c, sh::schlickEta(l.schlick, z)));
-    default: return 0.0f;
-    }
-}
-
 glm::vec3 insideOf(const BsdfLobe& l, float z) {
     if (l.kind == LobeKind::Dielectric)
         return sh::layerInsideDielectric(l.dielectric.favg, l.dielectric.ior, l.dielectric.invIor,
@@ -93,8 +76,7 @@ private:
 } // namespace
 
 bool isReturning(const LobeTemplate& t) {
-    const LobeKind kind = t.prebuilt.kind;
-    return (kind == LobeKind::Dielectric || kind == LobeKind::Schlick) && t.mode == sh::SCATTER_R;
+    return lobeHas(t.prebuilt.kind, lobe::Interface) && t.mode == sh::SCATTER_R;
 }
 
 void BsdfBuilder::setReturnedWeights(const ProgramCode& code, const glm::vec4* registers,
@@ -108,7 +90,7 @@ void BsdfBuilder::setReturnedWeights(const ProgramCode& code, const glm::vec4* r
         if ((part & (1u << i)) == 0) continue;
         const BsdfLobe& l = out._lobes[i];
         const float z = out._frames[l.frame].wo.z;
-        const float passes = code.lobes[size_t(i)].passThrough ? 1.0f : passesOf(l, z);
+        const float passes = code.lobes[size_t(i)].passThrough ? 1.0f : lobePasses(l, z);
         kinds[i] = sh::layerKinds(lobeRoughness(l), z, passes);
     }
     const auto isPart = [&](const ClosureOp& op) {

@@ -130,12 +130,11 @@ void ProgramBuilder::setFlags() {
     p._isOpaque = !_code->hasPassThrough && _plan.opacity.isConstant() &&
                   !_plan.opacity.value.numbers.empty() && _plan.opacity.value.numbers[0] >= 1.0f;
     for (const LobeTemplate& t : _code->lobes)
-        p._hasTransmission |= t.prebuilt.kind == LobeKind::Translucent ||
-                              t.prebuilt.kind == LobeKind::ChiangHair ||
+        p._hasTransmission |= lobeHas(t.prebuilt.kind, lobe::Transmits) ||
                               (!t.passThrough && (t.mode & sh::SCATTER_T) != 0);
     p._isVolumeOnly = _plan.volumeOnly;
     for (const LobeTemplate& t : _code->lobes)
-        p._isFibre |= t.prebuilt.kind == LobeKind::ChiangHair;
+        p._isFibre |= lobeHas(t.prebuilt.kind, lobe::Fibre);
     for (const LobeTemplate& t : _code->lobes)
         p._hasSubsurface |= t.prebuilt.kind == LobeKind::Subsurface;
     p._passingEnters = _plan.volumeOnly;

@@ -26,8 +26,8 @@ int ProgramBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bo
         return int(registerOf(operand));
     };
     f.normal = choose("normal", "ND_normal_vector3");
-    f.tangent = choose(closure.kind == ClosureKind::ChiangHair ? "curve_direction" : "tangent",
-                       "ND_tangent_vector3");
+    f.tangent =
+        choose(closure.has(lobe::Fibre) ? "curve_direction" : "tangent", "ND_tangent_vector3");
     auto& frames = _code->frames;
     for (size_t i = 0; i < frames.size(); ++i)
         if (frames[i].normal == f.normal && frames[i].tangent == f.tangent &&
@@ -54,12 +54,8 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     LobeTemplate t;
     t.prebuilt.kind = lobeKind(closure.kind);
     t.thin = closure.thin;
-    t.prebuilt.diffuse =
-        closure.kind == ClosureKind::OrenNayar || closure.kind == ClosureKind::Burley ||
-        closure.kind == ClosureKind::Subsurface || closure.kind == ClosureKind::Translucent ||
-        closure.kind == ClosureKind::Sheen;
-    const bool interface =
-        closure.kind == ClosureKind::Dielectric || closure.kind == ClosureKind::Schlick;
+    t.prebuilt.diffuse = closure.has(lobe::Diffuse);
+    const bool interface = closure.has(lobe::Interface);
     t.sharedInterface = closure.sharedInterface;
     const std::string compensation = chosenMethod(_plan.methods, "energyCompensation");
     t.compensate = compensation == "none"         ? sh::COMPENSATE_NONE
@@ -72,13 +68,9 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.filmMethod = chosenIndex(_plan.methods, "thinFilm");
     t.sheenAlbedo = chosenIndex(_plan.methods, "sheen");
     t.diffuse = DiffuseModel(chosenIndex(_plan.methods, "diffuse"));
-    const auto flag = [&](const char* input) {
-        float x = 0.0f;
-        return node.def->findInput(input) >= 0 &&
-               constantNumber(closureInput(_plan, closure, input), x) && x != 0.0f;
-    };
-    t.flagA =
-        flag(closure.kind == ClosureKind::OrenNayar ? "energy_compensation" : "retroreflective");
+    const int flag = node.def->findInput(lobeFlag(t.prebuilt.kind));
+    float on = 0.0f;
+    t.flagA = flag >= 0 && constantNumber(node.inputs[size_t(flag)], on) && on != 0.0f;
     if (interface) t.mode = scatterMode(_plan, closure);
     t.variant = lobeVariant(_plan, closure);
     t.ndf = microfacetDistribution(_plan, closure);
@@ -95,14 +87,16 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.constant = true;
     const bool flat = closure.kind == ClosureKind::Subsurface && !walksBeneath(_plan, closure);
     if (flat) t.prebuilt.kind = LobeKind::OrenNayar;
-    const char* const* names = lobeParameters(flat ? ClosureKind::OrenNayar : closure.kind);
-    for (int i = 0; names[i]; ++i) {
+    const std::vector<std::string>& names =
+        lobeParameters(flat ? LobeKind::OrenNayar : lobeKind(closure.kind));
+    for (size_t i = 0; i < names.size(); ++i) {
         Operand operand;
         operand.value = Value::makeFloat(0.0f);
-        if (node.def->findInput(names[i]) >= 0) operand = closureInput(_plan, closure, names[i]);
+        const int input = node.def->findInput(names[i]);
+        if (input >= 0) operand = node.inputs[size_t(input)];
         // Light goes straight through a thin wall; the layer above has taken what is reflected.
         if (closure.thin && closure.sharedInterface && t.mode == sh::SCATTER_T &&
-            closure.kind == ClosureKind::Dielectric && std::string(names[i]) == "ior") {
+            closure.kind == ClosureKind::Dielectric && names[i] == "ior") {
             operand = Operand();
             operand.value = Value::makeFloat(1.0f);
         }
@@ -128,8 +122,8 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
 /// Without bending: what a shadow ray may cross.
 bool ProgramBuilder::isPassThrough(const PlanClosure& closure) const {
     const bool dielectric = closure.kind == ClosureKind::Dielectric;
-    if ((!dielectric && closure.kind != ClosureKind::Schlick) ||
-        (scatterMode(_plan, closure) & sh::SCATTER_T) == 0 || hasFilm(_plan, closure))
+    if (!closure.has(lobe::Interface) || (scatterMode(_plan, closure) & sh::SCATTER_T) == 0 ||
+        hasFilm(_plan, closure))
         return false;
     return closure.thin ||
            (dielectric && isConstantValue(closureInput(_plan, closure, "ior"), 1.0f));

@@ -1,6 +1,7 @@
 #include "materialNetwork/glsl/glslLayers.h"
 
 #include "materialNetwork/cpu/bsdfBuilder.h"
+#include "materialNetwork/cpu/lobeFacts.h"
 #include "materialNetwork/glsl/glslScattering.h"
 
 namespace patina {
@@ -36,31 +37,15 @@ private:
     std::string cosineOf(int lobe) const { return glslFrameOf(_code, size_t(lobe)) + ".wo.z"; }
 
     static std::string alphaOf(LobeKind kind, const std::string& lobe) {
-        switch (kind) {
-        case LobeKind::Dielectric:
-        case LobeKind::Conductor:
-        case LobeKind::Schlick:
-        case LobeKind::Ward: return "0.5 * (" + lobe + ".alpha.x + " + lobe + ".alpha.y)";
-        case LobeKind::Phong:
-        case LobeKind::BlinnPhong: return "phongAlpha(" + lobe + ".exponent)";
-        case LobeKind::CookTorrance: return lobe + ".alpha";
-        default: return "1.0";
-        }
+        return lobeFactsOf(kind).roughness ? "lobeRoughness(" + lobe + ")" : "1.0";
     }
 
     std::string passesOf(const LobeTemplate& t, const std::string& lobe,
                          const std::string& z) const {
         const LobeKind kind = t.prebuilt.kind;
-        if (t.passThrough || kind == LobeKind::Translucent || kind == LobeKind::ChiangHair)
-            return "1.0";
-        if (kind != LobeKind::Dielectric && kind != LobeKind::Schlick) return "0.0";
-        if (t.mode != sh::SCATTER_RT) return t.mode == sh::SCATTER_T ? "1.0" : "0.0";
-        const std::string c = "min(abs(" + z + "), 1.0)";
-        if (kind == LobeKind::Dielectric)
-            return "1.0 - dielectricFresnel(" + lobe + ", " + c + ", dielectricEta(" + lobe + ", " +
-                   z + "))";
-        return "1.0 - lobeMean(schlickReflectance(" + lobe + ", " + c + ", schlickEta(" + lobe +
-               ", " + z + ")))";
+        if (t.passThrough || lobeHas(kind, lobe::Transmits)) return "1.0";
+        if (!lobeHas(kind, lobe::Interface) || t.mode == sh::SCATTER_R) return "0.0";
+        return t.mode == sh::SCATTER_T ? "1.0" : "lobePasses(" + lobe + ", " + z + ")";
     }
 
     void kinds(int i) {

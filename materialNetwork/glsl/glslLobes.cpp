@@ -1,92 +1,103 @@
 #include "materialNetwork/glsl/glslLobes.h"
 
+#include <type_traits>
 #include <vector>
 
 namespace patina {
 
-std::string glslLobePrefix(LobeKind kind) {
-    switch (kind) {
-    case LobeKind::OrenNayar:
-    case LobeKind::Subsurface: return "orenNayar";
-    case LobeKind::Burley: return "burley";
-    case LobeKind::Translucent: return "translucent";
-    case LobeKind::Dielectric: return "dielectric";
-    case LobeKind::Conductor: return "conductor";
-    case LobeKind::Schlick: return "schlick";
-    case LobeKind::Sheen: return "sheen";
-    case LobeKind::Phong: return "phong";
-    case LobeKind::BlinnPhong: return "blinnPhong";
-    case LobeKind::Ward: return "ward";
-    case LobeKind::CookTorrance: return "cookTorrance";
-    case LobeKind::ChiangHair: return "chiangHair";
-    case LobeKind::Layered: break; // is never among the lobes of a program
+namespace {
+
+/// As Arguments of cpu/lobeSetup.cpp, in text.
+struct Arguments {
+    const LobeTemplate& t;
+    const std::function<std::string(Register)>& registers;
+    std::vector<std::string> known;
+    int next = 0;
+
+    /// In the order of the inputs, whatever order the compiler evaluates operands in.
+    const std::string& at(int i) {
+        while (int(known.size()) <= i)
+            known.push_back(registers(t.parameters[known.size()]));
+        return known[size_t(i)];
     }
-    return "orenNayar";
+    std::string color(int i) { return at(i) + ".xyz"; }
+    std::string pair(int i) { return at(i) + ".xy"; }
+    std::string number(int i) { return at(i) + ".x"; }
+    static std::string flag(bool b) { return b ? "true" : "false"; }
+    /// The last arguments of an interface.
+    std::string tail() const {
+        return ", " + flag(t.flagA) + ", " + std::to_string(t.mode) + ", " +
+               flag(t.sharedInterface) + ", " + std::to_string(t.compensate) + ")";
+    }
+
+    template <class T> std::string take() {
+        if constexpr (std::is_same_v<T, bool>) return flag(t.flagA);
+        if constexpr (std::is_same_v<T, int>) return std::to_string(t.variant);
+        if constexpr (std::is_same_v<T, float>) return number(next++);
+        if constexpr (std::is_same_v<T, glm::vec2>) return pair(next++);
+        return color(next++);
+    }
+};
+
+template <class L, class... A>
+std::string setup(L (*)(A...), const std::string& prefix, Arguments a) {
+    std::string text;
+    ((text += (text.empty() ? "" : ", ") + a.take<A>()), ...);
+    return prefix + "Setup(" + text + ")";
 }
 
+// Lobes with methods at choice points. glslMaterial.cpp sets more of them, line by line.
+
+std::string setup(decltype(&sh::orenNayarSetup), const std::string&, Arguments a) {
+    return "orenNayarModel(" + a.color(0) + ", " + a.number(1) + ", " + a.flag(a.t.flagA) + ", " +
+           std::to_string(int(a.t.diffuse)) + ")";
+}
+
+std::string setup(decltype(&sh::dielectricSetup), const std::string&, Arguments a) {
+    return "dielectricSetup(" + a.color(0) + ", " + a.number(1) + ", " + a.pair(2) + a.tail();
+}
+
+std::string setup(decltype(&sh::conductorSetup), const std::string&, Arguments a) {
+    const std::string metal = "conductorSetup(" + a.color(0) + ", " + a.color(1) + ", " +
+                              a.pair(2) + ", " + a.flag(a.t.flagA) + ", " +
+                              std::to_string(a.t.compensate) + ")";
+    return a.t.film ? "conductorFilm(" + metal + ", " + a.number(3) + ", " + a.number(4) + ")"
+                    : metal;
+}
+
+std::string setup(decltype(&sh::schlickSetup), const std::string&, Arguments a) {
+    if (a.t.filmDielectric)
+        return "filmDielectricSetup(" + a.color(0) + ", " + a.number(1) + ", " + a.pair(2) + ", " +
+               a.number(3) + ", " + a.number(4) + a.tail();
+    const std::string bare = "schlickSetup(" + a.color(0) + ", " + a.color(1) + ", " + a.color(2) +
+                             ", " + a.number(3) + ", " + a.pair(4) + a.tail();
+    return a.t.film ? "schlickFilm(" + bare + ", " + a.number(5) + ", " + a.number(6) + ")" : bare;
+}
+
+std::string setup(decltype(&sh::sheenSetup), const std::string&, Arguments a) {
+    const std::string bare =
+        "sheenSetup(" + a.color(0) + ", " + a.number(1) + ", " + std::to_string(a.t.variant) + ")";
+    return a.t.sheenAlbedo == sh::SHEEN_TABLED
+               ? bare
+               : "sheenMethods(" + bare + ", " + std::to_string(a.t.sheenAlbedo) + ")";
+}
+
+} // namespace
+
 std::string glslLobeType(LobeKind kind) {
-    std::string name = glslLobePrefix(kind);
+    std::string name = lobeRow(kind).prefix;
     name[0] = char(name[0] - 'a' + 'A');
     return name + "Lobe";
 }
 
 std::string glslLobeSetup(const LobeTemplate& t,
                           const std::function<std::string(Register)>& registers) {
-    // In the order of the inputs, whatever order the compiler evaluates operands in.
-    std::vector<std::string> known;
-    const auto at = [&](int i) {
-        while (int(known.size()) <= i)
-            known.push_back(registers(t.parameters[known.size()]));
-        return known[size_t(i)];
-    };
-    const auto color = [&](int i) { return at(i) + ".xyz"; };
-    const auto pair = [&](int i) { return at(i) + ".xy"; };
-    const auto number = [&](int i) { return at(i) + ".x"; };
-    const auto flag = [](bool b) { return std::string(b ? "true" : "false"); };
-    const std::string mode = std::to_string(t.mode), variant = std::to_string(t.variant);
-    const std::string retro = flag(t.flagA);
-    const std::string tail = ", " + retro + ", " + mode + ", " + flag(t.sharedInterface) + ", " +
-                             std::to_string(t.compensate);
     switch (t.prebuilt.kind) {
-    case LobeKind::Layered: break;
-    case LobeKind::OrenNayar:
-        return "orenNayarModel(" + color(0) + ", " + number(1) + ", " + retro + ", " +
-               std::to_string(int(t.diffuse)) + ")";
-    case LobeKind::Subsurface: return "orenNayarSetup(" + color(0) + ", 0.0, false)";
-    case LobeKind::Burley: return "burleySetup(" + color(0) + ", " + number(1) + ")";
-    case LobeKind::Translucent: return "translucentSetup(" + color(0) + ")";
-    case LobeKind::Dielectric:
-        return "dielectricSetup(" + color(0) + ", " + number(1) + ", " + pair(2) + tail + ")";
-    case LobeKind::Conductor: {
-        const std::string metal = "conductorSetup(" + color(0) + ", " + color(1) + ", " + pair(2) +
-                                  ", " + retro + ", " + std::to_string(t.compensate) + ")";
-        return t.film ? "conductorFilm(" + metal + ", " + number(3) + ", " + number(4) + ")"
-                      : metal;
-    }
-    case LobeKind::Schlick: {
-        if (t.filmDielectric)
-            return "filmDielectricSetup(" + color(0) + ", " + number(1) + ", " + pair(2) + ", " +
-                   number(3) + ", " + number(4) + tail + ")";
-        const std::string bare = "schlickSetup(" + color(0) + ", " + color(1) + ", " + color(2) +
-                                 ", " + number(3) + ", " + pair(4) + tail + ")";
-        return t.film ? "schlickFilm(" + bare + ", " + number(5) + ", " + number(6) + ")" : bare;
-    }
-    case LobeKind::Sheen: {
-        const std::string bare = "sheenSetup(" + color(0) + ", " + number(1) + ", " + variant + ")";
-        return t.sheenAlbedo == sh::SHEEN_TABLED
-                   ? bare
-                   : "sheenMethods(" + bare + ", " + std::to_string(t.sheenAlbedo) + ")";
-    }
-    case LobeKind::Phong: return "phongSetup(" + color(0) + ", " + number(1) + ")";
-    case LobeKind::BlinnPhong: return "blinnPhongSetup(" + color(0) + ", " + number(1) + ")";
-    case LobeKind::Ward: return "wardSetup(" + color(0) + ", " + pair(1) + ", " + variant + ")";
-    case LobeKind::CookTorrance:
-        return "cookTorranceSetup(" + color(0) + ", " + color(1) + ", " + color(2) + ", " +
-               number(3) + ", " + variant + ")";
-    case LobeKind::ChiangHair:
-        return "chiangHairSetup(" + color(0) + ", " + color(1) + ", " + color(2) + ", " +
-               number(3) + ", " + pair(4) + ", " + pair(5) + ", " + pair(6) + ", " + number(7) +
-               ", " + color(8) + ")";
+#define PATINA_LOBE(Kind, prefix, traits, probe, lit)                                              \
+    case LobeKind::Kind:                                                                           \
+        return setup(&sh::prefix##Setup, #prefix, Arguments{t, registers, {}});
+#include "materialNetwork/lobeTable.inc"
+    case LobeKind::Layered: break; // is never among the lobes of a program
     }
     return "";
 }

@@ -7,8 +7,6 @@
 
 namespace patina {
 
-/// Beginning of the names of a lobe's functions, "conductor".
-std::string glslLobePrefix(LobeKind kind);
 /// GLSL type of a lobe, "ConductorLobe".
 std::string glslLobeType(LobeKind kind);
 

@@ -1,5 +1,6 @@
 #include "materialNetwork/glsl/glslMaterial.h"
 
+#include "materialNetwork/cpu/lobeFacts.h"
 #include "materialNetwork/cpu/programCode.h"
 #include "materialNetwork/glsl/glslClosures.h"
 #include "materialNetwork/glsl/glslLayers.h"
@@ -174,9 +175,7 @@ private:
     /// from. Whether there is one is a parameter too: it hangs on roughness and ior.
     std::string curve(const LobeTemplate& t) {
         const bool schlick = t.prebuilt.kind == LobeKind::Schlick;
-        if (!_features.energyCurves || !t.constant ||
-            (!schlick && t.prebuilt.kind != LobeKind::Dielectric))
-            return "-1";
+        if (!_features.energyCurves || !t.constant) return "-1";
         const size_t first = _out.parameters.size(), width = schlick ? 4 : 1;
         const size_t size = 1 + EnergyCurve::nodeCount * width;
         if (first + size > maxWithCurves) return "-1";
@@ -208,12 +207,10 @@ private:
     void methodLines(const LobeTemplate& t, const std::string& lobe) {
         const LobeKind kind = t.prebuilt.kind;
         if (t.ndf != 0) line("    " + lobe + ".ndf = " + number(t.ndf) + ";");
-        if (kind != LobeKind::Dielectric && kind != LobeKind::Conductor &&
-            kind != LobeKind::Schlick)
-            return;
+        if (!lobeHas(kind, lobe::Facets)) return;
         if (t.albedo != 0 || t.sampling != 0 || t.fresnel != 0 || t.filmMethod != 0) {
             const bool dielectric = kind == LobeKind::Dielectric;
-            line("    " + lobe + " = " + glslLobePrefix(kind) + "Methods(" + lobe + ", " +
+            line("    " + lobe + " = " + lobeRow(kind).prefix + "Methods(" + lobe + ", " +
                  number(t.albedo) + ", " + number(t.sampling) + ", " +
                  number(dielectric ? t.fresnel : t.filmMethod) + ");");
         }
@@ -224,26 +221,29 @@ private:
     void instantiateLobe(size_t i) {
         const LobeTemplate& t = _code.lobes[i];
         const std::string n = number(int(i)), lobe = "lobe" + n;
-        const std::string prefix = glslLobePrefix(t.prebuilt.kind);
         const auto registers = [&](Register r) { return reg(r); };
         line("    " + lobe + " = " + glslLobeSetup(t, registers) + ";");
         methodLines(t, lobe);
-        const std::string fixed = prefix + "Fix(" + lobe + ", " + glslFrameOf(_code, i) + ".wo, " +
-                                  curve(t) + ", lobeAlbedo[" + n + "])";
         const LobeKind kind = t.prebuilt.kind;
-        const bool reflects =
-            (kind == LobeKind::Dielectric || kind == LobeKind::Schlick) && t.mode == sh::SCATTER_R;
+        const bool interface = lobeHas(kind, lobe::Interface);
+        const std::string wo = glslFrameOf(_code, i) + ".wo", albedo = "lobeAlbedo[" + n + "]";
+        if (!lobeFactsOf(kind).fix)
+            line("    " + albedo + " = " + lobeRow(kind).prefix + "Albedo(" + lobe + ", " + wo +
+                 ");");
+        line("    vec3 coverage" + n + " = " +
+             (lobeFactsOf(kind).fix ? "lobeFix(" + lobe + ", " + wo + ", " +
+                                          (interface ? curve(t) + ", " : "") + albedo + ");"
+                                    : "vec3(1.0);"));
         const bool tinted = _code.layerTransmittance == LayerTransmittance::Tinted &&
-                            (reflects || kind == LobeKind::Sheen);
-        line("    vec3 coverage" + n + " = " + fixed + ";");
-        const std::string what = tinted ? "lobeAlbedo[" + n + "]" : "coverage" + n;
+                            lobeHas(kind, lobe::Covers) && (!interface || t.mode == sh::SCATTER_R);
+        const std::string what = tinted ? albedo : "coverage" + n;
         const bool returned = _code.layerTransmittance == LayerTransmittance::Returned;
         line("    coverage" + n + " = " + (returned ? "unit(" + what + ")" : share(what)) + ";");
         if (glslRefracts(t)) line("    lobeTransmittance[" + n + "] = fixTransmittance;");
         if (!t.passThrough) return;
         line("    vec3 slabTransmittance" + n + ", slabReflected" + n + ";");
-        line("    " + prefix + "Slab(" + lobe + ", " + glslFrameOf(_code, i) + ".wo, lobeAlbedo[" +
-             n + "], slabTransmittance" + n + ", slabReflected" + n + ", " +
+        line("    " + std::string(lobeRow(kind).prefix) + "Slab(" + lobe + ", " + wo + ", " +
+             albedo + ", slabTransmittance" + n + ", slabReflected" + n + ", " +
              (_code.slabsHaveTwoFaces ? "true" : "false") + ");");
     }
 

@@ -17,18 +17,10 @@ struct Trait {
 
 Trait traitOf(LobeKind kind, const std::string& lobe) {
     Trait t;
-    switch (kind) {
-    case LobeKind::OrenNayar:
-    case LobeKind::Burley:
-    case LobeKind::Subsurface: t.kind = "LOBE_DIFFUSE"; return t;
-    case LobeKind::Sheen: t.kind = "LOBE_SHEEN"; return t;
-    case LobeKind::Dielectric:
-    case LobeKind::Schlick:
-        t.kind = lobe + ".mode == SCATTER_R && " + lobe + ".retro > 0.0 ? LOBE_MIRROR : LOBE_OTHER";
-        break;
-    case LobeKind::Conductor: t.kind = lobe + ".retro > 0.0 ? LOBE_MIRROR : LOBE_OTHER"; break;
-    default: return t;
-    }
+    t.kind = lobeRow(kind).lit;
+    if (!lobeHas(kind, lobe::Facets)) return t;
+    t.kind = (lobeHas(kind, lobe::Interface) ? lobe + ".mode == SCATTER_R && " : "") + lobe +
+             ".retro > 0.0 ? LOBE_MIRROR : LOBE_OTHER";
     t.alpha = "sqrt(" + lobe + ".alpha.x * " + lobe + ".alpha.y)";
     t.round = lobe + ".alpha.x == " + lobe + ".alpha.y && " + lobe + ".ndf == NDF_GGX";
     return t;
@@ -65,7 +57,7 @@ std::string glslEval(const ProgramCode& code) {
         const std::string n = number(int(i)), frame = glslFrameOf(code, i);
         text += "    if (without != " + n + ") addLobe(sum, " +
                 (t.prebuilt.diffuse ? "true" : "false") + ", lobeWeight[" + n + "], lobeChance[" +
-                n + "], reflects, " + frame + ", wi, " + glslLobePrefix(t.prebuilt.kind) +
+                n + "], reflects, " + frame + ", wi, " + lobeRow(t.prebuilt.kind).prefix +
                 "Eval(lobe" + n + ", " + frame + ".wo, toLocal(" + frame + ", wi)));\n";
     }
     return text + "    return sum;\n}\n"
@@ -87,7 +79,7 @@ std::string glslSample(const ProgramCode& code) {
         const bool last = i + 1 == code.lobes.size();
         text += "    if (drawn < 0 && " + own + " > 0.0" +
                 (last ? std::string() : " && uLobe < below + " + own) + ") {\n";
-        text += "        l = " + std::string(glslLobePrefix(t.prebuilt.kind)) + "Sample(lobe" + n +
+        text += "        l = " + std::string(lobeRow(t.prebuilt.kind).prefix) + "Sample(lobe" + n +
                 ", " + frame + ".wo, u);\n";
         text += "        s.wi = toWorld(" + frame + ", l.wi);\n";
         text += "        s.diffuse = " + std::string(t.prebuilt.diffuse ? "true" : "false") + ";\n";
@@ -104,15 +96,15 @@ std::string glslAlbedo(const ProgramCode& code) {
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const std::string n = number(int(i));
         text += "    if (luminance(lobeWeight[" + n + "]) > 0.0) sum += lobeWeight[" + n + "] * " +
-                glslLobePrefix(code.lobes[i].prebuilt.kind) + "Albedo(lobe" + n + ", " +
+                lobeRow(code.lobes[i].prebuilt.kind).prefix + "Albedo(lobe" + n + ", " +
                 glslFrameOf(code, i) + ".wo);\n";
     }
     return text + "    return sum;\n}\n";
 }
 
 bool glslRefracts(const LobeTemplate& t) {
-    return (t.prebuilt.kind == LobeKind::Dielectric || t.prebuilt.kind == LobeKind::Schlick) &&
-           !t.passThrough && (t.mode & sh::SCATTER_T) != 0;
+    return lobeHas(t.prebuilt.kind, lobe::Interface) && !t.passThrough &&
+           (t.mode & sh::SCATTER_T) != 0;
 }
 
 std::string glslPasses(const ProgramCode& code) {
@@ -148,9 +140,7 @@ std::string glslTraits(const ProgramCode& code) {
 std::string glslDefinitions(const ProgramCode& code) {
     Common compensate, film;
     for (const LobeTemplate& t : code.lobes) {
-        if (t.prebuilt.kind == LobeKind::Conductor || t.prebuilt.kind == LobeKind::Dielectric ||
-            t.prebuilt.kind == LobeKind::Schlick)
-            compensate.add(t.compensate);
+        if (lobeHas(t.prebuilt.kind, lobe::Facets)) compensate.add(t.compensate);
         if (t.film || t.filmDielectric) film.add(t.filmMethod);
     }
     return compensate.definition("PATINA_COMPENSATE(compensate)") +
@@ -161,9 +151,7 @@ std::string glslDefinitions(const ProgramCode& code) {
 std::vector<std::string> glslWalksLeftOut(const ProgramCode& code) {
     std::vector<std::string> lines;
     for (const LobeTemplate& t : code.lobes)
-        if (t.walks &&
-            (t.prebuilt.kind == LobeKind::Conductor || t.prebuilt.kind == LobeKind::Dielectric ||
-             t.prebuilt.kind == LobeKind::Schlick)) {
+        if (t.walks && lobeHas(t.prebuilt.kind, lobe::Facets)) {
             lines.push_back("energyCompensation=randomWalk is for the path tracer alone; "
                             "turquin is shown");
             break;

@@ -10,72 +10,10 @@ constexpr NodeRow closure(const char* id, const char* category, const char* inpu
     return {id, category, inputs, outputs, nullptr, Algebra::None, types, nullptr, false, kind};
 }
 
-#define PATINA_MICROFACET                                                                          \
-    "vector2 roughness=0.05, boolean retroreflective=0, float thinfilm_thickness=0, "              \
-    "float thinfilm_ior=1.5, vector3 normal=@Nworld, vector3 tangent=@Tworld, "                    \
-    "string distribution=ggx"
-
 const NodeRow rows[] = {
-    closure("ND_oren_nayar_diffuse_bsdf", "oren_nayar_diffuse_bsdf",
-            "float weight=1, color3 color=0.18, float roughness=0, vector3 normal=@Nworld, "
-            "boolean energy_compensation=0",
-            "BSDF", ClosureKind::OrenNayar),
-    closure("ND_burley_diffuse_bsdf", "burley_diffuse_bsdf",
-            "float weight=1, color3 color=0.18, float roughness=0, vector3 normal=@Nworld", "BSDF",
-            ClosureKind::Burley),
-    closure("ND_translucent_bsdf", "translucent_bsdf",
-            "float weight=1, color3 color=1, vector3 normal=@Nworld", "BSDF",
-            ClosureKind::Translucent),
-    closure("ND_dielectric_bsdf", "dielectric_bsdf",
-            "float weight=1, color3 tint=1, float ior=1.5, " PATINA_MICROFACET
-            ", string scatter_mode=R",
-            "BSDF", ClosureKind::Dielectric),
-    // The talk's name for the transmitting half.
-    closure("ND_dielectric_btdf", "dielectric_btdf",
-            "float weight=1, color3 tint=1, float ior=1.5, " PATINA_MICROFACET
-            ", string scatter_mode=T",
-            "BSDF", ClosureKind::Dielectric),
-    closure("ND_conductor_bsdf", "conductor_bsdf",
-            "float weight=1, color3 ior=0.183 0.421 1.373, "
-            "color3 extinction=3.424 2.346 1.770, " PATINA_MICROFACET,
-            "BSDF", ClosureKind::Conductor),
-    closure("ND_generalized_schlick_bsdf", "generalized_schlick_bsdf",
-            "float weight=1, color3 color0=1, color3 color82=1, color3 color90=1, "
-            "float exponent=5, " PATINA_MICROFACET ", string scatter_mode=R",
-            "BSDF", ClosureKind::Schlick),
-    closure("ND_subsurface_bsdf", "subsurface_bsdf",
-            "float weight=1, color3 color=0.18, color3 radius=1, float anisotropy=0, "
-            "vector3 normal=@Nworld",
-            "BSDF", ClosureKind::Subsurface),
-    closure("ND_sheen_bsdf", "sheen_bsdf",
-            "float weight=1, color3 color=1, float roughness=0.3, vector3 normal=@Nworld, "
-            "string mode=conty_kulla",
-            "BSDF", ClosureKind::Sheen),
-    // The classic BRDFs. exponent and roughness are those of each paper.
-    closure("ND_patina_lambert_bsdf", "patina_lambert_bsdf",
-            "float weight=1, color3 color=0.18, vector3 normal=@Nworld", "BSDF",
-            ClosureKind::OrenNayar),
-    closure("ND_patina_phong_bsdf", "patina_phong_bsdf",
-            "float weight=1, color3 color=1, float exponent=32, vector3 normal=@Nworld", "BSDF",
-            ClosureKind::Phong),
-    closure("ND_patina_blinn_phong_bsdf", "patina_blinn_phong_bsdf",
-            "float weight=1, color3 color=1, float exponent=128, vector3 normal=@Nworld", "BSDF",
-            ClosureKind::BlinnPhong),
-    closure("ND_patina_ward_bsdf", "patina_ward_bsdf",
-            "float weight=1, color3 color=1, vector2 roughness=0.2, vector3 normal=@Nworld, "
-            "vector3 tangent=@Tworld, string form=bounded",
-            "BSDF", ClosureKind::Ward),
-    closure("ND_patina_cook_torrance_bsdf", "patina_cook_torrance_bsdf",
-            "float weight=1, color3 color=1, color3 ior=2.911 2.950 2.590, "
-            "color3 extinction=3.089 2.930 2.770, float roughness=0.2, vector3 normal=@Nworld, "
-            "string fresnel=exact",
-            "BSDF", ClosureKind::CookTorrance),
-    closure("ND_chiang_hair_bsdf", "chiang_hair_bsdf",
-            "color3 tint_R=1, color3 tint_TT=1, color3 tint_TRT=1, float ior=1.55, "
-            "vector2 roughness_R=0.1, vector2 roughness_TT=0.05, vector2 roughness_TRT=0.2, "
-            "float cuticle_angle=0.5, vector3 absorption_coefficient=0, vector3 normal=@Nworld, "
-            "vector3 curve_direction=@Tworld",
-            "BSDF", ClosureKind::ChiangHair),
+#define PATINA_LOBE_NODE(Kind, id, category, inputs)                                               \
+    closure(id, category, inputs, "BSDF", ClosureKind::Kind),
+#include "materialNetwork/lobeTable.inc"
     closure("ND_thin_film_bsdf", "thin_film_bsdf", "float thickness=550, float ior=1.5", "BSDF",
             ClosureKind::ThinFilm),
     closure("ND_uniform_edf", "uniform_edf", "color3 color=1", "EDF", ClosureKind::UniformEdf),

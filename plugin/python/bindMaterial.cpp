@@ -276,6 +276,14 @@ py::dict nodeDefaults(const std::string& id) {
     return dict;
 }
 
+std::map<std::string, std::vector<std::string>> nodeWords(const std::string& id) {
+    std::map<std::string, std::vector<std::string>> words;
+    if (const NodeDef* def = NodeTable::get().find(id))
+        for (const InputDef& input : def->inputs)
+            if (!input.words.empty()) words[input.name] = input.words;
+    return words;
+}
+
 Network overridden(const Network& network, const std::map<std::string, std::string>& texts) {
     MaterialOverrides overrides;
     for (const auto& [target, text] : texts) {
@@ -383,6 +391,8 @@ void bindMaterial(py::module_& m) {
     m.def("translatable_models", &translatableModels);
     m.def("node_defaults", &nodeDefaults, py::arg("id"),
           "Default values of a node's inputs; those that come from the geometry are left out.");
+    m.def("node_words", &nodeWords, py::arg("id"),
+          "What the strings of a node may say, where that is a list.");
     m.def(
         "read_mtlx",
         [](const std::string& path, py::object warnings) {

@@ -9,6 +9,7 @@
 // For what is seldom called from functions that are called often and should stay small.
 #define PATINA_FN_RARE [[gnu::noinline]] inline
 #define PATINA_OUT(T) T&
+#define PATINA_INOUT(T) T&
 // A parameter that is not read; drivers want a name where compilers warn of one.
 #define PATINA_UNUSED(T, name) T
 

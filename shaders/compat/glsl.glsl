@@ -4,6 +4,7 @@
 #define PATINA_FN
 #define PATINA_FN_RARE
 #define PATINA_OUT(T) out T
+#define PATINA_INOUT(T) inout T
 #define PATINA_UNUSED(T, name) T name
 
 // What holds for all lobes of a shader may be said before this file, as constants in place of what lobes

@@ -52,3 +52,7 @@ PATINA_FN vec3 blinnPhongAlbedo(BlinnPhongLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
     return l.color * classicAlbedo(CLASSIC_BLINN_PHONG, wo.z, phongAlpha(l.exponent));
 }
+
+PATINA_FN float lobeRoughness(BlinnPhongLobe l) {
+    return phongAlpha(l.exponent);
+}

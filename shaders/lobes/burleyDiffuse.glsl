@@ -56,3 +56,8 @@ PATINA_FN vec3 burleyAlbedo(BurleyLobe l, vec3 wo) {
                         r * r * (c * c * j2 + 0.5f * (1.0f - c * c) * (j0 - j2)));
     return l.color * (1.0f + linear + square);
 }
+
+PATINA_FN vec3 lobeFix(PATINA_INOUT(BurleyLobe) l, PATINA_UNUSED(vec3, wo), PATINA_OUT(vec3) albedo) {
+    albedo = l.color;
+    return vec3(1.0f);
+}

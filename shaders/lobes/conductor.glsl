@@ -192,3 +192,17 @@ PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {
         mean = schlickMean(p, l.curve);
     return mean * ess * k + extra;
 }
+
+PATINA_FN vec3 lobeFix(PATINA_INOUT(ConductorLobe) l, vec3 wo, PATINA_OUT(vec3) albedo) {
+    l = conductorAt(l, wo);
+    albedo = conductorReflectance(l, clamp(wo.z, 0.0f, 1.0f));
+    return vec3(1.0f);
+}
+
+PATINA_FN bool lobeIsDelta(ConductorLobe l) {
+    return !(l.alpha.x > 0.0f);
+}
+
+PATINA_FN float lobeRoughness(ConductorLobe l) {
+    return 0.5f * (l.alpha.x + l.alpha.y);
+}

@@ -69,3 +69,7 @@ PATINA_FN vec3 cookTorranceAlbedo(CookTorranceLobe l, vec3 wo) {
     if (l.fresnel == COOK_TORRANCE_EXACT) mean = conductorMean(p, l.ior, l.extinction);
     return mean * microfacetAlbedo0(p);
 }
+
+PATINA_FN float lobeRoughness(CookTorranceLobe l) {
+    return l.alpha;
+}

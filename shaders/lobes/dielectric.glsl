@@ -273,3 +273,31 @@ PATINA_FN vec3 dielectricAlbedo(DielectricLobe l, vec3 wo) {
     return l.tint * (select(e.r, 0.0f, (l.mode & SCATTER_R) != 0) +
                      select(e.t, 0.0f, (l.mode & SCATTER_T) != 0));
 }
+
+// lobeFix() where the energy of wo is known.
+PATINA_FN vec3 dielectricWith(PATINA_INOUT(DielectricLobe) l, DielectricEnergy e, PATINA_OUT(vec3) albedo) {
+    l.known = true;
+    l.kr = e.kr;
+    l.kt = e.kt;
+    float coverage = select(e.r, 0.0f, (l.mode & SCATTER_R) != 0) +
+                    select(e.t, 0.0f, (l.mode & SCATTER_T) != 0);
+    albedo = l.tint * coverage;
+    return select(vec3(coverage), vec3(1.0f), l.mode != SCATTER_T);
+}
+
+PATINA_FN vec3 lobeFix(PATINA_INOUT(DielectricLobe) l, vec3 wo, PATINA_OUT(vec3) albedo) {
+    return dielectricWith(l, dielectricEnergy(l, wo), albedo);
+}
+
+PATINA_FN float lobePasses(DielectricLobe l, float z) {
+    float c = min(abs(z), 1.0f);
+    return 1.0f - dielectricFresnel(l, c, dielectricEta(l, z));
+}
+
+PATINA_FN bool lobeIsDelta(DielectricLobe l) {
+    return !(l.alpha.x > 0.0f) || (l.mode == SCATTER_T && l.deltaT);
+}
+
+PATINA_FN float lobeRoughness(DielectricLobe l) {
+    return 0.5f * (l.alpha.x + l.alpha.y);
+}

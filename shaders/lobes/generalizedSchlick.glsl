@@ -402,3 +402,31 @@ PATINA_FN vec3 schlickAlbedo(SchlickLobe l, vec3 wo) {
     return l.tint * (select(e.r, vec3(0.0f), (l.mode & SCATTER_R) != 0) +
                      select(e.t, vec3(0.0f), (l.mode & SCATTER_T) != 0));
 }
+
+// lobeFix() where the energy of wo is known.
+PATINA_FN vec3 schlickWith(PATINA_INOUT(SchlickLobe) l, SchlickEnergy e, PATINA_OUT(vec3) albedo) {
+    l.known = true;
+    l.kr = e.kr;
+    l.kt = e.kt;
+    vec3 coverage = select(e.r, vec3(0.0f), (l.mode & SCATTER_R) != 0) +
+                    select(e.t, vec3(0.0f), (l.mode & SCATTER_T) != 0);
+    albedo = l.tint * coverage;
+    return select(coverage, vec3(1.0f), l.mode != SCATTER_T);
+}
+
+PATINA_FN vec3 lobeFix(PATINA_INOUT(SchlickLobe) l, vec3 wo, PATINA_OUT(vec3) albedo) {
+    return schlickWith(l, schlickEnergy(l, wo), albedo);
+}
+
+PATINA_FN float lobePasses(SchlickLobe l, float z) {
+    float c = min(abs(z), 1.0f);
+    return 1.0f - lobeMean(schlickReflectance(l, c, schlickEta(l, z)));
+}
+
+PATINA_FN bool lobeIsDelta(SchlickLobe l) {
+    return !(l.alpha.x > 0.0f) || (l.mode == SCATTER_T && l.deltaT);
+}
+
+PATINA_FN float lobeRoughness(SchlickLobe l) {
+    return 0.5f * (l.alpha.x + l.alpha.y);
+}

@@ -100,3 +100,8 @@ PATINA_FN vec3 orenNayarAlbedo(OrenNayarLobe l, vec3 wo) {
     // loss(i) averages to FUJII_LOSS - FUJII_GAIN.
     return l.color * single + l.multi * (orenNayarLoss(mu, 1.0f) * (FUJII_LOSS - FUJII_GAIN));
 }
+
+PATINA_FN vec3 lobeFix(PATINA_INOUT(OrenNayarLobe) l, PATINA_UNUSED(vec3, wo), PATINA_OUT(vec3) albedo) {
+    albedo = l.color;
+    return vec3(1.0f);
+}

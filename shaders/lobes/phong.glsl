@@ -43,3 +43,7 @@ PATINA_FN vec3 phongAlbedo(PhongLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
     return l.color * classicAlbedo(CLASSIC_PHONG, wo.z, phongAlpha(l.exponent));
 }
+
+PATINA_FN float lobeRoughness(PhongLobe l) {
+    return phongAlpha(l.exponent);
+}

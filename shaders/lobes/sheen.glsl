@@ -123,3 +123,10 @@ PATINA_FN vec3 sheenAlbedo(SheenLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
     return l.color * sheenWhiteAlbedo(l, wo.z);
 }
+
+PATINA_FN vec3 lobeFix(PATINA_INOUT(SheenLobe) l, vec3 wo, PATINA_OUT(vec3) albedo) {
+    float coverage = 0.0f;
+    if (wo.z >= 0.0f) coverage = sheenWhiteAlbedo(l, wo.z);
+    albedo = l.color * coverage;
+    return vec3(coverage);
+}

@@ -34,3 +34,8 @@ PATINA_FN LobeSample translucentSample(TranslucentLobe l, vec3 wo, vec3 u) {
 PATINA_FN vec3 translucentAlbedo(TranslucentLobe l, PATINA_UNUSED(vec3, wo)) {
     return l.color;
 }
+
+PATINA_FN vec3 lobeFix(PATINA_INOUT(TranslucentLobe) l, PATINA_UNUSED(vec3, wo), PATINA_OUT(vec3) albedo) {
+    albedo = l.color;
+    return vec3(1.0f);
+}

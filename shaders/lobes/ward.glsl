@@ -66,3 +66,7 @@ PATINA_FN vec3 wardAlbedo(WardLobe l, vec3 wo) {
     if (l.alpha.x != l.alpha.y) e = max(e + wardTurned(plane, wo, l.alpha), 0.0f);
     return l.color * e;
 }
+
+PATINA_FN float lobeRoughness(WardLobe l) {
+    return 0.5f * (l.alpha.x + l.alpha.y);
+}

@@ -1,6 +1,6 @@
 // What the text of a generated material stands on: the shading point, frames, and how lobes become
 // a whole. The same steps as materialNetwork/cpu (bsdf, bsdfBuilder, shadingFrame), in GLSL.
-#define PATINA_ENERGY_KNOWN(known) true // by the ...Fix() functions below
+#define PATINA_ENERGY_KNOWN(known) true // by lobeFix()
 #include "shaders/compat/glsl.glsl"
 #include "shaders/lobes.glsl"
 #include "shaders/patterns.glsl"
@@ -209,71 +209,18 @@ SchlickEnergy schlickEnergyBy(SchlickLobe l, vec3 wo, int curve) {
                          alongCurve(i + 2, 4, share).xyz, alongCurve(i + 3, 4, share).xyz);
 }
 
-// lobeFixWo() of materialNetwork/cpu/lobeOps.h: looks up what depends on wo alone, and returns the
-// share that the lobe keeps from the base of a layer. fixTransmittance: what it refracts.
+// lobeFix() of an interface, whose energy may be read off a curve. fixTransmittance: what it
+// refracts.
 vec3 fixTransmittance;
-vec3 orenNayarFix(inout OrenNayarLobe l, vec3 wo, int curve, out vec3 albedo) {
-    albedo = l.color;
-    return vec3(1.0);
-}
-vec3 burleyFix(inout BurleyLobe l, vec3 wo, int curve, out vec3 albedo) {
-    albedo = l.color;
-    return vec3(1.0);
-}
-vec3 translucentFix(inout TranslucentLobe l, vec3 wo, int curve, out vec3 albedo) {
-    albedo = l.color;
-    return vec3(1.0);
-}
-vec3 conductorFix(inout ConductorLobe l, vec3 wo, int curve, out vec3 albedo) {
-    l = conductorAt(l, wo);
-    albedo = conductorReflectance(l, clamp(wo.z, 0.0, 1.0));
-    return vec3(1.0);
-}
-vec3 dielectricFix(inout DielectricLobe l, vec3 wo, int curve, out vec3 albedo) {
+vec3 lobeFix(inout DielectricLobe l, vec3 wo, int curve, out vec3 albedo) {
     DielectricEnergy e = dielectricEnergyBy(l, wo, curve);
-    l.known = true;
-    l.kr = e.kr;
-    l.kt = e.kt;
-    float coverage = ((l.mode & SCATTER_R) != 0 ? e.r : 0.0) + ((l.mode & SCATTER_T) != 0 ? e.t : 0.0);
-    albedo = l.tint * coverage;
     fixTransmittance = l.tint * e.t;
-    return vec3(l.mode == SCATTER_T ? 1.0 : coverage);
+    return dielectricWith(l, e, albedo);
 }
-vec3 schlickFix(inout SchlickLobe l, vec3 wo, int curve, out vec3 albedo) {
+vec3 lobeFix(inout SchlickLobe l, vec3 wo, int curve, out vec3 albedo) {
     SchlickEnergy e = schlickEnergyBy(l, wo, curve);
-    l.known = true;
-    l.kr = e.kr;
-    l.kt = e.kt;
-    vec3 coverage = ((l.mode & SCATTER_R) != 0 ? e.r : vec3(0.0)) +
-                ((l.mode & SCATTER_T) != 0 ? e.t : vec3(0.0));
-    albedo = l.tint * coverage;
     fixTransmittance = l.tint * e.t;
-    return l.mode == SCATTER_T ? vec3(1.0) : coverage;
-}
-vec3 sheenFix(inout SheenLobe l, vec3 wo, int curve, out vec3 albedo) {
-    float coverage = wo.z >= 0.0 ? sheenWhiteAlbedo(l, wo.z) : 0.0;
-    albedo = l.color * coverage;
-    return vec3(coverage);
-}
-vec3 phongFix(inout PhongLobe l, vec3 wo, int curve, out vec3 albedo) {
-    albedo = phongAlbedo(l, wo);
-    return vec3(1.0);
-}
-vec3 blinnPhongFix(inout BlinnPhongLobe l, vec3 wo, int curve, out vec3 albedo) {
-    albedo = blinnPhongAlbedo(l, wo);
-    return vec3(1.0);
-}
-vec3 wardFix(inout WardLobe l, vec3 wo, int curve, out vec3 albedo) {
-    albedo = wardAlbedo(l, wo);
-    return vec3(1.0);
-}
-vec3 cookTorranceFix(inout CookTorranceLobe l, vec3 wo, int curve, out vec3 albedo) {
-    albedo = cookTorranceAlbedo(l, wo);
-    return vec3(1.0);
-}
-vec3 chiangHairFix(inout ChiangHairLobe l, vec3 wo, int curve, out vec3 albedo) {
-    albedo = chiangHairAlbedo(l, wo);
-    return vec3(1.0);
+    return schlickWith(l, e, albedo);
 }
 
 // One or two faces of a thin wall, as BsdfBuilder::slabOf().

@@ -93,6 +93,17 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
                                        vec2(0.2), 0.5, vec3(0.3));
     sum += chiangHairEval(h, wo, wi).value + chiangHairSample(h, wo, u).weight +
            chiangHairAlbedo(h, wo);
+    SubsurfaceLobe i = subsurfaceSetup(vec3(0.8), vec3(1.0), 0.0);
+    sum += subsurfaceEval(i, wo, wi).value + subsurfaceSample(i, wo, u).weight +
+           subsurfaceAlbedo(i, wo);
+    vec3 albedo = vec3(0.0);
+    sum += lobeFix(o, wo, albedo) + lobeFix(b, wo, albedo) + lobeFix(t, wo, albedo) +
+           lobeFix(c, wo, albedo) + lobeFix(d, wo, albedo) + lobeFix(s, wo, albedo) +
+           lobeFix(k, wo, albedo) + lobeFix(i, wo, albedo) + albedo;
+    sum += lobePasses(d, wo.z) + lobePasses(s, wo.z) + lobeRoughness(q) + lobeRoughness(n) +
+           lobeRoughness(w) + lobeRoughness(x) + lobeRoughness(c) + lobeRoughness(d) +
+           lobeRoughness(s);
+    if (lobeIsDelta(c) || lobeIsDelta(d) || lobeIsDelta(s)) sum = vec3(0.0);
     sum += edfSchlick(wo, wi, 5.0, u.x) * edfConical(60.0, 90.0, wo.z);
     return sum + dielectricAlbedoReflect(d, wo) + schlickAlbedoReflect(s, wo);
 }

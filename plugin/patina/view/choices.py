@@ -10,10 +10,8 @@ MAX_PROGRAMS = 24  # of a material
 OFF_ON = (("off", 0), ("on", 1))
 _WRAPS = ("constant", "clamp", "periodic", "mirror")
 _USD_WRAPS = ("useMetadata", "black", "clamp", "repeat", "mirror")
-# What MaterialX and UsdPreviewSurface let an input say.
-_TEXTS = {"distribution": ("ggx", "beckmann"), "fresnel": ("exact", "schlick"), "form": ("bounded", "exact"),
-          "space": ("object", "world"),
-          "scatter_mode": ("R", "T", "RT"), "mode": ("conty_kulla", "zeltner"),
+# What MaterialX and UsdPreviewSurface let an input say, where the node itself has no list.
+_TEXTS = {"space": ("object", "world"),
           "uaddressmode": _WRAPS, "vaddressmode": _WRAPS, "filtertype": ("closest", "linear", "cubic"),
           "wrapS": _USD_WRAPS, "wrapT": _USD_WRAPS, "sourceColorSpace": ("auto", "raw", "sRGB")}
 _NUMBERS = {"opacityMode": (("transparent", 0), ("presence", 1)), "useSpecularWorkflow": OFF_ON,
@@ -41,12 +39,12 @@ class Fixed:
         self.node, self.name, self.kind, self.text, self.reason = node, name, kind, text, reason
 
 
-def _options(name, kind):
+def _options(name, kind, words):
     if kind == "boolean":
         return OFF_ON
     if kind == "integer":
         return _NUMBERS.get(name, ())
-    return tuple((text, text) for text in _TEXTS.get(name, ()))
+    return tuple((text, text) for text in words.get(name) or _TEXTS.get(name, ()))
 
 
 def _plain(kind, value):
@@ -65,7 +63,7 @@ def find(network, live_inputs):
     moved = {(i.node, i.name) for i in live_inputs}
     choices, fixed = [], []
     for node in live.reachable(network):
-        defaults = module.node_defaults(node["id"])
+        defaults, words = module.node_defaults(node["id"]), module.node_words(node["id"])
         for name, kind in module.node_inputs(node["id"]).items():
             if kind not in ("boolean", *_REASONS) or name in node["connections"] or (node["path"], name) in moved:
                 continue
@@ -73,7 +71,7 @@ def find(network, live_inputs):
             if authored is None and name not in defaults:
                 continue
             value = _plain(kind, authored["value"] if authored else defaults[name]) if "matrix" not in kind else ""
-            options = _options(name, kind)
+            options = _options(name, kind, words)
             if options:
                 if value not in [v for _, v in options]:
                     options = ((str(value) or "(empty)", value), *options)

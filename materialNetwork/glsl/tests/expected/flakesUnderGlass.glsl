@@ -29,11 +29,11 @@ void instantiate() {
     frames[0] = makeFrame(vec3(0.0), vec3(0.0), false);
     frames[1] = makeFrame(r18.xyz, vec3(0.0), true);
     lobe0 = dielectricSetup(parameters[3].xyz, parameters[4].x, parameters[5].xy, false, 3, false, 1);
-    vec3 coverage0 = dielectricFix(lobe0, frames[0].wo, 6, lobeAlbedo[0]);
+    vec3 coverage0 = lobeFix(lobe0, frames[0].wo, 6, lobeAlbedo[0]);
     coverage0 = unit(coverage0);
     lobeTransmittance[0] = fixTransmittance;
     lobe1 = conductorSetup(parameters[71].xyz, parameters[72].xyz, parameters[73].xy, false, 1);
-    vec3 coverage1 = conductorFix(lobe1, frames[1].wo, -1, lobeAlbedo[1]);
+    vec3 coverage1 = lobeFix(lobe1, frames[1].wo, lobeAlbedo[1]);
     coverage1 = unit(coverage1);
     vec3 w0 = vec3(0.0);
     vec3 w1 = vec3(0.0);

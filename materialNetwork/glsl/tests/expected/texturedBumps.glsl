@@ -42,7 +42,7 @@ void instantiate() {
     r19 = vec4(patternNormalMap(r15.xyz, parameters[18].xy, r16.xyz, r17.xyz, r18.xyz), 0.0);
     frames[0] = makeFrame(r19.xyz, vec3(0.0), true);
     lobe0 = burleySetup(r6.xyz, parameters[19].x);
-    vec3 coverage0 = burleyFix(lobe0, frames[0].wo, -1, lobeAlbedo[0]);
+    vec3 coverage0 = lobeFix(lobe0, frames[0].wo, lobeAlbedo[0]);
     coverage0 = unit(coverage0);
     vec3 w0 = vec3(1.0);
     lobeWeight[0] = w0 * unit(parameters[20].x);

@@ -138,12 +138,16 @@ std::string glslTraits(const ProgramCode& code) {
 }
 
 std::string glslDefinitions(const ProgramCode& code) {
-    Common compensate, film;
+    Common compensate, albedo, film;
     for (const LobeTemplate& t : code.lobes) {
-        if (lobeHas(t.prebuilt.kind, lobe::Facets)) compensate.add(t.compensate);
+        if (lobeHas(t.prebuilt.kind, lobe::Facets)) {
+            compensate.add(t.compensate);
+            albedo.add(t.albedo);
+        }
         if (t.film || t.filmDielectric) film.add(t.filmMethod);
     }
     return compensate.definition("PATINA_COMPENSATE(compensate)") +
+           albedo.definition("PATINA_ALBEDO_METHOD(method)") +
            (film.count == 0 ? "#define PATINA_FILM(present) false\n"
                             : film.definition("PATINA_FILM_METHOD(method)"));
 }

@@ -16,6 +16,7 @@
 // What a shader may know of all of its lobes when it is compiled, see glsl.glsl.
 #define PATINA_ENERGY_KNOWN(known) (known)
 #define PATINA_COMPENSATE(compensate) (compensate)
+#define PATINA_ALBEDO_METHOD(method) (method)
 #define PATINA_FILM(present) (present)
 #define PATINA_FILM_METHOD(method) (method)
 

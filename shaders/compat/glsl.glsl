@@ -17,6 +17,10 @@
 #ifndef PATINA_COMPENSATE
 #define PATINA_COMPENSATE(compensate) (compensate)
 #endif
+// One of ALBEDO_*.
+#ifndef PATINA_ALBEDO_METHOD
+#define PATINA_ALBEDO_METHOD(method) (method)
+#endif
 // Whether a lobe has a film.
 #ifndef PATINA_FILM
 #define PATINA_FILM(present) (present)

@@ -53,11 +53,27 @@ def test_errors_come_first_then_what_is_met_most_often():
 
 
 def test_the_terminal_shows_twenty_causes_and_counts_the_rest():
-    found = Causes([warning(f"'{i}' is unknown; box is used", f"/p{i}") for i in range(30)]
+    letters = [chr(ord("a") + i) for i in range(26)]
+    found = Causes([warning(f"{a}{a} is odd; box is used", f"/p{a}") for a in letters]
                    + [warning("the light is not finite; it is off", "/sun")])
     lines = found.lines()
     assert len(lines) == causes.MAX_CAUSES + 1 and lines[0].startswith("error: /sun")
-    assert lines[-1] == "warning: 11 more causes are in --json"
+    assert lines[-1] == "warning: 7 more causes are in --json"
+
+
+def test_where_there_are_too_many_culprits_of_one_kind_count_as_one():
+    many = [warning(f"'{i}' is unknown; box is used", f"/p{i}", count=1 + (i == 7)) for i in range(30)]
+    found = Causes(many + [warning("the light is not finite; it is off", "/sun"), warning("the default is used", "/q")])
+    assert found.lines() == [
+        "error: /sun: the light is not finite; it is off",
+        "warning: /p7: '7' is unknown; box is used (and 29 causes like it: 31 times, all in --json)",
+        "warning: /q: the default is used"]
+    assert len(found) == 32
+
+
+def test_names_stay_in_their_line():
+    found = Causes([warning("node 's\n  error: forged\x1b[2J' is unknown; box is used", "/p\rq")])
+    assert found.lines() == ["warning: /p q: node 's error: forged\\x1b[2J' is unknown; box is used"]
 
 
 def test_what_was_told_is_told_again_only_at_the_end_and_when_there_is_more():

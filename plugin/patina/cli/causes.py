@@ -66,7 +66,7 @@ class Causes:
             group = groups.get((kind, culprit))
             if group is None:
                 group = groups[kind, culprit] = {
-                    "severity": severity(warning), "message": warning["message"], "culprit": culprit,
+                    "severity": severity(warning), "message": warning["message"], "culprit": culprit, "kind": kind,
                     "prim": warning["prim"], "input": warning["input"], "count": 0, "prims": 0, "_prims": set()}
             group["count"] += warning["count"]
             group["_prims"].add(warning["prim"])
@@ -77,13 +77,24 @@ class Causes:
     def __len__(self):
         return len(self.groups)
 
+    def _shown(self):
+        """:returns: the groups; where they are too many for a terminal, culprits of one kind count as one"""
+        if len(self.groups) <= MAX_CAUSES:
+            return self.groups
+        kinds = {}
+        for group in self.groups:
+            kinds.setdefault((group["severity"], group["kind"]), []).append(group)
+        merged = [dict(alike[0], count=sum(g["count"] for g in alike), prims=sum(g["prims"] for g in alike), alike=len(alike))
+                  for alike in kinds.values()]
+        return sorted(merged, key=lambda g: (SEVERITIES.index(g["severity"]), -g["count"]))
+
     def lines(self, told=None, last=True):
         """:param told: dict that remembers what was shown before, which is not shown again ...
         :param last: ... unless this is the last call, and it was met more often since
         :returns: lines of at most MAX_CAUSES causes for all calls with the same dict; the last call says how many more"""
         told = {} if told is None else told
         out, hidden = [], 0
-        for group in self.groups:
+        for group in self._shown():
             key = group["severity"], group["message"], group["prim"], group["input"]
             if key not in told and len(told) >= MAX_CAUSES:
                 hidden += 1
@@ -95,10 +106,18 @@ class Causes:
         return out
 
 
+def printable(text):
+    """:returns: text that stays in its line: names of a document may hold line breaks and a terminal's commands"""
+    text = re.sub(r"\s*[\r\n]+\s*", " ", text)
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+
+
 def line(group):
     """:returns: a group as one line"""
     where = group["prim"] + ("." + group["input"] if group["input"] else "")
-    text = f"{group['severity']}: " + (where + ": " if where else "") + group["message"]
+    text = printable(f"{group['severity']}: " + (where + ": " if where else "") + group["message"])
+    if group.get("alike", 1) > 1:
+        return f"{text} (and {group['alike'] - 1} causes like it: {group['count']} times, all in --json)"
     if group["count"] == 1:
         return text
     others = f"at {group['prims']} prims, first this" if group["prims"] > 1 else "at this prim"

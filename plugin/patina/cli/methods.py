@@ -27,7 +27,7 @@ def parse(texts):
     for text in texts:
         point, equals, name = text.partition("=")
         if not point or not equals or not name:
-            raise UsageError(f"--method {text}: write it as POINT=NAME")
+            raise UsageError(f"patina: --method {text}: write it as POINT=NAME")
         methods[point] = name
     problem = compiled.load().check_methods(methods) if methods else ""
     if problem:

@@ -17,7 +17,7 @@ def parse(texts):
     for text in texts:
         match = _ITEM.fullmatch(text)
         if not match:
-            raise UsageError(f"--set {text}: write it as /prim/path.input=value")
+            raise UsageError(f"patina: --set {text}: write it as /prim/path.input=value")
         name = match["name"]
         parsed.append((match["prim"], name[len("inputs:"):] if name.startswith("inputs:") else name, match["value"]))
     return parsed

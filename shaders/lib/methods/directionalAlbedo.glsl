@@ -13,7 +13,8 @@ const int ALBEDO_QUADRATURE = 6; // the same: truth
 // What a method can do at an interface; what it cannot is the tables'. eta: as in
 // fresnelDielectric, 1 for conductors. The fit knows isotropic GGX from the thinner side, and
 // Karis's curve the thinner side. A mirror's albedo is set where it is asked for.
-PATINA_FN int albedoMethod(int method, vec2 alpha, int ndf, float eta) {
+PATINA_FN int albedoMethod(int asked, vec2 alpha, int ndf, float eta) {
+    int method = PATINA_ALBEDO_METHOD(asked);
     bool thinner = eta >= 1.0f;
     bool plain = alpha.x == alpha.y && ndf == NDF_GGX && thinner;
     bool can = (method != ALBEDO_FIT || plain) && (method != ALBEDO_KARIS || thinner) &&

@@ -23,8 +23,8 @@ void instantiate() {
     r13 = nodePosition(1);
     r14 = nodeTangent(0, point.bitangent);
     r15 = nodeFlake(parameters[0].x, parameters[1].x, parameters[2].x, r13.xyz, r11.xyz, r12.xyz, r14.xyz);
-    r16 = vec4(nodeFlakeHit.random);;
-    r17 = vec4(nodeFlakeHit.presence);;
+    r16 = vec4(nodeFlakeHit.random);
+    r17 = vec4(nodeFlakeHit.presence);
     r18 = vec4(nodeFlakeHit.normal, 0.0);
     frames[0] = makeFrame(vec3(0.0), vec3(0.0), false);
     frames[1] = makeFrame(r18.xyz, vec3(0.0), true);

@@ -17,6 +17,7 @@ const std::string validator = PATINA_GLSLANG_VALIDATOR;
 // Text of a file with its #include lines replaced by what they name, as the rasterizer reads it.
 std::string flatten(const std::string& path) {
     std::ifstream in(sourceRoot + "/" + path);
+    if (!in) in.open(std::string(PATINA_GENERATED_DIR) + "/" + path);
     EXPECT_TRUE(in.good()) << path;
     std::string text, line;
     while (std::getline(in, line)) {

@@ -10,7 +10,7 @@ namespace patina {
 /// One place where the prims of a group are drawn.
 struct RasterPlace {
     dmat4 groupToWorld{1.0}; ///< all digits: the origin may be taken from large numbers
-    int id = -1; ///< for the instanceId AOV
+    int id = -1;             ///< for the instanceId AOV
     std::vector<std::string> categories;
 };
 

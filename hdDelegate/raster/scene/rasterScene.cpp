@@ -188,7 +188,8 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
                                                                  : RasterMeshLight::Adds;
         if (light.normalize)
             draw.meshLight.radiance /= std::max(
-                areaOf(*_groups[firstGroup].shape->mesh, mat4(places[0].groupToWorld * toGroup)), 1e-30f);
+                areaOf(*_groups[firstGroup].shape->mesh, mat4(places[0].groupToWorld * toGroup)),
+                1e-30f);
         const auto category = _categories.find(light.lightLink);
         if (category != _categories.end()) lit = category->second;
     }

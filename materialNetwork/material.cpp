@@ -1,10 +1,10 @@
 #include "materialNetwork/material.h"
 
-#include "materialNetwork/dump.h"
-#include "materialNetwork/expand.h"
-#include "materialNetwork/mergeSurfaceShaders.h"
-#include "materialNetwork/planner.h"
-#include "materialNetwork/simplify.h"
+#include "materialNetwork/plan/dump.h"
+#include "materialNetwork/graph/expand.h"
+#include "materialNetwork/graph/mergeSurfaceShaders.h"
+#include "materialNetwork/plan/planner.h"
+#include "materialNetwork/graph/simplify.h"
 
 namespace patina {
 

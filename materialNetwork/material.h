@@ -1,7 +1,7 @@
 #pragma once
 
 #include "materialNetwork/cpu/materialProgram.h"
-#include "materialNetwork/methods.h"
+#include "materialNetwork/plan/methods.h"
 
 #include <map>
 #include <memory>

@@ -2,7 +2,7 @@
 
 #include "hdDelegate/hydra/values.h"
 
-#include "materialNetwork/models.h"
+#include "materialNetwork/nodes/models.h"
 
 #include <pxr/base/tf/stringUtils.h>
 #include <pxr/imaging/hd/material.h>

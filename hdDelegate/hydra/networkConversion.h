@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hdDelegate/hydra/renderParam.h"
-#include "materialNetwork/network.h"
+#include "materialNetwork/network/network.h"
 
 #include <pxr/base/vt/value.h>
 #include <pxr/usd/sdf/path.h>

@@ -1,8 +1,8 @@
 #include "hdDelegate/plan/scenePlan.h"
 
 #include "hdDelegate/plan/subdivisionPlan.h"
-#include "materialNetwork/methodTable.h"
-#include "materialNetwork/methods.h"
+#include "materialNetwork/plan/methodTable.h"
+#include "materialNetwork/plan/methods.h"
 
 #include <algorithm>
 #include <climits>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hdDelegate/scene/settings.h"
-#include "materialNetwork/planner.h"
+#include "materialNetwork/plan/planner.h"
 
 #include <map>
 #include <string>

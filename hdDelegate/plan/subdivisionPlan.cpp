@@ -1,7 +1,7 @@
 #include "hdDelegate/plan/subdivisionPlan.h"
 
-#include "materialNetwork/methodTable.h"
-#include "materialNetwork/methods.h"
+#include "materialNetwork/plan/methodTable.h"
+#include "materialNetwork/plan/methods.h"
 
 #include <algorithm>
 #include <cmath>

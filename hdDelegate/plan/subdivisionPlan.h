@@ -2,7 +2,7 @@
 
 #include "hdDelegate/scene/geometry.h"
 #include "hdDelegate/scene/settings.h"
-#include "materialNetwork/methodPlan.h"
+#include "materialNetwork/plan/methodPlan.h"
 
 namespace patina {
 

@@ -3,7 +3,7 @@
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
-#include "materialNetwork/methodPlan.h"
+#include "materialNetwork/plan/methodPlan.h"
 
 #include <functional>
 #include <map>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/network.h"
+#include "materialNetwork/network/network.h"
 
 namespace patina {
 

@@ -1,6 +1,6 @@
 #include "materialNetwork/cpu/lobeSetup.h"
 
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include <tuple>
 #include <type_traits>

@@ -4,8 +4,8 @@
 #include "materialNetwork/cpu/medium.h"
 #include "materialNetwork/cpu/shadingPoint.h"
 #include "materialNetwork/diagnostics.h"
-#include "materialNetwork/methodPlan.h"
-#include "materialNetwork/network.h"
+#include "materialNetwork/plan/methodPlan.h"
+#include "materialNetwork/network/network.h"
 #include "materialNetwork/textureSource.h"
 
 #include <memory>
@@ -53,7 +53,7 @@ public:
     bool passingEnters() const { return _hasInterior && _passingEnters; }
     bool hasSubsurface() const { return _hasSubsurface; }
     bool hasDisplacement() const { return _hasDisplacement; }
-    bool usesUv() const { return _usesUv; } ///< reads texture coordinates
+    bool usesUv() const { return _usesUv; }   ///< reads texture coordinates
     bool jitters() const { return _jitters; } ///< blurs, with taps that ShadingPoint::seed moves
 
     /// @returns isOpaque() for a prim that lacks some primvars

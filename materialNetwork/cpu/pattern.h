@@ -2,7 +2,7 @@
 
 #include "materialNetwork/cpu/shadingPoint.h"
 #include "materialNetwork/textureSource.h"
-#include "materialNetwork/network.h"
+#include "materialNetwork/network/network.h"
 
 #include <glm/glm.hpp>
 

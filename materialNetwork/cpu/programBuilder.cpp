@@ -1,6 +1,6 @@
 #include "materialNetwork/cpu/programBuilder.h"
 
-#include "materialNetwork/value.h"
+#include "materialNetwork/network/value.h"
 
 #include <algorithm>
 

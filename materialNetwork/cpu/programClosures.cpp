@@ -3,7 +3,7 @@
 #include "materialNetwork/cpu/programBuilder.h"
 
 #include "materialNetwork/cpu/bsdfBuilder.h"
-#include "materialNetwork/layering.h"
+#include "materialNetwork/plan/layering.h"
 
 namespace patina {
 

@@ -3,7 +3,7 @@
 #include "materialNetwork/cpu/bsdf.h"
 #include "materialNetwork/cpu/energyCurve.h"
 #include "materialNetwork/cpu/pattern.h"
-#include "materialNetwork/plan.h"
+#include "materialNetwork/plan/plan.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,7 +1,7 @@
 #include "materialNetwork/measure/measureLayers.h"
 
 #include "materialNetwork/measure/layerSubjects.h"
-#include "materialNetwork/methods.h"
+#include "materialNetwork/plan/methods.h"
 #include "shaders/measure/places.h"
 
 namespace patina::measure {

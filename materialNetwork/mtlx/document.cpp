@@ -1,6 +1,6 @@
 #include "materialNetwork/mtlx/document.h"
 
-#include "materialNetwork/expand.h"
+#include "materialNetwork/graph/expand.h"
 #include "materialNetwork/mtlx/include.h"
 #include "materialNetwork/mtlx/parser.h"
 #include "materialNetwork/mtlx/upgrade.h"

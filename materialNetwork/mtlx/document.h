@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/models.h"
+#include "materialNetwork/nodes/models.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "materialNetwork/mtlx/include.h"
 #include "materialNetwork/mtlx/xmlFile.h"
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include <algorithm>
 #include <cstring>

@@ -2,7 +2,7 @@
 
 #include "materialNetwork/mtlx/include.h"
 #include "materialNetwork/mtlx/xmlFile.h"
-#include "materialNetwork/network.h"
+#include "materialNetwork/network/network.h"
 
 #include <cstring>
 #include <set>

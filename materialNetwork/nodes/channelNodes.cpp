@@ -1,5 +1,5 @@
 // Nodes that take values apart, put them together and change their type.
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include <cmath>
 

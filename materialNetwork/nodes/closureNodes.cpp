@@ -1,5 +1,5 @@
 // Closures: BSDF, EDF and VDF nodes, their combiners, and the shaders made of them.
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 namespace patina {
 

@@ -1,5 +1,5 @@
 // Adjustments of colours, and compositing.
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include "shaders/patterns.h"
 

@@ -1,5 +1,5 @@
 // Choices.
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include <cmath>
 

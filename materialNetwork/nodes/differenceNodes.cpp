@@ -1,7 +1,7 @@
 // Nodes that need their input at neighbouring points. Graphs are evaluated at one point, so the
 // part of the graph that makes their input is copied, with the texture coordinates and
-// positions that it reads moved a little (materialNetwork/differences.h).
-#include "materialNetwork/nodeTable.h"
+// positions that it reads moved a little (materialNetwork/graph/differences.h).
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include "shaders/patterns.h"
 

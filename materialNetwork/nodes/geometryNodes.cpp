@@ -1,5 +1,5 @@
 // Nodes that read the surface.
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 namespace patina {
 

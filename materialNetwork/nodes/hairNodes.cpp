@@ -1,5 +1,5 @@
 // Nodes that turn what is known of hair into the inputs of chiang_hair_bsdf.
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Nodes that turn artistic parameters into those of lobes.
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include "shaders/patterns.h"
 

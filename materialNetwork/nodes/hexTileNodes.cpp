@@ -1,6 +1,6 @@
 // Hex-tiled images: a texture repeated without visible repetition.
 #include "materialNetwork/nodes/imageSetup.h"
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include "shaders/patterns.h"
 

@@ -1,6 +1,6 @@
 // Arithmetic, component by component. Scalars fill their register, so one function serves all
 // sizes and the scalar-vector variants.
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include <cmath>
 

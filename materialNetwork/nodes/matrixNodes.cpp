@@ -1,6 +1,6 @@
 // Matrices. A matrix takes one register per row; vectors are rows too and multiply from the left,
 // so glm's matrix of the same columns multiplies from the right.
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include <glm/gtc/matrix_inverse.hpp>
 

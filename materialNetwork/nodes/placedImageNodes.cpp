@@ -1,6 +1,6 @@
 // Image nodes that bring their own placement: glTF's, latitude-longitude maps, three planes.
 #include "materialNetwork/nodes/imageSetup.h"
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include "shaders/patterns.h"
 

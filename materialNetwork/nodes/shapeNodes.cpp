@@ -1,5 +1,5 @@
 // Shapes, tilings, ramps and splits of the plane.
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include "shaders/patterns.h"
 

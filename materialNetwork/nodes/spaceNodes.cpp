@@ -1,6 +1,6 @@
 // Nodes that bring points, vectors and normals from one space to another, and what belongs to the
 // frame and the view.
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include "shaders/patterns.h"
 

@@ -1,6 +1,6 @@
 // MaterialX image nodes.
 #include "materialNetwork/nodes/imageSetup.h"
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include <algorithm>
 #include <cmath>

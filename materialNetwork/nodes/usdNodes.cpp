@@ -1,5 +1,5 @@
 // UsdUVTexture of the UsdPreviewSurface specification.
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 namespace patina {
 

@@ -1,5 +1,5 @@
 // Nodes that look at a vector as a whole.
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include "shaders/patterns.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "materialNetwork/dump.h"
-#include "materialNetwork/expand.h"
+#include "materialNetwork/plan/dump.h"
+#include "materialNetwork/graph/expand.h"
 #include "materialNetwork/material.h"
-#include "materialNetwork/simplify.h"
+#include "materialNetwork/graph/simplify.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "materialNetwork/algebra.h"
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/graph/algebra.h"
+#include "materialNetwork/nodes/nodeTable.h"
 #include "materialNetwork/tests/materialTest.h"
-#include "materialNetwork/value.h"
+#include "materialNetwork/network/value.h"
 
 namespace patina {
 

@@ -2,7 +2,7 @@
 #include "materialNetwork/tests/materialTest.h"
 
 #include "materialNetwork/color/colorSpaces.h"
-#include "materialNetwork/value.h"
+#include "materialNetwork/network/value.h"
 
 #include <cmath>
 

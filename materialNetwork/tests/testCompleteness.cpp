@@ -1,6 +1,6 @@
 // Every node definition of MaterialX is known, by table or by model, but for the ones named here.
-#include "materialNetwork/models.h"
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/models.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include <fstream>
 #include <set>

@@ -1,8 +1,8 @@
 // Broken networks: never a crash or a hang, always a message, always the documented fallback.
 #include "materialNetwork/tests/materialTest.h"
 
-#include "materialNetwork/nodeTable.h"
-#include "materialNetwork/value.h"
+#include "materialNetwork/nodes/nodeTable.h"
+#include "materialNetwork/network/value.h"
 
 #include <limits>
 #include <set>

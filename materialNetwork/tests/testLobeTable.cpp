@@ -1,7 +1,7 @@
 // The table of lobes: the nodes have what the setup of their lobe takes.
 
 #include "materialNetwork/cpu/lobeSetup.h"
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The shading models that come with the library.
 #include "materialNetwork/tests/materialTest.h"
 
-#include "materialNetwork/models.h"
+#include "materialNetwork/nodes/models.h"
 
 #include <algorithm>
 #include <cmath>

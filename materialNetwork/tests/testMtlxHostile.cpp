@@ -2,7 +2,7 @@
 #include "materialNetwork/tests/materialTest.h"
 
 #include "materialNetwork/mtlx/document.h"
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include <filesystem>
 #include <fstream>

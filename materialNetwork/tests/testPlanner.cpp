@@ -1,6 +1,6 @@
 // The planner: methods follow from the tolerance and the measured table, and from nothing else.
-#include "materialNetwork/methodTable.h"
-#include "materialNetwork/planner.h"
+#include "materialNetwork/plan/methodTable.h"
+#include "materialNetwork/plan/planner.h"
 #include "materialNetwork/tests/materialTest.h"
 
 namespace patina {
@@ -148,9 +148,9 @@ TEST(Planner, AVaryingParameterCountsAtItsWorst) {
     EXPECT_GT(varying.error, 0.7 * planOf(metal(0.95f), 0.01, none).error);
 }
 
-// Scaling that leaves out what comes back is nearly right over a smooth metal, where light meets the
-// interface at the angle that it came in by; a diffuse base sends most of it where the interface
-// reflects it back. Scaling that counts it needs no walk for a tolerance like this.
+// Scaling that leaves out what comes back is nearly right over a smooth metal, where light meets
+// the interface at the angle that it came in by; a diffuse base sends most of it where the
+// interface reflects it back. Scaling that counts it needs no walk for a tolerance like this.
 TEST(Planner, LayersAreWalkedWhereScalingErrs) {
     const MethodChoices largest = {{"layerTransmittance", "largest"}};
     const auto planOf = [&](const Network& network, double tolerance) {
@@ -189,8 +189,7 @@ TEST(Planner, LayersArePredictedByChannel) {
 }
 
 TEST(Planner, ABackEndWithoutWalksSaysWhatItTakes) {
-    const MethodPlan walked =
-                         planOf(coat(0.4f, 1.5f), 0.01, {{"layerTransmittance", "largest"}}),
+    const MethodPlan walked = planOf(coat(0.4f, 1.5f), 0.01, {{"layerTransmittance", "largest"}}),
                      scaled = withoutWalks(walked);
     EXPECT_EQ(at(walked, "layering").method, "positionFree");
     EXPECT_EQ(at(scaled, "layering").method, "albedoScaling");

@@ -1,8 +1,8 @@
 // Translations between shading models.
 #include "materialNetwork/tests/patternTest.h"
 
-#include "materialNetwork/models.h"
-#include "materialNetwork/translate.h"
+#include "materialNetwork/nodes/models.h"
+#include "materialNetwork/network/translate.h"
 
 namespace patina {
 

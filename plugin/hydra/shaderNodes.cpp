@@ -3,8 +3,8 @@
 
 #include "hdDelegate/hydra/compat.h"
 
-#include "materialNetwork/models.h"
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/models.h"
+#include "materialNetwork/nodes/nodeTable.h"
 
 #include <pxr/base/gf/matrix3d.h>
 #include <pxr/base/gf/matrix4d.h>

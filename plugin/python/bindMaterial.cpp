@@ -4,8 +4,8 @@
 #include "hdDelegate/image/textureSystem.h"
 #include "materialNetwork/material.h"
 #include "materialNetwork/mtlx/document.h"
-#include "materialNetwork/nodeTable.h"
-#include "materialNetwork/translate.h"
+#include "materialNetwork/nodes/nodeTable.h"
+#include "materialNetwork/network/translate.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

@@ -6,7 +6,7 @@
 #include "hdDelegate/raster/measure/measureDome.h"
 #include "materialNetwork/material.h"
 #include "materialNetwork/measure/measureLayers.h"
-#include "materialNetwork/methodTable.h"
+#include "materialNetwork/plan/methodTable.h"
 #include "plugin/python/plans.h"
 #include "shaders/measure/measure.h"
 
@@ -129,7 +129,7 @@ void bindMethods(py::module_& m) {
     m.def("method_table", &table,
           "The measured methods as the program was built with them: list of dicts (point, method, "
           "subject, errorOf, ns, cost, mean, largest, rms, and errors over cells with kind, "
-          "reflectance, axis, axisEnd and truths as in materialNetwork/methodTable.h).");
+          "reflectance, axis, axisEnd and truths as in materialNetwork/plan/methodTable.h).");
     m.def("method_figures", &figures, py::arg("point"), py::arg("method"),
           "dict of errorOf, cost (over the default method), mean and largest error over all "
           "subjects; None where nothing is measured.");

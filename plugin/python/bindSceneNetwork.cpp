@@ -1,6 +1,6 @@
 // Material networks.
 
-#include "materialNetwork/network.h"
+#include "materialNetwork/network/network.h"
 #include "plugin/python/fields.h"
 
 namespace py = pybind11;

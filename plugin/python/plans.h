@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/methodPlan.h"
+#include "materialNetwork/plan/methodPlan.h"
 
 #include <pybind11/pybind11.h>
 

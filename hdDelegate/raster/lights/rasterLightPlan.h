@@ -3,7 +3,7 @@
 #include "hdDelegate/lights/environmentMap.h"
 #include "hdDelegate/scene/light.h"
 #include "hdDelegate/scene/settings.h"
-#include "materialNetwork/methodPlan.h"
+#include "materialNetwork/plan/methodPlan.h"
 
 #include <set>
 

@@ -4,9 +4,9 @@
 #include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/tests/rasterTest.h"
 #include "materialNetwork/glsl/glslPatterns.h"
-#include "materialNetwork/nodeTable.h"
+#include "materialNetwork/nodes/nodeTable.h"
 #include "materialNetwork/tests/materialTest.h"
-#include "materialNetwork/value.h"
+#include "materialNetwork/network/value.h"
 
 #include <algorithm>
 #include <set>

@@ -11,7 +11,7 @@ COLUMNS = ("point", "method", "subject", "errorOf", "ns", "nsLow", "nsHigh", "co
 
 _TABLE_HEAD = """\
 // Written by `patina chart --lobes --table`: measure again after a change to a lobe or a method.
-#include "materialNetwork/methodTable.h"
+#include "materialNetwork/plan/methodTable.h"
 
 namespace patina {
 

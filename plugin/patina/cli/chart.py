@@ -3,7 +3,7 @@
   patina chart STAGE... --out FOLDER                seconds against error of both back ends: CSV, SVG and an HTML page
   patina chart --lobes                              all choice points of lobes: rows, CSV and SVG
   patina chart --lobes --point directionalAlbedo    one of them
-  patina chart --lobes --table materialNetwork/methodTableData.cpp
+  patina chart --lobes --table materialNetwork/plan/methodTableData.cpp
                                                     also writes the table that --method list shows; with --point,
                                                     the rest of it as it is built in
   patina chart --stability --out FOLDER             methods through the regions where they fail: CSV, SVG, an HTML page

@@ -1,0 +1,217 @@
+#include "materialNetwork/graph/graph.h"
+
+#include "materialNetwork/graph/differences.h"
+#include "materialNetwork/network/geomprop.h"
+#include "materialNetwork/nodes/nodeTable.h"
+#include "materialNetwork/network/value.h"
+
+namespace patina {
+
+namespace {
+
+// The builder follows connections by recursion; a chain this long is no material.
+constexpr int maxChain = 1000;
+
+class GraphBuilder {
+public:
+    GraphBuilder(const Network& network, Diagnostics& diagnostics)
+        : _network(network), _diagnostics(diagnostics) {
+        for (const NetworkNode& node : network.nodes)
+            _source.emplace(node.path, &node);
+    }
+
+    Graph run() {
+        _graph.path = _network.path;
+        for (const auto& [name, c] : _network.terminals) {
+            if (c.node.empty()) continue;
+            Operand operand;
+            std::string problem;
+            if (follow(c, operand, problem))
+                _graph.terminals[name] = operand;
+            else
+                _diagnostics.warn(_network.path, name, problem + "; the terminal is ignored");
+        }
+        return insertDifferences(_graph, _diagnostics);
+    }
+
+private:
+    static constexpr int inProgress = -2;
+    static constexpr int unusable = -3;
+
+    /// Reports a problem of an input. The "dot" of a model's input is named "node.input".
+    void warn(const std::string& path, const std::string& input, const std::string& message) {
+        const size_t slash = path.rfind('/');
+        const size_t point = path.find('.', slash == std::string::npos ? 0 : slash);
+        if (point != std::string::npos && input == "in")
+            _diagnostics.warn(path.substr(0, point), path.substr(point + 1), message);
+        else
+            _diagnostics.warn(path, input, message);
+    }
+
+    bool follow(const Connection& c, Operand& out, std::string& problem) {
+        const int node = build(c.node, problem);
+        if (node < 0) return false;
+        const NodeDef& def = *_graph.nodes[size_t(node)].def;
+        const int output = def.findOutput(c.output);
+        if (output < 0) {
+            problem = "node " + c.node + " (" + def.category + ") has no output '" + c.output + "'";
+            return false;
+        }
+        out.node = node;
+        out.output = output;
+        return true;
+    }
+
+    int build(const std::string& path, std::string& problem) {
+        const auto known = _built.find(path);
+        if (known != _built.end()) {
+            if (known->second == inProgress)
+                problem = "connections form a cycle through " + path;
+            else if (known->second == unusable)
+                problem = "node " + path + " is not usable";
+            return known->second;
+        }
+        const auto source = _source.find(path);
+        if (source == _source.end()) {
+            problem = path.empty() ? "connected to nothing" : "node " + path + " does not exist";
+            return unusable;
+        }
+        const NetworkNode& node = *source->second;
+        const NodeDef* def = NodeTable::get().find(node.id);
+        if (!def) {
+            problem = "node " + path + " has the unknown type '" + node.id + "'";
+            _built[path] = unusable;
+            return unusable;
+        }
+        if (_depth > maxChain) {
+            problem = "the chain of nodes is too long";
+            return unusable;
+        }
+        _built[path] = inProgress;
+        ++_depth;
+        const int index = addNode(node, *def);
+        --_depth;
+        _built[path] = index;
+        return index;
+    }
+
+    int addNode(const NetworkNode& node, const NodeDef& def) {
+        GraphNode result;
+        result.def = &def;
+        result.path = node.path;
+        for (const InputDef& input : def.inputs) {
+            bool authored = false;
+            result.inputs.push_back(buildInput(node, input, authored));
+            result.authored.push_back(authored);
+        }
+        const auto check = [&](const std::string& input) {
+            if (def.findInput(input) < 0)
+                warn(node.path, input, def.id + " has no such input; it is ignored");
+        };
+        for (const auto& [input, value] : node.inputs)
+            check(input);
+        for (const auto& [input, c] : node.connections)
+            if (!node.inputs.count(input)) check(input);
+        _graph.nodes.push_back(std::move(result));
+        return int(_graph.nodes.size()) - 1;
+    }
+
+    Operand buildInput(const NetworkNode& node, const InputDef& input, bool& authored) {
+        Operand operand;
+        const auto c = node.connections.find(input.name);
+        if (c != node.connections.end()) {
+            std::string problem;
+            if (follow(c->second, operand, problem)) {
+                if (convert(operand, input.type, node.path)) {
+                    authored = true;
+                    return operand;
+                }
+                problem = std::string("type mismatch: ") + outputTypeName(operand) +
+                          " connected, " + valueTypeName(input.type) + " expected";
+            }
+            // The dot of a model's input carries the model's default as its value.
+            const bool valued = node.inputs.count(input.name) > 0;
+            warn(node.path, input.name,
+                 problem +
+                     (valued ? "; its own value or default is used" : "; the default is used"));
+        }
+        operand = Operand();
+        const auto v = node.inputs.find(input.name);
+        if (v != node.inputs.end()) {
+            std::string problem;
+            if (coerceValue(v->second, input, operand.value, problem)) {
+                if (!problem.empty()) warn(node.path, input.name, problem);
+                authored = true;
+                return operand;
+            }
+            warn(node.path, input.name, problem + "; the default is used");
+        }
+        if (!input.geomprop.empty()) return geomprop(input);
+        operand.value = input.value;
+        return operand;
+    }
+
+    const char* outputTypeName(const Operand& operand) const {
+        return valueTypeName(
+            _graph.nodes[size_t(operand.node)].def->outputs[size_t(operand.output)].type);
+    }
+
+    /// Inserts a conversion where the register cannot be read as it is.
+    bool convert(Operand& operand, ValueType to, const std::string& path) {
+        const ValueType from =
+            _graph.nodes[size_t(operand.node)].def->outputs[size_t(operand.output)].type;
+        const Coercion c = coercion(from, to);
+        if (c == Coercion::None) return false;
+        if (c == Coercion::Free) return true;
+        GraphNode node;
+        node.def = NodeTable::get().find(c == Coercion::AppendOne ? "ND_convert_vector3_vector4"
+                                                                  : "ND_convert_vector2_vector3");
+        node.path = path;
+        node.inputs = {operand};
+        node.authored = {true};
+        _graph.nodes.push_back(std::move(node));
+        operand = {int(_graph.nodes.size()) - 1, 0, {}};
+        return true;
+    }
+
+    /// A default that comes from the geometry is the output of a node.
+    Operand geomprop(const InputDef& input) {
+        Operand operand;
+        operand.value = input.value;
+        const NetworkNode node = geompropNode(input.geomprop);
+        if (node.id.empty()) return operand;
+        const auto known = _built.find(node.path);
+        const int index =
+            known != _built.end() ? known->second : addNode(node, *NodeTable::get().find(node.id));
+        _built[node.path] = index;
+        return {index, 0, {}};
+    }
+
+    const Network& _network;
+    Diagnostics& _diagnostics;
+    std::map<std::string, const NetworkNode*> _source;
+    std::map<std::string, int> _built;
+    int _depth = 0;
+    Graph _graph;
+};
+
+} // namespace
+
+Graph buildGraph(const Network& network, Diagnostics& diagnostics) {
+    return GraphBuilder(network, diagnostics).run();
+}
+
+bool constantNumber(const Operand& operand, float& out, int i) {
+    if (!operand.isConstant() || int(operand.value.numbers.size()) <= i) return false;
+    out = operand.value.numbers[size_t(i)];
+    return true;
+}
+
+bool isConstantValue(const Operand& operand, float x) {
+    if (!operand.isConstant() || operand.value.numbers.empty()) return false;
+    for (const float n : operand.value.numbers)
+        if (n != x) return false;
+    return true;
+}
+
+} // namespace patina

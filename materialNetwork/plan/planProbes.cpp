@@ -1,0 +1,220 @@
+#include "materialNetwork/plan/planProbes.h"
+
+#include "materialNetwork/cpu/bsdfBuilder.h"
+#include "materialNetwork/cpu/materialProgram.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace patina {
+
+namespace {
+
+constexpr int varyingPlaces = 64;
+constexpr int cosines = 4;
+constexpr float metalShare = 0.95f; ///< of a base that is called metal
+
+float luminance(const glm::vec3& c) {
+    const float y = 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+    return std::isfinite(y) && y > 0.0f ? y : 0.0f;
+}
+
+/// Number i of a sequence that fills the unit interval evenly (Roberts 2018).
+float spread(int i, int dimension) {
+    constexpr double steps[] = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
+                                0.5385972572236101};
+    const double x = 0.5 + steps[dimension & 3] * (i + 1) + 0.618 * (dimension >> 2);
+    return float(x - std::floor(x));
+}
+
+/// Every primvar takes all values from 0 to 1, place by place.
+class SpreadPrimvars : public PrimvarReader {
+public:
+    bool read(int slot, float out[4]) const override {
+        for (int k = 0; k < 4; ++k)
+            out[k] = spread(place * 7 + slot, k);
+        return true;
+    }
+    int place = 0;
+};
+
+float rootOf(const glm::vec2& alpha) {
+    return std::sqrt(std::max(0.5f * (alpha.x + alpha.y), 0.0f));
+}
+
+void describe(const BsdfLobe& l, ClosureContribution& out) {
+    out.kind = lobeRow(l.kind).probe;
+    switch (l.kind) {
+    case LobeKind::Dielectric:
+        out.roughness = rootOf(l.dielectric.alpha);
+        out.reflectance = sh::fresnelDielectric(1.0f, l.dielectric.ior);
+        return;
+    case LobeKind::Conductor:
+        out.roughness = rootOf(l.conductor.alpha);
+        out.reflectance =
+            luminance(sh::fresnelConductor(1.0f, l.conductor.ior, l.conductor.extinction));
+        out.thickness = l.conductor.film.thickness;
+        return;
+    case LobeKind::Schlick:
+        out.roughness = rootOf(l.schlick.alpha);
+        out.reflectance = luminance(sh::fresnelSchlick(1.0f, l.schlick.fresnel));
+        out.thickness = l.schlick.film.thickness;
+        return;
+    case LobeKind::Sheen: out.roughness = std::sqrt(std::max(l.sheen.roughness, 0.0f)); return;
+    default: out.reflectance = luminance(l.albedo);
+    }
+}
+
+/// Schlick's curve stands for metals where it begins this high, and lets nothing through.
+bool isMetallic(const BsdfLobe& l) {
+    if (l.kind == LobeKind::Conductor) return true;
+    return l.kind == LobeKind::Schlick && l.schlick.mode == sh::SCATTER_R &&
+           luminance(sh::fresnelSchlick(1.0f, l.schlick.fresnel)) > 0.2f;
+}
+
+class PlanProber {
+public:
+    PlanProber(const Plan& plan, TextureSource& textures)
+        : _plan(plan), _program(MaterialProgram::compile(plan, textures, _silent)) {}
+
+    std::vector<std::vector<DirectionProbe>> run() {
+        const int places = _program->constant() ? 1 : varyingPlaces;
+        std::vector<std::vector<DirectionProbe>> result;
+        for (int i = 0; i < places; ++i) {
+            result.emplace_back();
+            for (int c = 0; c < cosines; ++c)
+                result.back().push_back(probeAt(i, (float(c) + 0.5f) / cosines));
+        }
+        return result;
+    }
+
+private:
+    DirectionProbe probeAt(int place, float cosine) {
+        SpreadPrimvars primvars;
+        primvars.place = place;
+        ShadingPoint point;
+        point.primvars = &primvars;
+        point.position = point.objectPosition =
+            glm::vec3(spread(place, 0), spread(place, 1), spread(place, 2));
+        point.viewDirection = glm::vec3(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
+        const ProgramCode& code = _program->code();
+        RegisterFile registers(code);
+        registers.run(code, code.surfaceCode, point);
+        Bsdf bsdf;
+        BsdfBuilder::assemble(code, point, registers.data(), bsdf);
+
+        DirectionProbe probe;
+        probe.cosine = cosine;
+        std::vector<float> light(code.lobes.size());
+        for (size_t i = 0; i < light.size(); ++i) {
+            light[i] = luminance(bsdf.lobe(int(i)).weight * bsdf.lobe(int(i)).albedo);
+            probe.albedo += light[i];
+        }
+        if (!(probe.albedo > 0.0f)) return probe;
+        for (size_t i = 0; i < code.bsdf.size(); ++i) {
+            const ClosureOp& op = code.bsdf[i];
+            ClosureContribution contribution;
+            contribution.closure = int(i);
+            if (op.lobe >= 0) {
+                const BsdfLobe& l = bsdf.lobe(op.lobe);
+                describe(l, contribution);
+                contribution.share = light[size_t(op.lobe)] / probe.albedo;
+                contribution.tabulated = !code.lobes[size_t(op.lobe)].energy.empty();
+            } else if (op.kind == ClosureKind::Layer && op.a >= 0 && op.b >= 0) {
+                layer(op, bsdf, light, contribution);
+                contribution.share /= probe.albedo;
+            } else {
+                continue;
+            }
+            if (contribution.share > 0.0f) probe.closures.push_back(contribution);
+        }
+        for (ClosureContribution& contribution : probe.closures)
+            contribution.beneath =
+                std::min(beneath(contribution.closure, light) / probe.albedo, 1.0f);
+        return probe;
+    }
+
+    /// A layer shows as its roughest interface over an albedo; over metals their roughness counts
+    /// too.
+    void layer(const ClosureOp& op, const Bsdf& bsdf, const std::vector<float>& light,
+               ClosureContribution& out) const {
+        out.kind = "layer";
+        glm::vec3 weights(0.0f), bases(0.0f);
+        float weight = 0.0f, base = 0.0f, metal = 0.0f, rough = 0.0f;
+        for (int lobe : lobesOf(op.a)) {
+            ClosureContribution top;
+            describe(bsdf.lobe(lobe), top);
+            out.roughness = std::max(out.roughness, top.roughness);
+            out.share += light[size_t(lobe)];
+        }
+        for (int lobe : lobesOf(op.b)) {
+            const BsdfLobe& l = bsdf.lobe(lobe);
+            const float w = luminance(l.weight);
+            weight += w;
+            base += w * luminance(l.albedo);
+            weights += l.weight;
+            bases += l.weight * l.albedo;
+            out.share += light[size_t(lobe)];
+            if (!isMetallic(l)) continue;
+            ClosureContribution below;
+            describe(l, below);
+            metal += w * luminance(l.albedo);
+            rough = std::max(rough, below.roughness);
+        }
+        if (metal > 0.0f && metal >= metalShare * base) {
+            out.kind = "layerOverMetal";
+            out.roughness = std::max(out.roughness, rough);
+        }
+        out.reflectance = weight > 0.0f ? std::min(base / weight, 1.0f) : 0.0f;
+        for (int c = 0; c < 3; ++c) {
+            const float albedo = weights[c] > 0.0f ? bases[c] / weights[c] : 0.0f;
+            out.base[c] = std::isfinite(albedo) ? std::clamp(albedo, 0.0f, 1.0f) : 0.0f;
+        }
+    }
+
+    std::set<int> lobesOf(int closure) const {
+        std::set<int> lobes;
+        std::vector<int> open = {closure};
+        std::set<int> met;
+        while (!open.empty()) {
+            const int i = open.back();
+            open.pop_back();
+            if (i < 0 || !met.insert(i).second) continue;
+            const ClosureOp& op = _program->code().bsdf[size_t(i)];
+            if (op.lobe >= 0) lobes.insert(op.lobe);
+            open.push_back(op.a);
+            open.push_back(op.b);
+        }
+        return lobes;
+    }
+
+    /// Light of all lobes under layers whose top holds the closure.
+    float beneath(int closure, const std::vector<float>& light) const {
+        const auto& ops = _program->code().bsdf;
+        const int lobe = ops[size_t(closure)].lobe;
+        if (lobe < 0) return 0.0f;
+        std::set<int> under;
+        for (const ClosureOp& op : ops)
+            if (op.kind == ClosureKind::Layer && op.a >= 0 && op.b >= 0 &&
+                lobesOf(op.a).count(lobe))
+                under.merge(lobesOf(op.b));
+        float sum = 0.0f;
+        for (int other : under)
+            sum += light[size_t(other)];
+        return sum;
+    }
+
+    const Plan& _plan;
+    Diagnostics _silent; ///< the material's own compilation says the same
+    std::shared_ptr<const MaterialProgram> _program;
+};
+
+} // namespace
+
+std::vector<std::vector<DirectionProbe>> probePlan(const Plan& plan, TextureSource& textures) {
+    if (plan.bsdf < 0) return {};
+    return PlanProber(plan, textures).run();
+}
+
+} // namespace patina

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "materialNetwork/plan/plan.h"
+#include "materialNetwork/textureSource.h"
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+namespace patina {
+
+/// A lobe, or a layer as a whole, as one place of a material shows it from one angle.
+struct ClosureContribution {
+    int closure = -1; ///< in Plan::closures
+    const char* kind =
+        "";               ///< `dielectric`, `conductor`, `schlick`, `layer`...; as in methodTable.h
+    float share = 0.0f;   ///< of the luminance of the directional albedo, 0..1
+    float beneath = 0.0f; ///< share of what lies under it in layers
+    float reflectance = 0.0f; ///< luminance at normal incidence; of a layer the albedo of its base
+    glm::vec3 base{0.0f};     ///< of a layer: the albedo of its base by channel
+    float roughness = 0.0f;   ///< root of alpha, mean of both axes; 0: a mirror
+    float thickness = 0.0f;   ///< of a film, nm
+    bool tabulated = false;   ///< its albedo is looked up over the cosine, whatever the method
+};
+
+/// One place of a material from one angle.
+struct DirectionProbe {
+    float cosine = 1.0f;
+    float albedo = 0.0f; ///< luminance, all that does not pass straight on
+    std::vector<ClosureContribution> closures;
+};
+
+/// Probes a material: at one place when it is constant, else at some that spread over its
+/// textures, with primvars from 0 to 1; each from the middles of the quarters of the cosine.
+/// @returns place by place
+std::vector<std::vector<DirectionProbe>> probePlan(const Plan& plan, TextureSource& textures);
+
+} // namespace patina

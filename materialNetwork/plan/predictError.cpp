@@ -1,0 +1,202 @@
+#include "materialNetwork/plan/predictError.h"
+
+#include "materialNetwork/plan/layering.h"
+#include "materialNetwork/plan/methodTable.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+/// Tabulating an albedo when a material is compiled is spread over so many evaluations.
+constexpr double evaluationsPerTable = 1e6;
+constexpr double tableNodes = 512;
+
+constexpr double luminanceOf[3] = {0.2126, 0.7152, 0.0722};
+
+/// A row and how much it counts.
+struct Near {
+    const MeasuredMethod* row;
+    double weight;
+};
+
+/// Rows of a method that a closure lies between: of its kind, the two nearest in reflectance on
+/// either side, by the roots of their reflectances. Rows that know none come all.
+std::vector<Near> rowsFor(const std::string& point, const std::string& method,
+                          const ClosureContribution& contribution) {
+    std::vector<const MeasuredMethod*> all, kin;
+    for (const MeasuredMethod& row : methodTable())
+        if (point == row.point && method == row.method) {
+            all.push_back(&row);
+            if (std::string(row.kind) == contribution.kind) kin.push_back(&row);
+        }
+    if (kin.empty()) kin = all;
+    const MeasuredMethod *below = nullptr, *above = nullptr;
+    std::vector<Near> result;
+    for (const MeasuredMethod* row : kin) {
+        if (row->reflectance < 0.0f) {
+            result.push_back({row, 1.0});
+        } else if (row->reflectance <= contribution.reflectance) {
+            if (!below || row->reflectance > below->reflectance) below = row;
+        } else if (!above || row->reflectance < above->reflectance) {
+            above = row;
+        }
+    }
+    if (below && above) {
+        const double a = std::sqrt(below->reflectance), b = std::sqrt(above->reflectance);
+        const double f = (std::sqrt(double(contribution.reflectance)) - a) / (b - a);
+        result.push_back({below, 1.0 - f});
+        result.push_back({above, f});
+    } else if (below || above) {
+        result.push_back({below ? below : above, 1.0});
+    }
+    return result;
+}
+
+/// A row's error and what it is of, at a place along its axis and a quarter of the cosine.
+struct Cell {
+    double error, truth;
+    bool known;
+};
+
+Cell cellOf(const MeasuredMethod& row, const ClosureContribution& contribution, int quarter) {
+    const double place =
+        std::string(row.axis) == "thickness" ? contribution.thickness : contribution.roughness;
+    const double x = place / row.axisEnd * methodBins - 0.5;
+    const int i = std::clamp(int(std::floor(x)), 0, methodBins - 2);
+    const double f = std::clamp(x - i, 0.0, 1.0);
+    const auto at = [&](const float* cells) {
+        return cells[i * methodCosines + quarter] * (1.0 - f) +
+               cells[(i + 1) * methodCosines + quarter] * f;
+    };
+    return {at(row.errors), at(row.truths), place <= row.axisEnd * 1.0001};
+}
+
+bool makesNoise(const MeasuredMethod& row) {
+    return std::string(row.errorOf) == "noise";
+}
+
+/// Mirrors need none of these.
+bool onlyRough(const std::string& point) {
+    return point == "energyCompensation" || point == "directionalAlbedo" || point == "sampling";
+}
+
+class Predictor {
+public:
+    Predictor(const Plan& plan, const std::string& point, const std::string& method)
+        : _plan(plan), _point(point), _method(method) {
+        if (point == "layering") _walks = layerWalkability(plan);
+    }
+
+    Prediction run(const std::vector<std::vector<DirectionProbe>>& places) {
+        for (const auto& angles : places) {
+            double mean = 0.0, worst = 0.0, ns = 0.0;
+            for (const DirectionProbe& probe : angles) {
+                const double error = errorOf(probe, ns);
+                mean += error / double(angles.size());
+                worst = std::max(worst, error);
+            }
+            _result.error = std::max(_result.error, 0.5 * (mean + worst));
+            _result.ns = std::max(_result.ns, ns / double(std::max<size_t>(angles.size(), 1)));
+        }
+        return _result;
+    }
+
+private:
+    double errorOf(const DirectionProbe& probe, double& ns) {
+        const int quarter = std::clamp(int(probe.cosine * methodCosines), 0, methodCosines - 1);
+        double sum = 0.0;
+        for (const ClosureContribution& contribution : probe.closures) {
+            if (!choicesOf(_plan, _plan.closures[size_t(contribution.closure)]).count(_point))
+                continue;
+            const bool alike = !_walks.empty() && !_walks[size_t(contribution.closure)].walks;
+            if (alike || (onlyRough(_point) && contribution.roughness <= 0.0f)) {
+                _result.measured = true;
+                continue;
+            }
+            if (_point == "layering") {
+                sum += layered(contribution, quarter, ns);
+                continue;
+            }
+            double between = 0.0, worst = 0.0, time = 0.0, weights = 0.0;
+            for (const Near& near : rowsFor(_point, _method, contribution)) {
+                const Cell cell = cellOf(*near.row, contribution, quarter);
+                _result.measured = true;
+                time += near.weight * near.row->ns;
+                weights += near.weight;
+                if (makesNoise(*near.row))
+                    _result.noise = std::max(_result.noise, cell.error * contribution.share);
+                else if (near.row->reflectance < 0.0f)
+                    worst = std::max(worst, contributedError(*near.row, contribution, cell));
+                else
+                    between += near.weight * contributedError(*near.row, contribution, cell);
+            }
+            sum += std::max(between, worst);
+            time /= std::max(weights, 1.0);
+            if (contribution.tabulated && _point == "directionalAlbedo")
+                time *= tableNodes / evaluationsPerTable;
+            ns += time;
+        }
+        return sum;
+    }
+
+    /// Layers channel by channel: what scaling is off grows less than the albedo of the base, so
+    /// that a grey base as bright as a coloured one is further off.
+    double layered(const ClosureContribution& contribution, int quarter, double& ns) {
+        double error = 0.0, truth = 0.0;
+        for (int c = 0; c < 3; ++c) {
+            ClosureContribution channel = contribution;
+            channel.reflectance = contribution.base[c];
+            for (const Near& near : layerRows(channel)) {
+                const Cell cell = cellOf(*near.row, channel, quarter);
+                _result.measured = true;
+                error += luminanceOf[c] * near.weight * cell.error;
+                truth += luminanceOf[c] * near.weight * cell.truth;
+                ns += near.weight * near.row->ns / 3.0;
+            }
+        }
+        return std::min(error / std::max(truth, 1e-6), 1.0) * contribution.share;
+    }
+
+    /// Scaling is measured with the default of layerTransmittance; its other methods have rows of
+    /// their own.
+    std::vector<Near> layerRows(const ClosureContribution& channel) const {
+        const std::string meaning = chosenMethod(_plan.methods, "layerTransmittance");
+        if (_method != "albedoScaling" || meaning == chosenMethod({}, "layerTransmittance"))
+            return rowsFor(_point, _method, channel);
+        return rowsFor("layerTransmittance", meaning, channel);
+    }
+
+    double contributedError(const MeasuredMethod& row, const ClosureContribution& contribution,
+                            const Cell& cell) const {
+        if (!cell.known) return 1.0; // nothing is known of films that thick
+        const double own = cell.error / std::max(cell.truth, 1e-6);
+        // Compensation takes from the albedo only what facets lose, times their reflectance.
+        const double counts =
+            _point == "directionalAlbedo" ? std::min(contribution.reflectance + 0.05, 1.0) : 1.0;
+        const bool ofLight =
+            std::string(row.errorOf) == "albedo" || std::string(row.errorOf) == "reflectance";
+        const double below = ofLight && contribution.beneath > 0.0f
+                                 ? cell.error / std::max(1.0 - cell.truth, 0.01)
+                                 : 0.0;
+        return std::min(own, 1.0) * counts * contribution.share +
+               std::min(below, 1.0) * contribution.beneath;
+    }
+
+    const Plan& _plan;
+    const std::string& _point;
+    const std::string& _method;
+    std::vector<LayerWalkability> _walks; ///< of layering: others are scaled by every method
+    Prediction _result;
+};
+
+} // namespace
+
+Prediction predict(const Plan& plan, const std::vector<std::vector<DirectionProbe>>& places,
+                   const std::string& point, const std::string& method) {
+    return Predictor(plan, point, method).run(places);
+}
+
+} // namespace patina

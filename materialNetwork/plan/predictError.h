@@ -1,0 +1,21 @@
+#pragma once
+
+#include "materialNetwork/plan/planProbes.h"
+
+#include <string>
+
+namespace patina {
+
+/// What the table says of a method on a material.
+struct Prediction {
+    bool measured = false;
+    double error = 0.0; ///< relative luminance, light that has met one surface
+    double noise = 0.0; ///< of methods that have noise alone: standard deviation of a sample
+    double ns = 0.0;    ///< per evaluation of the lobes that the method concerns
+};
+
+/// @param places of probePlan()
+Prediction predict(const Plan& plan, const std::vector<std::vector<DirectionProbe>>& places,
+                   const std::string& point, const std::string& method);
+
+} // namespace patina

@@ -53,7 +53,8 @@ float isInFront(bool hasSlopes, sampler2DArray maps, mat4 worldToMap, int layer,
     float bias = minimum + 0.04 * (abs(slope.x) + abs(slope.y)) / size.x;
     float front = texelFetch(maps, ivec3(ivec2(texel), layer), 0).x;
     depth = 0.5 * depth + 0.5;
-    if (depth <= front + bias) return 1.0;
+    // Nothing casts where the map is empty, and its slope is what was there before.
+    if (front >= 1.0 || depth <= front + bias) return 1.0;
     // Where two surfaces meet, the middle of the texel may show the other one, and the point's plane goes on
     // behind that. Where a surface bends towards the light, the middle is nearer to the light than the plane.
     vec2 offset = (0.5 * q.xy + 0.5) * size - texel - 0.5;

@@ -1,0 +1,5 @@
+#pragma once
+
+#include "cmake/precompiled/precompiled.h"
+
+#include <gtest/gtest.h>

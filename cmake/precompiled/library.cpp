@@ -1,0 +1,1 @@
+// Only its header is wanted.

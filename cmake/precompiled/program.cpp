@@ -1,0 +1,4 @@
+// Only its header is wanted.
+int main() {
+    return 0;
+}

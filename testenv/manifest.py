@@ -105,6 +105,14 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]teapot*", "long", None),
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]R*", "long", None),
     ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]B*", "long", None),
+    ("testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last[[]A*", "long", None),
+    # The same locks of fibres under one light after another: one of them tells.
+    ("testenv/raster/test_curves.py::test_fibres_of_a_lock_shade_each_other[[]sky[]]", "long", None),
+    ("testenv/raster/test_curves.py::test_fibres_of_a_lock_shade_each_other[[]rim[]]", "long", None),
+    # Half a minute of compiling shaders in software, for what the choice of sky-domeLight shows too.
+    ("testenv/raster/test_lightPlan.py::test_the_cheapest_that_fits_is_taken[[]rect-areaLight[]]", "long", None),
+    # Every asset through the older of Hydra's two ways in; the test scenes go through both.
+    ("testenv/hydra/test_oneTruth.py::test_asset[[]*-delegate[]]", "long", None),
     # Slow in software, and test_refraction.py looks at the same more closely.
     ("testenv/raster/test_byDesign.py::test_glass_shows_what_is_behind", "long", None),
     ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same_looked_at_closely*", "long", None),

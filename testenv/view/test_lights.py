@@ -85,7 +85,7 @@ def stage(tmp_path_factory):
 
 def test_each_light_is_as_in_the_path_tracer(chromium, make, stage):
     chromium.open(make("lights.html", stage), f"?width={WIDTH}")
-    data = chromium.evaluate("""page.paused = true; const d = page.data; page.state.samples = 128;
+    data = chromium.evaluate("""page.paused = true; const d = page.data; page.state.samples = 96;
         page.state.environment = d.environments.findIndex(e => e.name === "none");
         return { camera: d.camera, eye: d.start.eye, toWorld: d.shapes[0].toWorld,
                  lights: d.lights.map(l => l.name), notes: d.notes };""")

@@ -51,7 +51,7 @@ def page(make, tmp_path_factory):
 @pytest.fixture
 def shown(page, chromium):
     chromium.open(page, SMALL)
-    chromium.evaluate("page.state.samples = 16; viewer.invalidate(); viewer.settle();")
+    chromium.evaluate("page.state.samples = 4; viewer.invalidate(); viewer.settle();")
     yield chromium
     assert chromium.messages() == []
 
@@ -78,7 +78,7 @@ def test_presets_and_reset(shown):
     click = "page.panel.gui.controllersRecursive().find(c => c._name === 'blue').$button.click()"
     blue = middle(shown.picture(click))
     assert blue[2] > 3.0 * blue[0]
-    red = middle(shown.picture("page.reset(); page.state.samples = 16"))
+    red = middle(shown.picture("page.reset(); page.state.samples = 4"))
     assert red[0] > 3.0 * red[2]
 
 

@@ -283,9 +283,8 @@ void bindFilm(py::module_& m) {
         py::arg("numbers"), py::arg("color_space"),
         "A colour value in linear Rec.709, as materials take it: three numbers are converted, what "
         "follows them stays. None for an unknown space.");
-    m.def(
-        "colors_to_rendering", &colorsToRendering, py::arg("colors"), py::arg("color_space"),
-        "The same for an array of colours, one a row of three or more numbers.");
+    m.def("colors_to_rendering", &colorsToRendering, py::arg("colors"), py::arg("color_space"),
+          "The same for an array of colours, one a row of three or more numbers.");
 }
 
 } // namespace patina

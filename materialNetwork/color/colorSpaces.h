@@ -46,7 +46,8 @@ public:
     static bool isData(const std::string& name);
     /// @returns null for an unknown name
     ColorTransformPtr toRendering(const std::string& name) const;
-    /// Converts colour values (not a texture's: "auto" leaves them as they are). Quick when repeated.
+    /// Converts colour values (not a texture's: "auto" leaves them as they are). Quick when
+    /// repeated.
     /// @param stride floats from one value to the next, at least 3; what follows the three stays
     /// @returns false for an unknown name, which leaves them as they are too
     bool valueToRendering(const std::string& name, float* values, size_t count = 1,

@@ -22,7 +22,7 @@ std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Ins
     result->targets.assign(sampled.size(), nullptr);
     result->collapses.assign(sampled.size(), false);
     for (size_t i = 0; i < sampled.size(); ++i) {
-        bool usable = true;
+        std::string problem;
         bool wide = true;
         float volumes[2] = {INFINITY, 0.0f}; // least and largest
         const auto measure = [&](const mat4& m) {
@@ -33,7 +33,7 @@ std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Ins
         for (int s = 0; s < result->steps; ++s) {
             const mat4 m = transformAtStep(sampled[i], s, result->steps);
             result->transforms[i * result->steps + s] = m;
-            usable &= hasInverse(m);
+            if (problem.empty()) problem = inverseProblem(dmat4(m));
             wide &= isWideEnough(m);
             measure(m);
             if (s > 0)
@@ -48,9 +48,9 @@ std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Ins
                               "index out of range; the instance is not drawn");
             continue;
         }
-        if (!usable) {
+        if (!problem.empty()) {
             _diagnostics.warn(prim->path, "transform",
-                              "an instance has a transform without an inverse and is not drawn");
+                              "of an instance " + problem + "; it is not drawn");
             continue;
         }
         result->targets[i] = finishedGroup(prim->prototypes[prototype]);

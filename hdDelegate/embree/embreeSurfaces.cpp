@@ -125,7 +125,8 @@ std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry
 
 float EmbreeScene::roundEdge(const Implicit& prim, const Camera& camera,
                              const CameraRays& rays) const {
-    constexpr float gap = 0.005f; // pixels between an outline and its segments
+    // Half of what one of 64 samples counts in a pixel that the outline crosses.
+    constexpr float gap = 1.0f / 128.0f; // pixels between an outline and its segments
     const float radius = std::max({prim.radius, prim.radiusTop, 0.0f});
     const float across = std::max({radius, 0.5f * prim.height, 0.5f * prim.size});
     const vec3 eye = vec3(glm::inverse(rays.worldToCamera())[3]);
@@ -134,8 +135,9 @@ float EmbreeScene::roundEdge(const Implicit& prim, const Camera& camera,
     const float away = glm::length(vec3(m[3]) - eye) - 2.0f * across * scale;
     const float distance = rays.orthographic() ? 1.0f : std::max(camera.clipNear, away);
     const float pixel = rays.pixelSpread() * distance / scale;
-    // A segment of length s lies s^2 / 8 r inside of a circle.
-    const float edge = std::sqrt(8.0f * gap * std::max(pixel, 0.0f) * radius);
+    // A segment of length s lies s^2 / 8 r inside of a circle, and two thirds of that inside of one
+    // that its polygon is as wide as in the mean, which is how coarse shapes are made.
+    const float edge = std::sqrt(12.0f * gap * std::max(pixel, 0.0f) * radius);
     // What makes no difference is no reason to draw anew.
     const int coarser = std::isfinite(edge) ? roundCoarseness(prim, edge) : 1;
     return coarser > 1 ? roundEdgeOf(radius, coarser) : 0.0f;

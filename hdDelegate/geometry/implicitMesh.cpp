@@ -88,7 +88,7 @@ public:
                     v = axis == 0 ? vec3(v.z, v.x, v.y) : vec3(v.y, v.z, v.x);
         _out.normalRate = Rate::PerVertex;
         _out.attributes.push_back(std::move(_st));
-        _out.positions[0].reserve(_out.positions[0].size() + 1); // Embree reads 16 bytes
+        trim();
         if (_out.triangles.empty()) return;
         _out.boundsMin = vec3(INFINITY);
         _out.boundsMax = vec3(-INFINITY);
@@ -106,6 +106,17 @@ public:
     int coarser() const { return _coarser; }
 
 private:
+    /// Thousands of prims are kept without the room that vectors grow in.
+    void trim() {
+        std::vector<vec3> exact;
+        exact.reserve(_out.positions[0].size() + 1); // Embree reads 16 bytes
+        exact.assign(_out.positions[0].begin(), _out.positions[0].end());
+        _out.positions[0] = std::move(exact);
+        _out.normals[0].shrink_to_fit();
+        _out.triangles.shrink_to_fit();
+        _out.triangleFace.shrink_to_fit();
+        _out.attributes.back().data.shrink_to_fit();
+    }
     void vertex(const vec3& position, const vec3& normal, const vec2& st) {
         _out.positions[0].push_back(position);
         _out.normals[0].push_back(normal);

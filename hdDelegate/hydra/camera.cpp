@@ -2,6 +2,7 @@
 
 #include "hdDelegate/hydra/sampling.h"
 #include "hdDelegate/hydra/values.h"
+#include "hdDelegate/scene/instancerCheck.h"
 
 #include <pxr/base/gf/camera.h>
 #include <pxr/imaging/hd/cameraSchema.h>
@@ -50,7 +51,7 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
         const dmat4 m = toMat4(samples.values[i]);
         const float volume = glm::determinant(mat3(mat4(m)));
         if (!std::isfinite(volume) || volume == 0.0f) {
-            param.warn(id, "transform", "has no inverse; none is used");
+            param.warn(id, "transform", inverseProblem(m) + "; none is used");
             return MotionTransform(mat4(1.0f));
         }
         times.push_back(samples.times[i]);

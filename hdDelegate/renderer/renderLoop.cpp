@@ -83,8 +83,8 @@ void RenderLoop::prepareAndRender(const SceneState& state, const std::string& pa
     const auto camera = state.cameras.find(path);
     if (camera == state.cameras.end()) throw std::runtime_error("there is no camera " + path);
     for (const dmat4& transform : camera->second->transform.values)
-        if (!hasInverse(mat4(transform)))
-            throw std::runtime_error("the camera " + path + " has a transform without an inverse");
+        if (const std::string problem = inverseProblem(transform); !problem.empty())
+            throw std::runtime_error("the transform of camera " + path + " " + problem);
     render(state, *camera->second);
 }
 

@@ -3,6 +3,8 @@
 #include "hdDelegate/scene/geometry.h"
 #include "materialNetwork/diagnostics.h"
 
+#include <string>
+
 namespace patina {
 
 /// Numbers of transforms, and of their inverses, up to which rays can follow them: those that rays
@@ -11,6 +13,11 @@ inline constexpr double largestPlace = 1e15;
 
 /// Whether something may stand under a transform: all of it is finite and within largestPlace.
 bool isPlace(const MotionTransform& transform);
+/// What is wrong with a transform that is no place, as a message goes on after its name; else
+/// empty.
+std::string placeProblem(const MotionTransform& transform);
+/// The same of one that something is to be drawn or seen under, see hasInverse().
+std::string inverseProblem(const dmat4& m);
 /// Whether something can be drawn under a transform: its inverse is a place too.
 bool hasInverse(const mat4& m);
 

@@ -49,9 +49,8 @@ template <class F> void SceneEdit::forMaps(PrimKind kind, const F& f) {
 template <class T> bool SceneEdit::stands(const T& prim, PrimKind kind, const char* consequence) {
     if (isPlace(prim.transform)) return true;
     if (_scene)
-        _scene->diagnostics().warn(
-            prim.path, "transform",
-            std::string("has numbers that are not finite or beyond 1e15; ") + consequence);
+        _scene->diagnostics().warn(prim.path, "transform",
+                                   placeProblem(prim.transform) + "; " + consequence);
     remove(prim.path, kind);
     return false;
 }

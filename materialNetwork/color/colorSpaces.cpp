@@ -182,7 +182,8 @@ ColorTransformPtr ColorSpaces::toRendering(const std::string& name) const {
     return _impl->convert(name, true);
 }
 
-bool ColorSpaces::valueToRendering(const std::string& name, float rgb[3]) const {
+bool ColorSpaces::valueToRendering(const std::string& name, float* values, size_t count,
+                                   int stride) const {
     if (isData(name) || lower(name) == "auto") return true;
     ColorTransformPtr transform;
     {
@@ -195,7 +196,7 @@ bool ColorSpaces::valueToRendering(const std::string& name, float rgb[3]) const 
                         ? known->second
                         : _impl->ofValues[name] = _impl->convert(name, true);
     }
-    if (transform) transform->apply(rgb, 1, 3);
+    if (transform) transform->apply(values, count, stride);
     return bool(transform);
 }
 

@@ -46,9 +46,12 @@ public:
     static bool isData(const std::string& name);
     /// @returns null for an unknown name
     ColorTransformPtr toRendering(const std::string& name) const;
-    /// Converts a colour value (not a texture's: "auto" leaves it as it is). Quick when repeated.
-    /// @returns false for an unknown name, which leaves it as it is too
-    bool valueToRendering(const std::string& name, float rgb[3]) const;
+    /// Converts colour values (not a texture's: "auto" leaves them as they are). Quick when
+    /// repeated.
+    /// @param stride floats from one value to the next, at least 3; what follows the three stays
+    /// @returns false for an unknown name, which leaves them as they are too
+    bool valueToRendering(const std::string& name, float* values, size_t count = 1,
+                          int stride = 3) const;
     ColorTransformPtr fromRendering(const std::string& name) const;
 
     /// From the rendering space to the signal of a display. Empty names take the default of the

@@ -174,6 +174,18 @@ void writeArray(const std::string& path, const FloatArray& pixels,
     writePixels(image, path, o);
 }
 
+using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+py::object colorsToRendering(const Floats& colors, const std::string& space) {
+    if (colors.ndim() != 2 || colors.shape(1) < 3)
+        throw py::value_error("colours are rows of at least three numbers");
+    std::vector<float> values(colors.data(), colors.data() + colors.size());
+    if (!ColorSpaces::shared().valueToRendering(space, values.data(), size_t(colors.shape(0)),
+                                                int(colors.shape(1))))
+        return py::none();
+    return arrayOf<float>(std::move(values), {size_t(colors.shape(0)), size_t(colors.shape(1))});
+}
+
 } // namespace
 
 void bindFilm(py::module_& m) {
@@ -271,6 +283,8 @@ void bindFilm(py::module_& m) {
         py::arg("numbers"), py::arg("color_space"),
         "A colour value in linear Rec.709, as materials take it: three numbers are converted, what "
         "follows them stays. None for an unknown space.");
+    m.def("colors_to_rendering", &colorsToRendering, py::arg("colors"), py::arg("color_space"),
+          "The same for an array of colours, one a row of three or more numbers.");
 }
 
 } // namespace patina

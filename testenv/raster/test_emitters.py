@@ -266,6 +266,43 @@ EDFS = {
 }
 
 
+def cones(first, second):
+    """An emitter's EDF of two hard cones, each `(half angle, color, normal)`, as ND_add_edf has it."""
+    texts = ""
+    for name, (angle, color, normal) in (("first", first), ("second", second)):
+        texts += f"""        def Shader "{name}"
+        {{
+            uniform token info:id = "ND_conical_edf"
+            color3f inputs:color = {color}
+            float inputs:inner_angle = {2 * angle}
+            float inputs:outer_angle = {2 * angle}
+            float3 inputs:normal = {normal}
+            token outputs:out
+        }}
+"""
+    inputs = [f"token inputs:in{i}.connect = </World/shaped/{name}.outputs:out>" for i, name in ((1, "first"), (2, "second"))]
+    text = edf("shaped", "ND_add_edf", inputs)
+    return text.replace('        def Shader "even"', texts + '        def Shader "even"')
+
+
+CONES = {
+    "wide": (((30, (6, 3, 1), (0.3, -0.9, 0.2)), (20, (1, 4, 6), (-0.1, -0.9, -0.3))), 8, 64),
+    "narrow": (((8, (60, 30, 10), (0.3, -0.9, 0.2)), (6, (10, 60, 90), (-0.1, -0.9, -0.3))), 64, 512),
+}
+
+
+@pytest.mark.parametrize("name", CONES)
+def test_light_follows_cones_of_several_axes(name, renderers):
+    given, passes, samples = CONES[name]
+    stage = load(quad(((-1, 6, 0.5), (-80, 20, 0)), BOUND.replace("glow", "shaped")) + cones(*given))
+    if name == "wide":
+        hold(renderers, stage, passes, samples)
+        return
+    # Edges of narrow ones are soft by the steps of a table, but all of their light is there.
+    found, parts = apart(renderers, stage, passes, samples)
+    assert found[-1].max() <= T, parts[-1]
+
+
 @pytest.mark.parametrize("name", sorted(EDFS))
 def test_light_follows_the_direction_that_an_edf_has(name, renderers, tmp_path):
     kind, inputs = EDFS[name]

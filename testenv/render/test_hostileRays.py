@@ -22,6 +22,11 @@ def Camera "camera"
 def DomeLight "dome"
 {
 }
+def SphereLight "lamp"
+{
+    double3 xformOp:translate = (0, 0, %(light)s)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
 def Sphere "ball"
 {
 }
@@ -42,7 +47,7 @@ def Cube "large"
 }
 """
 SOUND = {"range": "(0.1, 1000)", "planes": "[]", "focus": 0, "stop": 0, "scale": "(1, 1, 1)", "translate": "(0, 0, 5)",
-         "instance": "(1, 1, 1)", "height": 5}
+         "instance": "(1, 1, 1)", "height": 5, "light": 30}
 
 
 def look(**changes):
@@ -56,7 +61,9 @@ def look(**changes):
     ({"focus": "5", "stop": "1e-30"}, "/camera", "fStop"),
     ({"instance": "(1, 1, 1e-30)"}, "/many", "transform"),
     ({"instance": "(1e-30, 1e-30, 1e-30)"}, "/many", "transform"),
-    ({"height": "1e19"}, "/large", "transform"),
+    ({"height": "1e19"}, "/large", "transform: has a value beyond 1e15"),
+    ({"light": "1e19"}, "/lamp", "transform: has a value beyond 1e15"),
+    ({"instance": "(1, 1e19, 1)"}, "/many", "transform: of an instance has a value beyond 1e15"),
 ])
 def test_what_cannot_be_used_is_named_and_the_rest_is_drawn(changes, prim, word):
     images, warnings, _ = look(**changes)
@@ -65,9 +72,13 @@ def test_what_cannot_be_used_is_named_and_the_rest_is_drawn(changes, prim, word)
     assert any(w.startswith(prim) and word in w for w in warnings), warnings
 
 
-@pytest.mark.parametrize("changes", [{"translate": "(0, 0, 1e19)"}, {"scale": "(1, 1, 1e30)"}, {"scale": "(1, 1, 1e-30)"}])
-def test_cameras_that_see_nothing_fail_by_name(changes):
-    with pytest.raises(RuntimeError, match="/camera"):
+@pytest.mark.parametrize("changes, what", [
+    ({"translate": "(0, 0, 1e19)"}, "has a value beyond 1e15"),
+    ({"scale": "(1, 1, 1e30)"}, "has a value beyond 1e15"),
+    ({"scale": "(1, 1, 1e-30)"}, "too small to have an inverse"),
+])
+def test_cameras_that_see_nothing_fail_by_name(changes, what):
+    with pytest.raises(RuntimeError, match=f"transform of camera /camera .*{what}"):
         look(**changes)
 
 

@@ -67,3 +67,40 @@ def test_more_choices_than_programs_are_fixed_with_the_reason():
     assert len(left) == 30 - (choices.MAX_PROGRAMS - 1)
     few, none = choices.combinations(made[:3])
     assert len(few) == 8 and not none
+
+
+SURFACES = {"open": ("ND_open_pbr_surface_surfaceshader", "transmission_dispersion_scale"),
+            "standard": ("ND_standard_surface_surfaceshader", "transmission_dispersion"),
+            "gltf": ("ND_gltf_pbr_surfaceshader", "dispersion")}
+
+
+def dispersive(module, name, given=None, behind=False):
+    """A network of a surface model; `behind` a node that hands the number on."""
+    node, input_ = SURFACES[name]
+    network = module.Network("/m")
+    network.add_node("/m/s", node)
+    network.set_terminal("surface", "/m/s", "")
+    if behind:
+        network.add_node("/m/p", "ND_multiply_float")
+        network.set_input("/m/p", "in1", "float", given or 0.0)
+        network.connect("/m/s", input_, "/m/p", "")
+    elif given is not None:
+        network.set_input("/m/s", input_, "float", given)
+    return network
+
+
+@pytest.mark.parametrize("name", SURFACES)
+@pytest.mark.parametrize("behind", [False, True])
+def test_what_is_not_modelled_is_told_where_an_author_asks_for_it(name, behind):
+    """The page opens inputs to move them, which asks for nothing."""
+    from patina.cli import compiled
+    from patina.view import materials
+
+    module = compiled.load()
+    for given in (None, 0.0, 0.5):
+        page, _, warnings = materials.build("m", dispersive(module, name, given, behind), {}, materials.Textures(16))
+        told = [w for w in warnings if "chromatic dispersion" in w]
+        assert len(told) == len(warnings) == (1 if given else 0), (given, warnings)
+        keys = {i["input"] for i in page["inputs"]}
+        assert "/m/s.base_color" in keys  # all others keep their sliders
+        assert given or f"/m/s.{SURFACES[name][1]}" not in keys and "/m/p.in1" not in keys

@@ -1,3 +1,4 @@
+#include "hdDelegate/embree/cameraRays.h"
 #include "hdDelegate/embree/embreeScene.h"
 
 #include "hdDelegate/image/textureSystem.h"
@@ -141,6 +142,28 @@ TEST(SharedShapes, ShapesAreAsFineAsTheirSizeOnScreen) {
     EXPECT_EQ(stored(5.0f), trianglesOfSphere);
     EXPECT_EQ(stored(1e5f), 2u * 16u * 7u); // an eighth of the segments either way
     EXPECT_LE(stored(2000.0f), stored(500.0f));
+}
+
+TEST(SharedShapes, DistinctShapesAreAsCoarseAsPixelsAllow) {
+    Built built;
+    built.settings.width = built.settings.height = 16;
+    const float pixel = CameraRays(built.camera, built.settings, dvec3(0.0)).pixelSpread();
+    SceneEdit edit = built.scene.edit();
+    constexpr int count = 1000;
+    constexpr float away = 100.0f;
+    for (int i = 0; i < count; ++i) {
+        auto prim = std::make_shared<Implicit>();
+        prim->path = "/pill" + std::to_string(i);
+        prim->shape = ImplicitShape::Capsule;
+        prim->radius = away * pixel * (1.0f + 1e-3f * float(i)); // one to two pixels
+        prim->height = 2.0f * prim->radius;
+        prim->transform = glm::translate(mat4(1.0f), vec3(0, 0, -away));
+        edit.set(std::shared_ptr<const Geometry>(prim));
+    }
+    edit.commit();
+    built.update();
+    // 32 segments leave less than a hundredth of a pixel.
+    EXPECT_LE(built.embree.trianglesStored(), size_t(count) * 2 * 32 * 17);
 }
 
 TEST(SharedShapes, PrimsThatMoveBetweenBothWaysOfBeingDrawn) {

@@ -332,6 +332,8 @@ TEST(Implicits, FewerSegmentsKeepShapeAndFaceNumbers) {
             };
             EXPECT_LE(last(coarse), last(fine));
             EXPECT_LE(coarse.triangles.size(), before);
+            EXPECT_EQ(coarse.triangles.capacity(), coarse.triangles.size()); // no room to grow
+            EXPECT_EQ(coarse.normals[0].capacity(), coarse.normals[0].size());
             before = coarse.triangles.size();
             // A face of a coarse shape is a face of the fine one at the same place.
             for (size_t t = 0; t < coarse.triangles.size(); ++t)

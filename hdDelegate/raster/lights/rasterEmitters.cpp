@@ -124,11 +124,39 @@ public:
             axis = axes[0];
             orthonormalBasis(axis, x, across);
         }
+        for (const vec3& other : axes)
+            if (glm::dot(other, axis) < 0.99999f) otherAxes.push_back(other);
         return true;
+    }
+
+    /// Mean by solid angle over what a value of a table is interpolated for, so that all light of
+    /// an edge is kept.
+    /// @param steps between values of both angles; 0: of a table without turns
+    /// @param parts of a step
+    vec3 mean(float theta, float turn, const vec2& steps, int parts) {
+        vec3 sum(0.0f);
+        float weights = 0.0f;
+        const int across = steps.y > 0.0f ? parts : 0;
+        for (int k = -across; k < std::max(across, 1); ++k) {
+            const float aside = across > 0 ? (float(k) + 0.5f) / float(across) : 0.0f;
+            // Edges mostly run along turns: each looks at angles of its own (golden ratio).
+            const float shift = glm::fract(0.5f + 0.618034f * float(k + across));
+            for (int j = -parts; j < parts; ++j) {
+                const float offset = (float(j) + shift) / float(parts);
+                const float at = theta + steps.x * offset;
+                if (at < 0.0f || at > pi) continue;
+                const float weight =
+                    (1.0f - std::fabs(aside)) * (1.0f - std::fabs(offset)) * std::sin(at);
+                sum += weight * towards(at, turn + steps.y * aside);
+                weights += weight;
+            }
+        }
+        return sum / weights;
     }
 
     ShadingPoint shading;
     vec3 axis{0, 0, 1}, x{1, 0, 0}; ///< the shading normal and tangent, or those of a cone
+    std::vector<vec3> otherAxes;    ///< of further cones
 
 private:
     const Source& _source;
@@ -238,6 +266,38 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
     if (kept > first) _sources.push_back(std::move(source));
 }
 
+/// Replaces values beside an edge, and those about the axes of cones that may lie between values,
+/// by means.
+void RasterEmitters::softenEdges(Place& place, const vec2& steps, RasterEmission& out) {
+    const int thetas = out.stepsOfTheta, turns = out.stepsOfTurn - 1;
+    const std::vector<vec3> plain = out.values;
+    std::vector<bool> soft(plain.size(), false);
+    const auto at = [&](int theta, int turn) {
+        return size_t((turn + turns) % turns * thetas + std::clamp(theta, 0, thetas - 1));
+    };
+    for (int k = 0; k < turns; ++k)
+        for (int i = 0; i < thetas; ++i)
+            for (const vec2& to : {vec2(1, 0), vec2(0, 1), vec2(1, 1), vec2(1, -1)}) {
+                const size_t other = at(i + int(to.x), k + int(to.y));
+                const vec3 &a = plain[at(i, k)], &b = plain[other];
+                if (glm::length(a - b) > 0.02f * std::max(glm::length(a), glm::length(b)))
+                    soft[at(i, k)] = soft[other] = true;
+            }
+    const vec3 y = glm::cross(place.axis, place.x);
+    for (const vec3& other : place.otherAxes) {
+        const float theta = std::acos(std::clamp(glm::dot(other, place.axis), -1.0f, 1.0f));
+        const float turn = std::atan2(glm::dot(other, y), glm::dot(other, place.x)) + 2.0f * pi;
+        for (int k = -1; k <= 2; ++k)
+            for (int i = -1; i <= 2; ++i)
+                soft[at(int(theta / steps.x) + i, int(turn / steps.y) + k)] = true;
+    }
+    for (int k = 0; k < turns; ++k)
+        for (int i = 0; i < thetas; ++i)
+            if (soft[at(i, k)])
+                out.values[at(i, k)] = place.mean(steps.x * float(i), steps.y * float(k), steps, 4);
+    std::copy_n(out.values.begin(), thetas, out.values.end() - thetas);
+}
+
 RasterEmission RasterEmitters::emission(const RasterEmitter& e, const vec2& uv) const {
     const Source& source = _sources[size_t(e.source)];
     RasterEmission out;
@@ -250,8 +310,8 @@ RasterEmission RasterEmitters::emission(const RasterEmitter& e, const vec2& uv) 
     out.axis = place.axis;
     out.x = place.x;
     out.y = glm::cross(out.axis, out.x);
-    // Angles to the axis alone, unless some directions tell otherwise.
-    bool round = true, flat = !cones;
+    // Angles to the axis alone, unless other cones or some directions tell otherwise.
+    bool round = place.otherAxes.empty(), flat = !cones;
     const vec3 along = place.towards(0.0f, 0.0f);
     for (const float theta : {0.05f, 0.2f, 0.4f, 0.9f, 1.3f, 1.8f, 2.5f}) {
         const vec3 first = place.towards(theta, 0.7f);
@@ -264,26 +324,18 @@ RasterEmission RasterEmitters::emission(const RasterEmitter& e, const vec2& uv) 
         out.radiance = along;
         return out;
     }
-    out.stepsOfTheta = round ? RasterEmission::thetas : RasterEmission::turnThetas;
-    out.stepsOfTurn = round ? 1 : RasterEmission::turns;
-    // Means by solid angle over what a value is interpolated for: all light of an edge is kept.
-    const int parts = cones && round ? 8 : 0;
-    const float step = pi / float(out.stepsOfTheta - 1);
+    const bool several = !place.otherAxes.empty();
+    out.stepsOfTheta = round || several ? RasterEmission::thetas : RasterEmission::turnThetas;
+    out.stepsOfTurn = round ? 1 : several ? RasterEmission::coneTurns : RasterEmission::turns;
+    const vec2 steps(pi / float(out.stepsOfTheta - 1),
+                     round ? 0.0f : 2.0f * pi / float(out.stepsOfTurn - 1));
     for (int k = 0; k < out.stepsOfTurn; ++k)
         for (int i = 0; i < out.stepsOfTheta; ++i) {
-            const float turn = 2.0f * pi * float(k) / float(RasterEmission::turns - 1);
-            vec3 sum = parts > 0 ? vec3(0.0f) : place.towards(step * float(i), turn);
-            float weights = parts > 0 ? 0.0f : 1.0f;
-            for (int j = -parts; j < parts; ++j) {
-                const float offset = (float(j) + 0.5f) / float(parts);
-                const float theta = step * (float(i) + offset);
-                if (theta < 0.0f || theta > pi) continue;
-                const float weight = (1.0f - std::fabs(offset)) * std::sin(theta);
-                sum += weight * place.towards(theta, turn);
-                weights += weight;
-            }
-            out.values.push_back(sum / weights);
+            const float theta = steps.x * float(i), turn = steps.y * float(k);
+            out.values.push_back(cones && round ? place.mean(theta, turn, steps, 8)
+                                                : place.towards(theta, turn));
         }
+    if (several) softenEdges(place, steps, out);
     return out;
 }
 

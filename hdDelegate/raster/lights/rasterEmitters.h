@@ -32,6 +32,9 @@ struct RasterEmission {
     static constexpr int thetas = 128;    ///< of what depends on the angle to the axis alone
     static constexpr int turnThetas = 64; ///< of what depends on the turn about it, too
     static constexpr int turns = 13;      ///< the last is the first again
+    static constexpr int coneTurns = 61;  ///< the same about one of several cones
+    static constexpr int maxValues = thetas * coneTurns;
+    static_assert(maxValues >= turnThetas * turns, "of any kind");
 
     vec3 radiance{0.0f}; ///< where values is empty: towards everywhere
     /// Else: the axis, and what turns begin at and go towards.
@@ -62,6 +65,9 @@ public:
     RasterEmission emission(const RasterEmitter& emitter, const vec2& uv) const;
 
 private:
+    class Place;
+    static void softenEdges(Place& place, const vec2& steps, RasterEmission& out);
+
     /// What triangles of a subset at a place have in common.
     struct Source {
         std::shared_ptr<const TriangleMesh> mesh;
@@ -75,7 +81,6 @@ private:
         bool glows = false, even = false; ///< even: alike towards all directions of a side
         bool sides = false;               ///< one side may give other light than the other
     };
-    class Place;
     float brightness(const Source& source, unsigned triangle, bool coarse) const;
 
     std::vector<Source> _sources;

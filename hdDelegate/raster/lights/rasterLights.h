@@ -77,8 +77,7 @@ public:
     bool needsSky() const { return _shadows && (_hasDome || _hasWideSun); }
     const RasterLightTables& tables() const { return _tables; }
     static constexpr int maxTables = ///< values of a pass in tables
-        maxCoarseSamples *
-        std::max(RasterEmission::thetas, RasterEmission::turnThetas* RasterEmission::turns);
+        maxCoarseSamples * RasterEmission::maxValues;
 
 private:
     /// The numbers are those of lights.glsl.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 using namespace patina;
 
 namespace {
@@ -48,4 +50,25 @@ TEST(InstancerCheck, tellsOfInstancesThatAreLeftOut) {
     Diagnostics diagnostics;
     warnOfInstances(instancer, 0.0f, diagnostics);
     EXPECT_EQ(diagnostics.count(), 2);
+}
+
+TEST(InstancerCheck, tellsWhatIsWrongWithATransform) {
+    dmat4 far(1.0), flat(1.0), none(1.0);
+    far[3].x = 1e19;
+    flat[2].z = 0.0;
+    none[1].y = std::numeric_limits<double>::quiet_NaN();
+    const auto told = [](const dmat4& m) {
+        MotionTransform moving(mat4(1.0f));
+        moving.values.push_back(m);
+        const std::string problem = placeProblem(moving);
+        EXPECT_EQ(isPlace(moving), problem.empty());
+        if (!problem.empty()) {
+            EXPECT_EQ(inverseProblem(m), problem);
+        }
+        return inverseProblem(m);
+    };
+    EXPECT_NE(told(far).find("too large"), std::string::npos);
+    EXPECT_NE(told(flat).find("inverse"), std::string::npos);
+    EXPECT_NE(told(none).find("not finite"), std::string::npos);
+    EXPECT_EQ(told(dmat4(1.0)), "");
 }

@@ -2,6 +2,7 @@
 import numpy as np
 from pxr import Gf, Usd, UsdGeom
 
+from .colorSpaces import ColorSpaces
 from .errors import one_line
 
 MAX_MOTION_SAMPLES = 16
@@ -21,6 +22,7 @@ class Context:
         self.reported = set()  # texts of composition errors, which pxr also prints
         self.skinned = []  # (prim whose space it is, points) of what UsdGeom.BBoxCache does not know
         self.cyclic = False  # there are instancers that hold themselves: UsdGeom.BBoxCache never ends there
+        self.color_spaces = ColorSpaces()
         self._xforms = {}
 
     def warn(self, prim, input_, message):

@@ -3,7 +3,7 @@ import numpy as np
 from pxr import UsdGeom
 
 from .context import array, get
-from .primvars import numbers
+from .primvars import in_rendering_space, numbers
 from .transforms import is_finite, matrix_at, sample_times
 
 
@@ -82,6 +82,7 @@ def _primvars(context, prim, keep):
         if len(values) != len(keep):
             context.warn(prim.GetPath(), primvar.GetName(), f"has {len(values)} values for {len(keep)} instances; it is left out")
             continue
+        values = in_rendering_space(context, prim, primvar.GetAttr(), values)
         found.append((primvar.GetPrimvarName(), "vertex", values[keep], None))
     return found
 

@@ -1,7 +1,7 @@
 """UsdLux lights."""
 from pxr import Gf, UsdGeom, UsdLux, UsdShade
 
-from . import assets, colorSpaces
+from . import assets
 from .context import number, vector
 from .kinds import LIGHTS
 from .transforms import transform_of
@@ -99,7 +99,7 @@ def _set_color(context, prim, name, key, fallback, fields):
     if attribute is None:
         return
     color = vector(context, prim, "inputs:" + name, fallback, attribute.Get(context.time))
-    space = colorSpaces.ColorSpaces().space_of(attribute) if attribute.HasAuthoredValue() else ""
+    space = context.color_spaces.space_of(attribute) if attribute.HasAuthoredValue() else ""
     if space:
         import _patina
 
@@ -153,7 +153,7 @@ def _read_texture(context, prim, fields):
         attribute = prim.GetAttribute("texture:file")
     if attribute and attribute.HasAuthoredValue():
         fields["texture_file"] = assets.resolve(context, attribute)
-        fields["texture_color_space"] = colorSpaces.ColorSpaces().space_of(attribute)
+        fields["texture_color_space"] = context.color_spaces.space_of(attribute)
 
 
 def _read_shaping(context, prim, fields):

@@ -2,7 +2,7 @@
 import numpy as np
 from pxr import Sdf, UsdShade
 
-from . import assets, colorSpaces, mtlxFiles
+from . import assets, mtlxFiles
 
 _TERMINALS = (("surface", "ComputeSurfaceSource"), ("displacement", "ComputeDisplacementSource"),
               ("volume", "ComputeVolumeSource"))
@@ -38,7 +38,7 @@ class _Translation:
         self.network = module.Network(path)
         self._names = {}  # path on the stage -> path in the network
         self._todo = []
-        self._spaces = colorSpaces.ColorSpaces()
+        self._spaces = context.color_spaces
 
     def run(self):
         for terminal, compute in _TERMINALS:

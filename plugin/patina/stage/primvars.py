@@ -27,6 +27,7 @@ def read_primvar(context, primvar, prim):
     values = numbers(primvar.Get(context.time))
     if values is None:
         return None
+    values = in_rendering_space(context, prim, primvar.GetAttr(), values)
     size = primvar.GetElementSize()
     if size > 1:
         if len(values) % size:
@@ -39,6 +40,22 @@ def read_primvar(context, primvar, prim):
     indices = primvar.GetIndices(context.time) if primvar.IsIndexed() else None
     indices = np.asarray(indices, dtype=np.int32) if indices is not None and len(indices) else None
     return (name, primvar.GetInterpolation(), values, indices)
+
+
+def in_rendering_space(context, prim, attribute, values):
+    """:returns: the values, in linear Rec.709 where the attribute or a prim above says their colour space"""
+    if values.ndim != 2 or values.shape[1] not in (3, 4) or values.dtype.kind != "f":
+        return values
+    space = context.color_spaces.space_of(attribute)
+    if not space:
+        return values
+    import _patina
+
+    converted = _patina.colors_to_rendering(values, space)
+    if converted is None:
+        context.warn(prim.GetPath(), attribute.GetName(), f"unknown colour space '{space}'; the values are used as they are")
+        return values
+    return converted
 
 
 def numbers(value):

@@ -70,7 +70,31 @@ def live_inputs(network, limit=LIMIT):
     # What an author has set comes before what is left at its default.
     ranked = sorted(range(len(found)), key=lambda i: (not found[i].authored, i))
     kept = sorted(ranked[:limit])
-    return [found[i] for i in kept], len(found) - len(kept)
+    return _without_warnings(network, [found[i] for i in kept]), len(found) - len(kept)
+
+
+def _without_warnings(network, found):
+    """Leaves out what is warned of only because it is open: inputs that are not modelled, where they ask for nothing."""
+    compile_one = compiled.load().web_material
+    told = set(compile_one(network, {}, 1)["warnings"])
+    kept = _fitting(list(range(len(found))),
+                    lambda chosen: told.issuperset(compile_one(with_live(network, found, chosen), {}, 1)["warnings"]))
+    return [found[i] for i in kept]
+
+
+def _fitting(group, fits, kept=()):
+    """Those of a group that fit together, found by halves.
+
+    :param fits: of a list, which holds `kept` too
+    """
+    kept = list(kept)
+    if not group or fits(kept + group):
+        return group
+    half = len(group) // 2
+    if not half:
+        return []
+    left = _fitting(group[:half], fits, kept)
+    return left + _fitting(group[half:], fits, kept + left)
 
 
 def _without_plans(network, found):
@@ -123,15 +147,9 @@ def lean_choice(network, inputs, compile_one, guess=()):
     """
     wanted = shape_of(compile_one(network))
 
-    def harmless(group, kept):
-        if not group or shape_of(compile_one(with_live(network, inputs, kept + group))) == wanted:
-            return group
-        half = len(group) // 2
-        if not half:
-            return []
-        left = harmless(group[:half], kept)
-        return left + harmless(group[half:], kept + left)
+    def fits(chosen):
+        return shape_of(compile_one(with_live(network, inputs, chosen))) == wanted
 
-    if guess and harmless(guess, []) == guess:
+    if guess and fits(list(guess)):
         return guess
-    return harmless(list(range(len(inputs))), [])
+    return _fitting(list(range(len(inputs))), fits)

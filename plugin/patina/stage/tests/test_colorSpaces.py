@@ -136,3 +136,65 @@ colorspaces:
     assert half == pytest.approx([0.5 * x for x in whole], abs=1e-4)
     assert gamma == pytest.approx([v ** 2.2 for v in (0.5, 0.5, 0.25)], abs=1e-6)
     assert unknown is None
+
+
+TRIANGLE = """point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+            int[] faceVertexCounts = [3]
+            int[] faceVertexIndices = [0, 1, 2]"""
+
+
+def test_colours_of_primvars_are_converted_too(read, numbers):
+    """Those of prims, inherited from prims above, and of instances; what is no colour stays."""
+    g22 = [v ** 2.2 for v in (0.5, 0.5, 0.25)]
+    reading = read(f"""def Scope "w" {DEFINED}
+        def Mesh "inherits" {{
+            {TRIANGLE}
+            color3f[] primvars:displayColor = [(0.5, 0.5, 0.25)]
+            float[] primvars:displayOpacity = [0.5]
+            float3[] primvars:vectors = [(0.5, 0.5, 0.25)]
+        }}
+        def Mesh "says" {{
+            {TRIANGLE}
+            color3f[] primvars:displayColor = [(0.5, 0.5, 0.25), (1, 1, 1)] (
+                colorSpace = "g22_rec709_scene"
+                interpolation = "vertex"
+            )
+            int[] primvars:displayColor:indices = [0, 1, 0]
+            color4h[] primvars:paint = [(0.5, 0.5, 0.25, 0.5)] (colorSpace = "g22_rec709_scene")
+            color3f[] primvars:plain = [(0.5, 0.5, 0.25)] (colorSpace = "raw")
+            color3f[] primvars:unknown = [(0.5, 0.5, 0.25)] (colorSpace = "nobody knows")
+        }}
+        def Xform "above" {{
+            color3f[] primvars:displayColor = [(0.5, 0.5, 0.25)] (
+                colorSpace = "g22_rec709_scene"
+                interpolation = "constant"
+            )
+            def Sphere "below" {{ }}
+        }}
+        def PointInstancer "many" {{
+            rel prototypes = </w/many/one>
+            int[] protoIndices = [0, 0]
+            point3f[] positions = [(0, 0, 0), (1, 0, 0)]
+            color3f[] primvars:displayColor = [(0.5, 0.5, 0.25), (1, 1, 1)] (
+                colorSpace = "g22_rec709_scene"
+                interpolation = "vertex"
+            )
+            def Sphere "one" {{ }}
+        }}
+    }}""")
+
+    def primvar(path, name):
+        prim = reading.prim(path)
+        values, = [prim[key] for key in prim if key.startswith(f"primvar {name} ") and not key.endswith(" indices")]
+        return numbers(values)
+
+    assert primvar("/w/inherits", "displayColor") == pytest.approx((0.520815, 0.502637, 0.211757), abs=2e-4)
+    assert primvar("/w/inherits", "displayOpacity") == [0.5]
+    assert primvar("/w/inherits", "vectors") == [0.5, 0.5, 0.25]
+    assert primvar("/w/says", "displayColor") == pytest.approx([*g22, 1, 1, 1], abs=1e-5)
+    assert primvar("/w/says", "paint") == pytest.approx([*g22, 0.5], abs=1e-5)
+    assert primvar("/w/says", "plain") == primvar("/w/says", "unknown") == [0.5, 0.5, 0.25]
+    assert primvar("/w/above/below", "displayColor") == pytest.approx(g22, abs=1e-5)
+    assert primvar("/w/many", "displayColor") == pytest.approx([*g22, 1, 1, 1], abs=1e-5)
+    assert [w for w in reading.warnings if "colour space" in w] == [
+        "/w/says primvars:unknown: unknown colour space 'nobody knows'; the values are used as they are"]

@@ -37,7 +37,9 @@ size_t WatchedFile::pwrite(const void* data, size_t size, int64_t offset) {
 }
 
 bool WatchedFile::seek(int64_t offset) {
-    if (!_error && IOFile::seek(offset)) return true;
+    errno = 0;
+    // Writes what the stream holds back: a small image comes to the disk here for the first time.
+    if (!_error && !IOFile::seek(offset)) _error = errno ? errno : EIO;
     m_pos = offset;
     return true;
 }

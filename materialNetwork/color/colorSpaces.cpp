@@ -1,6 +1,7 @@
 #include "materialNetwork/color/colorSpaces.h"
 
 #include "materialNetwork/color/colorSpacesBuiltin.h"
+#include "materialNetwork/regularFile.h"
 
 #include <algorithm>
 #include <cctype>
@@ -130,6 +131,10 @@ ColorSpaces::ColorSpaces(const std::string& configFile) : _impl(new Impl) {
     _impl->builtin = builtinColorConfig();
     if (configFile.empty()) return;
     try {
+        if (configFile.rfind("ocio://", 0) != 0) { // those are in the library
+            const std::string problem = whyUnreadable(configFile, maxDocumentBytes);
+            if (!problem.empty()) throw std::runtime_error("the file " + problem);
+        }
         _impl->user = ocio::Config::CreateFromFile(configFile.c_str());
         _impl->findRenderingSpace();
     } catch (const std::exception& e) {

@@ -9,6 +9,9 @@
 #include <fstream>
 #include <stdexcept>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 namespace patina {
 
 namespace {
@@ -178,6 +181,20 @@ TEST(ColorSpaces, AConfigurationOfTheUsersComesFirstAndIsBridged) {
                1e-6f);
     EXPECT_EQ(user.displays(), std::vector<std::string>{"Mine"});
     expectNear(converted(user.display(), c), converted(builtin.fromRendering("acescg"), c), 1e-4f);
+}
+
+TEST(ColorSpaces, AConfigurationIsARegularFile) {
+    const std::string pipe = testing::TempDir() + "patinaConfigPipe";
+    ::unlink(pipe.c_str());
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    for (const std::string& name : {pipe, std::string("/dev/zero"), std::string("/")})
+        try {
+            ColorSpaces spaces(name); // a pipe would wait for ever
+            FAIL() << name;
+        } catch (const std::runtime_error& e) {
+            EXPECT_NE(std::string(e.what()).find("not a regular file"), std::string::npos);
+        }
+    ::unlink(pipe.c_str());
 }
 
 TEST(ColorSpaces, AnUnreadableConfigurationIsNamed) {

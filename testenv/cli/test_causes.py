@@ -71,6 +71,14 @@ def test_where_there_are_too_many_culprits_of_one_kind_count_as_one():
     assert len(found) == 32
 
 
+def test_without_json_the_rest_is_counted():
+    found = Causes([warning(f"'{i}' is unknown; box is used", f"/p{i}") for i in range(30)])
+    assert found.lines(json=False) == ["warning: /p0: '0' is unknown; box is used (and 29 causes like it: 30 times)"]
+    letters = [chr(ord("a") + i) for i in range(26)]
+    found = Causes([warning(f"{a}{a} is odd; box is used", f"/p{a}") for a in letters])
+    assert found.lines(json=False)[-1] == "warning: 6 more causes"
+
+
 def test_names_stay_in_their_line():
     found = Causes([warning("node 's\n  error: forged\x1b[2J' is unknown; box is used", "/p\rq")])
     assert found.lines() == ["warning: /p q: node 's error: forged\\x1b[2J' is unknown; box is used"]

@@ -235,3 +235,20 @@ def test_the_table_of_methods_keeps_names_and_texts_apart():
 def test_benchmarks_end_in_one_line_too(monkeypatch, capsys):
     monkeypatch.setattr(bench, "run", lambda _: 1 / 0)
     assert run(capsys, "bench")[0] == 1
+
+
+@pytest.mark.parametrize("where", ["subLayers = [@pipe.usda@]", "subLayers = [@between.usda@]", "references = @pipe.usda@"])
+def test_layers_that_are_pipes_are_not_waited_for(where, tmp_path, capsys):
+    pytest.importorskip("_patina")
+    pytest.importorskip("pxr.Sdf")
+    os.mkfifo(tmp_path / "pipe.usda")
+    (tmp_path / "between.usda").write_text("#usda 1.0\n(\n    subLayers = [@pipe.usda@]\n)\n")
+    of_layer = where.startswith("subLayers")
+    (tmp_path / "stage.usda").write_text("#usda 1.0\n" + (f"(\n    {where}\n)\n" if of_layer else f'def "a" (\n    {where}\n)\n{{\n}}\n'))
+    # Opening a pipe without a writer blocks; with one at hand that says nothing a failing test ends.
+    keeper = os.open(tmp_path / "pipe.usda", os.O_RDWR | os.O_NONBLOCK)
+    try:
+        status, said = run(capsys, "record", str(tmp_path / "stage.usda"), str(tmp_path / "a.png"), "-w", "4", "--samples", "1", "--quiet")
+    finally:
+        os.close(keeper)
+    assert status == 1 and said.endswith("pipe.usda is no regular file") and len(said.splitlines()) == 1

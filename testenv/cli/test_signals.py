@@ -104,6 +104,41 @@ def test_a_signal_that_a_library_drops_ends_the_command(dropped, folder, monkeyp
     assert os.listdir() == ["stage.usda"]
 
 
+@pytest.mark.parametrize("number", interrupts.NUMBERS, ids=lambda number: number.name)
+def test_imports_end_before_the_command_does(number, folder, monkeypatch, capfd):
+    """pxr prints exceptions that come into its imports, with their tracebacks."""
+    from patina.cli import explain
+
+    (folder / "slowLibrary.py").write_text(f"""import os, time
+try:
+    os.kill(os.getpid(), {int(number)})
+    time.sleep(0.1)
+except KeyboardInterrupt:
+    print("Traceback of a library")
+whole = True
+""")
+    monkeypatch.syspath_prepend(str(folder))
+    went_on = []
+
+    def load(_):
+        import slowLibrary
+
+        assert slowLibrary.whole
+        time.sleep(5)
+        went_on.append(True)
+
+    monkeypatch.setattr(explain, "run", load)
+    before = [signal.getsignal(n) for n in (*interrupts.NUMBERS, signal.SIGALRM)]
+    try:
+        assert main.main(["explain", "m.mtlx"]) == 1
+    finally:
+        sys.modules.pop("slowLibrary", None)
+    said = capfd.readouterr()
+    assert said.out == "" and said.err.startswith("patina: ") and len(said.err.splitlines()) == 1
+    assert not went_on
+    assert [signal.getsignal(n) for n in (*interrupts.NUMBERS, signal.SIGALRM)] == before
+
+
 def test_ignored_signals_stay_ignored(folder):
     """As nohup wants it."""
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)

@@ -187,12 +187,13 @@ TEST(OutputFailures, AFullDiskKeepsTheOldImage) {
     EXPECT_GT(std::filesystem::file_size(file), 4096u) << "the size that was too large";
 }
 
-TEST(OutputFailures, EveryFormatTellsOfAFullDisk) {
+/// @param side of the image: a small one is held back by the stream until it is closed or sought in
+void everyFormatTellsOfAFullDisk(int side) {
     TempFolder temp;
     ImageData image;
-    image.width = image.height = 64;
+    image.width = image.height = side;
     image.channels = {"R", "G", "B"};
-    for (int i = 0; i < 64 * 64 * 3; ++i) // noise: nothing that packs well
+    for (int i = 0; i < side * side * 3; ++i) // noise: nothing that packs well
         image.pixels.push_back(float((i * 7919) % 1009) / 1009.0f);
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     for (const char* format : {"exr", "png", "jpg", "tif", "hdr", "bmp", "tga", "webp", "gif",
@@ -216,6 +217,11 @@ TEST(OutputFailures, EveryFormatTellsOfAFullDisk) {
     }
     std::signal(SIGXFSZ, handler);
     EXPECT_EQ(temp.fileCount(), 0u);
+}
+
+TEST(OutputFailures, EveryFormatTellsOfAFullDisk) {
+    everyFormatTellsOfAFullDisk(64);
+    everyFormatTellsOfAFullDisk(8);
 }
 
 TEST(OutputFailures, TemporariesOfKilledProcessesAreRemoved) {

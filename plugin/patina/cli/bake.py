@@ -53,7 +53,7 @@ def run(arguments):
         raise CommandError(f"{arguments.material}: {warnings[-1]['message'] if warnings else 'nothing to bake'}")
     inputs = evaluate(translated, arguments.to, arguments.resolution, warnings)
     bakeOutput.write(arguments, name, inputs, warnings)
-    statistics.report(warnings, sys.stderr)
+    statistics.report(warnings, sys.stderr, json=False)
 
 
 def evaluate(network, target, resolution, warnings):

@@ -52,7 +52,7 @@ def run(arguments):
     chosen = methods.parse(arguments.method)
     found, warnings = materials.load(arguments.material, arguments.set)
     probe = _probe(arguments.backend, found[0][1], chosen)
-    statistics.report(warnings + probe.warnings, sys.stderr)
+    statistics.report(warnings + probe.warnings, sys.stderr, json=False)
     if getattr(probe, "stochastic", False):
         print("note: a method walks at random; values are means over walks, densities are estimates", file=sys.stderr)
     to_file = arguments.json not in (None, "-")

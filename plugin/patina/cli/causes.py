@@ -88,9 +88,10 @@ class Causes:
                   for alike in kinds.values()]
         return sorted(merged, key=lambda g: (SEVERITIES.index(g["severity"]), -g["count"]))
 
-    def lines(self, told=None, last=True):
+    def lines(self, told=None, last=True, json=True):
         """:param told: dict that remembers what was shown before, which is not shown again ...
         :param last: ... unless this is the last call, and it was met more often since
+        :param json: whether the command has a --json that holds them all
         :returns: lines of at most MAX_CAUSES causes for all calls with the same dict; the last call says how many more"""
         told = {} if told is None else told
         out, hidden = [], 0
@@ -100,9 +101,9 @@ class Causes:
                 hidden += 1
             elif key not in told or (last and group["count"] > told[key]):
                 told[key] = group["count"]
-                out.append(line(group))
+                out.append(line(group, json))
         if hidden and last:
-            out.append(f"warning: {hidden} more causes are in --json")
+            out.append(f"warning: {hidden} more causes" + (" are in --json" if json else ""))
         return out
 
 
@@ -112,12 +113,12 @@ def printable(text):
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
 
 
-def line(group):
+def line(group, json=True):
     """:returns: a group as one line"""
     where = group["prim"] + ("." + group["input"] if group["input"] else "")
     text = printable(f"{group['severity']}: " + (where + ": " if where else "") + group["message"])
     if group.get("alike", 1) > 1:
-        return f"{text} (and {group['alike'] - 1} causes like it: {group['count']} times, all in --json)"
+        return f"{text} (and {group['alike'] - 1} causes like it: {group['count']} times{', all in --json' if json else ''})"
     if group["count"] == 1:
         return text
     others = f"at {group['prims']} prims, first this" if group["prims"] > 1 else "at this prim"

@@ -40,14 +40,16 @@ class Interrupts(_Handlers):
 class Endings(_Handlers):
     """While a command runs: the first signal ends it as an exception does, so that what it has begun is tidied up.
 
-    `met` stays set, because libraries turn the exception into others (an interrupted import into a missing module) or drop
-    it with a message of their own: check() then raises it again."""
+    Imports are let end first: libraries print an exception that comes into theirs. `met` stays set, because libraries also
+    turn it into others or drop it: check() then raises it again."""
 
     _open = None
+    _POLL_SECONDS = 0.01
 
     def __init__(self):
         super().__init__()
         self.met = 0
+        self._timer = None  # what SIGALRM did before
 
     def __enter__(self):
         Endings._open = self
@@ -55,6 +57,9 @@ class Endings(_Handlers):
 
     def __exit__(self, *problem):
         Endings._open = None
+        if self._timer is not None:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            signal.signal(signal.SIGALRM, self._timer)
         return super().__exit__(*problem)
 
     @staticmethod
@@ -63,14 +68,30 @@ class Endings(_Handlers):
         if Endings._open and Endings._open.met:
             raise KeyboardInterrupt
 
-    def _note(self, number, _frame):
+    def _note(self, number, frame):
         self.met = number
         signal.signal(number, signal.SIG_DFL)
-        raise KeyboardInterrupt
+        self._end(number, frame)
+
+    def _end(self, _number, frame):
+        if not _imports(frame):
+            raise KeyboardInterrupt
+        if self._timer is None:
+            self._timer = signal.signal(signal.SIGALRM, self._end)
+        signal.setitimer(signal.ITIMER_REAL, self._POLL_SECONDS)
 
     def text(self):
         return {"SIGTERM": "terminated", "SIGHUP": "ended with its terminal"}.get(
             signal.Signals(self.met).name if self.met else "", "interrupted")
+
+
+def _imports(frame):
+    """:returns: whether a module is being imported in a frame or above it"""
+    while frame:
+        if frame.f_code.co_filename.startswith("<frozen importlib"):
+            return True
+        frame = frame.f_back
+    return False
 
 
 def hold_standard_streams():

@@ -5,6 +5,8 @@ from patina import inputs
 from patina.cli import interrupts
 from patina.cli.errors import CommandError
 
+_LAYERS = (".usd", ".usda", ".usdc", ".usdz")
+
 
 def open_stage(path, mask=None, session_layer=None):
     """:param mask: prim paths separated by commas or spaces, or None
@@ -40,11 +42,13 @@ def _open(path, mask, session_layer, Sdf, Usd):
     root = Sdf.Layer.FindOrOpen(path)
     if not root:
         return None
+    _check_waiting(root, Sdf)
     session = Sdf.Layer.CreateAnonymous("session.usda")
     if session_layer:
         inputs.check_regular(session_layer)
         if not Sdf.Layer.FindOrOpen(session_layer):
             raise CommandError(f"the session layer {session_layer} cannot be opened")
+        _check_waiting(Sdf.Layer.FindOrOpen(session_layer), Sdf)
         # A layer of its own above the given one: overrides never reach the file.
         session.subLayerPaths.append(os.path.abspath(session_layer))
     if not mask:
@@ -55,3 +59,20 @@ def _open(path, mask, session_layer, Sdf, Usd):
             raise CommandError(f"--mask: {prim} is no prim path")
         population.Add(prim)
     return Usd.Stage.OpenMasked(root, session, population)
+
+
+def _check_waiting(root, Sdf):
+    """:raises InputError: where a layer, or one below it in its stack, names a pipe or a device as a layer: USD would wait for it"""
+    waiting, seen = [root], {root.identifier}
+    for layer in waiting:  # grows as it goes
+        below = set(layer.subLayerPaths)
+        for name in layer.GetCompositionAssetDependencies():
+            path = layer.ComputeAbsolutePath(name).partition(":SDF_FORMAT_ARGS:")[0]
+            if os.path.splitext(path)[1].lower() not in _LAYERS or path in seen or not os.path.exists(path):
+                continue
+            seen.add(path)
+            if not os.path.isdir(path):  # USD says so itself
+                inputs.check_regular(path)
+            if name in below:
+                more = Sdf.Layer.FindOrOpen(path)
+                waiting += [more] if more else []

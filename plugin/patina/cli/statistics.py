@@ -20,9 +20,11 @@ def warning(message, prim="", name=""):
     return {"prim": prim, "input": name, "message": message, "count": 1}
 
 
-def report(warnings, stream):
-    """Prints those lines."""
-    for text in lines(warnings):
+def report(warnings, stream, json=True):
+    """Prints those lines.
+
+    :param json: whether the command has a --json that holds all warnings"""
+    for text in Causes(warnings).lines(json=json):
         print(text, file=stream)
 
 

@@ -58,6 +58,6 @@ def run(arguments):
     if not 16 <= arguments.compareWidth <= 2048 or not 1 <= arguments.compareSamples <= 65536:
         raise UsageError("patina view: --compareWidth is 16 to 2048, --compareSamples 1 to 65536")
     text, warnings = build.page_of(arguments)
-    statistics.report(warnings, sys.stderr)
+    statistics.report(warnings, sys.stderr, json=False)
     outputs.write_text(arguments.output, text)
     print(f"{arguments.output}: {len(text) / 1e6:.2f} MB")

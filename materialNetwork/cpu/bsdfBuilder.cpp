@@ -121,7 +121,7 @@ void BsdfBuilder::instantiate(const ProgramCode& code, const ShadingPoint& point
 void BsdfBuilder::setSelectionPdfs(const ProgramCode& code, Bsdf& out) {
     int count = 0;
     for (int i = 0; i < int(code.lobes.size()) + code.walkedLayers; ++i) {
-        if (!sh::isPresent(out._lobes[i].weight)) continue;
+        if (!sh::hasWeight(out._lobes[i].weight)) continue;
         if (count != i) out._lobes[count] = out._lobes[i];
         ++count;
     }
@@ -157,7 +157,7 @@ public:
     static bool hasProfile(const ClosureOp& op) { return op.profile != nullptr; }
     float profile(const ClosureOp& op, const glm::vec3& axis) const {
         const float z = std::min(std::fabs(glm::dot(_wo, axis)), 1.0f);
-        const glm::vec2 around = sh::aroundAxis(_wo, axis, _tangent);
+        const glm::vec2 around = sh::azimuthOf(_wo, axis, _tangent);
         const float amount = op.profile->factor(std::acos(z), std::atan2(around.y, around.x));
         return amount > 0.0f ? amount : 0.0f;
     }

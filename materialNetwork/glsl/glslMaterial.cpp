@@ -241,7 +241,7 @@ private:
         line("    int present = 0;");
         for (size_t i = 0; i < _code.lobes.size(); ++i) {
             const std::string n = "[" + number(int(i)) + "]";
-            line("    bool has" + number(int(i)) + " = isPresent(lobeWeight" + n + ");");
+            line("    bool has" + number(int(i)) + " = hasWeight(lobeWeight" + n + ");");
             line("    present += has" + number(int(i)) + " ? 1 : 0;");
         }
         for (size_t i = 0; i < _code.lobes.size(); ++i) {

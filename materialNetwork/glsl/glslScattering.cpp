@@ -59,7 +59,7 @@ std::string glslEval(const ProgramCode& code) {
         const std::string n = number(int(i)), wo = glslFrameOf(code, i) + ".wo",
                           wi = "wi" + number(t.prebuilt.frame), weight = "lobeWeight[" + n + "]";
         text += "    if (without != " + n + ") addLobe(sum, lobeAgrees(" + wo + ".z, " + wi +
-                ".z, reflects) && isPresent(" + weight + "), " +
+                ".z, reflects) && hasWeight(" + weight + "), " +
                 (t.prebuilt.diffuse ? "true, " : "false, ") + weight + ", lobeChance[" + n + "], " +
                 lobeRow(t.prebuilt.kind).prefix + "Eval(lobe" + n + ", " + wo + ", " + wi + "));\n";
     }
@@ -96,7 +96,7 @@ std::string glslAlbedo(const ProgramCode& code) {
     std::string text = "vec3 materialAlbedo() {\n    vec3 sum = vec3(0.0);\n";
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const std::string n = number(int(i));
-        text += "    if (isPresent(lobeWeight[" + n + "])) sum += lobeWeight[" + n + "] * " +
+        text += "    if (hasWeight(lobeWeight[" + n + "])) sum += lobeWeight[" + n + "] * " +
                 lobeRow(code.lobes[i].prebuilt.kind).prefix + "Albedo(lobe" + n + ", " +
                 glslFrameOf(code, i) + ".wo);\n";
     }

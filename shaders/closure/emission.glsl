@@ -16,7 +16,7 @@ PATINA_FN vec3 emissionSchlick(vec3 emission, vec3 color0, vec3 color90, float e
 
 // Where d points about an axis, whose azimuth begins at the tangent: cosine and sine times the same
 // number.
-PATINA_FN vec2 aroundAxis(vec3 d, vec3 axis, vec3 tangent) {
+PATINA_FN vec2 azimuthOf(vec3 d, vec3 axis, vec3 tangent) {
     vec3 x = tangent - axis * dot(tangent, axis);
     float l = length(x);
     x = select(x / l, anyTangent(axis), l > 1e-6f);

@@ -36,7 +36,7 @@ PATINA_FN void addLobe(PATINA_INOUT(MaterialEval) sum, bool counts, bool diffuse
     sum.pdf += chance * e.pdf;
 }
 
-PATINA_FN bool isPresent(vec3 weight) {
+PATINA_FN bool hasWeight(vec3 weight) {
     return luminance(weight) > 0.0f;
 }
 // What a lobe is drawn by, before the sum over all of them divides it. A lone lobe needs no share. One

@@ -42,7 +42,7 @@ MaterialEval materialEvalBut(vec3 wi, int without);
 
 // Of a direction about an axis, 0 to 1 from the tangent on.
 float turnAbout(vec3 wo, vec3 n) {
-    vec2 at = aroundAxis(wo, n, point.tangent);
+    vec2 at = azimuthOf(wo, n, point.tangent);
     return dot(at, at) > 0.0 ? fract(atan(at.y, at.x) / TWO_PI) : 0.0;
 }
 

@@ -130,13 +130,13 @@ vec3 everyClosure(vec3 wo, vec3 wi, vec3 u) {
     sum += layerInsideDielectric(0.1, 1.5, 0.7, wo.z) * closureTinted(closureRest(u, 0.5), u);
     MaterialEval e = materialEvalNone();
     bool reflects = isReflected(wi, f.normal, true);
-    addLobe(e, lobeAgrees(f.wo.z, wi.z, reflects) && isPresent(u), true, u, 1.0,
+    addLobe(e, lobeAgrees(f.wo.z, wi.z, reflects) && hasWeight(u), true, u, 1.0,
             dielectricEval(d, f.wo, toLocal(f, wi)));
     Selection drawn = selectionNone();
     selectLobe(drawn, 1, selectionShare(u, albedo, false), u.x);
     sum += e.diffuse + drawnValue(u, e.specular, e.pdf) + drawnAlone(u, u, float(drawn.lobe));
     sum += emissionConical(u, 60.0, 90.0, wo, wi) + emissionTinted(emissionScaled(u, 2.0), u) +
-           emissionSchlick(u, u, u, 5.0, wo, wi) + vec3(aroundAxis(wo, wi, u), presence);
+           emissionSchlick(u, u, u, 5.0, wo, wi) + vec3(azimuthOf(wo, wi, u), presence);
     Medium m = mediumNone();
     addAnisotropic(m, closureMix(u, wo, 0.5), u, closureProduct(u, u), 0.5);
     addAbsorption(m, closureSum(u, u), closureScaled(u, 0.5));

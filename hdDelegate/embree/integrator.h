@@ -2,7 +2,6 @@
 
 #include "hdDelegate/embree/aovWriter.h"
 #include "hdDelegate/embree/embreeScene.h"
-#include "hdDelegate/embree/media/phaseMixture.h"
 #include "hdDelegate/embree/path.h"
 #include "hdDelegate/embree/sceneLights.h"
 #include "hdDelegate/film/pixelFilter.h"
@@ -54,7 +53,7 @@ private:
     vec3 directLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf, const Hit& hit,
                      const vec3& u, TraceCounters& counters) const;
     /// Light that a medium scatters towards the path, from one light sample.
-    vec3 mediumLight(const Path& path, const vec3& position, const PhaseMixture& phase,
+    vec3 mediumLight(const Path& path, const vec3& position, const sh::PhaseMixture& phase,
                      const vec3& u, TraceCounters& counters) const;
     enum class Flight { Arrives, Scatters, Ends };
     /// Takes the path through the medium that it is in, up to `distance` or to where it scatters.

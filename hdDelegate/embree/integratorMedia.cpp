@@ -3,7 +3,7 @@
 #include "hdDelegate/embree/media/freeFlight.h"
 #include "hdDelegate/embree/media/randomWalk.h"
 
-#include "materialNetwork/cpu/shadingFrame.h"
+#include "shaders/closure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,19 +12,19 @@
 
 namespace patina {
 
-vec3 Integrator::mediumLight(const Path& path, const vec3& position, const PhaseMixture& phase,
+vec3 Integrator::mediumLight(const Path& path, const vec3& position, const sh::PhaseMixture& phase,
                              const vec3& u, TraceCounters& counters) const {
     LightSample light;
     if (!_lights.set().sample(position, vec3(0.0f), true, u, path.time, light) ||
         !(light.pdf > 0.0f))
         return vec3(0.0f);
     const LightInfo& info = _lights.info(light.light);
-    float phasePdf;
-    vec3 value = phase.eval(-path.direction, light.direction, phasePdf) * info.diffuse;
+    const sh::LobeEval scattered = sh::phaseMixtureEval(phase, -path.direction, light.direction);
+    vec3 value = scattered.value * info.diffuse;
     vec3 radiance = light.radiance;
     if (info.triangles) radiance = _lights.triangleRadiance(light, position, path.time);
     if (radiance == vec3(0.0f)) return vec3(0.0f);
-    const float weight = light.delta ? 1.0f : misWeight(light.pdf, phasePdf, info.dome);
+    const float weight = light.delta ? 1.0f : misWeight(light.pdf, scattered.pdf, info.dome);
     value *= radiance * (weight / light.pdf);
     return value *
            visibility(path, path.media, position, light.direction, light.distance, info, counters);
@@ -87,12 +87,13 @@ Integrator::Flight Integrator::scatter(Path& path, const Medium& medium, float d
     ++path.scatterings;
     path.lightSamples = 1.0f;
     const vec3 position = path.origin + path.direction * distance;
-    const PhaseMixture phase(medium, path.throughput);
+    const sh::PhaseMixture phase = sh::phaseMixture(medium, path.throughput);
     const vec4 u = path.sampler.next4();
     if (!_lights.set().empty())
         addRadiance(path, mediumLight(path, position, phase, vec3(u), counters));
     const vec2 uDirection = path.sampler.next2();
-    const PhaseMixture::Sample next = phase.sample(-path.direction, uDirection, u.w);
+    const sh::LobeSample next =
+        sh::phaseMixtureSample(phase, -path.direction, vec3(uDirection, 0.0f), u.w);
     path.throughput *= next.weight;
     if (!(luminance(path.throughput) > 0.0f) || !survivesRoulette(path)) return Flight::Ends;
 
@@ -133,7 +134,7 @@ bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& h
         const WalkStart first = startWalk(medium, u, path.sampler.random());
         const vec3& w = first.direction;
         vec3 x, y;
-        completeBasis(-outside, x, y);
+        sh::completeBasis(-outside, x, y);
         const vec3 inwards = x * w.x + y * w.y - outside * w.z;
         exit = walkBeneath(_scene, medium, hit, back, outside, start, inwards, path.sampler,
                            counters.rays);

@@ -3,7 +3,6 @@
 #include "materialNetwork/cpu/layerWalk.h"
 #include "materialNetwork/cpu/lobeOps.h"
 #include "materialNetwork/cpu/microsurface.h"
-#include "materialNetwork/cpu/shadingFrame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +41,7 @@ BsdfEval Bsdf::evalStochastic(int i, const glm::vec3& wi, const glm::vec3& local
 /// Densities are those of all lobes in any case.
 BsdfEval Bsdf::evalLobes(const glm::vec3& wi, Lobes which) const {
     BsdfEval result;
-    const bool reflects = (glm::dot(wi, _geometricNormal) > 0.0f) == _woOutside;
+    const bool reflects = sh::isReflected(wi, _geometricNormal, _woOutside);
     int frame = -1;
     glm::vec3 local;
     for (int i = 0; i < _lobeCount; ++i) {
@@ -50,12 +49,11 @@ BsdfEval Bsdf::evalLobes(const glm::vec3& wi, Lobes which) const {
         const BsdfFrame& f = _frames[l.frame];
         if (_walks && l.kind == LobeKind::Subsurface) continue;
         if (l.frame != frame) {
-            local = f.toLocal(wi);
+            local = sh::toLocal(f, wi);
             frame = l.frame;
         }
         // The parts of a layer have frames of their own.
-        if (l.kind != LobeKind::Layered && ((local.z > 0.0f) == (f.wo.z >= 0.0f)) != reflects)
-            continue;
+        if (l.kind != LobeKind::Layered && !sh::lobeAgrees(f.wo.z, local.z, reflects)) continue;
         if (l.stochastic) {
             if (which != Lobes::All) {
                 result.pdf += l.probability * stochasticDensity(l, wi, local);
@@ -67,9 +65,7 @@ BsdfEval Bsdf::evalLobes(const glm::vec3& wi, Lobes which) const {
             result.pdf += l.probability * e.pdf;
             continue;
         }
-        const sh::LobeEval e = lobeEval(l, f.wo, local);
-        (l.diffuse ? result.diffuse : result.specular) += l.weight * e.value;
-        result.pdf += l.probability * e.pdf;
+        sh::addLobe(result, true, l.diffuse, l.weight, l.probability, lobeEval(l, f.wo, local));
     }
     return result;
 }
@@ -83,7 +79,7 @@ BsdfSample Bsdf::sampleLobe(const BsdfLobe& l, const glm::vec3& u, glm::vec3& lo
         HashedNumbers random = HashedNumbers(_seed ^ 0x5bd1e995u).mix(f.wo).mix(u);
         if (l.kind == LobeKind::Layered) {
             result = LayerWalk(*_layers, l.layered.op, _view).sample(u, random);
-            local = f.toLocal(result.wi);
+            local = sh::toLocal(f, result.wi);
             return result;
         }
         s = microsurfaceSample(l, f.wo, u, random);
@@ -92,9 +88,9 @@ BsdfSample Bsdf::sampleLobe(const BsdfLobe& l, const glm::vec3& u, glm::vec3& lo
     }
     local = s.wi;
     if (s.event == 0 || !(s.pdf > 0.0f)) return result;
-    result.wi = f.toWorld(s.wi);
+    result.wi = sh::toWorld(f, s.wi);
     const bool reflects = (s.event & sh::LOBE_REFLECT) != 0;
-    if (((glm::dot(result.wi, _geometricNormal) > 0.0f) == _woOutside) != reflects) return result;
+    if (sh::isReflected(result.wi, _geometricNormal, _woOutside) != reflects) return result;
     result.weight = s.weight;
     result.pdf = s.pdf;
     result.event = s.event;
@@ -106,13 +102,11 @@ BsdfSample Bsdf::sampleLobe(const BsdfLobe& l, const glm::vec3& u, glm::vec3& lo
 
 BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
     BsdfSample result;
-    if (_lobeCount == 0) return result;
-    int chosen = 0;
-    for (float sum = _lobes[0].probability; chosen + 1 < _lobeCount && uLobe >= sum;)
-        sum += _lobes[++chosen].probability;
-    // Rounding may leave uLobe beyond all of them, and the last never to be drawn.
-    while (chosen > 0 && !(_lobes[chosen].probability > 0.0f))
-        --chosen;
+    sh::Selection drawn = sh::selectionNone();
+    for (int i = 0; i < _lobeCount && !drawn.found; ++i)
+        sh::selectLobe(drawn, i, _lobes[i].probability, uLobe);
+    if (drawn.lobe < 0) return result;
+    const int chosen = drawn.lobe;
     const BsdfLobe& l = _lobes[chosen];
     if (_walks && l.kind == LobeKind::Subsurface) {
         result.lobe = chosen;
@@ -131,12 +125,12 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
     if (result.event == 0) return result;
     const BsdfSample s = result;
     if ((s.event & sh::LOBE_DELTA) != 0 || _lobeCount == 1) {
-        result.weight = l.weight * s.weight / l.probability;
+        result.weight = sh::drawnAlone(l.weight, s.weight, l.probability);
         result.pdf = s.pdf * l.probability;
         return result;
     }
     const bool reflects = (s.event & sh::LOBE_REFLECT) != 0;
-    glm::vec3 value = l.weight * (s.weight * s.pdf);
+    glm::vec3 value = sh::drawnValue(l.weight, s.weight, s.pdf);
     float exact = l.probability * s.pdf; // of the lobes in `value`
     float estimate = 0.0f;               // of the others
     for (int i = 0; i < _lobeCount; ++i) {
@@ -144,9 +138,8 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
         const BsdfLobe& other = _lobes[i];
         if (_walks && other.kind == LobeKind::Subsurface) continue;
         const BsdfFrame& frame = _frames[other.frame];
-        const glm::vec3 theirs = other.frame == l.frame ? local : frame.toLocal(s.wi);
-        if (other.kind != LobeKind::Layered &&
-            ((theirs.z > 0.0f) == (frame.wo.z >= 0.0f)) != reflects)
+        const glm::vec3 theirs = other.frame == l.frame ? local : sh::toLocal(frame, s.wi);
+        if (other.kind != LobeKind::Layered && !sh::lobeAgrees(frame.wo.z, theirs.z, reflects))
             continue;
         if (other.stochastic) {
             estimate += other.probability * stochasticDensity(other, s.wi, theirs);
@@ -159,7 +152,7 @@ BsdfSample Bsdf::sample(const glm::vec3& u, float uLobe) const {
     if (!(l.stochastic || exact > 0.0f)) return BsdfSample();
     result.pdf = exact + estimate;
     if (l.stochastic)
-        result.weight = l.weight * s.weight / l.probability;
+        result.weight = sh::drawnAlone(l.weight, s.weight, l.probability);
     else
         result.weight = value / exact;
     return result;
@@ -220,7 +213,7 @@ void Bsdf::makeDiffuse(const glm::vec3& normal, const glm::vec3& geometricNormal
     _geometricNormal = geometricNormal;
     BsdfFrame& f = _frames[0];
     f.normal = normal;
-    completeBasis(normal, f.tangent, f.bitangent);
+    sh::completeBasis(normal, f.tangent, f.bitangent);
     f.wo = glm::vec3(0, 0, 1);
     BsdfLobe& l = _lobes[0];
     l.kind = LobeKind::OrenNayar;

@@ -2,7 +2,7 @@
 
 #include "materialNetwork/lobes.h"
 
-#include "shaders/shaders.h"
+#include "shaders/closure.h"
 
 #include <glm/glm.hpp>
 
@@ -12,11 +12,9 @@
 namespace patina {
 
 /// Value of a whole material for two directions, and the density with which sample() finds wi.
-struct BsdfEval {
-    glm::vec3 diffuse{
-        0.0f}; ///< f * |cos|, part of the diffuse lobes (light input `diffuse` scales it)
-    glm::vec3 specular{0.0f}; ///< f * |cos|, part of all other lobes
-    float pdf = 0.0f;         ///< solid angle
+/// The light inputs `diffuse` and `specular` scale its parts.
+struct BsdfEval : sh::MaterialEval {
+    BsdfEval() : sh::MaterialEval(sh::materialEvalNone()) {}
 };
 
 /// BsdfSample::event bit: light enters to be scattered beneath the surface, see SubsurfaceEntry.
@@ -68,17 +66,7 @@ struct BsdfLobe {
 };
 
 /// Shading frame of one or more lobes, in world space.
-struct BsdfFrame {
-    glm::vec3 tangent, bitangent, normal;
-    glm::vec3 wo; ///< the outgoing direction in this frame
-
-    glm::vec3 toLocal(const glm::vec3& v) const {
-        return {glm::dot(v, tangent), glm::dot(v, bitangent), glm::dot(v, normal)};
-    }
-    glm::vec3 toWorld(const glm::vec3& v) const {
-        return tangent * v.x + bitangent * v.y + normal * v.z;
-    }
-};
+using BsdfFrame = sh::Frame;
 
 /// The lobes of a material at one shading point: built by MaterialProgram, then asked many times.
 /// Lives on the stack; no allocation, unless layers are walked. All directions are in world space

@@ -27,33 +27,20 @@ public:
                                  const glm::vec4* registers);
 
 private:
-    /// What a lobe of a thin wall, or between equal media, does to light.
-    struct ThinSlab {
-        glm::vec3 transmittance; ///< share that goes straight on, without the lobe's weight
-        glm::vec3 reflected;     ///< factor on the reflection that is left as a lobe
-    };
+    class LobeNumbers;
 
     /// @param slabs is set for lobes that pass light straight on
     /// @param root in ProgramCode::bsdf
     static void instantiate(const ProgramCode& code, const ShadingPoint& point,
-                            const glm::vec4* registers, int root, ThinSlab* slabs, Bsdf& out);
-    template <class Interface> static ThinSlab slabOf(BsdfLobe& lobe, Interface& interface,
-                                                      const glm::vec3& tint, const glm::vec3& wo,
-                                                      bool twoFaces);
-    static glm::vec3 passThroughWeight(const ProgramCode& code, const ThinSlab* slabs,
+                            const glm::vec4* registers, int root, sh::Slab* slabs, Bsdf& out);
+    static glm::vec3 passThroughWeight(const ProgramCode& code, const sh::Slab* slabs,
                                        const Bsdf& bsdf);
     static void setWeights(const ProgramCode& code, const glm::vec4* registers,
                            const glm::vec3* coverage, int root, Bsdf& out);
-    /// The same where layers count what their tops send back down.
-    static void setReturnedWeights(const ProgramCode& code, const glm::vec4* registers,
-                                   const glm::vec3* coverage, int root, Bsdf& out);
     static void setLayer(const ProgramCode& code, const glm::vec3& weight, int op, int index,
                          Bsdf& out);
     static void setSelectionPdfs(const ProgramCode& code, Bsdf& out);
 };
-
-/// Whether a lobe on top of a layer sends light back down to the base: an interface that reflects.
-bool isReturning(const LobeTemplate& lobe);
 
 /// Value of a tree of EDFs, which are linear: sum of leaf values times factors.
 /// @param wo direction of emission; @param normal and tangent of the surface; all 0 inside a

@@ -56,11 +56,7 @@ LayerWalk::LayerWalk(const LayeredPoint& point, int op, const glm::vec3& wo)
     const FrameTemplate& f = point.code->frames[t.prebuilt.frame];
     ShadingPoint seen = point.point;
     seen.viewDirection = wo;
-    glm::vec3 n, tangent;
-    if (f.normal >= 0) n = glm::vec3(registers[f.normal]);
-    if (f.tangent >= 0) tangent = glm::vec3(registers[f.tangent]);
-    _frame =
-        makeFrame(seen, f.normal >= 0 ? &n : nullptr, f.tangent >= 0 ? &tangent : nullptr, f.flips);
+    _frame = makeFrame(f, registers, seen);
     _aboveIsOutside =
         (glm::dot(wo, seen.geometricNormal) >= 0.0f) == (glm::dot(wo, _frame.normal) >= 0.0f);
 }
@@ -74,26 +70,26 @@ BsdfLobe LayerWalk::topAt(const glm::vec3& v) const {
 
 sh::LobeEval LayerWalk::topEval(const glm::vec3& v, const glm::vec3& wi,
                                 HashedNumbers& random) const {
-    const glm::vec3 o = _frame.toLocal(v), i = _frame.toLocal(wi);
+    const glm::vec3 o = sh::toLocal(_frame, v), i = sh::toLocal(_frame, wi);
     if (!agrees(v, o) || !agrees(wi, i)) return sh::lobeEvalNone();
     return _top.stochastic ? microsurfaceEval(_top, o, i, random) : lobeEval(topAt(o), o, i);
 }
 
 float LayerWalk::topDensity(const glm::vec3& v, const glm::vec3& wi) const {
-    const glm::vec3 o = _frame.toLocal(v), i = _frame.toLocal(wi);
+    const glm::vec3 o = sh::toLocal(_frame, v), i = sh::toLocal(_frame, wi);
     if (!agrees(v, o) || !agrees(wi, i)) return 0.0f;
     return _top.stochastic ? microsurfaceDensity(_top, o, i) : lobeEval(topAt(o), o, i).pdf;
 }
 
 LayerWalk::TopSample LayerWalk::topSample(const glm::vec3& v, const glm::vec3& u,
                                           HashedNumbers& random) const {
-    const glm::vec3 o = _frame.toLocal(v);
+    const glm::vec3 o = sh::toLocal(_frame, v);
     TopSample result;
     if (!agrees(v, o)) return result;
     const sh::LobeSample s =
         _top.stochastic ? microsurfaceSample(_top, o, u, random) : lobeSample(topAt(o), o, u);
     if (s.event == 0) return result;
-    result.wi = _frame.toWorld(s.wi);
+    result.wi = sh::toWorld(_frame, s.wi);
     const bool reflects = (s.event & sh::LOBE_REFLECT) != 0;
     if (!agrees(result.wi, s.wi) || (above(result.wi) == above(v)) != reflects) return result;
     result.weight = s.weight;
@@ -219,18 +215,18 @@ BsdfSample LayerWalk::sample(const glm::vec3& u, HashedNumbers& random) const {
 }
 
 float LayerWalk::refracted(glm::vec3& d) const {
-    const glm::vec3 o = _frame.toLocal(d);
+    const glm::vec3 o = sh::toLocal(_frame, d);
     const bool dielectric = _top.kind == LobeKind::Dielectric;
     const float ior = dielectric ? _top.dielectric.ior : _top.schlick.ior;
     const float z = std::fabs(o.z), inside = sh::cosRefracted(z, ior);
     if (!(inside > 0.0f)) return 0.0f;
     const float side = o.z >= 0.0f ? 1.0f : -1.0f;
-    d = glm::normalize(_frame.toWorld(glm::vec3(o.x / ior, o.y / ior, side * inside)));
+    d = glm::normalize(sh::toWorld(_frame, glm::vec3(o.x / ior, o.y / ior, side * inside)));
     return z / (ior * ior * inside);
 }
 
 float LayerWalk::density(const glm::vec3& wi) const {
-    const glm::vec3 o = _frame.toLocal(_wo);
+    const glm::vec3 o = sh::toLocal(_frame, _wo);
     float result = 0.0f, rest = 1.0f;
     glm::vec3 v = _wo, d = wi;
     float jacobian = 1.0f;

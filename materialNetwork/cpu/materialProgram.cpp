@@ -45,7 +45,7 @@ float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* passes,
         registers.run(*_code, _code->opacityCode, point);
         x = registers.data()[_code->opacity].x;
     }
-    x = x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f;
+    x = sh::unit(x);
     if (passes) *passes = glm::vec3(1.0f);
     if (presence) *presence = x;
     if (!_code->hasPassThrough || x == 0.0f) return x;
@@ -57,11 +57,10 @@ float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* passes,
         registers.run(*_code, _code->surfaceCode, point);
         passThrough = BsdfBuilder::passThrough(*_code, point, registers.data());
     }
-    // As often as its brightest channel passes.
-    const float maximum = std::max(passThrough.x, std::max(passThrough.y, passThrough.z));
-    const float pass = 1.0f - x + x * maximum;
-    if (passes && pass > 0.0f) *passes = (1.0f - x + x * passThrough) / pass;
-    return x * (1.0f - maximum);
+    glm::vec3 color;
+    x = sh::presenceOf(x, passThrough, color);
+    if (passes) *passes = color;
+    return x;
 }
 
 bool MaterialProgram::isOpaqueWith(const std::vector<int>& attributes) const {

@@ -2,7 +2,7 @@
 
 #include "materialNetwork/cpu/programBuilder.h"
 
-#include "materialNetwork/cpu/bsdfBuilder.h"
+#include "materialNetwork/cpu/layerWeights.h"
 #include "materialNetwork/plan/layering.h"
 
 namespace patina {

@@ -14,54 +14,46 @@ void line(std::string& text, const std::string& more) {
     text += more + "\n";
 }
 
+class EmissionText : public ClosureText {
+public:
+    using Profile = std::function<std::string(const ClosureOp&)>;
+    EmissionText(const GlslRegister& registers, const std::string& prefix, const Profile& profile)
+        : ClosureText(registers, prefix), _profile(profile) {}
+
+    static std::string wo() { return "wo"; }
+    static std::string normal() { return "point.normal"; }
+    bool hasProfile(const ClosureOp& op) const { return !_profile(op).empty(); }
+    std::string profile(const ClosureOp& op, const std::string& axis) const {
+        return _profile(op) + "(wo, " + axis + ")";
+    }
+
+private:
+    const Profile& _profile;
+};
+
+class MediumText : public ClosureText {
+public:
+    using ClosureText::ClosureText;
+
+    void addAbsorption(const std::string& weight, const std::string& absorption) {
+        line("addAbsorption(m, " + weight + ", " + absorption + ");");
+    }
+    void addAnisotropic(const std::string& weight, const std::string& absorption,
+                        const std::string& scattering, const std::string& anisotropy) {
+        line("addAnisotropic(m, " + weight + ", " + absorption + ", " + scattering + ", " +
+             anisotropy + ");");
+    }
+};
+
 } // namespace
 
-std::string glslLinearClosure(const std::vector<ClosureOp>& ops, const std::string& prefix,
-                              const GlslRegister& reg,
-                              const std::function<std::string(const ClosureOp&)>& profile,
-                              std::string& result) {
-    std::string text;
-    const auto axis = [&](const ClosureOp& op) {
-        return op.normal >= 0 ? "unitOr(" + reg(op.normal) + ".xyz, point.normal)"
-                              : std::string("point.normal");
-    };
-    const int count = int(ops.size());
-    const auto of = [&](int i) { return i < 0 ? "vec3(0.0)" : prefix + number(i); };
-    for (int i = 0; i < count; ++i) {
-        const ClosureOp& op = ops[size_t(i)];
-        std::string value;
-        switch (op.kind) {
-        case ClosureKind::Mix:
-            value = "mix(" + of(op.b) + ", " + of(op.a) + ", unit(" + reg(op.factor) + ".x))";
-            break;
-        case ClosureKind::Add: value = of(op.a) + " + " + of(op.b); break;
-        case ClosureKind::Multiply:
-            value = of(op.a) + " * emitted(" + reg(op.factor) + ".xyz)";
-            break;
-        case ClosureKind::ConicalEdf: {
-            value = "emitted(" + reg(op.factor) + ".xyz) * edfConical(";
-            value += reg(op.first) + ".x, ";
-            value += reg(op.second) + ".x, abs(dot(wo, ";
-            value += axis(op) + ")))";
-            break;
-        }
-        case ClosureKind::MeasuredEdf: {
-            value = "emitted(" + reg(op.factor) + ".xyz)";
-            const std::string name = profile(op);
-            if (!name.empty()) value += " * " + name + "(wo, " + axis(op) + ")";
-            break;
-        }
-        case ClosureKind::SchlickEdf:
-            value = of(op.a) + " * edfSchlick(" + reg(op.factor) + ".xyz, ";
-            value += reg(op.first) + ".xyz, ";
-            value += reg(op.second) + ".x, dot(wo, point.normal))";
-            break;
-        default: value = reg(op.factor) + ".xyz";
-        }
-        line(text, "    vec3 " + of(i) + " = emitted(" + value + ");");
-    }
-    result = of(count - 1);
-    return text;
+std::string glslEmission(const std::vector<ClosureOp>& ops, const std::string& prefix,
+                         const GlslRegister& registers,
+                         const std::function<std::string(const ClosureOp&)>& profile,
+                         std::string& result) {
+    EmissionText text(registers, prefix, profile);
+    result = emissionOf(ops, text);
+    return text.text();
 }
 
 GlslProfileTable::GlslProfileTable(const EmissionProfile& profile) : angles(91), turns(25) {
@@ -109,42 +101,10 @@ std::string glslProfile(const std::string& name, const GlslProfileTable& table, 
     return text;
 }
 
-std::string glslVdf(const std::vector<ClosureOp>& ops, const GlslRegister& reg) {
-    std::string text;
-    const int count = int(ops.size());
-    for (int i = 0; i < count; ++i)
-        line(text, "    vec3 v" + number(i) + " = vec3(" + (i == count - 1 ? "1.0" : "0.0") + ");");
-    for (int i = count - 1; i >= 0; --i) {
-        const ClosureOp& op = ops[size_t(i)];
-        const std::string v = "v" + number(i);
-        const auto give = [&](int to, const std::string& what) {
-            if (to >= 0) line(text, "    v" + number(to) + " += " + what + ";");
-        };
-        switch (op.kind) {
-        case ClosureKind::Mix: {
-            const std::string share = "unit(" + reg(op.factor) + ".x)";
-            give(op.a, v + " * " + share);
-            give(op.b, v + " * (1.0 - " + share + ")");
-            break;
-        }
-        case ClosureKind::Add:
-            give(op.a, v);
-            give(op.b, v);
-            break;
-        case ClosureKind::Multiply:
-            give(op.a, v + " * coefficient(" + reg(op.factor) + ".xyz)");
-            break;
-        case ClosureKind::AnisotropicVdf:
-            line(text, "    addVdf(m, " + v + ", " + reg(op.factor) + ".xyz, " +
-                           reg(op.scattering) + ".xyz, " + reg(op.anisotropy) + ".x);");
-            break;
-        case ClosureKind::AbsorptionVdf:
-            line(text, "    addVdf(m, " + v + ", " + reg(op.factor) + ".xyz, vec3(0.0), 0.0);");
-            break;
-        default: break;
-        }
-    }
-    return text;
+std::string glslMedia(const std::vector<ClosureOp>& ops, const GlslRegister& registers) {
+    MediumText text(registers, "v");
+    addMedia(ops, text);
+    return text.text();
 }
 
 } // namespace patina

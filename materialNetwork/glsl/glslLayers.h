@@ -1,16 +1,15 @@
 #pragma once
 
-#include "materialNetwork/cpu/programCode.h"
-
-#include <string>
-#include <vector>
+#include "materialNetwork/cpu/layerWeights.h"
+#include "materialNetwork/glsl/closureText.h"
 
 namespace patina {
 
-/// GLSL that sets lobeWeight[] where layers count what their tops send back down, for the middle of
-/// a function that has set up lobes, frames, lobeAlbedo[] and `coverage` of each lobe. The same as
-/// BsdfBuilder::setReturnedWeights(), unrolled.
-/// @param factors  per closure: share of a mix, weight of a lobe, colour of a product
-std::string glslReturnedWeights(const ProgramCode& code, const std::vector<std::string>& factors);
+/// GLSL that sets lobeWeight[], for the middle of a function that has set up lobes, frames,
+/// lobeAlbedo[] and `coverage` of each lobe: weighLobes() in text.
+std::string glslWeights(const ProgramCode& code, const GlslRegister& registers);
+
+/// GLSL for what a lobe keeps from the base of a layer: coverOf() in text.
+std::string glslCoverage(const ProgramCode& code, const std::string& fixed);
 
 } // namespace patina

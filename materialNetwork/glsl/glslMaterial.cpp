@@ -153,19 +153,18 @@ private:
             frame(int(i));
         for (size_t i = 0; i < _code.lobes.size(); ++i)
             instantiateLobe(i);
-        weights();
+        _text += glslWeights(_code, registers());
         line("    passThrough = vec3(0.0);");
         for (size_t i = 0; i < _code.lobes.size(); ++i)
             if (_code.lobes[i].passThrough)
-                line("    passThrough += lobeWeight[" + number(int(i)) + "] * slabTransmittance" +
-                     number(int(i)) + ";");
+                line("    passThrough += lobeWeight[" + number(int(i)) + "] * slab" +
+                     number(int(i)) + ".transmittance;");
         if (_code.hasPassThrough) {
-            line("    passThrough = clamp(passThrough, 0.0, 1.0);");
-            line("    float met = 1.0 - largest(passThrough);");
-            line("    float scale = met > 0.0 ? 1.0 / met : 0.0;");
+            line("    passThrough = unitColor(passThrough);");
+            line("    float scale = slabScale(passThrough);");
             for (size_t i = 0; i < _code.lobes.size(); ++i)
                 line("    lobeWeight[" + number(int(i)) + "] *= " +
-                     (_code.lobes[i].passThrough ? "slabReflected" + number(int(i)) + " * scale;"
+                     (_code.lobes[i].passThrough ? "slab" + number(int(i)) + ".reflected * scale;"
                                                  : "scale;"));
         }
         line("}");
@@ -191,16 +190,6 @@ private:
             }
         }
         return number(int(first));
-    }
-
-    std::string share(const std::string& color) const {
-        switch (_code.layerTransmittance) {
-        case LayerTransmittance::Returned: // a factor is a tint
-        case LayerTransmittance::Largest: return "shareLargest(" + color + ")";
-        case LayerTransmittance::Average: return "shareAverage(" + color + ")";
-        case LayerTransmittance::Tinted: break;
-        }
-        return "shareTinted(" + color + ")";
     }
 
     /// What lobeSetup.cpp sets after the lobe's own inputs.
@@ -236,90 +225,15 @@ private:
                                     : "vec3(1.0);"));
         const bool tinted = _code.layerTransmittance == LayerTransmittance::Tinted &&
                             lobeHas(kind, lobe::Covers) && (!interface || t.mode == sh::SCATTER_R);
-        const std::string what = tinted ? albedo : "coverage" + n;
-        const bool returned = _code.layerTransmittance == LayerTransmittance::Returned;
-        line("    coverage" + n + " = " + (returned ? "unit(" + what + ")" : share(what)) + ";");
+        line("    coverage" + n + " = " + glslCoverage(_code, tinted ? albedo : "coverage" + n) +
+             ";");
         if (glslRefracts(t)) line("    lobeTransmittance[" + n + "] = fixTransmittance;");
         if (!t.passThrough) return;
-        line("    vec3 slabTransmittance" + n + ", slabReflected" + n + ";");
-        line("    " + std::string(lobeRow(kind).prefix) + "Slab(" + lobe + ", " + wo + ", " +
-             albedo + ", slabTransmittance" + n + ", slabReflected" + n + ", " +
-             (_code.slabsHaveTwoFaces ? "true" : "false") + ");");
+        line("    Slab slab" + n + " = " + lobeRow(kind).prefix + "Slab(" + lobe + ", " + wo +
+             ", " + albedo + ", " + (_code.slabsHaveTwoFaces ? "true" : "false") + ");");
     }
 
-    /// As BsdfBuilder::setWeights(), unrolled.
-    void weights() {
-        const int count = int(_code.bsdf.size());
-        const auto transmittance = [&](int i) {
-            return i < 0 ? "vec3(1.0)" : "transmittance" + number(i);
-        };
-        std::vector<std::string> factor(size_t(count) + 1);
-        for (int i = 0; i < count; ++i) {
-            const ClosureOp& op = _code.bsdf[size_t(i)];
-            if (op.kind == ClosureKind::Mix || op.lobe >= 0)
-                factor[size_t(i)] = "unit(" + reg(op.factor) + ".x)";
-            else if (op.kind == ClosureKind::Multiply)
-                factor[size_t(i)] = reg(op.factor) + ".xyz";
-        }
-        if (_code.returnsLight) {
-            _text += glslReturnedWeights(_code, factor);
-            return;
-        }
-        for (int i = 0; i < count; ++i) {
-            const ClosureOp& op = _code.bsdf[size_t(i)];
-            if (!op.needsTransmittance) continue;
-            const std::string& f = factor[size_t(i)];
-            std::string value = "vec3(1.0)";
-            switch (op.kind) {
-            case ClosureKind::Layer:
-                value = transmittance(op.a) + " * " + transmittance(op.b);
-                break;
-            case ClosureKind::Mix:
-                value = "mix(" + transmittance(op.b) + ", " + transmittance(op.a) + ", " + f + ")";
-                break;
-            case ClosureKind::Add:
-                value = "max(" + transmittance(op.a) + " + " + transmittance(op.b) +
-                        " - 1.0, vec3(0.0))";
-                break;
-            case ClosureKind::Multiply:
-                value = "1.0 - " + share(f) + " * (1.0 - " + transmittance(op.a) + ")";
-                break;
-            default:
-                if (op.lobe >= 0) value = "1.0 - " + f + " * coverage" + number(op.lobe);
-            }
-            line("    vec3 transmittance" + number(i) + " = " + value + ";");
-        }
-        for (int i = 0; i < count; ++i)
-            line("    vec3 w" + number(i) + " = vec3(" + (i == count - 1 ? "1.0" : "0.0") + ");");
-        for (int i = count - 1; i >= 0; --i) {
-            const ClosureOp& op = _code.bsdf[size_t(i)];
-            const std::string w = "w" + number(i);
-            const std::string& f = factor[size_t(i)];
-            const auto give = [&](int to, const std::string& what) {
-                if (to >= 0) line("    w" + number(to) + " += " + what + ";");
-            };
-            switch (op.kind) {
-            case ClosureKind::Layer:
-                give(op.a, w);
-                give(op.b, w + " * " + transmittance(op.a));
-                break;
-            case ClosureKind::Mix:
-                give(op.a, w + " * " + f);
-                give(op.b, w + " * (1.0 - " + f + ")");
-                break;
-            case ClosureKind::Add:
-                give(op.a, w);
-                give(op.b, w);
-                break;
-            case ClosureKind::Multiply: give(op.a, w + " * factor(" + f + ")"); break;
-            default:
-                if (op.lobe >= 0)
-                    line("    lobeWeight[" + number(op.lobe) + "] = " + w + " * " + f + ";");
-            }
-        }
-    }
-
-    /// As BsdfBuilder::setSelectionPdfs(): a lone lobe needs no share.
+    /// As BsdfBuilder::setSelectionPdfs().
     void setupFunction() {
         line("void materialSetup() {");
         line("    instantiate();");
@@ -327,14 +241,14 @@ private:
         line("    int present = 0;");
         for (size_t i = 0; i < _code.lobes.size(); ++i) {
             const std::string n = "[" + number(int(i)) + "]";
-            line("    bool has" + number(int(i)) + " = luminance(lobeWeight" + n + ") > 0.0;");
+            line("    bool has" + number(int(i)) + " = hasWeight(lobeWeight" + n + ");");
             line("    present += has" + number(int(i)) + " ? 1 : 0;");
         }
         for (size_t i = 0; i < _code.lobes.size(); ++i) {
             const std::string n = "[" + number(int(i)) + "]";
             line("    lobeChance" + n + " = !has" + number(int(i)) +
-                 " ? 0.0 : present == 1 ? 1.0 : luminance(lobeWeight" + n + " * lobeAlbedo" + n +
-                 ");");
+                 " ? 0.0 : selectionShare(lobeWeight" + n + ", lobeAlbedo" + n +
+                 ", present == 1);");
             line("    sum += lobeChance" + n + ";");
         }
         for (size_t i = 0; i < _code.lobes.size(); ++i) {
@@ -349,19 +263,16 @@ private:
         line("float materialPresence(out vec3 passes) {");
         line("    passes = vec3(1.0);");
         instructions(_code.opacityCode);
-        line("    float x = unit(" + reg(_code.opacity) + ".x);");
+        const std::string opacity = reg(_code.opacity) + ".x";
         if (_code.hasPassThrough) {
             line("    instantiate();");
-            line("    float most = largest(passThrough);");
-            line("    float pass = 1.0 - x + x * most;");
-            line("    if (pass > 0.0) passes = (1.0 - x + x * passThrough) / pass;");
-            line("    x *= 1.0 - most;");
+            line("    return presenceOf(" + opacity + ", passThrough, passes);");
+        } else {
+            line("    return unit(" + opacity + ");");
         }
-        line("    return x;");
         line("}");
     }
 
-    /// As linearClosure().
     void emissionFunction() {
         // Nodes of one file share its table.
         std::vector<std::pair<const EmissionProfile*, std::string>> profiles;
@@ -387,21 +298,20 @@ private:
         line("vec3 materialEmission(vec3 wo) {");
         instructions(_code.emissionCode);
         std::string result;
-        _text += glslLinearClosure(_code.edf, "e", registers(), profile, result);
+        _text += glslEmission(_code.edf, "e", registers(), profile, result);
         line("    return " + result + ";");
         line("}");
     }
 
-    /// As buildMedium() and linearClosure(), unrolled.
     void mediumFunction() {
         line("Medium materialMedium() {");
-        line("    Medium m = Medium(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);");
+        line("    Medium m = mediumNone();");
         instructions(_code.interiorCode);
-        _text += glslVdf(_code.vdf, registers());
+        _text += glslMedia(_code.vdf, registers());
         line("    vec3 wo = vec3(0.0);");
         std::string result;
         const auto even = [](const ClosureOp&) { return std::string(); };
-        _text += glslLinearClosure(_code.volumeEdf, "g", registers(), even, result);
+        _text += glslEmission(_code.volumeEdf, "g", registers(), even, result);
         line("    m.emission = " + result + ";");
         line("    return m;");
         line("}");

@@ -48,17 +48,20 @@ std::string glslFrameOf(const ProgramCode& code, size_t lobe) {
 }
 
 std::string glslEval(const ProgramCode& code) {
-    std::string text =
-        "MaterialEval materialEvalBut(vec3 wi, int without) {\n"
-        "    MaterialEval sum = materialEvalNone();\n"
-        "    bool reflects = (dot(wi, point.geometricNormal) > 0.0) == woOutside();\n";
+    std::string text = "MaterialEval materialEvalBut(vec3 wi, int without) {\n"
+                       "    MaterialEval sum = materialEvalNone();\n"
+                       "    bool reflects = isReflected(wi, point.geometricNormal, woOutside());\n";
+    for (size_t i = 0; i < code.frames.size(); ++i)
+        text +=
+            "    vec3 wi" + number(int(i)) + " = toLocal(frames[" + number(int(i)) + "], wi);\n";
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const LobeTemplate& t = code.lobes[i];
-        const std::string n = number(int(i)), frame = glslFrameOf(code, i);
-        text += "    if (without != " + n + ") addLobe(sum, " +
-                (t.prebuilt.diffuse ? "true" : "false") + ", lobeWeight[" + n + "], lobeChance[" +
-                n + "], reflects, " + frame + ", wi, " + lobeRow(t.prebuilt.kind).prefix +
-                "Eval(lobe" + n + ", " + frame + ".wo, toLocal(" + frame + ", wi)));\n";
+        const std::string n = number(int(i)), wo = glslFrameOf(code, i) + ".wo",
+                          wi = "wi" + number(t.prebuilt.frame), weight = "lobeWeight[" + n + "]";
+        text += "    if (without != " + n + ") addLobe(sum, lobeAgrees(" + wo + ".z, " + wi +
+                ".z, reflects) && hasWeight(" + weight + "), " +
+                (t.prebuilt.diffuse ? "true, " : "false, ") + weight + ", lobeChance[" + n + "], " +
+                lobeRow(t.prebuilt.kind).prefix + "Eval(lobe" + n + ", " + wo + ", " + wi + "));\n";
     }
     return text + "    return sum;\n}\n"
                   "MaterialEval materialEval(vec3 wi) { return materialEvalBut(wi, -1); }\n";
@@ -66,36 +69,34 @@ std::string glslEval(const ProgramCode& code) {
 
 std::string glslSample(const ProgramCode& code) {
     std::string text = "MaterialSample materialSample(vec3 u, float uLobe) {\n"
-                       "    MaterialSample s = materialSampleNone();\n"
-                       "    LobeSample l = lobeSampleNone();\n"
-                       "    float below = 0.0, chance = 0.0;\n"
-                       "    vec3 weight = vec3(0.0);\n"
-                       "    int drawn = -1;\n";
+                       "    Selection drawn = selectionNone();\n";
+    for (size_t i = 0; i < code.lobes.size(); ++i) {
+        const std::string n = number(int(i));
+        text += "    selectLobe(drawn, " + n + ", lobeChance[" + n + "], uLobe);\n";
+    }
+    text += "    MaterialSample s = materialSampleNone();\n"
+            "    LobeSample l = lobeSampleNone();\n"
+            "    vec3 weight = vec3(0.0);\n"
+            "    float chance = 0.0;\n";
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const LobeTemplate& t = code.lobes[i];
         const std::string n = number(int(i)), frame = glslFrameOf(code, i);
-        const std::string own = "lobeChance[" + n + "]";
-        // Rounding must not leave the last without its share.
-        const bool last = i + 1 == code.lobes.size();
-        text += "    if (drawn < 0 && " + own + " > 0.0" +
-                (last ? std::string() : " && uLobe < below + " + own) + ") {\n";
+        text += "    if (drawn.lobe == " + n + ") {\n";
         text += "        l = " + std::string(lobeRow(t.prebuilt.kind).prefix) + "Sample(lobe" + n +
                 ", " + frame + ".wo, u);\n";
         text += "        s.wi = toWorld(" + frame + ", l.wi);\n";
         text += "        s.diffuse = " + std::string(t.prebuilt.diffuse ? "true" : "false") + ";\n";
-        text += "        drawn = " + n + ";\n";
         text += "        weight = lobeWeight[" + n + "];\n";
-        text += "        chance = " + own + ";\n";
-        text += "    }\n    below += " + own + ";\n";
+        text += "        chance = lobeChance[" + n + "];\n    }\n";
     }
-    return text + "    return finishSample(s, l, drawn, weight, chance);\n}\n";
+    return text + "    return finishSample(s, l, drawn.lobe, weight, chance);\n}\n";
 }
 
 std::string glslAlbedo(const ProgramCode& code) {
     std::string text = "vec3 materialAlbedo() {\n    vec3 sum = vec3(0.0);\n";
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const std::string n = number(int(i));
-        text += "    if (luminance(lobeWeight[" + n + "]) > 0.0) sum += lobeWeight[" + n + "] * " +
+        text += "    if (hasWeight(lobeWeight[" + n + "])) sum += lobeWeight[" + n + "] * " +
                 lobeRow(code.lobes[i].prebuilt.kind).prefix + "Albedo(lobe" + n + ", " +
                 glslFrameOf(code, i) + ".wo);\n";
     }

@@ -1,5 +1,6 @@
-#include "materialNetwork/cpu/shadingFrame.h"
 #include "materialNetwork/tests/materialTest.h"
+
+#include "shaders/closure.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,7 @@ using namespace patina;
 
 namespace {
 
-/// bendNormal() by its words, in double.
+/// sh::bendNormal() by its words, in double.
 glm::dvec3 bent(glm::dvec3 n, const glm::dvec3& v, const glm::dvec3& g) {
     const double margin = 1e-3;
     if (glm::dot(n, v) <= 0.0) n = glm::normalize(n + v * (margin - glm::dot(n, v)));
@@ -33,7 +34,7 @@ TEST(ShadingFrame, TurnedNormalsAreExactAtGrazingAngles) {
         const glm::vec3 n = direction(89.0f * random.next(), 360.0f * random.next());
         const glm::dvec3 expected =
             bent(glm::normalize(glm::dvec3(n)), glm::normalize(glm::dvec3(v)), g);
-        const glm::vec3 found = bendNormal(n, v, g);
+        const glm::vec3 found = sh::bendNormal(n, v, g);
         turned += glm::length(expected - glm::dvec3(n)) > 1e-3;
         const double seen = glm::dot(expected, glm::normalize(glm::dvec3(v)));
         EXPECT_NEAR(glm::dot(glm::dvec3(found), glm::dvec3(v)), seen, 1e-3 * seen + 5e-7)

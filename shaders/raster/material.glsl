@@ -1,10 +1,9 @@
-// What the text of a generated material stands on: the shading point, frames, and how lobes become
-// a whole. The same steps as materialNetwork/cpu (bsdf, bsdfBuilder, shadingFrame), in GLSL.
+// What the text of a generated material stands on: the shading point, lobes and closures, and nodes.
 #define PATINA_ENERGY_KNOWN(known) true // by lobeFix()
 #include "shaders/compat/glsl.glsl"
 #include "shaders/lobes.glsl"
+#include "shaders/closure.glsl"
 #include "shaders/patterns.glsl"
-#include "shaders/lib/layers.glsl"
 
 const int ENERGY_CURVE_NODES = 64; // EnergyCurve::nodeCount
 
@@ -28,19 +27,6 @@ vec3 worldOrigin = vec3(0.0); // what positions are relative to
 // Defined by the pass: the value of a primvar, or what stands in for it.
 vec4 primvar(int slot, vec4 fallback);
 
-struct Frame {
-    vec3 tangent;
-    vec3 bitangent;
-    vec3 normal;
-    vec3 wo;
-};
-
-struct MaterialEval {
-    vec3 diffuse;
-    vec3 specular;
-    float pdf;
-};
-
 struct MaterialSample {
     vec3 wi;
     vec3 weight;   // of delta lobes, or both shares below together
@@ -52,86 +38,11 @@ struct MaterialSample {
     float eta; // n(wo side) / n(wi side) of what transmits, else 1
 };
 
-// As materialNetwork/cpu/medium.h; the phase is that of the mean anisotropy.
-struct Medium {
-    vec3 absorption;
-    vec3 scattering;
-    vec3 emission;
-    float anisotropy;
-};
-
 MaterialEval materialEvalBut(vec3 wi, int without);
 
-float largest(vec3 c) {
-    return max(c.x, max(c.y, c.z));
-}
-float luminance(vec3 c) {
-    return dot(c, vec3(0.2126, 0.7152, 0.0722));
-}
-float unit(float x) {
-    return x > 0.0 ? min(x, 1.0) : 0.0;
-}
-// Authored factors of BSDFs and EDFs: negative and NaN count as 0. Drivers may pick either of max()
-// where one is NaN.
-vec3 factor(vec3 c) {
-    return vec3(c.x > 0.0 ? min(c.x, COLOR_MAX) : 0.0, c.y > 0.0 ? min(c.y, COLOR_MAX) : 0.0,
-                c.z > 0.0 ? min(c.z, COLOR_MAX) : 0.0);
-}
-vec3 emitted(vec3 c) {
-    return vec3(c.x > 0.0 ? min(c.x, EMISSION_MAX) : 0.0, c.y > 0.0 ? min(c.y, EMISSION_MAX) : 0.0,
-                c.z > 0.0 ? min(c.z, EMISSION_MAX) : 0.0);
-}
-// Authored coefficients of media: negative and NaN count as 0.
-vec3 coefficient(vec3 c) {
-    return vec3(c.x > 0.0 ? min(c.x, 1e15) : 0.0, c.y > 0.0 ? min(c.y, 1e15) : 0.0,
-                c.z > 0.0 ? min(c.z, 1e15) : 0.0);
-}
-void addVdf(inout Medium m, vec3 weight, vec3 absorption, vec3 scattering, float anisotropy) {
-    m.absorption += coefficient(weight * absorption);
-    vec3 s = coefficient(weight * scattering);
-    float more = s.x + s.y + s.z, sum = more + m.scattering.x + m.scattering.y + m.scattering.z;
-    float g = anisotropy == anisotropy ? clamp(anisotropy, -1.0, 1.0) : 0.0;
-    if (sum > 0.0) m.anisotropy += (g - m.anisotropy) * more / sum;
-    m.scattering += s;
-}
-vec3 unit(vec3 c) {
-    return vec3(unit(c.x), unit(c.y), unit(c.z));
-}
-// What a coloured share takes from a base: the methods of layerTransmittance.
-vec3 shareLargest(vec3 c) {
-    return vec3(unit(largest(c)));
-}
-vec3 shareAverage(vec3 c) {
-    return vec3(unit((c.x + c.y + c.z) / 3.0));
-}
-vec3 shareTinted(vec3 c) {
-    return unit(c);
-}
-vec3 unitOr(vec3 v, vec3 fallback) {
-    float l = length(v);
-    return l > 1e-12 && l < 1e30 ? v / l : fallback;
-}
-
-vec3 anyTangent(vec3 n) {
-    float side = n.z >= 0.0 ? 1.0 : -1.0;
-    float a = -1.0 / (side + n.z);
-    return vec3(1.0 + side * n.x * n.x * a, side * n.x * n.y * a, -side * n.x);
-}
-
-vec3 toLocal(Frame f, vec3 v) {
-    return vec3(dot(v, f.tangent), dot(v, f.bitangent), dot(v, f.normal));
-}
-vec3 toWorld(Frame f, vec3 v) {
-    return f.tangent * v.x + f.bitangent * v.y + f.normal * v.z;
-}
-
-// Of a direction about an axis, 0 to 1 from the tangent on, as measured() of
-// materialNetwork/cpu/bsdfBuilder.cpp.
+// Of a direction about an axis, 0 to 1 from the tangent on.
 float turnAbout(vec3 wo, vec3 n) {
-    vec3 x = point.tangent - n * dot(point.tangent, n);
-    float l = length(x);
-    x = l > 1e-6 ? x / l : anyTangent(n);
-    vec2 at = vec2(dot(wo, x), dot(wo, cross(n, x)));
+    vec2 at = azimuthOf(wo, n, point.tangent);
     return dot(at, at) > 0.0 ? fract(atan(at.y, at.x) / TWO_PI) : 0.0;
 }
 
@@ -139,42 +50,10 @@ bool woOutside() {
     return dot(point.view, point.geometricNormal) >= 0.0;
 }
 
-// As bendNormal() of materialNetwork/cpu/shadingFrame.cpp.
-vec3 bendNormal(vec3 n, vec3 v, vec3 g) {
-    const float margin = 1e-3;
-    float nv = dot(n, v);
-    if (nv <= 0.0) {
-        vec3 turned = n + v * (margin - nv);
-        n = unitOr(turned, vec3(0.0));
-        nv = margin / max(length(turned), 1e-12);
-        if (n == vec3(0.0)) n = g, nv = dot(g, v);
-    }
-    vec3 mirror = n * (2.0 * nv) - v;
-    float above = dot(mirror, g);
-    float wanted = min(margin, dot(v, g));
-    if (above >= wanted) return n;
-    float lift = wanted - above;
-    float l = length(mirror + g * lift);
-    if (l <= 1e-12 || l >= 1e30) return g;
-    float longer = lift * (2.0 * above + lift) / (l + 1.0); // l - 1
-    return unitOr(n * (2.0 * nv) + g * lift + v * longer, g);
-}
-
 // normal, tangent: zero for those of the point.
 Frame makeFrame(vec3 normal, vec3 tangent, bool flips) {
-    vec3 v = point.view;
-    float side = woOutside() ? 1.0 : -1.0;
-    vec3 n = unitOr(normal, point.normal);
-    Frame f;
-    vec3 facing = bendNormal(n * side, v, point.geometricNormal * side);
-    f.normal = flips ? facing : facing * side;
-    vec3 t = unitOr(tangent, point.tangent);
-    t -= f.normal * dot(f.normal, t);
-    float l = length(t);
-    f.tangent = l > 1e-6 ? t / l : anyTangent(f.normal);
-    f.bitangent = cross(f.normal, f.tangent);
-    f.wo = toLocal(f, v);
-    return f;
+    return shadingFrame(point.view, point.geometricNormal, point.normal, point.tangent, normal, tangent,
+                        flips);
 }
 
 // Defined by the text of a material.
@@ -223,73 +102,28 @@ vec3 lobeFix(inout SchlickLobe l, vec3 wo, int curve, out vec3 albedo) {
     return schlickWith(l, e, albedo);
 }
 
-// One or two faces of a thin wall, as BsdfBuilder::slabOf().
-void dielectricSlab(inout DielectricLobe l, vec3 wo, inout vec3 albedo, out vec3 transmittance,
-                    out vec3 reflected, bool twoFaces) {
-    float once = l.sharedInterface ? 0.0 : dielectricEnergy(l, wo).r;
-    float bounces = twoFaces ? once : 0.0;
-    transmittance = l.tint * (1.0 - once) / (1.0 + bounces);
-    reflected = vec3(0.0);
-    if (l.mode == SCATTER_RT) {
-        reflected = vec3((twoFaces ? 2.0 : 1.0) / (1.0 + bounces));
-        l.mode = SCATTER_R;
-        albedo = l.tint * once;
-    }
-}
-void schlickSlab(inout SchlickLobe l, vec3 wo, inout vec3 albedo, out vec3 transmittance,
-                 out vec3 reflected, bool twoFaces) {
-    vec3 once = l.sharedInterface ? vec3(0.0) : schlickEnergy(l, wo).r;
-    vec3 bounces = twoFaces ? once : vec3(0.0);
-    transmittance = (1.0 - once) / (1.0 + bounces);
-    reflected = vec3(0.0);
-    if (l.mode == SCATTER_RT) {
-        reflected = (twoFaces ? 2.0 : 1.0) / (1.0 + bounces);
-        l.mode = SCATTER_R;
-        albedo = once;
-    }
-}
-
-MaterialEval materialEvalNone() {
-    return MaterialEval(vec3(0.0), vec3(0.0), 0.0);
-}
-
 MaterialSample materialSampleNone() {
     return MaterialSample(vec3(0.0, 0.0, 1.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0, false, 1.0);
-}
-
-// Light leaks through no surface because of an interpolated or mapped normal: both normals must
-// agree whether wi reflects.
-void addLobe(inout MaterialEval sum, bool diffuse, vec3 weight, float chance, bool reflects,
-             Frame f, vec3 wi, LobeEval e) {
-    bool above = (dot(wi, f.normal) > 0.0) == (f.wo.z >= 0.0);
-    if (above != reflects || !(luminance(weight) > 0.0)) return;
-    if (diffuse)
-        sum.diffuse += weight * e.value;
-    else
-        sum.specular += weight * e.value;
-    sum.pdf += chance * e.pdf;
 }
 
 // The lobe that was drawn counts by its own sample, the others by their values there.
 MaterialSample finishSample(MaterialSample s, LobeSample l, int drawn, vec3 weight, float chance) {
     bool reflects = (l.event & LOBE_REFLECT) != 0;
     if (drawn < 0 || l.event == 0 ||
-        ((dot(s.wi, point.geometricNormal) > 0.0) == woOutside()) != reflects)
+        isReflected(s.wi, point.geometricNormal, woOutside()) != reflects)
         return materialSampleNone();
     s.event = l.event;
     s.eta = l.eta;
+    bool delta = (l.event & LOBE_DELTA) != 0;
     MaterialEval e = materialEvalNone();
-    float scale = l.pdf;
-    if ((l.event & LOBE_DELTA) != 0)
-        scale = 1.0 / chance;
-    else
-        e = materialEvalBut(s.wi, drawn);
-    vec3 own = weight * l.weight * scale;
+    if (!delta) e = materialEvalBut(s.wi, drawn);
+    vec3 own =
+        delta ? drawnAlone(weight, l.weight, chance) : drawnValue(weight, l.weight, l.pdf);
     e.diffuse += s.diffuse ? own : vec3(0.0);
     e.specular += s.diffuse ? vec3(0.0) : own;
     s.pdf = e.pdf + chance * l.pdf;
     if (!(s.pdf > 0.0)) return materialSampleNone();
-    float inverse = (l.event & LOBE_DELTA) != 0 ? 1.0 : 1.0 / s.pdf;
+    float inverse = delta ? 1.0 : 1.0 / s.pdf;
     s.diffuseWeight = e.diffuse * inverse;
     s.specularWeight = e.specular * inverse;
     s.weight = s.diffuseWeight + s.specularWeight;

@@ -104,14 +104,15 @@ vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
 vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool boundary,
                    out vec3 transmittance) {
     Medium m = materialMedium();
-    vec3 sigma = m.absorption + m.scattering;
+    vec3 scattering = mediumScattering(m);
+    vec3 sigma = m.absorption + scattering;
     transmittance = exp(-sigma * distance);
     vec3 stretch = mix((1.0 - transmittance) / max(sigma, vec3(1e-20)), vec3(distance),
                        lessThan(sigma * distance, vec3(1e-4)));
     vec3 sum = behind * transmittance + m.emission * stretch;
-    if (largest(m.scattering) <= 0.0) return sum;
+    if (largest(scattering) <= 0.0) return sum;
     float mean = largest(sigma) > 0.0 ? min(1.0 / largest(sigma), 0.5 * distance) : 0.0;
-    PhaseHenyeyGreensteinLobe phase = phaseHenyeyGreensteinSetup(m.anisotropy);
+    PhaseMixture phase = phaseMixture(m, vec3(1.0));
     vec3 found = vec3(0.0);
     for (int i = look.y; i < counts.x; ++i) {
         Light l = lights[i];
@@ -124,12 +125,12 @@ vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool
         vec3 wi;
         float density, reach;
         vec3 radiance = lightSample(l, start + direction * mean, wi, density, reach) / density;
-        float p = phaseHenyeyGreensteinEval(phase, -direction, wi).pdf;
+        vec3 p = phaseMixtureEval(phase, -direction, wi).value;
         // The object's own far side is in the shadow maps, so they tell nothing of light from there.
         bool outwards = dot(wi, point.geometricNormal) > 0.0;
         found += radiance * p * l.inverse1.w * (boundary && !outwards ? vec3(1.0) : shadowAt(l, wi));
     }
-    return sum + m.scattering * stretch * found;
+    return sum + scattering * stretch * found;
 }
 #endif
 

@@ -110,6 +110,42 @@ vec3 everyLobe(vec3 wo, vec3 wi, vec3 u) {
 }
 )";
 
+// How lobes become a material.
+const char* const closureCalls = R"(
+vec3 everyClosure(vec3 wo, vec3 wi, vec3 u) {
+    Frame f = shadingFrame(wo, wi, wi, u, vec3(0.0), vec3(0.0), true);
+    DielectricLobe d = dielectricSetup(vec3(1.0), 1.5, vec2(0.2), false, SCATTER_RT, false, 1);
+    SchlickLobe s = schlickSetup(vec3(0.04), vec3(1.0), vec3(1.0), 5.0, vec2(0.2), false,
+                                 SCATTER_RT, false, 1);
+    vec3 albedo = vec3(0.0);
+    Slab slab = dielectricSlab(d, f.wo, albedo, true);
+    Slab colored = schlickSlab(s, f.wo, albedo, false);
+    vec3 passes;
+    float presence = presenceOf(0.5, slab.transmittance, passes) * slabScale(passes);
+    LayerLight base = layerOfLobe(albedo, layerKinds(0.2, wo.z, 0.0));
+    LayerLight top = layerThrough(0.5, u, layerInside(u, 0.7, wo.z), 0.2, wo.z, base);
+    top = layerMix(layerTinted(layerRest(top, 0.5), u), layerBeside(top, layerPast(0.5, u)), 0.5);
+    vec3 sum = layerWeight(layerSum(layerCovered(top, u), layerShare(base, 0.5)), u) +
+               passCovered(passBeside(passLobe(u, 0.5), shareAverage(u)), shareLargest(u));
+    sum += layerInsideDielectric(0.1, 1.5, 0.7, wo.z) * closureTinted(closureRest(u, 0.5), u);
+    MaterialEval e = materialEvalNone();
+    bool reflects = isReflected(wi, f.normal, true);
+    addLobe(e, lobeAgrees(f.wo.z, wi.z, reflects) && hasWeight(u), true, u, 1.0,
+            dielectricEval(d, f.wo, toLocal(f, wi)));
+    Selection drawn = selectionNone();
+    selectLobe(drawn, 1, selectionShare(u, albedo, false), u.x);
+    sum += e.diffuse + drawnValue(u, e.specular, e.pdf) + drawnAlone(u, u, float(drawn.lobe));
+    sum += emissionConical(u, 60.0, 90.0, wo, wi) + emissionTinted(emissionScaled(u, 2.0), u) +
+           emissionSchlick(u, u, u, 5.0, wo, wi) + vec3(azimuthOf(wo, wi, u), presence);
+    Medium m = mediumNone();
+    addAnisotropic(m, closureMix(u, wo, 0.5), u, closureProduct(u, u), 0.5);
+    addAbsorption(m, closureSum(u, u), closureScaled(u, 0.5));
+    PhaseMixture phase = phaseMixture(m, u);
+    return sum + colored.reflected + phaseMixtureEval(phase, wo, wi).value +
+           phaseMixtureSample(phase, wo, u, u.x).wi + toWorld(f, wi);
+}
+)";
+
 // The pattern functions, every file of them.
 const char* const patternCalls = R"(
 vec3 everyPattern(vec3 p) {
@@ -141,11 +177,13 @@ TEST(GlslDialect, CompilesAsComputeShader) {
     if (validator.empty()) GTEST_SKIP() << "glslangValidator not found (package glslang-tools)";
     const std::string source = "#version 450\n" + flatten("shaders/compat/glsl.glsl") +
                                flatten("shaders/lobes.glsl") + lobeCalls +
+                               flatten("shaders/closure.glsl") + closureCalls +
                                flatten("shaders/patterns.glsl") + patternCalls +
                                "layout(local_size_x = 64) in;\n"
                                "layout(std430, binding = 0) buffer Out { vec4 result[]; };\n"
                                "void main() { result[gl_GlobalInvocationID.x] = "
                                "vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)) + "
+                               "everyClosure(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)) + "
                                "everyPattern(vec3(0.5)), 1); }\n";
     EXPECT_EQ(compile(source, "comp"), "");
 }
@@ -159,9 +197,11 @@ TEST(GlslDialect, CompilesAsEsFragmentShader) {
         "float albedoTableFetch(int i) {"
         " return texelFetch(table, ivec2(i & 1023, i >> 10), 0).x; }\n" +
         flatten("shaders/compat/glsl.glsl") + flatten("shaders/lobes.glsl") + lobeCalls +
-        flatten("shaders/patterns.glsl") + patternCalls +
+        flatten("shaders/closure.glsl") + closureCalls + flatten("shaders/patterns.glsl") +
+        patternCalls +
         "out vec4 color;\nvoid main() { color = vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), "
-        "vec3(0.5)) + everyPattern(vec3(0.5)), 1); }\n";
+        "vec3(0.5)) + everyClosure(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)) + "
+        "everyPattern(vec3(0.5)), 1); }\n";
     EXPECT_EQ(compile(source, "frag"), "");
 }
 

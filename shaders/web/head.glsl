@@ -16,12 +16,13 @@ MaterialSample pendingSample(MaterialSample s, LobeSample l, int drawn, vec3 wei
     bool reflects = (l.event & LOBE_REFLECT) != 0;
     drawnLobe = drawn;
     if (drawn < 0 || l.event == 0 ||
-        ((dot(s.wi, point.geometricNormal) > 0.0) == woOutside()) != reflects)
+        isReflected(s.wi, point.geometricNormal, woOutside()) != reflects)
         return materialSampleNone();
     s.event = l.event;
     s.pdf = chance * l.pdf;
     bool delta = (l.event & LOBE_DELTA) != 0;
-    vec3 own = weight * l.weight * (delta ? 1.0 / chance : l.pdf);
+    vec3 own =
+        delta ? drawnAlone(weight, l.weight, chance) : drawnValue(weight, l.weight, l.pdf);
     s.diffuseWeight = s.diffuse ? own : vec3(0.0);
     s.specularWeight = s.diffuse ? vec3(0.0) : own;
     return s;

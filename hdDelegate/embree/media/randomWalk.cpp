@@ -2,7 +2,7 @@
 
 #include "hdDelegate/embree/media/freeFlight.h"
 
-#include "materialNetwork/cpu/shadingFrame.h"
+#include "shaders/closure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -166,7 +166,7 @@ vec3 turn(const sh::PhaseHenyeyGreensteinLobe& phase, const vec3& direction, con
             std::clamp(guideLength - (guideLength + 1.0f) * std::exp(-u.x * scale), -1.0f, 1.0f);
         const float sine = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
         vec3 x, y;
-        completeBasis(outside, x, y);
+        sh::completeBasis(outside, x, y);
         const float phi = sh::TWO_PI * u.y;
         result = x * (sine * std::cos(phi)) + y * (sine * std::sin(phi)) + outside * cosine;
     } else {

@@ -43,51 +43,49 @@ void instantiate() {
     frames[0] = makeFrame(r19.xyz, vec3(0.0), true);
     lobe0 = burleySetup(r6.xyz, parameters[19].x);
     vec3 coverage0 = lobeFix(lobe0, frames[0].wo, lobeAlbedo[0]);
-    coverage0 = unit(coverage0);
-    vec3 w0 = vec3(1.0);
-    lobeWeight[0] = w0 * unit(parameters[20].x);
+    coverage0 = unitColor(coverage0);
+    lobeWeight[0] = closureScaled(vec3(1.0), unit(parameters[20].x));
     passThrough = vec3(0.0);
 }
 void materialSetup() {
     instantiate();
     float sum = 0.0;
     int present = 0;
-    bool has0 = luminance(lobeWeight[0]) > 0.0;
+    bool has0 = hasWeight(lobeWeight[0]);
     present += has0 ? 1 : 0;
-    lobeChance[0] = !has0 ? 0.0 : present == 1 ? 1.0 : luminance(lobeWeight[0] * lobeAlbedo[0]);
+    lobeChance[0] = !has0 ? 0.0 : selectionShare(lobeWeight[0], lobeAlbedo[0], present == 1);
     sum += lobeChance[0];
     lobeChance[0] /= sum > 0.0 ? sum : 1.0;
     if (!(sum > 0.0)) lobeWeight[0] = vec3(0.0);
 }
 float materialPresence(out vec3 passes) {
     passes = vec3(1.0);
-    float x = unit(parameters[21].x);
-    return x;
+    return unit(parameters[21].x);
 }
 vec3 materialEmission(vec3 wo) {
     return vec3(0.0);
 }
 MaterialEval materialEvalBut(vec3 wi, int without) {
     MaterialEval sum = materialEvalNone();
-    bool reflects = (dot(wi, point.geometricNormal) > 0.0) == woOutside();
-    if (without != 0) addLobe(sum, true, lobeWeight[0], lobeChance[0], reflects, frames[0], wi, burleyEval(lobe0, frames[0].wo, toLocal(frames[0], wi)));
+    bool reflects = isReflected(wi, point.geometricNormal, woOutside());
+    vec3 wi0 = toLocal(frames[0], wi);
+    if (without != 0) addLobe(sum, lobeAgrees(frames[0].wo.z, wi0.z, reflects) && hasWeight(lobeWeight[0]), true, lobeWeight[0], lobeChance[0], burleyEval(lobe0, frames[0].wo, wi0));
     return sum;
 }
 MaterialEval materialEval(vec3 wi) { return materialEvalBut(wi, -1); }
 MaterialSample materialSample(vec3 u, float uLobe) {
+    Selection drawn = selectionNone();
+    selectLobe(drawn, 0, lobeChance[0], uLobe);
     MaterialSample s = materialSampleNone();
     LobeSample l = lobeSampleNone();
-    float below = 0.0, chance = 0.0;
     vec3 weight = vec3(0.0);
-    int drawn = -1;
-    if (drawn < 0 && lobeChance[0] > 0.0) {
+    float chance = 0.0;
+    if (drawn.lobe == 0) {
         l = burleySample(lobe0, frames[0].wo, u);
         s.wi = toWorld(frames[0], l.wi);
         s.diffuse = true;
-        drawn = 0;
         weight = lobeWeight[0];
         chance = lobeChance[0];
     }
-    below += lobeChance[0];
-    return finishSample(s, l, drawn, weight, chance);
+    return finishSample(s, l, drawn.lobe, weight, chance);
 }

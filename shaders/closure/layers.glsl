@@ -31,6 +31,16 @@ PATINA_FN LayerLight layerSum(LayerLight a, LayerLight b) {
 PATINA_FN LayerLight layerScaled(LayerLight a, vec3 x) {
     return layerLight(a.mirrored * x, a.spread * x, a.transmitted * x);
 }
+// As closureScaled, closureRest and closureTinted.
+PATINA_FN LayerLight layerShare(LayerLight a, float share) {
+    return layerScaled(a, vec3(share));
+}
+PATINA_FN LayerLight layerRest(LayerLight a, float share) {
+    return layerScaled(a, vec3(1.0f - share));
+}
+PATINA_FN LayerLight layerTinted(LayerLight a, vec3 tint) {
+    return layerScaled(a, factor(tint));
+}
 PATINA_FN LayerLight layerProduct(LayerLight a, LayerLight b) {
     return layerLight(a.mirrored * b.mirrored, a.spread * b.spread, a.transmitted * b.transmitted);
 }
@@ -96,4 +106,23 @@ PATINA_FN LayerLight layerBeside(LayerLight a, LayerLight b) {
 // A top that is there to the share `weight`.
 PATINA_FN LayerLight layerCovered(LayerLight a, vec3 weight) {
     return layerSum(layerEven(1.0f - weight), layerScaled(a, weight));
+}
+
+// What a coloured share takes from all channels of a base alike.
+PATINA_FN vec3 shareLargest(vec3 c) {
+    return vec3(unit(largest(c)));
+}
+PATINA_FN vec3 shareAverage(vec3 c) {
+    return vec3(unit((c.x + c.y + c.z) / 3.0f));
+}
+
+// What tops let through where nothing is counted that comes back, per channel.
+PATINA_FN vec3 passLobe(vec3 coverage, float weight) {
+    return 1.0f - weight * coverage;
+}
+PATINA_FN vec3 passBeside(vec3 a, vec3 b) {
+    return max(a + b - 1.0f, vec3(0.0f));
+}
+PATINA_FN vec3 passCovered(vec3 a, vec3 cover) {
+    return 1.0f - cover * (1.0f - a);
 }

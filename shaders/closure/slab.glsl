@@ -1,0 +1,57 @@
+// Interfaces of a thin wall, or between equal media, and presence: light that goes straight on.
+
+struct Slab {
+    vec3 transmittance; // share that goes straight on, without the lobe's weight
+    vec3 reflected;     // factor on the reflection that is left as a lobe
+};
+
+// Both faces reflect: light bounces between them, and the sums of the series are what passes and what
+// comes back. Roughness blurs the reflection only. once: what one face reflects.
+PATINA_FN Slab slabOf(vec3 once, vec3 tint, bool twoFaces, bool reflects) {
+    vec3 bounces = select(once, vec3(0.0f), twoFaces);
+    Slab s;
+    s.transmittance = tint * (1.0f - once) / (1.0f + bounces);
+    s.reflected = select(select(2.0f, 1.0f, twoFaces) / (1.0f + bounces), vec3(0.0f), reflects);
+    return s;
+}
+
+// Of a lobe beneath a reflecting one all passes, for that has taken its share. What a lobe of mode RT
+// reflects is left of it.
+PATINA_FN Slab dielectricSlab(PATINA_INOUT(DielectricLobe) l, vec3 wo, PATINA_INOUT(vec3) albedo,
+                              bool twoFaces) {
+    float once = 0.0f;
+    if (!l.sharedInterface) once = dielectricEnergy(l, wo).r;
+    bool reflects = l.mode == SCATTER_RT;
+    if (reflects) {
+        l.mode = SCATTER_R;
+        albedo = l.tint * once;
+    }
+    return slabOf(vec3(once), l.tint, twoFaces, reflects);
+}
+PATINA_FN Slab schlickSlab(PATINA_INOUT(SchlickLobe) l, vec3 wo, PATINA_INOUT(vec3) albedo,
+                           bool twoFaces) {
+    vec3 once = vec3(0.0f);
+    if (!l.sharedInterface) once = schlickEnergy(l, wo).r;
+    bool reflects = l.mode == SCATTER_RT;
+    if (reflects) {
+        l.mode = SCATTER_R;
+        albedo = once;
+    }
+    return slabOf(once, vec3(1.0f), twoFaces, reflects);
+}
+
+// The surface is only met with the chance that light does not pass straight: a factor on its lobes.
+PATINA_FN float slabScale(vec3 passThrough) {
+    float met = 1.0f - largest(passThrough);
+    return select(1.0f / met, 0.0f, met > 0.0f);
+}
+
+// Presence of a surface that passes light straight: as often as its brightest channel passes.
+// passes: colour of light that goes on.
+PATINA_FN float presenceOf(float opacity, vec3 passThrough, PATINA_OUT(vec3) passes) {
+    float x = unit(opacity);
+    float brightest = largest(passThrough);
+    float pass = 1.0f - x + x * brightest;
+    passes = select((1.0f - x + x * passThrough) / pass, vec3(1.0f), pass > 0.0f);
+    return x * (1.0f - brightest);
+}

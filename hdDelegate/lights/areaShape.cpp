@@ -120,19 +120,9 @@ bool intersectShape(const AreaShape& shape, const vec3& origin, const vec3& dire
                     float far, float& distance, vec3& normal) {
     const vec3 o = shapeLocal(shape, origin), d = shape.inverse * direction;
     vec3 q;
-    bool met = false;
-    switch (shape.kind) {
-    case AreaShape::Kind::Rect: met = shLights::rectHit(o, d, distance, q); break;
-    case AreaShape::Kind::Disk: met = shLights::diskHit(o, d, distance, q); break;
-    case AreaShape::Kind::Sphere: met = shLights::sphereHit(o, d, distance, q); break;
-    case AreaShape::Kind::Cylinder: met = shLights::cylinderHit(o, d, distance, q); break;
-    }
-    if (!met || !(distance > near && distance < far)) return false;
-    if (shape.kind == AreaShape::Kind::Rect || shape.kind == AreaShape::Kind::Disk)
-        normal = shape.normal;
-    else
-        normal = glm::normalize(
-            shapeNormal(shape, shape.kind == AreaShape::Kind::Cylinder ? vec3(0.0f, q.y, q.z) : q));
+    if (!shLights::shapeHit(int(shape.kind), o, d, distance, q)) return false;
+    if (!(distance > near && distance < far)) return false;
+    normal = shapeNormalAt(int(shape.kind), shape, q);
     return true;
 }
 

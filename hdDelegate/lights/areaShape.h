@@ -10,7 +10,12 @@ using ShapeSample = shLights::ShapePoint;
 /// The surface of an area light in world space: a unit shape under an affine transform, see
 /// shaders/lights/shape.glsl.
 struct AreaShape : shLights::ShapeFrame {
-    enum class Kind { Rect, Disk, Sphere, Cylinder };
+    enum class Kind {
+        Rect = shLights::SHAPE_RECT,
+        Disk = shLights::SHAPE_DISK,
+        Sphere = shLights::SHAPE_SPHERE,
+        Cylinder = shLights::SHAPE_CYLINDER
+    };
 
     Kind kind = Kind::Rect;
     bool rightAngled = false; ///< a rect that is no mere parallelogram

@@ -38,7 +38,7 @@ struct WebLights {
 };
 
 /// The numbers are those of shaders/web/lights.glsl; shapes come as in AreaShape::Kind.
-enum Kind { Rect, Disk, Sphere, Cylinder, Point, Distant, Triangles, Line };
+enum Kind { Point = 100, Distant, Triangles, Line };
 constexpr int texels = 14;
 
 std::array<float, 3> triple(const vec3& v) {
@@ -170,9 +170,8 @@ std::vector<float> lightRow(const Scene& scene, const Light& light, const mat4& 
                 row[2 + i] = vec4(shape.axes[i], 0.0f);
                 row[5 + i] = vec4(shape.inverse[i], 0.0f);
             }
-            row[2].w = shape.area;
             row[3].w = shape.volume;
-            if (kind == Rect && !light.textureFile.empty())
+            if (shape.kind == AreaShape::Kind::Rect && !light.textureFile.empty())
                 row[10] = vec4(addImage(light, out), -1.0f);
             break;
         }

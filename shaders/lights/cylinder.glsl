@@ -1,7 +1,7 @@
 // Cylinder lights, see shape.glsl. For one receiver samples are even in the angle along, and across in the width that
 // the point sees.
 
-PATINA_FN bool cylinderHit(vec3 o, vec3 d, PATINA_OUT(float) t, PATINA_OUT(vec3) q) {
+PATINA_FN_RARE bool cylinderHit(vec3 o, vec3 d, PATINA_OUT(float) t, PATINA_OUT(vec3) q) {
     t = 0.0f;
     q = o;
     vec2 f = vec2(o.y, o.z);

@@ -1,7 +1,7 @@
 // Sphere lights, see shape.glsl. For one receiver samples are even over the cone that the sphere fills, in the shape's
 // coordinates, where every affine image of a sphere is one.
 
-PATINA_FN bool sphereHit(vec3 o, vec3 d, PATINA_OUT(float) t, PATINA_OUT(vec3) q) {
+PATINA_FN_RARE bool sphereHit(vec3 o, vec3 d, PATINA_OUT(float) t, PATINA_OUT(vec3) q) {
     t = 0.0f;
     q = o;
     float dd = dot(d, d);

@@ -3,13 +3,10 @@
 #include "shaders/lights/table.glsl"
 #include "shaders/lights/ies.glsl"
 #include "shaders/lights/shaping.glsl"
-#include "shaders/lights/shape.glsl"
-#include "shaders/lights/rect.glsl"
-#include "shaders/lights/disk.glsl"
-#include "shaders/lights/sphereInside.glsl"
-#include "shaders/lights/cylinder.glsl"
-#include "shaders/lights/line.glsl"
 #include "shaders/lights/basis.glsl"
+#include "shaders/lights/shapes.glsl"
+#include "shaders/lights/sphereInside.glsl"
+#include "shaders/lights/line.glsl"
 #include "shaders/lights/distant.glsl"
 #include "shaders/lights/dome.glsl"
 
@@ -27,7 +24,7 @@ struct Light {
                     // (-1 none). Of distant lights: x 1 the sun of a dome. Of triangles: z 1 two-sided
     vec4 shadow;    // x first map (-1 none), y maps (0: the sky's), z for fibres; w 0 parallel, 1 perspective,
                     // from 2 on: perspective, from the place of the light with this number less 2
-    vec4 shadowColor; // w: density by area of a rect or disk without an image
+    vec4 shadowColor; // w: -
     vec4 fade;      // of shadows: distance, falloff, gamma; w: how often the light counts
     vec4 table;     // x first value of an image (-1 none), y width, z height; w first of a profile (-1)
                     // Of triangles: x first of RasterEmission (-1 even), y steps of the angle, z of the turn
@@ -42,17 +39,14 @@ layout(std140, binding = 4) uniform Lights { Light lights[208]; }; // RasterLigh
 #endif
 layout(std430, binding = 8) readonly buffer LightTables { vec4 lightTables[]; };
 
-const int LIGHT_RECT = 0;
-const int LIGHT_DISK = 1;
-const int LIGHT_SPHERE = 2;
-const int LIGHT_CYLINDER = 3;
-const int LIGHT_POINT = 4;
-const int LIGHT_DISTANT = 5;
-const int LIGHT_DOME = 6;
+// Kinds of shapes.glsl, and:
+const int LIGHT_POINT = 100;
+const int LIGHT_DISTANT = 101;
+const int LIGHT_DOME = 102;
 // Found by their samples only: further samples of a dome, lines, glowing triangles.
-const int LIGHT_MORE_DOME = 7;
-const int LIGHT_LINE = 8;
-const int LIGHT_TRIANGLE = 9;
+const int LIGHT_MORE_DOME = 103;
+const int LIGHT_LINE = 104;
+const int LIGHT_TRIANGLE = 105;
 
 layout(binding = 16) uniform sampler2DArray domeMaps;
 layout(binding = 17) uniform sampler2DArray domeDensities;
@@ -129,20 +123,18 @@ vec3 emissionOfTriangle(Light l, vec3 away) {
 bool lightHit(Light l, vec3 origin, vec3 direction, out float t, out float density, out vec3 image) {
     int kind = int(l.radiance.w);
     image = vec3(1.0);
-    if (l.origin.w > 0.0 || kind > LIGHT_CYLINDER) return false;
+    if (l.origin.w > 0.0 || kind >= LIGHT_POINT) return false;
     ShapeFrame s = frameOf(l);
     vec3 o = shapeLocal(s, origin), d = s.inverse * direction, q;
-    if (kind == LIGHT_SPHERE) return sphereLightHit(o, d, s.volume, t, density);
-    if (kind == LIGHT_CYLINDER) {
-        if (!cylinderHit(o, d, t, q)) return false;
-        vec3 n = shapeNormal(s, vec3(0.0, q.yz));
-        density = areaToSolidAngle(cylinderPlaceDensity(s.volume, n), -direction * t, normalize(n));
-        return density > 0.0;
+    if (kind == SHAPE_SPHERE) return sphereLightHit(o, d, s.volume, t, density);
+    if (!shapeHit(kind, o, d, t, q)) return false;
+    float byArea = shapePlaceDensity(kind, s, q);
+    if (kind == SHAPE_RECT) {
+        vec4 value = imageOfRect(l, q);
+        image = value.rgb;
+        byArea *= value.w;
     }
-    if (kind == LIGHT_RECT ? !rectHit(o, d, t, q) : !diskHit(o, d, t, q)) return false;
-    vec4 value = imageOfRect(l, q);
-    image = value.rgb;
-    density = areaToSolidAngle(l.shadowColor.w * value.w, -direction * t, l.normal.xyz);
+    density = areaToSolidAngle(byArea, -direction * t, shapeNormalAt(kind, s, q));
     return density > 0.0;
 }
 
@@ -161,7 +153,7 @@ vec3 lightSample(Light l, vec3 p, out vec3 wi, out float density, out float reac
     float d2 = max(dot(d, d), 1e-20);
     reach = sqrt(d2);
     wi = d / reach;
-    if (kind == LIGHT_SPHERE) {
+    if (kind == SHAPE_SPHERE) {
         ShapeFrame s = frameOf(l);
         sphereLightHit(shapeLocal(s, p), s.inverse * wi, s.volume, reach, density);
         if (density <= 0.0) return vec3(0.0);
@@ -172,7 +164,7 @@ vec3 lightSample(Light l, vec3 p, out vec3 wi, out float density, out float reac
         if (kind != LIGHT_LINE) return radiance / d2;
         return radiance / d2 * (lineAcross(l.axis0.xyz, wi) / l.normal.w);
     }
-    if (kind == LIGHT_RECT && l.table.x >= 0.0)
+    if (kind == SHAPE_RECT && l.table.x >= 0.0)
         radiance *= imageOfRect(l, toShape(l, l.sampled.xyz - l.origin.xyz)).rgb;
     float c = -dot(l.normal.xyz, wi);
     if (kind == LIGHT_TRIANGLE) {

@@ -1,6 +1,6 @@
 // Direct lights of the material page, in a texture, 14 texels in a row for each:
 //   0 origin of the shape, kind          1 radiance (of delta lights: irradiance or intensity), on
-//   2, 3, 4 axes of the shape, see shaders/lights/shape.glsl; w: area; volume; versine of a distant
+//   2, 3, 4 axes of the shape, see shaders/lights/shape.glsl; w: area of triangles; volume; versine of a distant
 //     light's half angle (0: one direction). Of distant lights 4 is the way that light goes
 //   5, 6, 7 their inverse; w: focus; where a cone begins to fade; where it ends (-1: no cone)
 //   8 focus tint                         9 shares of diffuse and of specular light
@@ -11,11 +11,7 @@
 #include "shaders/lights/ies.glsl"
 #include "shaders/lights/shaping.glsl"
 #include "shaders/lights/basis.glsl"
-#include "shaders/lights/shape.glsl"
-#include "shaders/lights/rect.glsl"
-#include "shaders/lights/disk.glsl"
-#include "shaders/lights/sphere.glsl"
-#include "shaders/lights/cylinder.glsl"
+#include "shaders/lights/shapes.glsl"
 #include "shaders/lights/line.glsl"
 #include "shaders/lights/distant.glsl"
 
@@ -23,14 +19,11 @@ uniform sampler2D lightData;
 uniform sampler2D lightTable; // 256 values in a row
 uniform int lightCount;
 
-const int LIGHT_RECT = 0;
-const int LIGHT_DISK = 1;
-const int LIGHT_SPHERE = 2;
-const int LIGHT_CYLINDER = 3;
-const int LIGHT_POINT = 4;
-const int LIGHT_DISTANT = 5;
-const int LIGHT_TRIANGLES = 6;
-const int LIGHT_LINE = 7; // all of its length is the first axis
+// Kinds of shapes.glsl, and:
+const int LIGHT_POINT = 100;
+const int LIGHT_DISTANT = 101;
+const int LIGHT_TRIANGLES = 102;
+const int LIGHT_LINE = 103; // all of its length is the first axis
 const int TRIANGLES_MET = 64; // samples of the BSDF look for no more
 
 struct PageLight {
@@ -81,7 +74,7 @@ vec3 tableValue(float first, TableCell c) {
 
 // A rect's image at a place of the shape.
 vec3 imageOf(PageLight l, vec3 q) {
-    if (l.kind != LIGHT_RECT || l.table.x < 0.0) return vec3(1.0);
+    if (l.kind != SHAPE_RECT || l.table.x < 0.0) return vec3(1.0);
     return tableValue(l.table.x, rectTexels(q, int(l.table.y), int(l.table.z)));
 }
 
@@ -157,25 +150,20 @@ vec3 sampleLight(PageLight l, vec3 from, vec2 u, out vec3 wi, out float density)
     }
     ShapePoint p;
     vec3 image = vec3(1.0);
-    if (l.kind == LIGHT_SPHERE) {
+    if (l.kind == SHAPE_SPHERE) {
         sphereSample(l.shape, from, u, p);
         density = p.pdf;
     } else if (l.kind == LIGHT_TRIANGLES) {
         p.position = onTriangles(l, u, p.normal);
         p.pdf = 1.0 / l.area;
     } else {
-        vec3 q = l.kind == LIGHT_RECT ? rectPlace(u) : l.kind == LIGHT_DISK ? diskPlace(u) : cylinderPlace(u);
+        vec3 q = shapePlace(l.kind, u);
         p.position = l.shape.origin + l.shape.axes * q;
-        p.normal = l.shape.axes[2];
+        p.normal = shapeNormalAt(l.kind, l.shape, q);
         image = imageOf(l, q);
-        p.pdf = 1.0 / l.area;
-        if (l.kind == LIGHT_CYLINDER) {
-            vec3 n = shapeNormal(l.shape, vec3(0.0, q.yz));
-            p.normal = unitOr(n, vec3(0.0));
-            p.pdf = cylinderPlaceDensity(l.shape.volume, n);
-        }
+        p.pdf = shapePlaceDensity(l.kind, l.shape, q);
     }
-    if (l.kind != LIGHT_SPHERE) density = areaToSolidAngle(p.pdf, from - p.position, p.normal);
+    if (l.kind != SHAPE_SPHERE) density = areaToSolidAngle(p.pdf, from - p.position, p.normal);
     wi = unitOr(p.position - from, vec3(0.0, 1.0, 0.0));
     return density > 0.0 ? l.radiance * image * shapingOf(l, -wi) : vec3(0.0);
 }
@@ -195,18 +183,14 @@ vec3 lightAlong(PageLight l, vec3 from, vec3 wi, out float density) {
         vec3 n;
         t = isMet(l) ? hitTriangles(l, from, wi, n) : 0.0;
         if (t > 0.0) density = areaToSolidAngle(1.0 / l.area, -wi * t, n);
-    } else if (l.kind <= LIGHT_CYLINDER) {
-        vec3 o = shapeLocal(l.shape, from), d = l.shape.inverse * wi, q;
-        if (l.kind == LIGHT_SPHERE) {
-            if (sphereHit(o, d, t, q)) density = spherePdf(l.shape, from, from + wi * t);
-        } else if (l.kind == LIGHT_CYLINDER) {
-            vec3 n = vec3(0.0);
-            if (cylinderHit(o, d, t, q)) n = shapeNormal(l.shape, vec3(0.0, q.yz));
-            if (n != vec3(0.0)) density = areaToSolidAngle(cylinderPlaceDensity(l.shape.volume, n), -wi * t, normalize(n));
-        } else if (l.kind == LIGHT_RECT ? rectHit(o, d, t, q) : diskHit(o, d, t, q)) {
-            density = areaToSolidAngle(1.0 / l.area, -wi * t, l.shape.axes[2]);
-            image = imageOf(l, q);
-        }
+    } else if (l.kind < LIGHT_POINT) {
+        vec3 q;
+        if (!shapeHit(l.kind, shapeLocal(l.shape, from), l.shape.inverse * wi, t, q)) return vec3(0.0);
+        float byArea = l.kind == SHAPE_SPHERE ? 0.0 : shapePlaceDensity(l.kind, l.shape, q);
+        density = l.kind == SHAPE_SPHERE
+                      ? spherePdf(l.shape, from, from + wi * t)
+                      : areaToSolidAngle(byArea, -wi * t, shapeNormalAt(l.kind, l.shape, q));
+        image = imageOf(l, q);
     }
     return density > 0.0 ? l.radiance * image * shapingOf(l, -wi) : vec3(0.0);
 }

@@ -24,29 +24,21 @@ GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
     GpuLight g = s.fixed;
     vec3 radiance = s.radiance;
     switch (s.kind) {
-    case Rect:
-    case Disk: {
-        vec3 q = s.kind == Disk ? shLights::diskPlace(vec2(u)) : shLights::rectPlace(vec2(u));
-        float density = 1.0f;
+    default: { // shapes
+        if (s.shape.kind == AreaShape::Kind::Sphere) {
+            g.sampled = vec4(s.shape.origin + s.shape.axes * shLights::sphereLightPlace(u), 1.0f);
+            break;
+        }
+        vec3 q = shLights::shapePlace(s.kind, vec2(u));
+        float image = 1.0f;
         if (s.image) { // shaders look the image up
             vec2 on;
-            density = s.image->sample(vec2(u), on);
+            image = s.image->sample(vec2(u), on);
             q = vec3(on, 0.0f);
         }
         g.sampled = vec4(s.shape.origin + s.shape.axes * q, 1.0f);
-        g.normal = vec4(s.shape.normal, density / s.shape.area);
-        g.shadowColor.w = 1.0f / s.shape.area;
-        break;
-    }
-    case Sphere:
-        g.sampled = vec4(s.shape.origin + s.shape.axes * shLights::sphereLightPlace(u), 1.0f);
-        break;
-    case Cylinder: {
-        const vec3 q = shLights::cylinderPlace(vec2(u));
-        const vec3 normal = shapeNormal(s.shape, vec3(0.0f, q.y, q.z));
-        g.sampled = vec4(s.shape.origin + s.shape.axes * q, 1.0f);
         g.normal =
-            vec4(glm::normalize(normal), shLights::cylinderPlaceDensity(s.shape.volume, normal));
+            vec4(shapeNormalAt(s.kind, s.shape, q), image * shapePlaceDensity(s.kind, s.shape, q));
         break;
     }
     case Triangle: break; // see takeEmitters()

@@ -81,8 +81,8 @@ public:
         std::max(RasterEmission::thetas, RasterEmission::turnThetas* RasterEmission::turns);
 
 private:
-    /// The numbers are those of lights.glsl.
-    enum Kind { Rect, Disk, Sphere, Cylinder, Point, Distant, Dome, MoreDome, Line, Triangle };
+    /// Those of AreaShape, and, with the numbers of lights.glsl:
+    enum Kind { Point = 100, Distant, Dome, MoreDome, Line, Triangle };
     struct Source {
         Kind kind = Point;
         GpuLight fixed = GpuLight::none();

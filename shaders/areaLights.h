@@ -1,6 +1,6 @@
 #pragma once
 
-// The functions of area lights as C++, in the same namespace as the lobes.
+// Lobes under area lights by their outlines, as C++, in the same namespace as the lobes.
 
 #include "shaders/shaders.h"
 
@@ -12,7 +12,6 @@ namespace sh {
 #include "shaders/lib/ltcFit.glsl"
 
 #include "shaders/lib/ltc.glsl"
-#include "shaders/lib/sphereLight.glsl"
 } // namespace sh
 } // namespace patina
 

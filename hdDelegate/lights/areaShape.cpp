@@ -1,6 +1,5 @@
 #include "hdDelegate/lights/areaShape.h"
 
-#include "hdDelegate/lights/areaShapeParts.h"
 #include "hdDelegate/lights/sphericalRect.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "materialNetwork/maths.h"
@@ -28,7 +27,10 @@ bool facesPlane(const AreaShape& shape, const vec3& point) {
     return glm::dot(point - shape.origin, shape.normal) > 0.0f;
 }
 
-/// Concentric map of the square to the disk (Shirley and Chiu 1997).
+float byArea(const AreaShape& shape, const vec3& point, const vec3& position) {
+    return shLights::areaToSolidAngle(1.0f / shape.area, point - position, shape.normal);
+}
+
 } // namespace
 
 AreaShape makeAreaShape(const Light& light, const mat4& toWorld) {
@@ -66,21 +68,22 @@ AreaShape makeAreaShape(const Light& light, const mat4& toWorld) {
     }
     s.axes = mat3(axes);
     const double det = glm::determinant(axes);
-    s.determinant = float(std::abs(det));
+    s.volume = float(std::abs(det));
     s.inverse = mat3(glm::inverse(axes));
-    bool finite = std::isfinite(s.area) && std::isfinite(s.determinant);
+    bool finite = std::isfinite(s.area) && std::isfinite(s.volume);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
             finite = finite && std::isfinite(s.axes[i][k]) && std::isfinite(s.inverse[i][k]);
     for (int k = 0; k < 3; ++k)
         finite = finite && std::isfinite(s.origin[k]);
-    s.valid = finite && s.area > 0.0f && s.determinant > 0.0f;
+    s.valid = finite && s.area > 0.0f && s.volume > 0.0f;
     return s;
 }
 
 bool sampleShape(const AreaShape& shape, const vec3& point, const vec2& u, ShapeSample& out) {
-    if (shape.kind == AreaShape::Kind::Sphere) return sampleSphere(shape, point, u, out);
-    if (shape.kind == AreaShape::Kind::Cylinder) return sampleCylinder(shape, point, u, out);
+    if (shape.kind == AreaShape::Kind::Sphere) return shLights::sphereSample(shape, point, u, out);
+    if (shape.kind == AreaShape::Kind::Cylinder)
+        return shLights::cylinderSample(shape, point, u, out) && std::isfinite(out.pdf);
     if (!facesPlane(shape, point)) return false;
     out.normal = shape.normal;
     if (shape.kind == AreaShape::Kind::Rect) {
@@ -96,59 +99,30 @@ bool sampleShape(const AreaShape& shape, const vec3& point, const vec2& u, Shape
         const vec2 q = concentricDisk(u);
         out.position = shape.origin + q.x * shape.axes[0] + q.y * shape.axes[1];
     }
-    out.pdf = areaToSolidAngle(1.0f / shape.area, point, out.position, out.normal);
+    out.pdf = byArea(shape, point, out.position);
     return out.pdf > 0.0f;
 }
 
 float shapePdf(const AreaShape& shape, const vec3& point, const vec3& position,
                const vec3& normal) {
-    if (shape.kind == AreaShape::Kind::Sphere) return spherePdf(shape, point, position);
-    if (shape.kind == AreaShape::Kind::Cylinder) return cylinderPdf(shape, point, position, normal);
+    if (shape.kind == AreaShape::Kind::Sphere) return shLights::spherePdf(shape, point, position);
+    if (shape.kind == AreaShape::Kind::Cylinder)
+        return shLights::cylinderPdf(shape, point, position, normal);
     if (!facesPlane(shape, point)) return 0.0f;
     SphericalRect rect;
     if (shape.kind == AreaShape::Kind::Rect && bySolidAngle(shape, point) &&
         rectFrom(shape, point, rect))
         return rect.pdf();
-    return areaToSolidAngle(1.0f / shape.area, point, position, shape.normal);
+    return byArea(shape, point, position);
 }
 
 bool intersectShape(const AreaShape& shape, const vec3& origin, const vec3& direction, float near,
                     float far, float& distance, vec3& normal) {
-    const vec3 q = shape.local(origin), d = shape.inverse * direction;
-    const auto inRange = [&](float t) { return t > near && t < far; };
-    if (shape.kind == AreaShape::Kind::Rect || shape.kind == AreaShape::Kind::Disk) {
-        // Local z runs along the normal: only rays that come down on it see light.
-        if (!(q.z > 0.0f && d.z < 0.0f)) return false;
-        const float t = -q.z / d.z;
-        if (!inRange(t)) return false;
-        const vec2 p = vec2(q) + t * vec2(d);
-        const bool inside = shape.kind == AreaShape::Kind::Rect
-                                ? std::abs(p.x) <= 0.5f && std::abs(p.y) <= 0.5f
-                                : glm::dot(p, p) <= 1.0f;
-        if (!inside) return false;
-        distance = t;
-        normal = shape.normal;
-        return true;
-    }
-    const bool cylinder = shape.kind == AreaShape::Kind::Cylinder;
-    const vec3 mask(cylinder ? 0.0f : 1.0f, 1.0f, 1.0f);
-    const vec3 f = q * mask, l = d * mask;
-    const float ll = glm::dot(l, l);
-    if (!(ll > 0.0f) || glm::dot(f, f) <= 1.0f)
-        return false; // from within there is nothing that emits
-    const float b = -glm::dot(f, l) / ll;
-    const vec3 closest = f + b * l; // numerically safer than the textbook discriminant
-    const float discriminant = 1.0f - glm::dot(closest, closest);
-    if (discriminant < 0.0f) return false;
-    const float t = b - std::sqrt(discriminant / ll);
-    if (!inRange(t)) return false;
-    vec3 p = q + t * d;
-    if (cylinder) {
-        if (std::abs(p.x) > 0.5f) return false;
-        p.x = 0.0f;
-    }
-    distance = t;
-    normal = glm::normalize(p * shape.inverse); // the inverse's transpose
+    const vec3 o = shapeLocal(shape, origin), d = shape.inverse * direction;
+    vec3 q;
+    if (!shLights::shapeHit(int(shape.kind), o, d, distance, q)) return false;
+    if (!(distance > near && distance < far)) return false;
+    normal = shapeNormalAt(int(shape.kind), shape, q);
     return true;
 }
 

@@ -1,32 +1,29 @@
 #pragma once
 
 #include "hdDelegate/scene/light.h"
+#include "shaders/lights.h"
 
 namespace patina {
 
-/// A point on a light's surface, as seen from the point that is lit.
-struct ShapeSample {
-    vec3 position{0.0f}, normal{0.0f}; ///< the normal is that of the side that emits
-    float pdf = 0.0f;                  ///< solid angle density at the lit point
-};
+using ShapeSample = shLights::ShapePoint;
 
-/// The surface of an area light in world space: a unit shape under an affine transform. In the
-/// coordinates q = inverse (p - origin) the shapes are
-///   rect      |q.x|, |q.y| <= 1/2, shining to `normal`
-///   disk      q.x^2 + q.y^2 <= 1, shining to `normal`
-///   sphere    |q| = 1, shining outwards
-///   cylinder  |q.x| <= 1/2, q.y^2 + q.z^2 = 1, shining outwards, without caps
-struct AreaShape {
-    enum class Kind { Rect, Disk, Sphere, Cylinder };
+/// The surface of an area light in world space: a unit shape under an affine transform, see
+/// shaders/lights/shape.glsl.
+struct AreaShape : shLights::ShapeFrame {
+    enum class Kind {
+        Rect = shLights::SHAPE_RECT,
+        Disk = shLights::SHAPE_DISK,
+        Sphere = shLights::SHAPE_SPHERE,
+        Cylinder = shLights::SHAPE_CYLINDER
+    };
 
     Kind kind = Kind::Rect;
     bool rightAngled = false; ///< a rect that is no mere parallelogram
     bool valid = false;       ///< has an area, and its transform can be inverted
-    vec3 origin{0.0f}, normal{0.0f};
-    mat3 axes{1.0f}, inverse{1.0f};
-    float determinant = 1.0f, area = 0.0f;
+    vec3 normal{0.0f};        ///< of rects and disks
+    float area = 0.0f;
 
-    vec3 local(const vec3& position) const { return inverse * (position - origin); }
+    AreaShape() : ShapeFrame{vec3(0.0f), mat3(1.0f), mat3(1.0f), 1.0f} {}
 };
 
 /// @param light of type rect, disk, sphere or cylinder

@@ -1,6 +1,5 @@
 #include "hdDelegate/lights/lightEmitter.h"
 
-#include "hdDelegate/lights/areaShapeParts.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "materialNetwork/maths.h"
 
@@ -15,25 +14,18 @@ const LightEmitter::Pose& LightEmitter::poseAt(float time, Pose& scratch) const 
     return scratch;
 }
 
-/// Rect texture: the image's left top corner is at (+x, +y), as the schema puts it.
 vec3 LightEmitter::texture(const AreaShape& shape, const vec3& position) const {
     if (!_texture) return vec3(1.0f);
-    const vec3 q = shape.local(position);
-    const int w = _texture->width, h = _texture->height;
-    const float x = (0.5f - q.x) * float(w) - 0.5f, y = (0.5f - q.y) * float(h) - 0.5f;
-    const float fx = std::clamp(x, 0.0f, float(w - 1)), fy = std::clamp(y, 0.0f, float(h - 1));
-    const int x0 = int(fx), y0 = int(fy), x1 = std::min(x0 + 1, w - 1),
-              y1 = std::min(y0 + 1, h - 1);
-    const float tx = fx - float(x0), ty = fy - float(y0);
-    const auto at = [&](int i, int k) {
-        return _texture->pixels[size_t(k) * size_t(w) + size_t(i)];
-    };
-    return (1.0f - ty) * ((1.0f - tx) * at(x0, y0) + tx * at(x1, y0)) +
-           ty * ((1.0f - tx) * at(x0, y1) + tx * at(x1, y1));
+    const shLights::TableCell c =
+        shLights::rectTexels(shapeLocal(shape, position), _texture->width, _texture->height);
+    const std::vector<vec3>& pixels = _texture->pixels;
+    return tableMix(c, pixels[size_t(c.low)], pixels[size_t(c.lowNext)], pixels[size_t(c.high)],
+                    pixels[size_t(c.highNext)]);
 }
 
 vec3 LightEmitter::shaped(const Pose& pose, const vec3& direction) const {
-    return pose.shaping.active() ? _radiance * pose.shaping.factor(direction) : _radiance;
+    return pose.shaping.active() ? _resolved.radiance * pose.shaping.factor(direction)
+                                 : _resolved.radiance;
 }
 
 vec3 LightEmitter::radiance(const vec3& position, const vec3& direction, float time) const {
@@ -46,7 +38,7 @@ bool LightEmitter::sample(const vec3& point, const vec3& normal, bool twoSided, 
                           float time, EmitterSample& out) const {
     Pose scratch;
     const Pose& pose = poseAt(time, scratch);
-    switch (_kind) {
+    switch (_resolved.kind) {
     case Kind::Area: {
         ShapeSample s;
         if (!sampleShape(pose.shape, point, u, s)) return false;
@@ -77,28 +69,17 @@ bool LightEmitter::sample(const vec3& point, const vec3& normal, bool twoSided, 
     }
 }
 
-/// Equiangular along the line (Kulla and Fajardo 2012).
 bool LightEmitter::sampleLine(const Pose& pose, const vec3& point, float u,
                               EmitterSample& out) const {
-    const float length = glm::length(pose.along);
-    if (!(length > 0.0f)) return false;
-    const vec3 axis = pose.along / length;
-    const vec3 v = point - pose.position;
-    const float middle = glm::dot(v, axis);
-    const float away = std::max(glm::length(v - middle * axis), 1e-4f * length);
-    const float a = (-0.5f * length - middle) / away, b = (0.5f * length - middle) / away;
-    const float angle = std::atan2(b - a, 1.0f + a * b);
-    const float turn = std::tan(u * angle), x = (a + turn) / (1.0f - a * turn);
-    const vec3 d = pose.position + (middle + x * away) * axis - point;
+    vec3 d;
+    float pdf;
+    if (!shLights::lineSample(pose.position, pose.along, point, u, d, pdf)) return false;
     const float d2 = glm::dot(d, d);
-    if (!(d2 > 0.0f) || !(angle > 0.0f)) return false;
     out.distance = std::sqrt(d2);
     out.direction = d / out.distance;
     out.normal = -out.direction;
     // A density along the line is divided out here, so that the selection alone remains.
-    const float pdf = 1.0f / ((1.0f + x * x) * angle * away);
-    const float cosine = glm::dot(out.direction, axis);
-    const float across = std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
+    const float across = shLights::lineAcross(pose.along / glm::length(pose.along), out.direction);
     out.pdf = 1.0f;
     out.radiance = shaped(pose, -out.direction) * (across / (d2 * pdf));
     return std::isfinite(out.radiance.x + out.radiance.y + out.radiance.z);
@@ -107,19 +88,15 @@ bool LightEmitter::sampleLine(const Pose& pose, const vec3& point, float u,
 bool LightEmitter::sampleDistant(const Pose& pose, const vec2& u, EmitterSample& out) const {
     out.distance = INFINITY;
     out.normal = vec3(0.0f);
-    out.radiance = _radiance;
-    if (_delta) {
+    out.radiance = _resolved.radiance;
+    if (_resolved.delta) {
         out.direction = pose.toLight;
         out.pdf = 1.0f;
         return true;
     }
-    const float h = u.x * _oneMinusCos;
-    const float sine = std::sqrt(std::max(0.0f, h * (2.0f - h))), phi = 2.0f * pi * u.y;
-    vec3 x, y;
-    orthonormalBasis(pose.toLight, x, y);
     out.direction =
-        glm::normalize((1.0f - h) * pose.toLight + sine * (std::cos(phi) * x + std::sin(phi) * y));
-    out.pdf = 1.0f / (2.0f * pi * _oneMinusCos);
+        shLights::distantSample(shLights::lightBasis(pose.toLight), _resolved.versine, u);
+    out.pdf = shLights::distantPdf(_resolved.versine);
     return true;
 }
 
@@ -130,10 +107,10 @@ bool LightEmitter::sampleDome(const Pose& pose, const vec3& normal, bool twoSide
     if (_environment) {
         const vec3 local = _environment->sample(u, out.pdf, normal * pose.domeToWorld, twoSided);
         out.direction = pose.domeToWorld * local;
-        out.radiance = _radiance * _environment->radiance(local);
+        out.radiance = _resolved.radiance * _environment->radiance(local);
         return out.pdf > 0.0f && std::isfinite(out.pdf);
     }
-    out.radiance = _radiance;
+    out.radiance = _resolved.radiance;
     const float phi = 2.0f * pi * u.y;
     if (normal == vec3(0.0f)) {
         const float z = 1.0f - 2.0f * u.x, s = std::sqrt(std::max(0.0f, 1.0f - z * z));
@@ -157,7 +134,7 @@ bool LightEmitter::sampleDome(const Pose& pose, const vec3& normal, bool twoSide
 
 float LightEmitter::pdf(const vec3& point, const vec3& position, const vec3& normal,
                         float time) const {
-    if (_kind != Kind::Area) return 0.0f;
+    if (_resolved.kind != Kind::Area) return 0.0f;
     Pose scratch;
     const float pdf = shapePdf(poseAt(time, scratch).shape, point, position, normal);
     return std::isfinite(pdf) ? pdf : 0.0f;
@@ -165,35 +142,33 @@ float LightEmitter::pdf(const vec3& point, const vec3& position, const vec3& nor
 
 bool LightEmitter::intersect(const vec3& origin, const vec3& direction, float near, float far,
                              float time, float& distance, vec3& normal) const {
-    if (_kind != Kind::Area) return false;
+    if (_resolved.kind != Kind::Area) return false;
     Pose scratch;
     return intersectShape(poseAt(time, scratch).shape, origin, direction, near, far, distance,
                           normal);
 }
 
 vec3 LightEmitter::environment(const vec3& direction, float time) const {
-    if (_delta || !atInfinity()) return vec3(0.0f);
+    if (_resolved.delta || !atInfinity()) return vec3(0.0f);
     Pose scratch;
     const Pose& pose = poseAt(time, scratch);
-    if (_kind == Kind::Distant) {
-        // |direction - axis|^2 = 2 (1 - cos), which keeps small angles precise.
-        const vec3 d = direction - pose.toLight;
-        return 0.5f * glm::dot(d, d) <= _oneMinusCos ? _radiance : vec3(0.0f);
-    }
-    return _environment
-               ? _radiance * _environment->radiance(glm::transpose(pose.domeToWorld) * direction)
-               : _radiance;
+    if (_resolved.kind == Kind::Distant)
+        return shLights::distantHit(pose.toLight, _resolved.versine, direction) ? _resolved.radiance
+                                                                                : vec3(0.0f);
+    return _environment ? _resolved.radiance *
+                              _environment->radiance(glm::transpose(pose.domeToWorld) * direction)
+                        : _resolved.radiance;
 }
 
 float LightEmitter::environmentPdf(const vec3& normal, bool twoSided, const vec3& direction,
                                    float time) const {
-    if (_delta || !atInfinity()) return 0.0f;
+    if (_resolved.delta || !atInfinity()) return 0.0f;
     Pose scratch;
     const Pose& pose = poseAt(time, scratch);
-    if (_kind == Kind::Distant) {
-        const vec3 d = direction - pose.toLight;
-        return 0.5f * glm::dot(d, d) <= _oneMinusCos ? 1.0f / (2.0f * pi * _oneMinusCos) : 0.0f;
-    }
+    if (_resolved.kind == Kind::Distant)
+        return shLights::distantHit(pose.toLight, _resolved.versine, direction)
+                   ? shLights::distantPdf(_resolved.versine)
+                   : 0.0f;
     if (_environment)
         return _environment->pdf(direction * pose.domeToWorld, normal * pose.domeToWorld, twoSided);
     if (normal == vec3(0.0f)) return 0.25f / pi;
@@ -202,8 +177,9 @@ float LightEmitter::environmentPdf(const vec3& normal, bool twoSided, const vec3
 }
 
 bool LightEmitter::reaches(const vec3& normal, bool twoSided) const {
-    if (_kind != Kind::Distant || _moves || twoSided || normal == vec3(0.0f)) return true;
-    return glm::dot(_pose.toLight, normal) > -std::sin(std::min(_halfAngle, 0.5f * pi)) - 1e-4f;
+    if (_resolved.kind != Kind::Distant || _moves || twoSided || normal == vec3(0.0f)) return true;
+    return glm::dot(_pose.toLight, normal) >
+           -std::sin(std::min(_resolved.halfAngle, 0.5f * pi)) - 1e-4f;
 }
 
 } // namespace patina

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "hdDelegate/lights/areaShape.h"
 #include "hdDelegate/lights/environmentMap.h"
-#include "hdDelegate/lights/lightShaping.h"
 #include "hdDelegate/lights/lightTree.h"
+#include "hdDelegate/lights/resolvedLight.h"
 
 #include <memory>
 
@@ -18,12 +17,11 @@ struct EmitterSample {
     float distance = 0.0f, pdf = 0.0f; ///< pdf of delta emitters is 1
 };
 
-/// One light made ready for sampling. Area lights sample points on their shape; point and line
-/// stand-ins (treatAsPoint, treatAsLine, or no radius with `normalize` on) and distant lights of
-/// angle 0 are delta emitters that no ray can hit.
+/// One light made ready for sampling. Area lights sample points on their shape; points, lines and
+/// distant lights of angle 0 are delta emitters that no ray can hit, see ResolvedLight.
 class LightEmitter {
 public:
-    enum class Kind { None, Area, Point, Line, Distant, Dome };
+    using Kind = ResolvedLight::Kind;
 
     LightEmitter() = default;
     /// A light that gives no light, for whatever reason, becomes Kind::None. Reasons that look
@@ -33,9 +31,11 @@ public:
                  float shutterOpen, float shutterClose, LightImages& images,
                  Diagnostics& diagnostics);
 
-    Kind kind() const { return _kind; }
-    bool atInfinity() const { return _kind == Kind::Distant || _kind == Kind::Dome; }
-    bool delta() const { return _delta; }
+    Kind kind() const { return _resolved.kind; }
+    bool atInfinity() const {
+        return _resolved.kind == Kind::Distant || _resolved.kind == Kind::Dome;
+    }
+    bool delta() const { return _resolved.delta; }
 
     /// @param normal,twoSided as of LightSet::sample(); constant domes sample by the cosine
     bool sample(const vec3& point, const vec3& normal, bool twoSided, const vec2& u, float time,
@@ -60,21 +60,11 @@ public:
     LightTreeLeaf leaf(int id) const;
 
 private:
-    /// Where the light is at one time.
-    struct Pose {
-        AreaShape shape;
-        LightShaping shaping;
-        vec3 position{0.0f}; ///< of points, middle of lines
-        vec3 along{0.0f};    ///< of lines, all of its length
-        vec3 toLight{0.0f};  ///< of distant lights
-        mat3 domeToWorld{1.0f};
-    };
+    using Pose = LightPose;
 
     Pose makePose(const mat4& toWorld) const;
     const Pose& poseAt(float time, Pose& scratch) const;
     bool setUpDome(LightImages& images);
-    bool choosesKind(const mat4& toWorld, Diagnostics& diagnostics);
-    void loadProfile(Diagnostics& diagnostics);
     bool sampleLine(const Pose& pose, const vec3& point, float u, EmitterSample& out) const;
     bool sampleDistant(const Pose& pose, const vec2& u, EmitterSample& out) const;
     bool sampleDome(const Pose& pose, const vec3& normal, bool twoSided, const vec2& u,
@@ -82,15 +72,13 @@ private:
     vec3 texture(const AreaShape& shape, const vec3& position) const;
     vec3 shaped(const Pose& pose, const vec3& direction) const;
 
-    Kind _kind = Kind::None;
-    bool _delta = false, _moves = false;
+    ResolvedLight _resolved; ///< at the shutter's opening
+    bool _moves = false;
     Light _light;
     mat4 _group{1.0f};
     dvec3 _origin{0.0};
     std::vector<float> _times; ///< at which the motion has corners, in the shutter
     Pose _pose;                ///< at the shutter's opening
-    vec3 _radiance{0.0f};      ///< points: intensity; lines: intensity across per length
-    float _halfAngle = 0.0f, _oneMinusCos = 0.0f; ///< distant
     float _irradiance = 0.0f;
     float _meanTexture = 1.0f;
     std::shared_ptr<const ImageRGB> _texture;

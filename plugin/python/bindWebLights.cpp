@@ -1,11 +1,9 @@
 // Lights of a scene, as the material page takes them.
 
 #include "hdDelegate/geometry/tessellate.h"
-#include "hdDelegate/image/iesProfile.h"
-#include "hdDelegate/lights/areaShape.h"
 #include "hdDelegate/lights/environmentMap.h"
 #include "hdDelegate/lights/lightImages.h"
-#include "hdDelegate/lights/lightShaping.h"
+#include "hdDelegate/lights/resolvedLight.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/scene.h"
 #include "materialNetwork/maths.h"
@@ -39,8 +37,9 @@ struct WebLights {
     py::list direct, domes;
 };
 
-enum Kind { Rect, Disk, Sphere, Cylinder, Point, Distant, Triangles };
-constexpr int texels = 11;
+/// The numbers are those of shaders/web/lights.glsl; shapes come as in AreaShape::Kind.
+enum Kind { Point = 100, Distant, Triangles, Line };
+constexpr int texels = 14;
 
 std::array<float, 3> triple(const vec3& v) {
     return {v.x, v.y, v.z};
@@ -68,27 +67,14 @@ vec3 addImage(const Light& light, WebLights& out) {
     return place;
 }
 
-/// A profile over even steps of theta (0 to pi) and phi (a whole turn).
-/// @returns first value (-1 none), thetas, phis
+/// @returns first value of the light's profile (-1 none), thetas, phis
 vec3 addProfile(const Light& light, WebLights& out) {
-    if (light.iesFile.empty()) return {-1.0f, 0.0f, 0.0f};
-    IesProfile profile;
-    std::string error;
-    if (!profile.load(light.iesFile, error)) {
-        out.diagnostics.warn(light.path, "inputs:shaping:ies:file", error);
-        return {-1.0f, 0.0f, 0.0f};
-    }
-    const float mean = profile.mean();
-    const float scale = !light.iesNormalize ? 1.0f : mean > 0.0f ? 1.0f / mean : 0.0f;
-    constexpr int thetas = 181, phis = 37;
-    const vec3 place(float(out.table.size()), float(thetas), float(phis));
-    for (int p = 0; p < phis; ++p)
-        for (int t = 0; t < thetas; ++t) {
-            const float theta =
-                IesProfile::scaledTheta(float(t) / float(thetas - 1) * pi, light.iesAngleScale);
-            const float phi = float(p) / float(phis - 1) * 2.0f * pi;
-            out.table.emplace_back(profile.candela(theta, phi) * scale, 0.0f, 0.0f, 0.0f);
-        }
+    const auto profile = lightProfile(light, out.diagnostics);
+    if (!profile) return {-1.0f, 0.0f, 0.0f};
+    const ProfileGrid grid = profileGrid(light, *profile, 181, 37);
+    const vec3 place(float(out.table.size()), float(grid.thetas), float(grid.phis));
+    for (float value : grid.values)
+        out.table.emplace_back(value, 0.0f, 0.0f, 0.0f);
     return place;
 }
 
@@ -130,8 +116,8 @@ bool addTriangles(const Scene& scene, const Light& light, vec4* row, WebLights& 
     }
     for (const Triangle& t : all)
         kept += double(t.area);
-    row[8] = vec4(float(out.table.size()), float(all.size()), 0.0f, -1.0f);
-    row[3].w = float(kept);
+    row[10] = vec4(float(out.table.size()), float(all.size()), 0.0f, -1.0f);
+    row[2].w = float(kept);
     double sum = 0.0;
     for (const Triangle& t : all) {
         sum += double(t.area);
@@ -142,7 +128,6 @@ bool addTriangles(const Scene& scene, const Light& light, vec4* row, WebLights& 
     vec3 radiance = lightBaseRadiance(light);
     if (light.normalize) radiance /= float(whole);
     row[1] = vec4(glm::max(radiance * float(whole / kept), vec3(0.0f)), 1.0f);
-    row[0].w = float(Triangles);
     return true;
 }
 
@@ -150,57 +135,65 @@ bool addTriangles(const Scene& scene, const Light& light, vec4* row, WebLights& 
 std::vector<float> lightRow(const Scene& scene, const Light& light, const mat4& toWorld,
                             WebLights& out) {
     vec4 row[texels] = {};
-    const float axisLength = glm::length(vec3(toWorld[2]));
-    const vec3 z = axisLength > 0.0f ? vec3(toWorld[2]) / axisLength : vec3(0.0f, 0.0f, 1.0f);
-    vec3 radiance = glm::max(lightRadiance(light, toWorld), vec3(0.0f));
-    Kind kind = Distant;
-    row[4] = vec4(-z, 1.0f);
-    row[8] = vec4(-1.0f);
+    row[10] = vec4(-1.0f);
+    Kind kind = Triangles;
+    vec3 radiance;
+    LightPose pose;
     if (light.type == LightType::Mesh) {
         if (!addTriangles(scene, light, row, out)) return {};
-        kind = Triangles;
         radiance = vec3(row[1]);
-    } else if (light.type == LightType::Distant) {
-        row[4].w = std::cos(0.5f * degree * std::clamp(light.angle, 0.0f, 360.0f));
-        // Floats cannot tell the cosines of narrow cones apart: those shine from one direction.
-        if (row[4].w > 0.999999f && light.angle > 0.0f) {
-            radiance *= float(lightSizeFactor(light, toWorld));
-            row[4].w = 1.0f;
-        }
-    } else if (light.type == LightType::Sphere && light.treatAsPoint) {
-        kind = Point;
-        radiance = lightBaseRadiance(light) * 0.25f *
-                   (light.normalize ? 1.0f : float(lightSizeFactor(light, toWorld)));
+        pose.position = vec3(toWorld[3]);
+        pose.shaping = LightShaping(light, toWorld, nullptr);
     } else {
-        const AreaShape shape = makeAreaShape(light, toWorld);
-        if (!shape.valid) return {};
-        const float half = shape.kind == AreaShape::Kind::Disk ? 1.0f : 0.5f;
-        kind = shape.kind == AreaShape::Kind::Rect     ? Rect
-               : shape.kind == AreaShape::Kind::Disk   ? Disk
-               : shape.kind == AreaShape::Kind::Sphere ? Sphere
-                                                       : Cylinder;
-        const float across =
-            kind == Sphere ? std::cbrt(std::abs(shape.determinant)) : glm::length(shape.axes[1]);
-        row[2] = vec4(shape.axes[0] * half, across);
-        row[3] = vec4(shape.axes[1] * half, shape.area);
-        if (kind == Rect || kind == Disk) row[4] = vec4(shape.normal, 0.0f);
-        row[0] = vec4(shape.origin, 0.0f);
-        if (kind == Rect && !light.textureFile.empty()) row[8] = vec4(addImage(light, out), -1.0f);
+        const ResolvedLight is = resolveLight(light, toWorld, out.diagnostics);
+        pose = lightPose(light, is.kind, toWorld, nullptr);
+        radiance = is.radiance;
+        switch (is.kind) {
+        case ResolvedLight::Kind::Distant:
+            kind = Distant;
+            row[4] = vec4(-pose.toLight, is.versine);
+            // Densities of narrow cones have no square in floats: those shine from one direction.
+            if (row[4].w < 1e-6f && !is.delta) {
+                radiance *= float(lightSizeFactor(light, toWorld));
+                row[4].w = 0.0f;
+            }
+            break;
+        case ResolvedLight::Kind::Point: kind = Point; break;
+        case ResolvedLight::Kind::Line:
+            kind = Line;
+            row[2] = vec4(pose.along, 0.0f);
+            break;
+        case ResolvedLight::Kind::Area: {
+            const AreaShape& shape = pose.shape;
+            kind = Kind(int(shape.kind));
+            for (int i = 0; i < 3; ++i) {
+                row[2 + i] = vec4(shape.axes[i], 0.0f);
+                row[5 + i] = vec4(shape.inverse[i], 0.0f);
+            }
+            row[3].w = shape.volume;
+            if (shape.kind == AreaShape::Kind::Rect && !light.textureFile.empty())
+                row[10] = vec4(addImage(light, out), -1.0f);
+            break;
+        }
+        default: return {};
+        }
     }
-    if (kind == Point) row[0] = vec4(vec3(toWorld[3]), 0.0f);
-    row[0].w = float(kind);
+    const shLights::Shaping& beam = pose.shaping.beam();
+    row[0] = vec4(pose.position, float(kind));
     row[1] = vec4(radiance, 1.0f);
-    const float cone = light.shapingConeAuthored ? light.shapingConeAngle * degree : 0.0f;
-    row[5] = vec4(std::max(light.shapingFocus, 0.0f), std::max(cone, 0.0f),
-                  cone * (1.0f - std::clamp(light.shapingConeSoftness, 0.0f, 1.0f)), 0.0f);
-    row[6] = vec4(light.shapingFocusTint, 0.0f);
-    row[7] = vec4(light.diffuse, light.specular, 0.0f, 0.0f);
+    row[5].w = beam.focus;
+    row[6].w = beam.coneStart;
+    row[7].w = beam.cone ? beam.coneEnd : -1.0f;
+    row[8] = vec4(beam.focusTint, 0.0f);
+    row[9] = vec4(light.diffuse, light.specular, 0.0f, 0.0f);
+    row[11] = vec4(beam.axis, 0.0f);
+    row[12] = vec4(beam.x, 0.0f);
+    row[13] = vec4(beam.y, 0.0f);
     if (kind != Distant && kind != Triangles) {
         const vec3 profile = addProfile(light, out);
-        const LightShaping shaping(light, toWorld, nullptr);
-        row[8].w = profile.x;
-        row[9] = vec4(shaping.x(), profile.y);
-        row[10] = vec4(shaping.y(), profile.z);
+        row[10].w = profile.x;
+        row[12].w = profile.y;
+        row[13].w = profile.z;
     }
     std::vector<float> floats;
     for (const vec4& texel : row)
@@ -230,9 +223,7 @@ py::object latlongOf(const Light& light, WebLights& out) {
             for (int k = 0; k < 4; ++k) {
                 const float u = (float(x) + 0.25f + 0.5f * float(k % 2)) / float(domeWidth);
                 const float v = (float(y) + 0.25f + 0.5f * float(k / 2)) * 2.0f / float(domeWidth);
-                const float turn = (0.5f - u) * 2.0f * pi, side = std::sin(v * pi);
-                sum += map->radiance(
-                    vec3(std::sin(turn) * side, std::cos(v * pi), std::cos(turn) * side));
+                sum += map->radiance(shLights::domeDirection(vec2(u, v)));
             }
             for (int c = 0; c < 3; ++c)
                 *to++ = 0.25f * sum[c];
@@ -247,7 +238,7 @@ void addLight(const Scene& scene, const std::string& path, const Light& light, W
         dome["path"] = path;
         dome["texture"] = light.textureFile;
         dome["pixels"] = latlongOf(light, out);
-        dome["radiance"] = triple(glm::max(lightRadiance(light, toWorld), vec3(0.0f)));
+        dome["radiance"] = triple(resolveLight(light, toWorld, out.diagnostics).radiance);
         dome["axes"] = std::vector<std::array<float, 3>>{
             triple(vec3(toWorld[0])), triple(vec3(toWorld[1])), triple(vec3(toWorld[2]))};
         out.domes.append(dome);
@@ -298,7 +289,7 @@ py::dict lightsOf(const Scene& scene) {
 void bindWebLights(py::module_& m) {
     m.def("web_light_meshes", &lightMeshes, py::arg("scene"), "Paths of meshes that are lights.");
     m.def("web_lights", &lightsOf, py::arg("scene"),
-          "lights: (path, 44 floats in the layout of shaders/web/lights.glsl); table: the values "
+          "lights: (path, floats in the layout of shaders/web/lights.glsl); table: the values "
           "(n, 4) that they point into; domes: dicts of path, texture, radiance, axes and, where "
           "the image is no latlong map, pixels of one; notes: texts on what is left out.");
 }

@@ -1,4 +1,5 @@
 #include "shaders/areaLights.h"
+#include "shaders/lights.h"
 #include "shaders/measure/measure.h"
 #include "shaders/measure/reflector.h"
 
@@ -63,7 +64,7 @@ struct AreaLight {
     /// A direction to a sample of the rasterizer, and its density by solid angle.
     float sample(vec3 u, vec3& wi) const {
         if (kind == sh::LTC_SPHERE) {
-            const vec3 q = sh::sphereLightPlace(u);
+            const vec3 q = shLights::sphereLightPlace(u);
             wi = glm::normalize(origin + x * q.x + y * q.y + z * q.z);
             return densityAlong(wi);
         }
@@ -79,7 +80,7 @@ struct AreaLight {
         if (kind == sh::LTC_SPHERE) {
             const float volume = std::fabs(glm::dot(glm::cross(x, y), z));
             float found;
-            return sh::sphereLightHit(o, d, volume, t, found) ? found : 0.0f;
+            return shLights::sphereLightHit(o, d, volume, t, found) ? found : 0.0f;
         }
         if (kind == sh::LTC_CYLINDER) {
             const float a = d.y * d.y + d.z * d.z, b = o.y * d.y + o.z * d.z,

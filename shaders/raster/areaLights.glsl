@@ -7,7 +7,7 @@
 
 // Whether the light is even over its whole surface, so that its outline says all.
 bool isOutline(Light l) {
-    return l.origin.w <= 0.0 && int(l.radiance.w) <= LIGHT_CYLINDER && l.table.x < 0.0 &&
+    return l.origin.w <= 0.0 && int(l.radiance.w) < LIGHT_POINT && l.table.x < 0.0 &&
            l.table.w < 0.0 && l.shaping.w == 0.0 && l.focusTint.w == 0.0;
 }
 
@@ -27,7 +27,7 @@ bool isTransformable() {
 int outlineOf(Light l, out vec3 corners[LTC_CORNERS]) {
     int kind = int(l.radiance.w);
     vec3 d = point.position - l.origin.xyz;
-    if ((kind == LIGHT_RECT || kind == LIGHT_DISK) && dot(l.normal.xyz, d) <= 0.0) return 0;
+    if ((kind == SHAPE_RECT || kind == SHAPE_DISK) && dot(l.normal.xyz, d) <= 0.0) return 0;
     LtcOutline outline = ltcOutline(kind, toShape(l, d));
     for (int i = 0; i < outline.count; ++i)
         corners[i] = fromShape(l, outline.corners[i]) - d;
@@ -39,14 +39,14 @@ float shareAbove(Light l, vec3 n) {
     int kind = int(l.radiance.w);
     float h = dot(n, l.origin.xyz - point.position);
     vec3 reach = vec3(dot(n, l.axis0.xyz), dot(n, l.axis1.xyz), dot(n, l.axis2.xyz));
-    if (kind == LIGHT_DISK || kind == LIGHT_SPHERE) { // a sphere's samples have a disk's shadow
-        float across = kind == LIGHT_DISK ? length(reach.xy) : length(reach);
+    if (kind == SHAPE_DISK || kind == SHAPE_SPHERE) { // a sphere's samples have a disk's shadow
+        float across = kind == SHAPE_DISK ? length(reach.xy) : length(reach);
         float t = clamp(h / max(across, 1e-20), -1.0, 1.0);
         return 1.0 - (acos(t) - t * sqrt(1.0 - t * t)) * INV_PI;
     }
     // Lines along the shape, each cut exactly.
     const int lines = 8;
-    bool round = kind == LIGHT_CYLINDER;
+    bool round = kind == SHAPE_CYLINDER;
     float width = max(round ? length(reach.yz) : abs(reach.y), 1e-20), sum = 0.0;
     for (int i = 0; i < lines; ++i) {
         float t = (h + reach.x * ((float(i) + 0.5) / float(lines) - 0.5)) / width;

@@ -123,8 +123,8 @@ vec3 along(MaterialSample s) {
             density = samplesOf(l) * domePdf(l, s.wi, lod);
             radiance = radianceOfDome(l, s.wi, lod);
         } else if (kind == LIGHT_DISTANT) {
-            if (dot(s.wi, l.origin.xyz) < 1.0 - l.cone.z) continue;
-            density = 1.0 / l.cone.w * samplesOf(l);
+            if (!distantHit(l.origin.xyz, l.cone.z, s.wi)) continue;
+            density = distantPdf(l.cone.z) * samplesOf(l);
         } else {
             float t;
             vec3 image;

@@ -85,7 +85,7 @@ vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
         if (kind == LIGHT_DOME) {
             radiance = radianceOfDome(l, direction, clamp(lod, 0.0, float(lightInfo.y)));
         } else if (kind == LIGHT_DISTANT) {
-            if (dot(direction, l.origin.xyz) < 1.0 - l.cone.z) continue;
+            if (!distantHit(l.origin.xyz, l.cone.z, direction)) continue;
         } else {
             float t, density;
             vec3 image;

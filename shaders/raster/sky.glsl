@@ -36,7 +36,7 @@ vec3 domeIrradiance(Light l, vec3 normal) {
 
 vec3 prefiltered(Light l, vec3 wi, float alpha) {
     if (l.cone.x < 0.0) return l.origin.xyz;
-    vec2 at = latlong(toDome(l, wi));
+    vec2 at = domeTexel(toDome(l, wi));
     // Below the first level the image itself gets sharper, by its own smaller versions.
     vec3 sharp = textureLod(domeMaps, vec3(at, l.cone.x), max(0.0, log2(max(alpha * alpha * sqrt(extra.x), 1e-6)))).rgb;
     if (alpha <= 0.02) return l.origin.xyz * sharp;

@@ -1,5 +1,5 @@
-// The lobes as GLSL: every file of the dialect compiles as a compute shader (with storage buffer)
-// and as an OpenGL ES 3.0 fragment shader (with the host's own table look-up).
+// Lobes, patterns and lights as GLSL: every file of the dialect compiles as a compute shader (with
+// storage buffer) and as an OpenGL ES 3.0 fragment shader (with the host's own table look-up).
 
 #include <cstdio>
 #include <cstdlib>
@@ -171,6 +171,30 @@ vec3 everyPattern(vec3 p) {
 }
 )";
 
+// The functions of lights, every file of them.
+const char* const lightCalls = R"(
+vec3 everyLight(vec3 p, vec3 w, vec2 u) {
+    ShapeFrame f = ShapeFrame(p, mat3(1.0), mat3(1.0), 1.0);
+    Shaping s = Shaping(w, p, p, p, 1.0, true, 0.1, 0.2);
+    LightBasis b = lightBasis(w);
+    ShapePoint x;
+    vec3 q, d;
+    float t, pdf = 0.0;
+    TableCell c = directionCell(9, 5, u.x, iesAzimuth(p, w, w));
+    vec3 sum = tableMix(c, p, w, p, w) + tableMix(rectTexels(p, 8, 4), p, w, p, w) +
+               shapingBeam(s, shapingCosine(s, w)) + rectPlace(u) + diskPlace(u) +
+               cylinderPlace(u) + sphereLightPlace(p) + distantSample(b, 0.1, u) +
+               domeDirection(domeTexel(w));
+    if (rectHit(p, w, t, q) || diskHit(p, w, t, q) || sphereHit(p, w, t, q) ||
+        cylinderHit(p, w, t, q) || sphereLightHit(p, w, 1.0, t, pdf) || distantHit(p, 0.1, w))
+        sum += q * t * cylinderPlaceDensity(1.0, shapeNormal(f, q)) * distantPdf(0.1);
+    if (sphereSample(f, p, u, x)) sum += x.position * spherePdf(f, p, x.position);
+    if (cylinderSample(f, p, u, x)) sum += x.normal * cylinderPdf(f, p, x.position, x.normal);
+    if (lineSample(p, w, p, u.x, d, pdf)) sum += d * pdf * lineAcross(w, d);
+    return sum;
+}
+)";
+
 } // namespace
 
 TEST(GlslDialect, CompilesAsComputeShader) {
@@ -179,12 +203,14 @@ TEST(GlslDialect, CompilesAsComputeShader) {
                                flatten("shaders/lobes.glsl") + lobeCalls +
                                flatten("shaders/closure.glsl") + closureCalls +
                                flatten("shaders/patterns.glsl") + patternCalls +
+                               flatten("shaders/lights.glsl") + lightCalls +
                                "layout(local_size_x = 64) in;\n"
                                "layout(std430, binding = 0) buffer Out { vec4 result[]; };\n"
                                "void main() { result[gl_GlobalInvocationID.x] = "
                                "vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)) + "
                                "everyClosure(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)) + "
-                               "everyPattern(vec3(0.5)), 1); }\n";
+                               "everyPattern(vec3(0.5)) + "
+                               "everyLight(vec3(0.5), vec3(0, 0, 1), vec2(0.5)), 1); }\n";
     EXPECT_EQ(compile(source, "comp"), "");
 }
 
@@ -198,10 +224,11 @@ TEST(GlslDialect, CompilesAsEsFragmentShader) {
         " return texelFetch(table, ivec2(i & 1023, i >> 10), 0).x; }\n" +
         flatten("shaders/compat/glsl.glsl") + flatten("shaders/lobes.glsl") + lobeCalls +
         flatten("shaders/closure.glsl") + closureCalls + flatten("shaders/patterns.glsl") +
-        patternCalls +
+        patternCalls + flatten("shaders/lights.glsl") + lightCalls +
         "out vec4 color;\nvoid main() { color = vec4(everyLobe(vec3(0, 0, 1), vec3(0, 0, 1), "
         "vec3(0.5)) + everyClosure(vec3(0, 0, 1), vec3(0, 0, 1), vec3(0.5)) + "
-        "everyPattern(vec3(0.5)), 1); }\n";
+        "everyPattern(vec3(0.5)) + "
+        "everyLight(vec3(0.5), vec3(0, 0, 1), vec2(0.5)), 1); }\n";
     EXPECT_EQ(compile(source, "frag"), "");
 }
 

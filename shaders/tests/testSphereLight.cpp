@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
-#include "shaders/areaLights.h"
+#include "shaders/lights.h"
 #include "shaders/tests/lobeCase.h"
 
 using namespace patina;
@@ -23,10 +23,10 @@ struct Pose {
 
     bool hit(const vec3& wi, float& t, float& density) const {
         const glm::mat3 inverse = glm::inverse(axes);
-        return sh::sphereLightHit(inverse * -origin, inverse * wi,
+        return shLights::sphereLightHit(inverse * -origin, inverse * wi,
                                   std::fabs(glm::determinant(axes)), t, density);
     }
-    vec3 place(const vec3& u) const { return origin + axes * sh::sphereLightPlace(u); }
+    vec3 place(const vec3& u) const { return origin + axes * shLights::sphereLightPlace(u); }
 };
 
 std::vector<Pose> poses() {
@@ -94,8 +94,8 @@ TEST(SphereLight, densityIsEvenFromFarAway) {
 
 TEST(SphereLight, nothingShinesInwards) {
     float t, density;
-    EXPECT_FALSE(sh::sphereLightHit(vec3(0.2f, 0.0f, 0.0f), vec3(1, 0, 0), 1.0f, t, density));
-    EXPECT_FALSE(sh::sphereLightHit(vec3(2.0f, 0.0f, 0.0f), vec3(1, 0, 0), 1.0f, t, density));
+    EXPECT_FALSE(shLights::sphereLightHit(vec3(0.2f, 0.0f, 0.0f), vec3(1, 0, 0), 1.0f, t, density));
+    EXPECT_FALSE(shLights::sphereLightHit(vec3(2.0f, 0.0f, 0.0f), vec3(1, 0, 0), 1.0f, t, density));
 }
 
 // A lamp of a centimetre, ten kilometres away.

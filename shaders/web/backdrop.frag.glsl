@@ -1,6 +1,9 @@
 // What stands behind the shape: the environment, or a colour.
 precision highp float;
+precision highp int;
 precision highp sampler2D;
+#define PATINA_ALBEDO_TABLE_FETCH
+#include "shaders/compat/glsl.glsl"
 #include "shaders/web/environment.glsl"
 uniform mat4 clipToWorld;
 uniform vec3 eye;

@@ -1,41 +1,42 @@
-// Direct lights of the material page, in a texture, eleven texels in a row for each:
-//   0 position, kind          1 radiance (of delta lights: irradiance or intensity), on
-//   2 half axis u, radius     3 half axis v, area
-//   4 normal, cosine of a distant light's half angle
-//   5 focus, outer and inner angle of the cone (0: none), length of a cylinder
-//   6 focus tint, -           7 shares of diffuse and of specular light
-//   8 in lightTable: first value of a rect's image (-1 none), its width and height; of triangles:
+// Direct lights of the material page, in a texture, 14 texels in a row for each:
+//   0 origin of the shape, kind          1 radiance (of delta lights: irradiance or intensity), on
+//   2, 3, 4 axes of the shape, see shaders/lights/shape.glsl; w: area of triangles; volume; versine of a distant
+//     light's half angle (0: one direction). Of distant lights 4 is the way that light goes
+//   5, 6, 7 their inverse; w: focus; where a cone begins to fade; where it ends (-1: no cone)
+//   8 focus tint                         9 shares of diffuse and of specular light
+//   10 in lightTable: first value of a rect's image (-1 none), its width and height; of triangles:
 //     first value, how many; w: first value of an IES profile (-1 none)
-//   9 x across the axis, thetas of the profile     10 y across the axis, phis of the profile
+//   11 axis of the shaping     12 x across it, thetas of the profile     13 y across it, phis
+#include "shaders/lights/table.glsl"
+#include "shaders/lights/ies.glsl"
+#include "shaders/lights/shaping.glsl"
+#include "shaders/lights/basis.glsl"
+#include "shaders/lights/shapes.glsl"
+#include "shaders/lights/line.glsl"
+#include "shaders/lights/distant.glsl"
+
 uniform sampler2D lightData;
 uniform sampler2D lightTable; // 256 values in a row
 uniform int lightCount;
 
-const int LIGHT_RECT = 0;
-const int LIGHT_DISK = 1;
-const int LIGHT_SPHERE = 2;
-const int LIGHT_CYLINDER = 3;
-const int LIGHT_POINT = 4;
-const int LIGHT_DISTANT = 5;
-const int LIGHT_TRIANGLES = 6;
+// Kinds of shapes.glsl, and:
+const int LIGHT_POINT = 100;
+const int LIGHT_DISTANT = 101;
+const int LIGHT_TRIANGLES = 102;
+const int LIGHT_LINE = 103; // all of its length is the first axis
 const int TRIANGLES_MET = 64; // samples of the BSDF look for no more
 
 struct PageLight {
     int kind;
-    vec3 position;
     vec3 radiance;
-    vec3 axisU;
-    float radius;
-    vec3 axisV;
+    ShapeFrame shape;
     float area;
-    vec3 normal;
-    float cosAngle;
-    vec4 shaping;
-    vec3 tint;
+    float versine; // of a distant light
+    Shaping beam;
     vec2 shares;
     vec4 table;
-    vec4 shapingX;
-    vec4 shapingY;
+    int thetas; // of the profile
+    int phis;
 };
 
 vec4 lightTexel(int light, int i) {
@@ -44,23 +45,19 @@ vec4 lightTexel(int light, int i) {
 
 PageLight lightAt(int i) {
     PageLight l;
-    vec4 a = lightTexel(i, 0), b = lightTexel(i, 1), u = lightTexel(i, 2), v = lightTexel(i, 3);
-    vec4 n = lightTexel(i, 4);
-    l.kind = int(a.w);
-    l.position = a.xyz;
-    l.radiance = b.xyz * b.w;
-    l.axisU = u.xyz;
-    l.radius = u.w;
-    l.axisV = v.xyz;
-    l.area = v.w;
-    l.normal = n.xyz;
-    l.cosAngle = n.w;
-    l.shaping = lightTexel(i, 5);
-    l.tint = lightTexel(i, 6).xyz;
-    l.shares = lightTexel(i, 7).xy;
-    l.table = lightTexel(i, 8);
-    l.shapingX = lightTexel(i, 9);
-    l.shapingY = lightTexel(i, 10);
+    vec4 o = lightTexel(i, 0), on = lightTexel(i, 1), x = lightTexel(i, 12), y = lightTexel(i, 13);
+    vec4 a0 = lightTexel(i, 2), a1 = lightTexel(i, 3), a2 = lightTexel(i, 4);
+    vec4 i0 = lightTexel(i, 5), i1 = lightTexel(i, 6), i2 = lightTexel(i, 7);
+    l.kind = int(o.w);
+    l.radiance = on.xyz * on.w;
+    l.shape = ShapeFrame(o.xyz, mat3(a0.xyz, a1.xyz, a2.xyz), mat3(i0.xyz, i1.xyz, i2.xyz), a1.w);
+    l.area = a0.w;
+    l.versine = a2.w;
+    l.beam = Shaping(lightTexel(i, 11).xyz, x.xyz, y.xyz, lightTexel(i, 8).xyz, i0.w, i2.w >= 0.0, i1.w, i2.w);
+    l.shares = lightTexel(i, 9).xy;
+    l.table = lightTexel(i, 10);
+    l.thetas = int(x.w);
+    l.phis = int(y.w);
     return l;
 }
 
@@ -68,26 +65,17 @@ vec4 tableValue(int i) {
     return texelFetch(lightTable, ivec2(i & 255, i >> 8), 0);
 }
 
-// Candela in a direction away from the light, theta off its axis.
-float profileOf(PageLight l, vec3 away, float theta) {
-    float phi = atan(-dot(away, l.shapingY.xyz), -dot(away, l.shapingX.xyz)) / TWO_PI;
-    float x = theta / PI * (l.shapingX.w - 1.0), y = fract(phi) * (l.shapingY.w - 1.0);
-    int i = int(min(x, l.shapingX.w - 2.0)), k = int(min(y, l.shapingY.w - 2.0));
-    int at = int(l.table.w) + k * int(l.shapingX.w) + i, next = at + int(l.shapingX.w);
-    float low = mix(tableValue(at).x, tableValue(at + 1).x, x - float(i));
-    return mix(low, mix(tableValue(next).x, tableValue(next + 1).x, x - float(i)), y - float(k));
+// From a table that begins at a place of lightTable.
+vec3 tableValue(float first, TableCell c) {
+    int at = int(first);
+    return tableMix(c, tableValue(at + c.low).xyz, tableValue(at + c.lowNext).xyz,
+                    tableValue(at + c.high).xyz, tableValue(at + c.highNext).xyz);
 }
 
-// A rect's image; q from -1 to 1 along its half axes.
-vec3 imageOf(PageLight l, vec2 q) {
-    if (l.kind != LIGHT_RECT || l.table.x < 0.0) return vec3(1.0);
-    vec2 size = l.table.yz, at = clamp((0.5 - 0.5 * q) * size - 0.5, vec2(0.0), size - 1.0);
-    ivec2 low = ivec2(at), high = min(low + 1, ivec2(size) - 1);
-    int first = int(l.table.x), w = int(size.x);
-    vec2 t = at - vec2(low);
-    return mix(mix(tableValue(first + low.y * w + low.x), tableValue(first + low.y * w + high.x), t.x),
-               mix(tableValue(first + high.y * w + low.x), tableValue(first + high.y * w + high.x), t.x),
-               t.y).rgb;
+// A rect's image at a place of the shape.
+vec3 imageOf(PageLight l, vec3 q) {
+    if (l.kind != SHAPE_RECT || l.table.x < 0.0) return vec3(1.0);
+    return tableValue(l.table.x, rectTexels(q, int(l.table.y), int(l.table.z)));
 }
 
 // A point on triangles by their area.
@@ -126,32 +114,12 @@ bool isMet(PageLight l) {
     return l.kind != LIGHT_TRIANGLES || int(l.table.y) <= TRIANGLES_MET;
 }
 
-// UsdLuxShapingAPI: focus, cone and profile about the light's axis. away: from the light.
 vec3 shapingOf(PageLight l, vec3 away) {
-    vec3 f = vec3(1.0);
-    float c = dot(away, l.normal);
-    if (l.shaping.x > 0.0) f = mix(l.tint, vec3(1.0), pow(max(abs(c), 1e-20), l.shaping.x));
-    float angle = acos(clamp(c, -1.0, 1.0));
-    if (l.table.w >= 0.0) f *= profileOf(l, away, angle);
-    if (l.shaping.y > 0.0) {
-        f *= l.shaping.y > l.shaping.z ? 1.0 - smoothstep(l.shaping.z, l.shaping.y, angle)
-                                       : (angle > l.shaping.y ? 0.0 : 1.0);
-    }
-    return f;
-}
-
-// Cosine of the cone that a sphere fills, seen from a distance; 1 from inside it.
-float sphereCosine(PageLight l, vec3 from) {
-    vec3 d = l.position - from;
-    float s = l.radius * l.radius / max(dot(d, d), 1e-20);
-    return s < 1.0 ? sqrt(1.0 - s) : 1.0;
-}
-
-vec3 inCone(vec3 axis, float cosine, vec2 u) {
-    float c = mix(1.0, cosine, u.x);
-    float s = sqrt(max(1.0 - c * c, 0.0));
-    vec3 t = anyTangent(axis);
-    return axis * c + (t * cos(TWO_PI * u.y) + cross(axis, t) * sin(TWO_PI * u.y)) * s;
+    float c = shapingCosine(l.beam, away);
+    vec3 f = shapingBeam(l.beam, c);
+    if (l.table.w < 0.0) return f;
+    float phi = iesAzimuth(l.beam.x, l.beam.y, away);
+    return f * tableValue(l.table.w, directionCell(l.thetas, l.phis, acos(c), phi)).x;
 }
 
 // One direction to a light. density: by solid angle, 0 for delta lights.
@@ -159,48 +127,45 @@ vec3 inCone(vec3 axis, float cosine, vec2 u) {
 vec3 sampleLight(PageLight l, vec3 from, vec2 u, out vec3 wi, out float density) {
     density = 0.0;
     if (l.kind == LIGHT_DISTANT) {
-        wi = -l.normal;
-        if (l.cosAngle >= 1.0) return l.radiance;
-        wi = inCone(-l.normal, l.cosAngle, u);
-        density = 1.0 / (TWO_PI * (1.0 - l.cosAngle));
+        wi = -l.shape.axes[2];
+        if (l.versine == 0.0) return l.radiance;
+        vec3 x = anyTangent(wi);
+        wi = distantSample(LightBasis(x, cross(wi, x), wi), l.versine, u);
+        density = distantPdf(l.versine);
         return l.radiance;
     }
-    vec3 toCentre = l.position - from;
     if (l.kind == LIGHT_POINT) {
-        float d2 = max(dot(toCentre, toCentre), 1e-20);
-        wi = toCentre * inversesqrt(d2);
+        vec3 d = l.shape.origin - from;
+        float d2 = max(dot(d, d), 1e-20);
+        wi = d * inversesqrt(d2);
         return l.radiance / d2 * shapingOf(l, -wi);
     }
-    if (l.kind == LIGHT_SPHERE) {
-        float cosine = sphereCosine(l, from);
-        vec3 axis = unitOr(toCentre, vec3(0.0, 1.0, 0.0));
-        wi = inCone(axis, cosine, u);
-        if (cosine >= 1.0) return vec3(0.0);
-        density = 1.0 / (TWO_PI * (1.0 - cosine));
-        return l.radiance * shapingOf(l, -wi);
+    if (l.kind == LIGHT_LINE) {
+        float pdf;
+        bool seen = lineSample(l.shape.origin, l.shape.axes[0], from, u.x, wi, pdf);
+        float d2 = dot(wi, wi);
+        wi = unitOr(wi, vec3(0.0, 1.0, 0.0));
+        float across = lineAcross(unitOr(l.shape.axes[0], vec3(1.0, 0.0, 0.0)), wi);
+        return seen ? l.radiance * (across / (d2 * pdf)) * shapingOf(l, -wi) : vec3(0.0);
     }
-    vec3 p, n = l.normal, image = vec3(1.0);
-    if (l.kind == LIGHT_TRIANGLES) {
-        p = onTriangles(l, u, n);
-    } else if (l.kind == LIGHT_RECT) {
-        image = imageOf(l, 2.0 * u - 1.0);
-        p = l.axisU * (2.0 * u.x - 1.0) + l.axisV * (2.0 * u.y - 1.0);
-    } else if (l.kind == LIGHT_DISK) {
-        float r = sqrt(u.x);
-        p = (l.axisU * cos(TWO_PI * u.y) + l.axisV * sin(TWO_PI * u.y)) * r;
+    ShapePoint p;
+    vec3 image = vec3(1.0);
+    if (l.kind == SHAPE_SPHERE) {
+        sphereSample(l.shape, from, u, p);
+        density = p.pdf;
+    } else if (l.kind == LIGHT_TRIANGLES) {
+        p.position = onTriangles(l, u, p.normal);
+        p.pdf = 1.0 / l.area;
     } else {
-        vec3 along = unitOr(l.axisU, vec3(1.0, 0.0, 0.0));
-        vec3 t = anyTangent(along);
-        n = t * cos(TWO_PI * u.y) + cross(along, t) * sin(TWO_PI * u.y);
-        p = l.axisU * (2.0 * u.x - 1.0) + n * l.radius;
+        vec3 q = shapePlace(l.kind, u);
+        p.position = l.shape.origin + l.shape.axes * q;
+        p.normal = shapeNormalAt(l.kind, l.shape, q);
+        image = imageOf(l, q);
+        p.pdf = shapePlaceDensity(l.kind, l.shape, q);
     }
-    vec3 d = toCentre + p;
-    float d2 = max(dot(d, d), 1e-20);
-    wi = d * inversesqrt(d2);
-    float c = -dot(n, wi);
-    if (c <= 0.0) return vec3(0.0);
-    density = d2 / (c * l.area);
-    return l.radiance * image * shapingOf(l, -wi);
+    if (l.kind != SHAPE_SPHERE) density = areaToSolidAngle(p.pdf, from - p.position, p.normal);
+    wi = unitOr(p.position - from, vec3(0.0, 1.0, 0.0));
+    return density > 0.0 ? l.radiance * image * shapingOf(l, -wi) : vec3(0.0);
 }
 
 // The same light found along wi.
@@ -208,46 +173,24 @@ vec3 sampleLight(PageLight l, vec3 from, vec2 u, out vec3 wi, out float density)
 vec3 lightAlong(PageLight l, vec3 from, vec3 wi, out float density) {
     density = 0.0;
     if (l.kind == LIGHT_DISTANT) {
-        if (l.cosAngle >= 1.0 || dot(wi, -l.normal) < l.cosAngle) return vec3(0.0);
-        density = 1.0 / (TWO_PI * (1.0 - l.cosAngle));
+        if (l.versine == 0.0 || !distantHit(-l.shape.axes[2], l.versine, wi)) return vec3(0.0);
+        density = distantPdf(l.versine);
         return l.radiance;
     }
-    vec3 toCentre = l.position - from;
-    if (l.kind == LIGHT_SPHERE) {
-        float cosine = sphereCosine(l, from);
-        if (cosine >= 1.0 || dot(wi, unitOr(toCentre, vec3(0.0))) < cosine) return vec3(0.0);
-        density = 1.0 / (TWO_PI * (1.0 - cosine));
-        return l.radiance * shapingOf(l, -wi);
-    }
+    float t;
+    vec3 image = vec3(1.0);
     if (l.kind == LIGHT_TRIANGLES) {
         vec3 n;
-        float t = isMet(l) ? hitTriangles(l, from, wi, n) : 0.0, c = -dot(n, wi);
-        if (t <= 0.0 || c <= 0.0) return vec3(0.0);
-        density = t * t / (c * l.area);
-        return l.radiance * shapingOf(l, -wi);
+        t = isMet(l) ? hitTriangles(l, from, wi, n) : 0.0;
+        if (t > 0.0) density = areaToSolidAngle(1.0 / l.area, -wi * t, n);
+    } else if (l.kind < LIGHT_POINT) {
+        vec3 q;
+        if (!shapeHit(l.kind, shapeLocal(l.shape, from), l.shape.inverse * wi, t, q)) return vec3(0.0);
+        float byArea = l.kind == SHAPE_SPHERE ? 0.0 : shapePlaceDensity(l.kind, l.shape, q);
+        density = l.kind == SHAPE_SPHERE
+                      ? spherePdf(l.shape, from, from + wi * t)
+                      : areaToSolidAngle(byArea, -wi * t, shapeNormalAt(l.kind, l.shape, q));
+        image = imageOf(l, q);
     }
-    if (l.kind == LIGHT_CYLINDER) {
-        vec3 along = unitOr(l.axisU, vec3(1.0, 0.0, 0.0));
-        vec3 o = -toCentre + along * dot(toCentre, along), d = wi - along * dot(wi, along);
-        float a = dot(d, d), b = dot(o, d), off = dot(o, o) - l.radius * l.radius, root = b * b - a * off;
-        if (a <= 0.0 || off <= 0.0 || root <= 0.0) return vec3(0.0);
-        float t = (-b - sqrt(root)) / a;
-        vec3 p = wi * t - toCentre, n = (p - along * dot(p, along)) / l.radius;
-        float c = -dot(n, wi);
-        if (t <= 0.0 || c <= 0.0 || abs(dot(p, along)) > length(l.axisU)) return vec3(0.0);
-        density = t * t / (c * l.area);
-        return l.radiance * shapingOf(l, -wi);
-    }
-    if (l.kind != LIGHT_RECT && l.kind != LIGHT_DISK) return vec3(0.0);
-    float c = -dot(l.normal, wi);
-    if (c <= 0.0) return vec3(0.0);
-    float t = -dot(l.normal, toCentre) / c;
-    if (t <= 0.0) return vec3(0.0);
-    vec3 q = wi * t - toCentre;
-    float a = dot(q, l.axisU) / max(dot(l.axisU, l.axisU), 1e-30);
-    float b = dot(q, l.axisV) / max(dot(l.axisV, l.axisV), 1e-30);
-    bool inside = l.kind == LIGHT_RECT ? max(abs(a), abs(b)) <= 1.0 : a * a + b * b <= 1.0;
-    if (!inside) return vec3(0.0);
-    density = t * t / (c * l.area);
-    return l.radiance * imageOf(l, vec2(a, b)) * shapingOf(l, -wi);
+    return density > 0.0 ? l.radiance * image * shapingOf(l, -wi) : vec3(0.0);
 }

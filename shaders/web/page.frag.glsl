@@ -67,7 +67,7 @@ bool isBlocked(vec3 wi) {
 float environmentChance(vec3 w) {
     int level = int(environmentDensity.x);
     ivec2 size = textureSize(environmentMap, level);
-    ivec2 at = min(ivec2(latlong(worldToEnvironment * w) * vec2(size)), size - 1);
+    ivec2 at = min(ivec2(domeTexel(worldToEnvironment * w) * vec2(size)), size - 1);
     vec3 map = texelFetch(environmentMap, max(at, ivec2(0)), level).rgb;
     return luminance(environmentScale * map + ambient) * environmentDensity.y;
 }

@@ -47,6 +47,16 @@ def SphereLight "profile" (prepend apiSchemas = ["ShapingAPI"])
     float3 xformOp:rotateXYZ = (-45, -28, 0)
     uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
 }
+def CylinderLight "thread"
+{
+    float inputs:intensity = 10
+    float inputs:length = 2
+    float inputs:radius = 0
+    bool inputs:normalize = true
+    double3 xformOp:translate = (1.5, 1.5, 1.5)
+    float3 xformOp:rotateXYZ = (0, 0, 70)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+}
 def Mesh "panel" (prepend apiSchemas = ["MeshLightAPI"])
 {
     uniform token subdivisionScheme = "none"
@@ -89,7 +99,7 @@ def test_each_light_is_as_in_the_path_tracer(chromium, make, stage):
         page.state.environment = d.environments.findIndex(e => e.name === "none");
         return { camera: d.camera, eye: d.start.eye, toWorld: d.shapes[0].toWorld,
                  lights: d.lights.map(l => l.name), notes: d.notes };""")
-    assert sorted(data["lights"]) == ["panel", "picture", "profile", "tube"] and data["notes"] == []
+    assert sorted(data["lights"]) == ["panel", "picture", "profile", "thread", "tube"] and data["notes"] == []
     network = materials.load(stage, every=True)[0][0][1]
     for i, name in enumerate(data["lights"]):
         own = chromium.picture(f"page.state.lights.forEach((l, i) => {{ l.on = i === {i}; }})")

@@ -1,6 +1,7 @@
 #include "hdDelegate/raster/lights/prefilteredSky.h"
 
 #include "materialNetwork/maths.h"
+#include "shaders/lights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +10,13 @@ namespace patina {
 
 namespace {
 
+using glm::vec2;
 using glm::vec3;
 constexpr int w = PrefilteredSky::width, h = PrefilteredSky::height;
 
 vec3 directionAt(int x, int y, int columns, int rows) {
-    const float longitude = (0.5f - (float(x) + 0.5f) / float(columns)) * 2.0f * pi;
-    const float theta = (float(y) + 0.5f) / float(rows) * pi;
-    return vec3(std::sin(theta) * std::sin(longitude), std::cos(theta),
-                std::sin(theta) * std::cos(longitude));
+    return shLights::domeDirection(
+        vec2((float(x) + 0.5f) / float(columns), (float(y) + 0.5f) / float(rows)));
 }
 
 } // namespace
@@ -100,9 +100,8 @@ PrefilteredSky::PrefilteredSky(const std::function<vec3(const vec3&)>& radiance)
 }
 
 vec3 PrefilteredSky::at(const vec3& d, int level) const {
-    const float u = 0.5f - std::atan2(d.x, d.z) / (2.0f * pi);
-    const float v = std::acos(std::clamp(d.y, -1.0f, 1.0f)) / pi;
-    const int x = std::clamp(int(u * w), 0, w - 1), y = std::clamp(int(v * h), 0, h - 1);
+    const vec2 q = shLights::domeTexel(d);
+    const int x = std::clamp(int(q.x * w), 0, w - 1), y = std::clamp(int(q.y * h), 0, h - 1);
     return vec3(_levels[level][size_t(y) * w + size_t(x)]);
 }
 

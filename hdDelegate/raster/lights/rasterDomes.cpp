@@ -2,6 +2,7 @@
 
 #include "hdDelegate/raster/lights/prefilteredSky.h"
 #include "materialNetwork/maths.h"
+#include "shaders/lights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +15,8 @@ using glm::vec3;
 using glm::vec4;
 
 vec3 latlongDirection(int x, int y, int w, int h) {
-    const float longitude = (0.5f - (float(x) + 0.5f) / float(w)) * 2.0f * pi;
-    const float theta = (float(y) + 0.5f) / float(h) * pi;
-    return vec3(std::sin(theta) * std::sin(longitude), std::cos(theta),
-                std::sin(theta) * std::cos(longitude));
+    return shLights::domeDirection(
+        glm::vec2((float(x) + 0.5f) / float(w), (float(y) + 0.5f) / float(h)));
 }
 
 void smoothLatlong(const GlTexture& texture, GLint smaller) {

@@ -4,7 +4,7 @@
 #include "hdDelegate/raster/lights/rasterLights.h"
 #include "hdDelegate/raster/passes/passNumbers.h"
 #include "materialNetwork/maths.h"
-#include "shaders/areaLights.h"
+#include "shaders/lights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,28 +24,21 @@ GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
     GpuLight g = s.fixed;
     vec3 radiance = s.radiance;
     switch (s.kind) {
-    case Rect:
-    case Disk: {
-        vec2 q = vec2(u) - 0.5f;
-        float density = 1.0f;
-        if (s.image) density = s.image->sample(vec2(u), q); // shaders look the image up
-        if (s.kind == Disk)
-            q = std::sqrt(u.x) * vec2(std::cos(2.0f * pi * u.y), std::sin(2.0f * pi * u.y));
-        g.sampled = vec4(s.shape.origin + s.shape.axes * vec3(q, 0.0f), 1.0f);
-        g.normal = vec4(s.shape.normal, density / s.shape.area);
-        g.shadowColor.w = 1.0f / s.shape.area;
-        break;
-    }
-    case Sphere:
-        g.sampled = vec4(s.shape.origin + s.shape.axes * sh::sphereLightPlace(u), 1.0f);
-        break;
-    case Cylinder: {
-        const vec3 n(0.0f, std::cos(2.0f * pi * u.y), std::sin(2.0f * pi * u.y));
-        const vec3 wide = glm::transpose(s.shape.inverse) * n;
-        const float length = glm::length(wide);
-        const float stretched = std::fabs(s.shape.determinant) * length;
-        g.sampled = vec4(s.shape.origin + s.shape.axes * (n + vec3(u.x - 0.5f, 0.0f, 0.0f)), 1.0f);
-        g.normal = vec4(wide / length, 1.0f / (2.0f * pi * stretched));
+    default: { // shapes
+        if (s.shape.kind == AreaShape::Kind::Sphere) {
+            g.sampled = vec4(s.shape.origin + s.shape.axes * shLights::sphereLightPlace(u), 1.0f);
+            break;
+        }
+        vec3 q = shLights::shapePlace(s.kind, vec2(u));
+        float image = 1.0f;
+        if (s.image) { // shaders look the image up
+            vec2 on;
+            image = s.image->sample(vec2(u), on);
+            q = vec3(on, 0.0f);
+        }
+        g.sampled = vec4(s.shape.origin + s.shape.axes * q, 1.0f);
+        g.normal =
+            vec4(shapeNormalAt(s.kind, s.shape, q), image * shapePlaceDensity(s.kind, s.shape, q));
         break;
     }
     case Triangle: break; // see takeEmitters()
@@ -55,12 +48,11 @@ GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
         g.normal.w = 0.5f / s.extent;
         break;
     case Distant: {
-        const float z = 1.0f - g.cone.z * u.x;
-        const float r = std::sqrt(std::max(0.0f, 1.0f - z * z)), phi = 2.0f * pi * u.y;
         const vec3 helper = std::fabs(s.toLight.x) < 0.7f ? vec3(1, 0, 0) : vec3(0, 1, 0);
         const vec3 x = glm::normalize(glm::cross(helper, s.toLight));
-        const vec3 y = glm::cross(s.toLight, x);
-        g.sampled = vec4(x * (r * std::cos(phi)) + y * (r * std::sin(phi)) + s.toLight * z, 0.0f);
+        const vec3 direction =
+            shLights::distantSample({x, glm::cross(s.toLight, x), s.toLight}, g.cone.z, vec2(u));
+        g.sampled = vec4(direction, 0.0f);
         g.normal = vec4(0.0f, 0.0f, 0.0f, s.delta ? 1.0f : 1.0f / g.cone.w);
         break;
     }

@@ -1,26 +1,13 @@
 #include "hdDelegate/raster/lights/rasterLightTables.h"
 
-#include "materialNetwork/diagnostics.h"
+#include "hdDelegate/lights/resolvedLight.h"
 #include "materialNetwork/maths.h"
+#include "shaders/lights.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace patina {
-
-namespace {
-
-vec3 bilinear(const ImageRGB& image, const vec2& q) {
-    const int w = image.width, h = image.height;
-    const float x = std::clamp((0.5f - q.x) * float(w) - 0.5f, 0.0f, float(w - 1));
-    const float y = std::clamp((0.5f - q.y) * float(h) - 0.5f, 0.0f, float(h - 1));
-    const int x0 = int(x), y0 = int(y), x1 = std::min(x0 + 1, w - 1), y1 = std::min(y0 + 1, h - 1);
-    const auto at = [&](int i, int k) { return image.pixels[size_t(k) * size_t(w) + size_t(i)]; };
-    return glm::mix(glm::mix(at(x0, y0), at(x1, y0), x - float(x0)),
-                    glm::mix(at(x0, y1), at(x1, y1), x - float(x0)), y - float(y0));
-}
-
-} // namespace
 
 float RectImage::sample(const vec2& u, vec2& q) const {
     ivec2 cell;
@@ -31,7 +18,9 @@ float RectImage::sample(const vec2& u, vec2& q) const {
 }
 
 vec3 RectImage::radiance(const vec2& q) const {
-    return bilinear(*image, q);
+    const shLights::TableCell c = shLights::rectTexels(vec3(q, 0.0f), image->width, image->height);
+    return tableMix(c, image->pixels[size_t(c.low)], image->pixels[size_t(c.lowNext)],
+                    image->pixels[size_t(c.high)], image->pixels[size_t(c.highNext)]);
 }
 
 const RectImage* RasterLightTables::rect(const Light& light, LightImages& images) {
@@ -81,37 +70,12 @@ const RectImage* RasterLightTables::rect(const Light& light, LightImages& images
     return _rects.back().get();
 }
 
-ProfileTable RasterLightTables::profile(const Light& light) {
-    ProfileTable out;
-    if (light.iesFile.empty() || light.type == LightType::Dome || light.type == LightType::Distant)
-        return out;
-    IesProfile profile;
-    std::string error;
-    if (!profile.load(light.iesFile, error)) {
-        _diagnostics.warn(light.path, "inputs:shaping:ies:file", error);
-        return out;
-    }
-    const float mean = profile.mean();
-    const float scale = !light.iesNormalize ? 1.0f : mean > 0.0f ? 1.0f / mean : 0.0f;
-    out.thetas = 361;
-    out.phis = 73;
-    std::vector<float> values;
-    bool round = true;
-    for (int p = 0; p < out.phis; ++p)
-        for (int t = 0; t < out.thetas; ++t) {
-            const float theta =
-                IesProfile::scaledTheta(float(t) / float(out.thetas - 1) * pi, light.iesAngleScale);
-            const float phi = float(p) / float(out.phis - 1) * 2.0f * pi;
-            values.push_back(profile.candela(theta, phi) * scale);
-            const float first = values[size_t(t)];
-            round &= std::fabs(values.back() - first) <= 1e-4f * std::fabs(first);
-        }
-    if (round) {
-        out.phis = 1;
-        values.resize(size_t(out.thetas));
-    }
-    out.first = int(_values.size());
-    for (float v : values)
+ProfileTable RasterLightTables::profile(const Light& light, Diagnostics& diagnostics) {
+    const auto profile = lightProfile(light, diagnostics);
+    if (!profile) return {};
+    const ProfileGrid grid = profileGrid(light, *profile, 361, 73);
+    const ProfileTable out = {int(_values.size()), grid.thetas, grid.phis};
+    for (float v : grid.values)
         _values.emplace_back(v, 0.0f, 0.0f, 0.0f);
     return out;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "hdDelegate/image/iesProfile.h"
 #include "hdDelegate/lights/distribution2d.h"
 #include "hdDelegate/lights/lightImages.h"
 #include "hdDelegate/raster/gl/glResources.h"
@@ -21,8 +20,7 @@ struct RectImage {
     vec3 radiance(const vec2& q) const;
 };
 
-/// A profile as a table over even steps of theta (0..pi) and phi (a whole turn; its last column is
-/// the first again).
+/// A profile as a ProfileGrid in the buffer.
 struct ProfileTable {
     int first = -1, thetas = 0, phis = 0;
 };
@@ -32,12 +30,10 @@ class RasterLightTables {
 public:
     static constexpr int largestImage = 512; ///< texels along a side; larger ones are averaged
 
-    explicit RasterLightTables(Diagnostics& diagnostics) : _diagnostics(diagnostics) {}
-
     /// The image of a rect light. @returns null when there is none
     const RectImage* rect(const Light& light, LightImages& images);
     /// The IES profile of a light, scaled as the light wants it.
-    ProfileTable profile(const Light& light);
+    ProfileTable profile(const Light& light, Diagnostics& diagnostics);
     /// Values of any kind. @returns the place of the first
     int add(const std::vector<vec4>& values);
 
@@ -51,7 +47,6 @@ public:
     const GlBuffer& buffer() const { return _buffer; }
 
 private:
-    Diagnostics& _diagnostics;
     std::vector<vec4> _values;
     std::vector<std::unique_ptr<RectImage>> _rects;
     mutable GlBuffer _buffer; ///< of which passes write the end

@@ -80,8 +80,8 @@ public:
         maxCoarseSamples * RasterEmission::maxValues;
 
 private:
-    /// The numbers are those of lights.glsl.
-    enum Kind { Rect, Disk, Sphere, Cylinder, Point, Distant, Dome, MoreDome, Line, Triangle };
+    /// Those of AreaShape, and, with the numbers of lights.glsl:
+    enum Kind { Point = 100, Distant, Dome, MoreDome, Line, Triangle };
     struct Source {
         Kind kind = Point;
         GpuLight fixed = GpuLight::none();
@@ -100,10 +100,8 @@ private:
     void add(const Light& light, const mat4& toWorld, const RenderSettings& settings,
              LightImages& images, RasterDomes& domes, const std::map<std::string, int>& categories,
              Diagnostics& diagnostics);
-    void addDome(Source& source, const Light& light, const mat4& toWorld, LightImages& images,
-                 RasterDomes& domes);
-    bool addShape(Source& source, const Light& light, const mat4& toWorld, LightImages& images,
-                  Diagnostics& diagnostics);
+    void addDome(Source& source, const Light& light, LightImages& images, RasterDomes& domes);
+    void addShape(Source& source, const Light& light, LightImages& images);
     /// @param u in the unit cube; the third number is for sphere lights
     GpuLight draw(const Source& source, const vec3& u) const;
     /// @param mapped samples that have shadow maps of their own

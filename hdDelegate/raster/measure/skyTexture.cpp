@@ -1,6 +1,7 @@
 #include "hdDelegate/raster/measure/skyTexture.h"
 
 #include "materialNetwork/maths.h"
+#include "shaders/lights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,15 +35,12 @@ SkyTexture::SkyTexture(int width, int height, std::vector<vec3> texels) {
 }
 
 vec2 SkyTexture::place(const vec3& d) {
-    return vec2(0.5f - std::atan2(d.x, d.z) / (2.0f * pi),
-                std::acos(std::clamp(d.y, -1.0f, 1.0f)) / pi);
+    return shLights::domeTexel(d);
 }
 
 vec3 SkyTexture::direction(int x, int y, int width, int height) {
-    const float longitude = (0.5f - (float(x) + 0.5f) / float(width)) * 2.0f * pi;
-    const float theta = (float(y) + 0.5f) / float(height) * pi;
-    return vec3(std::sin(theta) * std::sin(longitude), std::cos(theta),
-                std::sin(theta) * std::cos(longitude));
+    return shLights::domeDirection(
+        vec2((float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(height)));
 }
 
 vec3 SkyTexture::at(vec2 uv, int level) const {

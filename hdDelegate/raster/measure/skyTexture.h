@@ -19,7 +19,7 @@ public:
     /// Value at u, v within [0, 1] of one level.
     glm::vec3 at(glm::vec2 uv, int level) const;
 
-    /// As latlong() of shaders/raster/lights.glsl.
+    /// As domeTexel() of shaders/lights/dome.glsl.
     static glm::vec2 place(const glm::vec3& direction);
     /// The direction of a texel's middle.
     static glm::vec3 direction(int x, int y, int width, int height);

@@ -136,10 +136,11 @@ int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
                            const ShadowBounds& bounds, int maximum, Sampled& out) const {
     const auto full = [&](int more) { return int(out.shadows.size()) + more > maximum; };
     const int kind = int(light.radiance.w);
-    const bool flat = kind == Rect || kind == Disk || kind == Triangle;
+    const bool flat =
+        kind == shLights::SHAPE_RECT || kind == shLights::SHAPE_DISK || kind == Triangle;
     const auto cast = [&](const mat4& worldToMap, bool clampsNear) {
         ShadowView view{worldToMap, light.sampled, category, clampsNear};
-        if (kind == Sphere) {
+        if (kind == shLights::SHAPE_SPHERE) {
             view.own = ShadowView::Sphere;
             const mat3 inverse(vec3(light.inverse[0]), vec3(light.inverse[1]),
                                vec3(light.inverse[2]));

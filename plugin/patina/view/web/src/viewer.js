@@ -80,7 +80,7 @@ export class Viewer {
             return state.lights[i].on ? row : null;
         }).filter(Boolean);
         s.lightData.value?.dispose();
-        s.lightData.value = makeRows(rows, 11);
+        s.lightData.value = makeRows(rows, Math.max(1, ...rows.map(row => row.length / 4)));
         s.lightCount.value = rows.length;
         // Samples of a pass are shared out where there are many lights.
         const sized = rows.filter(row => row[7] > 0).length;

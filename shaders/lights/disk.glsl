@@ -1,0 +1,12 @@
+// Disk lights, see shape.glsl.
+
+PATINA_FN bool diskHit(vec3 o, vec3 d, PATINA_OUT(float) t, PATINA_OUT(vec3) q) {
+    bool met = planeHit(o, d, t, q);
+    return met && q.x * q.x + q.y * q.y <= 1.0f;
+}
+
+PATINA_FN vec3 diskPlace(vec2 u) {
+    float r = sqrt(u.x);
+    float a = TWO_PI * u.y;
+    return vec3(r * cos(a), r * sin(a), 0.0f);
+}

@@ -19,7 +19,8 @@ Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
     : _scene(scene), _lights(lights), _camera(camera), _settings(settings), _aovs(aovs),
       _filter(settings.filterRadius), _cullBack(settings.cullStyle.rfind("back", 0) == 0),
       _cullFront(settings.cullStyle.rfind("front", 0) == 0),
-      _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos) {
+      _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos),
+      _ambientOcclusion(settings.integrator == "ambientOcclusion") {
     for (size_t i = 0; i < aovs.size(); ++i) {
         if (aovs[i].id == AovId::denoisingAlbedo) _denoisingAlbedo = int(i);
         if (aovs[i].id == AovId::denoisingNormal) _denoisingNormal = int(i);
@@ -36,7 +37,7 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     const vec2 pixel = vec2(x, y) + 0.5f + offset;
     const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime);
     const AovTarget target{film, x, y, glm::length(offset)};
-    if (_settings.integrator == "ambientOcclusion") {
+    if (_ambientOcclusion) {
         const AmbientOcclusion occlusion{_scene, _settings.ambientOcclusionSamples};
         const float seen = occlusion.sample(ray, sampler, _aovs, target, _camera, counters.rays);
         ++counters.paths;
@@ -124,7 +125,8 @@ void Integrator::addEscaped(Path& path) const {
     for (int light : _lights.set().infiniteLights()) {
         const LightInfo& info = _lights.info(light);
         if (path.fromCamera() && (!info.cameraVisible || !info.dome)) continue;
-        const vec3 radiance = _lights.set().environment(light, path.direction, path.time);
+        const EnvironmentMap::Place place = _lights.set().place(light, path.direction, path.time);
+        const vec3 radiance = _lights.set().environment(light, place, path.time);
         if (path.fromCamera()) {
             path.radiance += path.throughput * radiance;
             path.alpha = 1.0f;
@@ -132,10 +134,9 @@ void Integrator::addEscaped(Path& path) const {
         }
         if (radiance == vec3(0.0f)) continue;
         const float lightPdf =
-            path.specular
-                ? 0.0f
-                : _lights.set().pdfInfinite(light, path.vertex, path.vertexNormal,
-                                            path.vertexTwoSided, path.direction, path.time);
+            path.specular ? 0.0f
+                          : _lights.set().pdfInfinite(light, path.vertex, path.vertexNormal,
+                                                      path.vertexTwoSided, place, path.time);
         addLight(path, light, radiance, lightPdf);
     }
 }
@@ -160,13 +161,27 @@ void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& h
     addLight(path, light, radiance, lightPdf);
 }
 
+namespace {
+
+/// The normal on the side that a surface is seen from.
+vec3 seenSide(const ShadingPoint& s) {
+    return glm::dot(s.viewDirection, s.geometricNormal) < 0.0f ? -s.normal : s.normal;
+}
+
+} // namespace
+
+LightDraw Integrator::beginLight(const Path& path, const SurfacePoint& point, bool twoSided,
+                                 const vec3& u) const {
+    const ShadingPoint& s = point.shading;
+    return _lights.set().begin(s.position, seenSide(s), twoSided, u, path.time);
+}
+
 vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf,
-                             const Hit& hit, const vec3& u, TraceCounters& counters) const {
+                             const Hit& hit, const LightDraw& draw, TraceCounters& counters) const {
     const ShadingPoint& s = point.shading;
     const bool twoSided = bsdf.transmits();
-    const vec3 side = glm::dot(s.viewDirection, s.geometricNormal) < 0.0f ? -s.normal : s.normal;
     LightSample light;
-    if (!_lights.set().sample(s.position, side, twoSided, u, path.time, light) ||
+    if (!_lights.set().sample(draw, s.position, seenSide(s), twoSided, path.time, light) ||
         !(light.pdf > 0.0f))
         return vec3(0.0f);
     const LightInfo& info = _lights.info(light.light);
@@ -183,17 +198,23 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
     const float weight = light.delta ? 1.0f : misWeight(lightPdf, f.pdf, info.dome);
     const float away = glm::dot(light.direction, s.geometricNormal) < 0.0f ? -1.0f : 1.0f;
     const vec3 origin = point.departure(light.direction);
-    value *= radiance * (weight / lightPdf);
     const MaterialProgram& program = *point.slot->program;
     const bool crosses = program.hasInterior() &&
                          (glm::dot(s.viewDirection, s.geometricNormal) < 0.0f) != (away < 0.0f);
-    if (!crosses)
-        return value * visibility(path, path.media, origin, light.direction, light.distance, info,
-                                  counters);
-    MediumStack across = path.media;
-    across.cross(program, s);
-    return value *
-           visibility(path, across, origin, light.direction, light.distance, info, counters);
+    vec3 seen;
+    if (crosses) {
+        MediumStack across = path.media;
+        across.cross(program, s);
+        seen = visibility(path, across, origin, light.direction, light.distance, info, counters);
+    } else {
+        seen =
+            visibility(path, path.media, origin, light.direction, light.distance, info, counters);
+    }
+    if (seen == vec3(0.0f)) return seen;
+    // Last: the image of a sky takes its time to come from memory.
+    if (!info.triangles) radiance *= _lights.set().image(light);
+    value *= radiance * (weight / lightPdf);
+    return value * seen;
 }
 
 /// Sets the path on its way from a vertex, and keeps what later light hits have to know about it.
@@ -223,6 +244,8 @@ void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit, c
     path.far = INFINITY;
     path.coneSpread = std::min(1.0f, path.coneSpread + 0.5f * next.roughness);
 }
+
+constexpr int drawsAtOnce = 4; // light samples
 
 void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& counters) const {
     bool aovsWritten = _aovs.empty();
@@ -288,6 +311,22 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         }
         if (path.fromCamera()) path.alpha = 1.0f;
 
+        // What the camera sees counts most, and its vertex is paid for.
+        const int lightSamples = path.fromCamera() ? std::max(_settings.lightSamples, 1) : 1;
+        path.lightSamples = float(lightSamples);
+        // Light samples are begun here, so that what they have to wait for comes from memory while
+        // the lobes are set up. Those of another side, or of other numbers, are begun anew below.
+        LightDraw draws[drawsAtOnce];
+        const bool draws2Sided = program.hasTransmission();
+        int drawn = 0;
+        if (path.depth < _settings.maxDepth && !_lights.set().empty()) {
+            Sampler ahead = path.sampler;
+            const Sampler::Set u = ahead.nextSet(uint32_t(lightSamples));
+            for (; drawn < std::min(lightSamples, drawsAtOnce); ++drawn)
+                draws[drawn] =
+                    beginLight(path, point, draws2Sided, vec3(u.point4(uint32_t(drawn))));
+        }
+
         Bsdf bsdf;
         program.evaluate(s, bsdf);
         if (program.hasSubsurface()) bsdf.walkSubsurface();
@@ -303,14 +342,15 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         }
         if (path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface)) break;
 
-        // What the camera sees counts most, and its vertex is paid for.
-        const int lightSamples = path.fromCamera() ? std::max(_settings.lightSamples, 1) : 1;
-        path.lightSamples = float(lightSamples);
+        if (bsdf.stochastic() || bsdf.transmits() != draws2Sided) drawn = 0;
         const Sampler::Set uLight = path.sampler.nextSet(uint32_t(lightSamples));
         if (bsdf.hasNonDelta() && !_lights.set().empty())
-            for (int i = 0; i < lightSamples; ++i)
-                addRadiance(path, directLight(path, point, bsdf, hit,
-                                              vec3(uLight.point4(uint32_t(i))), counters));
+            for (int i = 0; i < lightSamples; ++i) {
+                const LightDraw draw = i < drawn ? draws[i]
+                                                 : beginLight(path, point, bsdf.transmits(),
+                                                              vec3(uLight.point4(uint32_t(i))));
+                addRadiance(path, directLight(path, point, bsdf, hit, draw, counters));
+            }
 
         const vec4 uBsdf = path.sampler.next4();
         const BsdfSample next = bsdf.sample(vec3(uBsdf), uBsdf.w);

@@ -50,8 +50,11 @@ private:
     void addRadiance(Path& path, const vec3& radiance) const;
     void addEscaped(Path& path) const;
     void addEmission(Path& path, const SurfacePoint& point, const Hit& hit, float presence) const;
+    /// Begins a light sample for directLight(), before the lobes are known.
+    LightDraw beginLight(const Path& path, const SurfacePoint& point, bool twoSided,
+                         const vec3& u) const;
     vec3 directLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf, const Hit& hit,
-                     const vec3& u, TraceCounters& counters) const;
+                     const LightDraw& draw, TraceCounters& counters) const;
     /// Light that a medium scatters towards the path, from one light sample.
     vec3 mediumLight(const Path& path, const vec3& position, const sh::PhaseMixture& phase,
                      const vec3& u, TraceCounters& counters) const;
@@ -87,7 +90,7 @@ private:
     int _denoisingAlbedo = -1, _denoisingNormal = -1; ///< places in the film, or -1
     PixelFilter _filter;
     MediumStack _cameraMedia; ///< that the camera stands in
-    bool _cullBack, _cullFront, _cullDoubleSided;
+    bool _cullBack, _cullFront, _cullDoubleSided, _ambientOcclusion;
 };
 
 } // namespace patina

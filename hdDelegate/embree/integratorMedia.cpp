@@ -157,7 +157,9 @@ bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& h
     const vec4 uLight = path.sampler.next4();
     path.lightSamples = 1.0f;
     if (!_lights.set().empty())
-        addRadiance(path, directLight(path, leaving, bsdf, exitHit, vec3(uLight), counters));
+        addRadiance(path, directLight(path, leaving, bsdf, exitHit,
+                                      beginLight(path, leaving, bsdf.transmits(), vec3(uLight)),
+                                      counters));
     const BsdfSample next = bsdf.sample(vec3(path.sampler.next2(), 0.0f), 0.0f);
     if (next.event == 0) return false;
     path.throughput *= next.weight;

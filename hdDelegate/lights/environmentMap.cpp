@@ -192,24 +192,63 @@ float EnvironmentMap::bandHeight(int row) const {
     return _cosines[row] - _cosines[row + 1];
 }
 
+/// Asks for the texels around a place on a latlong image; about the right ones are enough.
+void EnvironmentMap::fetchTexels(float u, float v) const {
+    const int w = _image->width, h = _image->height;
+    const int x = std::clamp(int(u * float(w) - 0.5f), 0, w - 2 + int(w == 1));
+    const int y = std::clamp(int(v * float(h) - 0.5f), 0, h - 2 + int(h == 1));
+    const vec3* top = &_image->pixels[size_t(y) * size_t(w) + size_t(x)];
+    const vec3* bottom = h > 1 ? top + w : top;
+    const int last = w > 1 ? 1 : 0;
+    __builtin_prefetch(top);
+    __builtin_prefetch(bottom);
+    __builtin_prefetch(&top[last].z);
+    __builtin_prefetch(&bottom[last].z);
+}
+
 vec3 EnvironmentMap::sample(const vec2& u, float& pdf, const vec3& normal, bool twoSided) const {
+    return sample(begin(u, normal, twoSided), pdf);
+}
+
+vec3 EnvironmentMap::sample(const SkyDistribution::Draw& draw, float& pdf) const {
     glm::ivec2 cell;
     vec2 within;
-    const float probability = _distribution.sample(u, normal, twoSided, cell, within);
+    const float probability = _distribution.sample(draw, cell, within);
     const float width = float(_distribution.width());
     pdf = probability * width / (2.0f * pi * bandHeight(cell.y));
     const float cosine = _cosines[cell.y] - within.y * bandHeight(cell.y);
-    return direction((float(cell.x) + within.x) / width, cosine);
+    const float u = (float(cell.x) + within.x) / width;
+    if (_format == EnvironmentFormat::Latlong)
+        fetchTexels(u, (float(cell.y) + within.y) / float(_distribution.height()));
+    return direction(u, cosine);
+}
+
+EnvironmentMap::Place EnvironmentMap::place(const vec3& d) const {
+    const Place result{d, longitudeFraction(d), std::acos(std::clamp(d.y, -1.0f, 1.0f)) / pi};
+    if (_format == EnvironmentFormat::Latlong) fetchTexels(result.u, result.v);
+    _distribution.fetch(cellAt(result));
+    return result;
+}
+
+glm::ivec2 EnvironmentMap::cellAt(const Place& place) const {
+    const int width = _distribution.width(), height = _distribution.height();
+    return {std::clamp(int(place.u * float(width)), 0, width - 1),
+            std::clamp(int(place.v * float(height)), 0, height - 1)};
+}
+
+vec3 EnvironmentMap::radiance(const Place& place) const {
+    if (_format != EnvironmentFormat::Latlong) return radiance(place.direction);
+    return bilinear(place.u * float(_image->width), place.v * float(_image->height), true);
+}
+
+float EnvironmentMap::pdf(const Place& place, const vec3& normal, bool twoSided) const {
+    const glm::ivec2 cell = cellAt(place);
+    return _distribution.probability(cell, normal, twoSided) * float(_distribution.width()) /
+           (2.0f * pi * bandHeight(cell.y));
 }
 
 float EnvironmentMap::pdf(const vec3& d, const vec3& normal, bool twoSided) const {
-    const int width = _distribution.width(), height = _distribution.height();
-    glm::ivec2 cell;
-    cell.x = std::min(int(longitudeFraction(d) * float(width)), width - 1);
-    cell.y = std::clamp(int(std::acos(std::clamp(d.y, -1.0f, 1.0f)) / pi * float(height)), 0,
-                        height - 1);
-    return _distribution.probability(cell, normal, twoSided) * float(width) /
-           (2.0f * pi * bandHeight(cell.y));
+    return pdf(place(d), normal, twoSided);
 }
 
 } // namespace patina

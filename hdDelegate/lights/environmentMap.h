@@ -32,6 +32,17 @@ public:
 
     bool black() const { return _distribution.empty(); }
     vec3 radiance(const vec3& direction) const;
+
+    /// A direction, with what both radiance and density need of it.
+    struct Place {
+        vec3 direction{0.0f};
+        float u = 0.0f, v = 0.0f; ///< longitude and polar angle, 0..1
+    };
+    /// The texels and what else there is to be read are on their way into the cache afterwards.
+    Place place(const vec3& direction) const;
+    vec3 radiance(const Place& place) const;
+    float pdf(const Place& place, const vec3& normal, bool twoSided) const;
+
     int width() const { return _image->width; } ///< texels of the image as it lies in the file
     int height() const { return _image->height; }
     vec3 mean() const { return _mean; } ///< of the radiance over the sphere
@@ -41,6 +52,12 @@ public:
     /// @param twoSided light from below the surface counts as well
     vec3 sample(const vec2& u, float& pdf, const vec3& normal = vec3(0.0f),
                 bool twoSided = false) const;
+    /// The same in two steps, for who has something else to do while memory is read. The texels of
+    /// the sample are on their way into the cache after the second.
+    SkyDistribution::Draw begin(const vec2& u, const vec3& normal, bool twoSided) const {
+        return _distribution.begin(u, normal, twoSided);
+    }
+    vec3 sample(const SkyDistribution::Draw& draw, float& pdf) const;
     float pdf(const vec3& direction, const vec3& normal = vec3(0.0f), bool twoSided = false) const;
 
 private:
@@ -49,6 +66,8 @@ private:
     vec3 bilinear(float x, float y, bool wrap) const;
     vec3 bilinearIn(float x, float y, int x0, int y0, int x1, int y1) const;
     vec3 cross(const vec3& direction) const;
+    void fetchTexels(float u, float v) const;
+    glm::ivec2 cellAt(const Place& place) const;
     float bandHeight(int row) const; ///< difference of cos(theta) across a row
 
     std::shared_ptr<const ImageRGB> _image;

@@ -34,8 +34,20 @@ vec3 LightEmitter::radiance(const vec3& position, const vec3& direction, float t
     return shaped(pose, direction) * texture(pose.shape, position);
 }
 
-bool LightEmitter::sample(const vec3& point, const vec3& normal, bool twoSided, const vec2& u,
-                          float time, EmitterSample& out) const {
+EmitterDraw LightEmitter::begin(const vec3& normal, bool twoSided, const vec2& u,
+                                float time) const {
+    EmitterDraw draw;
+    draw.u = u;
+    if (!_environment) return draw;
+    Pose scratch;
+    const Pose& pose = poseAt(time, scratch);
+    draw.sky = _environment->begin(u, normal * pose.domeToWorld, twoSided);
+    return draw;
+}
+
+bool LightEmitter::sample(const EmitterDraw& draw, const vec3& point, const vec3& normal,
+                          bool twoSided, float time, EmitterSample& out) const {
+    const vec2& u = draw.u;
     Pose scratch;
     const Pose& pose = poseAt(time, scratch);
     switch (_resolved.kind) {
@@ -64,7 +76,7 @@ bool LightEmitter::sample(const vec3& point, const vec3& normal, bool twoSided, 
     }
     case Kind::Line: return sampleLine(pose, point, u.x, out);
     case Kind::Distant: return sampleDistant(pose, u, out);
-    case Kind::Dome: return sampleDome(pose, normal, twoSided, u, out);
+    case Kind::Dome: return sampleDome(pose, normal, twoSided, draw, out);
     default: return false;
     }
 }
@@ -100,17 +112,17 @@ bool LightEmitter::sampleDistant(const Pose& pose, const vec2& u, EmitterSample&
     return true;
 }
 
-bool LightEmitter::sampleDome(const Pose& pose, const vec3& normal, bool twoSided, const vec2& u,
-                              EmitterSample& out) const {
+bool LightEmitter::sampleDome(const Pose& pose, const vec3& normal, bool twoSided,
+                              const EmitterDraw& draw, EmitterSample& out) const {
     out.distance = INFINITY;
     out.normal = vec3(0.0f);
+    out.radiance = _resolved.radiance;
     if (_environment) {
-        const vec3 local = _environment->sample(u, out.pdf, normal * pose.domeToWorld, twoSided);
-        out.direction = pose.domeToWorld * local;
-        out.radiance = _resolved.radiance * _environment->radiance(local);
+        out.local = _environment->sample(draw.sky, out.pdf);
+        out.direction = pose.domeToWorld * out.local;
         return out.pdf > 0.0f && std::isfinite(out.pdf);
     }
-    out.radiance = _resolved.radiance;
+    const vec2& u = draw.u;
     const float phi = 2.0f * pi * u.y;
     if (normal == vec3(0.0f)) {
         const float z = 1.0f - 2.0f * u.x, s = std::sqrt(std::max(0.0f, 1.0f - z * z));
@@ -148,31 +160,34 @@ bool LightEmitter::intersect(const vec3& origin, const vec3& direction, float ne
                           normal);
 }
 
-vec3 LightEmitter::environment(const vec3& direction, float time) const {
-    if (_resolved.delta || !atInfinity()) return vec3(0.0f);
+EnvironmentMap::Place LightEmitter::place(const vec3& direction, float time) const {
+    if (!_environment) return {direction};
     Pose scratch;
-    const Pose& pose = poseAt(time, scratch);
-    if (_resolved.kind == Kind::Distant)
-        return shLights::distantHit(pose.toLight, _resolved.versine, direction) ? _resolved.radiance
-                                                                                : vec3(0.0f);
-    return _environment ? _resolved.radiance *
-                              _environment->radiance(glm::transpose(pose.domeToWorld) * direction)
-                        : _resolved.radiance;
+    return _environment->place(glm::transpose(poseAt(time, scratch).domeToWorld) * direction);
 }
 
-float LightEmitter::environmentPdf(const vec3& normal, bool twoSided, const vec3& direction,
-                                   float time) const {
+vec3 LightEmitter::environment(const EnvironmentMap::Place& place, float time) const {
+    if (_resolved.delta || !atInfinity()) return vec3(0.0f);
+    if (_environment) return _resolved.radiance * _environment->radiance(place);
+    if (_resolved.kind != Kind::Distant) return _resolved.radiance;
+    Pose scratch;
+    return shLights::distantHit(poseAt(time, scratch).toLight, _resolved.versine, place.direction)
+               ? _resolved.radiance
+               : vec3(0.0f);
+}
+
+float LightEmitter::environmentPdf(const vec3& normal, bool twoSided,
+                                   const EnvironmentMap::Place& place, float time) const {
     if (_resolved.delta || !atInfinity()) return 0.0f;
     Pose scratch;
     const Pose& pose = poseAt(time, scratch);
     if (_resolved.kind == Kind::Distant)
-        return shLights::distantHit(pose.toLight, _resolved.versine, direction)
+        return shLights::distantHit(pose.toLight, _resolved.versine, place.direction)
                    ? shLights::distantPdf(_resolved.versine)
                    : 0.0f;
-    if (_environment)
-        return _environment->pdf(direction * pose.domeToWorld, normal * pose.domeToWorld, twoSided);
+    if (_environment) return _environment->pdf(place, normal * pose.domeToWorld, twoSided);
     if (normal == vec3(0.0f)) return 0.25f / pi;
-    const float cosine = glm::dot(normal, direction);
+    const float cosine = glm::dot(normal, place.direction);
     return twoSided ? std::abs(cosine) / (2.0f * pi) : std::max(0.0f, cosine) / pi;
 }
 

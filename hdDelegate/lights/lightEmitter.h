@@ -15,6 +15,13 @@ class Diagnostics;
 struct EmitterSample {
     vec3 direction{0.0f}, normal{0.0f}, radiance{0.0f};
     float distance = 0.0f, pdf = 0.0f; ///< pdf of delta emitters is 1
+    vec3 local{0.0f};                  ///< direction in the frame of a dome with an image
+};
+
+/// A sample that has been begun: of a dome with an image, that is where in the image.
+struct EmitterDraw {
+    vec2 u{0.0f};
+    SkyDistribution::Draw sky;
 };
 
 /// One light made ready for sampling. Area lights sample points on their shape; points, lines and
@@ -37,9 +44,17 @@ public:
     }
     bool delta() const { return _resolved.delta; }
 
+    /// Samples are taken in three steps, because an image around the scene is larger than caches:
+    /// what one step will read is asked for by the step before.
     /// @param normal,twoSided as of LightSet::sample(); constant domes sample by the cosine
-    bool sample(const vec3& point, const vec3& normal, bool twoSided, const vec2& u, float time,
-                EmitterSample& out) const;
+    EmitterDraw begin(const vec3& normal, bool twoSided, const vec2& u, float time) const;
+    /// Goes on with the same normal, side and time. The radiance is without image().
+    bool sample(const EmitterDraw& draw, const vec3& point, const vec3& normal, bool twoSided,
+                float time, EmitterSample& out) const;
+    /// What the image around the scene adds to the radiance of a sample, as a factor.
+    vec3 image(const vec3& local) const {
+        return _environment ? _environment->radiance(local) : vec3(1.0f);
+    }
     /// Density with which sample() finds a position of an area light.
     float pdf(const vec3& point, const vec3& position, const vec3& normal, float time) const;
     bool intersect(const vec3& origin, const vec3& direction, float near, float far, float time,
@@ -47,9 +62,11 @@ public:
     /// Radiance of a position on an area light, towards `direction`.
     vec3 radiance(const vec3& position, const vec3& direction, float time) const;
 
-    /// Lights at infinity.
-    vec3 environment(const vec3& direction, float time) const;
-    float environmentPdf(const vec3& normal, bool twoSided, const vec3& direction,
+    /// Where on a light at infinity a direction leads: the direction itself where there is no
+    /// image.
+    EnvironmentMap::Place place(const vec3& direction, float time) const;
+    vec3 environment(const EnvironmentMap::Place& place, float time) const;
+    float environmentPdf(const vec3& normal, bool twoSided, const EnvironmentMap::Place& place,
                          float time) const;
     /// Estimate of the irradiance on a plane that faces the light; lights at infinity only.
     float irradiance() const { return _irradiance; }
@@ -67,7 +84,7 @@ private:
     bool setUpDome(LightImages& images);
     bool sampleLine(const Pose& pose, const vec3& point, float u, EmitterSample& out) const;
     bool sampleDistant(const Pose& pose, const vec2& u, EmitterSample& out) const;
-    bool sampleDome(const Pose& pose, const vec3& normal, bool twoSided, const vec2& u,
+    bool sampleDome(const Pose& pose, const vec3& normal, bool twoSided, const EmitterDraw& draw,
                     EmitterSample& out) const;
     vec3 texture(const AreaShape& shape, const vec3& position) const;
     vec3 shaped(const Pose& pose, const vec3& direction) const;

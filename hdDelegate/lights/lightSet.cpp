@@ -15,9 +15,8 @@ LightSet::LightSet(LightSetInput input, LightImages& images, Diagnostics& diagno
         const LightInstance& instance = _input.lights[i];
         if (!instance.light) continue;
         const dvec3 origin = instance.light->group.empty() ? _input.origin : dvec3(0.0);
-        _emitters[i] =
-            LightEmitter(*instance.light, instance.groupToWorld, origin, _input.shutterOpen,
-                         _input.shutterClose, images, diagnostics);
+        _emitters[i] = LightEmitter(*instance.light, instance.groupToWorld, origin,
+                                    _input.shutterOpen, _input.shutterClose, images, diagnostics);
         const LightEmitter& emitter = _emitters[i];
         if (emitter.kind() == LightEmitter::Kind::None) continue;
         if (emitter.atInfinity()) {
@@ -70,10 +69,11 @@ float LightSet::share(const Choice& choice, float weight) const {
     return 0.5f / float(choice.count) + 0.5f * weight / choice.total;
 }
 
-bool LightSet::sample(const vec3& point, const vec3& normal, bool twoSided, const vec3& u,
-                      float time, LightSample& out) const {
+LightDraw LightSet::begin(const vec3& point, const vec3& normal, bool twoSided, const vec3& u,
+                          float time) const {
+    LightDraw draw;
     const Choice choice = makeChoice(point, normal, twoSided);
-    if (choice.count == 0) return false;
+    if (choice.count == 0) return draw;
     float chosen = std::min(u.z, 0x1.fffffep-1f), selection = 0.0f;
     int light = -1;
     for (int candidate : _infinite) {
@@ -90,21 +90,43 @@ bool LightSet::sample(const vec3& point, const vec3& normal, bool twoSided, cons
         float below;
         light = _tree.choose(point, normal, twoSided, std::min(chosen / p, 0x1.fffffep-1f), below);
         selection = p * below;
-        if (light < 0 || !(selection > 0.0f)) return false;
+        if (light < 0 || !(selection > 0.0f)) return draw;
     }
+    draw.light = light;
+    draw.selection = selection;
+    if (light < _lightCount)
+        draw.emitter = _emitters[light].begin(normal, twoSided, vec2(u), time);
+    else
+        draw.emitter.u = vec2(u);
+    return draw;
+}
+
+bool LightSet::sample(const LightDraw& draw, const vec3& point, const vec3& normal, bool twoSided,
+                      float time, LightSample& out) const {
+    const int light = draw.light;
+    if (light < 0) return false;
     out.light = light;
     out.triangle = -1;
     if (light >= _lightCount)
-        return sampleTriangleLight(light - _lightCount, point, vec2(u), selection, out);
+        return sampleTriangleLight(light - _lightCount, point, draw.emitter.u, draw.selection, out);
     EmitterSample s;
-    if (!_emitters[light].sample(point, normal, twoSided, vec2(u), time, s)) return false;
+    if (!_emitters[light].sample(draw.emitter, point, normal, twoSided, time, s)) return false;
     out.direction = s.direction;
     out.distance = s.distance;
     out.radiance = s.radiance;
-    out.pdf = s.pdf * selection;
+    out.pdf = s.pdf * draw.selection;
     out.delta = _emitters[light].delta();
     out.normal = s.normal;
+    out.local = s.local;
     return out.pdf > 0.0f && std::isfinite(out.pdf);
+}
+
+bool LightSet::sample(const vec3& point, const vec3& normal, bool twoSided, const vec3& u,
+                      float time, LightSample& out) const {
+    if (!sample(begin(point, normal, twoSided, u, time), point, normal, twoSided, time, out))
+        return false;
+    out.radiance *= image(out);
+    return true;
 }
 
 bool LightSet::sampleTriangleLight(int triangle, const vec3& point, const vec2& u, float selection,
@@ -172,9 +194,9 @@ float LightSet::pdf(int light, const vec3& point, const vec3& normal, bool twoSi
 }
 
 float LightSet::pdfInfinite(int light, const vec3& point, const vec3& normal, bool twoSided,
-                            const vec3& direction, float time) const {
+                            const EnvironmentMap::Place& place, float time) const {
     if (light < 0 || light >= _lightCount) return 0.0f;
-    const float p = _emitters[light].environmentPdf(normal, twoSided, direction, time);
+    const float p = _emitters[light].environmentPdf(normal, twoSided, place, time);
     return p > 0.0f ? p * selectionProbability(light, point, normal, twoSided) : 0.0f;
 }
 
@@ -188,15 +210,15 @@ float LightSet::pdfTriangle(int triangle, const vec3& point, const vec3& normal,
                : 0.0f;
 }
 
-vec3 LightSet::environment(int light, const vec3& direction, float time) const {
-    return light >= 0 && light < _lightCount ? _emitters[light].environment(direction, time)
+vec3 LightSet::environment(int light, const EnvironmentMap::Place& place, float time) const {
+    return light >= 0 && light < _lightCount ? _emitters[light].environment(place, time)
                                              : vec3(0.0f);
 }
 
 vec3 LightSet::environment(const vec3& direction, float time) const {
     vec3 sum(0.0f);
     for (int light : _visibleInfinite)
-        sum += _emitters[light].environment(direction, time);
+        sum += _emitters[light].environment(_emitters[light].place(direction, time), time);
     return sum;
 }
 

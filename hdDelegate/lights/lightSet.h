@@ -47,6 +47,14 @@ struct LightSample {
     vec3 normal{0.0f};       ///< of the light's surface, zero where it has none
     int triangle = -1;       ///< index into LightSetInput::triangles, or -1
     vec2 barycentrics{0.0f}; ///< weights of vertices 1 and 2 of the triangle
+    vec3 local{0.0f};        ///< direction in the frame of a dome
+};
+
+/// A light sample that has been begun: the light is chosen.
+struct LightDraw {
+    int light = -1; ///< none found
+    float selection = 0.0f;
+    EmitterDraw emitter;
 };
 
 /// An area light met by a ray.
@@ -83,6 +91,16 @@ public:
     /// @returns false when no light was found; that counts as a sample of zero
     bool sample(const vec3& point, const vec3& normal, bool twoSided, const vec3& u, float time,
                 LightSample& out) const;
+    /// The same in three steps, for who has something else to do while memory is read: what one
+    /// step reads is asked for by the step before. After sample() the radiance lacks image().
+    LightDraw begin(const vec3& point, const vec3& normal, bool twoSided, const vec3& u,
+                    float time) const;
+    bool sample(const LightDraw& draw, const vec3& point, const vec3& normal, bool twoSided,
+                float time, LightSample& out) const;
+    vec3 image(const LightSample& sample) const {
+        return sample.triangle < 0 ? _emitters[size_t(sample.light)].image(sample.local)
+                                   : vec3(1.0f);
+    }
 
     /// Area lights between `near` and `far` that shine towards the ray's origin, in no order.
     /// @returns how many; of more than maxHits the nearest ones
@@ -93,15 +111,19 @@ public:
     /// @param point where the ray's path comes from: sample()'s point
     float pdf(int light, const vec3& point, const vec3& normal, bool twoSided, float time,
               const LightHit& hit) const;
-    /// Density of a direction to a light at infinity.
+    /// Density of a place() on a light at infinity.
     float pdfInfinite(int light, const vec3& point, const vec3& normal, bool twoSided,
-                      const vec3& direction, float time) const;
+                      const EnvironmentMap::Place& place, float time) const;
     /// Density of a position on a triangle. @param triangle index into LightSetInput::triangles
     float pdfTriangle(int triangle, const vec3& point, const vec3& normal, bool twoSided,
                       const vec3& position) const;
 
-    /// Radiance that arrives from a light at infinity.
-    vec3 environment(int light, const vec3& direction, float time) const;
+    /// Where on a light at infinity a direction leads.
+    EnvironmentMap::Place place(int light, const vec3& direction, float time) const {
+        return _emitters[size_t(light)].place(direction, time);
+    }
+    /// Radiance that arrives from a place on a light at infinity.
+    vec3 environment(int light, const EnvironmentMap::Place& place, float time) const;
     /// Sum over all lights at infinity.
     vec3 environment(const vec3& direction, float time) const;
 

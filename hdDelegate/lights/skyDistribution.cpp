@@ -193,21 +193,37 @@ const float* SkyDistribution::table(const glm::vec3& normal, bool twoSided) cons
                     size_t(1 + (twoSided ? normalCount : 0) + normalIndex(normal))];
 }
 
-float SkyDistribution::sample(const glm::vec2& u, const glm::vec3& normal, bool twoSided,
-                              glm::ivec2& cell, glm::vec2& within) const {
+SkyDistribution::Draw SkyDistribution::begin(const glm::vec2& u, const glm::vec3& normal,
+                                             bool twoSided) const {
     const int columns = int(_left.size()) - 1, rows = int(_top.size()) - 1;
     const float* blocks = table(normal, twoSided);
+    Draw draw;
     glm::ivec2 block;
-    glm::vec2 v;
-    block.y = invert(blocks, rows, u.y, v.y);
+    float v;
+    block.y = invert(blocks, rows, u.y, v);
+    draw.chance = blocks[block.y + 1] - blocks[block.y];
     blocks += rows + 1 + block.y * (columns + 1);
-    block.x = invert(blocks, columns, u.x, v.x);
-    const int top = _top[size_t(block.y)], left = _left[size_t(block.x)];
-    cell.y =
-        top + invert(&_blockRows[blockRows(block)], _top[size_t(block.y) + 1] - top, v.y, within.y);
-    cell.x = left + invert(&_rowCells[rowCells(cell.y, block.x)], _left[size_t(block.x) + 1] - left,
-                           v.x, within.x);
-    return probability(cell, normal, twoSided);
+    block.x = invert(blocks, columns, u.x, draw.u);
+    draw.chance *= blocks[block.x + 1] - blocks[block.x];
+    const int top = _top[size_t(block.y)];
+    const float* cellRows = &_blockRows[blockRows(block)];
+    const int y = invert(cellRows, _top[size_t(block.y) + 1] - top, v, draw.withinRow);
+    draw.chance *= cellRows[y + 1] - cellRows[y];
+    draw.row = top + y;
+    draw.left = _left[size_t(block.x)];
+    draw.count = _left[size_t(block.x) + 1] - draw.left;
+    draw.cells = &_rowCells[rowCells(draw.row, block.x)];
+    constexpr int cacheLine = 16, mostLines = 5; // longer rows are searched by halves
+    for (int i = 0; i <= std::min(draw.count, mostLines * cacheLine); i += cacheLine)
+        __builtin_prefetch(draw.cells + i);
+    return draw;
+}
+
+float SkyDistribution::sample(const Draw& draw, glm::ivec2& cell, glm::vec2& within) const {
+    const int x = invert(draw.cells, draw.count, draw.u, within.x);
+    cell = {draw.left + x, draw.row};
+    within.y = draw.withinRow;
+    return draw.chance * (draw.cells[x + 1] - draw.cells[x]);
 }
 
 float SkyDistribution::probability(const glm::ivec2& cell, const glm::vec3& normal,
@@ -222,6 +238,14 @@ float SkyDistribution::probability(const glm::ivec2& cell, const glm::vec3& norm
         &_rowCells[rowCells(cell.y, block.x) + size_t(cell.x - _left[size_t(block.x)])];
     return inRow * (blocks[block.x + 1] - blocks[block.x]) * (cellRows[1] - cellRows[0]) *
            (cells[1] - cells[0]);
+}
+
+void SkyDistribution::fetch(const glm::ivec2& cell) const {
+    const int column = _columnBlock[size_t(cell.x)];
+    const float* cells =
+        &_rowCells[rowCells(cell.y, column) + size_t(cell.x - _left[size_t(column)])];
+    __builtin_prefetch(cells);
+    __builtin_prefetch(cells + 1);
 }
 
 } // namespace patina

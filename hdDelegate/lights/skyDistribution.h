@@ -23,12 +23,27 @@ public:
     int width() const { return _width; }
     int height() const { return _height; }
 
+    /// A sample whose row of cells in a block is chosen. What is left to be read of the row is on
+    /// its way into the cache.
+    struct Draw {
+        const float* cells = nullptr; ///< cumulative
+        int left = 0, count = 0;      ///< first column, number of cells
+        int row = 0;
+        float u = 0.0f, withinRow = 0.0f;
+        float chance = 0.0f; ///< of the row in the block
+    };
     /// @param normal unit, in the grid's frame; zero: by the weights alone
     /// @param twoSided light from below counts as much as from above
+    Draw begin(const glm::vec2& u, const glm::vec3& normal, bool twoSided) const;
     /// @returns the probability of the cell; `cell` its column and row, `within` where in it
+    float sample(const Draw& draw, glm::ivec2& cell, glm::vec2& within) const;
     float sample(const glm::vec2& u, const glm::vec3& normal, bool twoSided, glm::ivec2& cell,
-                 glm::vec2& within) const;
+                 glm::vec2& within) const {
+        return sample(begin(u, normal, twoSided), cell, within);
+    }
     float probability(const glm::ivec2& cell, const glm::vec3& normal, bool twoSided) const;
+    /// Asks for the part of probability() that does not hang on the normal, which lies far apart.
+    void fetch(const glm::ivec2& cell) const;
 
 private:
     struct Part;

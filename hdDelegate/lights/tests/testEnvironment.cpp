@@ -163,8 +163,10 @@ TEST(Environment, oneBrightPixel) {
     EXPECT_LT(e.deviation / e.mean, 1.5); // uniform sampling: about 70
     LightSample s;
     ASSERT_TRUE(set.sample(vec3(0.0f), up, false, vec3(0.3f, 0.7f, 0.5f), 0.0f, s));
-    EXPECT_NEAR(set.pdfInfinite(0, vec3(0.0f), up, false, s.direction, 0.0f) / s.pdf, 1.0f, 1e-3f);
-    EXPECT_LT(glm::length(set.environment(0, s.direction, 0.0f) - s.radiance),
+    EXPECT_NEAR(set.pdfInfinite(0, vec3(0.0f), up, false, set.place(0, s.direction, 0.0f), 0.0f) /
+                    s.pdf,
+                1.0f, 1e-3f);
+    EXPECT_LT(glm::length(set.environment(0, set.place(0, s.direction, 0.0f), 0.0f) - s.radiance),
               1e-3f * glm::length(s.radiance) + 1e-4f);
 }
 
@@ -207,7 +209,8 @@ TEST(Environment, aTurnedDomeIsSampledByTheNormalsOfTheWorld) {
         for (int i = 0; i < 1000; ++i) {
             LightSample s;
             ASSERT_TRUE(set.sample(point, normal, i % 2 == 0, random.cube(), 0.0f, s));
-            const float pdf = set.pdfInfinite(0, point, normal, i % 2 == 0, s.direction, 0.0f);
+            const float pdf = set.pdfInfinite(0, point, normal, i % 2 == 0,
+                                              set.place(0, s.direction, 0.0f), 0.0f);
             different += std::abs(pdf / s.pdf - 1.0f) > 1e-3f;
         }
     }

@@ -139,16 +139,17 @@ TEST(Density, lightsAtInfinity) {
                 Random random(14);
                 const Estimate e = estimate(200000, [&] {
                     return 4.0 * testPi *
-                           set.pdfInfinite(0, vec3(0.0f), normal, twoSided, random.direction(),
-                                           0.0f);
+                           set.pdfInfinite(0, vec3(0.0f), normal, twoSided,
+                                           set.place(0, random.direction(), 0.0f), 0.0f);
                 });
                 EXPECT_TRUE(e.agrees(1.0, 1e-5)) << e.mean << " +- " << e.error;
                 LightSample s;
                 ASSERT_TRUE(set.sample(vec3(0.0f), normal, twoSided, random.cube(), 0.0f, s));
-                EXPECT_NEAR(set.pdfInfinite(0, vec3(0.0f), normal, twoSided, s.direction, 0.0f) /
+                EXPECT_NEAR(set.pdfInfinite(0, vec3(0.0f), normal, twoSided,
+                                            set.place(0, s.direction, 0.0f), 0.0f) /
                                 s.pdf,
                             1.0f, 1e-4f);
-                EXPECT_EQ(set.environment(0, s.direction, 0.0f), s.radiance);
+                EXPECT_EQ(set.environment(0, set.place(0, s.direction, 0.0f), 0.0f), s.radiance);
             }
 }
 

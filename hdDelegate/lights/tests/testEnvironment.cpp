@@ -54,6 +54,31 @@ TEST(Environment, latlongStandsAsOpenExrSays) {
     EXPECT_NEAR(steps.radiance(vec3(0.0f, 0.0f, -1.0f)).x, 3.5f, 1e-4f); // mean of 0 and 7
 }
 
+TEST(Environment, aPlaceSaysWhatItsDirectionSays) {
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(2, 1), glm::ivec2(64, 32)})
+        for (const EnvironmentFormat format :
+             {EnvironmentFormat::Latlong, EnvironmentFormat::MirroredBall,
+              EnvironmentFormat::Angular, EnvironmentFormat::CubeMapVerticalCross}) {
+            const EnvironmentMap map(
+                image(size.x, size.y, [](int x, int y) { return vec3(1.0f + x, 2.0f + y, 3.0f); }),
+                format);
+            Random random(37);
+            for (int i = 0; i < 200; ++i) {
+                const vec3 d = random.direction(), normal = random.direction();
+                const EnvironmentMap::Place place = map.place(d);
+                EXPECT_EQ(map.radiance(place), map.radiance(d));
+                EXPECT_EQ(map.pdf(place, normal, i % 2 == 0), map.pdf(d, normal, i % 2 == 0));
+                // A sample in two steps is one in one step.
+                const vec2 u(random.cube());
+                float inSteps, atOnce;
+                const auto begun = map.begin(u, normal, i % 2 == 0);
+                EXPECT_EQ(map.sample(begun, inSteps), map.sample(u, atOnce, normal, i % 2 == 0));
+                EXPECT_EQ(inSteps, atOnce);
+            }
+            map.place(vec3(std::nanf(""))); // broken geometry: asks for nothing out of bounds
+        }
+}
+
 TEST(Environment, angularAndMirroredBall) {
     for (const EnvironmentFormat format :
          {EnvironmentFormat::Angular, EnvironmentFormat::MirroredBall}) {

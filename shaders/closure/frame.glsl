@@ -20,7 +20,8 @@ PATINA_FN bool hasDirection(float l) {
 }
 PATINA_FN vec3 unitOr(vec3 v, vec3 fallback) {
     float l = length(v);
-    return select(v / l, fallback, hasDirection(l));
+    if (!hasDirection(l)) return fallback;
+    return v / l;
 }
 
 // Two unit vectors that form a right-handed basis with n (Duff et al. 2017).
@@ -78,7 +79,8 @@ PATINA_FN Frame shadingFrame(vec3 view, vec3 geometricNormal, vec3 pointNormal, 
     vec3 t = select(tangent, pointTangent, hasDirection(length(tangent)));
     t = t - f.normal * dot(f.normal, t);
     float l = length(t);
-    f.tangent = select(t / l, anyTangent(f.normal), l > 1e-6f && l < 1e30f);
+    f.tangent = t / l;
+    if (!(l > 1e-6f && l < 1e30f)) f.tangent = anyTangent(f.normal);
     f.bitangent = cross(f.normal, f.tangent);
     f.wo = toLocal(f, view);
     return f;

@@ -89,7 +89,8 @@ def test_without_opengl_one_warning_and_the_path_tracer(traced, tmp_path):
 def test_a_context_that_is_lost_in_a_session_hands_over(opengl, traced, tmp_path, backend):
     script = tmp_path / "edits.txt"
     last = tmp_path / "last.exr"
-    script.write_text(f"set samples 3\nexecute 3\nset samples 6\nrender\nset samples 4\nrender\nwrite {last}\n",
+    # 300 samples: the path tracer is at work for as long as the rasterizer takes to see its loss.
+    script.write_text(f"set samples 3\nexecute 3\nset samples 300\nrender\nset samples 4\nrender\nwrite {last}\n",
                       encoding="utf-8")
     _, statistics, warnings = render(tmp_path, "image", "--set", "backend=" + backend, "--edits", script,
                                      PATINA_GL_FAULT="lost:2")

@@ -1,5 +1,6 @@
 #include "materialNetwork/regularFile.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -46,6 +47,17 @@ std::string whyUnreadable(const std::string& path, uint64_t maxBytes) {
     if (::stat(path.c_str(), &found) != 0) return problemOf(errno);
     const std::string problem = problemOf(found, maxBytes);
     return problem.empty() && ::access(path.c_str(), R_OK) != 0 ? problemOf(errno) : problem;
+}
+
+std::string whyNoImage(const std::string& path) {
+    const std::string problem = whyUnreadable(path, maxImageBytes);
+    if (!problem.empty()) return problem;
+    const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
+    char start[4096];
+    const ssize_t got = file.number < 0 ? -1 : ::read(file.number, start, sizeof start);
+    const bool zeros = got == ssize_t(sizeof start) &&
+                       std::all_of(start, start + got, [](char c) { return c == 0; });
+    return zeros ? "is no image: it begins with zeros" : "";
 }
 
 bool readRegularFile(const std::string& path, uint64_t maxBytes, std::string& bytes,

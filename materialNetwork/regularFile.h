@@ -15,6 +15,10 @@ constexpr uint64_t maxImageBytes = uint64_t(1) << 36;    ///< of images, volumes
 /// Never waits. For readers that open the file themselves.
 std::string whyUnreadable(const std::string& path, uint64_t maxBytes);
 
+/// The same of an image, whatever its format. A file that begins with nothing but zeros is none:
+/// there are readers that would look through all of it.
+std::string whyNoImage(const std::string& path);
+
 /// Reads all of a regular file.
 /// @returns false, with the reason as above, when it is none, cannot be read or is larger
 bool readRegularFile(const std::string& path, uint64_t maxBytes, std::string& bytes,

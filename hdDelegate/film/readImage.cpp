@@ -57,7 +57,7 @@ bool hasIntegers(const OIIO::ImageSpec& spec) {
 } // namespace
 
 ImageData readImage(const std::string& path) {
-    const std::string problem = whyUnreadable(path, maxImageBytes);
+    const std::string problem = whyNoImage(path);
     if (!problem.empty()) fail(path, "it " + problem);
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);

@@ -32,7 +32,7 @@ struct OpenImage {
     TexelLayout layout = TexelLayout::Rgb;
 
     explicit OpenImage(const std::string& file) {
-        const std::string problem = whyUnreadable(file, maxImageBytes);
+        const std::string problem = whyNoImage(file);
         if (!problem.empty()) {
             error = "the file " + problem;
             return;

@@ -67,6 +67,16 @@ TEST_F(RegularFile, NothingElseIsRead) {
     EXPECT_EQ(reasonOf(folder + "loop").rfind("cannot be opened: ", 0), 0u);
 }
 
+// The reader of DICOM looks through all of them.
+TEST_F(RegularFile, ZerosAreNoImage) {
+    std::ofstream(folder + "zeros") << "";
+    std::filesystem::resize_file(folder + "zeros", uint64_t(20)
+                                                       << 30); // without a block on the disk
+    EXPECT_EQ(whyNoImage(folder + "zeros"), "is no image: it begins with zeros");
+    EXPECT_EQ(whyNoImage(folder + "ten"), "");
+    EXPECT_EQ(whyNoImage(folder + "none"), "does not exist");
+}
+
 } // namespace
 
 } // namespace patina

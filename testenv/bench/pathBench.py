@@ -1,0 +1,191 @@
+"""Path tracing beside Mitsuba 3 and Cycles: seconds until the image's error is small, each renderer against itself.
+
+Every renderer draws every scene several times with seeds of its own, with a few and with many samples. The error of an image is
+its relMSE: the mean over pixels and channels of (image - mean)^2 / (mean^2 + 0.01), where the mean is that of the renderer's own
+images with many samples, and the error which that mean itself has is taken off. What a sample costs is the difference of the two
+medians of time, so that nothing which is done once per image counts. Time to a target: that cost times the samples at which the
+error, taken as a power of the samples, reaches the target. Renderers take turns, image by image, so that what disturbs the
+machine disturbs all of them.
+
+All have the same geometry, camera, bounces, light and box filter; principled materials are each renderer's own.
+"""
+import argparse
+import json
+import os
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+import pathScenes
+import pathWorker
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+class Worker:
+    """A renderer's process, ready for images of one scene."""
+
+    def __init__(self, command, log):
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, text=True)
+        self.ready = self._answer()["ready"]
+
+    def _answer(self):
+        last = "no message"
+        for line in self.process.stdout:
+            last = line.strip() or last
+            _, said, after = line.partition(pathWorker.SAID)  # after what the renderer's own log left in the line
+            if said:
+                return json.loads(after)
+        raise RuntimeError(f"{os.path.basename(self.process.args[0])} ended with status {self.process.wait()}: {last}")
+
+    def draw(self, samples, seed, file):
+        """:returns: {seconds, processor}: wall and processor seconds of the image"""
+        self.process.stdin.write(json.dumps({"samples": samples, "seed": seed, "file": file}) + "\n")
+        self.process.stdin.flush()
+        return self._answer()
+
+    def close(self):
+        self.process.stdin.close()
+        self.process.wait()
+
+
+def peers():
+    """:returns: name -> command without the folder, of the renderers that are here"""
+    found = {"Patina": [sys.executable, os.path.join(HERE, "pathPatina.py")]}
+    probe = "import mitsuba; print(*(v for v in ('llvm_ad_rgb', 'scalar_rgb') if v in mitsuba.variants()))"
+    told = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=False)
+    for variant in told.stdout.split() if told.returncode == 0 else ():
+        check = f"import mitsuba; mitsuba.set_variant('{variant}'); import drjit; print(mitsuba.Float(1))"
+        if subprocess.run([sys.executable, "-c", check], capture_output=True, check=False).returncode == 0:
+            found["Mitsuba " + variant] = [sys.executable, os.path.join(HERE, "pathMitsuba.py"), None, variant]
+    if shutil.which("blender"):
+        found["Cycles"] = ["blender", "-b", "--python-exit-code", "1", "--python", os.path.join(HERE, "pathCycles.py"), "--"]
+    return found
+
+
+def start(command, folder, log):
+    filled = [folder if word is None else word for word in command]
+    return Worker(filled if None in command else filled + [folder], log)
+
+
+def errors_of(few, many):
+    """:param few,many: images (runs, height, width, 3) of few and of many samples
+    :returns: the mean relMSE of an image, of both"""
+    mean = many.mean(axis=0)
+    weight = 1.0 / (mean ** 2 + 0.01)
+    spread = many.var(axis=0, ddof=1)
+    of_mean = spread / len(many)  # what the reference itself is off by, in each pixel
+    return (float(np.mean((((few - mean) ** 2).mean(axis=0) - of_mean) * weight)), float(np.mean(spread * weight)))
+
+
+def to_target(low, high, errors, target):
+    """:param low,high: samples of the two errors
+    :returns: samples at which the error is the target, taking it for a power of them"""
+    power = np.log(errors[0] / errors[1]) / np.log(high / low)
+    return float(high * (errors[1] / target) ** (1.0 / max(power, 0.1)))
+
+
+def measure(name, commands, options, pictures):
+    with tempfile.TemporaryDirectory(prefix="pathBench") as folder, open(os.path.join(folder, "log"), "w+", encoding="utf-8") as log:
+        scene = pathScenes.SCENES[name](folder)
+        pathWorker.save(scene, folder, {"width": options.size[0], "height": options.size[1], "depth": options.depth,
+                                        "threads": options.threads})
+        workers, found = {}, {}
+        try:
+            for who, command in commands.items():
+                own = os.path.join(folder, who.replace(" ", "_"))
+                os.makedirs(own)
+                for file in ("scene.json", "meshes.npz"):
+                    os.symlink(os.path.join(folder, file), os.path.join(own, file))
+                try:
+                    workers[who] = start(command, own, log)
+                except RuntimeError as error:
+                    if who == "Patina":
+                        raise
+                    print(f"{name}: {who} is left out: {error}")
+            images = {(who, n): [] for who in workers for n in options.samples}
+            times = {key: [] for key in images}
+            for run in range(options.runs):
+                for n in options.samples:
+                    for who, worker in workers.items():
+                        file = os.path.join(folder, "image.npy")
+                        times[who, n].append(worker.draw(n, run + 1, file))
+                        images[who, n].append(np.load(file))
+        except RuntimeError as error:
+            log.seek(0)
+            raise SystemExit(f"{name}: {error}\n" + "".join(log.readlines()[-8:])) from error
+        finally:
+            for worker in workers.values():
+                worker.close()
+        few, many = options.samples
+        for who, worker in workers.items():
+            errors = errors_of(np.array(images[who, few], float), np.array(images[who, many], float))
+            each = {}
+            for clock in ("seconds", "processor"):
+                took = {n: [t[clock] for t in times[who, n]] for n in options.samples}
+                each[clock] = (statistics.median(took[many]) - statistics.median(took[few])) / (many - few)
+                each[clock + "Spread"] = (max(took[many]) - min(took[many])) / statistics.median(took[many])
+            wanted = to_target(few, many, errors, options.target)
+            found[who] = {"ready": worker.ready, "errors": errors, "samplesToTarget": wanted, **each,
+                          "secondsToTarget": wanted * each["seconds"], "processorToTarget": wanted * each["processor"],
+                          "mean": float(np.mean(images[who, many]))}
+            if pictures:
+                from patina.cli import compiled
+
+                mean = np.mean(images[who, many], axis=0).astype(np.float32)
+                compiled.load().write_image(os.path.join(pictures, f"{name} {who}.exr".replace(" ", "-")), mean)
+        return found
+
+
+def show(name, found, options):
+    own = found["Patina"]
+    print(f"{name}: to a relMSE of {options.target:g}; what one sample of all pixels takes; its error at {options.samples[1]} samples")
+    for who, row in found.items():
+        print(f"  {who:<20}{row['secondsToTarget']:9.2f} s (processor {row['processorToTarget']:8.2f} s) "
+              f"{1e3 * row['seconds']:8.1f} ms (processor {1e3 * row['processor']:8.1f}, spread {100 * row['processorSpread']:3.0f} %) "
+              f"{row['errors'][1]:.2e}  ready after {row['ready']:5.1f} s  mean {row['mean']:.3f}"
+              + ("" if who == "Patina" else f"   Patina: x{own['secondsToTarget'] / row['secondsToTarget']:.2f}"
+                 f" (processor x{own['processorToTarget'] / row['processorToTarget']:.2f})"), flush=True)
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser(prog="patina bench path", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="*", help=f"of {', '.join(pathScenes.SCENES)} (default: all)")
+    parser.add_argument("--size", default="192x108", help="of the images (default: 192x108)")
+    parser.add_argument("--samples", default="8,64", help="few and many (default: 8,64)")
+    parser.add_argument("--runs", type=int, default=5, help="images of each (default: 5)")
+    parser.add_argument("--depth", type=int, default=8, help="bounces (default: 8)")
+    parser.add_argument("--threads", type=int, default=0, help="of each renderer (default: all)")
+    parser.add_argument("--target", type=float, default=1e-3, help="relMSE (default: 1e-3)")
+    parser.add_argument("--without", action="append", default=[], help="leaves a renderer out, as Cycles (repeatable)")
+    parser.add_argument("--images", metavar="FOLDER", help="writes what each renderer drew")
+    parser.add_argument("--json", help="writes the figures to this file")
+    options = parser.parse_args(arguments)
+    options.size = tuple(map(int, options.size.split("x")))
+    options.samples = tuple(map(int, options.samples.split(",")))
+    unknown = [name for name in options.scenes if name not in pathScenes.SCENES]
+    if unknown or len(options.samples) != 2 or options.samples[0] >= options.samples[1] or options.runs < 2:
+        parser.error(f"there is no scene {unknown[0]}" if unknown else "--samples takes few and many, --runs at least 2")
+    commands = {who: command for who, command in peers().items() if not any(who.startswith(name) for name in options.without)}
+    for who in ("Mitsuba", "Cycles"):
+        if not any(name.startswith(who) for name in commands):
+            print(f"{who} is left out" if who in options.without else f"{who} is not installed here")
+    if options.images:
+        os.makedirs(options.images, exist_ok=True)
+    results = {}
+    for name in options.scenes or pathScenes.SCENES:
+        results[name] = measure(name, commands, options, options.images)
+        show(name, results[name], options)
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump({"size": options.size, "samples": options.samples, "depth": options.depth, "scenes": results}, file, indent=1)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,56 @@
+"""What the renderers' processes of the path tracing benchmark have in common: scenes on disk, and the talk with the benchmark.
+
+A worker is started with a folder and reads a line of JSON for each image: {"samples", "seed", "file"}. It answers with the
+seconds and the processor seconds that the image took; the first line tells what it took to get ready.
+"""
+import json
+import os
+import sys
+import time
+
+SAID = "path bench: "
+
+
+def save(scene, folder, settings):
+    """:param scene: pathScenes.Scene
+    :param settings: width, height, depth, threads"""
+    import numpy as np
+
+    arrays, meshes = {}, {}
+    for i, (name, (points, triangles, uv, smooth, material)) in enumerate(scene.meshes.items()):
+        meshes[name] = {"number": i, "smooth": smooth, "material": material, "uv": uv is not None}
+        arrays[f"points{i}"] = np.ascontiguousarray(points, np.float32)
+        arrays[f"triangles{i}"] = np.ascontiguousarray(triangles, np.int32)
+        if uv is not None:
+            arrays[f"uv{i}"] = np.ascontiguousarray(uv, np.float32)
+        if name in scene.instances:
+            arrays[f"instances{i}"] = np.asarray(scene.instances[name], np.float64)
+    np.savez(os.path.join(folder, "meshes.npz"), **arrays)
+    rects = [[place.tolist(), width, height, radiance] for place, width, height, radiance in scene.rects]
+    with open(os.path.join(folder, "scene.json"), "w", encoding="utf-8") as file:
+        json.dump({"meshes": meshes, "materials": scene.materials, "rects": rects, "sky": scene.sky,
+                   "camera": scene.camera, **settings}, file)
+
+
+def load(folder):
+    """:returns: (what scene.json holds, the arrays of meshes.npz)"""
+    import numpy as np
+
+    with open(os.path.join(folder, "scene.json"), encoding="utf-8") as file:
+        return json.load(file), np.load(os.path.join(folder, "meshes.npz"))
+
+
+def answer(values):
+    print(SAID + json.dumps(values), flush=True)
+
+
+def serve(draw, started):
+    """:param draw: function of samples, seed and a file's path; writes an array (height, width, 3) there with numpy.save
+    :param started: time.perf_counter() before the scene was made"""
+    draw(1, 999, os.devnull)
+    answer({"ready": time.perf_counter() - started})
+    for line in sys.stdin:
+        asked = json.loads(line)
+        wall, cpu = time.perf_counter(), time.process_time()
+        draw(asked["samples"], asked["seed"], asked["file"])
+        answer({"seconds": time.perf_counter() - wall, "processor": time.process_time() - cpu})

@@ -1,0 +1,119 @@
+"""Sends tasks to workers, sends those that fail elsewhere, and merges frames as their parts come in."""
+import collections
+
+from patina.farm import work, worker
+
+AHEAD = 4  # tasks for each worker that are sent before one is done; the rest wait here
+LEAST_AHEAD = 64
+REFUSALS = 20  # of one task, by workers that came later
+
+
+class Sender:
+    """One job. Knows nothing of Dask but a client that submits functions and an iterator over what is done."""
+
+    def __init__(self, client, completed, arguments, folder, checks, threads):
+        """:param completed: distributed.as_completed
+        :param arguments: of `patina record` for all frames
+        :param folder: that they are meant in
+        :param checks: of worker.check()
+        :param threads: that a part takes; 0: all of the worker's machine"""
+        self.client, self.completed = client, completed
+        self.arguments, self.folder, self.checks, self.threads = arguments, folder, checks, threads
+        self.tasks = {}  # future -> task
+        self.failed = []  # tasks that were given up
+        self.refusals = []  # why workers were refused, each once
+        self.refused = set()  # their addresses
+        self.rows = collections.defaultdict(lambda: [0, 0.0, 0])  # worker's name -> tasks, seconds, failures
+        self.names = {}  # worker's address -> name
+        self.written = []  # frames whose images are there
+        self.done = self.total = self.count = 0  # tasks, and workers
+        self.times = []  # (kind, seconds) of each task
+
+    def run(self, frames, waiting, told):
+        """:param frames: list of work.Frame, in their order
+        :param waiting: tasks that can begin
+        :param told: called with this after every task"""
+        queue = collections.deque(waiting)
+        self.total = sum(frame.left + 1 if frame.cut.parts > 1 else 1 for frame in frames)
+        done = self.completed([])
+        self._fill(queue, done)
+        told(self)
+        while self.tasks:
+            future = next(done)
+            task = self.tasks.pop(future)
+            follows = self._ended(task, future)
+            if follows:
+                queue.appendleft(follows)
+            self._fill(queue, done)
+            told(self)
+
+    def _fill(self, queue, done):
+        workers = self._workers()
+        self.count = len(workers)
+        room = max(LEAST_AHEAD, AHEAD * len(workers)) - len(self.tasks)
+        while queue and room > 0:
+            task = queue.popleft()
+            room -= 1
+            future = self._submit(task, workers)
+            self.tasks[future] = task
+            done.add(future)
+
+    def _submit(self, task, workers):
+        avoided = {address for address, _ in task.failures} | self.refused
+        others = [address for address in workers if address not in avoided]
+        # Any worker takes it when those have gone.
+        places = {"workers": others, "allow_other_workers": True} if avoided and others else {}
+        return self.client.submit(worker.run, task.arguments(self.arguments, self.threads), self.folder, task.log, self.checks,
+                                  pure=False, retries=0, **places)
+
+    def _workers(self):
+        """:returns: addresses of the workers that are there"""
+        return list(self.client.scheduler_info(n_workers=-1)["workers"])
+
+    def _ended(self, task, future):
+        """:returns: the task that follows: the same once more, the merge of its frame, or None"""
+        error = future.exception()
+        if error is not None:
+            return self._failure(task, error)
+        result = future.result()
+        row = self.rows[result["worker"]]
+        row[0], row[1] = row[0] + 1, row[1] + result["seconds"]
+        self.names[result["address"]] = result["worker"]
+        self.times.append(("part" if task.part else "image", result["seconds"]))
+        self.done += 1
+        frame = task.frame
+        if not task.part:
+            frame.tidy()
+            self.written.append(frame)
+            return None
+        frame.left -= 1
+        return work.Task(frame, None) if frame.left == 0 else None
+
+    def _failure(self, task, error):
+        """:returns: the task, where it is tried again"""
+        kind = type(error).__name__
+        reason, address = (error.args + ("",))[:2] if kind in ("Refused", "PartFailed") else (_words(error), _last_worker(error))
+        if kind == "Refused":
+            task.refusals += 1
+            if address not in self.refused:
+                self.refused.add(address)
+                self.refusals.append(reason)
+            again = task.refusals < REFUSALS and any(one not in self.refused for one in self._workers())
+        else:
+            self.rows[self.names.get(address, address or "unknown")][2] += 1
+            again = len(task.failures) + 1 < work.TRIES
+        task.failures.append((address, reason))
+        if again:
+            return task
+        self.failed.append(task)
+        return None
+
+
+def _words(error):
+    text = " ".join(str(error).split())
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__
+
+
+def _last_worker(error):
+    """:returns: the address of the worker that went away with the task, where Dask tells it"""
+    return getattr(getattr(error, "last_worker", None), "address", "")

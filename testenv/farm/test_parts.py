@@ -30,19 +30,9 @@ def test_all_that_the_file_holds_is_the_same(folder, cut, flags):
     assert contents(image) == expected
 
 
-def test_the_order_of_sums_matters_at_all(folder):
-    """Else a merge in any order would pass: float colours of 50 samples differ by the last bit when sums are cut elsewhere."""
-    import numpy as np
-
-    random = np.random.default_rng(5)
-    values = random.random((1000, 50)) ** 8
-    halves = values[:, :23].sum(axis=1) + values[:, 23:].cumsum(axis=1)[:, -1]
-    assert (values.cumsum(axis=1)[:, -1] != halves).any()
-
-
-@pytest.mark.parametrize("cut", ["3", "2x3"])
+@pytest.mark.parametrize("cut", ["3", "2x2"])
 def test_tiles_stop_where_they_stop_at_once(folder, cut):
-    flags = (*SIZE, "--samples", "192", "--tolerance", "0.05", "--aov", "sampleCount", "--aov", "variance")
+    flags = (*SIZE, "--samples", "96", "--tolerance", "0.1", "--aov", "sampleCount", "--aov", "variance")
     stage, image = scene("diffuseBox"), folder / "adaptive.exr"
     expected = whole(stage, folder / "adaptiveWhole.exr", *flags)
     patina("merge", *parts(folder, stage, image, cut, *flags), image)
@@ -54,75 +44,83 @@ def test_tiles_stop_where_they_stop_at_once(folder, cut):
     assert samples.min() < samples.max(), "no tile stopped before another: the test shows nothing"
 
 
-class TestRefusals:
-    FLAGS = ("--imageWidth", "32", "--samples", "1")
+FEW = ("--imageWidth", "32", "--samples", "1")
 
-    @pytest.fixture(scope="class")
-    def stage(self, folder):
-        shutil.copytree(os.path.dirname(scene("texturedDiffuse")), folder / "scenes",
-                        ignore=lambda _, names: [n for n in names if n not in ("texturedDiffuse.usda", "textures") and "." in n
-                                                 and n.endswith(".usda")])
-        return str(folder / "scenes" / "texturedDiffuse.usda")
 
-    @pytest.fixture(scope="class")
-    def files(self, folder, stage):
-        return parts(folder, stage, folder / "a.exr", "2", *self.FLAGS)
+@pytest.fixture(scope="module")
+def stage(folder):
+    shutil.copytree(os.path.dirname(scene("texturedDiffuse")), folder / "scenes",
+                    ignore=lambda _, names: [n for n in names if n not in ("texturedDiffuse.usda", "textures") and "." in n
+                                             and n.endswith(".usda")])
+    return str(folder / "scenes" / "texturedDiffuse.usda")
 
-    def other(self, folder, stage, *flags, part="1/2"):
-        file = folder / "other.part"
-        patina("record", stage, folder / "a.exr", *self.FLAGS, *flags, f"--part={part}", f"--partial={file}", "--quiet")
-        return str(file)
 
-    def refusal(self, *arguments):
-        result = patina("merge", *arguments, check=False)
-        assert result.returncode == 1 and result.stderr.count("\n") == 1
-        return result.stderr
+@pytest.fixture(scope="module")
+def files(folder, stage):
+    return parts(folder, stage, folder / "a.exr", "2", *FEW)
 
-    @pytest.mark.parametrize("flags, differs", [
-        (("--seed", "9"), "settings seed is 9, not 0"),
-        (("--samples", "2"), "settings samples is 2, not 1"),
-        (("--imageWidth", "33"), "settings width is 33, not 32"),
-        (("--complexity", "medium"), "complexity is 1.1, not 1.0"),
-    ])
-    def test_other_settings(self, folder, stage, files, flags, differs):
-        file = self.other(folder, stage, *flags)
-        text = self.refusal(files[0], file, folder / "x.exr")
-        assert file in text and differs in text
-        assert not (folder / "x.exr").exists()
 
-    def test_another_cut(self, folder, stage, files):
-        assert "cut is 3, not 2" in self.refusal(files[0], self.other(folder, stage, part="1/3"), folder / "x.exr")
+def other(folder, stage, *flags, part="1/2"):
+    file = folder / "other.part"
+    patina("record", stage, folder / "a.exr", *FEW, *flags, f"--part={part}", f"--partial={file}", "--quiet")
+    return str(file)
 
-    def test_a_changed_layer_and_a_changed_texture(self, folder, stage, files):
-        textures = folder / "scenes" / "textures"
-        texture = next(t for t in sorted(textures.rglob("*")) if t.is_file() and t.name in open(stage, encoding="utf-8").read())
-        before = texture.read_bytes()
-        texture.write_bytes(before + b" ")
-        changed = self.other(folder, stage)
-        texture.write_bytes(before)
-        assert re.search(rf"{texture.name} is another", self.refusal(files[0], changed, folder / "x.exr"))
-        text = open(stage, encoding="utf-8").read()
-        with open(stage, "a", encoding="utf-8") as file:
-            file.write("\n# changed\n")
-        changed = self.other(folder, stage)
-        with open(stage, "w", encoding="utf-8") as file:
-            file.write(text)
-        assert "texturedDiffuse.usda is another" in self.refusal(files[0], changed, folder / "x.exr")
 
-    def test_what_is_no_part(self, folder, stage, files):
-        assert "is not a part" in self.refusal(stage, files[0], folder / "x.exr")
-        damaged = folder / "damaged.part"
-        data = bytearray(open(files[0], "rb").read())
-        data[len(data) // 2] ^= 1
-        damaged.write_bytes(data)
-        assert "damaged" in self.refusal(damaged, files[1], folder / "x.exr")
+def refusal(*arguments):
+    result = patina("merge", *arguments, check=False)
+    assert result.returncode == 1 and result.stderr.count("\n") == 1
+    return result.stderr
 
-    def test_missing_parts_are_named_and_rendered(self, folder, stage, files):
-        made = parts(folder, stage, folder / "a.exr", "2x1", *self.FLAGS)
-        assert "part 1 of 2 is missing" in self.refusal(files[0], folder / "x.exr")
-        patina("merge", made[0], folder / "rendered.exr", "--renderMissing", "--quiet")
-        assert contents(folder / "rendered.exr") == whole(stage, folder / "whole2.exr", *self.FLAGS)
-        assert not list(folder.glob("rendered.exr.*"))
+
+@pytest.mark.parametrize("flags, differs", [
+    (("--seed", "9"), "settings seed is 9, not 0"),
+    (("--samples", "2"), "settings samples is 2, not 1"),
+    (("--imageWidth", "33"), "settings width is 33, not 32"),
+    (("--complexity", "medium"), "complexity is 1.1, not 1.0"),
+])
+def test_other_settings(folder, stage, files, flags, differs):
+    file = other(folder, stage, *flags)
+    text = refusal(files[0], file, folder / "x.exr")
+    assert file in text and differs in text
+    assert not (folder / "x.exr").exists()
+
+
+def test_another_cut(folder, stage, files):
+    assert "cut is 3, not 2" in refusal(files[0], other(folder, stage, part="1/3"), folder / "x.exr")
+
+
+def test_a_changed_layer_and_a_changed_texture(folder, stage, files):
+    textures = folder / "scenes" / "textures"
+    texture = next(t for t in sorted(textures.rglob("*")) if t.is_file() and t.name in open(stage, encoding="utf-8").read())
+    before = texture.read_bytes()
+    texture.write_bytes(before + b" ")
+    changed = other(folder, stage)
+    texture.write_bytes(before)
+    assert re.search(rf"{texture.name} is another", refusal(files[0], changed, folder / "x.exr"))
+    text = open(stage, encoding="utf-8").read()
+    with open(stage, "a", encoding="utf-8") as file:
+        file.write("\n# changed\n")
+    changed = other(folder, stage)
+    with open(stage, "w", encoding="utf-8") as file:
+        file.write(text)
+    assert "texturedDiffuse.usda is another" in refusal(files[0], changed, folder / "x.exr")
+
+
+def test_what_is_no_part(folder, stage, files):
+    assert "is not a part" in refusal(stage, files[0], folder / "x.exr")
+    damaged = folder / "damaged.part"
+    data = bytearray(open(files[0], "rb").read())
+    data[len(data) // 2] ^= 1
+    damaged.write_bytes(data)
+    assert "damaged" in refusal(damaged, files[1], folder / "x.exr")
+
+
+def test_missing_parts_are_named_and_rendered(folder, stage, files):
+    made = parts(folder, stage, folder / "a.exr", "2x1", *FEW)
+    assert "part 1 of 2 is missing" in refusal(files[0], folder / "x.exr")
+    patina("merge", made[0], folder / "rendered.exr", "--renderMissing", "--quiet")
+    assert contents(folder / "rendered.exr") == whole(stage, folder / "whole2.exr", *FEW)
+    assert not list(folder.glob("rendered.exr.*"))
 
 
 @pytest.mark.parametrize("flags, status, words", [

@@ -33,8 +33,7 @@ def run(arguments):
     from patina.farm import merging, missing, parts
 
     module = compiled.load()
-    for file in arguments.files:
-        inputs.note(file)
+    _note(arguments.files)
     found = parts.Parts(module, arguments.files, arguments.allowMixed)
     if frames.has_place(arguments.image) and found.first.frame is not None:
         arguments.image = frames.image_name(arguments.image, found.first.frame, 0)
@@ -50,6 +49,7 @@ def run(arguments):
             Progress("", arguments.quiet).say(f"rendering part {part}")
             missing.render(found.first, part, made[-1], arguments)
         if made:
+            _note(arguments.files)
             found = parts.Parts(module, arguments.files + made, arguments.allowMixed)
         told = merging.merge(module, found, arguments.image, arguments.threads)
     finally:
@@ -58,3 +58,9 @@ def run(arguments):
                 os.remove(file)
     if arguments.json:
         told.write(arguments.json)
+
+
+def _note(files):
+    """So that the image is written over none of them."""
+    for file in files:
+        inputs.note(file)

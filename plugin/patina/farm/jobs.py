@@ -16,7 +16,7 @@ def write(file, arguments, record, shots):
     :param shots: list of (time code, image)"""
     if not file.lower().endswith((".yaml", ".yml", ".json")):
         raise UsageError(f"patina farm: --write-job {file}: an Open Job Description is a .yaml or a .json file")
-    value = template(arguments, record, shots)
+    value = template(arguments, record, shots, os.path.dirname(os.path.abspath(file)))
     if file.lower().endswith(".json"):
         text = json.dumps(value, indent=2) + "\n"
     else:
@@ -28,13 +28,14 @@ def write(file, arguments, record, shots):
     outputs.write_text(file, text)
 
 
-def template(arguments, record, shots):
-    """:returns: the job as a dict"""
+def template(arguments, record, shots, folder):
+    """:param folder: of the template, which its default paths begin in
+    :returns: the job as a dict"""
     frames = _frames([time for time, _ in shots]) if arguments.frames else None
     parameters = [
         {"name": "Patina", "type": "STRING", "default": _launcher(), "description": "the command"},
-        {"name": "Stage", "type": "PATH", "objectType": "FILE", "dataFlow": "IN", "default": os.path.abspath(record.stage)},
-        {"name": "Image", "type": "PATH", "objectType": "FILE", "dataFlow": "OUT", "default": os.path.abspath(record.image),
+        {"name": "Stage", "type": "PATH", "objectType": "FILE", "dataFlow": "IN", "default": os.path.relpath(record.stage, folder)},
+        {"name": "Image", "type": "PATH", "objectType": "FILE", "dataFlow": "OUT", "default": os.path.relpath(record.image, folder),
          "description": "with a place for the frame, as `patina record` takes it" if frames else "what is written"},
     ]
     if frames and frames["type"] == "INT":
@@ -45,7 +46,7 @@ def template(arguments, record, shots):
         steps = [_step("Frames", ["record", "{{Param.Stage}}", "{{Param.Image}}", *flags, *_frame_flag(frames)], frames)]
     else:
         parameters.append({"name": "Parts", "type": "PATH", "objectType": "DIRECTORY", "dataFlow": "INOUT",
-                           "default": os.path.abspath(record.image) + ".parts", "description": "parts until they are merged"})
+                           "default": os.path.relpath(record.image, folder) + ".parts", "description": "parts until they are merged"})
         steps = _cut_steps(arguments, flags, frames)
     return {"specificationVersion": VERSION, "name": f"patina {os.path.basename(record.stage)}"[:LONGEST_NAME],
             "parameterDefinitions": parameters, "steps": steps}
@@ -65,7 +66,7 @@ def _cut_steps(arguments, flags, frames):
 
 def _step(name, command, *definitions):
     step = {"name": name}
-    definitions = [definition for definition in definitions if definition]
+    definitions = [dict(definition) for definition in definitions if definition]
     if definitions:
         step["parameterSpace"] = {"taskParameterDefinitions": definitions}
     step["script"] = {"actions": {"onRun": {"command": "{{Param.Patina}}", "args": command}}}

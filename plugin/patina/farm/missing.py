@@ -1,6 +1,7 @@
 """Renders a part with the flags that another part was made with."""
 import argparse
 
+from patina import inputs
 from patina.cli.errors import CommandError
 
 
@@ -11,6 +12,7 @@ def render(description, part, file, arguments):
     :raises CommandError: where it cannot be rendered, or would be another frame's"""
     from patina.cli import record
 
+    inputs.forget()  # parts that were merged are no inputs of the render
     flags = argparse.Namespace(**description.arguments)
     flags.image, flags.part, flags.partial, flags.json = arguments.image, part, file, None
     flags.threads, flags.quiet = arguments.threads, arguments.quiet

@@ -3,6 +3,7 @@
     ./patina python testenv/farm/killedMovie.py FOLDER [--frames 1:24] [--cut 2x2] [--workers 4] [--every 3]
 """
 import argparse
+import glob
 import os
 import random
 import subprocess
@@ -47,9 +48,10 @@ def run(folder, frames, cut, workers, every, flags, seed=1):
     last = time.monotonic()
     while process.poll() is None:
         time.sleep(0.05)
-        alive = worker_processes(process) if time.monotonic() - last >= every else []
-        # Not before Dask has started them all.
-        if len(alive) >= workers or (killed and alive):
+        # Not before workers have begun with parts.
+        begun = killed or glob.glob(os.path.join(farmed, "*.parts", "*"))
+        alive = worker_processes(process) if begun and time.monotonic() - last >= every else []
+        if alive:
             victim = chance.choice(alive)
             try:
                 victim.kill()

@@ -41,13 +41,10 @@ class Job:
             self.progress.say("all images are there")
             return
         with engines.Cluster(self.engine) as cluster:
-            import distributed
-
             self._preflight(cluster)
             begin, busy = time.perf_counter(), time.process_time()
             threads = engines.threads(self.engine) if self.arguments.threads is None else self.arguments.threads
-            one = sender.Sender(cluster.client, distributed.as_completed, self.arguments.passed_on, os.getcwd(), self.checks,
-                                threads)
+            one = sender.Sender(cluster.client, self.arguments.passed_on, os.getcwd(), self.checks, threads)
             link = cluster.dashboard()
             try:
                 one.run(frames, waiting, lambda state: self._show(state, frames, link))

@@ -1,23 +1,26 @@
 """Sends tasks to workers, sends those that fail elsewhere, and merges frames as their parts come in."""
 import collections
+import queue
+import time
 
 from patina.farm import work, worker
 
-AHEAD = 4  # tasks for each worker that are sent before one is done; the rest wait here
-LEAST_AHEAD = 64
+LOOK_SECONDS = 1.0  # so often it is seen whether more workers have come
 REFUSALS = 20  # of one task, by workers that came later
 
 
 class Sender:
-    """One job. Knows nothing of Dask but a client that submits functions and an iterator over what is done."""
+    """One job. Knows nothing of Dask but a client that submits functions.
 
-    def __init__(self, client, completed, arguments, folder, checks, threads):
-        """:param completed: distributed.as_completed
-        :param arguments: of `patina record` for all frames
+    As many tasks are sent as there are workers: when a worker dies, Dask blames all that waits for it there."""
+
+    def __init__(self, client, arguments, folder, checks, threads):
+        """:param arguments: of `patina record` for all frames
         :param folder: that they are meant in
         :param checks: of worker.check()
         :param threads: that a part takes; 0: all of the worker's machine"""
-        self.client, self.completed = client, completed
+        self.client = client
+        self.ended = queue.Queue()  # futures
         self.arguments, self.folder, self.checks, self.threads = arguments, folder, checks, threads
         self.tasks = {}  # future -> task
         self.failed = []  # tasks that were given up
@@ -25,6 +28,7 @@ class Sender:
         self.refused = set()  # their addresses
         self.rows = collections.defaultdict(lambda: [0, 0.0, 0])  # worker's name -> tasks, seconds, failures
         self.names = {}  # worker's address -> name
+        self._seen = float("-inf"), []  # when, and the workers' addresses
         self.written = []  # frames whose images are there
         self.done = self.total = self.count = 0  # tasks, and workers
         self.times = []  # (kind, seconds) of each task
@@ -32,34 +36,31 @@ class Sender:
     def run(self, frames, waiting, told):
         """:param frames: list of work.Frame, in their order
         :param waiting: tasks that can begin
-        :param told: called with this after every task"""
-        queue = collections.deque(waiting)
+        :param told: called with this now and then"""
+        left = collections.deque(waiting)
         self.total = sum(frame.left + 1 if frame.cut.parts > 1 else 1 for frame in frames)
-        done = self.completed([])
-        self._fill(queue, done)
-        told(self)
-        while self.tasks:
-            future = next(done)
-            task = self.tasks.pop(future)
-            follows = self._ended(task, future)
-            if follows:
-                queue.appendleft(follows)
-            self._fill(queue, done)
+        while left or self.tasks:
+            self._fill(left)
             told(self)
+            try:
+                future = self.ended.get(timeout=LOOK_SECONDS)
+            except queue.Empty:
+                continue
+            follows = self._ended(self.tasks.pop(future), future)
+            if follows:
+                left.appendleft(follows)
 
-    def _fill(self, queue, done):
-        workers = self._workers()
+    def _fill(self, left):
+        workers = [address for address in self._workers() if address not in self.refused]
         self.count = len(workers)
-        room = max(LEAST_AHEAD, AHEAD * len(workers)) - len(self.tasks)
-        while queue and room > 0:
-            task = queue.popleft()
-            room -= 1
+        while left and len(self.tasks) < max(1, self.count):
+            task = left.popleft()
             future = self._submit(task, workers)
             self.tasks[future] = task
-            done.add(future)
+            future.add_done_callback(self.ended.put)
 
     def _submit(self, task, workers):
-        avoided = {address for address, _ in task.failures} | self.refused
+        avoided = self.refused.union(address for address, _ in task.failures)
         others = [address for address in workers if address not in avoided]
         # Any worker takes it when those have gone.
         places = {"workers": others, "allow_other_workers": True} if avoided and others else {}
@@ -67,8 +68,10 @@ class Sender:
                                   pure=False, retries=0, **places)
 
     def _workers(self):
-        """:returns: addresses of the workers that are there"""
-        return list(self.client.scheduler_info(n_workers=-1)["workers"])
+        """:returns: addresses of the workers that are there, as they were a moment ago"""
+        if time.monotonic() - self._seen[0] > LOOK_SECONDS:
+            self._seen = time.monotonic(), list(self.client.scheduler_info(n_workers=-1)["workers"])
+        return self._seen[1]
 
     def _ended(self, task, future):
         """:returns: the task that follows: the same once more, the merge of its frame, or None"""

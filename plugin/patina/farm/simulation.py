@@ -26,10 +26,9 @@ class Outcome:
     first: float  # seconds until the first image is there
 
 
-def run(costs, frames, parts, workers, seed=0, ahead=4):
+def run(costs, frames, parts, workers, seed=0):
     """:param frames: of the job
     :param parts: of each frame; 1: it is not cut
-    :param ahead: tasks for each worker that are sent before one is done
     :returns: Outcome"""
     chance = random.Random(seed)
     waiting = collections.deque((frame, part) for frame in range(frames) for part in range(parts if parts > 1 else 0))
@@ -52,7 +51,7 @@ def run(costs, frames, parts, workers, seed=0, ahead=4):
 
     def send():
         nonlocal outstanding
-        while waiting and outstanding < max(64, ahead * workers):
+        while waiting and outstanding < workers:
             outstanding += 1
             serve("sent", waiting.popleft())
 

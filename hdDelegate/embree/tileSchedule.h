@@ -13,8 +13,8 @@ namespace patina {
 /// Every tile steps through the same sample counts (film/relativeError.h). Whether it goes on is a
 /// function of its own pixels at some of these, so neither threads, nor the order of tiles, nor an
 /// interruption changes what a finished image contains. A part of a cut frame that begins later
-/// knows nothing of the samples before: it takes all of its own, and the tiles decide when parts are
-/// merged (film/partial.h).
+/// knows nothing of the samples before: it takes all of its own, and the tiles decide when parts
+/// are merged (film/partial.h).
 class TileSchedule {
 public:
     TileSchedule(const Film& film, const RenderSettings& settings);

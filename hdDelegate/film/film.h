@@ -58,9 +58,10 @@ public:
     /// Index of the sample that a pixel takes next.
     uint32_t nextSample(int x, int y) const { return _firstSample + pixel(x, y).count; }
 
-    /// Colour and alpha always exist, and come last of a sample's values. Not finite or negative samples are counted and dropped as a
-    /// whole (the sample counts as black); @returns false then. The alpha of such a sample is kept
-    /// when it is a number, so that a dropped sample makes no hole.
+    /// Colour and alpha always exist, and come last of a sample's values. Not finite or negative
+    /// samples are counted and dropped as a whole (the sample counts as black); @returns false
+    /// then. The alpha of such a sample is kept when it is a number, so that a dropped sample makes
+    /// no hole.
     bool addColor(int x, int y, glm::vec3 radiance, float alpha);
     /// Values that are not finite (and not ids) are counted and dropped as a whole.
     /// @param distance of the sample from the pixel's centre, for AovKind::First; of equally near
@@ -130,8 +131,8 @@ private:
         uint32_t reserved = 0;     ///< no padding: checkpoints hold the bytes
     };
     /// Means keep components sums of closed spans, as many of the open one, and their count; the
-    /// others components values and the distance of the sample. Only the vector of the AOV's kind is
-    /// filled.
+    /// others components values and the distance of the sample. Only the vector of the AOV's kind
+    /// is filled.
     struct Plane {
         std::vector<double> sums;
         std::vector<float> nearest;

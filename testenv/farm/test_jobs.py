@@ -19,8 +19,8 @@ def openjd(*arguments):
                           stderr=subprocess.STDOUT, text=True, timeout=300)
 
 
-@pytest.mark.parametrize("numbers, text", [([1, 2, 3, 4], "1-4"), ([7], "7"), ([3, 1, 2, 10], "1-3,10"), ([1, 3, 5, 7], "1-7:2"),
-                                           ([1, 5], "1,5"), ([1, 2, 4, 8], "1-2,4,8")])
+@pytest.mark.parametrize("numbers, text", [([1, 2, 3, 4], "1-4"), ([7], "7"), ([3, 1, 2, 10], "1-3,10"),
+                                           ([1, 3, 5, 7], "1-7:2"), ([1, 5], "1,5"), ([1, 2, 4, 8], "1-2,4,8")])
 def test_ranges_of_frames(numbers, text):
     assert jobs._range(numbers) == text
 

@@ -10,13 +10,10 @@ whichever cannot is named before anything is rendered. Parts lie in IMAGE.parts 
 that failed stay there.
 """
 import argparse
-import json
 import os
 
-from patina import inputs
 from patina.cli import compiled, frames, openStage, outputs, recordFlags
-from patina.cli.errors import CommandError, UsageError
-from patina.cli.progress import Progress
+from patina.cli.errors import UsageError
 from patina.farm import cut, engines
 
 PASSES_ON = True  # to `patina record`
@@ -38,11 +35,12 @@ def add_arguments(parser):
     parser.add_argument("--allowMixed", action="store_true",
                         help="take workers of other builds and instruction sets: images have no defined bits then")
     parser.add_argument("--write-job", metavar="FILE", dest="writeJob",
-                        help="write an Open Job Description (2023-09, .yaml or .json) instead: frames, parts and merges as steps")
+                        help="write an Open Job Description (2023-09, .yaml or .json) instead: frames, parts and merges as "
+                             "steps")
     parser.add_argument("--simulate", metavar="WORKERS[,WORKERS...]",
                         help="after the job, tell from its times what so many workers would give")
-    parser.add_argument("--json", metavar="FILE", help="seconds of tasks and workers: --json to standard output, --json=FILE to a "
-                                                       "file")
+    parser.add_argument("--json", metavar="FILE",
+                        help="seconds of tasks and workers: --json to standard output, --json=FILE to a file")
     parser.add_argument("--quiet", "-q", action="store_true", help="errors only")
 
 

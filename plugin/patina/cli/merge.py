@@ -25,7 +25,8 @@ def add_arguments(parser):
     parser.add_argument("--allowMixed", action="store_true",
                         help="take parts of other builds and instruction sets: the image has no defined bits then")
     parser.add_argument("--threads", type=int, default=0, metavar="N", help="default: all cores")
-    parser.add_argument("--json", metavar="FILE", help="statistics of the frame: --json to standard output, --json=FILE to a file")
+    parser.add_argument("--json", metavar="FILE",
+                        help="statistics of the frame: --json to standard output, --json=FILE to a file")
     parser.add_argument("--quiet", "-q", action="store_true", help="errors only")
 
 

@@ -94,8 +94,8 @@ def _add_run_flags(group):
     group.add_argument("--keepCheckpoint", action="store_true",
                        help="save the checkpoint at the end and keep it, to add samples later with --resume")
     group.add_argument("--part", type=cut.part, metavar="K/TILES[xRANGES]",
-                       help="render one part of the frame, from 1 to TILES times RANGES: its tiles are cut into so many groups, "
-                            "and the samples of each into so many ranges; --partial takes it")
+                       help="render one part of the frame, from 1 to TILES times RANGES: its tiles are cut into so many "
+                            "groups, and the samples of each into so many ranges; --partial takes it")
     group.add_argument("--partial", metavar="FILE", help="the part's file; `patina merge` makes IMAGE of all of them, with the "
                                                          "bits of the frame rendered at once")
     group.add_argument("--strict", action="store_true", help="warnings make the render fail")

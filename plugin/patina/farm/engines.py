@@ -1,4 +1,5 @@
 """What runs the parts: a Dask cluster that is there, one of this machine, or one that a queue or Kubernetes starts."""
+import contextlib
 import json
 import os
 import re
@@ -9,8 +10,8 @@ from dataclasses import dataclass, field
 from patina.cli.errors import CommandError, UsageError
 
 QUEUES = {"slurm": "SLURMCluster", "pbs": "PBSCluster", "lsf": "LSFCluster", "sge": "SGECluster"}
-HELP = ("dask://HOST[:PORT] is a scheduler that runs; local:N starts N workers here; slurm:N, pbs:N, lsf:N and sge:N ask a queue "
-        "for N jobs; k8s:N asks Kubernetes for N pods (default: local, with two cores or more for each worker)")
+HELP = ("dask://HOST[:PORT] is a scheduler that runs; local:N starts N workers here; slurm:N, pbs:N, lsf:N and sge:N ask a "
+        "queue for N jobs; k8s:N asks Kubernetes for N pods (default: local, with two cores or more for each worker)")
 PORT = 8786  # Dask's own
 
 
@@ -69,6 +70,7 @@ class Cluster:
         self._cluster = self.client = None
 
     def __enter__(self):
+        _quiet()
         distributed = _import("distributed", "distributed")
         try:
             if self.engine.kind == "dask":
@@ -122,6 +124,14 @@ def environment():
     kept = {name: os.environ[name] for name in ("PATINA_BUILD_DIR", "PATINA_CACHE", "PATINA_OIDN_LIBRARY", "OCIO",
                                                 "PXR_AR_DEFAULT_SEARCH_PATH") if os.environ.get(name)}
     return {"PYTHONPATH": os.pathsep.join(dict.fromkeys(paths)), "PYTHONSAFEPATH": "1", **kept}
+
+
+def _quiet():
+    """Dask would write of every worker that comes and goes, over the line of progress."""
+    with contextlib.suppress(ImportError):
+        import dask
+
+        dask.config.set({"logging": {name: "critical" for name in ("distributed", "distributed.client", "distributed.nanny")}})
 
 
 def _import(name, package):

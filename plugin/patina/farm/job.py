@@ -85,16 +85,16 @@ class Job:
         except TimeoutError:
             raise CommandError(f"{self.arguments.engine} has no worker after {FIRST_WORKER_SECONDS} s") from None
         found = client.run(worker.check, *self.checks, on_error="return")
-        bad = 0
+        bad, first = 0, ""
         for address, problems in sorted(found.items()):
             if isinstance(problems, Exception):
                 problems = [f"{type(problems).__name__}: {problems}"]
             bad += bool(problems)
             if problems:
+                first = first or worker.words(problems)
                 self.progress.say(f"worker {address} is left out: {worker.words(problems)}")
         if bad == len(found):
-            raise CommandError("no worker can take a part: " + worker.words(
-                [str(problem) for problems in found.values() for problem in (problems if isinstance(problems, list) else [problems])]))
+            raise CommandError(f"no worker can take a part: {first}")
 
     def _show(self, state, frames, link):
         text = f"{len(state.written)} of {len(frames)} frames, {state.done} of {state.total} tasks, {state.count} workers"

@@ -32,21 +32,23 @@ def template(arguments, record, shots, folder):
     """:param folder: of the template, which its default paths begin in
     :returns: the job as a dict"""
     frames = _frames([time for time, _ in shots]) if arguments.frames else None
+    stage, image = os.path.relpath(record.stage, folder), os.path.relpath(record.image, folder)
     parameters = [
         {"name": "Patina", "type": "STRING", "default": _launcher(), "description": "the command"},
-        {"name": "Stage", "type": "PATH", "objectType": "FILE", "dataFlow": "IN", "default": os.path.relpath(record.stage, folder)},
-        {"name": "Image", "type": "PATH", "objectType": "FILE", "dataFlow": "OUT", "default": os.path.relpath(record.image, folder),
+        {"name": "Stage", "type": "PATH", "objectType": "FILE", "dataFlow": "IN", "default": stage},
+        {"name": "Image", "type": "PATH", "objectType": "FILE", "dataFlow": "OUT", "default": image,
          "description": "with a place for the frame, as `patina record` takes it" if frames else "what is written"},
     ]
     if frames and frames["type"] == "INT":
-        parameters.append({"name": "Frames", "type": "STRING", "default": frames["range"], "description": "such as 1-240 or 1-9:2,20"})
+        parameters.append({"name": "Frames", "type": "STRING", "default": frames["range"],
+                           "description": "such as 1-240 or 1-9:2,20"})
         frames = dict(frames, range="{{Param.Frames}}")
     flags = _flags(arguments, record)
     if arguments.cut.parts == 1:
         steps = [_step("Frames", ["record", "{{Param.Stage}}", "{{Param.Image}}", *flags, *_frame_flag(frames)], frames)]
     else:
         parameters.append({"name": "Parts", "type": "PATH", "objectType": "DIRECTORY", "dataFlow": "INOUT",
-                           "default": os.path.relpath(record.image, folder) + ".parts", "description": "parts until they are merged"})
+                           "default": image + ".parts", "description": "parts until they are merged"})
         steps = _cut_steps(arguments, flags, frames)
     return {"specificationVersion": VERSION, "name": f"patina {os.path.basename(record.stage)}"[:LONGEST_NAME],
             "parameterDefinitions": parameters, "steps": steps}

@@ -22,8 +22,8 @@ def check(arguments):
     if arguments.backend != "embree":
         raise UsageError("patina record: --part is of the path tracer; the rasterizer draws a frame at once")
     if arguments.tolerance > 0.0 and not arguments.samples and arguments.part.cut.ranges > 1:
-        raise UsageError("patina record: ranges of samples with --tolerance need --samples, since each takes its samples before "
-                         "it is known where tiles stop")
+        raise UsageError("patina record: ranges of samples with --tolerance need --samples, since each takes its samples "
+                         "before it is known where tiles stop")
     arguments.checkpointSeconds = 0.0  # parts of one image would share a file
 
 

@@ -95,7 +95,10 @@ class Sender:
     def _failure(self, task, error):
         """:returns: the task, where it is tried again"""
         kind = type(error).__name__
-        reason, address = (error.args + ("",))[:2] if kind in ("Refused", "PartFailed") else (_words(error), _last_worker(error))
+        if kind in ("Refused", "PartFailed"):
+            reason, address = error.args
+        else:
+            reason, address = _words(error), _last_worker(error)
         if kind == "Refused":
             task.refusals += 1
             if address not in self.refused:

@@ -49,7 +49,7 @@ def test_a_cut_movie_has_the_bits_of_one_process(shot):
     assert not movie.different(names, folder / "once", folder / "cut")
     assert sorted(os.listdir(folder / "cut")) == names, "parts and logs are gone when images are there"
     table = result.stdout.splitlines()
-    assert table[0].split() == ["worker", "tasks", "seconds", "a", "task", "busy", "failed"]
+    assert table[0].split() == ["worker", "host", "tasks", "seconds", "a", "task", "busy", "failed"]
     assert re.match(r"all +6 .* 0 +in ", table[-1]), "2 frames of 2 parts and a merge"
     # Goes on: one image is missing, and a part of it is there; the other part is of another seed.
     before = {name: os.stat(folder / "cut" / name).st_mtime_ns for name in names}

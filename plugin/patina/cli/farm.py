@@ -39,8 +39,8 @@ def add_arguments(parser):
                              "steps")
     parser.add_argument("--simulate", metavar="WORKERS[,WORKERS...]",
                         help="after the job, tell from its times what so many workers would give")
-    parser.add_argument("--json", metavar="FILE",
-                        help="seconds of tasks and workers: --json to standard output, --json=FILE to a file")
+    parser.add_argument("--json", metavar="FILE", nargs="?", const="-",
+                        help="seconds of tasks and workers: --json last to standard output, --json=FILE to a file")
     parser.add_argument("--quiet", "-q", action="store_true", help="errors only")
 
 

@@ -1,4 +1,5 @@
 """A job of `patina farm` from the first look at workers to the table at its end."""
+import dataclasses
 import json
 import os
 import sys
@@ -113,7 +114,7 @@ class Job:
         taken = outputs.write_json(self.arguments.json, {
             "seconds": seconds, "senderSeconds": busy, "frames": len(written), "parts": self.arguments.cut.parts,
             "tasks": [{"kind": kind, "seconds": spent} for kind, spent in one.times],
-            "workers": {name: {"tasks": row[0], "seconds": row[1], "failures": row[2]} for name, row in one.rows.items()},
+            "workers": {name: dataclasses.asdict(row) for name, row in one.rows.items()},
             "failed": [{"task": str(task), "reasons": [why for _, why in task.failures]} for task in one.failed],
             "simulated": simulated})
         if not self.arguments.quiet and not taken:
@@ -128,12 +129,16 @@ class Job:
 
 def table(one, seconds):
     """:returns: lines: what each worker did"""
-    width = max([6] + [len(name) for name in one.rows])
-    lines = [f"{'worker':<{width}}{'tasks':>8}{'seconds':>10}{'a task':>9}{'busy':>7}{'failed':>8}"]
-    for name, (count, spent, failures) in sorted(one.rows.items()):
-        lines.append(f"{name:<{width}}{count:>8}{spent:>10.1f}{spent / max(count, 1):>9.2f}{spent / max(seconds, 1e-9):>7.0%}"
-                     f"{failures:>8}")
-    spent = sum(row[1] for row in one.rows.values())
-    lines.append(f"{'all':<{width}}{one.done:>8}{spent:>10.1f}{spent / max(one.done, 1):>9.2f}{'':>7}"
-                 f"{sum(row[2] for row in one.rows.values()):>8}   in {seconds:.1f} s")
-    return lines
+    rows = sorted(one.rows.items())
+    name = max([6] + [len(worker_name) for worker_name, _ in rows])
+    host = max([4] + [len(row.host) for _, row in rows])
+    lines = [f"{'worker':<{name}}  {'host':<{host}}{'tasks':>8}{'seconds':>10}{'a task':>9}{'busy':>7}{'failed':>8}"]
+
+    def line(worker_name, row, busy):
+        return (f"{worker_name:<{name}}  {row.host:<{host}}{row.tasks:>8}{row.seconds:>10.1f}"
+                f"{row.seconds / max(row.tasks, 1):>9.2f}{busy:>7.0%}{row.failures:>8}")
+
+    lines += [line(worker_name, row, row.seconds / max(seconds, 1e-9)) for worker_name, row in rows]
+    every = sender.Row("", one.done, sum(row.seconds for _, row in rows), sum(row.failures for _, row in rows))
+    busy = every.seconds / max(seconds * len(rows), 1e-9)
+    return lines + [line("all", every, busy) + f"   in {seconds:.1f} s"]

@@ -1,5 +1,6 @@
 """Sends tasks to workers, sends those that fail elsewhere, and merges frames as their parts come in."""
 import collections
+import dataclasses
 import queue
 import time
 
@@ -7,6 +8,15 @@ from patina.farm import work, worker
 
 LOOK_SECONDS = 1.0  # so often it is seen whether more workers have come
 REFUSALS = 20  # of one task, by workers that came later
+
+
+@dataclasses.dataclass
+class Row:
+    """What a worker has done."""
+    host: str = ""
+    tasks: int = 0
+    seconds: float = 0.0
+    failures: int = 0
 
 
 class Sender:
@@ -26,7 +36,7 @@ class Sender:
         self.failed = []  # tasks that were given up
         self.refusals = []  # why workers were refused, each once
         self.refused = set()  # their addresses
-        self.rows = collections.defaultdict(lambda: [0, 0.0, 0])  # worker's name -> tasks, seconds, failures
+        self.rows = collections.defaultdict(Row)  # by workers' names
         self.names = {}  # worker's address -> name
         self._seen = float("-inf"), []  # when, and the workers' addresses
         self.written = []  # frames whose images are there
@@ -70,7 +80,9 @@ class Sender:
     def _workers(self):
         """:returns: addresses of the workers that are there, as they were a moment ago"""
         if time.monotonic() - self._seen[0] > LOOK_SECONDS:
-            self._seen = time.monotonic(), list(self.client.scheduler_info(n_workers=-1)["workers"])
+            found = self.client.scheduler_info(n_workers=-1)["workers"]
+            self._seen = time.monotonic(), list(found)
+            self.names.update((address, str(one.get("name", address))) for address, one in found.items())
         return self._seen[1]
 
     def _ended(self, task, future):
@@ -80,8 +92,7 @@ class Sender:
             return self._failure(task, error)
         result = future.result()
         row = self.rows[result["worker"]]
-        row[0], row[1] = row[0] + 1, row[1] + result["seconds"]
-        self.names[result["address"]] = result["worker"]
+        row.host, row.tasks, row.seconds = result["host"], row.tasks + 1, row.seconds + result["seconds"]
         self.times.append(("part" if task.part else "image", result["seconds"]))
         self.done += 1
         frame = task.frame
@@ -106,7 +117,7 @@ class Sender:
                 self.refusals.append(reason)
             again = task.refusals < REFUSALS and any(one not in self.refused for one in self._workers())
         else:
-            self.rows[self.names.get(address, address or "unknown")][2] += 1
+            self.rows[self.names.get(address, address or "unknown")].failures += 1
             again = len(task.failures) + 1 < work.TRIES
         task.failures.append((address, reason))
         if again:

@@ -48,10 +48,10 @@ def run(arguments, folder, log, checks):
     :param folder: that the sender runs in
     :param log: path of the file that takes what it prints; it is removed when all is well
     :param checks: arguments of check()
-    :returns: dict of the worker's name and address and the seconds that it took
+    :returns: dict of the worker's name, host and address, and the seconds that it took
     :raises Refused: where this worker should not take it
     :raises PartFailed: with the reason in one line"""
-    name, address = place()
+    name, host, address = place()
     problems = check(*checks)
     if problems:
         raise Refused(f"{name} {words(problems)}", address)
@@ -64,7 +64,7 @@ def run(arguments, folder, log, checks):
         os.replace(log, kept)
         raise PartFailed(f"{_reason(kept, status)} (on {name}, see {kept})", address)
     os.remove(log)
-    return {"worker": name, "address": address, "seconds": time.perf_counter() - begin}
+    return {"worker": name, "host": host, "address": address, "seconds": time.perf_counter() - begin}
 
 
 def words(problems):
@@ -81,11 +81,12 @@ def _reason(log, status):
 
 
 def place():
-    """:returns: this worker's name as the sender's table has it, and its address in Dask"""
+    """:returns: this worker's name, its host, and its address in Dask"""
+    host = socket.gethostname()
     try:
         from distributed import get_worker
 
         own = get_worker()
     except (ImportError, ValueError):
-        return f"{socket.gethostname()}/{os.getpid()}", ""
-    return f"{socket.gethostname()}/{own.name}", own.address
+        return str(os.getpid()), host, ""
+    return str(own.name), host, own.address

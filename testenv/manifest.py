@@ -19,7 +19,7 @@ RUNS = {  # --tier: the tiers of the tests that it runs
     "all": TIERS,
 }
 ROOMS = ("shaders", "materialNetwork", "scene", "geometry", "image", "plan", "film", "lights", "compiled", "embree", "raster", "backends",
-         "hydra", "python", "stage", "cli", "view", "chart", "testenv")
+         "hydra", "python", "stage", "cli", "view", "chart", "farm", "testenv")
 
 FOLDERS = {  # folder: tier, rooms
     "shaders/": ("unit", "shaders"),
@@ -27,7 +27,7 @@ FOLDERS = {  # folder: tier, rooms
     "hdDelegate/scene/": ("unit", "scene"),
     "hdDelegate/geometry/": ("unit", "geometry"),
     "hdDelegate/image/": ("unit", "image"),
-    "hdDelegate/film/": ("unit", "film"),
+    "hdDelegate/film/": ("unit", "film farm"),
     "hdDelegate/lights/": ("unit", "lights"),
     "hdDelegate/compiled/": ("unit", "compiled"),
     "hdDelegate/embree/": ("smoke", "embree"),
@@ -37,6 +37,7 @@ FOLDERS = {  # folder: tier, rooms
     "plugin/patina/stage/": ("smoke", "stage"),
     "plugin/": ("full", "cli"),
     "testenv/cli/": ("full", "cli"),
+    "testenv/farm/": ("smoke", "farm cli film"),
     "testenv/film/": ("smoke", "film python"),
     "testenv/hydra/": ("full", "hydra"),
     "testenv/mitsuba/": ("long", "embree lights shaders"),
@@ -72,6 +73,12 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/cli/test_imageMetrics.py::*", "unit", None),
     ("testenv/cli/test_progress.py::*", "unit", None),
     ("plugin/patina/stage/*", "unit", None),
+    ("testenv/farm/test_cut.py::*", "unit", None),
+    ("testenv/farm/test_simulation.py::*", "unit", None),
+    # Processes of Dask and of Open Job Description's command line.
+    ("testenv/farm/test_engines.py::*", "full", None),
+    ("testenv/farm/test_jobs.py::*", "full", None),
+    ("testenv/farm/test_engines.py::test_a_movie_*", "long", None),
     ("testenv/cli/test_chart.py::*", "full", "chart materialNetwork"),
     ("testenv/cli/test_chartScenes.py::*", "full", "chart"),
     ("testenv/cli/test_subdivisionPlan.py::*", "full", "geometry plan materialNetwork"),

@@ -28,7 +28,7 @@ void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& sche
     // The last pixel of the tile is done last: its count tells how far the whole tile is.
     for (int y = t.y0; y < t.y1 && !interrupted(); ++y)
         for (int x = t.x0; x < t.x1; ++x)
-            for (int i = int(_film->sampleCount(x, y)); i < target; ++i)
+            for (int i = int(_film->nextSample(x, y)); i < target; ++i)
                 integrator.sample(*_film, x, y, uint32_t(i), counters);
     _rays += counters.rays;
     _shadowRays += counters.shadowRays;
@@ -98,6 +98,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     const std::vector<AovSpec> aovs = renderedAovs(_settings.aovs);
     _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
 
+    _film->setFirstSample(uint32_t(std::max(0, _settings.sampleBegin)));
     const CameraRays rays(camera, _settings, _origin);
     RenderSettings sampled = _settings;
     sampled.tolerance = plan.noise(_settings.tolerance);

@@ -8,32 +8,26 @@
 namespace patina {
 
 TileSchedule::TileSchedule(const Film& film, const RenderSettings& settings)
-    : _film(film), _samples(std::max(1, settings.samples)),
-      _minSamples(std::max(2, settings.minSamples)), _tolerance(settings.tolerance) {
-    int x0 = 0, y0 = 0, x1 = film.width(), y1 = film.height();
-    if (settings.dataWindow[2] >= settings.dataWindow[0] &&
-        settings.dataWindow[3] >= settings.dataWindow[1]) {
-        x0 = std::clamp(settings.dataWindow[0], 0, x1);
-        y0 = std::clamp(settings.dataWindow[1], 0, y1);
-        x1 = std::clamp(settings.dataWindow[2] + 1, x0, x1);
-        y1 = std::clamp(settings.dataWindow[3] + 1, y0, y1);
-    }
-    for (int y = y0; y < y1; y += tileSize)
-        for (int x = x0; x < x1; x += tileSize)
-            _tiles.push_back({x, y, std::min(x + tileSize, x1), std::min(y + tileSize, y1)});
+    : _film(film), _begin(std::max(0, settings.sampleBegin)),
+      _samples(std::max(1, settings.samples)), _minSamples(std::max(2, settings.minSamples)),
+      _tolerance(_begin > 0 ? 0.0 : settings.tolerance),
+      _tiles(tilesOf(film.width(), film.height(), settings.dataWindow)) {
+    if (settings.sampleEnd > 0) _samples = std::min(_samples, settings.sampleEnd);
+    if (settings.tileParts > 1)
+        _tiles = tilesOfPart(_tiles, settings.tilePart, settings.tileParts);
     _errorChecks.resize(_tiles.size());
 }
 
 int TileSchedule::count(int tile) const {
     const Tile& t = _tiles[tile];
-    return int(_film.sampleCount(t.x1 - 1, t.y1 - 1)); // the pixel that is rendered last
+    return int(_film.nextSample(t.x1 - 1, t.y1 - 1)); // the pixel that is rendered last
 }
 
 bool TileSchedule::isEnough(int tile, int samples) const {
     if (!(_tolerance > 0.0) || samples < _minSamples || !isErrorStep(samples)) return false;
     const Tile& t = _tiles[tile];
     // Some of its pixels are further already: it was broken off when it had been told to go on.
-    if (int(_film.sampleCount(t.x0, t.y0)) != samples) return false;
+    if (int(_film.nextSample(t.x0, t.y0)) != samples) return false;
     ErrorCheck& check = _errorChecks[tile];
     if (check.samples != samples) check = {samples, relativeError(_tiles[tile]) <= _tolerance};
     return check.isEnough;
@@ -59,8 +53,9 @@ std::vector<int> TileSchedule::pending() const {
 
 double TileSchedule::fraction() const {
     double done = 0.0;
+    const double samples = std::max(1, _samples - _begin);
     for (size_t i = 0; i < _tiles.size(); ++i)
-        done += target(int(i)) == 0 ? 1.0 : double(count(int(i))) / _samples;
+        done += target(int(i)) == 0 ? 1.0 : (count(int(i)) - _begin) / samples;
     return _tiles.empty() ? 1.0 : done / double(_tiles.size());
 }
 
@@ -68,7 +63,7 @@ int TileSchedule::samplesDone() const {
     int fewest = _samples;
     for (size_t i = 0; i < _tiles.size(); ++i)
         fewest = std::min(fewest, count(int(i)));
-    return fewest;
+    return std::max(0, fewest - _begin);
 }
 
 double TileSchedule::relativeError(const Tile& tile) const {

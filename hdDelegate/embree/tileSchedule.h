@@ -1,26 +1,22 @@
 #pragma once
 
 #include "hdDelegate/film/film.h"
+#include "hdDelegate/film/tiles.h"
 #include "hdDelegate/scene/settings.h"
 
 #include <vector>
 
 namespace patina {
 
-/// A rectangle of pixels, ends excluded.
-struct Tile {
-    int x0, y0, x1, y1;
-};
-
 /// Decides which tile takes how many samples next.
 ///
 /// Every tile steps through the same sample counts (film/relativeError.h). Whether it goes on is a
 /// function of its own pixels at some of these, so neither threads, nor the order of tiles, nor an
-/// interruption changes what a finished image contains.
+/// interruption changes what a finished image contains. A part of a cut frame that begins later
+/// knows nothing of the samples before: it takes all of its own, and the tiles decide when parts
+/// are merged (film/partial.h).
 class TileSchedule {
 public:
-    static constexpr int tileSize = 16;
-
     TileSchedule(const Film& film, const RenderSettings& settings);
 
     const std::vector<Tile>& tiles() const { return _tiles; }
@@ -31,7 +27,7 @@ public:
     std::vector<int> pending() const;
     /// 0..1: samples taken over samples that may be needed.
     double fraction() const;
-    int samplesDone() const; ///< of the tile with the fewest
+    int samplesDone() const; ///< of the tile with the fewest, since RenderSettings::sampleBegin
 
     /// Of a tile's pixels, as of film/relativeError.h.
     double relativeError(const Tile& tile) const;
@@ -47,7 +43,7 @@ private:
     bool isEnough(int tile, int samples) const;
 
     const Film& _film;
-    int _samples, _minSamples;
+    int _begin, _samples, _minSamples;
     double _tolerance;
     std::vector<Tile> _tiles;
     mutable std::vector<ErrorCheck> _errorChecks; ///< beside _tiles

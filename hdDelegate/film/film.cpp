@@ -1,5 +1,6 @@
 #include "hdDelegate/film/film.h"
 
+#include "hdDelegate/film/spans.h"
 #include "hdDelegate/parallel.h"
 
 #include <algorithm>
@@ -18,6 +19,10 @@ constexpr float farAway = std::numeric_limits<float>::infinity();
 
 double luminanceOf(double r, double g, double b) {
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+}
+
+double luminanceOf(const double color[3]) {
+    return luminanceOf(color[0], color[1], color[2]);
 }
 
 bool usable(float v) {
@@ -43,11 +48,11 @@ bool alwaysThere(const std::string& name) {
 Film::Plane Film::clearedPlane(const AovSpec& spec, size_t pixels) {
     Plane plane;
     if (alwaysThere(spec.name)) return plane;
-    size_t stride = size_t(spec.components) + 1;
     if (spec.kind == AovKind::Mean) {
-        plane.sums.assign(stride * pixels, 0.0);
+        plane.sums.assign((2 * size_t(spec.components) + 1) * pixels, 0.0);
         return plane;
     }
+    const size_t stride = size_t(spec.components) + 1;
     plane.nearest.assign(stride * pixels, spec.clearValue);
     for (size_t i = stride - 1; i < plane.nearest.size(); i += stride)
         plane.nearest[i] = farAway;
@@ -69,6 +74,7 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
                 std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec);
     _denoised.clear();
     if (keep && same) return;
+    _firstSample = 0;
 
     size_t pixels = size_t(width) * size_t(height);
     _width = width;
@@ -101,30 +107,60 @@ bool Film::findSpec(const std::string& name, AovSpec& spec) const {
 
 bool Film::addColor(int x, int y, glm::vec3 radiance, float alpha) {
     Pixel& p = _pixels[index(x, y)];
-    if (p.count && !(p.count & (p.count - 1))) {
-        p.deviationBefore = deviationOfMean(p);
-        p.meanBefore = float(luminanceOf(p.sum[0], p.sum[1], p.sum[2]) / p.count);
-    }
+    lookAtMean(p);
     ++p.count;
-    bool goodAlpha = usable(alpha);
-    if (goodAlpha) p.alpha += alpha;
-    if (!goodAlpha || !usable(radiance.r) || !usable(radiance.g) || !usable(radiance.b)) {
+    const bool goodAlpha = usable(alpha);
+    const bool good =
+        goodAlpha && usable(radiance.r) && usable(radiance.g) && usable(radiance.b);
+    if (goodAlpha) p.open.alpha += alpha;
+    if (good) {
+        for (int i = 0; i < 3; ++i)
+            p.open.color[i] += radiance[i];
+        const double l = luminanceOf(radiance.r, radiance.g, radiance.b);
+        p.open.luminanceSquared += l * l;
+    } else {
         drop();
-        return false;
     }
-    p.sum[0] += radiance.r;
-    p.sum[1] += radiance.g;
-    p.sum[2] += radiance.b;
-    double l = luminanceOf(radiance.r, radiance.g, radiance.b);
-    p.luminanceSquared += l * l;
-    return true;
+    if (isSpanEnd(_firstSample + p.count)) closeSpan(index(x, y));
+    return good;
+}
+
+Film::Sums Film::Sums::operator+(const Sums& other) const {
+    Sums sum = *this;
+    for (int i = 0; i < 3; ++i)
+        sum.color[i] += other.color[i];
+    sum.alpha += other.alpha;
+    sum.luminanceSquared += other.luminanceSquared;
+    return sum;
+}
+
+/// Before a pixel's next sample: keeps the mean after each power of two.
+void Film::lookAtMean(Pixel& p) {
+    if (!p.count || (p.count & (p.count - 1))) return;
+    p.deviationBefore = deviationOfMean(p);
+    p.meanBefore = float(luminanceOf(p.total().color) / p.count);
+}
+
+void Film::closeSpan(size_t index) {
+    Pixel& p = _pixels[index];
+    p.closed = p.total();
+    p.open = Sums();
+    for (size_t a = 0; a < _planes.size(); ++a) {
+        if (_planes[a].sums.empty()) continue;
+        const size_t n = size_t(_aovs[a].components);
+        double* closed = &_planes[a].sums[index * (2 * n + 1)];
+        for (size_t i = 0; i < n; ++i) {
+            closed[i] += closed[n + i];
+            closed[n + i] = 0.0;
+        }
+    }
 }
 
 void Film::addAov(int aov, int x, int y, const float* values, float distance) {
     const AovSpec& spec = _aovs[size_t(aov)];
     Plane& plane = _planes[size_t(aov)];
-    size_t n = size_t(spec.components), at = index(x, y) * (n + 1);
-    bool first = spec.kind == AovKind::First;
+    const bool first = spec.kind == AovKind::First;
+    const size_t n = size_t(spec.components), at = index(x, y) * (first ? n + 1 : 2 * n + 1);
     if (first ? plane.nearest.empty() || !(distance < plane.nearest[at + n]) : plane.sums.empty())
         return;
     if (!spec.isInteger)
@@ -135,21 +171,23 @@ void Film::addAov(int aov, int x, int y, const float* values, float distance) {
         plane.nearest[at + n] = distance;
     } else {
         for (size_t i = 0; i < n; ++i)
-            plane.sums[at + i] += values[i];
-        plane.sums[at + n] += 1.0;
+            plane.sums[at + n + i] += values[i];
+        plane.sums[at + 2 * n] += 1.0;
     }
 }
 
 void Film::setMean(int x, int y, glm::vec3 color, float alpha) {
     Pixel& p = _pixels[index(x, y)];
     if (!p.count) return;
-    const double n = p.count, before = luminanceOf(p.sum[0], p.sum[1], p.sum[2]);
+    const Sums total = p.total();
+    const double n = p.count, before = luminanceOf(total.color);
+    p.open = Sums();
     // n has 32 bits and a float 24, so that sum / n is the very float again.
     for (int i = 0; i < 3; ++i)
-        p.sum[i] = n * double(color[i]);
-    p.alpha = n * double(alpha);
-    const double after = luminanceOf(p.sum[0], p.sum[1], p.sum[2]);
-    p.luminanceSquared += (after * after - before * before) / n;
+        p.closed.color[i] = n * double(color[i]);
+    p.closed.alpha = n * double(alpha);
+    const double after = luminanceOf(p.closed.color);
+    p.closed.luminanceSquared = total.luminanceSquared + (after * after - before * before) / n;
     p.meanBefore += float((after - before) / n);
 }
 
@@ -166,31 +204,34 @@ void Film::copyFrom(const Film& other) {
     _pixels = other._pixels;
     _planes = other._planes;
     _denoised = other._denoised;
+    _firstSample = other._firstSample;
     _dropped.store(other._dropped.load(std::memory_order_relaxed), std::memory_order_relaxed);
     resumeToken = other.resumeToken;
 }
 
 glm::vec3 Film::color(int x, int y) const {
     const Pixel& p = pixel(x, y);
-    double scale = p.count ? 1.0 / p.count : 0.0;
-    return {float(p.sum[0] * scale), float(p.sum[1] * scale), float(p.sum[2] * scale)};
+    const double scale = p.count ? 1.0 / p.count : 0.0;
+    const Sums sum = p.total();
+    return {float(sum.color[0] * scale), float(sum.color[1] * scale), float(sum.color[2] * scale)};
 }
 
 float Film::alpha(int x, int y) const {
     const Pixel& p = pixel(x, y);
-    return p.count ? float(p.alpha / p.count) : 0.0f;
+    return p.count ? float((p.closed.alpha + p.open.alpha) / p.count) : 0.0f;
 }
 
 float Film::luminance(int x, int y) const {
     const Pixel& p = pixel(x, y);
-    return p.count ? float(luminanceOf(p.sum[0], p.sum[1], p.sum[2]) / p.count) : 0.0f;
+    return p.count ? float(luminanceOf(p.total().color) / p.count) : 0.0f;
 }
 
 float Film::varianceOfMean(int x, int y) const {
     const Pixel& p = pixel(x, y);
     if (p.count < 2) return 0.0f;
-    double n = p.count, l = luminanceOf(p.sum[0], p.sum[1], p.sum[2]);
-    return float(std::max(0.0, (p.luminanceSquared - l * l / n) / (n - 1.0)) / n);
+    const Sums sum = p.total();
+    const double n = p.count, l = luminanceOf(sum.color);
+    return float(std::max(0.0, (sum.luminanceSquared - l * l / n) / (n - 1.0)) / n);
 }
 
 float Film::deviationOfMean(const Pixel& p) {
@@ -199,7 +240,7 @@ float Film::deviationOfMean(const Pixel& p) {
     while (first < p.count - first)
         first *= 2;
     const double n = p.count, part = first;
-    const double change = luminanceOf(p.sum[0], p.sum[1], p.sum[2]) / n - double(p.meanBefore);
+    const double change = luminanceOf(p.total().color) / n - double(p.meanBefore);
     const double latest = change * change * part / (n - part);
     if (first == 1) return float(std::sqrt(latest));
     const double earlier = double(p.deviationBefore) * double(p.deviationBefore) * part / n;
@@ -232,14 +273,15 @@ std::vector<float> Film::resolve(const std::string& name) const {
     } else {
         const Plane& plane = _planes[size_t(aovIndex(name))];
         eachPixel([&](int x, int y, float* to) {
-            size_t at = index(x, y) * (n + 1);
             if (spec.kind == AovKind::First) {
-                std::copy(&plane.nearest[at], &plane.nearest[at] + n, to);
+                const float* values = &plane.nearest[index(x, y) * (n + 1)];
+                std::copy(values, values + n, to);
                 return;
             }
-            double count = plane.sums[at + n];
+            const double* sums = &plane.sums[index(x, y) * (2 * n + 1)];
+            const double count = sums[2 * n];
             for (size_t i = 0; i < n; ++i)
-                to[i] = count > 0 ? float(plane.sums[at + i] / count) : spec.clearValue;
+                to[i] = count > 0 ? float((sums[i] + sums[n + i]) / count) : spec.clearValue;
         });
     }
     return out;

@@ -37,8 +37,8 @@ AovSpec standardAov(const std::string& name);
 std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names);
 
 /// Accumulates what a renderer finds. Row 0 is the top row. One thread writes one pixel at a time;
-/// different pixels may be written at once. Sums are kept in double so that the order of passes
-/// does not matter to the printed digits.
+/// different pixels may be written at once. Sums are kept in double and in a fixed order, span by
+/// span (spans.h), so that a frame can be cut into parts that add up to its bits.
 class Film {
 public:
     /// Clears everything unless size and AOVs are as before and keep is set. color, alpha,
@@ -51,9 +51,17 @@ public:
     const std::vector<AovSpec>& aovs() const { return _aovs; }
     int aovIndex(const std::string& name) const; ///< -1 when absent
 
-    /// Colour and alpha always exist. Not finite or negative samples are counted and dropped as a
-    /// whole (the sample counts as black); @returns false then. The alpha of such a sample is kept
-    /// when it is a number, so that a dropped sample makes no hole.
+    /// After reset(): the film holds samples from this one on, as a part of a frame does, and
+    /// within one span. 0 of a whole frame.
+    void setFirstSample(uint32_t index) { _firstSample = index; }
+    uint32_t firstSample() const { return _firstSample; }
+    /// Index of the sample that a pixel takes next.
+    uint32_t nextSample(int x, int y) const { return _firstSample + pixel(x, y).count; }
+
+    /// Colour and alpha always exist, and come last of a sample's values. Not finite or negative
+    /// samples are counted and dropped as a whole (the sample counts as black); @returns false
+    /// then. The alpha of such a sample is kept when it is a number, so that a dropped sample makes
+    /// no hole.
     bool addColor(int x, int y, glm::vec3 radiance, float alpha);
     /// Values that are not finite (and not ids) are counted and dropped as a whole.
     /// @param distance of the sample from the pixel's centre, for AovKind::First; of equally near
@@ -104,18 +112,27 @@ public:
     void loadCheckpoint(const std::string& file);
 
 private:
-    struct Pixel {
-        double sum[3] = {0, 0, 0};
+    friend class FilmStream;
+
+    struct Sums {
+        double color[3] = {0, 0, 0};
         double alpha = 0;
         double luminanceSquared = 0;
+        Sums operator+(const Sums& other) const;
+    };
+    struct Pixel {
+        Sums closed; ///< of the spans that have ended
+        Sums open;   ///< of the span that has not
         uint32_t count = 0;
+        Sums total() const { return closed + open; }
         // Of the luminance's mean at the largest power of two below count:
         float meanBefore = 0;
         float deviationBefore = 0; ///< as deviationOfMean() was there; 0 of one sample
         uint32_t reserved = 0;     ///< no padding: checkpoints hold the bytes
     };
-    /// Means keep components sums and their count, the others components values and the distance
-    /// of the sample. Only the vector of the AOV's kind is filled.
+    /// Means keep components sums of closed spans, as many of the open one, and their count; the
+    /// others components values and the distance of the sample. Only the vector of the AOV's kind
+    /// is filled.
     struct Plane {
         std::vector<double> sums;
         std::vector<float> nearest;
@@ -124,6 +141,8 @@ private:
     size_t index(int x, int y) const { return size_t(y) * size_t(_width) + size_t(x); }
     const Pixel& pixel(int x, int y) const { return _pixels[index(x, y)]; }
     static float deviationOfMean(const Pixel& pixel);
+    static void lookAtMean(Pixel& pixel);
+    void closeSpan(size_t index);
     void drop() { _dropped.fetch_add(1, std::memory_order_relaxed); }
     static Plane clearedPlane(const AovSpec& spec, size_t pixels);
 
@@ -133,6 +152,7 @@ private:
     std::vector<Plane> _planes;   ///< beside _aovs; empty for those that always exist
     std::vector<float> _denoised; ///< what shows instead of the colour's means, or empty
     std::atomic<uint64_t> _dropped{0};
+    uint32_t _firstSample = 0;
 };
 
 } // namespace patina

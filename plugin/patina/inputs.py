@@ -42,6 +42,22 @@ def note_document(path):
                 waiting.append(more)
 
 
+def files():
+    """:returns: sorted list of the noted files; of <UDIM> those tiles that are there"""
+    found = set()
+    for file in _noted:
+        if _UDIM not in file:
+            found.add(file)
+            continue
+        folder, name = os.path.split(file)
+        tile = re.escape(name).replace(re.escape(_UDIM), r"\d{4}")
+        try:
+            found.update(os.path.join(folder, other) for other in os.listdir(folder) if re.fullmatch(tile, other))
+        except OSError:
+            found.add(file)
+    return sorted(found)
+
+
 def read_by(path):
     """:returns: the noted file that a path leads to, or None"""
     try:

@@ -38,9 +38,40 @@ py::dict machine() {
     return dict;
 }
 
+/// What the arithmetic of a render depends on, besides the text: what the compiler may use, what
+/// Embree chooses from when it runs, and the machine's own processor.
+std::string instructionSet() {
+    std::string built = "generic";
+#if defined(__x86_64__)
+    built = "x86-64";
+#elif defined(__aarch64__)
+    built = "aarch64";
+#endif
+#ifdef __AVX2__
+    built += " AVX2";
+#endif
+#ifdef __FMA__
+    built += " FMA";
+#endif
+#ifdef __AVX512F__
+    built += " AVX512";
+#endif
+    std::string found;
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("sse4.2")) found = "SSE4.2";
+    if (__builtin_cpu_supports("avx")) found = "AVX";
+    if (__builtin_cpu_supports("avx2")) found = "AVX2";
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) found = "AVX512";
+#endif
+    return built + (found.empty() ? "" : ", on " + found);
+}
+
 } // namespace
 
 void bindMachine(py::module_& m) {
+    m.def("instruction_set", &instructionSet,
+          "What this build computes with, in words: renders of two machines have equal bits where "
+          "build and instruction set are equal.");
     m.def("machine", &machine,
           "A dict: compiler, openglRenderer, openglVersion, and openglError, why there is no "
           "OpenGL.");

@@ -29,6 +29,7 @@ void bindNetwork(py::module_& m);
 void bindScene(py::module_& m);
 #ifdef PATINA_BIND_FILM
 void bindFilm(py::module_& m);
+void bindPartial(py::module_& m);
 #endif
 #ifdef PATINA_BIND_RENDER
 void bindRender(py::module_& m);
@@ -98,6 +99,7 @@ Film, images and colour; Renderer and its settings; materials: see the classes' 
     patina::bindScene(m);
 #ifdef PATINA_BIND_FILM
     patina::bindFilm(m);
+    patina::bindPartial(m);
 #endif
 #ifdef PATINA_BIND_RENDER
     patina::bindRender(m);

@@ -46,7 +46,7 @@ class Checkout:
         for folder in FOLDERS:
             write(root / folder / "a.txt", "text")
         for name in ("patina", "requirements.txt", "requirements-test.txt", "requirements-compare.txt",
-                     "requirements-browser.txt", "requirements-denoise.txt", "CMakeLists.txt"):
+                     "requirements-browser.txt", "requirements-denoise.txt", "requirements-farm.txt", "CMakeLists.txt"):
             shutil.copy(os.path.join(ROOT, name), root / name)
         write(root / ".venv" / "bin" / "python", PYTHON, program=True)
         write(tools / "cmake", CMAKE, program=True)

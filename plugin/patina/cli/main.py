@@ -13,6 +13,8 @@ from patina.cli.errors import CommandError, UsageError
 # name -> module of patina.cli that has HELP, add_arguments(parser) and run(arguments)
 COMMANDS = {
     "record": "record",
+    "merge": "merge",
+    "farm": "farm",
     "explain": "explain",
     "bsdf": "bsdf",
     "check": "check",
@@ -27,6 +29,8 @@ COMMANDS = {
 
 SUMMARIES = {
     "record": "render a stage to images",
+    "merge": "put the parts of a cut frame together",
+    "farm": "render frames and parts of them on many machines",
     "explain": "show what is modelled of a material, and what was left out",
     "check": "energy, sampling, densities and numbers of materials, checked",
     "bake": "write a material as textures of another shading model",

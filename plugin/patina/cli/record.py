@@ -3,6 +3,7 @@
   patina record shot.usda shot.png
   patina record shot.usda shot.###.exr --frames 101:110 --samples 256 --aov all
   patina record shot.usda shot.exr --tolerance 0.01 --seconds 600 --json
+  patina record shot.usda shot.exr --part 3/8 --partial shot.3.part    an eighth of it, for `patina merge`
 
 Warnings are told by their causes: first errors (something that was authored is missing from the image), then warnings (a
 default or an approximation is used), those that are met most often first, 20 at most. --json has all of them.
@@ -16,17 +17,19 @@ from patina.cli import checkpoints, compiled, denoiser, frames, openStage, outpu
 from patina.cli.errors import CommandError
 from patina.cli.interrupts import Endings, Interrupts
 from patina.cli.progress import Progress
+from patina.farm import partJob
 
 add_arguments = recordFlags.add_arguments
 DEFAULT_WIDTH = 960
 
 
 def run(arguments):
+    partJob.check(arguments)
     _patina = compiled.load()
     settings = recordFlags.settings_of(arguments)
     purposes = recordFlags.purposes_of(arguments)
     overrides.parse(arguments.set)
-    job = _Job(_patina, arguments, settings, purposes)
+    job = (partJob.of(_Job) if arguments.part else _Job)(_patina, arguments, settings, purposes)
     job.open()
     try:
         for frame, image in job.plan:

@@ -3,6 +3,7 @@ import math
 
 from patina.cli import denoiser, frames, methods, overrides, rows, settingFlags
 from patina.cli.errors import UsageError
+from patina.farm import cut
 
 COMPLEXITIES = {"low": 1.0, "medium": 1.1, "high": 1.2, "veryhigh": 1.3}
 DEFAULT_SAMPLES = 64
@@ -92,6 +93,11 @@ def _add_run_flags(group):
     settingFlags.add(group, "the run", _TEXTS)
     group.add_argument("--keepCheckpoint", action="store_true",
                        help="save the checkpoint at the end and keep it, to add samples later with --resume")
+    group.add_argument("--part", type=cut.part, metavar="K/TILES[xRANGES]",
+                       help="render one part of the frame, from 1 to TILES times RANGES: its tiles are cut into so many "
+                            "groups, and the samples of each into so many ranges; --partial takes it")
+    group.add_argument("--partial", metavar="FILE", help="the part's file; `patina merge` makes IMAGE of all of them, with the "
+                                                         "bits of the frame rendered at once")
     group.add_argument("--strict", action="store_true", help="warnings make the render fail")
     group.add_argument("--json", metavar="FILE",
                        help="statistics (times by phase, rays, samples, memory, warnings): --json to standard "

@@ -88,6 +88,16 @@ class Statistics:
             if error is not None:
                 self._frame["estimatedError"] = error
 
+    @property
+    def frame(self):
+        """The time code that is being rendered; None is the default time."""
+        return self._frame["frame"]
+
+    @property
+    def seconds(self):
+        """Of the frame that is being rendered, by phase."""
+        return self._frame["seconds"]
+
     def warn(self, prim, name, message):
         self._own.append(warning(message, prim, name))
 

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "hdDelegate/film/atomicFile.h"
+#include "hdDelegate/film/filmFile.h"
+#include "hdDelegate/film/tiles.h"
+
+#include <string>
+#include <vector>
+
+namespace patina {
+
+class Film;
+
+/// Writes what one part of a cut frame has found: films of the same tiles, each with the samples of
+/// one span (spans.h), or with all samples from 0 to the end of some span.
+/// @throws std::runtime_error with a one-line reason
+class PartialWriter {
+public:
+    /// @param file appears all at once, when commit() is called
+    /// @param description what made the part; its host reads it
+    PartialWriter(const std::string& file, const std::string& description,
+                  std::vector<Tile> tiles);
+    void add(const Film& film);
+    /// @param report what the render told; its host reads it
+    void commit(const std::string& report);
+
+private:
+    AtomicFile _target;
+    FilmFileWriter _file;
+    std::vector<Tile> _tiles;
+};
+
+/// @returns what PartialWriter was given
+std::string partialDescription(const std::string& file);
+
+/// What decides about a tile after some samples, as TileSchedule does.
+struct PartialMerge {
+    double tolerance = 0.0; ///< of noise; 0 or less: all samples count
+    int minSamples = 0;
+};
+
+/// Adds a part to a film: to an empty one, or behind the samples of the parts before. Parts of
+/// other tiles may come in any order, those of the same tiles in that of their samples. Samples of
+/// tiles that have enough before them are left out.
+/// @param film is undefined after a failure
+/// @returns the report
+std::string mergePartial(Film& film, const std::string& file, const PartialMerge& merge);
+
+} // namespace patina

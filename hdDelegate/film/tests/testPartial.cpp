@@ -1,0 +1,171 @@
+#include "hdDelegate/film/partial.h"
+
+#include "hdDelegate/film/film.h"
+#include "hdDelegate/film/relativeError.h"
+#include "hdDelegate/film/spans.h"
+#include "hdDelegate/film/tests/tempFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+namespace patina {
+
+namespace {
+
+constexpr int width = 37, height = 21; // neither is a multiple of a tile's side
+
+const std::vector<AovSpec> someAovs = {standardAov("albedo"), standardAov("primId"),
+                                       standardAov("normal")};
+
+/// A sample that depends on pixel and index alone, with a range that makes sums round.
+void addSample(Film& film, int x, int y, uint32_t index) {
+    std::minstd_rand random(index * 7919u + uint32_t(y) * 131u + uint32_t(x) + 1u);
+    random.discard(3);
+    std::uniform_real_distribution<float> exponent(-20.0f, 20.0f), u(-1.0f, 1.0f);
+    const glm::vec3 values(u(random), u(random), u(random));
+    for (int aov = 0; aov < 3; ++aov)
+        film.addAov(aov, x, y, &values.x, u(random) + 1.0f);
+    const float dropped = random() % 50 == 0 ? -1.0f : 1.0f;
+    film.addColor(x, y,
+                  dropped * glm::vec3(std::exp2(exponent(random)), std::exp2(exponent(random)),
+                                      std::exp2(exponent(random))),
+                  0.3f);
+}
+
+void addSamples(Film& film, const Tile& tile, uint32_t begin, uint32_t end) {
+    for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x)
+            for (uint32_t i = begin; i < end; ++i)
+                addSample(film, x, y, i);
+}
+
+std::string bytesOf(const Film& film, const TempFolder& temp) {
+    film.saveCheckpoint(temp.file("bytes"));
+    std::ifstream in(temp.file("bytes"), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+void savePart(const std::string& file, const std::vector<Tile>& tiles, uint32_t begin,
+              uint32_t end) {
+    PartialWriter writer(file, "", tiles);
+    for (uint32_t first = begin; first < end;) {
+        const uint32_t last = first == 0 ? end : std::min(nextSpanEnd(first), end);
+        Film film;
+        film.reset(width, height, someAovs);
+        film.setFirstSample(first);
+        for (const Tile& tile : tiles)
+            addSamples(film, tile, first, last);
+        writer.add(film);
+        first = last;
+    }
+    writer.commit("");
+}
+
+} // namespace
+
+TEST(Spans, EndWhereTilesStopAndErrorsAreLookedAt) {
+    uint32_t end = 0;
+    for (int step = 0; step < (1 << 20); step = nextStep(step, 1 << 21)) {
+        if (uint32_t(step) == nextSpanEnd(end)) end = uint32_t(step);
+        EXPECT_LT(uint32_t(step), nextSpanEnd(end)) << "tiles step over the end of a span";
+        EXPECT_EQ(isSpanEnd(uint32_t(step)), step > 0 && uint32_t(step) == end);
+    }
+    for (int samples = 1; samples < (1 << 16); ++samples)
+        EXPECT_TRUE(isSpanEnd(uint32_t(samples)) || !isErrorStep(samples)) << samples;
+}
+
+TEST(Tiles, PartsHoldEachTileOnceAndEquallyMany) {
+    const std::vector<Tile> all = tilesOf(width, height, {3, 2, 30, 19});
+    for (int parts : {1, 2, 3, 4, 7}) {
+        std::vector<int> covered(size_t(width * height), 0);
+        for (int part = 0; part < parts; ++part) {
+            const std::vector<Tile> tiles = tilesOfPart(all, part, parts);
+            EXPECT_LE(tiles.size(), all.size() / size_t(parts) + 1);
+            EXPECT_GE(tiles.size(), all.size() / size_t(parts));
+            for (const Tile& t : tiles)
+                for (int y = t.y0; y < t.y1; ++y)
+                    for (int x = t.x0; x < t.x1; ++x)
+                        ++covered[size_t(y * width + x)];
+        }
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                EXPECT_EQ(covered[size_t(y * width + x)], x >= 3 && x <= 30 && y >= 2 && y <= 19);
+    }
+}
+
+/// Every accumulator, and so the film's checkpoint, is that of the film that took all samples.
+TEST(Partial, AnyCutAddsUpToTheBitsOfTheWhole) {
+    const TempFolder temp;
+    for (const uint32_t samples : {5u, 100u, 300u}) {
+        Film whole;
+        whole.reset(width, height, someAovs);
+        addSamples(whole, {0, 0, width, height}, 0, samples);
+        const std::string expected = bytesOf(whole, temp);
+        const std::vector<Tile> tiles = tilesOf(width, height, {0, 0, -1, -1});
+        for (const auto& ends : std::vector<std::vector<uint32_t>>{
+                 {samples}, {1, 4, samples}, {4, 64, 80, 96, samples}, {2, 48, samples}}) {
+            Film merged;
+            for (int part = 2; part >= 0; --part) {
+                uint32_t begin = 0;
+                for (const uint32_t cut : ends) {
+                    const uint32_t end = std::min(cut, samples);
+                    if (end <= begin) continue;
+                    savePart(temp.file("part"), tilesOfPart(tiles, part, 3), begin, end);
+                    mergePartial(merged, temp.file("part"), {});
+                    begin = end;
+                }
+            }
+            EXPECT_EQ(bytesOf(merged, temp), expected) << samples << " samples";
+        }
+    }
+}
+
+/// Sums in one order are not those in another: without spans the test above would pass for nothing.
+TEST(Partial, CutsBetweenTheEndsOfSpansWouldShow) {
+    const TempFolder temp;
+    Film whole;
+    whole.reset(width, height, someAovs);
+    addSamples(whole, {0, 0, width, height}, 0, 100);
+    const std::vector<Tile> tiles = tilesOf(width, height, {0, 0, -1, -1});
+    Film merged;
+    for (const auto& [begin, end] : {std::pair(0u, 41u), std::pair(41u, 100u)}) {
+        Film film;
+        film.reset(width, height, someAovs);
+        for (const Tile& tile : tiles)
+            addSamples(film, tile, begin, end);
+        PartialWriter writer(temp.file("part"), "", tiles);
+        film.setFirstSample(begin);
+        writer.add(film);
+        writer.commit("");
+        mergePartial(merged, temp.file("part"), {});
+    }
+    EXPECT_NE(bytesOf(merged, temp), bytesOf(whole, temp));
+}
+
+TEST(Partial, TruncationsAndFlippedBytesAreNoticed) {
+    const TempFolder temp;
+    savePart(temp.file("good"), {{0, 0, 2, 2}}, 0, 1);
+    std::ifstream in(temp.file("good"), std::ios::binary);
+    const std::string good(std::istreambuf_iterator<char>(in), {});
+    const auto refused = [&](const std::string& bytes) {
+        std::ofstream(temp.file("bad"), std::ios::binary) << bytes;
+        Film film;
+        EXPECT_THROW(mergePartial(film, temp.file("bad"), {}), std::runtime_error);
+    };
+    for (size_t size = 0; size < good.size(); size += 3)
+        refused(good.substr(0, size));
+    for (size_t i = 0; i < good.size(); i += 2) {
+        std::string flipped = good;
+        flipped[i] ^= 0x10;
+        refused(flipped);
+    }
+    Film film;
+    mergePartial(film, temp.file("good"), {});
+    EXPECT_EQ(film.sampleCount(1, 1), 1u);
+}
+
+} // namespace patina

@@ -1,0 +1,107 @@
+"""Renders frames and parts of them on many workers, by Dask (`distributed`) or as an Open Job Description.
+
+  patina farm shot.usda shot.####.exr --frames 1:240 --cut 4x4 --engine dask://farm --samples 256
+  patina farm shot.usda shot.####.exr --frames 1:240 --engine slurm:16 --engineOption queue=render --engineOption cores=8
+  patina farm shot.usda shot.####.exr --frames 1:240 --cut 4 --write-job job.yaml
+
+All flags of `patina record` that are not named below are taken, too, and mean the same for every frame. A frame that is cut
+has the bits of the frame rendered at once. Workers reach the stage, what it reads and the images by the sender's own paths;
+whichever cannot is named before anything is rendered. Parts lie in IMAGE.parts until the image is written; logs of parts
+that failed stay there.
+"""
+import argparse
+import os
+
+from patina.cli import compiled, frames, openStage, outputs, recordFlags
+from patina.cli.errors import UsageError
+from patina.farm import cut, engines
+
+PASSES_ON = True  # to `patina record`
+
+
+def add_arguments(parser):
+    parser.usage = "patina farm STAGE IMAGE [--frames SPEC] [--cut TILES[xRANGES]] [--engine ENGINE] [flags of patina record]"
+    parser.add_argument("--frames", "-f", metavar="FRAMESPEC", help=frames.FRAMESPEC_HELP)
+    parser.add_argument("--cut", type=cut.cut, default=cut.Cut(1), metavar="TILES[xRANGES]",
+                        help="cut each frame into so many groups of tiles, and the samples of each into so many ranges "
+                             "(default: 1, whole frames)")
+    parser.add_argument("--engine", default="local", metavar="ENGINE", help=engines.HELP)
+    parser.add_argument("--engineOption", action="append", default=[], metavar="NAME=VALUE",
+                        help="of Dask's class for the engine (repeatable), such as queue=render, cores=8, memory=32GiB, "
+                             "walltime=04:00:00 or image=ghcr.io/studio/patina")
+    parser.add_argument("--threads", type=int, default=None, metavar="N",
+                        help="that a task takes (default: the worker's cores)")
+    parser.add_argument("--resume", action="store_true", help="leave out images that are there, and parts that fit")
+    parser.add_argument("--allowMixed", action="store_true",
+                        help="take workers of other builds and instruction sets: images have no defined bits then")
+    parser.add_argument("--write-job", metavar="FILE", dest="writeJob",
+                        help="write an Open Job Description (2023-09, .yaml or .json) instead: frames, parts and merges as "
+                             "steps")
+    parser.add_argument("--simulate", metavar="WORKERS[,WORKERS...]",
+                        help="after the job, tell from its times what so many workers would give")
+    parser.add_argument("--json", metavar="FILE", nargs="?", const="-",
+                        help="seconds of tasks and workers: --json last to standard output, --json=FILE to a file")
+    parser.add_argument("--quiet", "-q", action="store_true", help="errors only")
+
+
+def run(arguments):
+    record = _record_arguments(arguments)
+    engine = engines.parse(arguments.engine, arguments.engineOption)
+    counts = _counts(arguments.simulate)
+    module = compiled.load()
+    outputs.check_all([arguments.json, arguments.writeJob])
+    settings = recordFlags.settings_of(record)
+    recordFlags.purposes_of(record)
+    cut.ranges(module.span_ends(settings["samples"]), arguments.cut.ranges)
+    stage = openStage.open_stage(record.stage, record.mask, record.sessionLayer)
+    shots = frames.plan(record, stage)
+    for _, image in shots:
+        outputs.check(image)
+    if arguments.writeJob:
+        from patina.farm import jobs
+
+        jobs.write(arguments.writeJob, arguments, record, shots)
+        return
+    from patina.farm import job
+
+    job.Job(module, engine, arguments, record, shots, _files(record)).run(counts)
+
+
+def _record_arguments(arguments):
+    """:returns: what `patina record` would have parsed of the flags that are not the farm's own"""
+    from patina.cli import main
+
+    parser = main._Parser(prog="patina farm")
+    recordFlags.add_arguments(parser)
+    argv = main._normalise(arguments.passed_on + ([f"--frames={arguments.frames}"] if arguments.frames else []))
+    record = parser.parse_args(argv)
+    for name in ("part", "partial", "keepCheckpoint"):
+        if getattr(record, name):
+            raise UsageError(f"patina farm: --{name} is the farm's own business")
+    if arguments.cut.parts > 1:
+        from patina.farm import partJob
+
+        partJob.check(argparse.Namespace(**dict(vars(record), part=cut.Part(1, arguments.cut), partial="part")))
+    return record
+
+
+def _counts(text):
+    """:returns: list of numbers of workers to simulate"""
+    try:
+        counts = [int(word) for word in text.split(",")] if text else []
+    except ValueError:
+        counts = [0]
+    if any(not 1 <= count <= 100000 for count in counts):
+        raise UsageError(f"patina farm: --simulate {text}: write numbers of workers, as in 10,100,1000")
+    return counts
+
+
+def _files(record):
+    """:returns: absolute paths of all that a worker has to read, as far as the stage names it"""
+    from pxr import UsdUtils
+
+    layers, assets, _ = UsdUtils.ComputeAllDependencies(record.stage)
+    files = [layer.realPath for layer in layers if layer.realPath] + [str(asset) for asset in assets]
+    files += [record.sessionLayer] if record.sessionLayer else []
+    # What is in a package is the package's.
+    return sorted({os.path.abspath(file.partition("[")[0]) for file in files})

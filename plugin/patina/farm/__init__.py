@@ -1,0 +1,1 @@
+"""Frames over many machines: parts of cut frames, what made them, and the engines that spread them."""

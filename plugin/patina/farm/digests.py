@@ -1,0 +1,62 @@
+"""Digests of files. Those of large files are kept between processes, by the file's path, size and time of change."""
+import contextlib
+import hashlib
+import json
+import os
+import tempfile
+
+KEPT_FROM = 1 << 20  # bytes: smaller files are read again
+_CHUNK = 1 << 20
+
+
+def of_file(path):
+    """:returns: hexadecimal digest of a file's content
+    :raises OSError: where it cannot be read"""
+    status = os.stat(path)
+    if status.st_size < KEPT_FROM:
+        return _read(path)
+    place = _place(path)
+    state = [status.st_size, status.st_mtime_ns]
+    with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
+        with open(place, encoding="utf-8") as file:
+            kept = json.load(file)
+        if kept["state"] == state:
+            return str(kept["digest"])
+    digest = _read(path)
+    with contextlib.suppress(OSError):
+        _keep(place, {"state": state, "digest": digest})
+    return digest
+
+
+def _read(path):
+    digest = hashlib.sha256()
+    with open(path, "rb") as file:
+        for chunk in iter(lambda: file.read(_CHUNK), b""):
+            digest.update(chunk)
+    return digest.hexdigest()
+
+
+def _place(path):
+    name = hashlib.sha256(os.path.realpath(path).encode(errors="surrogateescape")).hexdigest()
+    return os.path.join(_folder(), name + ".json")
+
+
+def _folder():
+    """:returns: beside what the renderer keeps ($PATINA_CACHE, or the user's own cache)"""
+    if os.environ.get("PATINA_CACHE"):
+        return os.path.join(os.environ["PATINA_CACHE"], "digests")
+    base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
+    return os.path.join(base, "patina", "digests")
+
+
+def _keep(place, value):
+    os.makedirs(os.path.dirname(place), exist_ok=True)
+    handle, temporary = tempfile.mkstemp(dir=os.path.dirname(place))
+    try:
+        with open(handle, "w", encoding="utf-8") as file:
+            json.dump(value, file)
+        os.replace(temporary, place)
+    except OSError:
+        with contextlib.suppress(OSError):
+            os.remove(temporary)
+        raise

@@ -1,0 +1,143 @@
+"""What runs the parts: a Dask cluster that is there, one of this machine, or one that a queue or Kubernetes starts."""
+import contextlib
+import json
+import os
+import re
+import shlex
+import sys
+from dataclasses import dataclass, field
+
+from patina.cli.errors import CommandError, UsageError
+
+QUEUES = {"slurm": "SLURMCluster", "pbs": "PBSCluster", "lsf": "LSFCluster", "sge": "SGECluster"}
+HELP = ("dask://HOST[:PORT] is a scheduler that runs; local:N starts N workers here; slurm:N, pbs:N, lsf:N and sge:N ask a "
+        "queue for N jobs; k8s:N asks Kubernetes for N pods (default: local, with two cores or more for each worker)")
+PORT = 8786  # Dask's own
+
+
+@dataclass(frozen=True)
+class Engine:
+    kind: str  # dask, local, k8s or one of QUEUES
+    address: str = ""  # of a scheduler
+    workers: int = 0  # to start
+    options: dict = field(default_factory=dict)  # of the cluster's class
+
+
+def parse(text, options):
+    """:param options: list of NAME=VALUE
+    :raises UsageError: where there is no such engine"""
+    known = _options(options)
+    if text.startswith(("dask://", "tcp://", "tls://")):
+        scheme, _, host = text.partition("://")
+        if not re.fullmatch(r"(\[[0-9a-fA-F:]+\]|[\w.-]+)(:\d+)?/?", host):
+            raise UsageError(f"patina farm: --engine {text}: '{host}' is no host")
+        host = host.rstrip("/")
+        address = host if re.search(r":\d+$", host) else f"{host}:{PORT}"
+        return Engine("dask", f"{'tls' if scheme == 'tls' else 'tcp'}://{address}", 0, known)
+    kind, colon, count = text.partition(":")
+    if kind not in ("local", "k8s", *QUEUES) or (colon and not re.fullmatch(r"[1-9]\d{0,4}", count)):
+        raise UsageError(f"patina farm: --engine {text}: there is none such ({HELP.partition(' (default')[0]})")
+    if kind != "local" and not colon:
+        raise UsageError(f"patina farm: --engine {text}: say how many workers, as in {kind}:8")
+    return Engine(kind, "", int(count) if colon else max(1, (os.cpu_count() or 1) // 2), known)
+
+
+def _options(texts):
+    found = {}
+    for text in texts:
+        name, equals, value = text.partition("=")
+        if not equals or not name.isidentifier():
+            raise UsageError(f"patina farm: --engineOption {text}: write it as name=value")
+        try:
+            found[name] = json.loads(value)
+        except ValueError:
+            found[name] = value
+    return found
+
+
+def threads(engine):
+    """:returns: how many threads a part takes; 0: all of its machine"""
+    if engine.kind == "local":
+        return max(1, (os.cpu_count() or 1) // engine.workers)
+    return int(engine.options.get("cores", 1)) if engine.kind in QUEUES else 0
+
+
+class Cluster:
+    """The workers of an engine, while the block lasts."""
+
+    def __init__(self, engine):
+        self.engine = engine
+        self._cluster = self.client = None
+
+    def __enter__(self):
+        _quiet()
+        distributed = _import("distributed", "distributed")
+        try:
+            if self.engine.kind == "dask":
+                self.client = distributed.Client(self.engine.address, timeout="30s", **self.engine.options)
+            else:
+                self._cluster = self._start(distributed)
+                self.client = distributed.Client(self._cluster)
+        except (OSError, RuntimeError, ValueError, TypeError) as error:
+            self.__exit__()
+            place = self.engine.address or self.engine.kind
+            raise CommandError(f"no workers of {place}: {' '.join(str(error).split()) or type(error).__name__}") from error
+        return self
+
+    def __exit__(self, *_):
+        for one in (self.client, self._cluster):
+            if one is not None:
+                one.close()
+
+    def dashboard(self):
+        """:returns: the address of Dask's own page, or an empty text"""
+        return getattr(self.client, "dashboard_link", "") or ""
+
+    def _start(self, distributed):
+        engine = self.engine
+        if engine.kind == "local":
+            return distributed.LocalCluster(**{"n_workers": engine.workers, "threads_per_worker": 1, "processes": True,
+                                               "memory_limit": 0, "dashboard_address": "127.0.0.1:0", **engine.options})
+        if engine.kind == "k8s":
+            operator = _import("dask_kubernetes.operator", "dask-kubernetes")
+            cluster = operator.KubeCluster(**{"name": "patina", "n_workers": engine.workers, "env": environment(),
+                                              **engine.options})
+            return cluster
+        jobqueue = _import("dask_jobqueue", "dask-jobqueue")
+        cluster = getattr(jobqueue, QUEUES[engine.kind])(**{
+            "cores": 1, "processes": 1, "memory": "4GiB", "python": sys.executable,
+            "job_script_prologue": [f"export {name}={shlex.quote(value)}" for name, value in environment().items()],
+            # One part at a time, which takes all of a job's cores.
+            "worker_extra_args": ["--nthreads", "1"], **engine.options})
+        cluster.scale(jobs=engine.workers)
+        return cluster
+
+
+def environment():
+    """:returns: dict of what a worker's Python needs to find this Patina"""
+    import patina
+
+    module = sys.modules.get("_patina")
+    paths = [os.path.dirname(os.path.dirname(os.path.abspath(patina.__file__)))]
+    if module:
+        paths.append(os.path.dirname(os.path.abspath(module.__file__)))
+    kept = {name: os.environ[name] for name in ("PATINA_BUILD_DIR", "PATINA_CACHE", "PATINA_OIDN_LIBRARY", "OCIO",
+                                                "PXR_AR_DEFAULT_SEARCH_PATH") if os.environ.get(name)}
+    return {"PYTHONPATH": os.pathsep.join(dict.fromkeys(paths)), "PYTHONSAFEPATH": "1", **kept}
+
+
+def _quiet():
+    """Dask would write of every worker that comes and goes, over the line of progress."""
+    with contextlib.suppress(ImportError):
+        import dask
+
+        dask.config.set({"logging": {name: "critical" for name in ("distributed", "distributed.client", "distributed.nanny")}})
+
+
+def _import(name, package):
+    import importlib
+
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        raise CommandError(f"this engine needs {package} (pip install {package}): {error}") from error

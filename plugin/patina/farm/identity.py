@@ -1,0 +1,85 @@
+"""What made a part: everything that the bits of a frame depend on. Parts with the same go together."""
+import hashlib
+import json
+import os
+
+from patina import __version__, inputs
+from patina.farm import digests
+
+FORMAT = 1
+_OF_PARTS = ("sampleBegin", "sampleEnd", "tilePart", "tileParts")
+# What the back end decides about every part alike, or what only one machine's run is about.
+_OF_RUNS = ("threads", "seconds", "checkpointFile", "checkpointSeconds", "interactive")
+
+
+MACHINE = ("version", "build", "instruction set")  # of two machines, these must be equal for equal bits
+
+
+def of_machine(module):
+    """:returns: dict of what this process computes with"""
+    return {"version": __version__, "build": digests.of_file(module.__file__)[:16], "instruction set": module.instruction_set()}
+
+
+def of_render(module, stage, settings, camera, others):
+    """:param module: _patina
+    :param settings: dict of render settings
+    :param others: dict of what else was asked for
+    :returns: dict that JSON can hold"""
+    kept = {name: value for name, value in settings.items() if name not in (*_OF_PARTS, *_OF_RUNS)}
+    what = {"format": FORMAT, **of_machine(module), "camera": camera, "files": _files(stage),
+            "settings": kept, **others}
+    return json.loads(json.dumps(what, default=str))
+
+
+def _files(stage):
+    """:returns: dict of name, relative to the stage's folder, -> digest: all layers, textures and documents that were read"""
+    root = stage.GetRootLayer().realPath
+    folder = os.path.dirname(root)
+    found = {}
+    for layer in stage.GetUsedLayers():
+        if layer.anonymous and layer != stage.GetSessionLayer():  # overrides are told by --set
+            found[f"anonymous {len(found)}"] = hashlib.sha256(layer.ExportToString().encode()).hexdigest()
+    for path in inputs.files():
+        try:
+            found[os.path.relpath(path, folder)] = digests.of_file(path)
+        except OSError:
+            found[os.path.relpath(path, folder)] = "missing"
+    return found
+
+
+def difference(a, b, where=""):
+    """:returns: in a few words the first thing in which two identities differ; an empty text where they do not"""
+    if isinstance(a, dict) and isinstance(b, dict):
+        for name in [*a, *(name for name in b if name not in a)]:
+            inner = difference(a.get(name), b.get(name), name if not where else f"{where} {name}")
+            if inner:
+                return inner
+        return ""
+    if a == b:
+        return ""
+    if where.startswith("files "):
+        name = where[len("files "):]
+        return f"{name} is another" if a and b else f"{name} is read by one of them alone"
+    return f"{where} is {_shown(a)}, not {_shown(b)}"
+
+
+def _shown(value):
+    text = "nothing" if value is None else str(value)
+    return text if len(text) <= 80 else text[:77] + "..."
+
+
+def still_true(module, what, stage):
+    """:returns: whether a part that was made earlier is of this Patina and of the files as they are now"""
+    if any(what.get(name) != value for name, value in of_machine(module).items()):
+        return False
+    folder = os.path.dirname(os.path.realpath(stage))
+    for name, digest in what.get("files", {}).items():
+        if name.startswith("anonymous "):
+            continue
+        try:
+            now = digests.of_file(os.path.join(folder, name))
+        except OSError:
+            now = "missing"
+        if now != digest:
+            return False
+    return True

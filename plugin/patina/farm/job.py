@@ -1,0 +1,144 @@
+"""A job of `patina farm` from the first look at workers to the table at its end."""
+import dataclasses
+import json
+import os
+import sys
+import time
+import uuid
+
+from patina.cli import outputs
+from patina.cli.errors import CommandError
+from patina.cli.progress import Progress
+from patina.farm import engines, identity, partial, sender, simulation, work, worker
+
+FIRST_WORKER_SECONDS = 600  # a queue may be full
+
+
+class Job:
+    """Frames, an engine, and what became of them."""
+
+    def __init__(self, module, engine, arguments, record, shots, files):
+        """:param record: parsed arguments of `patina record`
+        :param shots: list of (time code, image)
+        :param files: that workers must be able to read"""
+        self.module, self.engine, self.arguments, self.record = module, engine, arguments, record
+        self.frames = [work.Frame(time_code, image, arguments.cut, self._frame_flags(time_code),
+                                  ["--allowMixed"] if arguments.allowMixed else []) for time_code, image in shots]
+        machine = identity.of_machine(module)
+        if arguments.allowMixed:
+            machine = {"version": machine["version"]}
+        folders = sorted({os.path.dirname(os.path.abspath(frame.image)) for frame in self.frames})
+        self.checks = (uuid.uuid4().hex, files, folders, machine)
+        self.progress = Progress("farm", arguments.quiet)
+
+    def _frame_flags(self, time_code):
+        return [f"--frames={time_code:.6f}".rstrip("0").rstrip(".")] if self.arguments.frames else []
+
+    def run(self, counts):
+        """:param counts: numbers of workers to simulate afterwards
+        :raises CommandError: where an image is missing at the end"""
+        waiting, frames = self._waiting()
+        if not waiting:
+            self.progress.say("all images are there")
+            return
+        with engines.Cluster(self.engine) as cluster:
+            self._preflight(cluster)
+            begin, busy = time.perf_counter(), time.process_time()
+            threads = engines.threads(self.engine) if self.arguments.threads is None else self.arguments.threads
+            one = sender.Sender(cluster.client, self.arguments.passed_on, os.getcwd(), self.checks, threads)
+            link = cluster.dashboard()
+            try:
+                one.run(frames, waiting, lambda state: self._show(state, frames, link))
+            finally:
+                self.progress.clear()
+            seconds, busy = time.perf_counter() - begin, time.process_time() - busy
+        self._tell(one, frames, seconds, busy, counts)
+
+    def _waiting(self):
+        """:returns: the tasks that can begin, and the frames that they are of"""
+        waiting, frames = [], []
+        for frame in self.frames:
+            if self.arguments.resume and os.path.isfile(frame.image):
+                continue
+            there = set()
+            if self.arguments.resume and frame.cut.parts > 1:
+                there = work.parts_there(self.module, frame, self._wanted())
+            elif not self.arguments.resume:
+                frame.forget()
+            frame.prepare()
+            frames.append(frame)
+            waiting += frame.tasks(there)
+        return waiting, frames
+
+    def _wanted(self):
+        """:returns: dict of the flags that parts of an earlier job must have been made with"""
+        free = ("image", "frames", "threads", "quiet", "json", "resume", "checkpointSeconds")
+        flags = {name: value for name, value in partial.plain(self.record).items() if name not in free}
+        return json.loads(json.dumps(flags, default=str))  # as the files hold them
+
+    def _preflight(self, cluster):
+        """:raises CommandError: where no worker can take a part"""
+        client = cluster.client
+        if not client.scheduler_info(n_workers=-1)["workers"]:
+            self.progress.say(f"waiting for the first worker of {self.arguments.engine}")
+        try:
+            client.wait_for_workers(1, timeout=FIRST_WORKER_SECONDS)
+        except TimeoutError:
+            raise CommandError(f"{self.arguments.engine} has no worker after {FIRST_WORKER_SECONDS} s") from None
+        found = client.run(worker.check, *self.checks, on_error="return")
+        bad, first = 0, ""
+        for address, problems in sorted(found.items()):
+            if isinstance(problems, Exception):
+                problems = [f"{type(problems).__name__}: {problems}"]
+            bad += bool(problems)
+            if problems:
+                first = first or worker.words(problems)
+                self.progress.say(f"worker {address} is left out: {worker.words(problems)}")
+        if bad == len(found):
+            raise CommandError(f"no worker can take a part: {first}")
+
+    def _show(self, state, frames, link):
+        text = f"{len(state.written)} of {len(frames)} frames, {state.done} of {state.total} tasks, {state.count} workers"
+        self.progress.step(state.done, state.total, f"{text}, {link}" if link else text)
+
+    def _tell(self, one, frames, seconds, busy, counts):
+        written = one.written
+        for reason in one.refusals:
+            self.progress.say(f"a worker was left out: {reason}")
+        lines = table(one, seconds)
+        simulated = []
+        if counts and written:
+            costs = simulation.Costs(tuple(s for kind, s in one.times if kind == "part"),
+                                     tuple(s for kind, s in one.times if kind == "image"), busy / max(one.done, 1))
+            simulated = simulation.table(costs, len(frames), self.arguments.cut.parts, counts)
+        taken = outputs.write_json(self.arguments.json, {
+            "seconds": seconds, "senderSeconds": busy, "frames": len(written), "parts": self.arguments.cut.parts,
+            "tasks": [{"kind": kind, "seconds": spent} for kind, spent in one.times],
+            "workers": {name: dataclasses.asdict(row) for name, row in one.rows.items()},
+            "failed": [{"task": str(task), "reasons": [why for _, why in task.failures]} for task in one.failed],
+            "simulated": simulated})
+        if not self.arguments.quiet and not taken:
+            for line in lines + simulated:
+                print(line)
+        for task in one.failed:
+            print(f"patina: {task}: {task.failures[-1][1]}", file=sys.stderr)
+        lost = len(frames) - len(written)
+        if lost:
+            raise CommandError(f"{lost} of {len(frames)} images are not written; --resume goes on with what is there")
+
+
+def table(one, seconds):
+    """:returns: lines: what each worker did"""
+    rows = sorted(one.rows.items())
+    name = max([6] + [len(worker_name) for worker_name, _ in rows])
+    host = max([4] + [len(row.host) for _, row in rows])
+    lines = [f"{'worker':<{name}}  {'host':<{host}}{'tasks':>8}{'seconds':>10}{'a task':>9}{'busy':>7}{'failed':>8}"]
+
+    def line(worker_name, row, busy):
+        return (f"{worker_name:<{name}}  {row.host:<{host}}{row.tasks:>8}{row.seconds:>10.1f}"
+                f"{row.seconds / max(row.tasks, 1):>9.2f}{busy:>7.0%}{row.failures:>8}")
+
+    lines += [line(worker_name, row, row.seconds / max(seconds, 1e-9)) for worker_name, row in rows]
+    every = sender.Row("", one.done, sum(row.seconds for _, row in rows), sum(row.failures for _, row in rows))
+    busy = every.seconds / max(seconds * len(rows), 1e-9)
+    return lines + [line("all", every, busy) + f"   in {seconds:.1f} s"]

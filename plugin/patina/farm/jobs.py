@@ -1,0 +1,122 @@
+"""Job templates of Open Job Description (2023-09): frames, parts and merges as steps, for schedulers that take them."""
+import json
+import os
+
+from patina.cli import outputs
+from patina.cli.errors import CommandError, UsageError
+
+VERSION = "jobtemplate-2023-09"
+LONGEST_NAME = 64  # of a job, by the specification
+MAX_VALUES = 1024  # of a parameter that is a list, by the specification
+
+
+def write(file, arguments, record, shots):
+    """:param arguments: of `patina farm`
+    :param record: parsed arguments of `patina record`
+    :param shots: list of (time code, image)"""
+    if not file.lower().endswith((".yaml", ".yml", ".json")):
+        raise UsageError(f"patina farm: --write-job {file}: an Open Job Description is a .yaml or a .json file")
+    value = template(arguments, record, shots, os.path.dirname(os.path.abspath(file)))
+    if file.lower().endswith(".json"):
+        text = json.dumps(value, indent=2) + "\n"
+    else:
+        try:
+            import yaml
+        except ImportError as error:
+            raise CommandError(f"--write-job of a .yaml file needs PyYAML (write a .json file): {error}") from error
+        text = yaml.safe_dump(value, sort_keys=False, width=120, allow_unicode=True)
+    outputs.write_text(file, text)
+
+
+def template(arguments, record, shots, folder):
+    """:param folder: of the template, which its default paths begin in
+    :returns: the job as a dict"""
+    frames = _frames([time for time, _ in shots]) if arguments.frames else None
+    stage, image = os.path.relpath(record.stage, folder), os.path.relpath(record.image, folder)
+    parameters = [
+        {"name": "Patina", "type": "STRING", "default": _launcher(), "description": "the command"},
+        {"name": "Stage", "type": "PATH", "objectType": "FILE", "dataFlow": "IN", "default": stage},
+        {"name": "Image", "type": "PATH", "objectType": "FILE", "dataFlow": "OUT", "default": image,
+         "description": "with a place for the frame, as `patina record` takes it" if frames else "what is written"},
+    ]
+    if frames and frames["type"] == "INT":
+        parameters.append({"name": "Frames", "type": "STRING", "default": frames["range"],
+                           "description": "such as 1-240 or 1-9:2,20"})
+        frames = dict(frames, range="{{Param.Frames}}")
+    flags = _flags(arguments, record)
+    if arguments.cut.parts == 1:
+        steps = [_step("Frames", ["record", "{{Param.Stage}}", "{{Param.Image}}", *flags, *_frame_flag(frames)], frames)]
+    else:
+        parameters.append({"name": "Parts", "type": "PATH", "objectType": "DIRECTORY", "dataFlow": "INOUT",
+                           "default": image + ".parts", "description": "parts until they are merged"})
+        steps = _cut_steps(arguments, flags, frames)
+    return {"specificationVersion": VERSION, "name": f"patina {os.path.basename(record.stage)}"[:LONGEST_NAME],
+            "parameterDefinitions": parameters, "steps": steps}
+
+
+def _cut_steps(arguments, flags, frames):
+    whole = arguments.cut
+    name = "{{Param.Parts}}/" + ("{{Task.Param.Frame}}." if frames else "") + "%s.part"
+    part = ["record", "{{Param.Stage}}", "{{Param.Image}}", *flags, *_frame_flag(frames),
+            "--part={{Task.Param.Part}}/" + str(whole), "--partial=" + name % "{{Task.Param.Part}}"]
+    merge = ["merge", *(name % number for number in range(1, whole.parts + 1)), "{{Param.Image}}"]
+    if arguments.allowMixed:
+        merge.append("--allowMixed")
+    return [_step("Parts", part, frames, {"name": "Part", "type": "INT", "range": f"1-{whole.parts}"}),
+            dict(_step("Merge", merge, frames), dependencies=[{"dependsOn": "Parts"}])]
+
+
+def _step(name, command, *definitions):
+    step = {"name": name}
+    definitions = [dict(definition) for definition in definitions if definition]
+    if definitions:
+        step["parameterSpace"] = {"taskParameterDefinitions": definitions}
+    step["script"] = {"actions": {"onRun": {"command": "{{Param.Patina}}", "args": command}}}
+    return step
+
+
+def _frame_flag(frames):
+    return ["--frames={{Task.Param.Frame}}"] if frames else []
+
+
+def _frames(times):
+    """:returns: the definition of the task parameter Frame"""
+    if all(float(time).is_integer() for time in times):
+        return {"name": "Frame", "type": "INT", "range": _range([int(time) for time in times])}
+    if len(times) > MAX_VALUES:
+        raise CommandError(f"--write-job: {len(times)} frames between whole ones are more than a job template lists "
+                           f"({MAX_VALUES})")
+    return {"name": "Frame", "type": "FLOAT", "range": [round(float(time), 6) for time in times]}
+
+
+def _range(numbers):
+    """:returns: the range expression of whole numbers, ascending, each once"""
+    numbers, parts = sorted(set(numbers)), []
+    while numbers:
+        step = numbers[1] - numbers[0] if len(numbers) > 1 else 1
+        count = 1
+        while count < len(numbers) and numbers[count] - numbers[count - 1] == step:
+            count += 1
+        if count < 3 and step > 1:
+            count = 1
+        last = numbers[count - 1]
+        parts.append(str(numbers[0]) if count == 1 else f"{numbers[0]}-{last}" + (f":{step}" if step > 1 else ""))
+        numbers = numbers[count:]
+    return ",".join(parts)
+
+
+def _flags(arguments, record):
+    """:returns: flags of `patina record` that the user has given, without stage and image"""
+    left = list(arguments.passed_on)
+    for positional in (record.stage, record.image):
+        left.remove(positional)
+    threads = [f"--threads={arguments.threads}"] if arguments.threads else []
+    return left + threads + ["--quiet"]
+
+
+def _launcher():
+    """:returns: the launcher of a checkout, or the command's name where Patina is installed"""
+    import patina
+
+    launcher = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(patina.__file__)))), "patina")
+    return launcher if os.path.isfile(launcher) else "patina"

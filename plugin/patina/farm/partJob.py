@@ -1,0 +1,86 @@
+"""`patina record --part`: renders one part of each frame's film and writes its file instead of an image."""
+import json
+import os
+
+from patina.cli.errors import CommandError, UsageError
+from patina.farm import cut, identity, partial
+
+_REFUSED = (("seconds", "--seconds", "a time limit cuts every part elsewhere"),
+            ("resume", "--resume", "a part is rendered whole"),
+            ("keepCheckpoint", "--keepCheckpoint", "its file keeps all that it has"))
+
+
+def check(arguments):
+    """:raises UsageError: where flags do not go together with --part"""
+    if bool(arguments.part) != bool(arguments.partial):
+        raise UsageError("patina record: --part and --partial go together: which part, and the file for it")
+    if not arguments.part:
+        return
+    for name, flag, why in _REFUSED:
+        if getattr(arguments, name):
+            raise UsageError(f"patina record: --part with {flag}: {why}")
+    if arguments.backend != "embree":
+        raise UsageError("patina record: --part is of the path tracer; the rasterizer draws a frame at once")
+    if arguments.tolerance > 0.0 and not arguments.samples and arguments.part.cut.ranges > 1:
+        raise UsageError("patina record: ranges of samples with --tolerance need --samples, since each takes its samples "
+                         "before it is known where tiles stop")
+    arguments.checkpointSeconds = 0.0  # parts of one image would share a file
+
+
+def of(job):
+    """:param job: the class of a whole render's job
+    :returns: the class of one that renders parts"""
+
+    class PartJob(job):
+        def open(self):
+            super().open()
+            if len(self.plan) != 1:
+                raise UsageError("patina record: --part is of one frame")
+
+        def _check_outputs(self, *_):
+            from patina.cli import outputs
+
+            outputs.make_folder(os.path.dirname(self.arguments.partial))
+            outputs.check_all([self.arguments.partial, self.arguments.json])
+
+        def _render(self, film, shot, settings, camera):
+            part = self.arguments.part
+            tiles = cut.tiles(self.module, settings, part)
+            ranges = cut.ranges(self.module.span_ends(settings["samples"]), part.cut.ranges)
+            begin, end = ranges[part.range_index]
+            self._writer = None
+            for first, last in self._pieces(settings, begin, end):
+                film.resume_token = ""
+                super()._render(film, shot, dict(
+                    settings, sampleBegin=first, sampleEnd=last, tilePart=part.tile_group, tileParts=part.cut.tiles), camera)
+                if self.interrupted:
+                    raise CommandError(f"interrupted; part {part} is not written")
+                if not self._writer:
+                    self._writer = self.module.PartialWriter(
+                        self.arguments.partial, self._description(settings, camera, (begin, end)), tiles)
+                self._writer.add(film)
+
+        def _pieces(self, settings, begin, end):
+            """:returns: ranges of samples that each make a film: sums from the first sample on, or of one span"""
+            if begin == 0:
+                return [(begin, end)]
+            cuts = [begin] + [one for one in self.module.span_ends(settings["samples"]) if begin < one <= end]
+            return list(zip(cuts, cuts[1:]))
+
+        def _description(self, settings, camera, samples):
+            a, state = self.arguments, self.renderer.progress()
+            others = {"back end": state["backend"], "frame": self.statistics.frame, "cut": str(a.part.cut),
+                      "purposes": self.purposes, "complexity": a.complexity, "mask": a.mask, "set": a.set,
+                      "camera light": not a.disableCameraLight, "denoise": bool(a.denoise)}
+            made = identity.of_render(self.module, self.stage, settings, camera, others)
+            noise = state["statistics"].get("noiseTolerance", 0.0) if settings["tolerance"] > 0.0 else 0.0
+            return partial.describe(a.part, samples, made, a, self.statistics.frame, camera, settings, noise)
+
+        def _write(self, film, shot, settings, info):
+            state = self.renderer.progress()
+            self._writer.commit(json.dumps({
+                "statistics": state["statistics"], "plans": state["plans"], "sceneChoices": state["sceneChoices"],
+                "backend": state["backend"], "warnings": self.statistics.warnings(),
+                "seconds": self.statistics.seconds}, default=str))
+
+    return PartJob

@@ -1,0 +1,44 @@
+"""The files of parts: a description of what made them, films, and a report of the render."""
+import json
+
+from patina.cli.errors import CommandError
+from patina.farm import cut
+
+
+class Description:
+    """What a part's file says of itself."""
+
+    def __init__(self, file, values):
+        self.file = file
+        try:
+            self.identity = values["identity"]
+            self.part = cut.part(values["part"])
+            self.range = tuple(values["range"])
+            self.arguments = values["arguments"]
+            self.frame, self.camera, self.settings = values["frame"], values["camera"], values["settings"]
+            self.noise = float(values["noiseTolerance"])
+        except (KeyError, TypeError, ValueError):
+            raise CommandError(f"{file} is of another version of Patina") from None
+
+
+def describe(part, samples, identity, arguments, frame, camera, settings, noise):
+    """:param samples: (begin, end) of the part
+    :returns: the text that PartialWriter takes"""
+    return json.dumps({"identity": identity, "part": str(part), "range": list(samples), "frame": frame, "camera": camera,
+                       "settings": settings, "noiseTolerance": noise, "arguments": plain(arguments)}, default=str)
+
+
+def read(module, file):
+    """:raises CommandError: where the file holds no part"""
+    try:
+        values = json.loads(module.partial_description(file))
+    except RuntimeError as error:
+        raise CommandError(str(error)) from error
+    except ValueError:
+        raise CommandError(f"{file} is of another version of Patina") from None
+    return Description(file, values)
+
+
+def plain(arguments):
+    """:returns: dict of those parsed arguments that JSON can hold; the part itself is told elsewhere"""
+    return {name: value for name, value in vars(arguments).items() if name not in ("part", "partial")}

@@ -1,0 +1,106 @@
+"""The frames and parts of a job: what is to be done, in which order, and which commands do it."""
+import contextlib
+import os
+import shutil
+from dataclasses import dataclass, field
+
+from patina.cli.errors import CommandError
+from patina.farm import cut, identity, partial
+
+TRIES = 4  # of a part: the first, and three more on other workers
+
+
+@dataclass
+class Task:
+    """One command on one worker."""
+    frame: "Frame"
+    part: object  # cut.Part; None merges the parts, or renders a frame that is not cut
+    failures: list = field(default_factory=list)  # (address of the worker that it failed on, why)
+    refusals: int = 0  # by workers that take nothing of this job
+
+    def __str__(self):
+        what = f"part {self.part}" if self.part else "merging" if self.frame.cut.parts > 1 else "the image"
+        return f"{what} of {self.frame.image}"
+
+    @property
+    def file(self):
+        return self.frame.part_file(self.part) if self.part else self.frame.image
+
+    @property
+    def log(self):
+        return os.path.join(self.frame.folder, f"{self.part.number}.log" if self.part else "image.log")
+
+    def arguments(self, record, threads):
+        """:param record: arguments of `patina record` for all frames, without --frames
+        :returns: those of the command line"""
+        frame = self.frame
+        shared = [f"--threads={threads}"] if threads else []
+        if not self.part and frame.cut.parts > 1:
+            files = [frame.part_file(part) for part in frame.parts()]
+            return ["merge", *files, frame.image, *shared, *frame.merge_flags]
+        # A later flag counts.
+        found = ["record", *record, *frame.flags, *shared, "--quiet"]
+        return found + ([f"--part={self.part}", f"--partial={self.file}"] if self.part else [])
+
+
+@dataclass
+class Frame:
+    time: object  # time code; None is the default time
+    image: str
+    cut: cut.Cut
+    flags: list  # that choose the frame
+    merge_flags: list = field(default_factory=list)
+    left: int = 0  # parts that are not there
+
+    @property
+    def folder(self):
+        return os.path.abspath(self.image) + ".parts"
+
+    def parts(self):
+        return [cut.Part(number, self.cut) for number in range(1, self.cut.parts + 1)]
+
+    def part_file(self, part):
+        return os.path.join(self.folder, f"{part.number}.part")
+
+    def prepare(self):
+        try:
+            os.makedirs(self.folder, exist_ok=True)
+        except OSError as error:
+            raise CommandError(f"cannot make the folder {self.folder}: {error.strerror}") from error
+
+    def tasks(self, there):
+        """:param there: numbers of parts whose files are there
+        :returns: the tasks that can begin; the merge follows them"""
+        if self.cut.parts == 1:
+            self.left = 0
+            return [Task(self, None)]
+        waiting = [Task(self, part) for part in self.parts() if part.number not in there]
+        self.left = len(waiting)
+        return waiting or [Task(self, None)]
+
+    def tidy(self):
+        """Removes the parts of an image that is whole; logs of failures stay."""
+        for part in self.parts():
+            with contextlib.suppress(OSError):
+                os.remove(self.part_file(part))
+        with contextlib.suppress(OSError):
+            os.rmdir(self.folder)
+
+    def forget(self):
+        """Removes what an earlier job has left."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+def parts_there(module, frame, wanted):
+    """:param wanted: dict of the record flags that the parts must have been made with
+    :returns: numbers of the parts that an earlier job has made of the same stage with the same flags"""
+    found = set()
+    for part in frame.parts():
+        try:
+            description = partial.read(module, frame.part_file(part))
+        except CommandError:
+            continue
+        same = all(description.arguments.get(name) == value for name, value in wanted.items())
+        if same and str(description.part) == str(part) and identity.still_true(module, description.identity, wanted["stage"]):
+            found.add(part.number)
+    return found

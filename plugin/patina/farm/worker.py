@@ -1,0 +1,92 @@
+"""What runs on a worker. Everything goes through paths that the worker shares with the sender."""
+import os
+import socket
+import subprocess
+import sys
+import time
+
+_checked = {}  # job -> problems of this process
+
+
+class Refused(Exception):
+    """This worker cannot take parts of the job: nothing is wrong with the part. The reason, and the worker's address."""
+
+
+class PartFailed(Exception):
+    """A command ended with a reason, its whole log lies in a file. The reason, and the worker's address."""
+
+
+def check(job, files, folders, machine):
+    """:param job: a name; what was found is kept for it
+    :param files: that the render reads
+    :param folders: that it writes to
+    :param machine: identity.of_machine() that the worker must have; None takes any
+    :returns: list of problems, in words"""
+    if job not in _checked:
+        _checked[job] = _problems(files, folders, machine)
+    return _checked[job]
+
+
+def _problems(files, folders, machine):
+    found = [f"cannot read {file}" for file in files if not os.access(file, os.R_OK)]
+    found += [f"cannot write to {folder}" for folder in folders if not os.access(folder, os.W_OK | os.X_OK)]
+    try:
+        import _patina
+
+        from patina.farm import identity
+
+        own = identity.of_machine(_patina)
+    except ImportError as error:
+        return found + [f"has no Patina: {error}"]
+    return found + [f"{name} is {own[name]}, not {value}" for name, value in (machine or {}).items() if own.get(name) != value]
+
+
+def run(arguments, folder, log, checks):
+    """Runs a command of Patina in a process of its own.
+
+    :param arguments: of the command line
+    :param folder: that the sender runs in
+    :param log: path of the file that takes what it prints; it is removed when all is well
+    :param checks: arguments of check()
+    :returns: dict of the worker's name, host and address, and the seconds that it took
+    :raises Refused: where this worker should not take it
+    :raises PartFailed: with the reason in one line"""
+    name, host, address = place()
+    problems = check(*checks)
+    if problems:
+        raise Refused(f"{name} {words(problems)}", address)
+    begin = time.perf_counter()
+    with open(log, "wb") as file:
+        command = [sys.executable, "-m", "patina.farm.child", str(os.getpid()), *arguments]
+        status = subprocess.call(command, stdin=subprocess.DEVNULL, stdout=file, stderr=file, cwd=folder)
+    if status != 0:
+        kept = f"{log[:-len('.log')]}.{time.strftime('%Y%m%d-%H%M%S')}.{os.getpid()}.failed.log"
+        os.replace(log, kept)
+        raise PartFailed(f"{_reason(kept, status)} (on {name}, see {kept})", address)
+    os.remove(log)
+    return {"worker": name, "host": host, "address": address, "seconds": time.perf_counter() - begin}
+
+
+def words(problems):
+    """:returns: problems in one line"""
+    return problems[0] + (f", and {len(problems) - 1} more" if len(problems) > 1 else "")
+
+
+def _reason(log, status):
+    with open(log, encoding="utf-8", errors="replace") as file:
+        lines = [line.strip() for line in file.read().splitlines() if line.strip()]
+    if status < 0:
+        return f"killed by signal {-status}"
+    return lines[-1] if lines else f"it ended with status {status}"
+
+
+def place():
+    """:returns: this worker's name, its host, and its address in Dask"""
+    host = socket.gethostname()
+    try:
+        from distributed import get_worker
+
+        own = get_worker()
+    except (ImportError, ValueError):
+        return str(os.getpid()), host, ""
+    return str(own.name), host, own.address

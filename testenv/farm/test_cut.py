@@ -1,0 +1,33 @@
+"""Cuts: what they are written as, and where samples may be cut."""
+import pytest
+
+import _patina
+from patina.cli.errors import CommandError
+from patina.farm import cut
+
+
+def test_parts_are_written_as_numbers_of_a_cut():
+    assert cut.cut("4x2") == cut.Cut(4, 2) and cut.cut("3") == cut.Cut(3, 1)
+    part = cut.part("6/4x2")
+    assert (part.tile_group, part.range_index, str(part)) == (1, 1, "6/4x2")
+    for text in ("0/2", "3/2", "9/4x2", "1", "1/0", "1/2x0", "a/2"):
+        with pytest.raises(ValueError):
+            cut.part(text)
+
+
+@pytest.mark.parametrize("samples, count, begins", [(64, 4, [0, 16, 32, 48]), (256, 8, [0, 32, 64, 96, 128, 160, 192, 224]),
+                                                    (100, 2, [0, 48]), (8, 4, [0, 1, 2, 4]), (1000, 1, [0])])
+def test_ranges_are_as_equal_as_spans_allow(samples, count, begins):
+    ranges = cut.ranges(_patina.span_ends(samples), count)
+    assert [begin for begin, _ in ranges] == begins
+    assert [end for _, end in ranges] == begins[1:] + [samples]
+
+
+@pytest.mark.parametrize("samples", [1, 7, 16, 77, 300, 4096])
+def test_every_count_up_to_the_most_is_possible(samples):
+    ends = _patina.span_ends(samples)
+    for count in range(1, len(ends) + 1):
+        ranges = cut.ranges(ends, count)
+        assert len(ranges) == count and all(begin < end for begin, end in ranges)
+    with pytest.raises(CommandError):
+        cut.ranges(ends, len(ends) + 1)

@@ -1,0 +1,113 @@
+"""Engines: what they are written as, and movies on real ones."""
+import os
+import re
+import shutil
+import subprocess
+
+import pytest
+
+import movie
+from inProcess import patina
+from patina.cli.errors import UsageError
+from patina.farm import engines
+
+FLAGS = ["--imageWidth=48", "--samples=16"]
+
+
+def test_engines_are_written_as_addresses_and_numbers():
+    assert engines.parse("dask://farm", []) == engines.Engine("dask", "tcp://farm:8786", 0, {})
+    assert engines.parse("dask://10.0.0.1:99", []).address == "tcp://10.0.0.1:99"
+    assert engines.parse("local:3", []).workers == 3
+    assert engines.parse("slurm:8", ["cores=4", "queue=render"]).options == {"cores": 4, "queue": "render"}
+    for text in ("slurm", "local:0", "dask://", "dask://a b", "carrier", "k8s"):
+        with pytest.raises(UsageError):
+            engines.parse(text, [])
+    with pytest.raises(UsageError):
+        engines.parse("local:1", ["cores"])
+
+
+def farm(folder, stage, *arguments):
+    """Runs `patina farm` in a process of its own. :returns: the finished process"""
+    return subprocess.run(movie.command("farm", stage, os.path.join(str(folder), "movie.####.exr"), *arguments),
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=300)
+
+
+@pytest.fixture(scope="module")
+def shot(tmp_path_factory):
+    pytest.importorskip("distributed")
+    folder = tmp_path_factory.mktemp("farm")
+    stage = movie.write_stage(folder)
+    names = movie.at_once(stage, str(folder / "once"), "1:2", FLAGS)
+    return folder, stage, names
+
+
+def test_a_cut_movie_has_the_bits_of_one_process(shot):
+    folder, stage, names = shot
+    (folder / "cut").mkdir()
+    result = farm(folder / "cut", stage, "--frames=1:2", "--cut=1x2", "--engine=local:2", *FLAGS)
+    assert result.returncode == 0, result.stderr
+    assert not movie.different(names, folder / "once", folder / "cut")
+    assert sorted(os.listdir(folder / "cut")) == names, "parts and logs are gone when images are there"
+    table = result.stdout.splitlines()
+    assert table[0].split() == ["worker", "host", "tasks", "seconds", "a", "task", "busy", "failed"]
+    assert re.match(r"all +6 .* 0 +in ", table[-1]), "2 frames of 2 parts and a merge"
+    # Goes on: one image is missing, and a part of it is there; the other part is of another seed.
+    before = {name: os.stat(folder / "cut" / name).st_mtime_ns for name in names}
+    os.remove(folder / "cut" / names[1])
+    parts = folder / "cut" / (names[1] + ".parts")
+    for number, seed in ((1, 0), (2, 1)):
+        patina("record", stage, folder / "cut" / "movie.####.exr", "--frames=2", *FLAGS, f"--seed={seed}",
+               f"--part={number}/1x2", f"--partial={parts}/{number}.part", "--quiet")
+    result = farm(folder / "cut", stage, "--frames=1:2", "--cut=1x2", "--engine=local:1", "--resume", *FLAGS)
+    assert result.returncode == 0, result.stderr
+    assert re.search(r"^all +2 ", result.stdout, re.MULTILINE), "part 2 and a merge"
+    assert not movie.different(names, folder / "once", folder / "cut")
+    after = {name: os.stat(folder / "cut" / name).st_mtime_ns for name in names}
+    assert [name for name in names if before[name] != after[name]] == [names[1]]
+
+
+def test_what_fails_is_tried_on_others_and_told(shot):
+    folder, stage, _ = shot
+    (folder / "failing").mkdir()
+    result = farm(folder / "failing", stage, "--frames=1", "--engine=local:2", *FLAGS, "--camera=/none")
+    assert result.returncode == 1
+    assert "1 of 1 images are not written" in result.stderr and "/none" in result.stderr
+    assert len(result.stdout.splitlines()) == 4, "a head, two workers that it failed on, and their sum"
+    assert re.search(r"^all +0 .* 4 +in ", result.stdout, re.MULTILINE)
+    logs = [os.path.join(root, name) for root, _, names in os.walk(folder / "failing") for name in names]
+    assert len(logs) == 4 and all("/none" in open(log, encoding="utf-8").read() for log in logs)
+
+
+def test_workers_are_refused_that_cannot_read_or_compute_otherwise(tmp_path):
+    import _patina
+
+    from patina.farm import identity, worker
+
+    machine = identity.of_machine(_patina)
+    assert worker.check("a", [movie.__file__], [str(tmp_path)], machine) == []
+    problems = worker.check("b", ["/no/such/file"], ["/no/such/folder"], dict(machine, **{"instruction set": "abacus"}))
+    assert problems[:2] == ["cannot read /no/such/file", "cannot write to /no/such/folder"]
+    assert problems[2].startswith("instruction set is ") and problems[2].endswith("not abacus")
+    with pytest.raises(worker.Refused, match="cannot read /no/such/file, and 2 more"):
+        worker.run(["--version"], str(tmp_path), str(tmp_path / "log"), ("b", [], [], {}))
+
+
+def test_a_movie_survives_the_death_of_its_workers(tmp_path):
+    pytest.importorskip("distributed")
+    import killedMovie
+
+    status, killed, wrong, names = killedMovie.run(str(tmp_path), "1:12", "2x2", 4, 2.0, ["--imageWidth=160", "--samples=64"])
+    assert killed >= 3, "the movie was done before it showed anything"
+    assert status == 0 and len(names) == 12 and not wrong
+
+
+def test_a_movie_through_slurm(tmp_path):
+    pytest.importorskip("dask_jobqueue")
+    import slurmMovie
+
+    process, wrong, names = slurmMovie.run(str(tmp_path), "1:3", "2", 2, FLAGS)
+    if process.returncode == slurmMovie.MISSING:
+        pytest.skip(process.stdout.strip())
+    assert process.returncode == 0, process.stdout
+    assert len(names) == 3 and not wrong
+    assert shutil.which("sbatch")

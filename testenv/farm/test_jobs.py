@@ -1,0 +1,53 @@
+"""Open Job Descriptions, checked and run by its own command line."""
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+import movie
+from inProcess import patina
+from patina.farm import jobs
+
+FLAGS = ["--imageWidth=40", "--samples=4"]
+
+
+def openjd(*arguments):
+    pytest.importorskip("openjd.cli", reason="openjd-cli is not installed")
+    return subprocess.run([sys.executable, "-m", "openjd", *map(str, arguments)], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, timeout=300)
+
+
+@pytest.mark.parametrize("numbers, text", [([1, 2, 3, 4], "1-4"), ([7], "7"), ([3, 1, 2, 10], "1-3,10"),
+                                           ([1, 3, 5, 7], "1-7:2"), ([1, 5], "1,5"), ([1, 2, 4, 8], "1-2,4,8")])
+def test_ranges_of_frames(numbers, text):
+    assert jobs._range(numbers) == text
+
+
+@pytest.mark.parametrize("extension", ["yaml", "json"])
+@pytest.mark.parametrize("flags", [["--frames=1:4", "--cut=2x2"], ["--frames=1:2x0.5"], ["--cut=3"], []])
+def test_templates_are_valid(tmp_path, flags, extension):
+    stage, job = movie.write_stage(tmp_path), tmp_path / f"job.{extension}"
+    image = tmp_path / ("movie.###.##.exr" if any("frames" in flag for flag in flags) else "movie.exr")
+    patina("farm", stage, image, *flags, *FLAGS, "--write-job", job)
+    result = openjd("check", job)
+    assert result.returncode == 0, result.stdout
+
+
+def test_a_job_makes_the_bits_of_one_process(tmp_path):
+    stage, job, out = movie.write_stage(tmp_path), tmp_path / "job.json", tmp_path / "out"
+    out.mkdir()
+    patina("farm", stage, out / "movie.####.exr", "--frames=2", "--cut=2", *FLAGS, "--write-job", job)
+    # The launcher would build; what it hands over to is there.
+    command = tmp_path / "patina"
+    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m patina "$@"\n')
+    command.chmod(0o755)
+    value = json.loads(job.read_text())
+    value["parameterDefinitions"][0]["default"] = str(command)
+    job.write_text(json.dumps(value))
+    result = openjd("run", job, "--step", "Merge", "--run-dependencies")
+    assert result.returncode == 0, result.stdout[-3000:]
+    names = movie.at_once(stage, str(tmp_path / "once"), "2", FLAGS)
+    assert not movie.different(names, tmp_path / "once", out)
+    assert os.path.isdir(str(out / "movie.####.exr.parts"))

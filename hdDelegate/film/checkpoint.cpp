@@ -3,6 +3,7 @@
 
 #include "hdDelegate/film/atomicFile.h"
 #include "hdDelegate/film/film.h"
+#include "hdDelegate/film/temporaryFailure.h"
 #include "materialNetwork/regularFile.h"
 
 #include <algorithm>
@@ -74,8 +75,7 @@ private:
         if (size && std::fwrite(data, 1, size, _file) != size) fail();
     }
     [[noreturn]] void fail() {
-        throw std::runtime_error("cannot write checkpoint '" + _name +
-                                 "': " + std::strerror(errno));
+        failWith("cannot write checkpoint '" + _name + "'", errno);
     }
     FILE* _file;
     const std::string& _name;
@@ -139,7 +139,7 @@ void Film::saveCheckpoint(const std::string& file) const {
     AtomicFile target(file);
     FilePtr stream(std::fopen(target.temporaryPath().c_str(), "wb"), &std::fclose);
     if (!stream)
-        throw std::runtime_error("cannot write checkpoint '" + file + "': " + std::strerror(errno));
+        failWith("cannot write checkpoint '" + file + "'", errno);
     Writer w(stream.get(), file);
     w.bytes(magic, sizeof magic);
     w.value(formatVersion);
@@ -163,7 +163,7 @@ void Film::saveCheckpoint(const std::string& file) const {
     }
     w.finish();
     if (std::fclose(stream.release()) != 0)
-        throw std::runtime_error("cannot write checkpoint '" + file + "': " + std::strerror(errno));
+        failWith("cannot write checkpoint '" + file + "'", errno);
     target.commit();
 }
 

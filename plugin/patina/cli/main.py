@@ -115,8 +115,8 @@ def _dispatch(argv):
 
 def _given(parser, parse, words):
     """:returns: names of the arguments that were typed, not taken from defaults"""
-    blank = argparse.Namespace(**{action.dest: None for action in parser._actions})
-    return {name for name, value in vars(parse(words, blank)).items() if value is not None}
+    blank = argparse.Namespace(**{a.dest: [] if isinstance(a.default, list) else None for a in parser._actions})
+    return {name for name, value in vars(parse(words, blank)).items() if value not in (None, [])}
 
 
 def _text_of(error):

@@ -15,6 +15,7 @@ there before is replaced only by a whole one.
 Exit status: 0 done, 1 failed with a one-line reason, 2 wrong usage, 75 failed for a reason that may pass (a full disk, memory,
 a lost device) or ended by a signal with all saved: a scheduler may run the same again, with --resume.
 """
+import dataclasses
 import os
 
 from patina.cli import (checkpoints, compiled, denoiser, goOn, openStage, outputs, overrides, recordFlags, renderSettings, reports,
@@ -84,10 +85,7 @@ class _Job:
 
     def render(self, shot):
         self.statistics.begin_frame(shot.frame, shot.images)
-        if self._read is None or self._read[:2] != (shot.frame, shot.camera):
-            with self.statistics.phase("translate"):
-                self._read = (shot.frame, shot.camera, self._translate(shot))
-        info = self._read[2]
+        info = self._info(shot)
         self._check_outputs(shot)  # once more: now it is known which textures are read
         for note in self.statistics.note(info.notes + self._left_over(shot.image)):
             Progress("", self.arguments.quiet).say(note)
@@ -123,6 +121,28 @@ class _Job:
         if self.arguments.resume or not os.path.isfile(path):
             return []
         return [f"{path} of an earlier render is given up (--resume would have continued it)"]
+
+    def _info(self, shot):
+        """:returns: what the reader told; the scene holds the shot's frame as its camera sees it"""
+        if self._read is None or self._read[0] != shot.frame or not self._also_from(shot.camera):
+            with self.statistics.phase("translate"):
+                self._read = (shot.frame, shot.camera, self._translate(shot))
+        info = self._read[2]
+        return info if shot.camera == self._read[1] else dataclasses.replace(info, camera=shot.camera)
+
+    def _also_from(self, camera):
+        """:returns: whether what was read looks as it would for another camera of the same frame: with an equal shutter, and
+            without a headlight"""
+        frame, read_for, info = self._read
+        if camera == read_for:
+            return True
+        if info.headlight or camera not in info.cameras:
+            return False
+        from patina.cli.products import prim_value
+
+        prim = self.stage.GetPrimAtPath(camera)
+        return all((prim_value(prim.GetAttribute("shutter:" + end), frame) or 0.0) == time
+                   for end, time in zip(("open", "close"), info.shutter))
 
     def _translate(self, shot):
         from patina import stage as reader

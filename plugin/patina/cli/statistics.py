@@ -81,6 +81,7 @@ class Statistics:
         for times in (self._seconds, self._frame["seconds"]):
             times["build"] = times.get("build", 0.0) + build
             times["render"] -= build
+        self._frame["memory"].setdefault("build", memory.resident())
         counts = film.resolve("sampleCount") if film.width else None
         samples = int(counts.astype("float64").sum()) if counts is not None else 0
         self._frame.update(

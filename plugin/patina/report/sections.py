@@ -129,7 +129,7 @@ def _pixels(facts):
     rows.append([f"the worst, pixel {worst[1] + x0}, {worst[0] + y0}", f"{100.0 * error[worst]:.3g} %"])
     return ('<h2>Error and samples of the pixels</h2><div class="columns"><div><h3>Error</h3>'
             + _table(["standard error of the luminance over luminance + 0.01", ""], rows, ["", "n"])
-            + _histogram(np.log10(np.maximum(100.0 * error, 1e-4)), lambda x: f"{10.0 ** x:.2g} %")
+            + _histogram(np.log10(np.maximum(100.0 * error, 1e-4)), lambda x: f"{10.0 ** x:.3g} %")
             + "</div><div><h3>Samples</h3>"
             + _table(["samples of a pixel", ""], [["fewest", f"{samples.min():g}"], ["mean", f"{samples.mean():.5g}"],
                                                  ["most", f"{samples.max():g}"]], ["", "n"])

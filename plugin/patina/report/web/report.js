@@ -135,5 +135,5 @@
         return { state, data, change, describe };
     }
     draw();
-    window.patinaReport = load();
+    window.patina = { ready: load() };
 })();

@@ -40,6 +40,7 @@ FOLDERS = {  # folder: tier, rooms
     "testenv/film/": ("smoke", "film python"),
     "testenv/hydra/": ("full", "hydra"),
     "testenv/mitsuba/": ("long", "embree lights shaders"),
+    "testenv/package/": ("long", "python cli backends"),
     "testenv/raster/": ("full", "raster"),
     "testenv/render/": ("full", "embree lights scene geometry image"),
     "testenv/stability/": ("full", "shaders materialNetwork raster"),

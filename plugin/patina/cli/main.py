@@ -134,6 +134,8 @@ def _one_line(error):
         return f"what was read holds a text that is not UTF-8: {bytes(error.object)[:200]!r}"
     if isinstance(error, MemoryError):
         text = "out of memory"
+    elif isinstance(error, ModuleNotFoundError) and (error.name or "").partition(".")[0] in ("pxr", "numpy"):
+        text = f"Python's {error.name} is missing: pip install usd-core numpy (or PATINA_PYTHON names a Python that has them)"
     elif not isinstance(error, (UsageError, CommandError, RuntimeError, OSError)):
         text = f"{type(error).__name__}: {text}" if text else type(error).__name__
     return (text or type(error).__name__).encode(errors="backslashreplace").decode()

@@ -36,14 +36,15 @@ def run(arguments):
     recordFlags.purposes_of(arguments)
     overrides.parse(arguments.set)
     job = _Job(_patina, arguments)
-    job.open()
-    try:
-        for index, shot in enumerate(job.shots):
-            job.render(shot)
-            if job.interrupted:
-                raise job.ended(job.shots[index:])
-    finally:
-        job.report()
+    with job.snapshots:
+        job.open()
+        try:
+            for index, shot in enumerate(job.shots):
+                job.render(shot)
+                if job.interrupted:
+                    raise job.ended(job.shots[index:])
+        finally:
+            job.report()
 
 
 class _Job:
@@ -52,6 +53,7 @@ class _Job:
     def __init__(self, module, arguments):
         self.module, self.arguments = module, arguments
         self.statistics = statistics.Statistics(arguments)
+        self.snapshots = snapshots.Snapshots(arguments.snapshot)
         self.interrupted = False
         self.told = {}  # causes of warnings that were shown ...
         self.reported = 0  # ... and how many warnings there were then
@@ -181,8 +183,8 @@ class _Job:
         a = self.arguments
         progress = Progress(shot.image, a.quiet)
         Endings.check()  # what a library made of the exception
-        looks = snapshots.Snapshots(a.snapshot, lambda copy: self._write_snapshot(copy, shot, settings, camera))
-        with self.statistics.phase("render"), Interrupts() as interrupts, looks:
+        self.snapshots.begin(lambda copy: self._write_snapshot(copy, shot, settings, camera))
+        with self.statistics.phase("render"), Interrupts() as interrupts:
             self.renderer.start(self.scene, camera, settings, film)
             self._check_warnings()  # of a back end that cannot start
             built = False
@@ -193,7 +195,7 @@ class _Job:
                     self.statistics.built()
                     self._check_warnings()  # of shapes, materials and textures, before the long wait
                 if state["samplesDone"]:
-                    problem = looks.look(self.renderer, film)
+                    problem = self.snapshots.look(self.renderer, film)
                     if problem:
                         self.statistics.warn(shot.image, "", snapshots.words(problem))
                         self._check_warnings()

@@ -17,12 +17,12 @@ def path_of(image, suffix):
 
 
 class Snapshots:
-    """Within the block SIGUSR1 asks for a snapshot instead of ending the process."""
+    """Within the block SIGUSR1 asks for a snapshot instead of ending the process. One that is asked for before there are
+    samples is taken when there are."""
 
-    def __init__(self, seconds, write):
-        """:param seconds: between two; 0: only those that are asked for
-        :param write: function(film) that writes one"""
-        self._seconds, self._write = seconds, write
+    def __init__(self, seconds):
+        """:param seconds: between two; 0: only those that are asked for"""
+        self._seconds, self._write = seconds, None
         self._last = None  # when the last one was, or the first samples were there
         self._asked = False
         self._before = None
@@ -36,6 +36,12 @@ class Snapshots:
         if self._before is not None:
             signal.signal(signal.SIGUSR1, self._before)
         return False
+
+    def begin(self, write):
+        """Another render starts.
+
+        :param write: function(film) that writes a snapshot of it"""
+        self._write, self._last = write, None
 
     def _ask(self, *_):
         self._asked = True

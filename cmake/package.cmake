@@ -11,9 +11,13 @@ set(PATINA_LEVELS "" CACHE STRING "Levels that the shared library is also built 
 if(SKBUILD)
     set(pythonFolder .)
     set(libraryFolder patina/lib)
+    set(libraryFile libpatina.so) # a wheel holds no links
+    set(libraryName libpatina.so)
 else()
     set(pythonFolder lib/patina/python)
     set(libraryFolder ${CMAKE_INSTALL_LIBDIR})
+    set(libraryFile libpatina.so.${PROJECT_VERSION})
+    set(libraryName libpatina.so.${PROJECT_VERSION_MAJOR})
 endif()
 
 # All rooms but the host's.
@@ -32,8 +36,10 @@ target_link_options(patina PRIVATE -Wl,--whole-archive ${archives} -Wl,--no-whol
 target_link_libraries(patina PRIVATE ${rooms})
 target_include_directories(patina INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/patina>)
 target_compile_features(patina INTERFACE cxx_std_17)
-set_target_properties(patina PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
-    LINK_DEPENDS "${archives}" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+set_target_properties(patina PROPERTIES LINK_DEPENDS "${archives}" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+if(NOT SKBUILD)
+    set_target_properties(patina PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+endif()
 add_dependencies(patina ${rooms})
 
 # The same library by level, each from a build of its own.
@@ -45,11 +51,10 @@ if(PATINA_PACKAGE AND PATINA_LEVELS)
             CMAKE_ARGS -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
                        -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER} -DCMAKE_PREFIX_PATH=${CMAKE_PREFIX_PATH}
                        -DPATINA_BUILD_TESTS=OFF -DPATINA_NATIVE=OFF -DPATINA_LEVEL=${level} -DPATINA_LEVELS=
-                       -DCMAKE_DISABLE_FIND_PACKAGE_pxr=ON -DPATINA_MODULE=OFF
+                       -DCMAKE_DISABLE_FIND_PACKAGE_pxr=ON -DPATINA_MODULE=OFF -DSKBUILD=${SKBUILD}
             BUILD_COMMAND ${CMAKE_COMMAND} --build ${folder} --target patina INSTALL_COMMAND "" BUILD_ALWAYS ON
             LIST_SEPARATOR "|")
-        install(FILES ${folder}/lib/libpatina.so.${PROJECT_VERSION}
-            DESTINATION ${libraryFolder}/glibc-hwcaps/${level} RENAME libpatina.so.${PROJECT_VERSION_MAJOR})
+        install(FILES ${folder}/lib/${libraryFile} DESTINATION ${libraryFolder}/glibc-hwcaps/${level} RENAME ${libraryName})
     endforeach()
 endif()
 
@@ -110,7 +115,8 @@ set(CPACK_RESOURCE_FILE_LICENSE ${CMAKE_SOURCE_DIR}/LICENSE)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy, libglm-dev")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libglm-dev) # for hosts in C++
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 include(CPack)

@@ -17,6 +17,7 @@ void EmbreeRenderer::publish(const TileSchedule& schedule) {
         progress.statistics["shadowRays"] = double(_shadowRays);
         progress.statistics["paths"] = double(_paths);
         progress.statistics["droppedSamples"] = double(_film->droppedSamples());
+        if (_settings.timeMaterials) progress.materialSeconds = materialSeconds();
     });
 }
 
@@ -25,6 +26,7 @@ void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& sche
     const int target = schedule.target(tile);
     const Tile& t = schedule.tiles()[tile];
     TraceCounters counters;
+    if (_settings.timeMaterials) counters.clock.start();
     // The last pixel of the tile is done last: its count tells how far the whole tile is.
     for (int y = t.y0; y < t.y1 && !interrupted(); ++y)
         for (int x = t.x0; x < t.x1; ++x)
@@ -33,6 +35,22 @@ void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& sche
     _rays += counters.rays;
     _shadowRays += counters.shadowRays;
     _paths += counters.paths;
+    if (!_settings.timeMaterials) return;
+    const std::lock_guard<std::mutex> lock(_spentMutex);
+    for (const auto& item : counters.clock.stop())
+        _spent[item.first] += item.second;
+}
+
+std::map<std::string, double> EmbreeRenderer::materialSeconds() {
+    std::map<std::string, double> seconds;
+    const std::lock_guard<std::mutex> lock(_spentMutex);
+    if (_spent.empty()) return seconds;
+    const auto names = _embree->materialNames();
+    for (const auto& [program, nanoseconds] : _spent) {
+        const auto name = names.find(program);
+        seconds[name == names.end() ? "camera" : name->second] += 1e-9 * double(nanoseconds);
+    }
+    return seconds;
 }
 
 std::map<std::string, double> EmbreeRenderer::buildCounts() const {
@@ -76,6 +94,7 @@ void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) 
 
 void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     _rays = _shadowRays = _paths = 0;
+    _spent.clear();
     constexpr int maxThreads = 4096;
     Arena arena(std::min(_settings.threads, maxThreads));
     arena.execute([&] { updateScene(state, camera); });

@@ -8,6 +8,7 @@
 #include "hdDelegate/renderer/renderLoop.h"
 
 #include <atomic>
+#include <mutex>
 
 namespace patina {
 
@@ -23,6 +24,7 @@ private:
     void updateScene(const SceneState& state, const Camera& camera);
     std::map<std::string, double> buildCounts() const;
     void publish(const TileSchedule& schedule);
+    std::map<std::string, double> materialSeconds();
 
     // Kept between renders, so that an edit rebuilds only what it touched.
     std::shared_ptr<CompiledScene> _compiled;
@@ -34,6 +36,8 @@ private:
     dvec3 _origin{0.0}; ///< of all that is built, see originOfSeen()
 
     std::atomic<uint64_t> _rays{0}, _shadowRays{0}, _paths{0};
+    std::mutex _spentMutex;
+    std::map<const MaterialProgram*, uint64_t> _spent; ///< nanoseconds; guarded by _spentMutex
 };
 
 } // namespace patina

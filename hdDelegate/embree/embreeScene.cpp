@@ -256,6 +256,13 @@ ScenePlan EmbreeScene::plan() const {
     return plan;
 }
 
+std::map<const MaterialProgram*, std::string> EmbreeScene::materialNames() const {
+    std::map<const MaterialProgram*, std::string> names;
+    for (const auto& item : _programs)
+        names[item.second.program.get()] = item.first;
+    return names;
+}
+
 size_t EmbreeScene::bytes() const {
     size_t total = size_t(std::max<int64_t>(0, _embreeBytes)) + _shapes.bytes();
     for (const auto& item : _surfaces) {

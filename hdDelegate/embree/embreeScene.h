@@ -85,6 +85,8 @@ public:
     const BuildCounts& counts() const { return _counts; } ///< since construction
     /// What the methods of the materials in use are expected to cost.
     ScenePlan plan() const;
+    /// Paths of the materials in use, by their programs; "" is displayColor.
+    std::map<const MaterialProgram*, std::string> materialNames() const;
     size_t bytes() const; ///< of meshes and Embree's structures
 
 private:

@@ -37,6 +37,7 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     const vec2 pixel = vec2(x, y) + 0.5f + offset;
     const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime);
     const AovTarget target{film, x, y, glm::length(offset)};
+    counters.clock.enter(nullptr);
     if (_ambientOcclusion) {
         const AmbientOcclusion occlusion{_scene, _settings.ambientOcclusionSamples};
         const float seen = occlusion.sample(ray, sampler, _aovs, target, _camera, counters.rays);
@@ -283,6 +284,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         const float width = path.coneWidth + path.coneSpread * travelled;
         computeSurfacePoint(hit, path.origin, path.direction, width, point);
         const MaterialProgram& program = *point.slot->program;
+        counters.clock.enter(&program);
         if (program.jitters()) point.shading.seed = path.sampler.randomBits();
         const ShadingPoint& s = point.shading;
 

@@ -2,6 +2,7 @@
 
 #include "hdDelegate/embree/aovWriter.h"
 #include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/embree/materialClock.h"
 #include "hdDelegate/embree/path.h"
 #include "hdDelegate/embree/sceneLights.h"
 #include "hdDelegate/film/pixelFilter.h"
@@ -12,6 +13,7 @@ namespace patina {
 /// Counts of one thread; summed up for the statistics.
 struct TraceCounters {
     uint64_t rays = 0, shadowRays = 0, paths = 0;
+    MaterialClock clock;
 };
 
 constexpr int maxPassThroughs = 256; ///< surfaces that presence lets one ray through

@@ -1,5 +1,7 @@
 #include "hdDelegate/film/atomicFile.h"
 
+#include "hdDelegate/film/temporaryFailure.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -25,6 +27,9 @@ namespace {
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
     throw std::runtime_error("cannot write '" + path + "': " + reason);
 }
+[[noreturn]] void fail(const std::string& path, int error) {
+    failWith("cannot write '" + path + "'", error);
+}
 
 /// Renaming over a device, a pipe or a link would put a file in its place.
 /// @returns the file that the path means, links followed
@@ -32,7 +37,7 @@ fs::path targetOf(const std::string& path) {
     struct stat found;
     if (::lstat(path.c_str(), &found) != 0) {
         if (errno == ENOENT || errno == ENOTDIR) return path;
-        fail(path, std::strerror(errno));
+        fail(path, errno);
     }
     const bool link = S_ISLNK(found.st_mode);
     if (link && ::stat(path.c_str(), &found) != 0)
@@ -45,7 +50,7 @@ fs::path targetOf(const std::string& path) {
                         : S_ISSOCK(found.st_mode) ? "a socket"
                                                   : "a device") +
                        ", not a regular file");
-    if (::access(path.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
+    if (::access(path.c_str(), W_OK) != 0) fail(path, errno);
     if (!link) return path;
     std::error_code error;
     const fs::path target = fs::canonical(path, error);
@@ -123,7 +128,7 @@ AtomicFile::AtomicFile(const std::string& path) : _path(path) {
                             std::to_string(counter++) + endOf(target)))
                      .string();
     _lock = ::open(_temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-    if (_lock < 0) fail(path, std::strerror(errno));
+    if (_lock < 0) fail(path, errno);
     (void)::flock(_lock, LOCK_EX | LOCK_NB); // where there are no locks, the process says enough
     struct stat existing;
     if (::stat(_path.c_str(), &existing) == 0) {
@@ -134,7 +139,7 @@ AtomicFile::AtomicFile(const std::string& path) : _path(path) {
 
 void checkOutput(const std::string& path) {
     const fs::path folder = folderOf(path, checkedTarget(path));
-    if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(path, std::strerror(errno));
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(path, errno);
 }
 
 AtomicFile::~AtomicFile() {
@@ -153,13 +158,13 @@ void AtomicFile::commit() {
     // The data must be on the disk before the name is, or a power cut leaves an empty file. A full
     // disk is told here at the latest.
     const int file = ::open(_temporary.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) fail(_path, std::strerror(errno));
+    if (file < 0) fail(_path, errno);
     const int problem = ::fsync(file) == 0 || errno == EINVAL ? 0 : errno;
     ::close(file);
-    if (problem) fail(_path, std::strerror(problem));
+    if (problem) fail(_path, problem);
     // Once more: something else may have come there since.
     if (targetOf(_path).string() != _path) fail(_path, "it has become a link");
-    if (std::rename(_temporary.c_str(), _path.c_str()) != 0) fail(_path, std::strerror(errno));
+    if (std::rename(_temporary.c_str(), _path.c_str()) != 0) fail(_path, errno);
     ::close(_lock);
     _lock = -1;
 }

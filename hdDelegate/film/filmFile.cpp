@@ -1,5 +1,6 @@
 #include "hdDelegate/film/filmFile.h"
 
+#include "hdDelegate/film/temporaryFailure.h"
 #include "materialNetwork/regularFile.h"
 
 #include <algorithm>
@@ -63,8 +64,7 @@ void FilmFileWriter::raw(const void* data, size_t size) {
 }
 
 void FilmFileWriter::fail() {
-    throw std::runtime_error(std::string("cannot write ") + _kind + " '" + _name +
-                             "': " + std::strerror(errno));
+    failWith(std::string("cannot write ") + _kind + " '" + _name + "'", errno);
 }
 
 FilmFileReader::FilmFileReader(const FilmFileKind& kind, const std::string& name)

@@ -1,6 +1,7 @@
 #include "hdDelegate/film/imageOutput.h"
 
 #include "hdDelegate/film/atomicFile.h"
+#include "hdDelegate/film/temporaryFailure.h"
 #include "hdDelegate/film/watchedFile.h"
 
 #include <algorithm>
@@ -124,8 +125,8 @@ void writeAtomically(const std::string& path, const OIIO::ImageSpec& spec,
     if (reason.empty()) reason = output->geterror();
     if (!output->close()) good = false;
     if (reason.empty()) reason = output->geterror();
-    const std::string problem = watched ? watched->finish() : std::string();
-    if (!problem.empty()) fail(path, problem);
+    if (const int problem = watched ? watched->finish() : 0)
+        failWith("cannot write '" + path + "'", problem);
     if (!good) fail(path, reason);
     if (!watched) readBack(path, file.temporaryPath());
     file.commit();

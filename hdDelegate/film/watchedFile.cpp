@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 
 namespace patina {
 
@@ -44,14 +43,14 @@ bool WatchedFile::seek(int64_t offset) {
     return true;
 }
 
-std::string WatchedFile::finish() {
+int WatchedFile::finish() {
     if (m_file) {
         errno = 0;
         if (std::fclose(m_file) != 0 && !_error) _error = errno ? errno : EIO;
         m_file = nullptr;
         m_mode = Closed;
     }
-    return _error ? std::strerror(_error) : std::string();
+    return _error;
 }
 
 } // namespace patina

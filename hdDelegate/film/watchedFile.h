@@ -20,8 +20,8 @@ public:
     size_t pwrite(const void* data, size_t size, int64_t offset) override;
     bool seek(int64_t offset) override;
 
-    /// Closes the file. @returns why it is not whole, or nothing
-    std::string finish();
+    /// Closes the file. @returns why it is not whole, as errno says it, or 0
+    int finish();
 
 private:
     size_t pass(size_t written, size_t size, int64_t offset);

@@ -35,8 +35,13 @@ std::string readerProgram() {
         const std::string library = here.dli_fname;
         const size_t slash = library.rfind('/');
         if (slash != std::string::npos) {
-            const std::string beside = library.substr(0, slash + 1) + "patinaReadField";
-            if (::access(beside.c_str(), X_OK) == 0) return beside;
+            const std::string folder = library.substr(0, slash + 1);
+            // Beside it; or in the folder of an installed library, which the loader may have taken
+            // from glibc-hwcaps/LEVEL.
+            for (const char* place : {"", "patina/", "../../patina/"}) {
+                const std::string program = folder + place + "patinaReadField";
+                if (::access(program.c_str(), X_OK) == 0) return program;
+            }
         }
     }
     return PATINA_FIELD_READER;

@@ -1,7 +1,9 @@
 #include "hdDelegate/renderer/renderLoop.h"
 
+#include "hdDelegate/film/temporaryFailure.h"
 #include "hdDelegate/scene/instancerCheck.h"
 
+#include <new>
 #include <stdexcept>
 
 namespace patina {
@@ -69,12 +71,17 @@ RenderProgress RenderLoop::progress() const {
 
 void RenderLoop::run(std::shared_ptr<const SceneState> state, std::string camera) {
     std::string failure;
+    bool temporary = false;
     try {
         prepareAndRender(*state, camera);
+    } catch (const std::bad_alloc&) {
+        failure = "out of memory";
+        temporary = true;
     } catch (const std::exception& error) {
         failure = error.what();
+        temporary = dynamic_cast<const TemporaryFailure*>(&error) != nullptr;
     }
-    finish(failure);
+    finish(failure, temporary);
 }
 
 void RenderLoop::prepareAndRender(const SceneState& state, const std::string& path) {
@@ -97,11 +104,12 @@ void RenderLoop::notify() {
 }
 
 /// The listener hears the end before progress() tells it.
-void RenderLoop::finish(const std::string& failure) {
+void RenderLoop::finish(const std::string& failure, bool temporary) {
     RenderProgress last = progress();
     if (!failure.empty()) {
         last.failed = true;
         last.deviceFailed = _deviceFailed;
+        last.temporary = temporary || _deviceFailed;
         last.error = failure;
     } else if (!_stop) {
         last.converged = true;

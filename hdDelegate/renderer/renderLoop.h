@@ -78,7 +78,7 @@ protected:
 
 private:
     void run(std::shared_ptr<const SceneState> state, std::string camera);
-    void finish(const std::string& failure);
+    void finish(const std::string& failure, bool temporary);
 
     std::thread _thread;
     std::mutex _control; ///< start, stop and wait exclude each other

@@ -22,6 +22,7 @@ struct RenderProgress {
     bool failed = false;
     std::string error;         ///< one line, when failed
     bool deviceFailed = false; ///< it was the device or its driver: another back end may do it
+    bool temporary = false;    ///< what failed may work when it is tried again: memory ran out
     bool mayWait = false;      ///< a listener that is told this may wait until its image is seen
     std::string backend;       ///< what the film's samples were made by: embree, raster
     /// "rays", "paths", "secondsBuild" (of this start), "trianglesStored", "instances", "bytes" (of
@@ -31,6 +32,9 @@ struct RenderProgress {
     /// compiled "materialsReady" and "materialsWanted", with secondsLeft of that; and
     /// "materialsDrawn" for the first time, for which software compiles once more.
     std::map<std::string, double> statistics;
+    /// Threads' seconds by path of the material that was hit ("": displayColor; "camera": until a
+    /// path hits something), see embree/materialClock.h. Empty unless settings ask for it.
+    std::map<std::string, double> materialSeconds;
     std::map<std::string, MethodPlan> plans; ///< of materials in use, by path ("": displayColor);
                                              ///< without choices when there is no tolerance
     std::vector<PlannedMethod>

@@ -194,6 +194,14 @@ void bindFilm(py::module_& m) {
         .def("reset", &reset, py::arg("width"), py::arg("height"),
              py::arg("aovs") = std::vector<std::string>{}, py::arg("keep") = false,
              "Clears the film; ValueError names an unknown AOV.")
+        .def(
+            "copy",
+            [](const Film& film) {
+                auto copy = std::make_shared<Film>();
+                copy->copyFrom(film);
+                return copy;
+            },
+            py::call_guard<py::gil_scoped_release>(), "An equal film of its own.")
         .def_property_readonly("width", &Film::width)
         .def_property_readonly("height", &Film::height)
         .def_property_readonly("aovs", &aovNames, "Names besides color and alpha.")

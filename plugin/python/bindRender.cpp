@@ -98,8 +98,10 @@ py::dict progress(const Renderer& renderer) {
     dict["failed"] = p.failed;
     dict["error"] = p.error;
     dict["deviceFailed"] = p.deviceFailed;
+    dict["temporary"] = p.temporary;
     dict["backend"] = p.backend;
     dict["statistics"] = p.statistics;
+    dict["materialSeconds"] = p.materialSeconds;
     py::dict plans;
     for (const auto& item : p.plans)
         if (!item.second.choices.empty()) plans[py::str(item.first)] = planDict(item.second);

@@ -1,3 +1,4 @@
+#include "hdDelegate/film/temporaryFailure.h"
 #include "materialNetwork/utf8.h"
 
 #include <pybind11/pybind11.h>
@@ -94,6 +95,9 @@ Network(path)
 Film, images and colour; Renderer and its settings; materials: see the classes' own help.)";
 
     py::register_exception_translator(&patina::translateRuntimeError);
+#ifdef PATINA_BIND_FILM
+    py::register_exception<patina::TemporaryFailure>(m, "TemporaryFailure", PyExc_RuntimeError);
+#endif
     patina::bindMachine(m);
     patina::bindNetwork(m);
     patina::bindScene(m);

@@ -57,6 +57,10 @@ def test_broken_spec_is_a_usage_error(spec):
     ("a.#.png", 123, "a.123.png"),
     ("f/###.##.exr", 1.5, "f/001.50.exr"),
     ("a.###.png", -1, "a.-01.png"),
+    ("a.<F4>.png", 7, "a.0007.png"),
+    ("a.<F>.png", 123, "a.123.png"),
+    ("a.%04d.png", 7, "a.0007.png"),
+    ("%d/a.png", 12, "12/a.png"),
 ])
 def test_name(pattern, frame, expected):
     assert frames.image_name(pattern, frame, 0) == expected
@@ -74,7 +78,8 @@ def test_plan():
     assert frames.plan(Arguments("a.#.png", "1:2"), Stage()) == [(1.0, "a.1.png"), (2.0, "a.2.png")]
 
 
-@pytest.mark.parametrize("image, spec", [("a.png", "1:2"), ("a.#.b.#.png", "1:2"), ("a.#.png", None)])
+@pytest.mark.parametrize("image, spec", [("a.png", "1:2"), ("a.#.b.#.png", "1:2"), ("a.#.b.<F>.png", "1:2"), ("a.#.png", None),
+                                         ("a.%d.png", None), ("a.<F2>.png", "1:2x0.5")])
 def test_plan_refuses_names_that_do_not_fit(image, spec):
     with pytest.raises(UsageError):
         frames.plan(Arguments(image, spec), Stage())

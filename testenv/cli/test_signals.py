@@ -52,8 +52,9 @@ def test_a_signal_while_rendering_saves_image_and_checkpoint(number, folder, mon
     make = _patina.make_renderer
     monkeypatch.setattr(_patina, "make_renderer", lambda backend: _Signals(make(backend), number))
     before = [signal.getsignal(n) for n in interrupts.NUMBERS]
-    assert main.main(["record", "stage.usda", "a.exr", *LONG]) == 1
-    assert "--resume continues" in capsys.readouterr().err
+    assert main.main(["record", "stage.usda", "a.exr", *LONG]) == 75
+    said = capsys.readouterr().err
+    assert said == f"patina: interrupted; --resume continues: patina record stage.usda a.exr {' '.join(LONG)} --resume\n"
     assert sorted(os.listdir()) == ["a.exr", "a.exr.checkpoint", "stage.usda"]
     film = _patina.Film()
     film.load_checkpoint("a.exr.checkpoint")

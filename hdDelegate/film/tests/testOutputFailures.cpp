@@ -1,5 +1,6 @@
 #include "hdDelegate/film/atomicFile.h"
 #include "hdDelegate/film/imageFile.h"
+#include "hdDelegate/film/temporaryFailure.h"
 #include "hdDelegate/film/tests/tempFolder.h"
 
 #include <gtest/gtest.h>
@@ -185,6 +186,20 @@ TEST(OutputFailures, AFullDiskKeepsTheOldImage) {
     EXPECT_EQ(temp.fileCount(), 1u);
     writeImage(film, file, options);
     EXPECT_GT(std::filesystem::file_size(file), 4096u) << "the size that was too large";
+}
+
+TEST(OutputFailures, WhatMayPassIsToldFromWhatMayNot) {
+    for (int error : {ENOSPC, EDQUOT, ENOMEM, ESTALE, EIO})
+        EXPECT_THROW(failWith("x", error), TemporaryFailure);
+    for (int error : {ENOENT, EACCES, EROFS, EISDIR, EFBIG})
+        try {
+            failWith("cannot write 'x'", error);
+            FAIL() << error;
+        } catch (const TemporaryFailure&) {
+            ADD_FAILURE() << error << " does not pass by itself";
+        } catch (const std::runtime_error& told) {
+            EXPECT_EQ(told.what(), "cannot write 'x': " + std::string(std::strerror(error)));
+        }
 }
 
 /// @param side of the image: a small one is held back by the stream until it is closed or sought in

@@ -53,7 +53,7 @@ def run(arguments):
     settings = recordFlags.settings_of(record)
     recordFlags.purposes_of(record)
     cut.ranges(module.span_ends(settings["samples"]), arguments.cut.ranges)
-    stage = openStage.open_stage(record.stage, record.mask, record.sessionLayer)
+    stage = openStage.open_stage(record.stage, record.mask, record.sessionLayer, record.layer)
     shots = frames.plan(record, stage)
     for _, image in shots:
         outputs.check(image)
@@ -74,7 +74,9 @@ def _record_arguments(arguments):
     parser = main._Parser(prog="patina farm")
     recordFlags.add_arguments(parser)
     argv = main._normalise(arguments.passed_on + ([f"--frames={arguments.frames}"] if arguments.frames else []))
-    record = parser.parse_args(argv)
+    record = parser.parse_intermixed_args(argv)
+    if not record.image:
+        raise UsageError("patina farm: an IMAGE is wanted")
     for name in ("part", "partial", "keepCheckpoint"):
         if getattr(record, name):
             raise UsageError(f"patina farm: --{name} is the farm's own business")
@@ -103,5 +105,6 @@ def _files(record):
     layers, assets, _ = UsdUtils.ComputeAllDependencies(record.stage)
     files = [layer.realPath for layer in layers if layer.realPath] + [str(asset) for asset in assets]
     files += [record.sessionLayer] if record.sessionLayer else []
+    files += record.layer or []
     # What is in a package is the package's.
     return sorted({os.path.abspath(file.partition("[")[0]) for file in files})

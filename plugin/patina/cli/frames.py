@@ -1,4 +1,4 @@
-"""Frame specs and image names, as usdrecord understands them."""
+"""Frame specs as usdrecord understands them, and image names with a place for the frame as usdrecord, husk and printf write it."""
 import math
 import re
 
@@ -7,10 +7,11 @@ from patina.cli.errors import CommandError, UsageError
 FRAMESPEC_HELP = (
     "time codes to render: a number, START:END or START:ENDxSTRIDE, several of them separated by commas, as in "
     "1,5:8,10:20x2,1:2x0.5; STARTTIME and ENDTIME stand for the stage's own (STARTTIME:ENDTIME). The image's name "
-    "then holds the frame's place as #: image.####.png or image.###.##.png")
+    "then holds the frame's place: image.####.png, image.###.##.png, image.<F4>.png or image.%%04d.png")
 MAX_FRAMES = 1000000
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
-_PLACE = re.compile(r"#+(\.#+)?")
+# ####, ###.##, <F4>, <F>, %04d, %d
+_PLACE = re.compile(r"#+(?:\.(?P<decimals>#+))?|<F(?P<digits>\d{0,2})>|%(?P<zeros>0?\d{0,2})d")
 
 
 def _decimals(text):
@@ -52,20 +53,54 @@ def expand(spec, start, end):
 
 
 def image_name(pattern, frame, decimals):
-    """:returns: the pattern with the frame in the place of its hashes"""
+    """:returns: the pattern with the frame in its place"""
     match = _PLACE.search(pattern)
-    place = match.group(0)
-    precision = len(place.partition(".")[2])
+    precision = len(match["decimals"] or "")
     if precision < decimals:
         raise UsageError(f"patina record: the frames have {decimals} decimals, but {pattern} has room for {precision} "
                          "(write ###.##)")
-    text = f"{frame:0{len(place)}.{precision}f}"
+    if match["zeros"] is not None:
+        text = f"%{match['zeros']}d" % round(frame)
+    elif match["digits"] is not None:
+        text = f"{round(frame):0{int(match['digits'] or 1)}d}"
+    else:
+        text = f"{frame:0{len(match.group(0))}.{precision}f}"
     return pattern[:match.start()] + text + pattern[match.end():]
 
 
 def has_place(pattern):
     """:returns: whether an image's name has exactly one place for a frame"""
-    return len(_PLACE.findall(pattern)) == 1
+    return len(list(_PLACE.finditer(pattern))) == 1
+
+
+def named(pattern, frame, decimals):
+    """:returns: a name for a frame: the pattern itself where it has no place"""
+    return image_name(pattern, frame, decimals) if frame is not None and has_place(pattern) else pattern
+
+
+def spec_of(frames):
+    """:returns: the shortest spec of steps that means these time codes, in their order"""
+    def text(number):
+        return f"{number:.6f}".rstrip("0").rstrip(".")
+
+    parts, at = [], 0
+    while at < len(frames):
+        end, step = at + 1, frames[at + 1] - frames[at] if at + 1 < len(frames) else 1.0
+        while end < len(frames) and abs(frames[end] - frames[end - 1] - step) < 1e-6:
+            end += 1
+        if end - at < 3:
+            end = at + 1
+        stride = "" if abs(step) == 1.0 else f"x{text(abs(step))}"
+        parts.append(text(frames[at]) + (f":{text(frames[end - 1])}{stride}" if end - at > 1 else ""))
+        at = end
+    return ",".join(parts)
+
+
+def times(arguments, stage):
+    """:returns: list of time codes (None for the default time), and how many decimals tell them apart"""
+    if not arguments.frames:
+        return [None if arguments.defaultTime else stage.GetStartTimeCode()], 0
+    return expand(arguments.frames, stage.GetStartTimeCode(), stage.GetEndTimeCode())
 
 
 def plan(arguments, stage):
@@ -75,13 +110,13 @@ def plan(arguments, stage):
         if has_place(pattern):
             raise UsageError(f"patina record: {pattern} has a place for frames, but there is no --frames")
         return [(None if arguments.defaultTime else stage.GetStartTimeCode(), pattern)]
-    frames, decimals = expand(arguments.frames, stage.GetStartTimeCode(), stage.GetEndTimeCode())
+    frames, decimals = times(arguments, stage)
     if len(frames) == 1 and not has_place(pattern):
         return [(frames[0], pattern)]
     if not has_place(pattern):
         raise UsageError(f"patina record: several frames need one place in the image's name: image.###.png "
                          f"instead of {pattern}")
-    named = [(frame, image_name(pattern, frame, decimals)) for frame in frames]
-    if len({image for _, image in named}) != len(named):
+    made = [(frame, image_name(pattern, frame, decimals)) for frame in frames]
+    if len({image for _, image in made}) != len(made):
         raise CommandError(f"two frames of {arguments.frames} would be written to the same image")
-    return named
+    return made

@@ -39,9 +39,13 @@ def _places():
     """:returns: (folder for PXR_PLUGINPATH_NAME, path of patinaHydraInfo)
     :raises CommandError: when there is no plugin"""
     build = os.environ.get("PATINA_BUILD_DIR", "")
-    folder = os.path.join(build, "usdPlugin")
-    program = os.path.join(build, "plugin", "hydra", "patinaHydraInfo")
-    if not build or not os.path.exists(program):
+    # PREFIX/lib/patina/python/patina/cli/hydra.py of what `cmake --install` made
+    prefix = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), *[".."] * 5))
+    places = [(os.path.join(prefix, "plugin", "usd"), os.path.join(prefix, "bin", "patinaHydraInfo"))]
+    if build:
+        places.insert(0, (os.path.join(build, "usdPlugin"), os.path.join(build, "plugin", "hydra", "patinaHydraInfo")))
+    folder, program = next((pair for pair in places if all(map(os.path.exists, pair))), (None, None))
+    if not program:
         raise CommandError("the Hydra plugin is not built: CMake found no OpenUSD with Hydra (set PXR_USD_LOCATION "
                            "to where it is installed)")
     return folder, program

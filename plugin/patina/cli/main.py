@@ -1,4 +1,4 @@
-"""Chooses the command, turns errors into one line and an exit status: 0 done, 1 failed, 2 usage."""
+"""Chooses the command, turns errors into one line and an exit status: 0 done, 1 failed, 2 usage, 75 try again."""
 import argparse
 import importlib
 import os
@@ -8,7 +8,7 @@ import traceback
 
 from patina import __version__, inputs
 from patina.cli import interrupts, told
-from patina.cli.errors import CommandError, UsageError
+from patina.cli.errors import FAILED, TEMPORARY, USAGE, CommandError, UsageError, is_temporary
 
 # name -> module of patina.cli that has HELP, add_arguments(parser) and run(arguments)
 COMMANDS = {
@@ -73,7 +73,8 @@ def _overview():
              "commands:"]
     lines += [f"  {name:<10}{text}" for name, text in SUMMARIES.items()]
     lines += ["", "`patina COMMAND --help` tells everything about one of them.",
-              "Exit status: 0 done, 1 failed with a one-line reason, 2 wrong usage."]
+              "Exit status: 0 done, 1 failed with a one-line reason, 2 wrong usage, 75 failed for a reason that may pass",
+              "(a full disk, memory, a lost device) or ended by a signal with all saved: the same may work again."]
     return "\n".join(lines)
 
 
@@ -108,8 +109,18 @@ def _dispatch(argv):
         arguments, arguments_left = parser.parse_known_args(argv[1:])
         arguments.passed_on = arguments_left
     else:
-        arguments = parser.parse_args(_normalise(argv[1:]))
+        words = _normalise(argv[1:])
+        # A file that may be left out is found wherever it stands among the flags.
+        parse = parser.parse_intermixed_args if getattr(module, "INTERMIXED", False) else parser.parse_args
+        arguments = parse(words)
+        arguments.argv, arguments.given = list(argv), _given(parser, parse, words)
     return module.run(arguments) or 0
+
+
+def _given(parser, parse, words):
+    """:returns: names of the arguments that were typed, not taken from defaults"""
+    blank = argparse.Namespace(**{a.dest: [] if isinstance(a.default, list) else None for a in parser._actions})
+    return {name for name, value in vars(parse(words, blank)).items() if value not in (None, [])}
 
 
 def _text_of(error):
@@ -125,7 +136,11 @@ def _one_line(error):
         error = inner
     if isinstance(error, UnicodeDecodeError):
         return f"what was read holds a text that is not UTF-8: {bytes(error.object)[:200]!r}"
-    if not isinstance(error, (UsageError, CommandError, RuntimeError, OSError)):
+    if isinstance(error, MemoryError):
+        text = "out of memory"
+    elif isinstance(error, ModuleNotFoundError) and (error.name or "").partition(".")[0] in ("pxr", "numpy"):
+        text = f"Python's {error.name} is missing: pip install usd-core numpy (or PATINA_PYTHON names a Python that has them)"
+    elif not isinstance(error, (UsageError, CommandError, RuntimeError, OSError)):
         text = f"{type(error).__name__}: {text}" if text else type(error).__name__
     return (text or type(error).__name__).encode(errors="backslashreplace").decode()
 
@@ -154,9 +169,9 @@ def _failed(error, endings):
         print(f"patina: {endings.text()}", file=sys.stderr)
     elif isinstance(error, UsageError):
         print(_one_line(error), file=sys.stderr)
-        return 2
+        return USAGE
     elif endings.met and isinstance(error.__cause__, ImportError):
         print(f"patina: {endings.text()}", file=sys.stderr)
     else:
         print(f"patina: {_one_line(error)}", file=sys.stderr)
-    return 1
+    return TEMPORARY if is_temporary(error) else FAILED

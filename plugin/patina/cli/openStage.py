@@ -8,8 +8,9 @@ from patina.cli.errors import CommandError
 _LAYERS = (".usd", ".usda", ".usdc", ".usdz")
 
 
-def open_stage(path, mask=None, session_layer=None):
+def open_stage(path, mask=None, session_layer=None, layers=()):
     """:param mask: prim paths separated by commas or spaces, or None
+    :param layers: files whose opinions are stronger than the stage's and the session layer's; later ones are stronger
     :returns: the Usd.Stage, whose session layer may be edited"""
     from pxr import Sdf, Tf, Usd
 
@@ -25,7 +26,7 @@ def open_stage(path, mask=None, session_layer=None):
     inputs.check_regular(path)
     with compat.QuietDiagnostics() as quiet:
         try:
-            stage = _open(path, mask, session_layer, Sdf, Usd)
+            stage = _open(path, mask, session_layer, layers, Sdf, Usd)
             problem = "it is no USD file"
         except Tf.ErrorException as error:
             stage, problem = None, errors.one_line(error)
@@ -38,19 +39,17 @@ def open_stage(path, mask=None, session_layer=None):
     return stage
 
 
-def _open(path, mask, session_layer, Sdf, Usd):
+def _open(path, mask, session_layer, layers, Sdf, Usd):
     root = Sdf.Layer.FindOrOpen(path)
     if not root:
         return None
     _check_waiting(root, Sdf)
     session = Sdf.Layer.CreateAnonymous("session.usda")
+    # A layer of its own above the given ones: overrides never reach their files.
+    for layer in reversed(layers or ()):
+        session.subLayerPaths.append(_above(layer, "--layer", Sdf))
     if session_layer:
-        inputs.check_regular(session_layer)
-        if not Sdf.Layer.FindOrOpen(session_layer):
-            raise CommandError(f"the session layer {session_layer} cannot be opened")
-        _check_waiting(Sdf.Layer.FindOrOpen(session_layer), Sdf)
-        # A layer of its own above the given one: overrides never reach the file.
-        session.subLayerPaths.append(os.path.abspath(session_layer))
+        session.subLayerPaths.append(_above(session_layer, "the session layer", Sdf))
     if not mask:
         return Usd.Stage.Open(root, session)
     population = Usd.StagePopulationMask()
@@ -59,6 +58,19 @@ def _open(path, mask, session_layer, Sdf, Usd):
             raise CommandError(f"--mask: {prim} is no prim path")
         population.Add(prim)
     return Usd.Stage.OpenMasked(root, session, population)
+
+
+def _above(layer, what, Sdf):
+    """:returns: the absolute path of a layer that is put above the stage
+    :raises CommandError: where it cannot be opened"""
+    if not os.path.exists(layer):
+        raise CommandError(f"{what} {layer}: there is no such file")
+    inputs.check_regular(layer)
+    found = Sdf.Layer.FindOrOpen(layer)
+    if not found:
+        raise CommandError(f"{what} {layer} cannot be opened")
+    _check_waiting(found, Sdf)
+    return os.path.abspath(layer)
 
 
 def _check_waiting(root, Sdf):

@@ -1,99 +1,124 @@
 """Renders a stage to images.
 
   patina record shot.usda shot.png
-  patina record shot.usda shot.###.exr --frames 101:110 --samples 256 --aov all
+  patina record shot.usda shot.####.exr --frames 101:110 --samples 256 --aov all
   patina record shot.usda shot.exr --tolerance 0.01 --seconds 600 --json
   patina record shot.usda shot.exr --part 3/8 --partial shot.3.part    an eighth of it, for `patina merge`
+  patina record shot.usda --settings /Render/beauty --frames 1:10x3,20    all products of these settings
 
 Warnings are told by their causes: first errors (something that was authored is missing from the image), then warnings (a
 default or an approximation is used), those that are met most often first, 20 at most. --json has all of them.
 
-Ctrl+C ends a render early: the image is written with the samples that are there, and
-IMAGE.checkpoint stays for --resume. An image that was there before is replaced only by a whole one.
+Ctrl+C and SIGTERM end a render early: the image is written with the samples that are there, IMAGE.checkpoint stays for
+--resume, and the command that goes on is printed. SIGUSR1 writes a snapshot of what is there and goes on. An image that was
+there before is replaced only by a whole one.
+
+Exit status: 0 done, 1 failed with a one-line reason, 2 wrong usage, 75 failed for a reason that may pass (a full disk, memory,
+a lost device) or ended by a signal with all saved: a scheduler may run the same again, with --resume.
 """
+import dataclasses
 import os
 
-from patina.cli import checkpoints, compiled, denoiser, frames, openStage, outputs, overrides, recordFlags, statistics
-from patina.cli.errors import CommandError
+from patina.cli import (checkpoints, compiled, denoiser, goOn, openStage, outputs, overrides, recordFlags, renderSettings, reports,
+                        shots, snapshots, statistics, verbose)
+from patina.cli.errors import CommandError, TemporaryError
 from patina.cli.interrupts import Endings, Interrupts
 from patina.cli.progress import Progress
 from patina.farm import partJob
 
 add_arguments = recordFlags.add_arguments
-DEFAULT_WIDTH = 960
+INTERMIXED = True  # IMAGE may be left out
 
 
 def run(arguments):
     partJob.check(arguments)
     _patina = compiled.load()
-    settings = recordFlags.settings_of(arguments)
-    purposes = recordFlags.purposes_of(arguments)
+    shots.check_usage(arguments)
+    reports.check_usage(arguments)
+    recordFlags.settings_of(arguments)
+    recordFlags.purposes_of(arguments)
     overrides.parse(arguments.set)
-    job = (partJob.of(_Job) if arguments.part else _Job)(_patina, arguments, settings, purposes)
-    job.open()
-    try:
-        for frame, image in job.plan:
-            job.render(frame, image)
-            if job.interrupted:
-                break
-    finally:
-        job.report()
-    if job.interrupted:
-        raise CommandError("interrupted; --resume continues" if arguments.checkpointSeconds > 0.0 else "interrupted")
+    job = (partJob.of(_Job) if arguments.part else _Job)(_patina, arguments)
+    with job.snapshots:
+        job.open()
+        try:
+            for index, shot in enumerate(job.shots):
+                job.render(shot)
+                if job.interrupted:
+                    raise job.ended(job.shots[index:])
+        finally:
+            job.report()
 
 
 class _Job:
-    """One call of the command: a stage, a renderer, one or many frames."""
+    """One call of the command: a stage, a renderer, one or many films."""
 
-    def __init__(self, module, arguments, settings, purposes):
-        self.module, self.arguments, self.settings, self.purposes = module, arguments, settings, purposes
+    def __init__(self, module, arguments):
+        self.module, self.arguments = module, arguments
         self.statistics = statistics.Statistics(arguments)
+        self.snapshots = snapshots.Snapshots(arguments.snapshot)
         self.interrupted = False
         self.told = {}  # causes of warnings that were shown ...
         self.reported = 0  # ... and how many warnings there were then
+        self._read = None  # (frame, camera, what was read) of the scene
 
     def open(self):
         a = self.arguments
-        pattern = a.image
         # Before anything slow: will the image have a place to go to?
-        self.module.check_image_path(pattern, ["color", "alpha"] + recordFlags.aovs_of(a))
+        if a.image:
+            self.module.check_image_path(a.image, ["color", "alpha"] + recordFlags.aovs_of(a))
         if a.denoise:
             denoiser.prepare(self.module)
-        outputs.check_all([pattern, a.json])
+        outputs.check_all([a.image, a.json, a.report])
         with self.statistics.phase("open"):
-            self.stage = openStage.open_stage(a.stage, a.mask, a.sessionLayer)
+            self.stage = openStage.open_stage(a.stage, a.mask, a.sessionLayer, a.layer)
             overrides.apply(self.stage, a.set)
-        self.plan = frames.plan(a, self.stage)
-        for _, image in self.plan:
-            self._check_outputs(image)
+            prim = renderSettings.SettingsPrim(self.stage, a.settings, getattr(a, "given", ())) if a.settings else None
+        if prim:
+            self.arguments = a = renderSettings.applied(a, prim)
+        self.settings, self.purposes = recordFlags.settings_of(a), recordFlags.purposes_of(a)
+        self.shots = shots.plan(a, self.stage, prim)
+        for warning in prim.warnings if prim else ():
+            self.statistics.warn(*warning)
+        for shot in self.shots:
+            if not a.image:
+                for output in shot.outputs:
+                    self.module.check_image_path(output.image, list(output.aovs))
+            self._check_outputs(shot)
         self.renderer = self.module.make_renderer(a.backend)
         self.scene = self.module.Scene()
 
-    def render(self, frame, image):
-        self.statistics.begin_frame(frame, image)
-        with self.statistics.phase("translate"):
-            info = self._translate(frame)
-        self._check_outputs(image)  # once more: now it is known which textures are read
-        for note in self.statistics.note(info.notes + self._left_over(image)):
+    def render(self, shot):
+        self.statistics.begin_frame(shot.frame, shot.images)
+        info = self._info(shot)
+        self._check_outputs(shot)  # once more: now it is known which textures are read
+        for note in self.statistics.note(info.notes + self._left_over(shot.image)):
             Progress("", self.arguments.quiet).say(note)
         self._check_warnings()
-        settings = dict(self.settings, **self._size(info))
-        film = self._film(image, settings, info, frame)
+        settings = self._settings(shot, info)
+        film = self._film(shot, settings, info)
         if self.arguments.checkpointSeconds > 0.0:
-            settings["checkpointFile"] = checkpoints.path_of(image)
-        self._render(film, image, settings, info.camera)
+            settings["checkpointFile"] = checkpoints.path_of(shot.image)
+        self._render(film, shot, settings, info.camera)
         self._check_warnings()
         if self.arguments.denoise:
             with self.statistics.phase("denoise"):
                 denoiser.run(self.module, film, self.arguments.threads)
         with self.statistics.phase("write"):
-            self._write(film, image, settings, info)
+            self._write(film, shot, settings, info)
+        if self.arguments.report:
+            with self.statistics.phase("report"):
+                reports.write(self, film, shot, settings, info)
         self.statistics.end_frame()
+        if self.arguments.verbose:
+            self._say_all(verbose.lines(self.statistics.frames()[-1]))
 
-    def _check_outputs(self, image):
-        outputs.check_all([image, self.arguments.json])
-        if self.arguments.checkpointSeconds > 0.0 or self.arguments.keepCheckpoint or self.arguments.resume:
-            outputs.check(checkpoints.path_of(image))
+    def _check_outputs(self, shot):
+        a = self.arguments
+        files = shot.images + ([snapshots.path_of(image, a.snapshotSuffix) for image in shot.images] if a.snapshot else [])
+        outputs.check_all([*files, a.json, reports.path_of(a, shot)])
+        if a.checkpointSeconds > 0.0 or a.keepCheckpoint or a.resume:
+            outputs.check(checkpoints.path_of(shot.image))
 
     def _left_over(self, image):
         """What a render that was killed has left; it goes when this image is written."""
@@ -102,50 +127,66 @@ class _Job:
             return []
         return [f"{path} of an earlier render is given up (--resume would have continued it)"]
 
-    def _translate(self, frame):
+    def _info(self, shot):
+        """:returns: what the reader told; the scene holds the shot's frame as its camera sees it"""
+        if self._read is None or self._read[0] != shot.frame or not self._also_from(shot.camera):
+            with self.statistics.phase("translate"):
+                self._read = (shot.frame, shot.camera, self._translate(shot))
+        info = self._read[2]
+        return info if shot.camera == self._read[1] else dataclasses.replace(info, camera=shot.camera)
+
+    def _also_from(self, camera):
+        """:returns: whether what was read looks as it would for another camera of the same frame: with an equal shutter, and
+            without a headlight"""
+        frame, read_for, info = self._read
+        if camera == read_for:
+            return True
+        if info.headlight or camera not in info.cameras:
+            return False
+        from patina.cli.products import prim_value
+
+        prim = self.stage.GetPrimAtPath(camera)
+        return all((prim_value(prim.GetAttribute("shutter:" + end), frame) or 0.0) == time
+                   for end, time in zip(("open", "close"), info.shutter))
+
+    def _translate(self, shot):
         from patina import stage as reader
 
         options = reader.StageOptions(
-            frame=frame, purposes=self.purposes, complexity=self.arguments.complexity,
-            camera=self.arguments.camera, headlight=not self.arguments.disableCameraLight)
+            frame=shot.frame, purposes=self.purposes, complexity=self.arguments.complexity, camera=shot.camera,
+            headlight=not self.arguments.disableCameraLight,
+            material_purpose=getattr(self.arguments, "materialPurpose", "full"))
         with self.scene.edit() as edit:
             edit.clear()
             return reader.read_stage(self.stage, edit, options)
 
-    def _size(self, info):
-        """:returns: dict of width and height: what is not given follows from the camera's aperture"""
-        a = self.arguments
-        width, height = a.imageWidth, a.imageHeight
-        camera = self.scene.camera(info.camera)
-        apertures = camera["horizontal_aperture"], camera["vertical_aperture"]
-        aspect = apertures[0] / apertures[1] if min(apertures) > 0.0 else 16.0 / 9.0
-        aspect /= a.pixelAspectRatio
-        if width is None:
-            width = DEFAULT_WIDTH if height is None else max(1, round(height * aspect))
-        if height is None:
-            height = max(1, round(width / aspect))
-        if width * height > recordFlags.MAX_PIXELS or max(width, height) > recordFlags.LARGEST_SIZE:
-            raise CommandError(f"an image of {width} x {height} pixels is too large")
-        return {"width": width, "height": height}
+    def _settings(self, shot, info):
+        """:returns: dict of the render settings of a shot"""
+        settings = dict(self.settings, **shot.settings)
+        wanted = dict.fromkeys([*shot.aovs(), *(denoiser.GUIDES if self.arguments.denoise else ()),
+                                *(reports.AOVS if self.arguments.report else ())])
+        width, height = shots.size_of(shot, self.scene.camera(info.camera), settings["pixelAspectRatio"])
+        settings.update(width=width, height=height, aovs=list(wanted), timeMaterials=bool(self.arguments.report))
+        return settings
 
-    def _film(self, image, settings, info, frame):
+    def _film(self, shot, settings, info):
         """:returns: an empty film, or that of a checkpoint"""
         film = self.module.Film()
-        token = checkpoints.token(self.stage, settings, [
-            info.camera, frame, self.purposes, self.arguments.complexity, self.arguments.mask, self.arguments.set],
-            self.renderer.progress()["backend"])
+        others = [info.camera, shot.frame, self.purposes, self.arguments.complexity, self.arguments.mask, self.arguments.set]
+        token = checkpoints.token(self.stage, settings, others, self.renderer.progress()["backend"])
         if self.arguments.resume:
-            problem = checkpoints.resume(film, checkpoints.path_of(image), token)
+            problem = checkpoints.resume(film, checkpoints.path_of(shot.image), token)
             if problem:
-                self.statistics.warn(image, "", problem)
+                self.statistics.warn(shot.image, "", problem)
                 film = self.module.Film()
         film.resume_token = token
         return film
 
-    def _render(self, film, image, settings, camera):
+    def _render(self, film, shot, settings, camera):
         a = self.arguments
-        progress = Progress(image, a.quiet)
+        progress = Progress(shot.image, a.quiet)
         Endings.check()  # what a library made of the exception
+        self.snapshots.begin(lambda copy: self._write_snapshot(copy, shot, settings, camera))
         with self.statistics.phase("render"), Interrupts() as interrupts:
             self.renderer.start(self.scene, camera, settings, film)
             self._check_warnings()  # of a back end that cannot start
@@ -154,27 +195,53 @@ class _Job:
                 state = self.renderer.progress()
                 if state["samplesDone"] and not built:
                     built = True
+                    self.statistics.built()
                     self._check_warnings()  # of shapes, materials and textures, before the long wait
+                if state["samplesDone"]:
+                    problem = self.snapshots.look(self.renderer, film)
+                    if problem:
+                        self.statistics.warn(shot.image, "", snapshots.words(problem))
+                        self._check_warnings()
                 progress.show(state)
             self.renderer.stop()
         progress.clear()
         state = self.renderer.progress()
         if state["failed"]:
-            raise CommandError(state["error"])
+            raise (TemporaryError if state["temporary"] or state["deviceFailed"] else CommandError)(state["error"])
         self.interrupted = interrupts.met and not state["converged"]
         self.statistics.rendered(state, film)
         if self.interrupted or a.keepCheckpoint:
             if film.width:
-                film.save_checkpoint(checkpoints.path_of(image))
+                film.save_checkpoint(checkpoints.path_of(shot.image))
         if self.interrupted and not state["samplesDone"]:
-            raise CommandError("interrupted before the image was whole; it is not written")
+            raise self.ended(self.shots[self.shots.index(shot):], "interrupted before the image was whole; it is not written")
 
-    def _write(self, film, image, settings, info):
+    def ended(self, left, reason="interrupted"):
+        """:param left: shots that are not done
+        :returns: the error that ends an interrupted command"""
+        if not self.arguments.checkpointSeconds > 0.0:
+            return CommandError(reason)
+        times = list(dict.fromkeys(shot.frame for shot in left))
+        return TemporaryError(f"{reason}; --resume continues: {goOn.command(self.arguments, times)}")
+
+    def _write(self, film, shot, settings, info):
         a = self.arguments
-        options = recordFlags.image_options_of(a)
-        self.module.write_images(film, image, options, self.statistics.metadata(a, settings, info.camera))
+        metadata = self.statistics.metadata(a, settings, info.camera)
+        for output in shot.outputs:
+            self.module.write_images(film, output.image, shots.image_options(a, shot, output, settings), metadata)
+        if a.snapshot:
+            snapshots.remove(shot.images, a.snapshotSuffix)
         if not self.interrupted and not a.keepCheckpoint:
-            checkpoints.remove(checkpoints.path_of(image))
+            checkpoints.remove(checkpoints.path_of(shot.image))
+
+    def _write_snapshot(self, film, shot, settings, camera):
+        """:param film: a copy, which the render does not touch"""
+        if self.arguments.denoise:
+            denoiser.run(self.module, film, self.arguments.threads)
+        metadata = statistics.of_snapshot(self.arguments, film, camera)
+        for output in shot.outputs:
+            self.module.write_images(film, snapshots.path_of(output.image, self.arguments.snapshotSuffix),
+                                     shots.image_options(self.arguments, shot, output, settings), metadata)
 
     def _check_warnings(self):
         """Shows what is new; with --strict the render ends here."""
@@ -187,8 +254,11 @@ class _Job:
     def _report(self, warnings, last=False):
         fresh, self.reported = len(warnings) != self.reported, len(warnings)
         if not self.arguments.quiet and (fresh or last):
-            for text in statistics.Causes(warnings).lines(self.told, last):
-                Progress("").say(text)
+            self._say_all(statistics.Causes(warnings).lines(self.told, last))
+
+    def _say_all(self, lines):
+        for text in lines:
+            Progress("").say(text)
 
     def report(self):
         self._report(self.statistics.warnings(), last=True)

@@ -1,7 +1,7 @@
 """The flags of `patina record`, and the render settings that they mean."""
 import math
 
-from patina.cli import denoiser, frames, methods, overrides, rows, settingFlags
+from patina.cli import denoiser, frames, methods, overrides, rows, settingFlags, snapshots
 from patina.cli.errors import UsageError
 from patina.farm import cut
 
@@ -12,14 +12,18 @@ ALL_AOVS = tuple(name for row in rows.read("hdDelegate/film/aovs.def", "AOV") if
                  for name in row.words["all"] or [row.values[0]])
 LARGEST_SIZE = 65536
 MAX_PIXELS = 1 << 28
+_SETTINGS_HELP = ("take camera, resolution, products, AOVs, purposes and `patina:` settings from this UsdRenderSettings prim; `stage` "
+                  "is the one that the stage's metadata name. Flags are stronger. Without IMAGE all its products are written to "
+                  "their own names; with IMAGE the first, to IMAGE")
 _TEXTS = {"DEFAULT_SAMPLES": DEFAULT_SAMPLES, "MAX_SAMPLES": MAX_SAMPLES}  # of helps in the table of settings
 
 
 def add_arguments(parser):
     parser.add_argument("stage", metavar="STAGE", help="a .usd, .usda, .usdc or .usdz file")
-    parser.add_argument("image", metavar="IMAGE",
+    parser.add_argument("image", metavar="IMAGE", nargs="?",
                         help="what to write: .exr holds linear colour and all AOVs; .png, .jpg, .tif and others hold "
-                             "the colour as a display shows it. With --frames the name holds the frame's place (###)")
+                             "the colour as a display shows it. With --frames the name holds the frame's place (####, <F4> "
+                             "or %%04d). It may be left out with --settings")
     _add_stage_flags(parser.add_argument_group("the stage"))
     _add_render_flags(parser.add_argument_group("the render"))
     _add_output_flags(parser.add_argument_group("the image"))
@@ -41,6 +45,10 @@ def _add_stage_flags(group):
     group.add_argument("--mask", metavar="PATH[,PATH...]", help="populate only these prims and what is above and "
                                                                  "below them")
     group.add_argument("--sessionLayer", metavar="FILE", help="open the stage with this session layer")
+    group.add_argument("--layer", action="append", default=[], metavar="FILE",
+                       help="a layer over the stage, which itself is not changed (repeatable; later ones are stronger, and all "
+                            "are stronger than the session layer)")
+    group.add_argument("--settings", "--renderSettingsPrimPath", "-rs", metavar="PRIM", help=_SETTINGS_HELP)
     group.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE", help=overrides.SET_HELP)
     group.add_argument("--disableCameraLight", action="store_true",
                        help="no headlight where the stage has no lights")
@@ -98,11 +106,23 @@ def _add_run_flags(group):
                             "groups, and the samples of each into so many ranges; --partial takes it")
     group.add_argument("--partial", metavar="FILE", help="the part's file; `patina merge` makes IMAGE of all of them, with the "
                                                          "bits of the frame rendered at once")
+    group.add_argument("--snapshot", type=_not_negative, default=0.0, metavar="S",
+                       help="write the image so often while it renders, beside IMAGE (see --snapshotSuffix); it is removed when "
+                            "IMAGE is written (default: 0, never; the signal SIGUSR1 asks for one in any case)")
+    group.add_argument("--snapshotSuffix", type=_suffix, default=snapshots.SUFFIX, metavar="TEXT",
+                       help=f"of the names of snapshots, before the extension (default: {snapshots.SUFFIX})")
+    group.add_argument("--report", metavar="FILE.html",
+                       help="one page that needs no network: image and AOVs to wipe through, samples and error of each pixel, time "
+                            "by phase and by material, memory, warnings, the plan, and the command. With --frames of the last "
+                            "frame, or of each where the name has a place for it")
     group.add_argument("--strict", action="store_true", help="warnings make the render fail")
     group.add_argument("--json", metavar="FILE",
                        help="statistics (times by phase, rays, samples, memory, warnings): --json to standard "
                             "output, --json=FILE to a file")
-    group.add_argument("--quiet", "-q", action="store_true", help="errors only: no progress, no warnings")
+    loud = group.add_mutually_exclusive_group()
+    loud.add_argument("--verbose", "-v", action="store_true",
+                      help="also time and memory of each phase of a frame: read, translate, build, sample, write")
+    loud.add_argument("--quiet", "-q", action="store_true", help="errors only: no progress, no warnings")
 
 
 def settings_of(arguments):
@@ -131,8 +151,6 @@ def image_options_of(arguments):
                "display": arguments.display, "view": arguments.view, "pixel_aspect_ratio": arguments.pixelAspectRatio,
                "raw": arguments.colorCorrectionMode == "disabled",
                "aovs": ["color", "alpha"] + aovs_of(arguments)}
-    if arguments.denoise and arguments.image.lower().endswith(".exr"):
-        options["aovs"].append(denoiser.NOISY)
     if arguments.dataWindow:
         options["data_window"] = arguments.dataWindow
     return options
@@ -182,6 +200,12 @@ def _not_negative(text):
     return value
 
 
+def _suffix(text):
+    if not text or "/" in text or "\0" in text:
+        raise ValueError
+    return text
+
+
 def _window(text):
     values = [int(word) for word in text.split(",")]
     if len(values) != 4 or values[0] < 0 or values[1] < 0 or values[2] < values[0] or values[3] < values[1]:
@@ -191,5 +215,6 @@ def _window(text):
 
 # argparse shows the name of the function in its message about a bad value.
 for _function, _name in ((_complexity, "complexity"), (_count, "count (1 or more)"), (_size, "size in pixels"),
-                         (_seed, "seed"), (_not_negative, "number (0 or more)"), (_window, "window X0,Y0,X1,Y1")):
+                         (_seed, "seed"), (_not_negative, "number (0 or more)"), (_window, "window X0,Y0,X1,Y1"),
+                         (_suffix, "text without a slash")):
     _function.__name__ = _name

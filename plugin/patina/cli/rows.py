@@ -7,7 +7,9 @@ import os
 import re
 from dataclasses import dataclass
 
-ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
+_PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+_INSTALLED = os.path.join(_PACKAGE, "tables")  # an installed package has its own copies
+ROOT = _INSTALLED if os.path.isdir(_INSTALLED) else os.path.normpath(os.path.join(_PACKAGE, "..", ".."))
 _STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
 
@@ -22,7 +24,7 @@ class Row:
 
 @functools.lru_cache(maxsize=None)
 def read(path, macro):
-    """:param path: of a .def file below the root of the checkout
+    """:param path: of a .def file below the root of the checkout, or of the tables that are installed
     :returns: list of Row"""
     with open(os.path.join(ROOT, path), encoding="utf-8") as file:
         text = re.sub(r"^\s*//.*$", "", file.read(), flags=re.MULTILINE)

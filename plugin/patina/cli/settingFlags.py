@@ -67,6 +67,26 @@ def _default(row):
     return int(text) if kind in _WHOLE else float(text.rstrip("f"))
 
 
+def value_of(row, value):
+    """:param value: of any type that holds it, such as an attribute's
+    :returns: the value as a render setting
+    :raises ValueError, TypeError: where the setting does not take it"""
+    kind = row.values[0]
+    if kind == "std::string":
+        text = str(value)
+        if "choices" in row.words and text not in row.words["choices"][0].split():
+            raise ValueError(text)
+        return text
+    if kind == "bool":
+        return bool(float(value))
+    number = float(value)
+    least, most = row.words.get("range", [-math.inf, math.inf])
+    allowed = least <= number <= most or number in row.words.get("also", [])
+    if not math.isfinite(number) or not allowed or (kind in _WHOLE and not (number == int(number) and number <= _WHOLE[kind])):
+        raise ValueError(value)
+    return int(number) if kind in _WHOLE else number
+
+
 def _parser(row):
     """:returns: function of a text, named as argparse's message about a bad value shall call it"""
     whole = _WHOLE.get(row.values[0])

@@ -1,10 +1,9 @@
 """What --json shows of a render: times by phase, rays, samples, memory, warnings."""
 import contextlib
-import sys
 import time
 
 from patina import __version__
-from patina.cli import outputs, planText
+from patina.cli import memory, outputs, planText
 from patina.cli.causes import Causes
 
 PHASES = ("open", "translate", "build", "render", "write", "total")
@@ -28,16 +27,6 @@ def report(warnings, stream, json=True):
         print(text, file=stream)
 
 
-def peak_memory():
-    """:returns: bytes of the most memory that this process has had, or None"""
-    try:
-        import resource
-    except ImportError:  # Windows
-        return None
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak if sys.platform == "darwin" else peak * 1024
-
-
 class Statistics:
     """Collects the numbers of all frames. Times are in seconds of wall clock."""
 
@@ -58,9 +47,28 @@ class Statistics:
             spent = time.perf_counter() - begin
             for times in (self._seconds, *([self._frame["seconds"]] if self._frame else [])):
                 times[name] = times.get(name, 0.0) + spent
+            if self._frame:
+                self._frame["memory"][name] = memory.resident()
 
-    def begin_frame(self, frame, image):
-        self._frame = {"frame": frame, "image": image, "seconds": {}}
+    def begin_frame(self, frame, images):
+        self._frame = {"frame": frame, "image": images[0], "images": images, "seconds": {}, "memory": {}}
+        if not self._frames:  # reading is the first frame's
+            self._frame["seconds"]["open"], self._frame["memory"]["open"] = self._seconds["open"], memory.resident()
+
+    def built(self):
+        """The scene is made ready: what comes now are samples."""
+        self._frame["memory"]["build"] = memory.resident()
+
+    def current(self):
+        """:returns: the numbers of the frame that is being made"""
+        return self._frame
+
+    def frames(self):
+        """:returns: those of all frames, the one that is being made last"""
+        return self._frames + ([self._frame] if self._frame else [])
+
+    def notes(self):
+        return list(self._notes)
 
     def end_frame(self):
         self._frames.append(self._frame)
@@ -73,6 +81,7 @@ class Statistics:
         for times in (self._seconds, self._frame["seconds"]):
             times["build"] = times.get("build", 0.0) + build
             times["render"] -= build
+        self._frame["memory"].setdefault("build", memory.resident())
         counts = film.resolve("sampleCount") if film.width else None
         samples = int(counts.astype("float64").sum()) if counts is not None else 0
         self._frame.update(
@@ -81,6 +90,8 @@ class Statistics:
             droppedSamples=film.dropped_samples,
             **{name: int(value) if float(value).is_integer() else value for name, value in numbers.items()
                if name not in ("samples", "droppedSamples")})
+        if state["materialSeconds"]:
+            self._frame["materialSeconds"] = state["materialSeconds"]
         if state["plans"] or state["sceneChoices"]:
             self._frame["plan"] = planText.of_scene(state["plans"], state["sceneChoices"])
         if film.width:
@@ -132,6 +143,10 @@ class Statistics:
                 values["patina:predictedError"] = frame["predictedError"]
             if "plan" in frame:
                 values["patina:methods"] = planText.metadata(frame["plan"])
+        if getattr(arguments, "layer", None):
+            values["patina:layers"] = " ".join(arguments.layer)
+        if getattr(arguments, "settings", None):
+            values["patina:settings"] = arguments.settings
         if arguments.set:
             values["patina:set"] = " ".join(arguments.set)
         return values
@@ -148,12 +163,18 @@ class Statistics:
         spent = self._seconds["render"]
         if result.get("rays") and spent > 0.0:
             result["raysPerSecond"] = result["rays"] / spent
-        result["peakMemoryBytes"] = peak_memory()
+        result["peakMemoryBytes"] = memory.peak()
         result["notes"] = self._notes
         result["causes"] = Causes(self.warnings()).groups
         result["warnings"] = self.warnings()
         result["frames"] = self._frames
         outputs.write_json(file, result)
+
+
+def of_snapshot(arguments, film, camera):
+    """:returns: dict of what the file of a snapshot says about its making"""
+    return {"Software": f"Patina {__version__}", "patina:stage": arguments.stage, "patina:camera": camera, "patina:snapshot": 1,
+            "patina:seed": arguments.seed, "patina:samples": float(film.resolve("sampleCount").mean())}
 
 
 def _mean_relative_error(film):

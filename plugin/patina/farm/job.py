@@ -74,7 +74,7 @@ class Job:
 
     def _wanted(self):
         """:returns: dict of the flags that parts of an earlier job must have been made with"""
-        free = ("image", "frames", "threads", "quiet", "json", "resume", "checkpointSeconds")
+        free = ("image", "given", "frames", "threads", "quiet", "json", "resume", "checkpointSeconds")
         flags = {name: value for name, value in partial.plain(self.record).items() if name not in free}
         return json.loads(json.dumps(flags, default=str))  # as the files hold them
 

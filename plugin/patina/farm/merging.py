@@ -2,7 +2,7 @@
 import argparse
 import json
 
-from patina.cli import denoiser, recordFlags, statistics
+from patina.cli import denoiser, statistics
 from patina.cli.errors import CommandError
 
 _SUMMED = ("rays", "shadowRays", "paths", "droppedSamples")  # of the parts' statistics
@@ -30,7 +30,7 @@ def merge(module, parts, image, threads=0):
         denoiser.prepare(module)
         denoiser.run(module, film, threads)
     try:
-        module.write_images(film, image, recordFlags.image_options_of(arguments),
+        module.write_images(film, image, first.options,
                             told.metadata(arguments, first.settings, first.camera))
     except RuntimeError as error:
         raise CommandError(str(error)) from error
@@ -53,7 +53,7 @@ class _Told(statistics.Statistics):
 
     def __init__(self, arguments, frame, image, reports):
         super().__init__(arguments)
-        self.begin_frame(frame, image)
+        self.begin_frame(frame, [image])
         for report in reports:
             for phase, seconds in report["seconds"].items():
                 self.seconds[phase] = self.seconds.get(phase, 0.0) + seconds

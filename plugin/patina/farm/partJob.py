@@ -2,12 +2,15 @@
 import json
 import os
 
+from patina.cli import shots
 from patina.cli.errors import CommandError, UsageError
 from patina.farm import cut, identity, partial
 
 _REFUSED = (("seconds", "--seconds", "a time limit cuts every part elsewhere"),
             ("resume", "--resume", "a part is rendered whole"),
-            ("keepCheckpoint", "--keepCheckpoint", "its file keeps all that it has"))
+            ("keepCheckpoint", "--keepCheckpoint", "its file keeps all that it has"),
+            ("snapshot", "--snapshot", "a part is no image"),
+            ("report", "--report", "a report is about a whole image"))
 
 
 def check(arguments):
@@ -33,9 +36,10 @@ def of(job):
 
     class PartJob(job):
         def open(self):
+            self.typed = self.arguments
             super().open()
-            if len(self.plan) != 1:
-                raise UsageError("patina record: --part is of one frame")
+            if len(self.shots) != 1 or len(self.shots[0].outputs) != 1:
+                raise UsageError("patina record: --part is of one frame and one image")
 
         def _check_outputs(self, *_):
             from patina.cli import outputs
@@ -57,7 +61,7 @@ def of(job):
                     raise CommandError(f"interrupted; part {part} is not written")
                 if not self._writer:
                     self._writer = self.module.PartialWriter(
-                        self.arguments.partial, self._description(settings, camera, (begin, end)), tiles)
+                        self.arguments.partial, self._description(shot, settings, camera, (begin, end)), tiles)
                 self._writer.add(film)
 
         def _pieces(self, settings, begin, end):
@@ -67,14 +71,19 @@ def of(job):
             cuts = [begin] + [one for one in self.module.span_ends(settings["samples"]) if begin < one <= end]
             return list(zip(cuts, cuts[1:]))
 
-        def _description(self, settings, camera, samples):
+        def _description(self, shot, settings, camera, samples):
             a, state = self.arguments, self.renderer.progress()
             others = {"back end": state["backend"], "frame": self.statistics.frame, "cut": str(a.part.cut),
                       "purposes": self.purposes, "complexity": a.complexity, "mask": a.mask, "set": a.set,
-                      "camera light": not a.disableCameraLight, "denoise": bool(a.denoise)}
+                      "material purpose": getattr(a, "materialPurpose", "full"), "camera light": not a.disableCameraLight, "denoise": bool(a.denoise)}
             made = identity.of_render(self.module, self.stage, settings, camera, others)
             noise = state["statistics"].get("noiseTolerance", 0.0) if settings["tolerance"] > 0.0 else 0.0
-            return partial.describe(a.part, samples, made, a, self.statistics.frame, camera, settings, noise)
+            options = shots.image_options(a, shot, shot.outputs[0], settings)
+            return partial.describe(a.part, samples, made, self.typed, options, self.statistics.frame, camera, settings,
+                                    noise)
+
+        def _write_snapshot(self, *_):
+            """A part is no image: a signal that asks for one is not heard."""
 
         def _write(self, film, shot, settings, info):
             state = self.renderer.progress()

@@ -14,18 +14,21 @@ class Description:
             self.identity = values["identity"]
             self.part = cut.part(values["part"])
             self.range = tuple(values["range"])
-            self.arguments = values["arguments"]
+            self.arguments, self.options = values["arguments"], values["options"]
             self.frame, self.camera, self.settings = values["frame"], values["camera"], values["settings"]
             self.noise = float(values["noiseTolerance"])
         except (KeyError, TypeError, ValueError):
             raise CommandError(f"{file} is of another version of Patina") from None
 
 
-def describe(part, samples, identity, arguments, frame, camera, settings, noise):
+def describe(part, samples, identity, arguments, options, frame, camera, settings, noise):
     """:param samples: (begin, end) of the part
+    :param arguments: as they were typed
+    :param options: of the image's file
     :returns: the text that PartialWriter takes"""
     return json.dumps({"identity": identity, "part": str(part), "range": list(samples), "frame": frame, "camera": camera,
-                       "settings": settings, "noiseTolerance": noise, "arguments": plain(arguments)}, default=str)
+                       "settings": settings, "noiseTolerance": noise, "arguments": plain(arguments), "options": options},
+                      default=str)
 
 
 def read(module, file):
@@ -41,4 +44,5 @@ def read(module, file):
 
 def plain(arguments):
     """:returns: dict of those parsed arguments that JSON can hold; the part itself is told elsewhere"""
-    return {name: value for name, value in vars(arguments).items() if name not in ("part", "partial")}
+    found = {name: value for name, value in vars(arguments).items() if name not in ("part", "partial", "argv")}
+    return dict(found, given=sorted(found.get("given", ())))

@@ -7,18 +7,19 @@ from . import compat
 class Bindings:
     """Resolves material bindings in bulk and collects the materials that are shown."""
 
-    def __init__(self):
+    def __init__(self, purpose="full"):
+        """:param purpose: StageOptions.material_purpose"""
+        self._purpose = purpose
         self.materials = {}  # path in the scene -> UsdShade.Material
 
-    @staticmethod
-    def compute(prims):
+    def compute(self, prims):
         """:returns: list of (Material or None, whether it is stronger than bindings below)"""
         if not prims:
             return []
         stronger = UsdShade.Tokens.strongerThanDescendants
         return [(material if material else None,
                  bool(rel) and UsdShade.MaterialBindingAPI.GetMaterialBindingStrength(rel) == stronger)
-                for material, rel in compat.bound_materials(prims)]
+                for material, rel in compat.bound_materials(prims, self._purpose)]
 
     def name(self, material, group):
         """:returns: the path of a material in the scene"""

@@ -52,9 +52,9 @@ def _from_zip(file, inner):
         return package.read(Ar.SplitPackageRelativePathOuter(inner)[0] if Ar.IsPackageRelativePath(inner) else inner)
 
 
-def bound_materials(prims):
-    """:returns: list of (Material, strength) for the purpose `full`, then the general one"""
-    result = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, UsdShade.Tokens.full)
+def bound_materials(prims, purpose="full"):
+    """:returns: list of (Material, strength) for a purpose, then the general one"""
+    result = UsdShade.MaterialBindingAPI.ComputeBoundMaterials(prims, purpose or UsdShade.Tokens.allPurpose)
     materials, relationships = result
     return list(zip(materials, relationships))
 

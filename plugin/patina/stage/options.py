@@ -14,6 +14,7 @@ class StageOptions:
         frames the stage when there is none
     shutter: (open, close) in time codes relative to the frame; None takes the camera's
     headlight: light a stage that has no lights
+    material_purpose: whose bindings are looked at before those for all purposes: full, preview, or '' for these alone
     """
     frame: object = None
     purposes: tuple = ("default", "render")
@@ -21,6 +22,7 @@ class StageOptions:
     camera: object = None
     shutter: object = None
     headlight: bool = True
+    material_purpose: str = "full"
 
     @property
     def refine_level(self):

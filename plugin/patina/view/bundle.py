@@ -7,6 +7,7 @@ import hashlib
 import os
 import shutil
 import subprocess
+import sys
 import tempfile
 
 from patina.cli import outputs
@@ -82,6 +83,10 @@ def _sources():
 
 def script():
     """:returns: the text of the page's script"""
+    made = os.path.join(WEB, "page.js")  # of an installed package
+    if os.path.exists(made):
+        with open(made, encoding="utf-8") as file:
+            return file.read()
     folder = packages()
     out = os.path.join(folder, f"page-{_digest(*_sources())}.js")
     if not os.path.exists(out):
@@ -96,3 +101,9 @@ def script():
                 raise CommandError("esbuild could not make the page's script: " + " ".join(done.stderr.split())[:400])
     with open(out, encoding="utf-8") as file:
         return file.read()
+
+
+if __name__ == "__main__":  # python -m patina.view.bundle OUT.js: what a package installs
+    text = script()
+    with open(sys.argv[1], "w", encoding="utf-8") as stream:
+        stream.write(text)

@@ -1,0 +1,122 @@
+# The renderer as one shared library for hosts outside of this build, and what `cmake --install`, `cpack` and `pip install .` put where.
+#
+#   PREFIX/lib/libpatina.so, include/patina, lib/cmake/Patina   for hosts in C++: find_package(Patina), Patina::patina
+#   PREFIX/lib/glibc-hwcaps/LEVEL/libpatina.so                  the same for processors of a higher level: the loader takes the highest
+#                                                               that the machine has (PATINA_LEVELS)
+#   PREFIX/lib/patina/python, bin/patina                        the command; a wheel has it at its own root
+#   PREFIX/plugin/usd                                           Hydra's plugin, where there is an OpenUSD
+include(GNUInstallDirs)
+option(PATINA_PACKAGE "Build what is installed: the shared library, which the Python module then uses" OFF)
+set(PATINA_LEVELS "" CACHE STRING "Levels that the shared library is also built for, such as x86-64-v3;x86-64-v4")
+if(SKBUILD)
+    set(pythonFolder .)
+    set(libraryFolder patina/lib)
+    set(libraryFile libpatina.so) # a wheel holds no links
+    set(libraryName libpatina.so)
+else()
+    set(pythonFolder lib/patina/python)
+    set(libraryFolder ${CMAKE_INSTALL_LIBDIR})
+    set(libraryFile libpatina.so.${PROJECT_VERSION})
+    set(libraryName libpatina.so.${PROJECT_VERSION_MAJOR})
+endif()
+
+# All rooms but the host's.
+get_property(rooms GLOBAL PROPERTY PATINA_ROOMS)
+list(REMOVE_ITEM rooms patinaHydra)
+foreach(room ${rooms})
+    list(APPEND archives $<TARGET_FILE:${room}>)
+endforeach()
+if(PATINA_PACKAGE)
+    add_library(patina SHARED cmake/package/library.cpp)
+else()
+    add_library(patina SHARED EXCLUDE_FROM_ALL cmake/package/library.cpp)
+endif()
+add_library(Patina::patina ALIAS patina)
+target_link_options(patina PRIVATE -Wl,--whole-archive ${archives} -Wl,--no-whole-archive)
+target_link_libraries(patina PRIVATE ${rooms})
+target_include_directories(patina INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/patina>)
+target_compile_features(patina INTERFACE cxx_std_17)
+set_target_properties(patina PROPERTIES LINK_DEPENDS "${archives}" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+if(NOT SKBUILD)
+    set_target_properties(patina PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+endif()
+add_dependencies(patina ${rooms})
+
+# The same library by level, each from a build of its own.
+if(PATINA_PACKAGE AND PATINA_LEVELS)
+    include(ExternalProject)
+    foreach(level ${PATINA_LEVELS})
+        set(folder ${CMAKE_BINARY_DIR}/levels/${level})
+        ExternalProject_Add(patina-${level} SOURCE_DIR ${CMAKE_SOURCE_DIR} BINARY_DIR ${folder}
+            CMAKE_ARGS -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
+                       -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER} -DCMAKE_PREFIX_PATH=${CMAKE_PREFIX_PATH}
+                       -DPATINA_BUILD_TESTS=OFF -DPATINA_NATIVE=OFF -DPATINA_LEVEL=${level} -DPATINA_LEVELS=
+                       -DCMAKE_DISABLE_FIND_PACKAGE_pxr=ON -DPATINA_MODULE=OFF -DSKBUILD=${SKBUILD}
+            BUILD_COMMAND ${CMAKE_COMMAND} --build ${folder} --target patina INSTALL_COMMAND "" BUILD_ALWAYS ON
+            LIST_SEPARATOR "|")
+        install(FILES ${folder}/lib/${libraryFile} DESTINATION ${libraryFolder}/glibc-hwcaps/${level} RENAME ${libraryName})
+    endforeach()
+endif()
+
+install(TARGETS patina EXPORT patinaTargets LIBRARY DESTINATION ${libraryFolder} OPTIONAL)
+if(TARGET patinaReadField) # beside the library that starts it, of whatever level
+    install(TARGETS patinaReadField RUNTIME DESTINATION ${libraryFolder}/patina)
+endif()
+
+if(NOT SKBUILD)
+    install(DIRECTORY hdDelegate materialNetwork shaders DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina
+        FILES_MATCHING PATTERN "*.h" PATTERN "*.def" PATTERN "*.inc" PATTERN "*.glsl"
+        PATTERN hydra EXCLUDE PATTERN tests EXCLUDE PATTERN bake EXCLUDE PATTERN measure EXCLUDE)
+    install(FILES ${CMAKE_BINARY_DIR}/shaders/everyLobe.glsl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina/shaders)
+    set(configFolder ${CMAKE_INSTALL_LIBDIR}/cmake/Patina)
+    include(CMakePackageConfigHelpers)
+    configure_package_config_file(cmake/package/patinaConfig.cmake.in ${CMAKE_BINARY_DIR}/package/PatinaConfig.cmake
+        INSTALL_DESTINATION ${configFolder})
+    write_basic_package_version_file(${CMAKE_BINARY_DIR}/package/PatinaConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+    install(FILES ${CMAKE_BINARY_DIR}/package/PatinaConfig.cmake ${CMAKE_BINARY_DIR}/package/PatinaConfigVersion.cmake
+        DESTINATION ${configFolder})
+    install(EXPORT patinaTargets NAMESPACE Patina:: DESTINATION ${configFolder} OPTIONAL)
+endif()
+
+# The command: package, module, and the tables that both read.
+if(TARGET _patina)
+    file(RELATIVE_PATH toLibrary /${pythonFolder} /${libraryFolder})
+    set_target_properties(_patina PROPERTIES INSTALL_RPATH "$ORIGIN/${toLibrary}")
+    install(TARGETS _patina LIBRARY DESTINATION ${pythonFolder})
+    install(DIRECTORY plugin/patina DESTINATION ${pythonFolder}
+        PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
+    foreach(table hdDelegate/scene/settings.def hdDelegate/film/aovs.def)
+        get_filename_component(folder ${table} DIRECTORY)
+        install(FILES ${table} DESTINATION ${pythonFolder}/patina/tables/${folder})
+    endforeach()
+    # Where Node and npm are, the material page's script is made here, so that users need neither.
+    find_program(PATINA_NPM npm)
+    if(PATINA_PACKAGE AND PATINA_NPM)
+        set(script ${CMAKE_BINARY_DIR}/package/page.js)
+        file(GLOB_RECURSE pageSources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/plugin/patina/view/web/*.js*)
+        add_custom_command(OUTPUT ${script} DEPENDS ${pageSources} COMMENT "Bundling the material page's script" VERBATIM
+            COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_SOURCE_DIR}/plugin ${PYTHON_EXECUTABLE} -m patina.view.bundle ${script})
+        add_custom_target(pageScript ALL DEPENDS ${script})
+        install(FILES ${script} DESTINATION ${pythonFolder}/patina/view/web)
+    endif()
+    if(NOT SKBUILD)
+        file(RELATIVE_PATH toPython /${CMAKE_INSTALL_BINDIR} /${pythonFolder})
+        configure_file(cmake/package/patina.in ${CMAKE_BINARY_DIR}/package/patina @ONLY)
+        install(PROGRAMS ${CMAKE_BINARY_DIR}/package/patina DESTINATION ${CMAKE_INSTALL_BINDIR})
+    endif()
+endif()
+
+set(CPACK_GENERATOR DEB TGZ)
+set(CPACK_PACKAGE_NAME hdpatina)
+set(CPACK_PACKAGE_VENDOR Patina)
+set(CPACK_PACKAGE_CONTACT "Patina <patina@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "USD Hydra render delegate and command line: path tracer and rasterizer of physically based materials")
+set(CPACK_RESOURCE_FILE_LICENSE ${CMAKE_SOURCE_DIR}/LICENSE)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libglm-dev) # for hosts in C++
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+include(CPack)

@@ -1,0 +1,1 @@
+// libpatina.so is made of the rooms' own libraries; a target wants one file.

@@ -1,0 +1,150 @@
+"""The products of a UsdRenderSettings prim as shots: those that are rendered alike share one.
+
+Names of products may hold places for the frame.
+"""
+from collections import OrderedDict
+
+from patina.cli import frames, recordFlags, rows, shot
+from patina.cli.errors import CommandError
+
+_AOV_NAMES = {"Ci": "color", "beauty": "color", "C.*": "color", "a": "alpha", "z": "depth", "N": "normal", "P": "position"}
+_HALF = ("half", "half3", "half4", "color3h", "color4h")
+
+
+def shots_at(prim, arguments, time, decimals):
+    """:param arguments: those of applied()
+    :returns: list of Shots of a frame: products that are rendered alike share one"""
+    products = _products(prim)
+    if arguments.image:
+        if len(products) > 1:
+            prim.warn(prim.path, "products", f"has {len(products)}; {products[0].GetPath()} alone is rendered, to IMAGE")
+        products = products[:1] or [None]
+    elif not products:
+        raise CommandError(f"{prim.path} has no products: name an IMAGE")
+    grouped = OrderedDict()
+    for product in products:
+        made = _shot(prim, product, arguments, time, decimals)
+        if made is not None:
+            key = (made.camera, made.size, repr(sorted(made.settings.items())))
+            if key in grouped:
+                grouped[key].outputs += made.outputs
+            else:
+                grouped[key] = made
+    return list(grouped.values())
+
+
+def _products(prim):
+    from pxr import UsdRender
+
+    found = []
+    relationship = prim.prim.GetRelationship("products")
+    for target in relationship.GetForwardedTargets() if relationship else []:
+        product = prim.stage.GetPrimAtPath(target)
+        if not product or not product.IsA(UsdRender.Product):
+            prim.warn(prim.path, "products", f"{target} is no UsdRenderProduct; it is left out")
+            continue
+        kind = product.GetAttribute("productType").Get()
+        if kind not in (None, "raster"):
+            prim.warn(target, "productType", f"'{kind}' cannot be written; only raster can")
+            continue
+        found.append(product)
+    return found
+
+
+def _shot(prim, product, arguments, time, decimals):
+    """:returns: a Shot with one output; None, after a warning, where it has no name"""
+    image = arguments.image
+    if not image:
+        name = product.GetAttribute("productName")
+        image = str(prim_value(name, time) or "")
+        if not image:
+            prim.warn(product.GetPath(), "productName", "is empty; the product is not written")
+            return None
+    if time is None and frames.has_place(image):
+        raise CommandError(f"{image} has a place for frames, but the default time is rendered")
+    image = frames.named(image, time, decimals)
+    aovs, half = _aovs(prim, product)
+    extra = [name for name in recordFlags.aovs_of(arguments) if name not in aovs]
+    output = shot.Output(image, tuple([*aovs, *extra]), arguments.half or half)
+    size = _size(prim, product, arguments)
+    camera = arguments.camera or prim.target(product, "camera")
+    return shot.Shot(time, [output], camera, size, _render_settings(prim, product, arguments, size))
+
+
+def _size(prim, product, arguments):
+    """:returns: width and height: what one flag leaves open follows from the other and the prim's shape"""
+    width, height = (max(1, int(n)) for n in prim.value(product, "resolution") or (2048, 1080))
+    if arguments.imageWidth and arguments.imageHeight:
+        return arguments.imageWidth, arguments.imageHeight
+    if arguments.imageWidth:
+        return arguments.imageWidth, max(1, round(arguments.imageWidth * height / width))
+    if arguments.imageHeight:
+        return max(1, round(arguments.imageHeight * width / height)), arguments.imageHeight
+    return width, height
+
+
+def _render_settings(prim, product, arguments, size):
+    """:returns: dict of render settings that the product decides"""
+    settings = dict(prim.extra)
+    if "pixelAspectRatio" not in prim.given:
+        ratio = prim.value(product, "pixelAspectRatio")
+        if ratio and ratio > 0.0:
+            settings["pixelAspectRatio"] = float(ratio)
+    if prim.authored(product, "aspectRatioConformPolicy"):
+        settings["aspectRatioConformPolicy"] = str(prim.value(product, "aspectRatioConformPolicy"))
+    if prim.value(product, "disableMotionBlur") or prim.value(product, "instantaneousShutter"):
+        settings["enableMotionBlur"] = False
+    if prim.value(product, "disableDepthOfField"):
+        settings["enableDepthOfField"] = False
+    window = prim.value(product, "dataWindowNDC")
+    if arguments.dataWindow is None and window is not None and tuple(window) != (0.0, 0.0, 1.0, 1.0):
+        # y up; pixels whose centres lie inside belong to it.
+        (x0, y0, x1, y1), (width, height) = window, size
+        settings["dataWindow"] = [max(0, round(x0 * width)), max(0, round((1.0 - y1) * height)),
+                                  min(width, round(x1 * width)) - 1, min(height, round((1.0 - y0) * height)) - 1]
+        if settings["dataWindow"][2] < settings["dataWindow"][0] or settings["dataWindow"][3] < settings["dataWindow"][1]:
+            where = product.GetPath() if product else prim.path
+            prim.warn(where, "dataWindowNDC", "holds no pixel; the whole image is rendered")
+            del settings["dataWindow"]
+    return settings
+
+
+def _aovs(prim, product):
+    """:returns: AOVs of a product in their order, and whether its colour has 16 bits"""
+    names, half = [], bool(product) and bool(prim_value(product.GetAttribute("patina:half"), None))
+    relationship = product.GetRelationship("orderedVars") if product else None
+    for target in relationship.GetForwardedTargets() if relationship else []:
+        var = prim.stage.GetPrimAtPath(target)
+        if not var:
+            prim.warn(product.GetPath(), "orderedVars", f"there is no prim {target}; it is left out")
+            continue
+        source = str(prim_value(var.GetAttribute("sourceName"), None) or "")
+        aov = film_aov(source, prim_value(var.GetAttribute("sourceType"), None))
+        if not aov:
+            prim.warn(target, "sourceName", f"'{source}' is no AOV; it is left out")
+            continue
+        half = half or (aov == "color" and str(prim_value(var.GetAttribute("dataType"), None)) in _HALF)
+        if aov not in names:
+            names.append(aov)
+    return names or ["color", "alpha"], half
+
+
+def prim_value(attribute, time):
+    """:returns: of an attribute, or None where it is not there"""
+    from pxr import Usd
+
+    return attribute.Get(Usd.TimeCode.Default() if time is None else Usd.TimeCode(time)) if attribute else None
+
+
+def film_aov(name, kind=None):
+    """:param kind: sourceType of a UsdRenderVar
+    :returns: the film's AOV that a source means, as in Hydra; '' for none"""
+    if kind == "primvar":
+        return f"primvars:{name}" if name else ""
+    if name in _AOV_NAMES:
+        return _AOV_NAMES[name]
+    table = rows.read("hdDelegate/film/aovs.def", "AOV")
+    for row in table:
+        if row.words.get("hydra", [None])[0] == name:
+            return row.values[0]
+    return name if name.startswith("primvars:") or any(row.values[0] == name for row in table) else ""

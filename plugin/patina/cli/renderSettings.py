@@ -1,0 +1,137 @@
+"""A UsdRenderSettings prim as `patina record --settings` takes it. It says what flags leave open: camera, resolution, purposes,
+products with their AOVs (products.py), and render settings by the names `patina:NAME`. Flags that are given are stronger.
+"""
+import argparse
+
+from patina.cli import settingFlags
+from patina.cli.errors import CommandError
+
+STAGE = "stage"  # --settings stage: the one that the stage's own metadata names
+_BACKENDS = ("embree", "raster")
+
+
+class SettingsPrim:
+    """A UsdRenderSettings prim of a stage."""
+
+    def __init__(self, stage, path, given=()):
+        """:param path: of the prim, or STAGE
+        :param given: names of arguments that were typed
+        :raises CommandError: where there is none"""
+        from pxr import Sdf, UsdRender
+
+        if path == STAGE:
+            found = UsdRender.Settings.GetStageRenderSettings(stage)
+            if not found:
+                raise CommandError("--settings stage: the stage's metadata name no render settings (renderSettingsPrimPath)")
+            self.prim = found.GetPrim()
+        else:
+            if not Sdf.Path.IsValidPathString(path) or not path.startswith("/"):
+                raise CommandError(f"--settings: {path} is no prim path")
+            self.prim = stage.GetPrimAtPath(path)
+            if not self.prim or not self.prim.IsA(UsdRender.Settings):
+                there = [str(p.GetPath()) for p in stage.Traverse() if p.IsA(UsdRender.Settings)]
+                reason = "is no UsdRenderSettings prim" if self.prim else "is not there"
+                raise CommandError(f"--settings: {path} {reason} (there are: {', '.join(there[:12]) or 'none'})")
+        self.stage, self.path, self.given = stage, str(self.prim.GetPath()), frozenset(given)
+        self.warnings = []  # (prim path, input, message)
+        self.extra = {}  # render settings that have no flag
+
+    def warn(self, prim, name, message):
+        item = (str(prim), name, message)
+        if item not in self.warnings:
+            self.warnings.append(item)
+
+    def value(self, product, name, time=None):
+        """:param product: a prim that may override it, or None
+        :returns: of an attribute of UsdRenderSettingsBase"""
+        from pxr import Usd
+
+        time = Usd.TimeCode.Default() if time is None else Usd.TimeCode(time)
+        for prim in filter(None, (product, self.prim)):
+            attribute = prim.GetAttribute(name)
+            if attribute and attribute.HasAuthoredValue():
+                return attribute.Get(time)
+        attribute = self.prim.GetAttribute(name)
+        return attribute.Get(time) if attribute else None
+
+    def authored(self, product, name):
+        return any(prim and prim.GetAttribute(name) and prim.GetAttribute(name).HasAuthoredValue()
+                   for prim in (product, self.prim))
+
+    def target(self, product, name):
+        """:returns: path of a relationship's first target, or None"""
+        for prim in filter(None, (product, self.prim)):
+            relationship = prim.GetRelationship(name)
+            targets = relationship.GetForwardedTargets() if relationship else []
+            if targets:
+                return str(targets[0])
+        return None
+
+
+def applied(arguments, prim):
+    """:returns: the arguments with what the prim says where they were not given; prim.extra has the settings without a flag"""
+    merged = argparse.Namespace(**vars(arguments))
+    _purposes(merged, prim)
+    merged.materialPurpose = _material_purpose(prim)
+    space = prim.prim.GetAttribute("renderingColorSpace")
+    if space and space.HasAuthoredValue() and space.Get() not in ("", "lin_rec709", "lin_rec709_scene", "lin_srgb"):
+        prim.warn(prim.path, "renderingColorSpace", f"'{space.Get()}' is not rendered in; linear Rec.709 is")
+    merged.method = list(arguments.method)
+    forced = {text.partition("=")[0] for text in arguments.method}
+    for attribute in prim.prim.GetAuthoredAttributes():
+        name = attribute.GetName()
+        if not name.startswith("patina:"):
+            continue
+        key = name[len("patina:"):]
+        key = key[len("global:"):] if key.startswith("global:") else key
+        value = attribute.Get()
+        if key.startswith("method:"):
+            if key[len("method:"):] not in forced:
+                merged.method.append(f"{key[len('method:'):]}={value}")
+        elif value is not None and key not in prim.given:
+            _setting(merged, prim, name, key, value)
+    return merged
+
+
+def _purposes(merged, prim):
+    included = prim.prim.GetAttribute("includedPurposes")
+    if "purposes" in prim.given or not included or not included.HasAuthoredValue():
+        return
+    known = [purpose for purpose in included.Get() if purpose in ("default", "render", "proxy", "guide")]
+    for purpose in included.Get():
+        if purpose not in known:
+            prim.warn(prim.path, "includedPurposes", f"there is no purpose '{purpose}'; it is left out")
+    merged.purposes = ",".join(known) or "none"
+
+
+def _material_purpose(prim):
+    attribute = prim.prim.GetAttribute("materialBindingPurposes")
+    wanted = [purpose for purpose in attribute.Get() or [] if purpose] if attribute and attribute.HasAuthoredValue() else ["full"]
+    if len(wanted) > 1:
+        prim.warn(prim.path, "materialBindingPurposes", f"only '{wanted[0]}' and what is for all purposes are looked at")
+    return wanted[0] if wanted else ""
+
+
+def _setting(merged, prim, name, key, value):
+    """A `patina:` attribute."""
+    if key == "backend":
+        if value not in (*_BACKENDS, "auto", "interactive"):
+            prim.warn(prim.path, name, f"there is no back end '{value}'; it is left as it was")
+        merged.backend = value if value in _BACKENDS else merged.backend
+        return
+    if key == "denoise":
+        merged.denoise = bool(value)
+        return
+    row = settingFlags.table().get(key)
+    if row is None or "label" not in row.words:
+        prim.warn(prim.path, name, "there is no such setting; it is left out")
+        return
+    try:
+        checked = settingFlags.value_of(row, value)
+    except (TypeError, ValueError):
+        prim.warn(prim.path, name, f"{value} is not allowed; it is left as it was")
+        return
+    if key in settingFlags.names():
+        setattr(merged, key, checked)
+    else:
+        prim.extra[key] = checked

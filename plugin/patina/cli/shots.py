@@ -1,0 +1,66 @@
+"""What `patina record` renders, one shot after the other."""
+from patina.cli import denoiser, frames, products, recordFlags
+from patina.cli.errors import CommandError, UsageError
+from patina.cli.shot import Output, Shot
+
+DEFAULT_WIDTH = 960
+
+
+def plan(arguments, stage, settings_prim=None):
+    """:param settings_prim: renderSettings.SettingsPrim, or None
+    :returns: list of Shots, frame by frame"""
+    if settings_prim is None:
+        own = tuple(["color", "alpha"] + recordFlags.aovs_of(arguments))
+        return [Shot(frame, [Output(image, own, arguments.half)], arguments.camera, (arguments.imageWidth, arguments.imageHeight))
+                for frame, image in frames.plan(arguments, stage)]
+    times, decimals = frames.times(arguments, stage)
+    if arguments.image and (arguments.frames or frames.has_place(arguments.image)):
+        frames.plan(arguments, stage)  # complains where the name does not fit
+    shots = [shot for time in times for shot in products.shots_at(settings_prim, arguments, time, decimals)]
+    if not shots:
+        raise CommandError(f"{settings_prim.path} has no product that can be written")
+    known = {}
+    for shot in shots:
+        for image in shot.images:
+            if image in known:
+                raise CommandError(f"{image} would be written twice" + (
+                    f": for frames {known[image]:g} and {shot.frame:g} (its name needs a place such as ####)"
+                    if shot.frame != known[image] else ": two products have this name"))
+            known[image] = shot.frame
+    return shots
+
+
+def size_of(shot, camera, pixel_aspect):
+    """:param camera: dict of the scene
+    :param pixel_aspect: width of a pixel over its height
+    :returns: width and height in pixels: what is not given follows from the camera's aperture
+    :raises CommandError: where they are too large"""
+    width, height = shot.size
+    apertures = camera["horizontal_aperture"], camera["vertical_aperture"]
+    aspect = apertures[0] / apertures[1] if min(apertures) > 0.0 else 16.0 / 9.0
+    aspect /= pixel_aspect
+    if width is None:
+        width = DEFAULT_WIDTH if height is None else max(1, round(height * aspect))
+    if height is None:
+        height = max(1, round(width / aspect))
+    if width * height > recordFlags.MAX_PIXELS or max(width, height) > recordFlags.LARGEST_SIZE:
+        raise CommandError(f"an image of {width} x {height} pixels is too large")
+    return width, height
+
+
+def image_options(arguments, shot, output, settings):
+    """:param settings: of the render
+    :returns: dict of image options of a file"""
+    options = dict(recordFlags.image_options_of(arguments), aovs=list(output.aovs), half=output.half,
+                   pixel_aspect_ratio=settings["pixelAspectRatio"])
+    if "dataWindow" in settings:
+        options["data_window"] = settings["dataWindow"]
+    if arguments.denoise and "color" in output.aovs and output.image.lower().endswith(".exr"):
+        options["aovs"].append(denoiser.NOISY)
+    return options
+
+
+def check_usage(arguments):
+    """:raises UsageError: where neither an image nor settings say what to write"""
+    if not arguments.image and not arguments.settings:
+        raise UsageError("patina record: an IMAGE is wanted, or --settings PRIM whose products are written")

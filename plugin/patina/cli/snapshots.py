@@ -1,0 +1,86 @@
+"""Images of a render while it runs: every so many seconds, and when SIGUSR1 asks for one. Each appears whole, beside the image
+that the render will write, and goes when that is written."""
+import os
+import signal
+import threading
+import time
+
+from patina.cli.errors import is_temporary
+
+SUFFIX = "_part"  # husk's
+
+
+def path_of(image, suffix):
+    """:returns: where the snapshot of an image lies: its name with the suffix before the extension"""
+    stem, extension = os.path.splitext(image)
+    return stem + suffix + extension
+
+
+class Snapshots:
+    """Within the block SIGUSR1 asks for a snapshot instead of ending the process. One that is asked for before there are
+    samples is taken when there are."""
+
+    def __init__(self, seconds):
+        """:param seconds: between two; 0: only those that are asked for"""
+        self._seconds, self._write = seconds, None
+        self._last = None  # when the last one was, or the first samples were there
+        self._asked = False
+        self._before = None
+
+    def __enter__(self):
+        if hasattr(signal, "SIGUSR1") and threading.current_thread() is threading.main_thread():
+            self._before = signal.signal(signal.SIGUSR1, self._ask)
+        return self
+
+    def __exit__(self, *_):
+        if self._before is not None:
+            signal.signal(signal.SIGUSR1, self._before)
+        return False
+
+    def begin(self, write):
+        """Another render starts.
+
+        :param write: function(film) that writes a snapshot of it"""
+        self._write, self._last = write, None
+
+    def _ask(self, *_):
+        self._asked = True
+
+    def look(self, renderer, film):
+        """Takes one where it is time. To be called often, once the whole image has samples.
+
+        :returns: None, or an error: the render is worth more than a snapshot"""
+        now = time.monotonic()
+        if self._last is None:
+            self._last = now
+        if not self._asked and not (0.0 < self._seconds <= now - self._last):
+            return None
+        self._asked = False
+        renderer.pause()  # no thread works on the film while it is copied
+        try:
+            copy = film.copy()
+        except MemoryError as error:
+            return error
+        finally:
+            renderer.resume()
+        try:
+            self._write(copy)
+        except Exception as error:  # a folder that is gone is told; the render goes on
+            return error
+        finally:
+            self._last = time.monotonic()
+        return None
+
+
+def remove(images, suffix):
+    """Removes the snapshots of images that are written."""
+    for image in images:
+        try:
+            os.remove(path_of(image, suffix))
+        except OSError:
+            pass
+
+
+def words(error):
+    """:returns: why there is no snapshot, as a warning"""
+    return f"no snapshot: {error}" + ("; the next one is tried again" if is_temporary(error) else "")

@@ -1,0 +1,1 @@
+"""The page that `patina record --report` writes about one render."""

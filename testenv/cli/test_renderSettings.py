@@ -1,0 +1,248 @@
+"""--settings: what a UsdRenderSettings prim says of camera, resolution, products, AOVs, purposes and settings is done, and flags are
+stronger; --layer: opinions over the stage."""
+import json
+import os
+
+import numpy as np
+import pytest
+
+_patina = pytest.importorskip("_patina")
+pytest.importorskip("pxr.Usd")
+
+from patina.cli import main, products  # noqa: E402
+
+STAGE = """#usda 1.0
+(
+    startTimeCode = 1
+    endTimeCode = 3
+    renderSettingsPrimPath = "/Render/main"
+)
+def Camera "camera"
+{
+    float horizontalAperture = 20
+    float verticalAperture = 10
+    double3 xformOp:translate = (0, 0, 10)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Camera "side" (
+    inherits = </camera>
+)
+{
+    double3 xformOp:translate = (1, 0, 10)
+}
+def Sphere "ball"
+{
+    double3 xformOp:translate.timeSamples = { 1: (0, 0, 0), 3: (100, 0, 0) }
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Cube "stand"
+{
+    uniform token purpose = "proxy"
+    double size = 40
+}
+def DomeLight "dome"
+{
+}
+def Scope "Render"
+{
+    def RenderSettings "main"
+    {
+        uniform int2 resolution = (32, 16)
+        rel camera = </camera>
+        rel products = [</Render/beauty>, </Render/depth>, </Render/other>]
+        int patina:samples = 3
+        token patina:method:domeLight = "sampled"
+    }
+    def RenderSettings "alone"
+    {
+        uniform int2 resolution = (24, 6)
+        uniform float pixelAspectRatio = 2
+        rel camera = </side>
+        uniform float4 dataWindowNDC = (0.5, 0, 1, 0.5)
+        uniform token[] includedPurposes = ["default", "proxy"]
+        int patina:seed = 9
+        float patina:tolerance = 0.5
+        int patina:minSamples = 2
+    }
+    def RenderSettings "odd"
+    {
+        rel products = [</Render/deep>, </ball>, </Render/beauty>]
+        float patina:nonsense = 3
+        token patina:cullStyle = "sideways"
+        int patina:samples = 1
+    }
+    def RenderProduct "beauty"
+    {
+        token productName = "beauty.<F4>.exr"
+        rel orderedVars = [</Render/color>, </Render/alpha>]
+    }
+    def RenderProduct "depth"
+    {
+        token productName = "depth.%03d.exr"
+        rel orderedVars = [</Render/z>, </Render/n>, </Render/nothing>]
+    }
+    def RenderProduct "other"
+    {
+        token productName = "other.##.exr"
+        rel camera = </side>
+        uniform int2 resolution = (20, 10)
+    }
+    def RenderProduct "deep"
+    {
+        token productName = "deep.exr"
+        token productType = "deepRaster"
+    }
+    def RenderVar "color"
+    {
+        string sourceName = "Ci"
+        uniform token dataType = "color3h"
+    }
+    def RenderVar "alpha"
+    {
+        string sourceName = "a"
+    }
+    def RenderVar "z"
+    {
+        string sourceName = "cameraDepth"
+    }
+    def RenderVar "n"
+    {
+        string sourceName = "normal"
+    }
+    def RenderVar "nothing"
+    {
+        string sourceName = "nothing"
+    }
+}
+"""
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    (tmp_path / "stage.usda").write_text(STAGE)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def record(*arguments):
+    return main.main(["record", "stage.usda", *map(str, arguments), "--quiet", "--json=s.json"])
+
+
+def told():
+    with open("s.json") as file:
+        return json.load(file)
+
+
+def image(path):
+    return _patina.read_image(str(path))
+
+
+def pixels(path):
+    return np.array(image(path).pixels)
+
+
+def test_all_products_are_written_and_those_that_are_alike_share_a_render(folder):
+    assert record("--settings", "/Render/main", "--frames", "1:3x2") == 0
+    made = {f"{name}.{frame}.exr" for name, frames in (("beauty", ("0001", "0003")), ("depth", ("001", "003")), ("other", ("01", "03")))
+            for frame in frames}
+    assert set(os.listdir()) == made | {"stage.usda", "s.json"}
+    assert [(f["frame"], f["images"], f["width"], f["height"], f["samplesPerPixel"]) for f in told()["frames"]] == [
+        (1.0, ["beauty.0001.exr", "depth.001.exr"], 32, 16, 3.0), (1.0, ["other.01.exr"], 20, 10, 3.0),
+        (3.0, ["beauty.0003.exr", "depth.003.exr"], 32, 16, 3.0), (3.0, ["other.03.exr"], 20, 10, 3.0)]
+    assert image("beauty.0001.exr").channels == ["R", "G", "B", "A"]
+    assert image("depth.001.exr").channels == ["depth.Z", "normal.X", "normal.Y", "normal.Z"]
+    assert image("other.01.exr").metadata["patina:camera"] == "/side"
+    assert [(w["prim"], w["input"]) for w in told()["warnings"]] == [("/Render/nothing", "sourceName")]
+    assert not np.array_equal(pixels("beauty.0001.exr"), pixels("beauty.0003.exr"))  # the ball has left
+
+
+def test_a_product_has_the_pixels_of_the_flags_that_mean_the_same(folder):
+    assert record("--settings", "/Render/main") == 0  # of the stage's start, whose place the names have
+    assert os.path.exists("other.01.exr")
+    assert record("--settings", "/Render/main", "--frames", "1") == 0
+    assert record("flags.exr", "-w", 20, "--imageHeight", 10, "--camera", "/side", "--samples", 3, "--method", "domeLight=sampled",
+                  "--frames", "1") == 0
+    assert np.array_equal(pixels("flags.exr"), pixels("other.01.exr"))
+
+
+def test_settings_without_products_need_an_image(folder, capsys):
+    assert record("--settings", "/Render/alone") == 1
+    assert "/Render/alone has no products: name an IMAGE" in capsys.readouterr().err
+    assert record("a.exr", "--settings", "/Render/alone") == 0
+    made = image("a.exr")
+    assert (made.display_width, made.display_height, made.x, made.y, made.width, made.height) == (24, 6, 12, 3, 12, 3)
+    assert made.pixel_aspect_ratio == 2.0 and made.metadata["patina:seed"] == 9 and made.metadata["patina:camera"] == "/side"
+    assert made.metadata["patina:tolerance"] == 0.5 and made.metadata["patina:settings"] == "/Render/alone"
+    depth = ("--aov", "depth", "--samples", 2)
+    assert record("proxy.exr", "--settings", "/Render/alone", *depth) == 0
+    assert record("none.exr", "--settings", "/Render/alone", *depth, "--purposes", "none") == 0
+    near, far = (np.array(image(name).pixels)[..., image(name).channels.index("depth.Z")] for name in ("proxy.exr", "none.exr"))
+    assert near.max() < 1e9 < far.max()  # the stand fills the picture, and is a proxy
+
+
+def test_flags_are_stronger(folder):
+    assert record("a.exr", "--settings", "stage", "--samples", 1, "--camera", "/side", "-w", 8, "--frames", "1", "--aov", "albedo") == 0
+    frame, made = told()["frames"][0], image("a.exr")
+    assert (frame["width"], frame["height"], frame["samplesPerPixel"]) == (8, 4, 1.0)
+    assert made.metadata["patina:camera"] == "/side" and "albedo.R" in made.channels
+    # As what was typed counts, not what differs from the default.
+    assert record("b.exr", "--settings", "/Render/alone", "--seed", 0) == 0
+    assert image("b.exr").metadata["patina:seed"] == 0
+
+
+def test_what_cannot_be_done_is_told_by_prim_and_input(folder):
+    assert record("--settings", "/Render/odd", "--frames", "1", "-w", 8) == 0
+    assert sorted((w["prim"], w["input"]) for w in told()["warnings"]) == [
+        ("/Render/deep", "productType"), ("/Render/odd", "patina:cullStyle"), ("/Render/odd", "patina:nonsense"),
+        ("/Render/odd", "products")]
+    assert image("beauty.0001.exr").width == 8
+
+
+@pytest.mark.parametrize("path, said", [
+    ("/Render", "/Render is no UsdRenderSettings prim (there are: /Render/main, /Render/alone, /Render/odd)"),
+    ("/nowhere", "/nowhere is not there"), ("no path", "no path is no prim path")])
+def test_a_prim_that_is_no_settings_is_named(folder, capsys, path, said):
+    assert record("a.exr", "--settings", path) == 1
+    assert said in capsys.readouterr().err and os.listdir() == ["stage.usda"]
+
+
+def test_two_frames_of_a_product_need_a_place_in_its_name(folder, capsys):
+    assert record("--settings", "/Render/main", "--frames", "1:2", "--set", "/Render/beauty.productName=beauty.exr") == 1
+    assert "beauty.exr would be written twice: for frames 1 and 2" in capsys.readouterr().err
+
+
+def test_an_image_or_settings_are_wanted(folder, capsys):
+    assert main.main(["record", "stage.usda"]) == 2
+    assert "an IMAGE is wanted" in capsys.readouterr().err
+    assert main.main(["record", "stage.usda", "--samples", "1", "-w", "4", "a.png", "--quiet"]) == 0  # wherever it stands
+
+
+@pytest.mark.parametrize("source, kind, aov", [
+    ("Ci", "raw", "color"), ("a", None, "alpha"), ("z", None, "depth"), ("cameraDepth", None, "depth"), ("depth", None, "deviceDepth"),
+    ("Neye", None, "Neye"), ("albedo", None, "albedo"), ("st", "primvar", "primvars:st"), ("primvars:st", None, "primvars:st"),
+    ("nothing", None, ""), ("", None, ""), ("", "primvar", "")])
+def test_sources_of_vars_mean_what_they_do_in_hydra(source, kind, aov):
+    assert products.film_aov(source, kind) == aov
+
+
+def test_layers_lie_over_the_stage_and_later_ones_are_stronger(folder):
+    (folder / "dim.usda").write_text('#usda 1.0\nover "dome"\n{\n    float inputs:intensity = 3\n}\n')
+    (folder / "textures").mkdir()
+    (folder / "textures" / "dimmer.usda").write_text('#usda 1.0\nover "dome"\n{\n    float inputs:intensity = 0.5\n}\n')
+    (folder / "session.usda").write_text('#usda 1.0\nover "dome"\n{\n    float inputs:intensity = 7\n}\n')
+    small = ("-w", 8, "--samples", 1)
+    for layers, seen in ((["dim.usda"], 3.0), (["dim.usda", "textures/dimmer.usda"], 0.5), (["textures/dimmer.usda", "dim.usda"], 3.0)):
+        flags = [word for layer in layers for word in ("--layer", layer)]
+        assert record("a.exr", *small, *flags, "--sessionLayer", "session.usda") == 0
+        assert pixels("a.exr")[0, 0, :3] == pytest.approx([seen] * 3)
+    assert image("a.exr").metadata["patina:layers"] == "textures/dimmer.usda dim.usda"
+    assert record("a.exr", *small, "--layer", "dim.usda", "--set", "/dome.inputs:intensity=2") == 0
+    assert pixels("a.exr")[0, 0, 0] == pytest.approx(2.0)
+    assert "intensity" not in (folder / "stage.usda").read_text()
+
+
+@pytest.mark.parametrize("layer, said", [("none.usda", "there is no such file"), ("broken.usda", "cannot be opened")])
+def test_a_layer_that_is_none_is_named(folder, capsys, layer, said):
+    (folder / "broken.usda").write_text("no layer")
+    assert record("a.exr", "--layer", layer) == 1
+    assert said in capsys.readouterr().err and not os.path.exists("a.exr")

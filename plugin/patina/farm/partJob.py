@@ -75,7 +75,8 @@ def of(job):
             a, state = self.arguments, self.renderer.progress()
             others = {"back end": state["backend"], "frame": self.statistics.frame, "cut": str(a.part.cut),
                       "purposes": self.purposes, "complexity": a.complexity, "mask": a.mask, "set": a.set,
-                      "material purpose": getattr(a, "materialPurpose", "full"), "camera light": not a.disableCameraLight, "denoise": bool(a.denoise)}
+                      "material purpose": getattr(a, "materialPurpose", "full"),
+                      "camera light": not a.disableCameraLight, "denoise": bool(a.denoise)}
             made = identity.of_render(self.module, self.stage, settings, camera, others)
             noise = state["statistics"].get("noiseTolerance", 0.0) if settings["tolerance"] > 0.0 else 0.0
             options = shots.image_options(a, shot, shot.outputs[0], settings)

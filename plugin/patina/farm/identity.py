@@ -17,7 +17,19 @@ MACHINE = ("version", "build", "instruction set")  # of two machines, these must
 
 def of_machine(module):
     """:returns: dict of what this process computes with"""
-    return {"version": __version__, "build": digests.of_file(module.__file__)[:16], "instruction set": module.instruction_set()}
+    build = "".join(digests.of_file(file) for file in [module.__file__, *_libraries()])
+    return {"version": __version__, "build": hashlib.sha256(build.encode()).hexdigest()[:16],
+            "instruction set": module.instruction_set()}
+
+
+def _libraries():
+    """:returns: paths of Patina's own library where it is apart from the module: the loader chooses it by the processor"""
+    try:
+        with open("/proc/self/maps", encoding="utf-8", errors="surrogateescape") as file:
+            paths = {line.split(maxsplit=5)[-1].rstrip("\n") for line in file if "/libpatina.so" in line}
+    except OSError:  # not Linux: one library for all processors
+        paths = set()
+    return sorted(path for path in paths if os.path.isfile(path))
 
 
 def of_render(module, stage, settings, camera, others):

@@ -12,6 +12,7 @@ from patina.cli.progress import Progress
 from patina.farm import engines, identity, partial, sender, simulation, work, worker
 
 FIRST_WORKER_SECONDS = 600  # a queue may be full
+EMPTY_TASKS = 500  # to measure the sender by, for --simulate
 
 
 class Job:
@@ -43,7 +44,8 @@ class Job:
             return
         with engines.Cluster(self.engine) as cluster:
             self._preflight(cluster)
-            begin, busy = time.perf_counter(), time.process_time()
+            cost = self._sender_seconds(cluster) if counts else 0.0
+            begin = time.perf_counter()
             threads = engines.threads(self.engine) if self.arguments.threads is None else self.arguments.threads
             one = sender.Sender(cluster.client, self.arguments.passed_on, os.getcwd(), self.checks, threads)
             link = cluster.dashboard()
@@ -51,8 +53,8 @@ class Job:
                 one.run(frames, waiting, lambda state: self._show(state, frames, link))
             finally:
                 self.progress.clear()
-            seconds, busy = time.perf_counter() - begin, time.process_time() - busy
-        self._tell(one, frames, seconds, busy, counts)
+            seconds = time.perf_counter() - begin
+        self._tell(one, frames, seconds, cost, counts)
 
     def _waiting(self):
         """:returns: the tasks that can begin, and the frames that they are of"""
@@ -101,7 +103,15 @@ class Job:
         text = f"{len(state.written)} of {len(frames)} frames, {state.done} of {state.total} tasks, {state.count} workers"
         self.progress.step(state.done, state.total, f"{text}, {link}" if link else text)
 
-    def _tell(self, one, frames, seconds, busy, counts):
+    def _sender_seconds(self, cluster):
+        """:returns: seconds that the sender and the scheduler are busy for a task: processor time where both are this process,
+        else what a task that does nothing takes in a row of them"""
+        clock = time.perf_counter if self.engine.kind == "dask" else time.process_time
+        begin = clock()
+        cluster.client.gather([cluster.client.submit(worker.nothing, pure=False) for _ in range(EMPTY_TASKS)])
+        return (clock() - begin) / EMPTY_TASKS
+
+    def _tell(self, one, frames, seconds, cost, counts):
         written = one.written
         for reason in one.refusals:
             self.progress.say(f"a worker was left out: {reason}")
@@ -109,10 +119,10 @@ class Job:
         simulated = []
         if counts and written:
             costs = simulation.Costs(tuple(s for kind, s in one.times if kind == "part"),
-                                     tuple(s for kind, s in one.times if kind == "image"), busy / max(one.done, 1))
+                                     tuple(s for kind, s in one.times if kind == "image"), cost)
             simulated = simulation.table(costs, len(frames), self.arguments.cut.parts, counts)
         taken = outputs.write_json(self.arguments.json, {
-            "seconds": seconds, "senderSeconds": busy, "frames": len(written), "parts": self.arguments.cut.parts,
+            "seconds": seconds, "senderSecondsPerTask": cost or None, "frames": len(written), "parts": self.arguments.cut.parts,
             "tasks": [{"kind": kind, "seconds": spent} for kind, spent in one.times],
             "workers": {name: dataclasses.asdict(row) for name, row in one.rows.items()},
             "failed": [{"task": str(task), "reasons": [why for _, why in task.failures]} for task in one.failed],

@@ -67,6 +67,10 @@ def run(arguments, folder, log, checks):
     return {"worker": name, "host": host, "address": address, "seconds": time.perf_counter() - begin}
 
 
+def nothing():
+    """A task that tells what sending one costs."""
+
+
 def words(problems):
     """:returns: problems in one line"""
     return problems[0] + (f", and {len(problems) - 1} more" if len(problems) > 1 else "")

@@ -11,8 +11,8 @@ namespace patina {
 
 /// Where one thread's time goes, by material. From a hit on all time is that of the material that
 /// was hit: its patterns and lobes, the light samples there with their shadow rays, walks beneath
-/// it, and the ray that leaves, until this hits something else. What comes before the first hit of a
-/// path is the camera's.
+/// it, and the ray that leaves, until this hits something else. What comes before the first hit of
+/// a path is the camera's.
 class MaterialClock {
 public:
     using Clock = std::chrono::steady_clock;

@@ -80,7 +80,8 @@ def test_snapshots_are_whole_images_and_go_with_the_render(folder, monkeypatch):
     assert np.array_equal(pixels("a.exr"), pixels("b.exr"))  # looking changes no bit
 
 
-@pytest.mark.parametrize("flags", [("--tolerance", "0.01", "--samples", "256"), ("--backend", "raster", "--samples", "12")], ids=("adaptive", "raster"))
+@pytest.mark.parametrize("flags", [("--tolerance", "0.01", "--samples", "256"), ("--backend", "raster", "--samples", "12")],
+                         ids=("adaptive", "raster"))
 def test_looking_changes_no_bit(folder, monkeypatch, flags):
     seen = []
     watched(monkeypatch, lambda _: seen.append(os.path.exists("a_part.exr")))
@@ -121,7 +122,8 @@ def test_a_snapshot_that_cannot_be_written_is_told_and_the_render_goes_on(folder
 
     monkeypatch.setattr("patina.cli.record._Job._write_snapshot", fail)
     watched(monkeypatch, lambda _: None)
-    assert main.main(["record", "stage.usda", "a.exr", "-w", "64", "--samples", "256", "--maxDepth", "1", "--snapshot", "0.001"]) == 0
+    small = ("-w", "64", "--samples", "256", "--maxDepth", "1")
+    assert main.main(["record", "stage.usda", "a.exr", *small, "--snapshot", "0.001"]) == 0
     assert "no snapshot: cannot write 'a_part.exr': its folder has gone" in capsys.readouterr().err
     assert pixels("a.exr").shape[1] == 64
 
@@ -180,8 +182,8 @@ def test_a_full_disk_is_temporary(folder):
     if not unshare or subprocess.run([*own, "mount", "-t", "tmpfs", "none", "/mnt"], capture_output=True).returncode != 0:
         pytest.skip("no namespace in which a small disk could be mounted")
     (folder / "small").mkdir()
-    record = shlex.join([sys.executable, "-m", "patina", "record", "stage.usda", "small/a.exr", "-w", "256", "--samples", "1", "--quiet",
-                         "--compression", "none", "--checkpointSeconds", "0"])
+    record = shlex.join([sys.executable, "-m", "patina", "record", "stage.usda", "small/a.exr", "-w", "256", "--samples", "1",
+                         "--quiet", "--compression", "none", "--checkpointSeconds", "0"])
     done = subprocess.run([*own, "sh", "-c", f"mount -t tmpfs -o size=64k none small && {record}; s=$?; ls -A small; exit $s"],
                           capture_output=True, text=True)
     assert done.returncode == 75 and "No space left on device" in done.stderr and len(done.stderr.splitlines()) == 1, done
@@ -190,7 +192,8 @@ def test_a_full_disk_is_temporary(folder):
 
 @pytest.mark.parametrize("times, spec", [
     ([1.0], "1"), ([3.0, 4.0, 5.0], "3:5"), ([1.0, 4.0, 7.0], "1:7x3"), ([1.0, 2.0], "1,2"), ([7.0, 1.0, 2.0, 3.0], "7,1:3"),
-    ([5.0, 4.0, 3.0], "5:3"), ([1.0, 1.5, 2.0], "1:2x0.5"), ([20.0, 21.0, 22.0, 40.0], "20:22,40"), ([-2.0, -1.0, 0.0], "-2:0")])
+    ([5.0, 4.0, 3.0], "5:3"), ([1.0, 1.5, 2.0], "1:2x0.5"), ([20.0, 21.0, 22.0, 40.0], "20:22,40"),
+    ([-2.0, -1.0, 0.0], "-2:0")])
 def test_the_frames_that_are_left_as_a_spec(times, spec):
     assert frames.spec_of(times) == spec
     assert frames.expand(spec, 0.0, 0.0)[0] == pytest.approx(times)

@@ -94,3 +94,11 @@ def test_what_is_installed_names_no_folder_of_the_build(prefix):
         assert found, name
         text = found[0].read_text()
         assert ROOT not in text and BUILD not in text
+
+
+def test_presets_are_those_that_the_page_names(tmp_path):
+    with open(os.path.join(ROOT, "docs", "install.md"), encoding="utf-8") as file:
+        section = file.read().split("## Presets")[1].split("\n## ")[0]
+    named = {name for row in re.findall(r"^\| (`[^|]*) \|", section, re.MULTILINE) for name in re.findall(r"`(\w+)`", row)}
+    listed = set(re.findall(r'^  "(\w+)"', run("cmake", "--list-presets", cwd=ROOT), re.MULTILINE))
+    assert named == listed and {"dev", "release", "portable", "asan", "tsan"} <= listed

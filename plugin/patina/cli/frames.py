@@ -1,4 +1,4 @@
-"""Frame specs as usdrecord understands them, and image names with a place for the frame as usdrecord, husk and printf write it."""
+"""Frame specs as usdrecord understands them, and image names with a place for the frame as usdrecord, husk and printf have it."""
 import math
 import re
 

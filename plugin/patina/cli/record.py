@@ -19,8 +19,8 @@ a lost device) or ended by a signal with all saved: a scheduler may run the same
 import dataclasses
 import os
 
-from patina.cli import (checkpoints, compiled, denoiser, goOn, openStage, outputs, overrides, recordFlags, renderSettings, reports,
-                        shots, snapshots, statistics, verbose)
+from patina.cli import (checkpoints, compiled, denoiser, goOn, openStage, outputs, overrides, recordFlags, renderSettings,
+                        reports, shots, snapshots, statistics, verbose)
 from patina.cli.errors import CommandError, TemporaryError
 from patina.cli.interrupts import Endings, Interrupts
 from patina.cli.progress import Progress

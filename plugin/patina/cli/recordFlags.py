@@ -12,9 +12,9 @@ ALL_AOVS = tuple(name for row in rows.read("hdDelegate/film/aovs.def", "AOV") if
                  for name in row.words["all"] or [row.values[0]])
 LARGEST_SIZE = 65536
 MAX_PIXELS = 1 << 28
-_SETTINGS_HELP = ("take camera, resolution, products, AOVs, purposes and `patina:` settings from this UsdRenderSettings prim; `stage` "
-                  "is the one that the stage's metadata name. Flags are stronger. Without IMAGE all its products are written to "
-                  "their own names; with IMAGE the first, to IMAGE")
+_SETTINGS_HELP = ("take camera, resolution, products, AOVs, purposes and `patina:` settings from this UsdRenderSettings prim; "
+                  "`stage` is the one that the stage's metadata name. Flags are stronger. Without IMAGE all its products are "
+                  "written to their own names; with IMAGE the first, to IMAGE")
 _TEXTS = {"DEFAULT_SAMPLES": DEFAULT_SAMPLES, "MAX_SAMPLES": MAX_SAMPLES}  # of helps in the table of settings
 
 
@@ -107,14 +107,14 @@ def _add_run_flags(group):
     group.add_argument("--partial", metavar="FILE", help="the part's file; `patina merge` makes IMAGE of all of them, with the "
                                                          "bits of the frame rendered at once")
     group.add_argument("--snapshot", type=_not_negative, default=0.0, metavar="S",
-                       help="write the image so often while it renders, beside IMAGE (see --snapshotSuffix); it is removed when "
-                            "IMAGE is written (default: 0, never; the signal SIGUSR1 asks for one in any case)")
+                       help="write the image so often while it renders, beside IMAGE (see --snapshotSuffix); it is removed "
+                            "when IMAGE is written (default: 0, never; the signal SIGUSR1 asks for one in any case)")
     group.add_argument("--snapshotSuffix", type=_suffix, default=snapshots.SUFFIX, metavar="TEXT",
                        help=f"of the names of snapshots, before the extension (default: {snapshots.SUFFIX})")
     group.add_argument("--report", metavar="FILE.html",
-                       help="one page that needs no network: image and AOVs to wipe through, samples and error of each pixel, time "
-                            "by phase and by material, memory, warnings, the plan, and the command. With --frames of the last "
-                            "frame, or of each where the name has a place for it")
+                       help="one page that needs no network: image and AOVs to wipe through, samples and error of each pixel, "
+                            "time by phase and by material, memory, warnings, the plan, and the command. With --frames of the "
+                            "last frame, or of each where the name has a place for it")
     group.add_argument("--strict", action="store_true", help="warnings make the render fail")
     group.add_argument("--json", metavar="FILE",
                        help="statistics (times by phase, rays, samples, memory, warnings): --json to standard "

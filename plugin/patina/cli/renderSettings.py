@@ -106,7 +106,8 @@ def _purposes(merged, prim):
 
 def _material_purpose(prim):
     attribute = prim.prim.GetAttribute("materialBindingPurposes")
-    wanted = [purpose for purpose in attribute.Get() or [] if purpose] if attribute and attribute.HasAuthoredValue() else ["full"]
+    authored = attribute.Get() if attribute and attribute.HasAuthoredValue() else ["full"]
+    wanted = [purpose for purpose in authored or [] if purpose]
     if len(wanted) > 1:
         prim.warn(prim.path, "materialBindingPurposes", f"only '{wanted[0]}' and what is for all purposes are looked at")
     return wanted[0] if wanted else ""

@@ -15,7 +15,7 @@ def check_usage(arguments):
 
 
 def path_of(arguments, shot):
-    """:returns: the page of a shot, or None; shots share a page where its name has no place for the frame, and the last has it"""
+    """:returns: the page of a shot, or None; the last has it where its name has no place for the frame"""
     if not arguments.report:
         return None
     return frames.named(arguments.report, shot.frame, 0)

@@ -11,7 +11,8 @@ def plan(arguments, stage, settings_prim=None):
     :returns: list of Shots, frame by frame"""
     if settings_prim is None:
         own = tuple(["color", "alpha"] + recordFlags.aovs_of(arguments))
-        return [Shot(frame, [Output(image, own, arguments.half)], arguments.camera, (arguments.imageWidth, arguments.imageHeight))
+        size = arguments.imageWidth, arguments.imageHeight
+        return [Shot(frame, [Output(image, own, arguments.half)], arguments.camera, size)
                 for frame, image in frames.plan(arguments, stage)]
     times, decimals = frames.times(arguments, stage)
     if arguments.image and (arguments.frames or frames.has_place(arguments.image)):

@@ -8,7 +8,7 @@ from patina.cli import planText, shots
 from patina.report import pictures, sections
 from patina.view.page import as_json, finite
 
-LABELS = {"color": "image", "color.noisy": "image before denoising", "sampleCount": "samples", "error": "error", "primId": "prims",
+LABELS = {"color": "image", "color.noisy": "image before denoising", "sampleCount": "samples", "primId": "prims",
           "instanceId": "instances", "elementId": "faces", "denoisingAlbedo": "albedo for denoising",
           "denoisingNormal": "normal for denoising"}
 _WEB = os.path.join(os.path.dirname(os.path.abspath(report.__file__)), "web")

@@ -69,7 +69,8 @@ def _head(facts):
              ("back end", frame["backend"])]
     when = "" if frame["frame"] is None else f", frame {frame['frame']:g}"
     lines = [f"<h1>{escape(facts.image)}</h1>",
-             f'<p class="dim">{escape(facts.arguments.stage)}{when}, camera {escape(facts.info.camera)}; Patina {__version__}</p>']
+             f'<p class="dim">{escape(facts.arguments.stage)}{when}, camera {escape(facts.info.camera)}; '
+             f"Patina {__version__}</p>"]
     if len(facts.images) > 1:
         lines.append(f'<p class="dim">also written: {escape(", ".join(facts.images[1:]))}</p>')
     if facts.interrupted:
@@ -99,8 +100,8 @@ def _time(facts):
                memory.text(frame["memory"].get(name))] for name, word in verbose.NAMES.items() if name in frame["seconds"]]
     left = "<div><h3>By phase</h3>" + _table(["phase", "", "time", "memory after"], phases, ["", "bar", "n", "n"])
     if "bytes" in frame:
-        left += (f'<p class="dim">{frame.get("trianglesStored", 0)} triangles and {frame.get("instances", 0)} instances; meshes and '
-                 f'acceleration structures take {memory.text(frame["bytes"])}.</p>')
+        left += (f'<p class="dim">{frame.get("trianglesStored", 0)} triangles and {frame.get("instances", 0)} instances; '
+                 f'meshes and acceleration structures take {memory.text(frame["bytes"])}.</p>')
     return f'<h2>Time and memory</h2><div class="columns">{left}</div>{_by_material(frame)}</div>'
 
 
@@ -159,8 +160,8 @@ def _warnings(facts):
              escape(causes.printable(g["prim"] + ("." + g["input"] if g["input"] else ""))), str(g["count"]), str(g["prims"])]
             for g in groups[:200]]
     more = f'<p class="dim">and {len(groups) - 200} more causes (--json has all)</p>' if len(groups) > 200 else ""
-    return ("<h2>Warnings by cause</h2>" + _table(["", "what", "first at", "times", "prims"], rows, ["", "", "", "n", "n"]) + more +
-            notes)
+    table = _table(["", "what", "first at", "times", "prims"], rows, ["", "", "", "n", "n"])
+    return f"<h2>Warnings by cause</h2>{table}{more}{notes}"
 
 
 def _plan(facts):
@@ -170,12 +171,13 @@ def _plan(facts):
     lines += [f"<p>{escape(line)}</p>" for line in facts.plan_lines]
     if not facts.materials:
         return "\n".join([*lines, "<p>The stage has no materials; displayColor is shown.</p>"])
-    lines.append('<p class="dim">What is modelled of each material, and what was left out. Those that took most of the time come '
-                 "first.</p>")
+    lines.append('<p class="dim">What is modelled of each material, and what was left out. Those that took most of the time '
+                 "come first.</p>")
     for path, plan, text in facts.materials:
         planned = "\n".join(planText.lines(plan)) if plan else ""
         error = f' <span class="dim">predicted error {plan["error"]:.2g}</span>' if plan else ""
-        lines.append(f"<details><summary>{escape(path)}{error}</summary><pre>{escape(text.rstrip() + chr(10) + planned)}</pre></details>")
+        told = escape(text.rstrip() + "\n" + planned)
+        lines.append(f"<details><summary>{escape(path)}{error}</summary><pre>{told}</pre></details>")
     return "\n".join(lines)
 
 
@@ -201,5 +203,5 @@ def _again(facts):
     rows += [[escape(name), escape(os.environ[name])] for name in ("OCIO", "PATINA_MODEL_PATH") if os.environ.get(name)]
     return ('<h2>Render it again</h2><pre id="command">' + escape(command_of(facts.arguments))
             + '</pre><button data-copy="command">Copy the command</button>'
-            f'<p class="dim">Seed {facts.settings["seed"]}: the same version gives the same bits, with any number of threads, where all '
-            "samples are taken (not with --seconds).</p>" + _table(["made by", ""], rows, ["", ""]))
+            f'<p class="dim">Seed {facts.settings["seed"]}: the same version gives the same bits, with any number of threads, '
+            "where all samples are taken (not with --seconds).</p>" + _table(["made by", ""], rows, ["", ""]))

@@ -52,7 +52,8 @@ def test_errors_come_first_then_what_is_met_most_often():
         ("error", "/d"), ("error", "/c"), ("warning", "/b"), ("warning", "/a")]
 
 
-@pytest.mark.parametrize("reason", ("the file does not exist", "the file is a device, not a regular file", "no tile of it exists"))
+@pytest.mark.parametrize("reason", ("the file does not exist", "the file is a device, not a regular file",
+                                    "no tile of it exists"))
 def test_a_texture_that_is_missing_is_an_error_for_whatever_reason(reason):
     assert causes.severity(warning(f"texture 'a.png': {reason}; its authored fallback, else magenta, is shown")) == "error"
 

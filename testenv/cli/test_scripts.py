@@ -68,8 +68,8 @@ def test_a_sheet_that_cannot_be_made_ends_in_one_line(script, thing, tmp_path):
     pytest.importorskip("_patina")
 
     def said(sheet):
-        found = subprocess.run([sys.executable, os.path.join(ROOT, "testenv", script), tmp_path, sheet], capture_output=True, text=True,
-                               env=dict(os.environ, PYTHONSAFEPATH="1"))
+        found = subprocess.run([sys.executable, os.path.join(ROOT, "testenv", script), tmp_path, sheet], capture_output=True,
+                               text=True, env=dict(os.environ, PYTHONSAFEPATH="1"))
         assert found.returncode == 1
         return found.stderr
 

@@ -144,7 +144,11 @@ def test_one_signal_ends_a_command_once(ended_by, folder, monkeypatch, capfd):
     """A signal that came into an import is still due when the command has ended: the report takes longer than that."""
     from patina.cli import explain
 
-    (folder / "slowImport.py").write_text(f"import os; os.kill(os.getpid(), {int(signal.SIGTERM)})\nfor _ in range(1000): pass\n")
+    (folder / "slowImport.py").write_text(f"""import os
+os.kill(os.getpid(), {int(signal.SIGTERM)})
+for _ in range(1000):
+    pass
+""")
     monkeypatch.syspath_prepend(str(folder))
 
     def run(_):

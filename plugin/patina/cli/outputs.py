@@ -93,7 +93,7 @@ class Together:
         return temporary
 
     def _named(self, error):
-        """:returns: what an error says, with paths in the place of the temporaries that stand for them; None if it names none"""
+        """:returns: what an error says, with paths in the place of their temporaries; None where it names none of these"""
         text = said = str(error)
         for temporary, path in self._paths.items():
             text = text.replace(temporary, path)

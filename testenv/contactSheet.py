@@ -90,6 +90,19 @@ def paste(images, width, columns):
     return sheet
 
 
+def check(arguments, found, kind):
+    """Ends in one line, before anything slow, where there is nothing to render or no place for the sheet."""
+    import _patina
+
+    if not found:
+        sys.exit(f"{arguments.folder}: there are no {kind}")
+    try:
+        _patina.check_image_path(arguments.sheet, ["color", "alpha"])
+        _patina.check_output(arguments.sheet)
+    except RuntimeError as error:
+        sys.exit(str(error))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
@@ -102,9 +115,11 @@ def main():
     parser.add_argument("--gl", action="store_true", help="with a GL context, with usdrecord")
     parser.add_argument("--record", nargs=argparse.REMAINDER, default=[])
     arguments = parser.parse_args()
+    stages = list(find(arguments.folder))
+    check(arguments, stages, "stages")
     images = []
     with tempfile.TemporaryDirectory() as folder:
-        for stage in find(arguments.folder):
+        for stage in stages:
             if arguments.host == "usdrecord":
                 found = render_hydra(stage, folder, arguments.width, arguments.sceneIndex, arguments.gl)
             else:

@@ -18,7 +18,7 @@ if __name__ == "__main__":
 
 import numpy as np  # noqa: E402
 
-from contactSheet import paste, render  # noqa: E402
+from contactSheet import check, paste, render  # noqa: E402
 
 SKY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "scenes", "textures", "sky.exr")
 STAGE = """#usda 1.0
@@ -133,19 +133,20 @@ def main():
     arguments = parser.parse_args()
     documents = sorted(os.path.join(root, name) for root, _, names in os.walk(arguments.folder) for name in names
                        if name.endswith(".mtlx"))
+    found = [(document, name) for document in documents for name in materials(document)]
+    check(arguments, found, "materials")
     geometry, images = ball(), []
     with tempfile.TemporaryDirectory() as folder:
-        for document in documents:
-            for name in materials(document):
-                stage = os.path.join(folder, "stage.usda")
-                with open(stage, "w", encoding="utf-8") as file:
-                    file.write(STAGE % {**geometry, "sky": SKY, "document": os.path.abspath(document), "material": name})
-                pixels, seconds, warnings, error = render(stage, folder, arguments.width, arguments.samples, arguments.record)
-                images.append(pixels)
-                print(f"{len(images) - 1:4d} {seconds:7.2f} s  {os.path.relpath(document, arguments.folder)}:{name}"
-                      f"  {'FAILED ' + error[0] if error else ''}", flush=True)
-                for warning in warnings:
-                    print(f"              {warning}")
+        for document, name in found:
+            stage = os.path.join(folder, "stage.usda")
+            with open(stage, "w", encoding="utf-8") as file:
+                file.write(STAGE % {**geometry, "sky": SKY, "document": os.path.abspath(document), "material": name})
+            pixels, seconds, warnings, error = render(stage, folder, arguments.width, arguments.samples, arguments.record)
+            images.append(pixels)
+            print(f"{len(images) - 1:4d} {seconds:7.2f} s  {os.path.relpath(document, arguments.folder)}:{name}"
+                  f"  {'FAILED ' + error[0] if error else ''}", flush=True)
+            for warning in warnings:
+                print(f"              {warning}")
     import _patina
 
     _patina.write_image(arguments.sheet, np.ascontiguousarray(paste(images, arguments.width, arguments.columns), np.float32))

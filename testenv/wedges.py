@@ -187,11 +187,14 @@ def render(name, image, width, samples):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", choices=[[], *WEDGES], default=[], metavar="NAME", help=", ".join(WEDGES))
+    parser.add_argument("names", nargs="*", default=[], metavar="NAME", help=", ".join(WEDGES) + " (default: all)")
     parser.add_argument("--out", default=os.path.join(HERE, "..", "docs", "pictures"))
     parser.add_argument("--samples", type=int, default=256)
     parser.add_argument("--tile", type=int, default=TILE, help="pixels of a ball's cell")
     arguments = parser.parse_args()
+    for name in arguments.names:
+        if name not in WEDGES:
+            parser.error(f"there are no wedges {name} (there are: {', '.join(WEDGES)})")
     for name in arguments.names or WEDGES:
         image = os.path.join(arguments.out, f"wedges{name[0].upper()}{name[1:]}.png")
         render(name, image, arguments.tile * 7, arguments.samples)

@@ -28,7 +28,7 @@ bool parseMtlx(const std::string& text, const std::string& path, bool wantMateri
         diagnostics.warn(path, "", "no <materialx> element; the document is ignored");
         return false;
     }
-    includeDocuments(root, path, diagnostics);
+    includeDocuments(root, path, markupOf(text), diagnostics);
     upgradeDocument(root, path, diagnostics);
     MtlxParser(path, diagnostics).parse(root, wantMaterials, out);
     return true;

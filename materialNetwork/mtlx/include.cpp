@@ -3,6 +3,7 @@
 #include "materialNetwork/mtlx/xmlFile.h"
 #include "materialNetwork/regularFile.h"
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <set>
@@ -25,7 +26,9 @@ std::string canonical(const fs::path& path) {
 
 class Includer {
 public:
-    explicit Includer(Diagnostics& diagnostics) : _diagnostics(diagnostics) {}
+    /// @param markup of the document that includes, as markupOf()
+    Includer(Diagnostics& diagnostics, size_t markup)
+        : _diagnostics(diagnostics), _markup(markup) {}
 
     void run(pugi::xml_node root, const std::string& path) {
         _open.insert(canonical(path));
@@ -57,7 +60,9 @@ private:
         }
         std::string text, problem;
         pugi::xml_document xml;
-        if (readRegularFile(target, maxBytes - _bytes, text, problem)) loadXml(text, xml, problem);
+        if (readRegularFile(target, maxBytes - _bytes, text, problem) &&
+            loadXml(text, xml, problem, maxMarkup - std::min(_markup, maxMarkup)))
+            _markup += markupOf(text);
         _bytes += text.size();
         const pugi::xml_node included = xml.child("materialx");
         if (problem.empty() && !included) problem = "is no MaterialX document";
@@ -94,14 +99,15 @@ private:
 
     Diagnostics& _diagnostics;
     std::set<std::string> _open;
-    size_t _documents = 0;
+    size_t _documents = 0, _markup = 0;
     uint64_t _bytes = 0;
 };
 
 } // namespace
 
-void includeDocuments(pugi::xml_node root, const std::string& path, Diagnostics& diagnostics) {
-    Includer(diagnostics).run(root, path);
+void includeDocuments(pugi::xml_node root, const std::string& path, size_t markup,
+                      Diagnostics& diagnostics) {
+    Includer(diagnostics, markup).run(root, path);
 }
 
 } // namespace patina

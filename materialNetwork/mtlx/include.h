@@ -16,6 +16,8 @@ inline constexpr const char* sourceAttribute = "patina-source";
 /// relative to the including one. Included elements keep their own colour space, file prefix and
 /// version; those of a namespace are named "namespace:name" from then on. What cannot be read and
 /// documents that include themselves are reported and left out.
-void includeDocuments(pugi::xml_node root, const std::string& path, Diagnostics& diagnostics);
+/// @param markup of the document, as markupOf(): all of them together hold maxMarkup at most
+void includeDocuments(pugi::xml_node root, const std::string& path, size_t markup,
+                      Diagnostics& diagnostics);
 
 } // namespace patina

@@ -1,6 +1,7 @@
 #include "materialNetwork/mtlx/parser.h"
 
 #include "materialNetwork/mtlx/include.h"
+#include "materialNetwork/mtlx/lists.h"
 #include "materialNetwork/mtlx/xmlFile.h"
 #include "materialNetwork/nodes/nodeTable.h"
 
@@ -8,7 +9,6 @@
 #include <cstring>
 #include <filesystem>
 #include <set>
-#include <sstream>
 
 namespace patina {
 
@@ -27,17 +27,6 @@ bool isNode(const pugi::xml_node& element) {
 
 bool isPort(const char* name) {
     return !std::strcmp(name, "input") || !std::strcmp(name, "parameter");
-}
-
-std::vector<std::string> splitList(std::string text) {
-    std::vector<std::string> parts;
-    std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, ',');) {
-        const size_t first = part.find_first_not_of(" \t");
-        const size_t last = part.find_last_not_of(" \t");
-        parts.push_back(first == std::string::npos ? "" : part.substr(first, last - first + 1));
-    }
-    return parts;
 }
 
 /// Of the paths of a graph's nodes.
@@ -108,21 +97,16 @@ Value MtlxParser::readValue(const Element& port) const {
                            : port.attribute("colorspace").value();
     } else if (n == 0) {
         v.text = text;
-    } else if (v.type == ValueType::Bool) {
-        v.numbers = {text == "true" || text == "1" ? 1.0f : 0.0f};
     } else {
-        std::string plain = text;
-        std::replace(plain.begin(), plain.end(), ',', ' ');
-        std::istringstream stream(plain);
-        stream.imbue(std::locale::classic());
-        for (float x; int(v.numbers.size()) < n && stream >> x;)
-            v.numbers.push_back(x);
-        if (v.numbers.empty() && !text.empty()) {
-            // A name on a numeric input may stand for an enumerated value.
+        if (!port.attribute("value")) {
+            v.numbers.assign(size_t(n), 0.0f);
+        } else if (v.type == ValueType::Bool && (text == "true" || text == "false")) {
+            v.numbers = {text == "true" ? 1.0f : 0.0f};
+        } else if (!readNumbers(text, size_t(n), v.numbers)) {
+            // A name may stand for an enumerated value; all else is told of where it is used.
+            v.numbers.clear();
             v.type = ValueType::String;
             v.text = text;
-        } else {
-            v.numbers.resize(size_t(n), v.numbers.size() == 1 ? v.numbers[0] : 0.0f);
         }
         if (v.type == ValueType::Color3 || v.type == ValueType::Color4)
             v.colorSpace = inherited(port, "colorspace");

@@ -1,5 +1,7 @@
 #include "materialNetwork/mtlx/xmlFile.h"
 
+#include <algorithm>
+
 namespace patina {
 
 namespace {
@@ -23,7 +25,18 @@ bool nestsTooDeeply(const pugi::xml_node& root) {
 
 } // namespace
 
-bool loadXml(const std::string& text, pugi::xml_document& out, std::string& problem) {
+size_t markupOf(const std::string& text) {
+    return size_t(std::count_if(text.begin(), text.end(),
+                                [](char c) { return c == '<' || c == '='; }));
+}
+
+bool loadXml(const std::string& text, pugi::xml_document& out, std::string& problem,
+             size_t mostMarkup) {
+    if (markupOf(text) > mostMarkup) {
+        problem = "holds more tags and attributes than the " + std::to_string(maxMarkup) +
+                  " that are read of a document and what it includes";
+        return false;
+    }
     const pugi::xml_parse_result result = out.load_buffer(text.data(), text.size());
     if (!result)
         problem = std::string("is not readable as XML: ") + result.description();

@@ -2,6 +2,7 @@
 #include "materialNetwork/tests/materialTest.h"
 
 #include "materialNetwork/mtlx/document.h"
+#include "materialNetwork/mtlx/xmlFile.h"
 #include "materialNetwork/nodes/nodeTable.h"
 
 #include <filesystem>
@@ -102,6 +103,57 @@ TEST_F(MtlxHostile, IncludesNestedTooDeeplyAreLeftOut) {
     EXPECT_TRUE(
         read("<xi:include href='deep.mtlx'>" + nested("a", depth) + "</xi:include>").empty());
     EXPECT_EQ(diagnostics.count(), 2) << warnings(diagnostics);
+}
+
+/// Each element takes some 500 bytes while it is read.
+TEST_F(MtlxHostile, MoreElementsThanAreReadAreLeftOut) {
+    const std::string many = repeated("<a/>", maxMarkup / 2), few = repeated("<a b=''/>", 1000);
+    write("many.mtlx", many);
+    write("few.mtlx", few);
+    const std::string twice = "<xi:include href='many.mtlx'/><xi:include href='few.mtlx'/>"
+                              "<xi:include href='many.mtlx'/>";
+    EXPECT_EQ(read(twice + material).size(), 1u);
+    EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
+    EXPECT_TRUE(told("'many.mtlx' holds more tags and attributes than the 2097152 that are read"));
+    EXPECT_TRUE(read(many + many + material).empty());
+    EXPECT_TRUE(told("main.mtlx [] holds more tags and attributes than"));
+}
+
+TEST_F(MtlxHostile, ValuesThatAreNotOfTheirTypeAreToldAndNotUsed) {
+    const auto albedo = [&](const std::string& type, const std::string& value) {
+        const bool color = type == "color3";
+        const auto networks =
+            read("<constant name='c' type='" + type + "'><input name='value' type='" + type +
+                 "' value='" + value + "'/></constant>" +
+                 (color ? "" : "<convert name='v' type='color3'><input name='in' type='" + type +
+                                   "' nodename='c'/></convert>") +
+                 "<oren_nayar_diffuse_bsdf name='d' type='BSDF'>"
+                 "<input name='color' type='color3' nodename='" +
+                 (color ? "c" : "v") +
+                 "'/></oren_nayar_diffuse_bsdf><surface name='s' type='surfaceshader'>"
+                 "<input name='bsdf' type='BSDF' nodename='d'/></surface>");
+        if (networks.size() != 1) return glm::vec3(-1);
+        const Compiled compiled(networks[0]);
+        for (const Diagnostic& d : compiled.diagnostics.all())
+            diagnostics.warn(d.prim, d.input, d.message);
+        Bsdf bsdf;
+        compiled.program->evaluate(ShadingPoint(), bsdf);
+        return bsdf.albedo();
+    };
+    EXPECT_EQ(albedo("color3", "0.25, 0.5 ,0.75"), glm::vec3(0.25f, 0.5f, 0.75f));
+    EXPECT_EQ(albedo("color3", "0.25"), glm::vec3(0.25f));
+    EXPECT_EQ(albedo("boolean", "true"), glm::vec3(1));
+    EXPECT_EQ(diagnostics.count(), 0) << warnings(diagnostics);
+    int expected = 0;
+    for (const char* value : {"", "1,1", "1,1,1,1", "1;1;1", "0x10,1,1", "1,1,1 one", "nan,1,1"}) {
+        EXPECT_EQ(albedo("color3", value), glm::vec3(0)) << value;
+        EXPECT_EQ(diagnostics.count(), ++expected) << value << warnings(diagnostics);
+        EXPECT_TRUE(told("'" + std::string(value) + "' is not color3; the default is used"));
+    }
+    EXPECT_EQ(albedo("float", "0.5f"), glm::vec3(0));
+    EXPECT_TRUE(told("'0.5f' is not float"));
+    EXPECT_EQ(albedo("boolean", "yes"), glm::vec3(0));
+    EXPECT_TRUE(told("'yes' is not boolean"));
 }
 
 TEST_F(MtlxHostile, LongChainsOfClosuresTakeAFilm) {

@@ -147,3 +147,14 @@ def test_a_full_disk_keeps_stage_and_textures(stage, tmp_path):
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert {name: (tmp_path / name).read_bytes() for name in os.listdir(tmp_path)} == before
+
+
+def test_a_disk_that_is_full_for_textures_names_the_texture(stage, tmp_path, capsys):
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (16, limits[1]))
+    try:
+        assert bake(stage, "/world/looks/one", str(tmp_path / "out.usda")) == 1
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    said = capsys.readouterr().err
+    assert f"cannot write '{tmp_path / 'out_world_looks_one_base_color.png'}'" in said and len(said.splitlines()) == 1

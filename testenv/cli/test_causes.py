@@ -52,6 +52,12 @@ def test_errors_come_first_then_what_is_met_most_often():
         ("error", "/d"), ("error", "/c"), ("warning", "/b"), ("warning", "/a")]
 
 
+@pytest.mark.parametrize("reason", ("the file does not exist", "the file is a device, not a regular file",
+                                    "no tile of it exists"))
+def test_a_texture_that_is_missing_is_an_error_for_whatever_reason(reason):
+    assert causes.severity(warning(f"texture 'a.png': {reason}; its authored fallback, else magenta, is shown")) == "error"
+
+
 def test_the_terminal_shows_twenty_causes_and_counts_the_rest():
     letters = [chr(ord("a") + i) for i in range(26)]
     found = Causes([warning(f"{a}{a} is odd; box is used", f"/p{a}") for a in letters]

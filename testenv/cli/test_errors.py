@@ -7,7 +7,7 @@ import zipfile
 
 import pytest
 
-from patina.cli import bench, explain, frames, main
+from patina.cli import bench, explain, frames, main, record
 from patina.cli.errors import UsageError
 
 BALL = """#usda 1.0
@@ -253,3 +253,15 @@ def test_layers_that_are_pipes_are_not_waited_for(where, tmp_path, capsys):
     finally:
         os.close(keeper)
     assert status == 1 and said.endswith("pipe.usda is no regular file") and len(said.splitlines()) == 1
+
+
+@pytest.mark.parametrize("arguments, said", [(("--display", "tube"), "--display: there is no display 'tube' (there are: sRGB"),
+                                             (("--view", "filmic"), "--view: there is no view 'filmic' (there are: Standard")])
+def test_a_display_that_there_is_not_is_told_before_rendering(arguments, said, stage, tmp_path, monkeypatch, capsys):
+    monkeypatch.delenv("OCIO", raising=False)
+    rendered = []
+    monkeypatch.setattr(record._Job, "render", lambda *_: rendered.append(True))
+    command = ["record", stage, str(tmp_path / "a.png"), *arguments]
+    assert main.main(command) == 1
+    assert said in capsys.readouterr().err and not rendered
+    assert main.main([*command, "--colorCorrectionMode", "disabled"]) == 0 and rendered

@@ -61,3 +61,19 @@ def test_a_sheet_of_materials(tmp_path):
                            text=True)
     assert found.returncode == 0 and "red" in found.stdout, found.stderr
     assert (tmp_path / "sheet.png").stat().st_size > 0
+
+
+@pytest.mark.parametrize("script, thing", (("contactSheet.py", "stages"), ("materialSheet.py", "materials")))
+def test_a_sheet_that_cannot_be_made_ends_in_one_line(script, thing, tmp_path):
+    pytest.importorskip("_patina")
+
+    def said(sheet):
+        found = subprocess.run([sys.executable, os.path.join(ROOT, "testenv", script), tmp_path, sheet], capture_output=True,
+                               text=True, env=dict(os.environ, PYTHONSAFEPATH="1"))
+        assert found.returncode == 1
+        return found.stderr
+
+    assert said(tmp_path / "sheet.png") == f"{tmp_path}: there are no {thing}\n"
+    (tmp_path / "a.usda").write_text("#usda 1.0\n")
+    (tmp_path / "a.mtlx").write_text('<materialx version="1.39"><surfacematerial name="m" type="material"/></materialx>')
+    assert said("/nowhere/sheet.png") == "cannot write '/nowhere/sheet.png': the folder '/nowhere' does not exist\n"

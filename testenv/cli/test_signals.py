@@ -140,6 +140,40 @@ whole = True
     assert [signal.getsignal(n) for n in (*interrupts.NUMBERS, signal.SIGALRM)] == before
 
 
+@pytest.mark.parametrize("ended_by", ("check", "another error"))
+def test_one_signal_ends_a_command_once(ended_by, folder, monkeypatch, capfd):
+    """A signal that came into an import is still due when the command has ended: the report takes longer than that."""
+    from patina.cli import explain
+
+    (folder / "slowImport.py").write_text(f"""import os
+os.kill(os.getpid(), {int(signal.SIGTERM)})
+for _ in range(1000):
+    pass
+""")
+    monkeypatch.syspath_prepend(str(folder))
+
+    def run(_):
+        import slowImport  # noqa: F401
+
+        if ended_by == "check":
+            interrupts.Endings.check()
+        raise OSError("a library's own")
+
+    failed = main._failed
+
+    def slow(*arguments):
+        time.sleep(3 * interrupts.Endings._POLL_SECONDS)
+        return failed(*arguments)
+
+    monkeypatch.setattr(explain, "run", run)
+    monkeypatch.setattr(main, "_failed", slow)
+    try:
+        assert main.main(["explain", "m.mtlx"]) == 1
+    finally:
+        sys.modules.pop("slowImport", None)
+    assert capfd.readouterr().err == "patina: terminated\n"
+
+
 def test_ignored_signals_stay_ignored(folder):
     """As nohup wants it."""
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)

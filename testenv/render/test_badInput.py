@@ -134,8 +134,9 @@ def test_type_mismatch(tmp_path):
 
 
 def test_binding_to_a_material_that_is_not_there(tmp_path):
-    _, image, _ = render(tmp_path, quad())
+    _, image, warnings = render(tmp_path, quad())
     assert color(image)[16, 16].max() > 0
+    assert len(warnings) == 1 and "/material, which does not exist; the binding is left out" in warnings[0]["message"], warnings
 
 
 def test_strict_turns_warnings_into_failure(tmp_path):

@@ -19,7 +19,7 @@ _MISSING = re.compile(
     r"is left out|are left out|left out$|left out with|cannot be|cannot read|could not|"
     r"does not exist|do not exist|there is no |there are none|is missing|holds no |"
     r"no file is given|gives no light|is off$|the light is off|"
-    r"magenta is shown|black is shown|displayColor is shown|can be shown|emits the same everywhere|failed|Failed|"
+    r"magenta,? is shown|black is shown|displayColor is shown|can be shown|emits the same everywhere|failed|Failed|"
     r"path tracer renders instead", re.IGNORECASE)
 _QUOTED = re.compile(r"'[^']*'|\"[^\"]*\"|@[^@]+@|<[^>]+>")
 _PATH = re.compile(r"(?<![\w'\"@<])[^\s'\",;()]*(?:/[^\s'\",;()]+|\.(?:[A-Za-z][A-Za-z0-9]{1,4}))(?![\w])")

@@ -50,6 +50,7 @@ class Endings(_Handlers):
         super().__init__()
         self.met = 0
         self._timer = None  # what SIGALRM did before
+        self._settled = False
 
     def __enter__(self):
         Endings._open = self
@@ -57,8 +58,8 @@ class Endings(_Handlers):
 
     def __exit__(self, *problem):
         Endings._open = None
+        self._disarm()
         if self._timer is not None:
-            signal.setitimer(signal.ITIMER_REAL, 0.0)
             signal.signal(signal.SIGALRM, self._timer)
         return super().__exit__(*problem)
 
@@ -66,7 +67,17 @@ class Endings(_Handlers):
     def check():
         """:raises KeyboardInterrupt: where the command that runs was told to end"""
         if Endings._open and Endings._open.met:
+            Endings._open._disarm()  # one exception: a second one would come into what tidies up after the first
             raise KeyboardInterrupt
+
+    def settle(self):
+        """The command has ended: nothing interrupts what is told of it. A second signal still does what it always does."""
+        self._settled = True
+        self._disarm()
+
+    def _disarm(self):
+        if self._timer is not None:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
 
     def _note(self, number, frame):
         self.met = number
@@ -74,6 +85,8 @@ class Endings(_Handlers):
         self._end(number, frame)
 
     def _end(self, _number, frame):
+        if self._settled:
+            return
         if not _imports(frame):
             raise KeyboardInterrupt
         if self._timer is None:

@@ -149,11 +149,13 @@ def main(argv=None):
     """:returns: the exit status"""
     with told.Streams(), interrupts.Endings() as endings:
         try:
-            inputs.forget()
-            argv = sys.argv[1:] if argv is None else argv
-            status = _dispatch(argv)
-            sys.stdout.flush()
-            return status
+            try:
+                inputs.forget()
+                status = _dispatch(sys.argv[1:] if argv is None else argv)
+                sys.stdout.flush()
+                return status
+            finally:
+                endings.settle()
         except BrokenPipeError:  # `patina ... | head`
             told.silence(sys.stdout)
             return 1

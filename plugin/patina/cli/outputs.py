@@ -74,6 +74,7 @@ class Together:
 
     def __init__(self):
         self._files = []
+        self._paths = {}  # of a temporary -> the path that it stands for
 
     def __enter__(self):
         return self
@@ -87,13 +88,24 @@ class Together:
             self._files.append(compiled.load().AtomicFile(os.fspath(path)))
         except RuntimeError as error:
             raise CommandError(str(error)) from error
-        return self._files[-1].temporary_path
+        temporary = self._files[-1].temporary_path
+        self._paths[temporary] = os.fspath(path)
+        return temporary
+
+    def _named(self, error):
+        """:returns: what an error says, with paths in the place of their temporaries; None where it names none of these"""
+        text = said = str(error)
+        for temporary, path in self._paths.items():
+            text = text.replace(temporary, path)
+        return text if text != said else None
 
     def __exit__(self, kind, error, trace):
         try:
             if kind is None:
                 for file in self._files:
                     file.commit()
+            elif isinstance(error, (RuntimeError, CommandError)) and self._named(error):
+                raise CommandError(self._named(error)) from error
         except RuntimeError as reason:
             raise CommandError(str(reason)) from reason
         finally:

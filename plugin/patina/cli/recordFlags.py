@@ -2,7 +2,7 @@
 import math
 
 from patina.cli import denoiser, frames, methods, overrides, rows, settingFlags, snapshots
-from patina.cli.errors import UsageError
+from patina.cli.errors import CommandError, UsageError
 from patina.farm import cut
 
 COMPLEXITIES = {"low": 1.0, "medium": 1.1, "high": 1.2, "veryhigh": 1.3}
@@ -132,9 +132,22 @@ def settings_of(arguments):
     settings["samples"] = arguments.samples or (MAX_SAMPLES if endless else DEFAULT_SAMPLES)
     settings["aovs"] = list(dict.fromkeys(aovs_of(arguments) + list(denoiser.GUIDES if arguments.denoise else ())))
     settings["methods"] = methods.parse(arguments.method)
+    _check_display(arguments)
     if arguments.dataWindow:
         settings["dataWindow"] = arguments.dataWindow
     return settings
+
+
+def _check_display(arguments):
+    """Before anything is rendered: an image that has no display transform is lost when it is written."""
+    from patina.cli import compiled
+
+    if arguments.colorCorrectionMode == "disabled":
+        return
+    for flag, wanted, known in (("display", arguments.display, lambda m: m.displays()),
+                                ("view", arguments.view, lambda m: m.views(arguments.display or m.displays()[0]))):
+        if wanted and wanted not in known(compiled.load()):
+            raise CommandError(f"--{flag}: there is no {flag} '{wanted}' (there are: {', '.join(known(compiled.load()))})")
 
 
 def aovs_of(arguments):

@@ -4,13 +4,14 @@ from pxr import UsdShade
 from . import compat
 
 
+
 class Bindings:
     """Resolves material bindings in bulk and collects the materials that are shown."""
 
-    def __init__(self, purpose="full"):
-        """:param purpose: StageOptions.material_purpose"""
-        self._purpose = purpose
+    def __init__(self, context):
+        self.context = context
         self.materials = {}  # path in the scene -> UsdShade.Material
+        self._checked = set()  # paths of prims whose own bindings were looked at
 
     def compute(self, prims):
         """:returns: list of (Material or None, whether it is stronger than bindings below)"""
@@ -19,7 +20,7 @@ class Bindings:
         stronger = UsdShade.Tokens.strongerThanDescendants
         return [(material if material else None,
                  bool(rel) and UsdShade.MaterialBindingAPI.GetMaterialBindingStrength(rel) == stronger)
-                for material, rel in compat.bound_materials(prims, self._purpose)]
+                for material, rel in compat.bound_materials(prims, self.context.options.material_purpose)]
 
     def name(self, material, group):
         """:returns: the path of a material in the scene"""
@@ -38,10 +39,27 @@ class Bindings:
             prims.extend(s.GetPrim() for s in own)
         bound = iter(self.compute(prims))
         resolved = []
+        for prim in prims:
+            self._check(prim)
         for found, own in zip(founds, subsets):
             path = self._show(next(bound), found.state.group)
             resolved.append((path, [(s, self._show(next(bound), found.state.group)) for s in own]))
         return resolved
+
+    def _check(self, prim):
+        """Tells of bindings to what is no material, on a prim and those above it: pxr passes over them without a word."""
+        while prim and not prim.IsPseudoRoot() and prim.GetPath() not in self._checked:
+            self._checked.add(prim.GetPath())
+            for name in ("material:binding", "material:binding:" + self.context.options.material_purpose):
+                targets = prim.GetRelationship(name).GetTargets() if prim.HasRelationship(name) else []
+                for target in targets:
+                    if not target.IsPrimPath():
+                        continue
+                    material = prim.GetStage().GetPrimAtPath(target)
+                    if not material or not material.IsA(UsdShade.Material):
+                        problem = "is no material" if material else "does not exist"
+                        self.context.warn(prim.GetPath(), name, f"names {target}, which {problem}; the binding is left out")
+            prim = prim.GetParent()
 
     def _show(self, bound, group):
         material = bound[0]

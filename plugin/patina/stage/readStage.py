@@ -40,7 +40,7 @@ def _read(context):
         context.warn(path, "", text)
     edit.set_meters_per_unit(UsdGeom.GetStageMetersPerUnit(stage))
 
-    bindings = Bindings(context.options.material_purpose)
+    bindings = Bindings(context)
     walked = Walk(context, bindings).run()
     chosen = cameras.choose(context, walked.cameras)
     context.shutter = cameras.shutter_of(context, chosen)

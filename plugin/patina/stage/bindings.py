@@ -4,7 +4,6 @@ from pxr import UsdShade
 from . import compat
 
 
-
 class Bindings:
     """Resolves material bindings in bulk and collects the materials that are shown."""
 

@@ -45,7 +45,7 @@ def _state(reports):
         if name in numbers:
             numbers[name] = sum(report["statistics"].get(name, 0) for report in reports)
     return {"statistics": numbers, "plans": reports[0]["plans"], "sceneChoices": reports[0]["sceneChoices"],
-            "backend": reports[0]["backend"], "converged": True}
+            "backend": reports[0]["backend"], "materialSeconds": {}, "converged": True}
 
 
 class _Told(statistics.Statistics):

@@ -244,9 +244,9 @@ TEST_P(Agreement, OfLobeWithOracle) {
 
 namespace {
 
-/// Rows whose programs take a driver in software most of a minute, of lobes that other rows have.
+/// A row whose program takes a driver in software most of a minute, of a lobe that other rows have.
 bool isCostly(const AgreementRow& row) {
-    return row.name == "film schlick" || row.name == "schlick top";
+    return row.name == "film schlick";
 }
 
 std::vector<size_t> rowsThat(bool areCostly) {

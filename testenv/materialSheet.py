@@ -115,6 +115,11 @@ def ball(columns=64, rows=32):
     return {"points": text, "normals": text, "uv": uv, "counts": counts, "indices": indices}
 
 
+def stage_of(document, material):
+    """:returns: text of a stage that shows one material of a document"""
+    return STAGE % {**ball(), "sky": SKY, "document": os.path.abspath(document), "material": material}
+
+
 def materials(document):
     """:returns: names of the materials of a document"""
     import _patina
@@ -135,12 +140,12 @@ def main():
                        if name.endswith(".mtlx"))
     found = [(document, name) for document in documents for name in materials(document)]
     check(arguments, found, "materials")
-    geometry, images = ball(), []
+    images = []
     with tempfile.TemporaryDirectory() as folder:
         for document, name in found:
             stage = os.path.join(folder, "stage.usda")
             with open(stage, "w", encoding="utf-8") as file:
-                file.write(STAGE % {**geometry, "sky": SKY, "document": os.path.abspath(document), "material": name})
+                file.write(stage_of(document, name))
             pixels, seconds, warnings, error = render(stage, folder, arguments.width, arguments.samples, arguments.record)
             images.append(pixels)
             print(f"{len(images) - 1:4d} {seconds:7.2f} s  {os.path.relpath(document, arguments.folder)}:{name}"

@@ -3,8 +3,8 @@
 
     bothBackEnds.py OUTPUT_FOLDER [SCENE...] [--samples N] [--width PIXELS] [--truth N] [--update] [--assets]
 
-Without names all of testenv/scenes, with --assets also the stages of $PATINA_ASSETS that tests name (equivalentStages.py). The page also shows what earlier runs with the same samples and width left in the
-folder, so that it can be made in pieces. The path tracer renders twice: stopped after direct light, which is what the
+Without names all of testenv/scenes, with --assets also all stages under $PATINA_ASSETS and each material of its documents.
+The page also shows what earlier runs with the same samples and width left in the folder, so that it can be made in pieces. The path tracer renders twice: stopped after direct light, which is what the
 rasterizer draws, and whole. --update writes what was measured to recordedPairs.json, from which --table prints the rows
 of docs/measurements/rasterPairs.md; they are no bounds (those are equivalence.py's). --truth also
 holds both direct images against so many path traced samples; pairs that the folder holds are not rendered again then.
@@ -20,6 +20,7 @@ if __name__ == "__main__":
 
     checkout.enter()
 
+import everyAsset  # noqa: E402
 import pairs  # noqa: E402
 import pairsPage  # noqa: E402
 import recordedPairs  # noqa: E402
@@ -79,9 +80,7 @@ def main():
     rows, remarks = {}, {}
     every = pairs.names()
     if a.assets:
-        import equivalentStages
-
-        every += ["assets/" + file for file in equivalentStages.ASSETS]
+        every += everyAsset.names()
     chosen = a.scenes or every
     for name in every:
         before = None if name in chosen else pairs.kept(name, a.folder, samples, width)
@@ -89,7 +88,7 @@ def main():
             rows[name] = before
             remarks[name] = held["scenes"].get(name, {}).get("why", "")
     for name in chosen:
-        entry = held["scenes"].setdefault(name, {}) if not name.startswith("assets/") else {}
+        entry = held["scenes"].setdefault(name, {}) if not name.startswith(everyAsset.PREFIX) else {}
         remarks[name] = entry.get("why", "")
         try:
             depths = (pairs.DIRECT, pairs.WHOLE)

@@ -8,6 +8,7 @@ import numpy as np
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 
+import everyAsset  # noqa: E402
 import inProcess  # noqa: E402
 from inProcess import pixels, without_opengl  # noqa: E402, F401
 from patina.cli import imageMetrics  # noqa: E402
@@ -29,10 +30,11 @@ def names():
     return sorted(found)
 
 
-def stage_path(name):
-    """:param name: of a test scene, or `assets/` and a file below $PATINA_ASSETS"""
-    if name.startswith("assets/"):
-        return os.path.join(os.environ.get("PATINA_ASSETS", ""), *name.split("/")[1:])
+def stage_path(name, folder):
+    """:param name: of a test scene, or one of everyAsset.names()
+    :param folder: where the stage of a document's material is written"""
+    if name.startswith(everyAsset.PREFIX):
+        return everyAsset.path(name, folder)
     return os.path.join(SCENES, *name.split("/")) + ".usda"
 
 
@@ -76,8 +78,8 @@ def pair(name, folder, samples, width, depths=(DIRECT, WHOLE), seed=0):
     :returns: a dict: `name`, `command`, `raster` (array), `rasterSeconds`, and `traced`: depth -> dict of `image`,
         `seconds` and numbers()
     :raises RuntimeError: with the words of the command that failed"""
-    stage = stage_path(name)
-    flat = name.replace("/", "-")
+    stage = stage_path(name, folder)
+    flat = everyAsset.flat(name)
 
     def render(backend, *extra):
         image = os.path.join(folder, f"{flat}.{backend}{''.join(extra[1::2])}.exr")
@@ -104,8 +106,8 @@ def beside_truth(row, truth, samples):
 
 def truth_of(name, folder, samples, width):
     """:returns: direct light by so many path traced samples, with a seed of its own"""
-    image = os.path.join(folder, f"{name.replace('/', '-')}.truth{samples}.exr")
-    record(stage_path(name), image, "--backend", "embree", "--samples", str(samples),
+    image = os.path.join(folder, f"{everyAsset.flat(name)}.truth{samples}.exr")
+    record(stage_path(name, folder), image, "--backend", "embree", "--samples", str(samples),
            "-w", str(width), "--maxDepth", str(DIRECT), "--seed", str(TRUTH_SEED))
     return pixels(image)
 
@@ -115,13 +117,13 @@ def keep(row, folder):
     light = {key: value for key, value in row.items() if key not in ("raster", "traced")}
     light["traced"] = {depth: {key: value for key, value in found.items() if key != "image"}
                        for depth, found in row["traced"].items()}
-    with open(os.path.join(folder, row["name"].replace("/", "-") + ".json"), "w", encoding="utf-8") as out:
+    with open(os.path.join(folder, everyAsset.flat(row["name"]) + ".json"), "w", encoding="utf-8") as out:
         json.dump(light, out, indent=1)
 
 
 def kept(name, folder, samples, width, seed=0):
     """:returns: the row of an earlier run into the folder with the same settings, or None"""
-    flat = name.replace("/", "-")
+    flat = everyAsset.flat(name)
     try:
         with open(os.path.join(folder, flat + ".json"), encoding="utf-8") as file:
             row = json.load(file)

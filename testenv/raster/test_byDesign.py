@@ -90,6 +90,27 @@ def test_mirrors_show_the_environment(tmp_path):
     assert found.min() < -0.1
 
 
+def test_what_hides_the_sky_from_mirrors_is_blurred(tmp_path):
+    """A mirroring floor, in whose middle a far board's upper edge shows: dark beyond it, the sky before it. The rasterizer knows
+    what hides the sky by cells 17 degrees wide, so that the board takes light before its edge."""
+    steel = surface("steel", "ND_conductor_bsdf", {"float2 roughness": "(0.02, 0.02)"})
+    board = """    def Mesh "board"
+    {
+        int[] faceVertexCounts = [4, 4]
+        int[] faceVertexIndices = [0, 1, 2, 3, 4, 5, 6, 7]
+        point3f[] points = [(-12, 0, -9), (12, 0, -9), (12, 3.6, -9), (-12, 3.6, -9),
+                            (-12, 0.01, -8.9), (-12, 0.01, 8), (12, 0.01, 8), (12, 0.01, -8.9)]
+        uniform token subdivisionScheme = "none"
+        rel material:binding = </steel>
+    }
+"""
+    power = equivalence.Power(widest=1.0, samples=16, traced=64, looks=(12,))
+    before = [images[:, 9:].mean(axis=(1, 2, 3))[:, None]  # one number: all pixels of a pass are off alike
+              for images in sameImage.decide(write(tmp_path, "board", board, steel, SKY), width=WIDTH, power=power)[1:]]
+    verdict = equivalence.compare(*before, power)
+    assert verdict.differs.all() and verdict.difference < 0.0, (verdict.difference, verdict.half)
+
+
 def test_glass_shows_what_is_behind(tmp_path):
     """A pane over the whole floor of the view: direct light alone ends there, the rasterizer goes on behind it."""
     pane = surface("pane", "ND_dielectric_bsdf", {"float ior": "1.0001", "float2 roughness": "(0, 0)",

@@ -57,6 +57,11 @@ const Options filmIor{1.0f, 1.3f, 1.6f, 2.0f};
         NAME, #__VA_ARGS__, #PREFIX, #ALBEDO, PATINA_INSTANCE(sh, PREFIX, ALBEDO, __VA_ARGS__),    \
             PATINA_INSTANCE(sh64, PREFIX, ALBEDO, __VA_ARGS__), SETS                               \
     }
+#define PATINA_ALBEDO_ROW(NAME, PREFIX, ALBEDO, SETS, ...)                                         \
+    AgreementRow {                                                                                 \
+        NAME, #__VA_ARGS__, #PREFIX, #ALBEDO, PATINA_INSTANCE(sh, PREFIX, ALBEDO, __VA_ARGS__),    \
+            PATINA_INSTANCE(sh64, PREFIX, ALBEDO, __VA_ARGS__), SETS, true                         \
+    }
 
 // An EDF is a value at wo and nothing else.
 #define PATINA_VALUE(NS, ...)                                                                      \
@@ -126,7 +131,7 @@ std::vector<AgreementRow> agreementRows() {
             "dielectric", dielectric, dielectricAlbedo,
             mixed({color, color, color, ior, alpha, alpha, {0, 0, 0, 1}, mode, flag, flag}, 120),
             dielectricSetup(p3(0), p1(3), p2(4), pb(6), pn(7), pb(8), pn(9))),
-        PATINA_ROW(
+        PATINA_ALBEDO_ROW(
             "dielectric top", dielectric, dielectricAlbedoReflect,
             mixed({color, color, color, ior, alpha, alpha, {0, 0, 0, 1}, mode, flag, flag}, 120),
             dielectricSetup(p3(0), p1(3), p2(4), pb(6), pn(7), pb(8), pn(9))),
@@ -150,7 +155,7 @@ std::vector<AgreementRow> agreementRows() {
                    flag},
                   120),
             schlickSetup(p3(0), p3(3), p3(6), p1(9), p2(10), pb(12), pn(13), pb(14), pn(15))),
-        PATINA_ROW(
+        PATINA_ALBEDO_ROW(
             "schlick top", schlick, schlickAlbedoReflect,
             mixed({color,
                    color,

@@ -1,15 +1,37 @@
 #pragma once
 
 #include "hdDelegate/compiled/compiledMaterials.h"
+#include "hdDelegate/compiled/compiledShapes.h"
+#include "hdDelegate/compiled/linkNames.h"
+#include "hdDelegate/compiled/materialUsers.h"
+#include "hdDelegate/compiled/meshLights.h"
+#include "hdDelegate/compiled/placements.h"
 #include "hdDelegate/image/textureSystem.h"
 #include "hdDelegate/lights/lightImages.h"
 
 #include <memory>
+#include <optional>
+#include <set>
 
 namespace patina {
 
-/// What every back end needs of a scene: texels, images of lights, programs of materials. Renderers
-/// of one scene share it, so that nothing is read, compiled or held twice. Thread safe.
+/// What of one state every back end asks for. A part that an edit leaves as it was is the same
+/// object as before the edit.
+struct CompiledState {
+    std::shared_ptr<const Placements> placements;
+    std::shared_ptr<const LinkNames> links;
+    std::shared_ptr<const MeshLights> meshLights;
+};
+
+/// What edits mean for a back end that knows the state before them.
+struct SceneEdits {
+    SceneDelta delta;
+    /// Geometry that is there and has changed, or is bound to a material that has.
+    std::set<std::string> touched;
+};
+
+/// What every back end needs of a scene, made once for all its renderers: texels, images of lights,
+/// programs of materials, triangles, where instances are, and what edits touch. Thread safe.
 class CompiledScene {
 public:
     explicit CompiledScene(const std::shared_ptr<Scene>& scene);
@@ -21,12 +43,26 @@ public:
     TextureSystem& textures() { return _textures; }
     LightImages& lightImages() { return _lightImages; }
     CompiledMaterials& materials() { return _materials; }
+    CompiledShapes& shapes() { return _shapes; }
+
+    CompiledState compiled(const SceneState& state, const RenderSettings& settings);
+    /// What was edited between an earlier version and a state.
+    /// @returns nothing where that is not known any more: everything may differ
+    std::optional<SceneEdits> editsSince(uint64_t version, const SceneState& state);
 
 private:
     std::shared_ptr<Scene> _scene;
     TextureSystem _textures;
     LightImages _lightImages;
     CompiledMaterials _materials;
+    CompiledShapes _shapes;
+
+    std::mutex _mutex; ///< guards what follows
+    CompiledState _compiled;
+    uint64_t _compiledVersion = 0, _usersVersion = 0;
+    Names _excludePaths; ///< of _compiled.placements
+    bool _usersKnown = false;
+    MaterialUsers _users;
 };
 
 } // namespace patina

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "hdDelegate/scene/camera.h"
-#include "hdDelegate/scene/settings.h"
+#include "hdDelegate/compiled/cameraFrame.h"
 
 namespace patina {
 
@@ -15,8 +14,7 @@ struct CameraRay {
     float coneSpread = 0.0f;       ///< growth per unit of distance
 };
 
-/// Makes rays for a camera and an image. The conform policy of the settings decides which aperture
-/// yields when the image has another shape.
+/// Makes rays for a camera and an image.
 class CameraRays {
 public:
     /// @param origin of the space that rays are wanted in, see seenFrom()
@@ -31,9 +29,8 @@ public:
     /// At the middle of the shutter, from the space with that origin.
     const mat4& worldToCamera() const { return _worldToCamera; }
     /// Depth in [0,1] as OpenGL's default window depth, of a camera space point.
-    float windowDepth(const vec3& cameraPoint) const;
-    /// The angle (radians; world units when orthographic) that one pixel covers.
-    float pixelSpread() const { return _pixelSpread; }
+    float windowDepth(const vec3& cameraPoint) const { return _frame.windowDepth(cameraPoint); }
+    float pixelSpread() const { return _pixelSpread; } ///< see CameraFrame
     bool orthographic() const { return _camera.orthographic; }
     const Camera& camera() const { return _camera; }
 
@@ -41,13 +38,10 @@ private:
     mat4 transformAt(float time) const;
 
     Camera _camera;
+    CameraFrame _frame;
     dvec3 _origin;
-    bool _dof, _moves;
-    float _shutterOpen, _shutterLength;
-    vec2 _imageSize;
-    vec2 _windowMin, _windowMax; ///< at distance 1 (perspective) or in units (orthographic)
-    float _lensRadius = 0.0f;
-    float _pixelSpread = 0.0f;
+    bool _moves;
+    float _pixelSpread;
     mat4 _worldToCamera{1.0f};
 };
 

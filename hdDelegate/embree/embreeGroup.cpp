@@ -1,5 +1,6 @@
 #include "hdDelegate/embree/embreeGroup.h"
 
+#include "hdDelegate/embree/embreeGeometry.h"
 #include "hdDelegate/embree/embreeScene.h"
 
 #include <algorithm>
@@ -127,93 +128,6 @@ void instanceOccluded(const RTCOccludedFunctionNArguments* args) {
     if (local.tfar < 0.0f) ray->tfar = -INFINITY;
 }
 
-void shareBuffer(RTCGeometry geometry, RTCBufferType type, unsigned slot, RTCFormat format,
-                 const void* data, size_t stride, size_t count) {
-    rtcSetSharedGeometryBuffer(geometry, type, slot, format, data, 0, stride, count);
-}
-
-RTCGeometry makeTriangles(RTCDevice device, const TriangleMesh& mesh) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetGeometryTimeStepCount(geometry, unsigned(mesh.positions.size()));
-    for (size_t step = 0; step < mesh.positions.size(); ++step)
-        shareBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, unsigned(step), RTC_FORMAT_FLOAT3,
-                    mesh.positions[step].data(), sizeof(vec3), mesh.positions[step].size());
-    shareBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(),
-                sizeof(uvec3), mesh.triangles.size());
-    return geometry;
-}
-
-RTCGeometryType curveType(const CurveSet& curves) {
-    const bool ribbon = !curves.normals.empty();
-    switch (curves.basis) {
-    case CurveBasis::Bezier:
-        return ribbon ? RTC_GEOMETRY_TYPE_NORMAL_ORIENTED_BEZIER_CURVE
-                      : RTC_GEOMETRY_TYPE_ROUND_BEZIER_CURVE;
-    case CurveBasis::Bspline:
-        return ribbon ? RTC_GEOMETRY_TYPE_NORMAL_ORIENTED_BSPLINE_CURVE
-                      : RTC_GEOMETRY_TYPE_ROUND_BSPLINE_CURVE;
-    case CurveBasis::CatmullRom:
-        return ribbon ? RTC_GEOMETRY_TYPE_NORMAL_ORIENTED_CATMULL_ROM_CURVE
-                      : RTC_GEOMETRY_TYPE_ROUND_CATMULL_ROM_CURVE;
-    default: return RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE;
-    }
-}
-
-RTCGeometry makeCurves(RTCDevice device, const CurveSet& curves) {
-    RTCGeometry geometry = rtcNewGeometry(device, curveType(curves));
-    rtcSetGeometryTimeStepCount(geometry, unsigned(curves.controlPoints.size()));
-    for (size_t step = 0; step < curves.controlPoints.size(); ++step) {
-        shareBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, unsigned(step), RTC_FORMAT_FLOAT4,
-                    curves.controlPoints[step].data(), sizeof(vec4),
-                    curves.controlPoints[step].size());
-        if (!curves.normals.empty() && curves.basis != CurveBasis::Linear)
-            shareBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, unsigned(step), RTC_FORMAT_FLOAT3,
-                        curves.normals[std::min(step, curves.normals.size() - 1)].data(),
-                        sizeof(vec3), curves.controlPoints[step].size());
-    }
-    shareBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves.segments.data(),
-                sizeof(uint32_t), curves.segments.size());
-    return geometry;
-}
-
-RTCGeometry makePoints(RTCDevice device, const PointSet& points) {
-    const bool disks = !points.normals.empty();
-    RTCGeometry geometry = rtcNewGeometry(device, disks ? RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT
-                                                        : RTC_GEOMETRY_TYPE_SPHERE_POINT);
-    rtcSetGeometryTimeStepCount(geometry, unsigned(points.points.size()));
-    for (size_t step = 0; step < points.points.size(); ++step) {
-        shareBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, unsigned(step), RTC_FORMAT_FLOAT4,
-                    points.points[step].data(), sizeof(vec4), points.points[step].size());
-        if (disks)
-            shareBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, unsigned(step), RTC_FORMAT_FLOAT3,
-                        points.normals[std::min(step, points.normals.size() - 1)].data(),
-                        sizeof(vec3), points.points[step].size());
-    }
-    return geometry;
-}
-
-RTCGeometry makeInstance(RTCDevice device, const Surface& surface) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, surface.shared->scene);
-    rtcSetGeometryTimeStepCount(geometry, unsigned(surface.places.size()));
-    for (size_t step = 0; step < surface.places.size(); ++step)
-        rtcSetGeometryTransform(geometry, unsigned(step), RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
-                                &surface.places[step]);
-    return geometry;
-}
-
-RTCGeometry makeGeometry(RTCDevice device, const Surface& surface) {
-    if (surface.shared) return makeInstance(device, surface);
-    if (surface.shape == Surface::Shape::Triangles && !surface.mesh.triangles.empty())
-        return makeTriangles(device, surface.mesh);
-    if (surface.shape == Surface::Shape::Curves && !surface.curves.segments.empty())
-        return makeCurves(device, surface.curves);
-    if (surface.shape == Surface::Shape::Points && !surface.points.points.empty() &&
-        !surface.points.points[0].empty())
-        return makePoints(device, surface.points);
-    return nullptr;
-}
-
 /// How large coordinates of rays may be for Embree to take them into an instance.
 /// @param at the transform at a time
 template <class At> float rayLimitOf(const At& at, bool moves) {
@@ -271,22 +185,38 @@ void EmbreeGroup::detach(unsigned id) {
     _firstFree = std::min(_firstFree, size_t(id));
 }
 
-void EmbreeGroup::updateSurfaces(RTCDevice device,
-                                 const std::vector<std::shared_ptr<Surface>>& surfaces) {
+void EmbreeGroup::showTo(SurfaceMember& member, unsigned mask) {
+    if (mask == member.mask) return;
+    changed = true;
+    RTCGeometry geometry = rtcGetGeometry(scene, member.id);
+    rtcSetGeometryMask(geometry, member.mask = mask);
+    rtcCommitGeometry(geometry);
+}
+
+void EmbreeGroup::attachSurface(RTCDevice device, const std::shared_ptr<Surface>& surface, int id,
+                                std::map<std::string, SurfaceMember>& members) {
+    RTCGeometry geometry = makeGeometry(device, *surface);
+    if (!geometry) return;
+    const bool free = id >= 0 && !records[size_t(id)];
+    SurfaceMember member{surface, maskOf(surface->prim->visibility),
+                         free ? unsigned(id) : freeId()};
+    if (surface->shared)
+        member.rayLimit = rayLimitOf([&](float time) { return surface->placeAt(time); },
+                                     surface->places.size() > 1);
+    GroupRecord record;
+    record.surface = surface.get();
+    attach(geometry, member.id, member.mask, std::move(record));
+    members[surface->prim->path] = std::move(member);
+}
+
+void EmbreeGroup::updateSurfaces(RTCDevice device, const Surfaces& surfaces) {
     std::map<std::string, SurfaceMember> next;
     for (const auto& surface : surfaces) {
         const std::string& path = surface->prim->path;
         const auto old = _surfaces.find(path);
         if (old != _surfaces.end() && old->second.surface == surface) {
             next.insert(_surfaces.extract(old));
-            SurfaceMember& member = next[path];
-            const unsigned mask = maskOf(surface->prim->visibility);
-            if (mask != member.mask) {
-                changed = true;
-                RTCGeometry geometry = rtcGetGeometry(scene, member.id);
-                rtcSetGeometryMask(geometry, member.mask = mask);
-                rtcCommitGeometry(geometry);
-            }
+            showTo(next[path], maskOf(surface->prim->visibility));
         }
     }
     for (const auto& item : _surfaces)
@@ -294,22 +224,35 @@ void EmbreeGroup::updateSurfaces(RTCDevice device,
     for (const auto& surface : surfaces) {
         const std::string& path = surface->prim->path;
         if (next.count(path)) continue;
-        RTCGeometry geometry = makeGeometry(device, *surface);
-        if (!geometry) continue;
         // A changed prim keeps its id, so that the order stays that of a new scene.
         const auto old = _surfaces.find(path);
-        const bool free = old != _surfaces.end() && !records[old->second.id];
-        SurfaceMember member{surface, maskOf(surface->prim->visibility),
-                             free ? old->second.id : freeId()};
-        if (surface->shared)
-            member.rayLimit = rayLimitOf([&](float time) { return surface->placeAt(time); },
-                                         surface->places.size() > 1);
-        GroupRecord record;
-        record.surface = surface.get();
-        attach(geometry, member.id, member.mask, std::move(record));
-        next[path] = std::move(member);
+        attachSurface(device, surface, old == _surfaces.end() ? -1 : int(old->second.id), next);
     }
     _surfaces = std::move(next);
+}
+
+void EmbreeGroup::replace(RTCDevice device, const Surfaces& surfaces, const Nodes* nodes,
+                          const std::atomic<bool>& stop) {
+    changed = false;
+    _firstFree = 0;
+    for (const auto& surface : surfaces) {
+        const auto old = _surfaces.find(surface->prim->path);
+        int id = -1;
+        if (old != _surfaces.end()) {
+            if (old->second.surface == surface) {
+                showTo(old->second, maskOf(surface->prim->visibility));
+                continue;
+            }
+            id = int(old->second.id);
+            detach(old->second.id);
+            _surfaces.erase(old);
+        }
+        attachSurface(device, surface, id, _surfaces);
+        const auto added = _surfaces.find(surface->prim->path);
+        if (added != _surfaces.end()) rayLimit = std::min(rayLimit, added->second.rayLimit);
+    }
+    if (nodes) updateNodes(device, *nodes);
+    commit(stop);
 }
 
 void EmbreeGroup::attachNode(RTCDevice device, NodeMember& member) {
@@ -350,8 +293,7 @@ void EmbreeGroup::attachNode(RTCDevice device, NodeMember& member) {
     attach(geometry, member.ids.back(), mask, std::move(record));
 }
 
-void EmbreeGroup::updateNodes(RTCDevice device,
-                              const std::vector<std::shared_ptr<InstancerNode>>& nodes) {
+void EmbreeGroup::updateNodes(RTCDevice device, const Nodes& nodes) {
     std::map<std::string, NodeMember> next;
     for (const auto& node : nodes) {
         const auto old = _nodes.find(node->prim->path);
@@ -375,9 +317,8 @@ void EmbreeGroup::updateNodes(RTCDevice device,
         rayLimit = std::min(rayLimit, item.second.rayLimit);
 }
 
-void EmbreeGroup::update(RTCDevice device, const std::vector<std::shared_ptr<Surface>>& surfaces,
-                         const std::vector<std::shared_ptr<InstancerNode>>& nodes, bool interactive,
-                         const std::atomic<bool>& stop) {
+void EmbreeGroup::update(RTCDevice device, const Surfaces& surfaces, const Nodes& nodes,
+                         bool interactive, const std::atomic<bool>& stop) {
     changed = false;
     if (scene && (_cancelled || _interactive != interactive)) clear();
     _interactive = interactive;
@@ -395,6 +336,10 @@ void EmbreeGroup::update(RTCDevice device, const std::vector<std::shared_ptr<Sur
     }
     updateSurfaces(device, surfaces);
     updateNodes(device, nodes);
+    commit(stop);
+}
+
+void EmbreeGroup::commit(const std::atomic<bool>& stop) {
     if (changed) rtcCommitScene(scene);
     _cancelled = changed && stop; // perhaps in the middle of the commit
 }

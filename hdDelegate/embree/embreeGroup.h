@@ -57,6 +57,9 @@ struct EmbreeGroup {
     /// Coordinates of rays up to which those of no instance in it are too large, see isTraceable().
     float rayLimit = largestTraced;
 
+    using Surfaces = std::vector<std::shared_ptr<Surface>>;
+    using Nodes = std::vector<std::shared_ptr<InstancerNode>>;
+
     ~EmbreeGroup();
     bool empty() const { return _surfaces.empty() && _nodes.empty(); }
 
@@ -64,9 +67,12 @@ struct EmbreeGroup {
     /// nothing is committed. The nodes' targets must have been updated.
     /// @param interactive commits quickly, at the cost of speed of rays
     /// @param stop cancels the commit; the next update then starts anew
-    void update(RTCDevice device, const std::vector<std::shared_ptr<Surface>>& surfaces,
-                const std::vector<std::shared_ptr<InstancerNode>>& nodes, bool interactive,
+    void update(RTCDevice device, const Surfaces& surfaces, const Nodes& nodes, bool interactive,
                 const std::atomic<bool>& stop);
+    /// The same after an update with the same `interactive`, where no surfaces but these differ.
+    /// @param nodes null: none of them differs
+    void replace(RTCDevice device, const Surfaces& surfaces, const Nodes* nodes,
+                 const std::atomic<bool>& stop);
 
 private:
     struct SurfaceMember {
@@ -84,8 +90,13 @@ private:
     unsigned freeId();
     void attach(RTCGeometry geometry, unsigned id, unsigned mask, GroupRecord record);
     void detach(unsigned id);
-    void updateSurfaces(RTCDevice device, const std::vector<std::shared_ptr<Surface>>& surfaces);
-    void updateNodes(RTCDevice device, const std::vector<std::shared_ptr<InstancerNode>>& nodes);
+    void updateSurfaces(RTCDevice device, const Surfaces& surfaces);
+    void showTo(SurfaceMember& member, unsigned mask); ///< rays of this mask
+    /// @param id that it gets if that is free; -1: any
+    void attachSurface(RTCDevice device, const std::shared_ptr<Surface>& surface, int id,
+                       std::map<std::string, SurfaceMember>& members);
+    void commit(const std::atomic<bool>& stop);
+    void updateNodes(RTCDevice device, const Nodes& nodes);
     void attachNode(RTCDevice device, NodeMember& member);
 
     std::map<std::string, SurfaceMember> _surfaces; ///< by path; only what has geometry

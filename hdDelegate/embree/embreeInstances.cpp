@@ -56,7 +56,7 @@ std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Ins
         result->targets[i] = finishedGroup(prim->prototypes[prototype]);
     }
     for (const auto& names : prim->categories)
-        result->categories.push_back(intern(names));
+        result->categories.push_back(_parts.links->of(names));
     return result;
 }
 
@@ -79,9 +79,7 @@ EmbreeScene::currentNode(const std::shared_ptr<const Instancer>& prim) {
     return cached;
 }
 
-EmbreeGroup* EmbreeScene::buildGroup(const std::string& name, int depth,
-                                     const RenderSettings& settings,
-                                     const std::atomic<bool>& stop) {
+EmbreeGroup* EmbreeScene::buildGroup(const std::string& name, int depth, const View& view) {
     if (EmbreeGroup* finished = finishedGroup(name)) return finished;
     if (depth > TraceContext::maxDepth || _building[name]) {
         _diagnostics.warn(name, "prototypes",
@@ -89,19 +87,26 @@ EmbreeGroup* EmbreeScene::buildGroup(const std::string& name, int depth,
         return nullptr;
     }
     _building[name] = true;
-    for (const auto& instancer : _instancersOf[name])
+    const Placements::Instancers& instancers = _parts.placements->in(name);
+    for (const auto& instancer : instancers)
         for (const std::string& prototype : instancer->prototypes)
-            buildGroup(prototype, depth + 1, settings, stop);
-    if (stop) return nullptr; // versions tell the next update what this one did not reach
+            buildGroup(prototype, depth + 1, view);
+    if (view.stop) return nullptr; // versions tell the next update what this one did not reach
     std::vector<std::shared_ptr<InstancerNode>> nodes;
-    for (const auto& instancer : _instancersOf[name]) {
+    for (const auto& instancer : instancers)
         nodes.push_back(currentNode(instancer));
-        _instanceCount += instancer->transforms.size();
-    }
     auto& group = _groups[name];
     if (!group) group = std::make_unique<EmbreeGroup>();
     group->name = name;
-    group->update(_device, _surfacesOf[name], nodes, settings.interactive, stop);
+    if (view.changed) {
+        const auto changed = view.changed->find(name);
+        group->replace(_device,
+                       changed == view.changed->end() ? EmbreeGroup::Surfaces() : changed->second,
+                       &nodes, view.stop);
+    } else {
+        _counts.looked += _surfacesOf[name].size();
+        group->update(_device, _surfacesOf[name], nodes, view.settings.interactive, view.stop);
+    }
     if (group->changed) group->version = ++_groupVersion;
     _counts.groups += group->changed;
     _building[name] = false;
@@ -109,30 +114,15 @@ EmbreeGroup* EmbreeScene::buildGroup(const std::string& name, int depth,
     return group.get();
 }
 
-void EmbreeScene::gatherTransforms(const std::string& group, const mat4& tail, int depth,
-                                   std::vector<mat4>& out) const {
-    if (group.empty()) {
-        out.push_back(tail);
-        return;
-    }
-    if (depth > TraceContext::maxDepth) return;
-    for (const auto& item : _instancersOf)
-        for (const auto& instancer : item.second)
-            for (size_t i = 0; i < instancer->transforms.size(); ++i) {
-                const int prototype =
-                    i < instancer->prototypeIndices.size() ? instancer->prototypeIndices[i] : -1;
-                if (prototype >= 0 && size_t(prototype) < instancer->prototypes.size() &&
-                    instancer->prototypes[prototype] == group)
-                    gatherTransforms(
-                        item.first,
-                        interpolate(instancer->transforms[i], 0.0f, originOf(item.first)) * tail,
-                        depth + 1, out);
-            }
-}
-
 std::vector<mat4> EmbreeScene::groupTransforms(const std::string& group) const {
     std::vector<mat4> result;
-    gatherTransforms(group, mat4(1.0f), 0, result);
+    _parts.placements->forPlaces(
+        group, mat4(1.0f),
+        [&](const Instancer& instancer, uint32_t i, int, mat4& place) {
+            place = interpolate(instancer.transforms[i], 0.0f, originOf(instancer.group)) * place;
+            return true;
+        },
+        [&](const mat4& place) { result.push_back(place); });
     return result;
 }
 

@@ -3,6 +3,8 @@
 #include "hdDelegate/embree/seenOrigin.h"
 #include "hdDelegate/parallel.h"
 
+#include <utility>
+
 namespace patina {
 
 std::unique_ptr<Renderer> makeRenderer(const std::string& backend) {
@@ -61,6 +63,7 @@ std::map<std::string, double> EmbreeRenderer::buildCounts() const {
     counts["surfacesTessellated"] += double(built.tessellated);
     counts["groupsBuilt"] += double(built.groups);
     counts["programsBuilt"] += double(built.programs);
+    counts["primsLookedAt"] += double(built.looked);
     return counts;
 }
 
@@ -69,21 +72,24 @@ void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) 
         _builtBefore = buildCounts();
         _lights.reset();
         _lightsKey = LightsKey();
+        _lightsMayDiffer = true;
         _embree.reset();
         _compiled = CompiledScene::of(_scene);
-        _embree = std::make_unique<EmbreeScene>(_scene->diagnostics());
+        _embree = std::make_unique<EmbreeScene>(*_compiled);
         _origin = dvec3(0.0);
     }
     // Few scenes are seen so far from the origin that they are built once more; while the camera
     // stays there, the origin does too.
     constexpr int maxMoves = 2;
     for (int i = 0; i <= maxMoves; ++i) {
-        _embree->update(state, camera, _settings, _compiled->materials(), stopFlag(), _origin);
+        _embree->update(state, camera, _settings, stopFlag(), _origin);
+        _lightsMayDiffer |= _embree->lightsMayDiffer();
         if (stopped()) return;
         const dvec3 origin = originOfSeen(*_embree, camera, _settings);
         if (origin == _origin || i == maxMoves) break;
         _origin = origin;
     }
+    if (!std::exchange(_lightsMayDiffer, false)) return;
     LightsKey key = makeLightsKey(state, *_embree, camera, _settings);
     if (_lights && key == _lightsKey) return;
     _lights = std::make_unique<SceneLights>(state, *_embree, camera, _settings,

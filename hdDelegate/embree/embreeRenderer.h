@@ -30,6 +30,7 @@ private:
     std::shared_ptr<CompiledScene> _compiled;
     std::unique_ptr<EmbreeScene> _embree;
     LightsKey _lightsKey;
+    bool _lightsMayDiffer = true; ///< from what the key was made of
     std::unique_ptr<SceneLights> _lights;
     std::map<std::string, double> _builtBefore; ///< counts of scenes rendered earlier
     size_t _lightsBuilt = 0;

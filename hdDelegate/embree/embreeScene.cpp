@@ -1,8 +1,9 @@
 #include "hdDelegate/embree/embreeScene.h"
 
+#include "hdDelegate/compiled/drawFilter.h"
 #include "hdDelegate/embree/cameraRays.h"
-#include "hdDelegate/embree/drawnPrims.h"
 #include "hdDelegate/parallel.h"
+#include "hdDelegate/scene/primCompare.h"
 #include "materialNetwork/material.h"
 
 #include <algorithm>
@@ -29,9 +30,29 @@ bool emits(const Surface& surface) {
                        [](const auto& m) { return m.program->hasEmission(); });
 }
 
+size_t bytesOf(const Surface& surface, bool keepsRest) {
+    size_t total = trianglesOf(surface) * sizeof(uvec3);
+    const auto add = [&](const auto& steps) {
+        for (const auto& step : steps)
+            total += step.capacity() * sizeof(step[0]) * (keepsRest ? 2 : 1);
+    };
+    add(surface.mesh.positions);
+    add(surface.mesh.normals);
+    add(surface.curves.controlPoints);
+    add(surface.points.points);
+    for (const MeshAttribute& attribute : surface.attributes())
+        total += attribute.data.size() * sizeof(float);
+    return total;
+}
+
 } // namespace
 
-EmbreeScene::EmbreeScene(Diagnostics& diagnostics) : _diagnostics(diagnostics) {
+size_t trianglesOf(const Surface& surface) {
+    return surface.rest ? surface.rest->triangles.size() : 0;
+}
+
+EmbreeScene::EmbreeScene(CompiledScene& compiled)
+    : _compiled(compiled), _diagnostics(compiled.scene()->diagnostics()) {
     _device = rtcNewDevice(nullptr);
     rtcSetDeviceErrorFunction(_device, onEmbreeError, &_diagnostics);
     rtcSetDeviceMemoryMonitorFunction(_device, onEmbreeMemory, &_embreeBytes);
@@ -45,95 +66,136 @@ EmbreeScene::~EmbreeScene() {
     rtcReleaseDevice(_device);
 }
 
-int EmbreeScene::intern(const std::string& category) {
-    return _categoryIds.emplace(category, int(_categoryIds.size())).first->second;
-}
-
-std::vector<int> EmbreeScene::intern(const std::vector<std::string>& categories) {
-    std::vector<int> ids;
-    for (const std::string& name : categories)
-        ids.push_back(intern(name));
-    std::sort(ids.begin(), ids.end());
-    return ids;
-}
-
-int EmbreeScene::category(const std::string& name) const {
-    const auto found = _categoryIds.find(name);
-    return found == _categoryIds.end() ? -1 : found->second;
-}
-
-void EmbreeScene::update(const SceneState& state, const Camera& camera, const RenderSettings& asked,
-                         CompiledMaterials& materials, const std::atomic<bool>& stop,
+void EmbreeScene::update(const SceneState& state, const Camera& camera,
+                         const RenderSettings& settings, const std::atomic<bool>& stop,
                          const dvec3& origin) {
-    RenderSettings settings = asked;
-    const float open = float(camera.shutterOpen);
-    const float close = settings.enableMotionBlur ? float(camera.shutterClose) : open;
-    if (open != _shutterOpen || close != _shutterClose || origin != _origin) {
+    const CompiledState before = _parts;
+    _parts = _compiled.compiled(state, settings);
+    const bool sameView =
+        _complete && origin == _origin && settings == _settings && sameCamera(camera, _camera);
+    const bool sameParts = _parts.placements == before.placements && _parts.links == before.links &&
+                           _parts.meshLights == before.meshLights;
+    const auto edits = sameView && sameParts ? _compiled.editsSince(_version, state) : std::nullopt;
+    _complete = false;
+    _origin = origin;
+    RenderSettings planned = settings;
+    const CameraRays rays(camera, settings, origin);
+    View view{state, camera, planned, rays, stop, {}, nullptr};
+    planned.edgeLength = _edgeLength;
+    if (!edits || !updateTouched(view, *edits)) {
+        planned.edgeLength = settings.edgeLength;
+        planned.edgeLength = _edgeLength = planSubdivision(view);
+        updateAll(view);
+        _lightsMayDiffer = true;
+    }
+    _complete = !stop;
+    _version = state.version;
+    _camera = camera;
+    _settings = settings;
+}
+
+EmbreeScene::Work EmbreeScene::workOf(const std::shared_ptr<const Geometry>& prim,
+                                      CachedSurface& cached, int rank, View& view) {
+    Work work{prim, &cached, 0.0f, rank, displacers(*prim, view), std::nullopt};
+    const bool displaced = !work.displacers.empty();
+    work.edge = targetEdge(*prim, displaced, view);
+    // Prims of prototypes are shared already, and Embree may know a single level of instances.
+    // Lights are made of the triangles that there are, and displacement of many.
+    if (prim->kind == GeometryKind::Implicit && prim->group.empty() && !displaced &&
+        !_parts.meshLights->names(prim->path) && !glows(*prim, view)) {
+        const Implicit& shape = static_cast<const Implicit&>(*prim);
+        work.edge = roundEdge(shape, view);
+        work.key = SharedShapes::keyOf(shape, work.edge);
+    }
+    return work;
+}
+
+void EmbreeScene::updateSurfaces(std::vector<Work>& work, const View& view) {
+    for (Work& item : work)
+        if (item.key && (item.shared = _shapes.find(*item.key))) item.edge = 0.0f;
+    parallelFor(size_t(0), work.size(), [&](size_t i) {
+        if (view.stop) return;
+        const CachedSurface& cached = *work[i].cached;
+        if (cached.prim == work[i].prim && cached.edgeLength == work[i].edge &&
+            cached.displacers == work[i].displacers && cached.shared == work[i].shared &&
+            cached.surface)
+            return;
+        updateSurface(work[i], view.settings.interactive);
+    });
+    if (view.stop) return;
+    for (const Work& item : work) {
+        item.cached->rank = item.rank;
+        item.cached->key = item.key;
+    }
+}
+
+void EmbreeScene::describe(CachedSurface& cached, const View& view) {
+    Surface& surface = *cached.surface;
+    const Geometry& prim = *surface.prim;
+    surface.primId = prim.id >= 0 ? prim.id : cached.rank;
+    surface.worldOrigin = vec3(_origin);
+    surface.categories = _parts.links->of(prim.categories);
+    surface.materials.clear();
+    surface.materials.push_back(makeSlot(surface, prim.material, view));
+    for (const GeomSubset& subset : prim.subsets)
+        surface.materials.push_back(
+            makeSlot(surface, subset.material.empty() ? prim.material : subset.material, view));
+    cached.opaque = true;
+    cached.hasMedia = false;
+    for (const MaterialSlot& slot : surface.materials) {
+        cached.opaque &= slot.opaque;
+        cached.hasMedia |= slot.program->hasInterior();
+    }
+    cached.emits = emits(surface);
+    if (cached.emits)
+        _emitting[prim.path] = &cached;
+    else
+        _emitting.erase(prim.path);
+    cached.bytes = bytesOf(surface, cached.rest != nullptr);
+    _translucent += cached.opaque ? 0 : 1;
+    _withMedia += cached.hasMedia ? 1 : 0;
+    _surfaceBytes += cached.bytes;
+    _trianglesStored += trianglesOf(surface);
+}
+
+void EmbreeScene::updateAll(View& view) {
+    const SceneState& state = view.state;
+    const float open = float(view.camera.shutterOpen);
+    const float close = view.settings.enableMotionBlur ? float(view.camera.shutterClose) : open;
+    if (open != _shutterOpen || close != _shutterClose || _origin != _builtFrom) {
         _surfaces.clear();
         _nodes.clear();
     }
     _shutterOpen = open;
     _shutterClose = close;
-    _origin = origin;
-    _instancersOf.clear();
+    _builtFrom = _origin;
     _surfacesOf.clear();
+    _emitting.clear();
     _finished.clear();
     _building.clear();
-    _instanceCount = _trianglesStored = 0;
+    _instanceCount = _trianglesStored = _translucent = _withMedia = _surfaceBytes = 0;
+    _counts.looked += state.geometry.size();
 
-    _instancers.clear();
-    for (const auto& item : state.instancers)
-        if (isDrawn(*item.second, settings)) {
-            _instancersOf[item.second->group].push_back(item.second);
-            _instancers.push_back(item.second);
-        }
-
-    const CameraRays rays(camera, settings, origin);
-    struct Work {
-        std::shared_ptr<const Geometry> prim;
-        CachedSurface* cached;
-        float edge;
-        int rank; ///< among all paths, drawn or not
-        Programs displacers;
-        std::optional<ShapeKey> key;
-        std::shared_ptr<const SharedShape> shared = nullptr;
-    };
     std::vector<Work> work;
     std::map<ShapeKey, int> uses;
     std::map<ShapeKey, const Implicit*> examples;
-    std::set<std::string> meshLights;
-    for (const auto& item : state.lights)
-        if (item.second->type == LightType::Mesh) meshLights.insert(item.second->geometry);
     std::vector<std::shared_ptr<const Volume>> volumes;
     std::set<std::string> drawn;
-    size_t primRank = 0;
-    std::map<std::string, std::vector<mat4>> transformsOf;
-    settings.edgeLength = planSubdivision(state, rays, settings, materials);
+    int rank = 0;
     for (const auto& item : state.geometry) {
         const auto& prim = item.second;
-        const int rank = int(primRank++);
-        if (!isDrawn(*prim, settings)) continue;
+        const int own = rank++;
+        if (!isDrawn(*prim, view.settings)) continue;
         if (prim->kind == GeometryKind::Volume) {
             volumes.push_back(std::static_pointer_cast<const Volume>(prim));
             continue;
         }
         drawn.insert(item.first);
-        Programs moved = displacers(*prim, state, settings, materials);
-        float edge = targetEdge(*prim, !moved.empty(), camera, rays, settings, transformsOf);
-        std::optional<ShapeKey> key;
-        // Prims of prototypes are shared already, and Embree may know a single level of instances.
-        // Lights are made of the triangles that there are, and displacement of many.
-        if (prim->kind == GeometryKind::Implicit && prim->group.empty() && moved.empty() &&
-            !meshLights.count(item.first) && !glows(*prim, state, settings, materials)) {
-            const Implicit& shape = static_cast<const Implicit&>(*prim);
-            edge = roundEdge(shape, camera, rays);
-            key = SharedShapes::keyOf(shape, edge);
-            if (key) {
-                ++uses[*key];
-                examples[*key] = &shape;
-            }
+        work.push_back(workOf(prim, _surfaces[item.first], own, view));
+        if (const auto& key = work.back().key) {
+            ++uses[*key];
+            examples[*key] = static_cast<const Implicit*>(prim.get());
         }
-        work.push_back({prim, &_surfaces[item.first], edge, rank, std::move(moved), key});
     }
     for (auto it = _surfaces.begin(); it != _surfaces.end();)
         it = drawn.count(it->first) ? std::next(it) : _surfaces.erase(it);
@@ -142,105 +204,71 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera, const Re
                                                                    : _programs.erase(it);
 
     _shapes.update(_device, uses, examples, _diagnostics);
-    for (Work& item : work)
-        if (item.key && (item.shared = _shapes.find(*item.key))) item.edge = 0.0f;
-    parallelFor(size_t(0), work.size(), [&](size_t i) {
-        if (stop) return;
-        CachedSurface& cached = *work[i].cached;
-        if (cached.prim == work[i].prim && cached.edgeLength == work[i].edge &&
-            cached.displacers == work[i].displacers && cached.shared == work[i].shared &&
-            cached.surface)
-            return;
-        updateSurface(cached, work[i].prim, work[i].edge, work[i].displacers, work[i].shared,
-                      settings.interactive);
-    });
-    if (stop) return;
-
-    _allOpaque = true;
-    _hasMedia = false;
+    updateSurfaces(work, view);
+    if (view.stop) return;
     for (const Work& item : work) {
-        Surface& surface = *item.cached->surface;
-        surface.primId = surface.prim->id >= 0 ? surface.prim->id : item.rank;
-        surface.worldOrigin = vec3(origin);
-        surface.categories = intern(surface.prim->categories);
-        surface.materials.clear();
-        surface.materials.push_back(
-            makeSlot(surface, surface.prim->material, state, settings, materials));
-        for (const GeomSubset& subset : surface.prim->subsets)
-            surface.materials.push_back(makeSlot(
-                surface, subset.material.empty() ? surface.prim->material : subset.material, state,
-                settings, materials));
-        for (const MaterialSlot& slot : surface.materials) {
-            _allOpaque &= slot.opaque;
-            _hasMedia |= slot.program->hasInterior();
-        }
-        _surfacesOf[surface.prim->group].push_back(item.cached->surface);
-        _trianglesStored += surface.mesh.triangles.size();
+        describe(*item.cached, view);
+        auto& members = _surfacesOf[item.prim->group];
+        item.cached->member = members.size();
+        members.push_back(item.cached->surface);
     }
     _trianglesStored += _shapes.triangles();
-    _world = buildGroup("", 0, settings, stop);
-    if (stop) return;
+    for (auto& item : _nodes) // light links may have other numbers
+        for (size_t i = 0; i < item.second->categories.size(); ++i)
+            item.second->categories[i] = _parts.links->of(item.second->prim->categories[i]);
+    _world = buildGroup("", 0, view);
+    if (view.stop) return;
     for (auto it = _groups.begin(); it != _groups.end();)
         it = _finished.count(it->first) ? std::next(it) : _groups.erase(it);
     for (auto it = _nodes.begin(); it != _nodes.end();)
         it = state.instancers.count(it->first) ? std::next(it) : _nodes.erase(it);
+    for (const std::string& group : _finished)
+        for (const auto& instancer : _parts.placements->in(group))
+            _instanceCount += instancer->transforms.size();
 
-    RTCBounds bounds;
-    rtcGetSceneBounds(_world->scene, &bounds);
-    _boundsMin = vec3(bounds.lower_x, bounds.lower_y, bounds.lower_z);
-    _boundsMax = vec3(bounds.upper_x, bounds.upper_y, bounds.upper_z);
     const auto volumeProgram = [&](const Volume& prim, const Network& plain) {
         if (!prim.material.empty()) {
-            auto own = program(prim.material, prim.path, state, settings, materials);
+            auto own = program(prim.material, prim.path, view);
             if (own->hasInterior()) return own;
             _diagnostics.warn(prim.path, "material:binding",
                               "the material is not a volume; a white one is shown");
         }
-        if (!_plainVolume) _plainVolume = materials.compile(plain);
+        if (!_plainVolume) _plainVolume = _compiled.materials().compile(plain);
         return _plainVolume;
     };
     _volumes.update(
         volumes, volumeProgram, [&](const std::string& group) { return groupTransforms(group); },
         _shutterOpen, _origin, _diagnostics);
-    if (!_volumes.empty()) {
-        _boundsMin = glm::min(_boundsMin, _volumes.boundsMin());
-        _boundsMax = glm::max(_boundsMax, _volumes.boundsMax());
-    }
+    takeBounds();
     collectEmissive();
 }
 
+void EmbreeScene::takeBounds() {
+    RTCBounds bounds;
+    rtcGetSceneBounds(_world->scene, &bounds);
+    _boundsMin = vec3(bounds.lower_x, bounds.lower_y, bounds.lower_z);
+    _boundsMax = vec3(bounds.upper_x, bounds.upper_y, bounds.upper_z);
+    if (_volumes.empty()) return;
+    _boundsMin = glm::min(_boundsMin, _volumes.boundsMin());
+    _boundsMax = glm::max(_boundsMax, _volumes.boundsMax());
+}
+
 void EmbreeScene::collectEmissive() {
-    std::vector<std::shared_ptr<const void>> sources;
-    bool inGroups = false;
-    for (const auto& item : _surfaces) {
-        const Surface& surface = *item.second.surface;
-        if (!emits(surface)) continue;
-        inGroups |= !surface.prim->group.empty();
-        sources.push_back(item.second.surface);
-        for (const MaterialSlot& slot : surface.materials)
-            sources.push_back(slot.program);
-    }
-    if (inGroups) sources.insert(sources.end(), _instancers.begin(), _instancers.end());
-    if (sources == _emissiveSources) return;
-    _emissiveSources = std::move(sources);
+    _counts.looked += _emitting.size();
     _emissive.clear();
-    std::map<std::string, std::vector<mat4>> places;
-    for (const auto& item : _surfaces) {
-        const Surface& surface = *item.second.surface;
-        if (!emits(surface)) continue;
-        const std::string& group = surface.prim->group;
-        if (!places.count(group)) places[group] = groupTransforms(group);
-        for (const mat4& place : places[group])
-            for (unsigned t = 0; t < surface.mesh.triangles.size(); ++t) {
-                if (!surface.material(t).program->hasEmission()) continue;
-                EmissiveTriangle triangle{&surface, t, {}, place, !group.empty()};
-                for (int k = 0; k < 3; ++k)
-                    triangle.vertices[k] =
-                        vec3(place *
-                             vec4(surface.mesh.positions[0][surface.mesh.triangles[t][k]], 1.0f));
-                _emissive.push_back(triangle);
-            }
+    _emissiveSources.clear();
+    bool inGroups = false;
+    for (const auto& item : _emitting) {
+        const auto& surface = item.second->surface;
+        inGroups |= !surface->prim->group.empty();
+        _emissive.push_back(surface.get());
+        _emissiveSources.push_back(surface);
+        for (const MaterialSlot& slot : surface->materials)
+            _emissiveSources.push_back(slot.program);
     }
+    const auto& instancers = _parts.placements->drawn();
+    if (inGroups)
+        _emissiveSources.insert(_emissiveSources.end(), instancers.begin(), instancers.end());
 }
 
 std::shared_ptr<const Surface> EmbreeScene::surfaceOf(const std::string& path) const {
@@ -264,22 +292,7 @@ std::map<const MaterialProgram*, std::string> EmbreeScene::materialNames() const
 }
 
 size_t EmbreeScene::bytes() const {
-    size_t total = size_t(std::max<int64_t>(0, _embreeBytes)) + _shapes.bytes();
-    for (const auto& item : _surfaces) {
-        const Surface& s = *item.second.surface;
-        const auto add = [&](const auto& steps) {
-            for (const auto& step : steps)
-                total += step.capacity() * sizeof(step[0]) * (item.second.rest ? 2 : 1);
-        };
-        add(s.mesh.positions);
-        add(s.mesh.normals);
-        add(s.curves.controlPoints);
-        add(s.points.points);
-        total += s.mesh.triangles.size() * sizeof(uvec3);
-        for (const MeshAttribute& attribute : s.attributes())
-            total += attribute.data.size() * sizeof(float);
-    }
-    return total;
+    return size_t(std::max<int64_t>(0, _embreeBytes)) + _shapes.bytes() + _surfaceBytes;
 }
 
 } // namespace patina

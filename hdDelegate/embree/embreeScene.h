@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hdDelegate/compiled/compiledMaterials.h"
+#include "hdDelegate/compiled/compiledScene.h"
 #include "hdDelegate/embree/embreeGroup.h"
 #include "hdDelegate/embree/surfaceSpace.h"
 #include "hdDelegate/embree/media/volumeScene.h"
@@ -12,6 +12,7 @@
 
 #include <atomic>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace patina {
@@ -20,14 +21,8 @@ class CameraRays;
 
 enum RayMask : unsigned { RayCamera = 1, RayIndirect = 2, RayShadow = 4 };
 
-/// A triangle that emits light, in world space.
-struct EmissiveTriangle {
-    const Surface* surface;
-    unsigned primitive;
-    vec3 vertices[3];
-    mat4 groupToWorld;
-    bool instanced;
-};
+/// Of a surface alone: none where it shares them.
+size_t trianglesOf(const Surface& surface);
 
 /// How much was built.
 struct BuildCounts {
@@ -35,25 +30,29 @@ struct BuildCounts {
     std::atomic<size_t> tessellated{0}; ///< of those, that were drawn anew, not only moved
     size_t groups = 0;                  ///< acceleration structures that were committed
     size_t programs = 0;
+    size_t looked = 0; ///< prims that an update looked at to see whether anything is to be done
 };
 
 /// Embree's view of a scene: prims in the world are baked into one acceleration structure,
 /// prototypes into one each, and instances refer to them, nested to any depth.
 class EmbreeScene {
 public:
-    explicit EmbreeScene(Diagnostics& diagnostics);
+    /// @param compiled outlives this
+    explicit EmbreeScene(CompiledScene& compiled);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
     /// Brings the structures to a state of the scene. Prims, materials and prototypes that did not
-    /// change since the last call are kept.
+    /// change since the last call are kept; where edits are all that changed, what they touch is
+    /// all that is looked at.
     /// @param stop is polled; the build gives up early when it becomes true
     /// @param origin in the world: all places and rays are relative to it, those of instances
     /// inside of groups aside
     void update(const SceneState& state, const Camera& camera, const RenderSettings& settings,
-                CompiledMaterials& materials, const std::atomic<bool>& stop,
-                const dvec3& origin = dvec3(0.0));
+                const std::atomic<bool>& stop, const dvec3& origin = dvec3(0.0));
+    /// Whether the last update may have changed what lights are made from.
+    bool lightsMayDiffer() const { return _lightsMayDiffer; }
     const dvec3& origin() const { return _origin; }
 
     /// The nearest hit. @param far in: largest distance
@@ -63,25 +62,25 @@ public:
     bool occluded(const vec3& origin, const vec3& direction, float near, float far, float time,
                   unsigned mask) const;
 
-    bool allOpaque() const { return _allOpaque; } ///< no material lets shadow rays through
+    bool allOpaque() const { return _translucent == 0; } ///< no material lets shadow rays through
     const VolumeScene& volumes() const { return _volumes; }
-    bool hasMedia() const { return _hasMedia; } ///< some material fills its object
-    const std::vector<EmissiveTriangle>& emissiveTriangles() const { return _emissive; }
+    bool hasMedia() const { return _withMedia > 0; } ///< some material fills its object
+    /// Those with a material that glows, in the order of their paths.
+    const std::vector<const Surface*>& emissiveSurfaces() const { return _emissive; }
     /// World transforms of a group (for lights inside prototypes).
     std::vector<mat4> groupTransforms(const std::string& group) const;
-    int category(const std::string& name) const; ///< interned; -1 when nothing belongs to it
+    const LinkNames& links() const { return *_parts.links; }
     vec3 boundsMin() const { return _boundsMin; }
     vec3 boundsMax() const { return _boundsMax; }
     size_t trianglesStored() const { return _trianglesStored; }
     size_t instanceCount() const { return _instanceCount; }
     /// The surface of a prim (for mesh lights); null when there is none.
     std::shared_ptr<const Surface> surfaceOf(const std::string& path) const;
-    /// What emissiveTriangles() are made from; equal as long as they are.
+    /// What the light of emissiveSurfaces() is made from; equal as long as that is.
     const std::vector<std::shared_ptr<const void>>& emissiveSources() const {
         return _emissiveSources;
     }
-    const std::vector<std::shared_ptr<const void>>& drawnInstancers() const { return _instancers; }
-    size_t categoryCount() const { return _categoryIds.size(); }
+    const Placements& placements() const { return *_parts.placements; }
     const BuildCounts& counts() const { return _counts; } ///< since construction
     /// What the methods of the materials in use are expected to cost.
     ScenePlan plan() const;
@@ -91,60 +90,84 @@ public:
 
 private:
     using Programs = std::vector<std::shared_ptr<const MaterialProgram>>;
+    using Members = std::map<std::string, EmbreeGroup::Surfaces>; ///< by group
+    /// A prim that is drawn.
     struct CachedSurface {
         std::shared_ptr<const Geometry> prim;
         float edgeLength = 0.0f;
         Programs displacers;
+        std::optional<ShapeKey> key;
         std::shared_ptr<const SharedShape> shared;
         std::shared_ptr<Surface> surface;
         std::shared_ptr<const RestShape> rest; ///< for interactive renders
+        int rank = 0;                          ///< of the path among all, drawn or not
+        size_t member = 0;                     ///< index in _surfacesOf
+        bool opaque = true, hasMedia = false, emits = false;
+        size_t bytes = 0;
     };
+    /// What a prim is to become.
+    struct Work {
+        std::shared_ptr<const Geometry> prim;
+        CachedSurface* cached;
+        float edge;
+        int rank;
+        Programs displacers;
+        std::optional<ShapeKey> key;
+        std::shared_ptr<const SharedShape> shared = nullptr;
+    };
+    /// How one update looks at a scene.
+    struct View {
+        const SceneState& state;
+        const Camera& camera;
+        const RenderSettings& settings; ///< edgeLength: as planned
+        const CameraRays& rays;
+        const std::atomic<bool>& stop;
+        std::map<std::string, std::vector<mat4>> transformsOf; ///< by group, of those asked for
+        /// By group: the surfaces that differ from the last update's. Null: all of them may.
+        const Members* changed = nullptr;
+    };
+    void updateAll(View& view);
+    /// @returns false where more than prims in their places has changed: nothing is done then
+    bool updateTouched(View& view, const SceneEdits& edits);
+    std::optional<std::vector<Work>> touchedWork(View& view, const SceneEdits& edits);
+    void rebuildGroups(const View& view); ///< those with View::changed
+    Work workOf(const std::shared_ptr<const Geometry>& prim, CachedSurface& cached, int rank,
+                View& view);
+    void updateSurfaces(std::vector<Work>& work, const View& view);
+    /// Gives a surface its materials and ids.
+    void describe(CachedSurface& cached, const View& view);
+    void forget(const CachedSurface& cached); ///< what describe() has counted
+    void takeBounds();
     /// Of the space that the members of a group are placed in.
     dvec3 originOf(const std::string& group) const { return group.empty() ? _origin : dvec3(0.0); }
-    int intern(const std::string& category);
-    std::vector<int> intern(const std::vector<std::string>& categories);
     MaterialSlot makeSlot(const Surface& surface, const std::string& materialPath,
-                          const SceneState& state, const RenderSettings& settings,
-                          CompiledMaterials& materials);
+                          const View& view);
     std::shared_ptr<const MaterialProgram> program(const std::string& path, const std::string& user,
-                                                   const SceneState& state,
-                                                   const RenderSettings& settings,
-                                                   CompiledMaterials& materials);
+                                                   const View& view);
     /// The programs of a prim's materials as displace() takes them; empty when none displaces.
-    Programs displacers(const Geometry& prim, const SceneState& state,
-                        const RenderSettings& settings, CompiledMaterials& materials);
+    Programs displacers(const Geometry& prim, const View& view);
     /// Chooses how long edges of subdivision surfaces are on screen. @returns pixels
-    float planSubdivision(const SceneState& state, const CameraRays& rays,
-                          const RenderSettings& settings, CompiledMaterials& materials);
+    float planSubdivision(const View& view);
     /// How long the edges of a tessellated prim may be, in its own space: --edgeLength pixels where
     /// it is nearest, rounded to a power of two so that small moves of the camera change nothing.
     /// 0: it is drawn as it is.
     /// @param displaced it has a material that moves its points
-    /// @param transformsOf world transforms by group, of those asked for so far
-    float targetEdge(const Geometry& prim, bool displaced, const Camera& camera,
-                     const CameraRays& rays, const RenderSettings& settings,
-                     std::map<std::string, std::vector<mat4>>& transformsOf) const;
+    float targetEdge(const Geometry& prim, bool displaced, View& view) const;
     /// The roundEdge of an implicit prim of the world, see TessellationOptions. 0: all segments.
-    float roundEdge(const Implicit& prim, const Camera& camera, const CameraRays& rays) const;
+    float roundEdge(const Implicit& prim, const View& view) const;
     /// Whether a material of a prim makes it a light.
-    bool glows(const Geometry& prim, const SceneState& state, const RenderSettings& settings,
-               CompiledMaterials& materials);
+    bool glows(const Geometry& prim, const View& view);
     /// Not baked yet.
     std::shared_ptr<Surface> shape(const std::shared_ptr<const Geometry>& prim, float edgeLength,
-                                   const Programs& displacers) const;
+                                   const Programs& displacers, bool keepRest) const;
     /// Among equal ones.
     std::shared_ptr<Surface> shape(const std::shared_ptr<const Geometry>& prim,
                                    const std::shared_ptr<const SharedShape>& shared) const;
-    void updateSurface(CachedSurface& cached, const std::shared_ptr<const Geometry>& prim,
-                       float edgeLength, const Programs& displacers,
-                       const std::shared_ptr<const SharedShape>& shared, bool keepRest);
+    void updateSurface(const Work& work, bool keepRest);
     std::shared_ptr<InstancerNode> node(const std::shared_ptr<const Instancer>& prim);
     std::shared_ptr<InstancerNode> currentNode(const std::shared_ptr<const Instancer>& prim);
     EmbreeGroup* finishedGroup(const std::string& name) const; ///< by this update; or null
-    EmbreeGroup* buildGroup(const std::string& name, int depth, const RenderSettings& settings,
-                            const std::atomic<bool>& stop);
-    void gatherTransforms(const std::string& group, const mat4& tail, int depth,
-                          std::vector<mat4>& out) const;
+    EmbreeGroup* buildGroup(const std::string& name, int depth, const View& view);
     void collectEmissive();
     /// Whether a ray may be traced. Tells once of one that may not.
     bool accepts(const RTCRay& ray) const;
@@ -157,16 +180,23 @@ private:
         std::shared_ptr<const MaterialProgram> program;
     };
 
+    CompiledScene& _compiled;
     Diagnostics& _diagnostics;
     RTCDevice _device = nullptr;
+    CompiledState _parts; ///< of the last update
+    // What the last update was of.
+    bool _complete = false; ///< it was not stopped
+    uint64_t _version = 0;
+    Camera _camera;
+    RenderSettings _settings; ///< as asked for
+    float _edgeLength = 0.0f; ///< planned
     SharedShapes _shapes;
     std::map<std::string, CachedSurface> _surfaces;
     std::map<std::string, CachedProgram> _programs;
     PlannedMethod _subdivision; ///< of this update; without a name where nothing was planned
     std::map<std::string, std::unique_ptr<EmbreeGroup>> _groups; ///< by name; "" is the world
-    std::map<std::string, std::vector<std::shared_ptr<Surface>>> _surfacesOf; ///< by group
-    std::map<std::string, std::vector<std::shared_ptr<const Instancer>>> _instancersOf;
-    std::vector<std::shared_ptr<const void>> _instancers; ///< that are drawn
+    Members _surfacesOf;
+    std::map<std::string, const CachedSurface*> _emitting; ///< by path
     std::map<std::string, std::shared_ptr<InstancerNode>> _nodes;
     std::map<std::string, bool> _building;
     std::set<std::string> _finished; ///< groups that this update brought up to date
@@ -175,13 +205,13 @@ private:
     std::atomic<int64_t> _embreeBytes{0};
     std::vector<std::shared_ptr<const void>> _emissiveSources;
     EmbreeGroup* _world = nullptr;
-    std::vector<EmissiveTriangle> _emissive;
-    std::map<std::string, int> _categoryIds;
+    std::vector<const Surface*> _emissive;
     VolumeScene _volumes;
     std::shared_ptr<const MaterialProgram> _plainVolume;
     float _shutterOpen = 0.0f, _shutterClose = 0.0f;
-    dvec3 _origin{0.0};
-    bool _allOpaque = true, _hasMedia = false;
+    dvec3 _origin{0.0}, _builtFrom{0.0}; ///< of the last update; of what is cached
+    size_t _translucent = 0, _withMedia = 0, _surfaceBytes = 0; ///< of all surfaces
+    bool _lightsMayDiffer = true;
     mutable std::atomic<bool> _toldOfRays{false};
     vec3 _boundsMin{0.0f}, _boundsMax{0.0f};
     size_t _trianglesStored = 0, _instanceCount = 0;

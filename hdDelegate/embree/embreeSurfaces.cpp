@@ -1,13 +1,10 @@
 // Surfaces of EmbreeScene: how finely a prim is tessellated, its shape, its materials.
 
+#include "hdDelegate/compiled/drawFilter.h"
 #include "hdDelegate/embree/cameraRays.h"
-#include "hdDelegate/embree/drawnPrims.h"
 #include "hdDelegate/embree/embreeScene.h"
 #include "hdDelegate/embree/surfaceSpace.h"
-#include "hdDelegate/geometry/displace.h"
 #include "hdDelegate/geometry/primvarExpand.h"
-#include "hdDelegate/geometry/splitTriangles.h"
-#include "hdDelegate/geometry/tessellate.h"
 #include "hdDelegate/scene/primCompare.h"
 #include "materialNetwork/material.h"
 
@@ -24,28 +21,29 @@ float maxScale(const mat4& m) {
 
 } // namespace
 
-float EmbreeScene::planSubdivision(const SceneState& state, const CameraRays& rays,
-                                   const RenderSettings& settings, CompiledMaterials& materials) {
+float EmbreeScene::planSubdivision(const View& view) {
+    const CameraRays& rays = view.rays;
+    const RenderSettings& settings = view.settings;
     const ScreenScale screen{vec3(glm::inverse(rays.worldToCamera())[3]), !rays.orthographic(),
                              rays.pixelSpread(), rays.camera().clipNear,
                              double(settings.width) * settings.height};
     SubdivisionPlan plan(settings, screen);
-    for (const auto& item : state.geometry) {
+    for (const auto& item : view.state.geometry) {
         const Geometry& prim = *item.second;
         if (!plan.isActive() || !subdivides(prim) || !isDrawn(prim, settings)) continue;
         std::vector<mat4> places = groupTransforms(prim.group);
         for (mat4& place : places)
             place = place * interpolate(prim.transform, 0.0f, originOf(prim.group));
         plan.add(CageSize(static_cast<const Mesh&>(prim)), places,
-                 program(prim.material, prim.path, state, settings, materials)->planned());
+                 program(prim.material, prim.path, view)->planned());
     }
     _subdivision = plan.chosen();
     return plan.edgeLength();
 }
 
-float EmbreeScene::targetEdge(const Geometry& prim, bool displaced, const Camera& camera,
-                              const CameraRays& rays, const RenderSettings& settings,
-                              std::map<std::string, std::vector<mat4>>& transformsOf) const {
+float EmbreeScene::targetEdge(const Geometry& prim, bool displaced, View& view) const {
+    const CameraRays& rays = view.rays;
+    const RenderSettings& settings = view.settings;
     const bool refined = subdivides(prim);
     if ((!displaced && !refined) || !(settings.edgeLength > 0.0f)) return 0.0f;
     vec3 lower(INFINITY), upper(-INFINITY);
@@ -61,9 +59,9 @@ float EmbreeScene::targetEdge(const Geometry& prim, bool displaced, const Camera
                 upper = glm::max(upper, p);
             }
     }
-    auto places = transformsOf.find(prim.group);
-    if (places == transformsOf.end())
-        places = transformsOf.emplace(prim.group, groupTransforms(prim.group)).first;
+    auto places = view.transformsOf.find(prim.group);
+    if (places == view.transformsOf.end())
+        places = view.transformsOf.emplace(prim.group, groupTransforms(prim.group)).first;
     const vec3 eye = vec3(glm::inverse(rays.worldToCamera())[3]);
     float edge = 0.0f;
     for (const mat4& place : places->second) {
@@ -71,9 +69,9 @@ float EmbreeScene::targetEdge(const Geometry& prim, bool displaced, const Camera
         const float scale = maxScale(m);
         const vec3 center = vec3(m * vec4(0.5f * (lower + upper), 1.0f));
         const float radius = 0.5f * glm::length(upper - lower) * scale;
-        const float distance = rays.orthographic()
-                                   ? 1.0f
-                                   : std::max(camera.clipNear, glm::length(center - eye) - radius);
+        const float distance = rays.orthographic() ? 1.0f
+                                                   : std::max(view.camera.clipNear,
+                                                              glm::length(center - eye) - radius);
         // Displacement shows more of itself on shorter edges, which no row of the table is of.
         const float asked = displaced && !_subdivision.forced && !_subdivision.point.empty()
                                 ? std::min(settings.edgeLength, SubdivisionPlan::standardEdge)
@@ -89,7 +87,8 @@ float EmbreeScene::targetEdge(const Geometry& prim, bool displaced, const Camera
 }
 
 std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry>& prim,
-                                            float edgeLength, const Programs& displacers) const {
+                                            float edgeLength, const Programs& displacers,
+                                            bool keepRest) const {
     auto surface = std::make_shared<Surface>();
     surface->prim = prim;
     TessellationOptions options;
@@ -99,11 +98,24 @@ std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry
     if (displacers.empty()) options.roundEdge = edgeLength;
     switch (prim->kind) {
     case GeometryKind::Mesh:
-        surface->mesh = tessellate(static_cast<const Mesh&>(*prim), options, _diagnostics);
+    case GeometryKind::Implicit: {
+        ShapeRequest request{prim, options, displacers};
+        if (!displacers.empty()) {
+            const auto transforms = resample(prim->transform, _shutterOpen, _shutterClose);
+            request.toWorld = transforms[transforms.size() / 2];
+        }
+        if (keepRest) {
+            surface->rest = _compiled.shapes().triangles(request);
+            surface->mesh.positions = surface->rest->positions;
+            surface->mesh.normals = surface->rest->normals;
+        } else {
+            TriangleMesh mesh = makeTriangles(request, _diagnostics);
+            surface->mesh.positions = std::move(mesh.positions);
+            surface->mesh.normals = std::move(mesh.normals);
+            surface->rest = std::make_shared<const TriangleMesh>(std::move(mesh));
+        }
         break;
-    case GeometryKind::Implicit:
-        surface->mesh = tessellate(static_cast<const Implicit&>(*prim), options, _diagnostics);
-        break;
+    }
     case GeometryKind::Curves:
         surface->shape = Surface::Shape::Curves;
         surface->curves = buildCurves(static_cast<const Curves&>(*prim), options, _diagnostics);
@@ -114,17 +126,12 @@ std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry
         break;
     case GeometryKind::Volume: break; // no surface, see VolumeScene
     }
-    if (!displacers.empty() && surface->shape == Surface::Shape::Triangles) {
-        const auto transforms = resample(prim->transform, _shutterOpen, _shutterClose);
-        splitTriangles(surface->mesh, edgeLength, options.triangleBudget);
-        displace(surface->mesh, displacers, transforms[transforms.size() / 2]);
-    }
     surface->stAttribute = surface->findAttribute("st");
     return surface;
 }
 
-float EmbreeScene::roundEdge(const Implicit& prim, const Camera& camera,
-                             const CameraRays& rays) const {
+float EmbreeScene::roundEdge(const Implicit& prim, const View& view) const {
+    const CameraRays& rays = view.rays;
     // Half of what one of 64 samples counts in a pixel that the outline crosses.
     constexpr float gap = 1.0f / 128.0f; // pixels between an outline and its segments
     const float radius = std::max({prim.radius, prim.radiusTop, 0.0f});
@@ -133,7 +140,7 @@ float EmbreeScene::roundEdge(const Implicit& prim, const Camera& camera,
     const mat4 m = interpolate(prim.transform, 0.0f, _origin);
     const float scale = maxScale(m);
     const float away = glm::length(vec3(m[3]) - eye) - 2.0f * across * scale;
-    const float distance = rays.orthographic() ? 1.0f : std::max(camera.clipNear, away);
+    const float distance = rays.orthographic() ? 1.0f : std::max(view.camera.clipNear, away);
     const float pixel = rays.pixelSpread() * distance / scale;
     // A segment of length s lies s^2 / 8 r inside of a circle, and two thirds of that inside of one
     // that its polygon is as wide as in the mean, which is how coarse shapes are made.
@@ -143,11 +150,10 @@ float EmbreeScene::roundEdge(const Implicit& prim, const Camera& camera,
     return coarser > 1 ? roundEdgeOf(radius, coarser) : 0.0f;
 }
 
-bool EmbreeScene::glows(const Geometry& prim, const SceneState& state,
-                        const RenderSettings& settings, CompiledMaterials& materials) {
+bool EmbreeScene::glows(const Geometry& prim, const View& view) {
     const auto material = [&](const std::string& path) {
-        return state.materials.count(path) > 0 &&
-               program(path, prim.path, state, settings, materials)->hasEmission();
+        return view.state.materials.count(path) > 0 &&
+               program(path, prim.path, view)->hasEmission();
     };
     return material(prim.material) ||
            std::any_of(prim.subsets.begin(), prim.subsets.end(), [&](const GeomSubset& subset) {
@@ -176,14 +182,15 @@ EmbreeScene::shape(const std::shared_ptr<const Geometry>& prim,
     return surface;
 }
 
-void EmbreeScene::updateSurface(CachedSurface& cached, const std::shared_ptr<const Geometry>& prim,
-                                float edgeLength, const Programs& displacers,
-                                const std::shared_ptr<const SharedShape>& shared, bool keepRest) {
+void EmbreeScene::updateSurface(const Work& work, bool keepRest) {
+    CachedSurface& cached = *work.cached;
+    const std::shared_ptr<const Geometry>& prim = work.prim;
+    const std::shared_ptr<const SharedShape>& shared = work.shared;
     const bool moved = cached.prim && !sameTransform(cached.prim->transform, prim->transform);
     // Displacement reads the world.
-    const bool reshape = !cached.surface || cached.edgeLength != edgeLength ||
-                         cached.displacers != displacers || (moved && !displacers.empty()) ||
-                         !sameShape(*cached.prim, *prim);
+    const bool reshape = !cached.surface || cached.edgeLength != work.edge ||
+                         cached.displacers != work.displacers ||
+                         (moved && !work.displacers.empty()) || !sameShape(*cached.prim, *prim);
     if (!reshape && !moved && cached.shared == shared) {
         cached.prim = cached.surface->prim = prim;
         return;
@@ -193,7 +200,7 @@ void EmbreeScene::updateSurface(CachedSurface& cached, const std::shared_ptr<con
         surface = shape(prim, shared);
         cached.rest = nullptr;
     } else if (reshape || cached.shared || !cached.rest) {
-        surface = shape(prim, edgeLength, displacers);
+        surface = shape(prim, work.edge, work.displacers, keepRest);
         cached.rest = keepRest ? std::make_shared<const RestShape>(restOf(*surface)) : nullptr;
         ++_counts.tessellated;
     } else {
@@ -206,16 +213,17 @@ void EmbreeScene::updateSurface(CachedSurface& cached, const std::shared_ptr<con
              resample(prim->transform, _shutterOpen, _shutterClose, originOf(prim->group)));
     ++_counts.surfaces;
     cached.surface = std::move(surface);
-    cached.edgeLength = edgeLength;
+    cached.edgeLength = work.edge;
     cached.shared = shared;
-    cached.displacers = displacers;
+    cached.displacers = work.displacers;
     cached.prim = prim;
 }
 
 std::shared_ptr<const MaterialProgram>
-EmbreeScene::program(const std::string& path, const std::string& user, const SceneState& state,
-                     const RenderSettings& settings, CompiledMaterials& materials) {
-    const auto prim = materials.find(path, user, state, settings);
+EmbreeScene::program(const std::string& path, const std::string& user, const View& view) {
+    const RenderSettings& settings = view.settings;
+    CompiledMaterials& materials = _compiled.materials();
+    const auto prim = materials.find(path, user, view.state, settings);
     const std::string key = prim ? path : std::string();
     CachedProgram& cached = _programs[key];
     if (!cached.program || cached.prim != prim || cached.methods != settings.methods ||
@@ -229,20 +237,18 @@ EmbreeScene::program(const std::string& path, const std::string& user, const Sce
     return cached.program;
 }
 
-EmbreeScene::Programs EmbreeScene::displacers(const Geometry& prim, const SceneState& state,
-                                              const RenderSettings& settings,
-                                              CompiledMaterials& materials) {
+EmbreeScene::Programs EmbreeScene::displacers(const Geometry& prim, const View& view) {
     if (prim.kind != GeometryKind::Mesh && prim.kind != GeometryKind::Implicit) return {};
     const auto mayDisplace = [&](const std::string& path) {
-        const auto found = state.materials.find(path);
-        return settings.enableSceneMaterials && found != state.materials.end() &&
+        const auto& materials = view.state.materials;
+        const auto found = materials.find(path);
+        return view.settings.enableSceneMaterials && found != materials.end() &&
                found->second->network.terminals.count("displacement") > 0;
     };
     bool any = false;
     Programs result;
     const auto add = [&](const std::string& path) {
-        result.push_back(mayDisplace(path) ? program(path, prim.path, state, settings, materials)
-                                           : nullptr);
+        result.push_back(mayDisplace(path) ? program(path, prim.path, view) : nullptr);
         any |= result.back() && result.back()->hasDisplacement();
     };
     add(prim.material);
@@ -252,10 +258,9 @@ EmbreeScene::Programs EmbreeScene::displacers(const Geometry& prim, const SceneS
 }
 
 MaterialSlot EmbreeScene::makeSlot(const Surface& surface, const std::string& materialPath,
-                                   const SceneState& state, const RenderSettings& settings,
-                                   CompiledMaterials& materials) {
+                                   const View& view) {
     MaterialSlot slot;
-    slot.program = program(materialPath, surface.prim->path, state, settings, materials);
+    slot.program = program(materialPath, surface.prim->path, view);
     for (const auto& primvar : slot.program->primvars())
         slot.attributes.push_back(surface.findAttribute(primvar.name));
     slot.opaque = slot.program->isOpaqueWith(slot.attributes);

@@ -7,8 +7,8 @@ namespace patina {
 LightsKey makeLightsKey(const SceneState& state, const EmbreeScene& scene, const Camera& camera,
                         const RenderSettings& settings) {
     LightsKey key;
-    key.numbers = {camera.shutterOpen, camera.shutterClose, scene.origin().x,
-                   scene.origin().y,   scene.origin().z,    double(scene.categoryCount())};
+    key.numbers = {camera.shutterOpen, camera.shutterClose, scene.origin().x, scene.origin().y,
+                   scene.origin().z};
     for (const SettingRow& setting : settingRows())
         if (setting.ofLights) key.numbers.push_back(setting.number(settings));
     bool inGroups = false;
@@ -28,7 +28,7 @@ LightsKey makeLightsKey(const SceneState& state, const EmbreeScene& scene, const
         key.objects.insert(key.objects.end(), list.begin(), list.end());
     };
     append(scene.emissiveSources());
-    if (inGroups) append(scene.drawnInstancers());
+    if (inGroups) append(scene.placements().drawn());
     return key;
 }
 

@@ -24,7 +24,7 @@ Hit hitOn(const Surface* surface, unsigned primitive, const mat4& place, vec2 uv
 /// World area of a surface (first time step).
 double areaOf(const Surface& surface, const mat4& place) {
     double area = 0.0;
-    for (const uvec3& t : surface.mesh.triangles) {
+    for (const uvec3& t : surface.topology().triangles) {
         vec3 p[3];
         for (int k = 0; k < 3; ++k)
             p[k] = vec3(place * vec4(surface.mesh.positions[0][t[k]], 1.0f));
@@ -43,8 +43,8 @@ LightInfo SceneLights::describe(const std::shared_ptr<const Light>& light, const
     info.prim = light;
     info.dome = light->type == LightType::Dome;
     info.cameraVisible = light->cameraVisible && (!info.dome || settings.domeLightCameraVisibility);
-    if (!light->lightLink.empty()) info.lightCategory = scene.category(light->lightLink);
-    if (!light->shadowLink.empty()) info.shadowCategory = scene.category(light->shadowLink);
+    if (!light->lightLink.empty()) info.lightCategory = scene.links().of(light->lightLink);
+    if (!light->shadowLink.empty()) info.shadowCategory = scene.links().of(light->shadowLink);
     info.diffuse = light->diffuse;
     info.specular = light->specular;
     info.castsShadows = light->shadowEnable;
@@ -100,13 +100,9 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
         _meshLights[surface] = meshLight;
     }
 
-    std::vector<const Surface*> surfaces;
-    for (const EmissiveTriangle& triangle : scene.emissiveTriangles())
-        if (surfaces.empty() || surfaces.back() != triangle.surface)
-            surfaces.push_back(triangle.surface);
+    std::vector<const Surface*> surfaces = scene.emissiveSurfaces();
     for (const auto& item : _meshLights)
-        if (std::find(surfaces.begin(), surfaces.end(), item.first) == surfaces.end())
-            surfaces.push_back(item.first);
+        surfaces.push_back(item.first);
     // In the order of their paths, so that equal scenes give equal light trees.
     std::sort(surfaces.begin(), surfaces.end(),
               [](const Surface* a, const Surface* b) { return a->prim->path < b->prim->path; });
@@ -121,14 +117,17 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
     const auto meshLight = _meshLights.find(&surface);
     const bool isMeshLight = meshLight != _meshLights.end();
     for (const mat4& place : scene.groupTransforms(surface.prim->group)) {
-        Emitting emitting{place, std::vector<int>(surface.mesh.triangles.size(), -1)};
-        for (unsigned t = 0; t < surface.mesh.triangles.size(); ++t) {
+        const std::vector<uvec3>& triangles = surface.topology().triangles;
+        Emitting emitting{place, std::vector<int>(triangles.size(), -1)};
+        const int number = int(_places.size());
+        _places.push_back(place);
+        for (unsigned t = 0; t < triangles.size(); ++t) {
             const bool glows = surface.material(t).program->hasEmission();
             if (!isMeshLight && !glows) continue;
             LightTriangle triangle;
             for (int k = 0; k < 3; ++k)
-                triangle.vertices[k] = vec3(
-                    place * vec4(surface.mesh.positions[0][surface.mesh.triangles[t][k]], 1.0f));
+                triangle.vertices[k] =
+                    vec3(place * vec4(surface.mesh.positions[0][triangles[t][k]], 1.0f));
             // One-sided triangles shine along their winding; a mirroring transform turned it.
             const bool mirrored =
                 surface.flipNormals != (glm::determinant(glm::mat3(place)) < 0.0f);
@@ -155,7 +154,7 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
             triangle.luminance = std::max(brightest, 1e-6f);
             emitting.triangles[t] = int(input.triangles.size());
             input.triangles.push_back(triangle);
-            _sources.push_back({&surface, t, place});
+            _sources.push_back({&surface, t, number});
             _triangleInfos.push_back(isMeshLight ? meshLight->second.info : _glowInfo);
         }
         _emitting[&surface].push_back(std::move(emitting));
@@ -203,7 +202,8 @@ vec3 SceneLights::emission(const SurfacePoint& point) const {
 
 vec3 SceneLights::triangleRadiance(const LightSample& sample, const vec3& from, float time) const {
     const Source& source = _sources[sample.triangle];
-    Hit hit = hitOn(source.surface, source.primitive, source.place, sample.barycentrics);
+    Hit hit =
+        hitOn(source.surface, source.primitive, _places[size_t(source.place)], sample.barycentrics);
     hit.distance = sample.distance;
     hit.time = time;
     SurfacePoint point;

@@ -59,7 +59,7 @@ private:
     struct Source {
         const Surface* surface;
         unsigned primitive;
-        mat4 place;
+        int place; ///< index of _places
     };
 
     LightInfo describe(const std::shared_ptr<const Light>& light, const EmbreeScene& scene,
@@ -70,6 +70,7 @@ private:
     std::vector<LightInfo> _infos;
     std::vector<int> _triangleInfos;
     std::vector<Source> _sources; ///< per triangle
+    std::vector<mat4> _places;
     std::map<const Surface*, std::vector<Emitting>> _emitting;
     std::map<const Surface*, MeshLight> _meshLights;
     int _glowInfo = 0;

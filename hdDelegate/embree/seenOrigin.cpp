@@ -68,12 +68,7 @@ dvec3 originOfSeen(const EmbreeScene& scene, const Camera& camera, const RenderS
     const double distance = rays.orthographic() ? 1.0 : double(seen[near - 1].distance);
     const double width = std::max(double(rays.pixelSpread()) * double(settings.width) * distance,
                                   1e-6 * double(seen[near - 1].distance));
-    const double away = largest(middle);
-    if (!(width > 0.0) || !std::isfinite(width) || !std::isfinite(away) || away <= farAway * width)
-        return dvec3(0.0);
-    const double cell = std::exp2(std::ceil(std::log2(cellsPerView * width)));
-    const dvec3 origin = glm::round(middle / cell) * cell;
-    return std::isfinite(largest(origin)) ? origin : dvec3(0.0);
+    return originNear(middle, width, farAway, cellsPerView);
 }
 
 } // namespace patina

@@ -42,9 +42,9 @@ struct Local {
 
 Local triangleLocal(const Hit& hit) {
     const Surface& surface = *hit.surface;
-    const TriangleMesh& mesh = surface.triangles();
+    const TriangleMesh &mesh = surface.topology(), &placed = surface.placed();
     const uvec3 tri = mesh.triangles[hit.primitive];
-    const auto positions = stepsAt(mesh.positions, hit.time);
+    const auto positions = stepsAt(placed.positions, hit.time);
     const vec3 p[3] = {positions.at(tri.x), positions.at(tri.y), positions.at(tri.z)};
     const float w = 1.0f - hit.u - hit.v;
     Local local;
@@ -54,8 +54,8 @@ Local triangleLocal(const Hit& hit) {
     if (surface.flipNormals) ng = -ng;
     local.geometricNormal = safeNormalize(ng, vec3(0, 0, 1));
     local.normal = local.geometricNormal;
-    if (!mesh.normals.empty()) {
-        const auto normals = stepsAt(mesh.normals, hit.time);
+    if (!placed.normals.empty()) {
+        const auto normals = stepsAt(placed.normals, hit.time);
         vec3 n;
         if (mesh.normalRate == MeshAttribute::Rate::PerCorner) {
             const size_t c = size_t(hit.primitive) * 3;
@@ -141,7 +141,7 @@ mat4 Surface::placeAt(float time) const {
 }
 
 const MaterialSlot& Surface::material(unsigned primitive) const {
-    const auto& subsets = shape == Shape::Triangles ? mesh.triangleSubset
+    const auto& subsets = shape == Shape::Triangles ? topology().triangleSubset
                           : shape == Shape::Curves  ? curves.segmentSubset
                                                     : points.pointSubset;
     const size_t subset = primitive < subsets.size() ? subsets[primitive] : 0;
@@ -149,7 +149,7 @@ const MaterialSlot& Surface::material(unsigned primitive) const {
 }
 
 int Surface::element(unsigned primitive) const {
-    if (shape == Shape::Triangles) return triangles().triangleFace[primitive];
+    if (shape == Shape::Triangles) return topology().triangleFace[primitive];
     return shape == Shape::Curves ? curves.segmentCurve[primitive] : points.pointIndex[primitive];
 }
 
@@ -159,7 +159,7 @@ bool readAttribute(const Surface& surface, int attribute, unsigned primitive, fl
     switch (surface.shape) {
     case Surface::Shape::Curves: return evalAttribute(surface.curves, a, primitive, u, out);
     case Surface::Shape::Points: return evalAttribute(surface.points, a, primitive, out);
-    default: return evalAttribute(surface.triangles(), a, primitive, u, v, out);
+    default: return evalAttribute(surface.topology(), a, primitive, u, v, out);
     }
 }
 

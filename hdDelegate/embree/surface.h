@@ -21,7 +21,10 @@ struct MaterialSlot {
 /// for prims that are not instanced).
 struct Surface {
     std::shared_ptr<const Geometry> prim;
-    TriangleMesh mesh;
+    /// Topology and values of triangles, which the rasterizer may draw too; and, in interactive
+    /// renders, positions and normals in the prim's own space. Null for other shapes.
+    std::shared_ptr<const TriangleMesh> rest;
+    TriangleMesh mesh; ///< positions and normals
     CurveSet curves;
     PointSet points;
     /// Of one implicit prim among many: the triangles stand here, `mesh` has no more than what is
@@ -39,11 +42,14 @@ struct Surface {
     enum class Shape { Triangles, Curves, Points } shape = Shape::Triangles;
 
     const std::vector<MeshAttribute>& attributes() const {
-        return shape == Shape::Triangles ? mesh.attributes
+        return shape == Shape::Triangles ? (rest ? rest->attributes : mesh.attributes)
                : shape == Shape::Curves  ? curves.attributes
                                          : points.attributes;
     }
-    const TriangleMesh& triangles() const { return shared ? shared->mesh : mesh; }
+    /// Where positions and normals stand.
+    const TriangleMesh& placed() const { return shared ? shared->mesh : mesh; }
+    /// Where triangles, faces and values stand.
+    const TriangleMesh& topology() const { return rest ? *rest : shared ? shared->mesh : mesh; }
     mat4 placeAt(float time) const; ///< of a shared shape. @param time 0..1 over the shutter
     int findAttribute(const std::string& name) const;
     const MeshAttribute& attribute(int index) const; ///< of findAttribute()

@@ -49,13 +49,15 @@ mat4 transformAtStep(const std::vector<mat4>& transforms, int step, int count) {
 }
 
 RestShape restOf(const Surface& surface) {
-    return {surface.mesh.positions, surface.mesh.normals,  surface.curves.controlPoints,
-            surface.curves.normals, surface.points.points, surface.points.normals};
+    return {surface.curves.controlPoints, surface.curves.normals, surface.points.points,
+            surface.points.normals};
 }
 
 void restore(const RestShape& rest, Surface& surface) {
-    surface.mesh.positions = rest.vertices;
-    surface.mesh.normals = rest.vertexNormals;
+    if (surface.rest) {
+        surface.mesh.positions = surface.rest->positions;
+        surface.mesh.normals = surface.rest->normals;
+    }
     surface.curves.controlPoints = rest.controlPoints;
     surface.curves.normals = rest.curveNormals;
     surface.points.points = rest.points;

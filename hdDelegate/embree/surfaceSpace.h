@@ -4,9 +4,9 @@
 
 namespace patina {
 
-/// Positions and normals in object space, for prims that may be moved often.
+/// Positions and normals in object space, for prims that may be moved often; those of triangles
+/// are in Surface::rest.
 struct RestShape {
-    std::vector<std::vector<vec3>> vertices, vertexNormals;
     std::vector<std::vector<vec4>> controlPoints;
     std::vector<std::vector<vec3>> curveNormals;
     std::vector<std::vector<vec4>> points;

@@ -1,5 +1,7 @@
 #include "hdDelegate/hydra/view.h"
 
+#include "hdDelegate/scene/primCompare.h"
+
 #include <pxr/base/gf/matrix4d.h>
 #include <pxr/imaging/cameraUtil/framing.h>
 #include <pxr/imaging/hd/camera.h>
@@ -72,18 +74,6 @@ bool coversBuffer(const CameraUtilFraming& framing, int width, int height) {
     const GfRange2f& display = framing.displayWindow;
     return display.GetMin() == GfVec2f(0.0f) &&
            display.GetMax() == GfVec2f(float(width), float(height));
-}
-
-bool sameCamera(const Camera& a, const Camera& b) {
-    return a.transform.times == b.transform.times && a.transform.values == b.transform.values &&
-           a.orthographic == b.orthographic && a.horizontalAperture == b.horizontalAperture &&
-           a.verticalAperture == b.verticalAperture &&
-           a.horizontalApertureOffset == b.horizontalApertureOffset &&
-           a.verticalApertureOffset == b.verticalApertureOffset && a.focalLength == b.focalLength &&
-           a.fStop == b.fStop && a.focusDistance == b.focusDistance && a.clipNear == b.clipNear &&
-           a.clipFar == b.clipFar && a.clippingPlanes == b.clippingPlanes &&
-           a.shutterOpen == b.shutterOpen && a.shutterClose == b.shutterClose &&
-           a.exposureScale == b.exposureScale;
 }
 
 } // namespace

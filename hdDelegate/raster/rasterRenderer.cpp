@@ -61,6 +61,7 @@ private:
             if (!_deviceFailure.empty()) throw DeviceError(_deviceFailure);
             try {
                 RenderLoop::prepareAndRender(state, camera);
+                if (_raster) _raster->releaseShapes();
             } catch (const DeviceError& error) {
                 _deviceFailure = error.what();
                 release(); // another back end needs the memory
@@ -92,14 +93,18 @@ private:
         if (!standIns)
             compiling = [this](const RasterMaterials::Ready& ready) { notifyCompiling(ready); };
         _raster->update(state, _origin, camera, _settings, lightPlan(state), stopFlag(), compiling);
+        _lightsMayDiffer |= _raster->lightsMayDiffer();
         if (standIns) notifyCompiling(_raster->programsReady());
         if (stopped()) return;
         // Every sample of a dome costs a shadow map: few of them where that takes long.
         const int domeSamples = _raster->trianglesDrawn() > 1000000 ? 1 : 4;
-        RasterInstances places(state, _settings, camera.timeCode(0.5f), _origin);
+        if (_lights && !_lightsMayDiffer && domeSamples == _domeSamples) return;
+        _lightsMayDiffer = false;
+        _domeSamples = domeSamples;
+        RasterInstances places(_raster->parts().placements, camera.timeCode(0.5f), _origin);
         _lights = std::make_unique<RasterLights>(
             state, _settings, places, camera.timeCode(0.5f), domeSamples, _raster->domeMethods(),
-            _compiled->lightImages(), *_domes, _raster->categories(), _scene->diagnostics());
+            _compiled->lightImages(), *_domes, *_raster->parts().links, _scene->diagnostics());
     }
 
     /// Threads that compile beside this one.
@@ -185,7 +190,7 @@ private:
             _passes->drawAovs(*_raster, camera);
         }
         while (early && _raster->standIns() > 0) {
-            showEarly(state, camera, aovs, sampleOf(0, filter, border));
+            showEarly(camera, aovs, sampleOf(0, filter, border));
             if (!waitForPrograms() || !waitWhilePaused()) return;
             build(state, camera, true);
             if (stopped()) return;
@@ -200,7 +205,7 @@ private:
         const bool empty = window[2] < window[0] || window[3] < window[1];
         const uint32_t taken = empty ? 0 : _film->sampleCount(window[2], window[3]);
         const auto moveTo = [&](const RasterSample& sample) {
-            _raster->moveTo(state, _settings, camera.timeCode(sample.time));
+            _raster->moveTo(camera.timeCode(sample.time));
         };
         const uint32_t again = RasterPasses::passesToRepeat(taken);
         if (again > 0) {
@@ -239,6 +244,7 @@ private:
             progress.statistics["trianglesStored"] = double(_raster->triangles());
             progress.statistics["bytes"] = double(_raster->bytes());
             progress.statistics["surfacesBuilt"] = double(_raster->shapesBuilt());
+            progress.statistics["primsLookedAt"] = double(_raster->primsLookedAt());
             progress.statistics["instancesWritten"] = double(_raster->instancesWritten());
             progress.statistics["instances"] = double(_raster->instanceCount());
             progress.statistics["programsBuilt"] = double(_raster->programsBuilt());
@@ -266,12 +272,12 @@ private:
     }
 
     /// One pass with what is ready, in a film of its own: nothing of it reaches the final image.
-    void showEarly(const SceneState& state, const RasterCamera& camera,
-                   const std::vector<AovSpec>& aovs, const RasterSample& sample) {
+    void showEarly(const RasterCamera& camera, const std::vector<AovSpec>& aovs,
+                   const RasterSample& sample) {
         Film film;
         film.reset(_settings.width, _settings.height, aovs, false);
         _passes->writeAovs(*_raster, camera, aovs, film);
-        _raster->moveTo(state, _settings, camera.timeCode(sample.time));
+        _raster->moveTo(camera.timeCode(sample.time));
         _passes->draw(*_raster, *_lights, *_domes, _raster->environmentSamples(), camera, sample,
                       film);
         checkDevice(0);
@@ -339,6 +345,8 @@ private:
     std::unique_ptr<RasterLights> _lights;
     std::unique_ptr<RasterDomes> _domes;
 
+    bool _lightsMayDiffer = true;               ///< from what _lights are made of
+    int _domeSamples = 0;                       ///< that they were made with
     vec3 _origin{0.0f};                         ///< see RasterScene::update()
     std::string _deviceFailure;                 ///< what was made with the context is gone
     static constexpr double earlySeconds = 0.5; ///< between early images

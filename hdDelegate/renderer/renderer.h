@@ -28,7 +28,8 @@ struct RenderProgress {
     /// "rays", "paths", "secondsBuild" (of this start), "trianglesStored", "instances", "bytes" (of
     /// meshes and acceleration structures); and counts since the renderer was made, which tell what
     /// edits cost: "surfacesBuilt", "surfacesTessellated" (the others were only moved),
-    /// "groupsBuilt" (acceleration structures), "programsBuilt", "lightsBuilt". While programs are
+    /// "groupsBuilt" (acceleration structures), "programsBuilt", "lightsBuilt", "primsLookedAt" (to
+    /// see whether they have to be built). While programs are
     /// compiled "materialsReady" and "materialsWanted", with secondsLeft of that; and
     /// "materialsDrawn" for the first time, for which software compiles once more.
     std::map<std::string, double> statistics;

@@ -1,6 +1,7 @@
 #include "hdDelegate/scene/primCompare.h"
 
 #include <algorithm>
+#include <array>
 
 namespace patina {
 
@@ -80,6 +81,25 @@ bool sameShape(const Geometry& a, const Geometry& b) {
 
 bool sameTransform(const MotionTransform& a, const MotionTransform& b) {
     return same(a, b);
+}
+
+bool sameCamera(const Camera& a, const Camera& b) {
+    const auto numbers = [](const Camera& c) {
+        return std::array<double, 12>{c.horizontalAperture,
+                                      c.verticalAperture,
+                                      c.horizontalApertureOffset,
+                                      c.verticalApertureOffset,
+                                      c.focalLength,
+                                      c.fStop,
+                                      c.focusDistance,
+                                      c.clipNear,
+                                      c.clipFar,
+                                      c.shutterOpen,
+                                      c.shutterClose,
+                                      c.exposureScale};
+    };
+    return same(a.transform, b.transform) && a.orthographic == b.orthographic &&
+           numbers(a) == numbers(b) && a.clippingPlanes == b.clippingPlanes;
 }
 
 } // namespace patina

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hdDelegate/scene/camera.h"
 #include "hdDelegate/scene/geometry.h"
 
 namespace patina {
@@ -9,5 +10,8 @@ namespace patina {
 bool sameShape(const Geometry& a, const Geometry& b);
 
 bool sameTransform(const MotionTransform& a, const MotionTransform& b);
+
+/// Whether two cameras see the same, whatever their paths.
+bool sameCamera(const Camera& a, const Camera& b);
 
 } // namespace patina

@@ -20,6 +20,27 @@ const Primvar* Geometry::primvar(const std::string& name) const {
     return nullptr;
 }
 
+namespace {
+
+/// Takes over changes to the prims of one kind.
+/// @returns what differs thereafter
+template <class T>
+SceneDelta::Paths take(PrimMap<T>& prims, const typename PrimMap<T>::Changes& changes) {
+    SceneDelta::Paths paths;
+    for (const auto& [path, after] : changes) {
+        const auto before = prims.find(path);
+        if (before == prims.end()) {
+            if (after) paths.emplace_hint(paths.end(), path, PrimEdit::Added);
+        } else if (before->second != after) {
+            paths.emplace_hint(paths.end(), path, after ? PrimEdit::Set : PrimEdit::Removed);
+        }
+    }
+    if (!paths.empty()) prims = prims.changed(changes);
+    return paths;
+}
+
+} // namespace
+
 Scene::Scene() : _state(std::make_shared<SceneState>()) {}
 
 SceneEdit Scene::edit() {
@@ -29,6 +50,11 @@ SceneEdit Scene::edit() {
 std::shared_ptr<const SceneState> Scene::snapshot() const {
     std::lock_guard<std::mutex> lock(_mutex);
     return _state;
+}
+
+std::optional<SceneDelta> Scene::changes(uint64_t from, uint64_t to) const {
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _log.between(from, to);
 }
 
 SceneEdit::SceneEdit(SceneEdit&& other) noexcept
@@ -104,14 +130,20 @@ void SceneEdit::commit() {
     std::lock_guard<std::mutex> lock(_scene->_mutex);
     const SceneState& before = *_scene->_state;
     auto after = std::make_shared<SceneState>(_clear ? SceneState() : before);
-    after->geometry = after->geometry.changed(_geometry);
-    after->instancers = after->instancers.changed(_instancers);
-    after->lights = after->lights.changed(_lights);
-    after->cameras = after->cameras.changed(_cameras);
-    after->materials = after->materials.changed(_materials);
-    if (_metersPerUnit > 0.0) after->metersPerUnit = _metersPerUnit;
-    if (!sameContent(before, *after)) {
+    SceneDelta delta;
+    delta.geometry = take(after->geometry, _geometry);
+    delta.instancers = take(after->instancers, _instancers);
+    delta.lights = take(after->lights, _lights);
+    delta.cameras = take(after->cameras, _cameras);
+    delta.materials = take(after->materials, _materials);
+    delta.metersPerUnit = _metersPerUnit > 0.0 && _metersPerUnit != after->metersPerUnit;
+    if (delta.metersPerUnit) after->metersPerUnit = _metersPerUnit;
+    if (_clear ? !sameContent(before, *after) : !delta.empty()) {
         after->version = before.version + 1;
+        if (_clear)
+            _scene->_log.clear();
+        else
+            _scene->_log.add(after->version, std::move(delta));
         _scene->_state = std::move(after);
     }
     _clear = false;

@@ -5,6 +5,7 @@
 #include "hdDelegate/scene/light.h"
 #include "hdDelegate/scene/material.h"
 #include "hdDelegate/scene/primMap.h"
+#include "hdDelegate/scene/sceneDelta.h"
 #include "materialNetwork/diagnostics.h"
 
 #include <cstdint>
@@ -45,12 +46,17 @@ public:
     /// The state after the last commit.
     std::shared_ptr<const SceneState> snapshot() const;
 
+    /// What commits changed from one version to a later one.
+    /// @returns nothing where that is not known any more: everything may differ
+    std::optional<SceneDelta> changes(uint64_t from, uint64_t to) const;
+
     Diagnostics& diagnostics() { return _diagnostics; }
 
 private:
     friend class SceneEdit;
     mutable std::mutex _mutex;
     std::shared_ptr<const SceneState> _state;
+    EditLog _log; ///< guarded by _mutex
     Diagnostics _diagnostics;
 };
 

@@ -20,6 +20,14 @@ struct RenderSettings {
 #define SETTING(type, name, initial, ...) type name = initial;
 #include "hdDelegate/scene/settings.def"
 #undef SETTING
+
+    bool operator==(const RenderSettings& other) const {
+        return true
+#define SETTING(type, name, ...) &&name == other.name
+#include "hdDelegate/scene/settings.def"
+#undef SETTING
+            ;
+    }
 };
 
 } // namespace patina

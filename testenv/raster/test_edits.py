@@ -208,3 +208,63 @@ def test_equal_implicit_prims_share_their_buffers():
     (together, few), (apart, many) = draw(False), draw(True)
     assert (few, many) == (1, 12)
     np.testing.assert_array_equal(together, apart)
+
+
+@pytest.mark.parametrize("backend", ["embree", "raster"])
+def test_edits_look_at_what_they_touch_however_many_prims_there_are(backend):
+    """And the image is that of a renderer which has looked at everything."""
+    import _patina
+
+    from patina.chart import probes
+
+    points = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], dtype=np.float32) * np.float32(0.045)
+
+    def mesh(edit, i, nearer=0.0, material="/others", **more):
+        matrix = np.eye(4, dtype=np.float32)
+        matrix[3, :3] = 0.1 * (i % 20) - 0.95, 0.1 * (i // 20), nearer - 1.2
+        edit.set_mesh(f"/mesh{i:04}", points=points, face_vertex_counts=[4], face_vertex_indices=[0, 1, 2, 3],
+                      transform=matrix, material=material, **more)
+
+    def color(edit, path, red):
+        edit.set_material(path, probes.network("oren_nayar_diffuse_bsdf", color=(red, 0.4, 0.2)))
+
+    def render(scene, renderer):
+        film = _patina.Film()
+        renderer.start(scene, "/camera", {"width": 48, "height": 32, "samples": 2, "aovs": ["primId", "normal"]}, film)
+        renderer.wait()
+        found = renderer.progress()
+        assert not found["failed"], found["error"]
+        return [film.resolve(name) for name in ("color", "primId", "normal")], found["statistics"]["primsLookedAt"]
+
+    edits = {
+        "color of one": (lambda e: color(e, "/one", 0.9), 1),
+        "color of three": (lambda e: color(e, "/three", 0.9), 3),
+        "place": (lambda e: mesh(e, 5, nearer=1.0), 1),
+        "outermost place": (lambda e: mesh(e, 0, nearer=-3.0), 1),
+        "binding": (lambda e: mesh(e, 6, material="/one"), 1),
+        "light": (lambda e: e.set_light("/sun", type="distant", intensity=1.0, angle=1.0), 0),
+        "nothing": (lambda e: mesh(e, 5, nearer=1.0), 1),
+    }
+    for count in (40, 200):
+        scene, renderer = _patina.Scene(), _patina.make_renderer(backend)
+        with scene.edit() as edit:
+            for path in ("/one", "/three", "/others"):
+                color(edit, path, 0.1)
+            for i in range(count):
+                mesh(edit, i, material="/one" if i == 30 else "/three" if i < 3 else "/others")
+            edit.set_light("/sun", type="distant", intensity=3.0, angle=1.0)
+            matrix = np.eye(4, dtype=np.float32)
+            matrix[3, :3] = 0.0, 0.5, 4.0
+            edit.set_camera("/camera", transform=matrix)
+        before, looked = render(scene, renderer)
+        assert looked >= count
+        for name, (change, touched) in edits.items():
+            with scene.edit() as edit:
+                change(edit)
+            after, now = render(scene, renderer)
+            assert now - looked == touched, f"{name} of {count}"
+            assert name == "nothing" or not all(np.array_equal(a, b) for a, b in zip(before, after)), name
+            if count == 40:
+                for a, b in zip(after, render(scene, _patina.make_renderer(backend))[0]):
+                    np.testing.assert_array_equal(a, b, err_msg=name)
+            before, looked = after, now

@@ -1,7 +1,6 @@
 #include "hdDelegate/embree/embreeScene.h"
 
-#include "hdDelegate/embree/drawnPrims.h"
-#include "hdDelegate/image/textureSystem.h"
+#include "hdDelegate/compiled/drawFilter.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -39,12 +38,12 @@ mat4 translate(float x, float y, float z) {
 }
 
 struct Built {
-    Scene scene;
+    std::shared_ptr<Scene> owner = std::make_shared<Scene>();
+    Scene& scene = *owner;
     Camera camera;
     RenderSettings settings;
-    TextureSystem textures{scene.diagnostics()};
-    CompiledMaterials materials{textures, scene.diagnostics()};
-    EmbreeScene embree{scene.diagnostics()};
+    CompiledScene compiled{owner};
+    EmbreeScene embree{compiled};
     std::atomic<bool> stop{false};
     Hit hit;
 
@@ -54,7 +53,7 @@ struct Built {
     void setMesh(const std::shared_ptr<Mesh>& prim) {
         scene.edit().set(std::shared_ptr<const Geometry>(prim));
     }
-    void update() { embree.update(*scene.snapshot(), camera, settings, materials, stop); }
+    void update() { embree.update(*scene.snapshot(), camera, settings, stop); }
     bool seen(float x, unsigned mask = RayCamera) {
         return embree.intersect({x, 0.1f, 5}, {0, 0, -1}, 0, INFINITY, 0, mask, hit);
     }

@@ -257,11 +257,11 @@ TEST_P(Edits, ALightChangesOnlyLights) {
     light->lightLink = "bright";
     put<Light>(*session.scene, light);
     EXPECT_EQ(session.rendered(), "0 0 0 0 1");
-    // A prim joins the collection: lights look up its number.
+    // A prim joins the collection, whose number lights know.
     auto cube = session.copy<Mesh>("/cube");
     cube->categories = {"bright"};
     put<Geometry>(*session.scene, cube);
-    EXPECT_EQ(session.rendered(), "0 0 0 0 1");
+    EXPECT_EQ(session.rendered(), "0 0 0 0 0");
     session.scene->edit().remove("/key");
     EXPECT_EQ(session.rendered(), "0 0 0 0 1");
 }
@@ -278,6 +278,46 @@ TEST_P(Edits, PrimsComeAndGo) {
     EXPECT_EQ(session.rendered(), "0 0 2 0 0");
     session.settings.interactive = !session.settings.interactive;
     session.rendered();
+}
+
+TEST_P(Edits, LookAtWhatTheyTouchHoweverManyPrimsThereAre) {
+    for (const int count : {20, 200}) {
+        Session session(GetParam());
+        {
+            SceneEdit edit = session.scene->edit();
+            for (int i = 0; i < count; ++i)
+                edit.set(std::shared_ptr<const Geometry>(
+                    makeCube("/many/" + std::to_string(i), translate(float(i), -5, -9))));
+        }
+        session.rendered();
+        const auto looked = [&] {
+            const double before = session.counts["primsLookedAt"];
+            session.rendered();
+            return int(session.counts["primsLookedAt"] - before);
+        };
+        EXPECT_EQ(looked(), 0);
+        session.scene->edit().set(makeMaterial("/red", 0.1f, 0.0f));
+        EXPECT_EQ(looked(), 1) << "the prim with the material";
+        auto cube = session.copy<Mesh>("/cube");
+        cube->transform = translate(-2, 0.5f, 0.5f);
+        cube->visibility.shadow = false;
+        put<Geometry>(*session.scene, cube);
+        EXPECT_EQ(looked(), 1);
+        auto leaf = session.copy<Mesh>("/leaf");
+        leaf->transform = glm::scale(mat4(1.0f), vec3(0.5f));
+        put<Geometry>(*session.scene, leaf);
+        EXPECT_EQ(looked(), 1) << "and no member of the groups around it";
+        session.scene->edit().set(makeMaterial("/glow", 0.1f, 2.0f));
+        EXPECT_EQ(looked(), 2) << "the lamp, as a prim and as a light";
+        auto light = std::make_shared<Light>();
+        light->path = "/key";
+        put<Light>(*session.scene, light);
+        EXPECT_EQ(looked(), 0);
+        session.scene->edit().set(makeCamera(8.9f));
+        EXPECT_GT(looked(), count) << "all may look larger";
+        put<Geometry>(*session.scene, makeCube("/added", translate(0, -1.5f, 1)));
+        EXPECT_GT(looked(), count) << "others may have other ids";
+    }
 }
 
 TEST_P(Edits, AStoppedBuildIsTakenUpAgain) {

@@ -1,7 +1,5 @@
 #include "hdDelegate/embree/embreeScene.h"
 
-#include "hdDelegate/image/textureSystem.h"
-
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
@@ -34,15 +32,15 @@ std::shared_ptr<Instancer> makeInstancer(const std::string& path, const std::str
 }
 
 struct Built {
-    Scene scene;
+    std::shared_ptr<Scene> owner = std::make_shared<Scene>();
+    Scene& scene = *owner;
     Camera camera;
     RenderSettings settings;
-    TextureSystem textures{scene.diagnostics()};
-    CompiledMaterials materials{textures, scene.diagnostics()};
-    EmbreeScene embree{scene.diagnostics()};
+    CompiledScene compiled{owner};
+    EmbreeScene embree{compiled};
     std::atomic<bool> stop{false};
 
-    void update() { embree.update(*scene.snapshot(), camera, settings, materials, stop); }
+    void update() { embree.update(*scene.snapshot(), camera, settings, stop); }
     bool hit(const vec3& origin, const vec3& direction, Hit& out, float time = 0.0f) {
         return embree.intersect(origin, direction, 0, INFINITY, time, RayCamera, out);
     }

@@ -1,8 +1,6 @@
 #include "hdDelegate/embree/cameraRays.h"
 #include "hdDelegate/embree/embreeScene.h"
 
-#include "hdDelegate/image/textureSystem.h"
-
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
@@ -13,15 +11,15 @@ namespace {
 constexpr size_t trianglesOfSphere = 2 * 128 * 63; // 64 rings of 128 cells, those at the poles half
 
 struct Built {
-    Scene scene;
+    std::shared_ptr<Scene> owner = std::make_shared<Scene>();
+    Scene& scene = *owner;
     Camera camera;
     RenderSettings settings;
-    TextureSystem textures{scene.diagnostics()};
-    CompiledMaterials materials{textures, scene.diagnostics()};
-    EmbreeScene embree{scene.diagnostics()};
+    CompiledScene compiled{owner};
+    EmbreeScene embree{compiled};
     std::atomic<bool> stop{false};
 
-    void update() { embree.update(*scene.snapshot(), camera, settings, materials, stop); }
+    void update() { embree.update(*scene.snapshot(), camera, settings, stop); }
 };
 
 mat4 placeOf(int i) {

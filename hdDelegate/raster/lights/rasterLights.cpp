@@ -13,10 +13,8 @@ namespace patina {
 namespace {
 
 /// @returns -1 for an empty link, which is everything
-int categoryOf(const std::string& link, const std::map<std::string, int>& categories) {
-    if (link.empty()) return -1;
-    const auto found = categories.find(link);
-    return found == categories.end() ? int(categories.size()) : found->second;
+int categoryOf(const std::string& link, const LinkNames& links) {
+    return link.empty() ? -1 : links.of(link);
 }
 
 } // namespace
@@ -24,8 +22,7 @@ int categoryOf(const std::string& link, const std::map<std::string, int>& catego
 RasterLights::RasterLights(const SceneState& state, const RenderSettings& settings,
                            RasterInstances& places, float timeCode, int domeSamples,
                            const std::set<std::string>& domeMethods, LightImages& images,
-                           RasterDomes& domes, const std::map<std::string, int>& categories,
-                           Diagnostics& diagnostics)
+                           RasterDomes& domes, const LinkNames& links, Diagnostics& diagnostics)
     : _domeMethods(domeMethods), _domeSamples(domeSamples), _seed(uint32_t(settings.seed)),
       _shadows(settings.enableShadows) {
     if (!domeMethods.empty() && domeMethods.count("sampled") == 0) _domeSamples = 0;
@@ -37,15 +34,15 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
             if (light.type == LightType::Mesh) continue; // see RasterEmitters
             for (const RasterPlace& place : places.places(light.group))
                 add(light, mat4(place.groupToWorld * exactTransformAt(light.transform, timeCode)),
-                    settings, images, domes, categories, diagnostics);
+                    settings, images, domes, links, diagnostics);
         }
     _tables.upload(maxTables);
     domes.upload(_domeMethods.count("prefiltered") > 0);
 }
 
 void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSettings& settings,
-                       LightImages& images, RasterDomes& domes,
-                       const std::map<std::string, int>& categories, Diagnostics& diagnostics) {
+                       LightImages& images, RasterDomes& domes, const LinkNames& links,
+                       Diagnostics& diagnostics) {
     const ResolvedLight is = resolveLight(light, toWorld, diagnostics);
     if (is.kind == ResolvedLight::Kind::None) return;
     const LightPose pose = lightPose(light, is.kind, toWorld, nullptr);
@@ -54,7 +51,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
     s.delta = is.delta;
     s.position = pose.position;
     s.shadows = light.shadowEnable;
-    s.shadowCategory = categoryOf(light.shadowLink, categories);
+    s.shadowCategory = categoryOf(light.shadowLink, links);
     GpuLight& g = s.fixed;
     g.shadowColor = vec4(light.shadowColor, 0.0f);
     g.fade = vec4(light.shadowDistance, light.shadowFalloff,
@@ -98,7 +95,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
     }
     default: s.shape = pose.shape; addShape(s, light, images);
     }
-    g.axis[2].w = float(categoryOf(light.lightLink, categories));
+    g.axis[2].w = float(categoryOf(light.lightLink, links));
     g.inverse[0].w = light.diffuse;
     g.inverse[1].w = light.specular;
     g.inverse[2].w = cameraVisible && !s.delta ? 1.0f : 0.0f;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hdDelegate/compiled/linkNames.h"
 #include "hdDelegate/lights/areaShape.h"
 #include "hdDelegate/raster/lights/rasterDomes.h"
 #include "hdDelegate/raster/lights/rasterEmitters.h"
@@ -34,11 +35,11 @@ public:
 
     /// @param domeSamples per pass, where domes are sampled
     /// @param domeMethods of `domeLight`, by which materials are drawn
-    /// @param categories of light and shadow links, see RasterScene
+    /// @param links that prims were given numbers by
     RasterLights(const SceneState& state, const RenderSettings& settings, RasterInstances& places,
                  float timeCode, int domeSamples, const std::set<std::string>& domeMethods,
-                 LightImages& images, RasterDomes& domes,
-                 const std::map<std::string, int>& categories, Diagnostics& diagnostics);
+                 LightImages& images, RasterDomes& domes, const LinkNames& links,
+                 Diagnostics& diagnostics);
 
     /// What a pass knows of the lights.
     struct Sampled {
@@ -98,7 +99,7 @@ private:
     };
 
     void add(const Light& light, const mat4& toWorld, const RenderSettings& settings,
-             LightImages& images, RasterDomes& domes, const std::map<std::string, int>& categories,
+             LightImages& images, RasterDomes& domes, const LinkNames& links,
              Diagnostics& diagnostics);
     void addDome(Source& source, const Light& light, LightImages& images, RasterDomes& domes);
     void addShape(Source& source, const Light& light, LightImages& images);

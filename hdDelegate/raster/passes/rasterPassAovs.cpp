@@ -122,10 +122,7 @@ vec3 RasterPasses::originOfSeen(const RasterScene& scene) const {
     const glm::dvec3 low(_seenMin), high(_seenMax), half = 0.5 * (high - low);
     const glm::dvec3 middle = glm::dvec3(scene.origin()) + 0.5 * (low + high);
     const double size = std::max({half.x, half.y, half.z});
-    const double far = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)});
-    if (!(size > 0.0) || !std::isfinite(far) || far <= 16.0 * size) return vec3(0.0f);
-    const double cell = std::exp2(std::ceil(std::log2(4.0 * size)));
-    return vec3(glm::round(middle / cell) * cell);
+    return vec3(originNear(middle, size, 16.0, 4.0));
 }
 
 } // namespace patina

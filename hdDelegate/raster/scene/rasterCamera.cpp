@@ -11,18 +11,6 @@ namespace patina {
 
 namespace {
 
-/// Fits the aperture to the image as UsdRenderSettings.aspectRatioConformPolicy names it.
-vec2 conform(vec2 aperture, float imageAspect, const std::string& policy) {
-    const bool wider = imageAspect > aperture.x / aperture.y;
-    if (policy == "adjustApertureWidth" || (policy == "expandAperture" && wider) ||
-        (policy == "cropAperture" && !wider))
-        aperture.x = aperture.y * imageAspect;
-    else if (policy == "adjustApertureHeight" || policy == "expandAperture" ||
-             policy == "cropAperture")
-        aperture.y = aperture.x / imageAspect;
-    return aperture;
-}
-
 vec2 disk(vec2 u) {
     const float r = std::sqrt(u.x), phi = 6.2831853f * u.y;
     return {r * std::cos(phi), r * std::sin(phi)};
@@ -31,24 +19,7 @@ vec2 disk(vec2 u) {
 } // namespace
 
 RasterCamera::RasterCamera(const Camera& camera, const RenderSettings& settings)
-    : _camera(camera), _imageSize(settings.width, settings.height) {
-    constexpr float unit = 0.1f; // tenths of a scene unit
-    const float open = float(camera.shutterOpen), close = float(camera.shutterClose);
-    _shutterOpen = open;
-    _shutterLength = settings.enableMotionBlur ? std::max(0.0f, close - open) : 0.0f;
-    vec2 aperture(std::max(1e-6f, camera.horizontalAperture),
-                  std::max(1e-6f, camera.verticalAperture));
-    const float aspect =
-        _imageSize.x / _imageSize.y * float(std::max(1e-6, settings.pixelAspectRatio));
-    aperture = conform(aperture * unit, aspect, settings.aspectRatioConformPolicy);
-    const vec2 offset = vec2(camera.horizontalApertureOffset, camera.verticalApertureOffset) * unit;
-    const float focal = std::max(1e-6f, camera.focalLength) * unit;
-    const float scale = camera.orthographic ? 1.0f : 1.0f / focal;
-    _windowMin = (offset - 0.5f * aperture) * scale;
-    _windowMax = (offset + 0.5f * aperture) * scale;
-    if (settings.enableDepthOfField && camera.fStop > 0.0f && camera.focusDistance > 0.0f &&
-        !camera.orthographic)
-        _lensRadius = 0.5f * focal / camera.fStop;
+    : _camera(camera), _frame(camera, settings) {
     _worldToCamera = glm::inverse(transformAt(camera.transform, timeCode(0.5f)));
 }
 
@@ -69,18 +40,18 @@ RasterView RasterCamera::view(vec2 offset, vec2 lens, float time, const vec3& lo
     if (!_camera.orthographic) n = std::max(n, 1e-6f);
     if (!(f > n * 1.0001f)) f = n * 1.0001f + 1e-3f;
 
-    const vec2 pixel = (_windowMax - _windowMin) / _imageSize;
+    const vec2 pixel = (_frame.windowMax - _frame.windowMin) / _frame.imageSize;
     const vec2 shift = vec2(offset.x, -offset.y) * pixel;
     const vec2 beside = float(border) * pixel;
-    vec2 lo = _windowMin + shift - beside, hi = _windowMax + shift + beside;
+    vec2 lo = _frame.windowMin + shift - beside, hi = _frame.windowMax + shift + beside;
     mat4 lensShift(1.0f);
     if (_camera.orthographic) {
         v.worldToClip = glm::ortho(lo.x, hi.x, lo.y, hi.y, n, f) * toCamera;
     } else {
         // A point of the lens sees the plane in focus through the same window.
         vec2 at(0.0f);
-        if (_lensRadius > 0.0f) at = disk(lens) * _lensRadius;
-        if (_lensRadius > 0.0f) {
+        if (_frame.lensRadius > 0.0f) at = disk(lens) * _frame.lensRadius;
+        if (_frame.lensRadius > 0.0f) {
             lo -= at / _camera.focusDistance;
             hi -= at / _camera.focusDistance;
         }
@@ -102,14 +73,8 @@ RasterView RasterCamera::view(vec2 offset, vec2 lens, float time, const vec3& lo
 }
 
 float RasterCamera::blurAt(float distance) const {
-    if (!(_lensRadius > 0.0f)) return 0.0f;
-    return _lensRadius * std::fabs(distance / _camera.focusDistance - 1.0f);
-}
-
-float RasterCamera::windowDepth(const vec3& p) const {
-    const float n = _camera.clipNear, f = _camera.clipFar, z = -p.z;
-    if (_camera.orthographic) return std::clamp((z - n) / (f - n), 0.0f, 1.0f);
-    return z <= 0.0f ? 0.0f : std::clamp(f * (z - n) / (z * (f - n)), 0.0f, 1.0f);
+    if (!(_frame.lensRadius > 0.0f)) return 0.0f;
+    return _frame.lensRadius * std::fabs(distance / _camera.focusDistance - 1.0f);
 }
 
 } // namespace patina

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "hdDelegate/scene/camera.h"
-#include "hdDelegate/scene/settings.h"
+#include "hdDelegate/compiled/cameraFrame.h"
 
 #include <algorithm>
 #include <vector>
@@ -19,8 +18,7 @@ struct RasterView {
     std::vector<vec4> planes; ///< world; what is behind one is not seen
 };
 
-/// The camera of a rasterized image, as hdDelegate/embree/cameraRays has it: the same window,
-/// conform policy and lens.
+/// The camera of a rasterized image.
 class RasterCamera {
 public:
     RasterCamera(const Camera& camera, const RenderSettings& settings);
@@ -33,19 +31,19 @@ public:
     RasterView view(vec2 offset, vec2 lens, float time, const vec3& boundsMin,
                     const vec3& boundsMax, int border = 0) const;
 
-    float timeCode(float time) const { return _shutterOpen + time * _shutterLength; }
+    float timeCode(float time) const { return _frame.timeCode(time); }
     const mat4& worldToCamera() const { return _worldToCamera; } ///< at the middle of the shutter
-    /// Depth in [0,1] as OpenGL's default window depth over the camera's own clipping range.
-    float windowDepth(const vec3& cameraPoint) const;
+    float windowDepth(const vec3& cameraPoint) const { return _frame.windowDepth(cameraPoint); }
     /// Radius of what the lens blurs a point over, in the scene.
     float blurAt(float distance) const;
     const Camera& camera() const { return _camera; }
-    float pixels() const { return std::max(_imageSize.x, _imageSize.y); } ///< along the longer side
+    float pixels() const { ///< along the longer side
+        return std::max(_frame.imageSize.x, _frame.imageSize.y);
+    }
 
 private:
     Camera _camera;
-    vec2 _windowMin{0.0f}, _windowMax{0.0f}, _imageSize{1.0f};
-    float _shutterOpen = 0.0f, _shutterLength = 0.0f, _lensRadius = 0.0f;
+    CameraFrame _frame;
     mat4 _worldToCamera{1.0f};
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "hdDelegate/scene/scene.h"
-#include "hdDelegate/scene/settings.h"
+#include "hdDelegate/compiled/placements.h"
 
 #include <map>
 
@@ -18,22 +17,19 @@ struct RasterPlace {
 class RasterInstances {
 public:
     /// @param origin of the space that is called the world here, in the scene's world
-    RasterInstances(const SceneState& state, const RenderSettings& settings, float timeCode,
+    RasterInstances(std::shared_ptr<const Placements> placements, float timeCode,
                     const vec3& origin = vec3(0.0f));
     /// The world has one place.
     const std::vector<RasterPlace>& places(const std::string& group);
 
 private:
-    void gather(const std::string& group, const RasterPlace& inner, int depth,
-                std::vector<RasterPlace>& out) const;
-
-    std::vector<std::shared_ptr<const Instancer>> _instancers;
+    std::shared_ptr<const Placements> _placements;
     std::map<std::string, std::vector<RasterPlace>> _places;
     float _time;
     vec3 _origin;
 };
 
-/// Whether the settings let a prim be drawn (render tags, root and excluded paths).
+/// Whether a prim is drawn, and cameras see it.
 bool isDrawnInRaster(const Geometry& prim, const RenderSettings& settings);
 
 } // namespace patina

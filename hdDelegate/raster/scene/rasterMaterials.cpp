@@ -66,6 +66,39 @@ void RasterMaterials::update(const SceneState& state, const RenderSettings& sett
         item.second.lit = false;
 }
 
+bool RasterMaterials::edit(const SceneDelta::Paths& edited, const SceneState& state,
+                           const RenderSettings& settings) {
+    std::vector<std::shared_ptr<const MaterialProgram>> held; // until compiled() asks again
+    for (const auto& item : edited) {
+        const auto known = _materials.find(item.first);
+        if (known == _materials.end()) continue;
+        const auto prim = _compiledMaterials.find(item.first, std::string(), state, settings);
+        if (!prim) return false;
+        held.push_back(_compiledMaterials.program(
+            prim, drawable(settings.methods, settings.tolerance), settings.tolerance));
+        const MaterialProgram &now = *held.back(), &before = *known->second.material.program;
+        const auto special = [](const MaterialProgram& program) {
+            return program.hasEmission() || program.hasDisplacement();
+        };
+        if (special(now) || special(before) ||
+            !std::equal(now.primvars().begin(), now.primvars().end(), before.primvars().begin(),
+                        before.primvars().end(),
+                        [](const auto& a, const auto& b) { return a.name == b.name; }))
+            return false;
+    }
+    for (const auto& item : edited)
+        if (_materials.erase(item.first) > 0) asked(item.first, std::string(), state, settings);
+    return true;
+}
+
+bool RasterMaterials::areShown(const SceneDelta::Paths& edited) const {
+    return std::all_of(edited.begin(), edited.end(), [&](const auto& item) {
+        const auto known = _materials.find(item.first);
+        return known == _materials.end() ||
+               (known->second.pending->done && known->second.pending->programs);
+    });
+}
+
 RasterMaterials::Cached& RasterMaterials::compiled(const std::string& path, const std::string& user,
                                                    const SceneState& state,
                                                    const RenderSettings& settings) {

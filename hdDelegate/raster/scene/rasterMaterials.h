@@ -80,6 +80,13 @@ public:
     /// @param lights that materials are lit by, for how they are
     void update(const SceneState& state, const RenderSettings& settings,
                 const RasterLightPlan& lights);
+    /// Takes over edits of materials in between two calls of update().
+    /// @returns false, and takes over nothing, where a material in use asks for other surfaces than
+    /// before: with other primvars, with displacement or with light of its own
+    bool edit(const SceneDelta::Paths& edited, const SceneState& state,
+              const RenderSettings& settings);
+    /// Whether materials in use are there themselves, and no displayColor for them.
+    bool areShown(const SceneDelta::Paths& edited) const;
     /// What programs write beside light.
     const RasterAovRequest& aovs() const { return _aovs; }
     /// Methods of `domeLight` that materials have been built with since update().

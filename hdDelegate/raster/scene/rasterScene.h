@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hdDelegate/compiled/compiledScene.h"
 #include "hdDelegate/plan/subdivisionPlan.h"
 #include "hdDelegate/raster/lights/rasterEmitters.h"
 #include "hdDelegate/raster/scene/rasterCamera.h"
@@ -53,9 +54,14 @@ public:
 
     /// @param compiler see RasterMaterials
     explicit RasterScene(CompiledScene& compiled, ProgramCompiler* compiler = nullptr)
-        : _diagnostics(compiled.scene()->diagnostics()), _materials(compiled, compiler),
-          _shapes(_diagnostics), _volumes(compiled.materials(), _diagnostics) {}
+        : _compiled(compiled), _diagnostics(compiled.scene()->diagnostics()),
+          _materials(compiled, compiler), _shapes(compiled.shapes(), _diagnostics),
+          _volumes(compiled.materials(), _diagnostics) {}
 
+    using Compiling = std::function<void(const RasterMaterials::Ready&)>;
+
+    /// Brings the buffers to a state of the scene. What did not change since the last call is kept;
+    /// where edits are all that changed, what they touch is all that is looked at.
     /// @param origin that all places are relative to, those of the camera too: numbers of 32 bits
     /// are too coarse for shadows where places are large beside what is seen
     /// @param lights that materials are lit by: with a tolerance they decide how
@@ -63,8 +69,9 @@ public:
     /// displayColor, instead of being waited for
     void update(const SceneState& state, const vec3& origin, const RasterCamera& camera,
                 const RenderSettings& settings, const RasterLightPlan& lights,
-                const std::atomic<bool>& stop,
-                const std::function<void(const RasterMaterials::Ready&)>& compiling);
+                const std::atomic<bool>& stop, const Compiling& compiling);
+    /// Whether the last update may have changed what lights are made from.
+    bool lightsMayDiffer() const { return _lightsMayDiffer; }
     /// How far the programs are that update() has asked for.
     RasterMaterials::Ready programsReady() const { return _materials.ready(); }
     /// How many materials displayColor stands in for since update().
@@ -73,14 +80,16 @@ public:
     void waitForPrograms(std::chrono::milliseconds maximum) { _materials.waitForMore(maximum); }
     /// Moves to another time of the shutter: transforms exactly, points that move to the nearest of
     /// deformationSteps times. @returns false when nothing moves
-    bool moveTo(const SceneState& state, const RenderSettings& settings, float timeCode);
+    bool moveTo(float timeCode);
+    /// Lets go of what is held for another back end, see RasterShapeCache.
+    void releaseShapes() { _shapes.release(); }
 
     const std::vector<RasterDraw>& draws() const { return _draws; }
     const std::vector<const RasterVolume*>& volumes() const { return _volumes.placed(); }
     const RasterEmitters& emitters() const { return _emitters; }
     /// @param clampsNear what is before the near plane shows, too
     RasterVisible visible(const mat4& worldToClip, bool clampsNear = false) const;
-    const std::map<std::string, int>& categories() const { return _categories; }
+    const CompiledState& parts() const { return _parts; }
     const vec3& origin() const { return _origin; }
     const vec3& boundsMin() const { return _boundsMin; }
     const vec3& boundsMax() const { return _boundsMax; }
@@ -88,7 +97,8 @@ public:
     size_t bytes() const { return _shapes.bytes(); }              ///< of shapes in buffers
     size_t shapesBuilt() const { return _shapes.built(); }        ///< since this was made
     size_t instancesWritten() const { return _instancesWritten; } ///< since this was made
-    size_t trianglesDrawn() const; ///< those of every instance counted
+    size_t trianglesDrawn() const { return _trianglesDrawn; }     ///< every instance's counted
+    size_t primsLookedAt() const { return _looked; } ///< by updates, since this was made
     size_t programsBuilt() const { return _materials.programsBuilt(); }
     ScenePlan plan() const;
     const RasterAovRequest& aovs() const { return _materials.aovs(); }
@@ -108,6 +118,30 @@ private:
         int ids[4] = {-1, 0, 0, 0};
         void place(const mat4& toWorld);
     };
+    /// What is of one prim.
+    struct Span {
+        int rank = 0;
+        size_t firstGroup = 0, groups = 0, firstDraw = 0, draws = 0;
+        bool emits = false;
+    };
+    /// What a prim's groups were before it was drawn anew.
+    struct Sizes {
+        size_t groups, draws, instances, triangles, trianglesDrawn;
+    };
+    Sizes sizes() const;
+    void cutTo(const Sizes& sizes);
+    void updateAll(const SceneState& state, const RasterCamera& camera,
+                   const RasterLightPlan& lights, const std::atomic<bool>& stop,
+                   const Compiling& compiling);
+    /// @returns false where more than prims in their places has changed: updateAll() has to follow
+    bool updateTouched(const SceneEdits& edits, const SceneState& state, const RasterCamera& camera,
+                       const std::atomic<bool>& stop, const Compiling& compiling);
+    bool redraw(const std::shared_ptr<const Geometry>& prim, const SceneState& state,
+                const RasterCamera& camera, RasterInstances& places);
+    void showMaterials(const Geometry& prim, const SceneState& state);
+    void uploadTouched(const Span& span);
+    void findBounds();
+    void finishPrograms(const std::atomic<bool>& stop, const Compiling& compiling);
 
     /// Chooses how long edges of subdivision surfaces are on screen. @returns pixels
     float planSubdivision(const SceneState& state, const RasterCamera& camera,
@@ -124,11 +158,19 @@ private:
                   const RenderSettings& settings);
     void upload();
     void deform(float timeCode);
-    void collectCategories(const SceneState& state);
-    void collectMeshLights(const SceneState& state, const RenderSettings& settings);
     int linksOf(const std::vector<std::string>& prim, const std::vector<std::string>& place);
 
+    CompiledScene& _compiled;
     Diagnostics& _diagnostics;
+    CompiledState _parts; ///< of the last update
+    // What the last update was of.
+    bool _complete = false; ///< it was not stopped, and no material stands in for another
+    uint64_t _version = 0;
+    Camera _camera;
+    RenderSettings _settings; ///< as asked for
+    float _edgeLength = 0.0f; ///< planned
+    bool _lightsMayDiffer = true;
+    size_t _looked = 0;
     RasterMaterials _materials;
     std::vector<RasterDraw> _draws;
     RasterShapeCache _shapes;
@@ -136,17 +178,16 @@ private:
     RasterVolumes _volumes;
     std::vector<RasterGroup> _groups;
     RasterEmitters _emitters;
-    std::map<std::string, std::shared_ptr<const Light>> _meshLights; ///< by the mesh's path
+    std::map<std::string, Span> _spans; ///< by path
     std::vector<GpuInstance> _instances, _written;
     std::vector<RasterBox> _boxes;          ///< of instances, world space
-    std::map<std::string, int> _categories; ///< of light and shadow links
     std::vector<int> _links;                ///< see shaders/raster/links.glsl
     std::map<std::vector<int>, int> _linkRows;
     GlBuffer _instanceBuffer, _linkBuffer;
     vec3 _origin{0.0f}, _boundsMin{0.0f}, _boundsMax{0.0f};
-    size_t _triangles = 0, _instancesWritten = 0;
+    size_t _triangles = 0, _trianglesDrawn = 0, _instancesWritten = 0;
     float _shutterOpen = 0.0f, _shutterClose = 0.0f; ///< time codes
-    bool _moves = false;
+    bool _moves = false, _instancesDiffer = false;
     PlannedMethod _subdivision; ///< of this update; without a name where nothing was planned
 };
 

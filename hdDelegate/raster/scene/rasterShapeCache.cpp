@@ -1,7 +1,5 @@
 #include "hdDelegate/raster/scene/rasterShapeCache.h"
 
-#include "hdDelegate/geometry/displace.h"
-#include "hdDelegate/geometry/splitTriangles.h"
 #include "hdDelegate/raster/scene/rasterDetail.h"
 #include "hdDelegate/raster/scene/rasterShapes.h"
 #include "hdDelegate/scene/primCompare.h"
@@ -61,6 +59,13 @@ std::string nameOf(const RasterShapeCache::Request& request) {
     return name;
 }
 
+void describe(RasterShape& shape, const TriangleMesh& mesh) {
+    shape.boundsMin = mesh.boundsMin;
+    shape.boundsMax = mesh.boundsMax;
+    shape.flags = mesh.normals.empty() ? RasterShape::faceted : 0;
+    shape.triangles = mesh.triangles.size();
+}
+
 size_t storageLimit() {
     GLint64 limit = 0;
     gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
@@ -110,22 +115,27 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Request& reques
     options.shutterOpen = options.shutterClose = request.timeCode;
     options.targetEdge = options.roundEdge = request.edge;
     options.edgeBudget = request.edgeBudget;
+    if (request.prim->kind == GeometryKind::Mesh || request.prim->kind == GeometryKind::Implicit) {
+        const auto mesh =
+            _compiled.triangles({request.prim, options, request.displacers, request.toWorld});
+        if (mesh->positions.empty() || mesh->triangles.empty()) return shape;
+        describe(*shape, *mesh);
+        RasterSurfaceBuilder builder(*mesh, storageLimit());
+        for (size_t subset = 0; subset < request.primvars.size(); ++subset)
+            shape->surfaces.push_back(builder.make(subset, request.primvars[subset]));
+        if (request.needsMesh) shape->mesh = mesh;
+        if (_holds && request.edge == 0.0f) _held.push_back(mesh);
+        return shape;
+    }
     RasterFineness fineness;
     fineness.gap = RasterDetail::largestGap * request.edge;
     if (request.strips) fineness.thick = request.edge;
     RasterForm form = rasterTriangles(*request.prim, options, fineness, _diagnostics);
     TriangleMesh& mesh = form.seen.mesh;
     if (mesh.positions.empty() || mesh.triangles.empty()) return shape;
-    if (displaces(request)) {
-        if (request.edge > 0.0f) splitTriangles(mesh, request.edge, options.triangleBudget);
-        displace(mesh, request.displacers, request.toWorld);
-    }
-    shape->boundsMin = mesh.boundsMin;
-    shape->boundsMax = mesh.boundsMax;
-    shape->flags = mesh.normals.empty() ? RasterShape::faceted : 0;
+    describe(*shape, mesh);
     if (!form.casting.mesh.triangles.empty()) shape->flags = RasterShape::tube;
     if (!form.seen.halfWidth.empty()) shape->flags = RasterShape::strip;
-    shape->triangles = mesh.triangles.size();
     const auto fill = [&](const RasterTriangles& triangles, std::vector<RasterSurface>& surfaces) {
         if (triangles.mesh.triangles.empty()) return;
         RasterSurfaceBuilder builder(triangles, storageLimit());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hdDelegate/compiled/compiledShapes.h"
 #include "hdDelegate/raster/scene/rasterSurface.h"
 #include "hdDelegate/scene/geometry.h"
 #include "materialNetwork/cpu/materialProgram.h"
@@ -44,7 +45,13 @@ public:
         bool strips = true; ///< thin curves may be strips
     };
 
-    explicit RasterShapeCache(Diagnostics& diagnostics) : _diagnostics(diagnostics) {}
+    RasterShapeCache(CompiledShapes& compiled, Diagnostics& diagnostics)
+        : _compiled(compiled), _diagnostics(diagnostics) {}
+
+    /// Whether triangles that do not depend on the camera are held, once they are in buffers, for
+    /// another back end of the scene, until release().
+    void hold(bool holds) { _holds = holds; }
+    void release() { _held.clear(); }
 
     /// @returns a shape, which is empty when the prim shows nothing
     std::shared_ptr<const RasterShape> get(const Request& request);
@@ -62,7 +69,10 @@ private:
     };
     std::shared_ptr<const RasterShape> build(const Request& request);
 
+    CompiledShapes& _compiled;
     Diagnostics& _diagnostics;
+    bool _holds = false;
+    std::vector<std::shared_ptr<const TriangleMesh>> _held;
     std::map<std::tuple<std::string, float, float>, Entry> _entries; ///< by name, edge and time
     size_t _built = 0;
 };

@@ -122,12 +122,6 @@ RasterForm rasterTriangles(const Geometry& prim, const TessellationOptions& opti
                            const RasterFineness& fineness, Diagnostics& diagnostics) {
     RasterForm form;
     switch (prim.kind) {
-    case GeometryKind::Mesh:
-        form.seen.mesh = tessellate(static_cast<const Mesh&>(prim), options, diagnostics);
-        break;
-    case GeometryKind::Implicit:
-        form.seen.mesh = tessellate(static_cast<const Implicit&>(prim), options, diagnostics);
-        break;
     case GeometryKind::Curves: {
         const CurveSet set = buildCurves(static_cast<const Curves&>(prim), options, diagnostics);
         if (set.segments.empty()) break;
@@ -144,7 +138,7 @@ RasterForm rasterTriangles(const Geometry& prim, const TessellationOptions& opti
             form.seen.mesh = pointTriangles(set, fineness.gap);
         break;
     }
-    case GeometryKind::Volume: break;
+    default: break; // see CompiledShapes
     }
     return form;
 }

@@ -44,7 +44,7 @@ struct RasterFineness {
     float thick = 0.0f; ///< curves with a smaller radius are strips, object units
 };
 
-/// Any shape as triangles: curves become strips, tubes or ribbons, points spheres or disks.
+/// Curves and points as triangles: strips, tubes or ribbons, and spheres or disks.
 RasterForm rasterTriangles(const Geometry& prim, const TessellationOptions& options,
                            const RasterFineness& fineness, Diagnostics& diagnostics);
 

@@ -57,11 +57,11 @@ TEST(LightChoice, smallImagesTakeMoreLightsByCoarserMaps) {
     }
     const patina::RenderSettings settings;
     patina::Diagnostics diagnostics;
-    patina::RasterInstances places(state, settings, 0.0f);
+    patina::RasterInstances places(std::make_shared<patina::Placements>(state, settings), 0.0f);
     patina::LightImages images(diagnostics);
     patina::RasterDomes domes;
     const patina::RasterLights lights(state, settings, places, 0.0f, 4, {"sampled"}, images, domes,
-                                      {}, diagnostics);
+                                      patina::LinkNames(state), diagnostics);
     patina::ShadowBounds bounds;
     bounds.sceneMin = bounds.receiverMin = patina::vec3(-1.0f);
     bounds.sceneMax = bounds.receiverMax = patina::vec3(1.0f);

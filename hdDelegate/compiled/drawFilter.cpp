@@ -1,4 +1,4 @@
-#include "hdDelegate/embree/drawnPrims.h"
+#include "hdDelegate/compiled/drawFilter.h"
 
 #include <algorithm>
 

@@ -1,0 +1,66 @@
+#include "hdDelegate/compiled/cameraFrame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+/// Fits the aperture to the image as UsdRenderSettings.aspectRatioConformPolicy names it.
+vec2 conform(vec2 aperture, float imageAspect, const std::string& policy) {
+    const bool wider = imageAspect > aperture.x / aperture.y;
+    if (policy == "adjustApertureWidth" || (policy == "expandAperture" && wider) ||
+        (policy == "cropAperture" && !wider))
+        aperture.x = aperture.y * imageAspect;
+    else if (policy == "adjustApertureHeight" || policy == "expandAperture" ||
+             policy == "cropAperture")
+        aperture.y = aperture.x / imageAspect;
+    return aperture;
+}
+
+double largest(const dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+} // namespace
+
+CameraFrame::CameraFrame(const Camera& camera, const RenderSettings& settings)
+    : imageSize(settings.width, settings.height), focusDistance(camera.focusDistance),
+      shutterOpen(float(camera.shutterOpen)), clipNear(camera.clipNear), clipFar(camera.clipFar),
+      orthographic(camera.orthographic) {
+    constexpr float unit = 0.1f; // tenths of a scene unit
+    shutterLength =
+        settings.enableMotionBlur ? std::max(0.0f, float(camera.shutterClose) - shutterOpen) : 0.0f;
+    vec2 aperture(std::max(1e-6f, camera.horizontalAperture),
+                  std::max(1e-6f, camera.verticalAperture));
+    const vec2 offset = vec2(camera.horizontalApertureOffset, camera.verticalApertureOffset) * unit;
+    const float aspect =
+        imageSize.x / imageSize.y * float(std::max(1e-6, settings.pixelAspectRatio));
+    aperture = conform(aperture * unit, aspect, settings.aspectRatioConformPolicy);
+    const float focal = std::max(1e-6f, camera.focalLength) * unit;
+    // An orthographic camera's aperture is in scene units too, as GfCamera has it.
+    const float scale = orthographic ? 1.0f : 1.0f / focal;
+    windowMin = (offset - 0.5f * aperture) * scale;
+    windowMax = (offset + 0.5f * aperture) * scale;
+    if (settings.enableDepthOfField && camera.fStop > 0.0f && focusDistance > 0.0f && !orthographic)
+        lensRadius = 0.5f * focal / camera.fStop;
+}
+
+float CameraFrame::windowDepth(const vec3& p) const {
+    const float z = -p.z;
+    if (orthographic) return std::clamp((z - clipNear) / (clipFar - clipNear), 0.0f, 1.0f);
+    if (z <= 0.0f) return 0.0f;
+    return std::clamp(clipFar * (z - clipNear) / (z * (clipFar - clipNear)), 0.0f, 1.0f);
+}
+
+dvec3 originNear(const dvec3& middle, double size, double far, double cell) {
+    const double away = largest(middle);
+    if (!(size > 0.0) || !std::isfinite(size) || !std::isfinite(away) || away <= far * size)
+        return dvec3(0.0);
+    const double grid = std::exp2(std::ceil(std::log2(cell * size)));
+    const dvec3 origin = glm::round(middle / grid) * grid;
+    return std::isfinite(largest(origin)) ? origin : dvec3(0.0);
+}
+
+} // namespace patina

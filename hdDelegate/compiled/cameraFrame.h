@@ -1,0 +1,36 @@
+#pragma once
+
+#include "hdDelegate/scene/camera.h"
+#include "hdDelegate/scene/settings.h"
+
+namespace patina {
+
+/// What a camera and the settings say of an image: its window, lens and shutter. The conform policy
+/// of the settings decides which aperture yields when the image has another shape.
+struct CameraFrame {
+    CameraFrame(const Camera& camera, const RenderSettings& settings);
+
+    vec2 imageSize{1.0f};                           ///< pixels
+    vec2 windowMin{0.0f}, windowMax{0.0f};          ///< at distance 1; orthographic: scene units
+    float lensRadius = 0.0f;                        ///< scene units; 0: everything is sharp
+    float focusDistance = 0.0f;                     ///< scene units
+    float shutterOpen = 0.0f, shutterLength = 0.0f; ///< time codes relative to the frame
+    float clipNear = 0.0f, clipFar = 0.0f;
+    bool orthographic = false;
+
+    /// The angle (radians; scene units when orthographic) that one pixel covers.
+    float pixelSpread() const { return (windowMax.x - windowMin.x) / imageSize.x; }
+    float timeCode(float time) const { return shutterOpen + time * shutterLength; } ///< of 0..1
+    /// Depth in [0,1] as OpenGL's default window depth over the camera's own clipping range.
+    float windowDepth(const vec3& cameraPoint) const;
+};
+
+/// Where the origin should be of a space that what is seen is given in by numbers of 32 bits, which
+/// are too coarse for what is small and far away: 0, the world's own, where that is within `far`
+/// sizes, else a corner of a grid, so that small moves of the camera change nothing.
+/// @param middle, size of what is seen, scene units
+/// @param far sizes
+/// @param cell of the grid, sizes at least
+dvec3 originNear(const dvec3& middle, double size, double far, double cell);
+
+} // namespace patina

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/settings.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+/// The instancers that are drawn, indexed by where they stand and by what they draw: who asks where
+/// a prototype is looks at its own instances only. Immutable.
+class Placements {
+public:
+    static constexpr int maxDepth = 8; ///< instancers around each other
+
+    /// The instances of one prototype that an instancer makes.
+    struct Use {
+        std::shared_ptr<const Instancer> instancer;
+        std::vector<uint32_t> instances;
+    };
+    using Instancers = std::vector<std::shared_ptr<const Instancer>>;
+
+    /// @param settings excludePaths counts
+    Placements(const SceneState& state, const RenderSettings& settings);
+
+    /// In the order of the groups that they stand in, then of their paths.
+    const std::vector<Use>& of(const std::string& prototype) const;
+    const Instancers& in(const std::string& group) const; ///< in the order of their paths
+    const Instancers& drawn() const { return _drawn; }    ///< in the order of their paths
+
+    /// Visits every place of a group in the world, through all levels of instances.
+    /// @param inner what stands for the group's own space
+    /// @param step (instancer, instance, depth, place) takes a place into the group around by
+    /// changing it; false leaves it out. Depth counts instancers passed, from 0
+    /// @param visit (place) is called for each place in the world
+    template <class Place, class Step, class Visit>
+    void forPlaces(const std::string& group, const Place& inner, const Step& step,
+                   const Visit& visit, int depth = 0) const {
+        if (group.empty()) {
+            visit(inner);
+            return;
+        }
+        if (depth > maxDepth) return;
+        for (const Use& use : of(group))
+            for (const uint32_t i : use.instances) {
+                Place place = inner;
+                if (step(*use.instancer, i, depth, place))
+                    forPlaces(use.instancer->group, place, step, visit, depth + 1);
+            }
+    }
+
+private:
+    Instancers _drawn;
+    std::map<std::string, Instancers> _in;
+    std::map<std::string, std::vector<Use>> _of;
+};
+
+} // namespace patina

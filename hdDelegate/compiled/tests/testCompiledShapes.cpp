@@ -1,0 +1,102 @@
+#include "hdDelegate/compiled/compiledShapes.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace patina {
+namespace {
+
+std::shared_ptr<Mesh> cube() {
+    auto mesh = std::make_shared<Mesh>();
+    mesh->path = "/cube";
+    std::vector<vec3> points;
+    for (int i = 0; i < 8; ++i)
+        points.push_back({i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1});
+    mesh->points = points;
+    mesh->faceVertexCounts.assign(6, 4);
+    mesh->faceVertexIndices = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4,
+                               2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+    return mesh;
+}
+
+struct Shapes : ::testing::Test {
+    Diagnostics diagnostics;
+    CompiledShapes shapes{diagnostics};
+    ShapeRequest request;
+
+    Shapes() { request.prim = cube(); }
+};
+
+TEST_F(Shapes, AreMadeOnceForWhoeverAsks) {
+    const auto first = shapes.triangles(request);
+    EXPECT_EQ(first->triangles.size(), 12u);
+    ShapeRequest other = request;
+    other.options.shutterClose = 0.5f; // its points stand still
+    other.options.roundEdge = 1.0f;    // and it is not round
+    other.displacers = {nullptr};
+    other.toWorld[3][0] = 5.0f;
+    EXPECT_EQ(shapes.triangles(other), first);
+    EXPECT_EQ(shapes.made(), 1u);
+}
+
+TEST_F(Shapes, AreKeptByLevel) {
+    auto smooth = cube();
+    smooth->scheme = SubdivisionScheme::CatmullClark;
+    request.prim = smooth;
+    request.options.targetEdge = 0.6f;
+    const auto fine = shapes.triangles(request);
+    request.options.targetEdge = 1.2f;
+    const auto coarse = shapes.triangles(request);
+    EXPECT_EQ(fine->triangles.size(), 4 * coarse->triangles.size());
+    request.options.targetEdge = 0.6f;
+    EXPECT_EQ(shapes.triangles(request), fine);
+    EXPECT_EQ(shapes.made(), 2u);
+}
+
+TEST_F(Shapes, DependOnTimesWherePointsMove) {
+    auto moving = cube();
+    moving->points.times = {0.0f, 1.0f};
+    moving->points.values.push_back(moving->points.values[0]);
+    request.prim = moving;
+    const auto still = shapes.triangles(request);
+    request.options.shutterClose = 1.0f;
+    EXPECT_NE(shapes.triangles(request), still);
+}
+
+TEST_F(Shapes, AreForgottenWhenNobodyHoldsThem) {
+    std::weak_ptr<const TriangleMesh> watched = shapes.triangles(request);
+    EXPECT_TRUE(watched.expired());
+    const auto again = shapes.triangles(request);
+    EXPECT_EQ(shapes.made(), 2u);
+    request.prim = cube();
+    EXPECT_NE(shapes.triangles(request), again) << "an edit makes another prim";
+    std::weak_ptr<const Geometry> prim;
+    {
+        ShapeRequest brief = request;
+        brief.prim = cube();
+        prim = brief.prim;
+        shapes.triangles(brief);
+    }
+    for (int i = 0; i < 200; ++i) {
+        ShapeRequest brief = request;
+        brief.prim = cube();
+        shapes.triangles(brief);
+    }
+    EXPECT_TRUE(prim.expired()) << "requests are forgotten too";
+}
+
+TEST_F(Shapes, AreMadeOnceForThreadsThatAskTogether) {
+    std::vector<std::shared_ptr<const TriangleMesh>> found(8);
+    std::vector<std::thread> threads;
+    for (auto& mesh : found)
+        threads.emplace_back([&] { mesh = shapes.triangles(request); });
+    for (std::thread& thread : threads)
+        thread.join();
+    for (const auto& mesh : found)
+        EXPECT_EQ(mesh, found[0]);
+    EXPECT_EQ(shapes.made(), 1u);
+}
+
+} // namespace
+} // namespace patina

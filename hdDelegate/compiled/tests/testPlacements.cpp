@@ -1,0 +1,94 @@
+#include "hdDelegate/compiled/placements.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+namespace patina {
+namespace {
+
+std::shared_ptr<Instancer> instancer(const std::string& path, const std::string& group,
+                                     const std::vector<std::string>& prototypes,
+                                     const std::vector<int>& indices) {
+    auto prim = std::make_shared<Instancer>();
+    prim->path = path;
+    prim->group = group;
+    prim->prototypes = prototypes;
+    prim->prototypeIndices = indices;
+    for (size_t i = 0; i < indices.size(); ++i)
+        prim->transforms.push_back(glm::translate(mat4(1.0f), vec3(float(i), 0, 0)));
+    return prim;
+}
+
+struct Fixture : ::testing::Test {
+    SceneState state;
+    RenderSettings settings;
+
+    void add(const std::shared_ptr<Instancer>& prim) { state.instancers.set(prim->path, prim); }
+
+    /// Of each place the instances that lead to it, innermost first.
+    std::vector<std::string> placesOf(const std::string& group, size_t* steps = nullptr) const {
+        std::vector<std::string> found;
+        Placements(state, settings)
+            .forPlaces(
+                group, std::string(),
+                [&](const Instancer& prim, uint32_t i, int, std::string& place) {
+                    if (steps) ++*steps;
+                    place += prim.path + std::to_string(i);
+                    return true;
+                },
+                [&](const std::string& place) { found.push_back(place); });
+        return found;
+    }
+};
+
+using Found = std::vector<std::string>;
+
+TEST_F(Fixture, FindsThePlacesOfAPrototypeThroughAllLevels) {
+    add(instancer("/trees", "", {"tree", "bush"}, {0, 1, 0}));
+    add(instancer("/leaves", "tree", {"leaf"}, {0, 0}));
+    EXPECT_EQ(placesOf(""), Found{""});
+    EXPECT_EQ(placesOf("bush"), Found{"/trees1"});
+    EXPECT_EQ(placesOf("leaf"),
+              (Found{"/leaves0/trees0", "/leaves0/trees2", "/leaves1/trees0", "/leaves1/trees2"}));
+    EXPECT_EQ(placesOf("nowhere"), Found());
+}
+
+TEST_F(Fixture, LooksAtTheInstancesOfThePrototypeAlone) {
+    add(instancer("/one", "", {"a"}, {0}));
+    add(instancer("/many", "", {"b"}, std::vector<int>(1000, 0)));
+    size_t steps = 0;
+    placesOf("a", &steps);
+    EXPECT_EQ(steps, 1u);
+}
+
+TEST_F(Fixture, LeavesOutBadIndicesAndWhatIsNotDrawn) {
+    add(instancer("/bad", "", {"a"}, {-1, 0, 1}));
+    add(instancer("/out/of", "", {"a"}, {0}));
+    auto unseen = instancer("/unseen", "", {"a"}, {0});
+    unseen->visibility = {false, false, false};
+    add(unseen);
+    settings.excludePaths = {"/out"};
+    EXPECT_EQ(placesOf("a"), Found{"/bad1"});
+    EXPECT_EQ(Placements(state, settings).drawn().size(), 1u);
+}
+
+TEST_F(Fixture, EndsWhereInstancesAreNestedInThemselves) {
+    add(instancer("/loop", "a", {"a"}, {0}));
+    add(instancer("/top", "", {"a"}, {0}));
+    // Once for each level that there may be around the first.
+    EXPECT_EQ(placesOf("a").size(), size_t(Placements::maxDepth) + 1);
+}
+
+TEST_F(Fixture, KeepsTheOrderOfGroupsAndPaths) {
+    add(instancer("/b", "", {"a"}, {0}));
+    add(instancer("/a", "", {"a"}, {0}));
+    add(instancer("/0", "z", {"a"}, {0}));
+    add(instancer("/z", "", {"z"}, {0}));
+    EXPECT_EQ(placesOf("a"), (Found{"/a0", "/b0", "/00/z0"}));
+    const Placements placements(state, settings);
+    ASSERT_EQ(placements.in("").size(), 3u);
+    EXPECT_EQ(placements.in("")[0]->path, "/a");
+}
+
+} // namespace
+} // namespace patina

@@ -1,0 +1,202 @@
+// RasterScene: the groups, instances and draws of one prim.
+
+#include "hdDelegate/raster/scene/rasterScene.h"
+
+#include "hdDelegate/scene/lightUnits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+namespace {
+
+float areaOf(const TriangleMesh& mesh, const mat4& toWorld) {
+    double area = 0.0;
+    for (const uvec3& t : mesh.triangles) {
+        vec3 p[3];
+        for (int k = 0; k < 3; ++k)
+            p[k] = vec3(toWorld * vec4(mesh.positions[0][t[k]], 1.0f));
+        area += 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+    }
+    return float(area);
+}
+
+constexpr size_t maxUnsortedPlaces = 32; // are drawn in the order that they have
+
+bool deforms(const Geometry& prim) {
+    switch (prim.kind) {
+    case GeometryKind::Mesh: return static_cast<const Mesh&>(prim).points.moves();
+    case GeometryKind::Curves: return static_cast<const Curves&>(prim).points.moves();
+    case GeometryKind::Points: return static_cast<const Points&>(prim).points.moves();
+    default: return false;
+    }
+}
+
+} // namespace
+
+/// @returns the row of bits of a prim in a place
+int RasterScene::linksOf(const std::vector<std::string>& prim,
+                         const std::vector<std::string>& place) {
+    std::vector<int> row(size_t(_links[0]), 0);
+    for (const auto* names : {&prim, &place})
+        for (const int link : _parts.links->of(*names))
+            row[size_t(link / 32)] |= int(1u << (link % 32));
+    const auto known = _linkRows.emplace(row, int(_linkRows.size()));
+    if (known.second) _links.insert(_links.end(), row.begin(), row.end());
+    return known.first->second;
+}
+
+void RasterScene::GpuInstance::place(const mat4& toWorld) {
+    const mat3 linear(toWorld), forNormals = glm::transpose(glm::inverse(linear));
+    for (int i = 0; i < 4; ++i)
+        columns[i] = vec4(vec3(toWorld[i]), 0.0f);
+    for (int i = 0; i < 3; ++i)
+        normals[i] = vec4(forNormals[i], 0.0f);
+    columns[0].w = std::cbrt(std::fabs(glm::determinant(linear)));
+}
+
+void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& places,
+                           const dmat4& toGroup) {
+    if (group.places.size() > maxUnsortedPlaces) {
+        std::vector<vec3> centers;
+        for (const uint32_t i : group.places)
+            centers.emplace_back(places[i].groupToWorld[3]);
+        std::vector<uint32_t> ordered;
+        for (const uint32_t i : mortonOrder(centers))
+            ordered.push_back(group.places[i]);
+        group.places = std::move(ordered);
+    }
+    group.firstInstance = int(_instances.size());
+    for (const uint32_t i : group.places) {
+        GpuInstance instance;
+        const mat4 toWorld(places[i].groupToWorld * toGroup);
+        instance.place(toWorld);
+        instance.ids[0] = places[i].id;
+        instance.ids[1] = linksOf(group.prim->categories, places[i].categories);
+        _instances.push_back(instance);
+        const RasterBox box =
+            RasterBox::around(group.shape->boundsMin, group.shape->boundsMax, toWorld);
+        _boundsMin = glm::min(_boundsMin, box.center - box.half);
+        _boundsMax = glm::max(_boundsMax, box.center + box.half);
+        _boxes.push_back(box);
+    }
+    _groups.push_back(std::move(group));
+}
+
+void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
+                          const SceneState& state, const RasterCamera& camera,
+                          const RenderSettings& settings, RasterInstances& places) {
+    const auto& where = places.places(prim->group);
+    if (where.empty()) return;
+    Span& span = _spans[prim->path];
+    span.rank = rank;
+    span.firstGroup = _groups.size();
+    span.firstDraw = _draws.size();
+    std::vector<const RasterMaterial*> materials = {
+        &_materials.get(prim->material, prim->path, state, settings)};
+    for (const GeomSubset& subset : prim->subsets)
+        materials.push_back(
+            &_materials.get(subset.material.empty() ? prim->material : subset.material, prim->path,
+                            state, settings));
+    const dmat4 toGroup = exactTransformAt(prim->transform, camera.timeCode(0.5f));
+    RasterShapeCache::Request request;
+    request.prim = prim;
+    request.timeCode = camera.timeCode(0.5f);
+    request.toWorld = mat4(where[0].groupToWorld * toGroup);
+    request.toWorld[3] += vec4(_origin, 0.0f);
+    request.needsMesh = _parts.meshLights->of(prim->path, settings) != nullptr;
+    for (const RasterMaterial* material : materials) {
+        const MaterialProgram& program = *material->program;
+        request.primvars.push_back(material->primvars);
+        const bool bends = program.hasDisplacement() && (prim->kind == GeometryKind::Mesh ||
+                                                         prim->kind == GeometryKind::Implicit);
+        request.displacers.push_back(bends ? material->program : nullptr);
+        request.needsMesh |= settings.enableSceneLights && program.hasEmission();
+    }
+    request.strips = !request.needsMesh;
+    // Places that are equally far away share a tessellation.
+    const bool displaced =
+        std::any_of(request.displacers.begin(), request.displacers.end(),
+                    [](const std::shared_ptr<const MaterialProgram>& p) { return p != nullptr; });
+    auto& [measured, extent] = _extents[prim->path];
+    if (measured != prim) {
+        measured = prim;
+        extent = RasterExtent(*prim);
+    }
+    RenderSettings fine = settings;
+    // Displacement shows more of itself on shorter edges, which no row of the table is of.
+    if (displaced && !_subdivision.forced && !_subdivision.point.empty())
+        fine.edgeLength = std::min(fine.edgeLength, SubdivisionPlan::standardEdge);
+    const RasterDetail detail(extent, prim->transform, camera, fine, displaced, request.needsMesh);
+    std::map<float, std::vector<uint32_t>> byEdge;
+    for (size_t i = 0; i < where.size(); ++i)
+        byEdge[detail.edgeAt(where[i])].push_back(uint32_t(i));
+    const size_t firstGroup = _groups.size();
+    for (auto& [edge, list] : byEdge) {
+        request.edge = edge;
+        request.edgeBudget = detail.trianglesFor(edge);
+        RasterGroup group;
+        group.prim = prim;
+        group.shape = _shapes.get(request);
+        if (deforms(*prim) && _shutterClose > _shutterOpen) {
+            auto still = std::make_shared<RasterShapeCache::Request>(request);
+            still->needsMesh = false; // lights stay where they are in the middle of the shutter
+            group.deforms = std::move(still);
+            _moves = true;
+        }
+        group.places = std::move(list);
+        if (group.shape->triangles > 0) addGroup(std::move(group), where, toGroup);
+    }
+    _moves |= prim->transform.moves();
+    addDraws(prim, rank, materials, firstGroup, where, toGroup, settings);
+    span.groups = _groups.size() - span.firstGroup;
+    span.draws = _draws.size() - span.firstDraw;
+    span.emits = request.needsMesh;
+}
+
+void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank,
+                           const std::vector<const RasterMaterial*>& materials, size_t firstGroup,
+                           const std::vector<RasterPlace>& places, const dmat4& toGroup,
+                           const RenderSettings& settings) {
+    if (firstGroup == _groups.size()) return;
+    RasterDraw draw;
+    draw.prim = prim;
+    draw.primId = prim->id >= 0 ? prim->id : rank;
+    int lit = -1;
+    if (const auto meshLight = _parts.meshLights->of(prim->path, settings)) {
+        const Light& light = *meshLight;
+        draw.meshLight.radiance = glm::max(lightBaseRadiance(light), vec3(0.0f));
+        draw.meshLight.mode =
+            light.materialSyncMode == "noMaterialResponse"       ? RasterMeshLight::Alone
+            : light.materialSyncMode == "materialGlowTintsLight" ? RasterMeshLight::Tints
+                                                                 : RasterMeshLight::Adds;
+        if (light.normalize)
+            draw.meshLight.radiance /= std::max(
+                areaOf(*_groups[firstGroup].shape->mesh, mat4(places[0].groupToWorld * toGroup)),
+                1e-30f);
+        lit = _parts.links->of(light.lightLink);
+    }
+    for (size_t g = firstGroup; g < _groups.size(); ++g) {
+        const RasterGroup& group = _groups[g];
+        draw.group = int(g);
+        draw.flags = group.shape->flags;
+        for (size_t subset = 0; subset < materials.size(); ++subset) {
+            draw.material = materials[subset];
+            if (!draw.material->programs) continue;
+            if (settings.enableSceneLights && group.shape->mesh)
+                for (const uint32_t i : group.places)
+                    _emitters.add(group.shape->mesh, subset, draw.material->program, draw.meshLight,
+                                  mat4(places[i].groupToWorld * toGroup), lit,
+                                  (draw.flags & RasterShape::tube) != 0, _origin);
+            draw.subset = int(subset);
+            draw.show(*group.shape);
+            if (draw.surface->triangles == 0) continue;
+            _triangles += draw.surface->triangles;
+            _trianglesDrawn += draw.surface->triangles * group.places.size();
+            _draws.push_back(draw);
+        }
+    }
+}
+
+} // namespace patina

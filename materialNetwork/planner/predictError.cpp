@@ -1,4 +1,4 @@
-#include "materialNetwork/plan/predictError.h"
+#include "materialNetwork/planner/predictError.h"
 
 #include "materialNetwork/plan/layering.h"
 #include "materialNetwork/plan/methodTable.h"
@@ -87,7 +87,10 @@ class Predictor {
 public:
     Predictor(const Plan& plan, const std::string& point, const std::string& method)
         : _plan(plan), _point(point), _method(method) {
-        if (point == "layering") _walks = layerWalkability(plan);
+        if (point == "layering")
+            _walks =
+                layerWalkability(plan, MethodSet(plan.methods).get<method::Subsurface>());
+        _choice = Choice(findChoicePoint(point) - choicePoints().data());
     }
 
     Prediction run(const std::vector<std::vector<DirectionProbe>>& places) {
@@ -109,8 +112,7 @@ private:
         const int quarter = std::clamp(int(probe.cosine * methodCosines), 0, methodCosines - 1);
         double sum = 0.0;
         for (const ClosureContribution& contribution : probe.closures) {
-            if (!choicesOf(_plan, _plan.closures[size_t(contribution.closure)]).count(_point))
-                continue;
+            if (!matters(_plan, _plan.closures[size_t(contribution.closure)], _choice)) continue;
             const bool alike = !_walks.empty() && !_walks[size_t(contribution.closure)].walks;
             if (alike || (onlyRough(_point) && contribution.roughness <= 0.0f)) {
                 _result.measured = true;
@@ -188,6 +190,7 @@ private:
     const Plan& _plan;
     const std::string& _point;
     const std::string& _method;
+    Choice _choice;
     std::vector<LayerWalkability> _walks; ///< of layering: others are scaled by every method
     Prediction _result;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 namespace patina {
 
@@ -63,7 +64,14 @@ public:
     }
 
 private:
-    Prediction predictionOf(const std::string& point, const std::string& method) const {
+    /// Asked several times for defaults and truths.
+    const Prediction& predictionOf(const std::string& point, const std::string& method) const {
+        const auto known = _predictions.find({point, method});
+        if (known != _predictions.end()) return known->second;
+        return _predictions[{point, method}] = predictionFor(point, method);
+    }
+
+    Prediction predictionFor(const std::string& point, const std::string& method) const {
         Prediction p = predict(_plan, _places, point, method);
         if (method != truthMethod(point)) {
             p.error *= _factor;
@@ -200,6 +208,7 @@ private:
     const std::vector<std::vector<DirectionProbe>>& _places;
     std::vector<Point> _points;
     std::vector<int> _chosen, _best;
+    mutable std::map<std::pair<std::string, std::string>, Prediction> _predictions;
     double _factor = 1.0;
     double _minimum = std::numeric_limits<double>::infinity();
     MethodPlan _result;

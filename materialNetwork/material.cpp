@@ -1,10 +1,12 @@
 #include "materialNetwork/material.h"
 
-#include "materialNetwork/plan/dump.h"
+#include "materialNetwork/cpu/programCode.h"
 #include "materialNetwork/graph/expand.h"
 #include "materialNetwork/graph/mergeSurfaceShaders.h"
-#include "materialNetwork/plan/planner.h"
 #include "materialNetwork/graph/simplify.h"
+#include "materialNetwork/ir/irBuilder.h"
+#include "materialNetwork/plan/dump.h"
+#include "materialNetwork/planner/planner.h"
 
 namespace patina {
 
@@ -47,23 +49,22 @@ Plan planMaterial(const Network& network, Diagnostics& diagnostics, const Method
 std::shared_ptr<const MaterialProgram>
 compileMaterial(const Network& network, TextureSource& textures, Diagnostics& diagnostics,
                 const MethodChoices& methods, double tolerance) {
-    if (tolerance < 0.0)
-        return MaterialProgram::compile(planMaterial(network, diagnostics, methods), textures,
-                                        diagnostics);
-    Diagnostics silent; // the final plan says it all again
-    const MethodPlan planned = planMaterialMethods(network, textures, silent, methods, tolerance);
-    Plan plan = planMaterial(network, diagnostics, methodsOf(planned, methods));
-    plan.planned = planned;
-    return MaterialProgram::compile(plan, textures, diagnostics);
+    const Plan plan = planMaterial(network, diagnostics, methods);
+    const MaterialIr ir = compileIr(plan, textures, diagnostics);
+    const MethodSet forced(methods);
+    if (tolerance < 0.0) return MaterialProgram::make(ir, forced, plan.planned);
+    const MethodPlan planned =
+        planMethods(plan, MaterialProgram::make(ir, forced)->code(), {methods, tolerance});
+    return MaterialProgram::make(ir, MethodSet(methodsOf(planned, methods)), planned);
 }
 
 MethodPlan planMaterialMethods(const Network& network, TextureSource& textures,
                                Diagnostics& diagnostics, const MethodChoices& methods,
                                double tolerance) {
     const Plan plan = planMaterial(network, diagnostics, methods);
-    MethodPlan planned = planMethods(plan, {methods, tolerance}, textures);
-    planned.fallback = plan.planned.fallback;
-    return planned;
+    const MaterialIr ir = compileIr(plan, textures, diagnostics);
+    return planMethods(plan, MaterialProgram::make(ir, MethodSet(methods))->code(),
+                       {methods, tolerance});
 }
 
 std::string explainMaterial(const Network& network, Diagnostics& diagnostics,

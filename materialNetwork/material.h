@@ -1,6 +1,7 @@
 #pragma once
 
 #include "materialNetwork/cpu/materialProgram.h"
+#include "materialNetwork/diagnostics.h"
 #include "materialNetwork/plan/methods.h"
 
 #include <map>
@@ -13,7 +14,8 @@ namespace patina {
 /// the value that it takes. A connection to that input is dropped.
 using MaterialOverrides = std::map<std::string, Value>;
 
-/// Takes a material from its network as authored to a program: expand, simplify, plan, compile.
+/// Takes a material from its network as authored to a program: expand, simplify, plan, compile, each
+/// once; then its methods are chosen and bound.
 /// Never fails: every problem is reported by prim and input, and a documented fallback used (an
 /// input's default, or makeDisplayColorNetwork() for a surface that cannot be understood at all).
 /// @param methods that are forced

@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <cstring>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -43,6 +45,12 @@ inline float sqrt(float x) {
 }
 inline float abs(float x) {
     return std::fabs(x);
+}
+inline vec3 sqrt(const vec3& v) {
+    return glm::sqrt(v);
+}
+inline vec3 abs(const vec3& v) {
+    return glm::abs(v);
 }
 inline float floor(float x) {
     return std::floor(x);
@@ -90,7 +98,11 @@ inline int floatBitsToInt(float x) {
     return bits;
 }
 
+// Shapes have the same functions, some of which need not ask where.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-parameter"
 #include "shaders/lights.glsl"
+#pragma GCC diagnostic pop
 
 } // namespace shLights
 } // namespace patina

@@ -11,7 +11,7 @@
 //   transmits: the layer
 //     below is scaled by 1 minus this
 //   Where a lobe differs from the default, its file overloads one of these for its struct; C++
-//   looks which there are (materialNetwork/cpu/lobeFacts.h): lobeFix(lobe, wo, albedo) -> what
+//   looks which there are (materialNetwork/ir/lobeFacts.h): lobeFix(lobe, wo, albedo) -> what
 //   depends on wo alone is looked up; albedo is exact for
 //     interfaces and else an estimate that is good enough to choose lobes by. Returns the share
 //     that the lobe keeps from the base of a layer, without tint. Default: xAlbedo, and 1

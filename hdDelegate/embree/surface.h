@@ -4,7 +4,7 @@
 #include "hdDelegate/geometry/triangleMesh.h"
 #include "hdDelegate/scene/geometry.h"
 #include "materialNetwork/cpu/materialProgram.h"
-#include "materialNetwork/cpu/shadingPoint.h"
+#include "materialNetwork/shadingPoint.h"
 
 #include <memory>
 

@@ -60,23 +60,22 @@ private:
 };
 
 LightType typeOf(const TfToken& type) {
-    if (type == HdPrimTypeTokens->distantLight) return LightType::Distant;
-    if (type == HdPrimTypeTokens->domeLight) return LightType::Dome;
-    if (type == HdPrimTypeTokens->diskLight) return LightType::Disk;
-    if (type == HdPrimTypeTokens->rectLight) return LightType::Rect;
-    if (type == HdPrimTypeTokens->cylinderLight) return LightType::Cylinder;
-    if (type == HdPrimTypeTokens->sphereLight) return LightType::Sphere;
+    for (const LightRow& row : lightRows)
+        if (type == row.hydra) return row.type;
     return LightType::Mesh;
 }
 
+void readInput(const Params& p, const char* name, float& field) {
+    p.number(name, field);
+}
+void readInput(const Params& p, const char* name, bool& field) {
+    p.flag(name, field);
+}
+
 void readShape(const Params& p, Light& light) {
-    p.number("angle", light.angle);
-    p.number("radius", light.radius);
-    p.number("width", light.width);
-    p.number("height", light.height);
-    p.number("length", light.length);
-    p.flag("treatAsPoint", light.treatAsPoint);
-    p.flag("treatAsLine", light.treatAsLine);
+#define PATINA_LIGHT_INPUT(type, field, key, input, fallback, description)                         \
+    readInput(p, input, light.field);
+#include "hdDelegate/scene/lightTypes.inc"
 }
 
 void readShaping(const Params& p, Light& light) {

@@ -36,13 +36,12 @@ const TfTokenVector& implicitTypes() {
 }
 
 const TfTokenVector& lightTypes() {
-    static const TfTokenVector types = {HdPrimTypeTokens->distantLight,
-                                        HdPrimTypeTokens->domeLight,
-                                        HdPrimTypeTokens->sphereLight,
-                                        HdPrimTypeTokens->diskLight,
-                                        HdPrimTypeTokens->rectLight,
-                                        HdPrimTypeTokens->cylinderLight,
-                                        TfToken("meshLight")};
+    static const TfTokenVector types = [] {
+        TfTokenVector all;
+        for (const LightRow& row : lightRows)
+            all.emplace_back(row.hydra);
+        return all;
+    }();
     return types;
 }
 

@@ -31,32 +31,38 @@ float byArea(const AreaShape& shape, const vec3& point, const vec3& position) {
     return shLights::areaToSolidAngle(1.0f / shape.area, point - position, shape.normal);
 }
 
+AreaShape::Kind kindOf(LightType type) {
+    switch (type) {
+#define PATINA_LIGHT(Type, word, schemas, hydra)                                                   \
+    case LightType::Type: break;
+#define PATINA_AREA_LIGHT(Type, ...)                                                               \
+    case LightType::Type: return AreaShape::Kind::Type;
+#include "hdDelegate/scene/lightTypes.inc"
+    }
+    return AreaShape::Kind::Sphere;
+}
+
+/// Of shapes that no receiver has samples of its own for.
+float placePdf(const AreaShape& shape, const vec3& point, const vec3& position,
+               const vec3& normal) {
+    const vec3 q = shLights::shapeLocal(shape, position);
+    return shLights::areaToSolidAngle(shLights::shapePlaceDensity(int(shape.kind), shape, q),
+                                      point - position, normal);
+}
+
 } // namespace
 
 AreaShape makeAreaShape(const Light& light, const mat4& toWorld) {
     AreaShape s;
-    vec3 size(std::abs(light.radius));
-    switch (light.type) {
-    case LightType::Rect:
-        s.kind = AreaShape::Kind::Rect;
-        size = vec3(light.width, light.height, 1.0f);
-        break;
-    case LightType::Disk:
-        s.kind = AreaShape::Kind::Disk;
-        size.z = 1.0f;
-        break;
-    case LightType::Cylinder:
-        s.kind = AreaShape::Kind::Cylinder;
-        size.x = light.length;
-        break;
-    default: s.kind = AreaShape::Kind::Sphere; break;
-    }
+    s.kind = kindOf(light.type);
+    s.flat = lightRow(light.type).flat;
+    const vec3 size = lightSize(light);
     s.origin = vec3(toWorld[3]);
     glm::dmat3 axes;
     for (int i = 0; i < 3; ++i)
         axes[i] = glm::dvec3(vec3(toWorld[i])) * double(size[i]);
     s.area = float(lightSizeFactor(light, toWorld));
-    if (s.kind == AreaShape::Kind::Rect || s.kind == AreaShape::Kind::Disk) {
+    if (s.flat) {
         // The plane's own normal takes the place of the third axis, on the side of local -z.
         const glm::dvec3 n = glm::cross(axes[0], axes[1]);
         const double length = glm::length(n);
@@ -84,7 +90,14 @@ bool sampleShape(const AreaShape& shape, const vec3& point, const vec2& u, Shape
     if (shape.kind == AreaShape::Kind::Sphere) return shLights::sphereSample(shape, point, u, out);
     if (shape.kind == AreaShape::Kind::Cylinder)
         return shLights::cylinderSample(shape, point, u, out) && std::isfinite(out.pdf);
-    if (!facesPlane(shape, point)) return false;
+    if (shape.flat && !facesPlane(shape, point)) return false;
+    if (shape.kind != AreaShape::Kind::Rect && shape.kind != AreaShape::Kind::Disk) {
+        const vec3 q = shLights::shapePlace(int(shape.kind), u);
+        out.position = shape.origin + shape.axes * q;
+        out.normal = shLights::shapeNormalAt(int(shape.kind), shape, q);
+        out.pdf = placePdf(shape, point, out.position, out.normal);
+        return out.pdf > 0.0f && std::isfinite(out.pdf);
+    }
     out.normal = shape.normal;
     if (shape.kind == AreaShape::Kind::Rect) {
         SphericalRect rect;
@@ -108,7 +121,9 @@ float shapePdf(const AreaShape& shape, const vec3& point, const vec3& position,
     if (shape.kind == AreaShape::Kind::Sphere) return shLights::spherePdf(shape, point, position);
     if (shape.kind == AreaShape::Kind::Cylinder)
         return shLights::cylinderPdf(shape, point, position, normal);
-    if (!facesPlane(shape, point)) return 0.0f;
+    if (shape.flat && !facesPlane(shape, point)) return 0.0f;
+    if (shape.kind != AreaShape::Kind::Rect && shape.kind != AreaShape::Kind::Disk)
+        return placePdf(shape, point, position, normal);
     SphericalRect rect;
     if (shape.kind == AreaShape::Kind::Rect && bySolidAngle(shape, point) &&
         rectFrom(shape, point, rect))
@@ -126,16 +141,17 @@ bool intersectShape(const AreaShape& shape, const vec3& origin, const vec3& dire
     return true;
 }
 
-void growBounds(const AreaShape& shape, vec3& low, vec3& high) {
-    vec3 extent;
-    const vec3 a = glm::abs(shape.axes[0]), b = glm::abs(shape.axes[1]),
-               c = glm::abs(shape.axes[2]);
-    switch (shape.kind) {
-    case AreaShape::Kind::Rect: extent = 0.5f * (a + b); break;
-    case AreaShape::Kind::Disk: extent = glm::sqrt(a * a + b * b); break;
-    case AreaShape::Kind::Sphere: extent = glm::sqrt(a * a + b * b + c * c); break;
-    case AreaShape::Kind::Cylinder: extent = 0.5f * a + glm::sqrt(b * b + c * c); break;
+bool isFlatShape(int number) {
+    switch (number) {
+#define PATINA_AREA_LIGHT(Type, word, schemas, hydra, number, flat, ...)                           \
+    case shLights::SHAPE_##number: return flat;
+#include "hdDelegate/scene/lightTypes.inc"
+    default: return false;
     }
+}
+
+void growBounds(const AreaShape& shape, vec3& low, vec3& high) {
+    const vec3 extent = shLights::shapeExtent(int(shape.kind), shape);
     low = glm::min(low, shape.origin - extent);
     high = glm::max(high, shape.origin + extent);
 }

@@ -10,23 +10,23 @@ using ShapeSample = shLights::ShapePoint;
 /// The surface of an area light in world space: a unit shape under an affine transform, see
 /// shaders/lights/shape.glsl.
 struct AreaShape : shLights::ShapeFrame {
+    /// The numbers are those of shaders/lights/shapes.
     enum class Kind {
-        Rect = shLights::SHAPE_RECT,
-        Disk = shLights::SHAPE_DISK,
-        Sphere = shLights::SHAPE_SPHERE,
-        Cylinder = shLights::SHAPE_CYLINDER
+#define PATINA_AREA_LIGHT(Type, word, schemas, hydra, number, ...) Type = shLights::SHAPE_##number,
+#include "hdDelegate/scene/lightTypes.inc"
     };
 
     Kind kind = Kind::Rect;
+    bool flat = true;         ///< shines to one side of a plane
     bool rightAngled = false; ///< a rect that is no mere parallelogram
     bool valid = false;       ///< has an area, and its transform can be inverted
-    vec3 normal{0.0f};        ///< of rects and disks
+    vec3 normal{0.0f};        ///< of flat ones
     float area = 0.0f;
 
     AreaShape() : ShapeFrame{vec3(0.0f), mat3(1.0f), mat3(1.0f), 1.0f} {}
 };
 
-/// @param light of type rect, disk, sphere or cylinder
+/// @param light of a type with a shape; others count as spheres
 AreaShape makeAreaShape(const Light& light, const mat4& toWorld);
 
 /// Chooses a point on the shape: spheres by the cone (under affine transforms too) that they fill,
@@ -41,6 +41,9 @@ float shapePdf(const AreaShape& shape, const vec3& point, const vec3& position, 
 /// The first point of the shape's emitting side that a ray meets.
 bool intersectShape(const AreaShape& shape, const vec3& origin, const vec3& direction, float near,
                     float far, float& distance, vec3& normal);
+
+/// @param number of shaders/lights/shapes; false of others
+bool isFlatShape(int number);
 
 /// Grows a box by the shape.
 void growBounds(const AreaShape& shape, vec3& low, vec3& high);

@@ -91,8 +91,7 @@ LightTreeLeaf LightEmitter::leaf(int id) const {
     leaf.low = vec3(INFINITY);
     leaf.high = vec3(-INFINITY);
     leaf.hittable = _resolved.kind == Kind::Area;
-    const bool round = _resolved.kind != Kind::Area || _light.type == LightType::Sphere ||
-                       _light.type == LightType::Cylinder;
+    const bool round = _resolved.kind != Kind::Area || !lightRow(_light.type).flat;
     DirectionCone cone;
     for (size_t i = 0; i < _times.size(); ++i) {
         const Pose pose = makePose(_group * transformAt(_light.transform, _times[i], _origin));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hdDelegate/scene/settings.h"
-#include "materialNetwork/plan/planner.h"
+#include "materialNetwork/planner/planner.h"
 
 #include <map>
 #include <string>

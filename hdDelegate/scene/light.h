@@ -4,7 +4,28 @@
 
 namespace patina {
 
-enum class LightType { Distant, Dome, Sphere, Disk, Rect, Cylinder, Mesh };
+enum class LightType {
+#define PATINA_LIGHT(Type, word, schemas, hydra) Type,
+#include "hdDelegate/scene/lightTypes.inc"
+};
+
+/// A row of lightTypes.inc.
+struct LightRow {
+    LightType type;
+    const char *word, *schemas, *hydra;
+    bool flat; ///< shines to one side of a plane
+};
+
+inline constexpr LightRow lightRows[] = {
+#define PATINA_LIGHT(Type, word, schemas, hydra) {LightType::Type, word, schemas, hydra, false},
+#define PATINA_AREA_LIGHT(Type, word, schemas, hydra, number, flat, ...)                           \
+    {LightType::Type, word, schemas, hydra, flat},
+#include "hdDelegate/scene/lightTypes.inc"
+};
+
+constexpr const LightRow& lightRow(LightType type) {
+    return lightRows[int(type)];
+}
 
 /// A UsdLux light with its inputs as authored (units: the UsdLux overview). Fallbacks are those of
 /// the schema.
@@ -26,13 +47,9 @@ struct Light {
     bool enableColorTemperature = false;
     float colorTemperature = 6500.0f; ///< kelvin
 
-    // shapes
-    float angle = 0.53f;               ///< distant, degrees across
-    float radius = 0.5f;               ///< sphere, disk, cylinder
-    float width = 1.0f, height = 1.0f; ///< rect
-    float length = 1.0f;               ///< cylinder, along local x
-    bool treatAsPoint = false;         ///< sphere
-    bool treatAsLine = false;          ///< cylinder
+    // what shapes it; explained in lightTypes.inc
+#define PATINA_LIGHT_INPUT(type, field, key, input, fallback, description) type field = fallback;
+#include "hdDelegate/scene/lightTypes.inc"
 
     // textures
     std::string textureFile; ///< dome, rect; resolved path

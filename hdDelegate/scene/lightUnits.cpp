@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace patina {
 
@@ -111,32 +112,49 @@ dmat4 exactTransformAt(const MotionTransform& transform, float time) {
     return a * (1.0 - share) + transform.values[span.index + 1] * share;
 }
 
-std::string lightSizeInput(const Light& light) {
-    const auto none = [](float size) { return size == 0.0f || !std::isfinite(size); };
-    const bool rect = light.type == LightType::Rect;
-    if (rect && none(light.width)) return "inputs:width";
-    if (rect && none(light.height)) return "inputs:height";
-    if (light.type == LightType::Cylinder && none(light.length)) return "inputs:length";
-    if (!rect && none(light.radius)) return "inputs:radius";
+std::string lightSizeInput(const Light& l) {
+    struct Input {
+        const char* name;
+        float value;
+    };
+    const auto named = [](std::initializer_list<Input> inputs) -> std::string {
+        for (const Input& input : inputs)
+            if (input.value == 0.0f || !std::isfinite(input.value))
+                return std::string("inputs:") + input.name;
+        return "xformOpOrder";
+    };
+    switch (l.type) {
+#define PATINA_LIGHT(Type, word, schemas, hydra)                                                   \
+    case LightType::Type: break;
+#define PATINA_AREA_LIGHT(Type, word, schemas, hydra, number, flat, size, area, ...)               \
+    case LightType::Type: return named({__VA_ARGS__});
+#include "hdDelegate/scene/lightTypes.inc"
+    }
     return "xformOpOrder";
 }
 
+vec3 lightSize(const Light& l) {
+    switch (l.type) {
+#define PATINA_LIGHT(Type, word, schemas, hydra)                                                   \
+    case LightType::Type: break;
+#define PATINA_AREA_LIGHT(Type, word, schemas, hydra, number, flat, size, area, ...)               \
+    case LightType::Type: return size;
+#include "hdDelegate/scene/lightTypes.inc"
+    }
+    return vec3(1.0f);
+}
+
 double lightSizeFactor(const Light& light, const mat4& toWorld) {
-    const double r = std::abs(light.radius);
+    if (light.type == LightType::Distant) return distantFactor(light.angle);
+    const vec3 size = lightSize(light);
+    const dvec3 a = column(toWorld, 0, size.x), b = column(toWorld, 1, size.y);
+    [[maybe_unused]] const dvec3 c = column(toWorld, 2, size.z);
     switch (light.type) {
-    case LightType::Distant: return distantFactor(light.angle);
-    case LightType::Rect:
-        return glm::length(
-            glm::cross(column(toWorld, 0, light.width), column(toWorld, 1, light.height)));
-    case LightType::Disk:
-        return piDouble * glm::length(glm::cross(column(toWorld, 0, r), column(toWorld, 1, r)));
-    case LightType::Sphere:
-        return ellipsoidArea(column(toWorld, 0, r), column(toWorld, 1, r), column(toWorld, 2, r));
-    case LightType::Cylinder:
-        return cylinderArea(column(toWorld, 0, light.length), column(toWorld, 1, r),
-                            column(toWorld, 2, r));
-    case LightType::Dome:
-    case LightType::Mesh: break;
+#define PATINA_LIGHT(Type, word, schemas, hydra)                                                   \
+    case LightType::Type: break;
+#define PATINA_AREA_LIGHT(Type, word, schemas, hydra, number, flat, size, area, ...)               \
+    case LightType::Type: return area;
+#include "hdDelegate/scene/lightTypes.inc"
     }
     return 1.0;
 }

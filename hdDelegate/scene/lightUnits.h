@@ -20,6 +20,9 @@ dmat4 exactTransformAt(const MotionTransform& transform, float time);
 /// solid angle pi sin^2(angle / 2), continued as pi (2 - sin^2) beyond 180 degrees, and 1 for angle
 /// 0. Domes and mesh lights: 1 (the area of a mesh is its owner's to know).
 double lightSizeFactor(const Light& light, const mat4& toWorld);
+/// Size of an area light along the axes of its unit shape (shaders/lights/shape.glsl), before its
+/// transform; 1 for other lights.
+vec3 lightSize(const Light& light);
 /// What to name where a light of a shape has no size: an input that is 0, else the transform.
 std::string lightSizeInput(const Light& light);
 

@@ -16,7 +16,6 @@ const char* const schemeNames[] = {"none", "catmullClark", "loop", "bilinear"};
 const char* const basisNames[] = {"linear", "bezier", "bspline", "catmullRom"};
 const char* const wrapNames[] = {"nonperiodic", "periodic", "pinned"};
 const char* const shapeNames[] = {"sphere", "cube", "cone", "cylinder", "capsule", "plane"};
-const char* const lightNames[] = {"distant", "dome", "sphere", "disk", "rect", "cylinder", "mesh"};
 
 std::string number(double x) {
     if (x == 0.0) return "0"; // no negative zero
@@ -228,7 +227,7 @@ void writeVector(Writer& w, const char* name, const vec3& v, const vec3& fallbac
 void writeLight(Writer& w, const Light& l) {
     const Light d;
     w.prim("Light", l.path);
-    w.line("type", lightNames[int(l.type)]);
+    w.line("type", lightRow(l.type).word);
     w.field("group", l.group, d.group);
     w.transform("transform", l.transform);
     w.field("visible", l.visible, d.visible);
@@ -241,13 +240,9 @@ void writeLight(Writer& w, const Light& l) {
     w.field("normalize", l.normalize, d.normalize);
     w.field("enableColorTemperature", l.enableColorTemperature, d.enableColorTemperature);
     w.field("colorTemperature", l.colorTemperature, d.colorTemperature);
-    w.field("angle", l.angle, d.angle);
-    w.field("radius", l.radius, d.radius);
-    w.field("width", l.width, d.width);
-    w.field("height", l.height, d.height);
-    w.field("length", l.length, d.length);
-    w.field("treatAsPoint", l.treatAsPoint, d.treatAsPoint);
-    w.field("treatAsLine", l.treatAsLine, d.treatAsLine);
+#define PATINA_LIGHT_INPUT(type, field_, key, input, fallback, description)                        \
+    w.field(#field_, l.field_, d.field_);
+#include "hdDelegate/scene/lightTypes.inc"
     w.field("textureFile", l.textureFile, d.textureFile);
     w.field("textureFormat", l.textureFormat, d.textureFormat);
     w.field("textureColorSpace", l.textureColorSpace, d.textureColorSpace);

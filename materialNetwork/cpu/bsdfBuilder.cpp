@@ -1,7 +1,7 @@
 #include "materialNetwork/cpu/bsdfBuilder.h"
 
 #include "materialNetwork/cpu/layerWalk.h"
-#include "materialNetwork/cpu/layerWeights.h"
+#include "materialNetwork/ir/layerWeights.h"
 #include "materialNetwork/cpu/lobeOps.h"
 #include "materialNetwork/cpu/lobeSetup.h"
 #include "materialNetwork/cpu/microsurface.h"
@@ -93,11 +93,11 @@ void BsdfBuilder::instantiate(const ProgramCode& code, const ShadingPoint& point
             continue;
         }
         if (t.constant) {
-            l = t.prebuilt;
+            l = code.prebuilt[i];
         } else {
-            l.kind = t.prebuilt.kind;
-            l.diffuse = t.prebuilt.diffuse;
-            l.frame = t.prebuilt.frame;
+            l.kind = t.kind;
+            l.diffuse = t.diffuse;
+            l.frame = t.frame;
             setupLobe(t, registers, l);
         }
         l.stochastic = t.walks && canWalkMicrosurface(l);

@@ -1,4 +1,4 @@
-#include "materialNetwork/cpu/energyCurve.h"
+#include "materialNetwork/cpu/lobeEnergy.h"
 
 #include <cmath>
 

@@ -42,7 +42,7 @@ LayerWalk::LayerWalk(const LayeredPoint& point, int op, const glm::vec3& wo)
     const ClosureOp& top = point.code->bsdf[size_t(_op.a)];
     const LobeTemplate& t = point.code->lobes[size_t(top.lobe)];
     const glm::vec4* registers = point.registers.data();
-    _top = t.prebuilt;
+    _top = point.code->prebuilt[size_t(top.lobe)];
     if (!t.constant) setupLobe(t, registers, _top);
     if (_top.kind == LobeKind::Dielectric) {
         std::swap(_tint, _top.dielectric.tint);
@@ -53,7 +53,7 @@ LayerWalk::LayerWalk(const LayeredPoint& point, int op, const glm::vec3& wo)
     }
     _top.stochastic = t.walks && canWalkMicrosurface(_top);
 
-    const FrameTemplate& f = point.code->frames[t.prebuilt.frame];
+    const FrameTemplate& f = point.code->frames[t.frame];
     ShadingPoint seen = point.point;
     seen.viewDirection = wo;
     _frame = makeFrame(f, registers, seen);

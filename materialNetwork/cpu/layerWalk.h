@@ -3,7 +3,7 @@
 #include "materialNetwork/cpu/bsdf.h"
 #include "materialNetwork/cpu/hashedNumbers.h"
 #include "materialNetwork/cpu/programCode.h"
-#include "materialNetwork/cpu/shadingPoint.h"
+#include "materialNetwork/shadingPoint.h"
 
 #include <memory>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "materialNetwork/cpu/layerWeights.h"
+#include "materialNetwork/ir/layerWeights.h"
 
 #include "materialNetwork/cpu/bsdfBuilder.h"
 #include "materialNetwork/cpu/lobeOps.h"
@@ -6,10 +6,6 @@
 #include <algorithm>
 
 namespace patina {
-
-bool isReturning(const LobeTemplate& t) {
-    return lobeHas(t.prebuilt.kind, lobe::Interface) && t.mode == sh::SCATTER_R;
-}
 
 /// The lobes of a Bsdf that is being built, and what they are weighed by.
 class BsdfBuilder::LobeNumbers : public ClosureNumbers {

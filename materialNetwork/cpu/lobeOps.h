@@ -1,8 +1,8 @@
 #pragma once
 
 #include "materialNetwork/cpu/bsdf.h"
-#include "materialNetwork/cpu/energyCurve.h"
-#include "materialNetwork/cpu/lobeFacts.h"
+#include "materialNetwork/ir/energyCurve.h"
+#include "materialNetwork/ir/lobeFacts.h"
 
 // Dispatch from a BsdfLobe to the functions of its kind. Directions are in the lobe's frame.
 

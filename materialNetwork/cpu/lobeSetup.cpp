@@ -1,41 +1,11 @@
 #include "materialNetwork/cpu/lobeSetup.h"
 
-#include "materialNetwork/nodes/nodeTable.h"
-
 #include <tuple>
 #include <type_traits>
 
 namespace patina {
 
 namespace {
-
-/// Of the first node that makes each kind of lobe.
-struct LobeInputs {
-    std::vector<std::string> numbers;
-    std::string flag;
-
-    explicit LobeInputs(LobeKind kind) {
-        for (const auto& def : NodeTable::get().all()) {
-            if (!isLobe(def->closure) || lobeKind(def->closure) != kind) continue;
-            for (const InputDef& input : def->inputs) {
-                const bool isFlag = input.type == ValueType::Bool;
-                if (isFlag && flag.empty()) flag = input.name;
-                if (!isFlag && valueTypeComponents(input.type) > 0 && input.geomprop.empty() &&
-                    input.name != "weight")
-                    numbers.push_back(input.name);
-            }
-            return;
-        }
-    }
-};
-
-const LobeInputs& inputsOf(LobeKind kind) {
-    static const LobeInputs table[] = {
-#define PATINA_LOBE(Kind, prefix, traits, probe, lit) LobeInputs(LobeKind::Kind),
-#include "materialNetwork/lobeTable.inc"
-        LobeInputs(LobeKind::Layered)};
-    return table[int(kind)];
-}
 
 /// Parameters and what is known at compile time, as arguments of a lobe's setup one by one.
 struct Arguments {
@@ -65,10 +35,10 @@ template <class L, class... A> void set(L& l, L (*setup)(A...), Arguments a) {
     l = std::apply(setup, arguments);
 }
 
-// Lobes with methods at choice points.
+// Lobes whose set-up takes more than the inputs of a node.
 
 void set(sh::OrenNayarLobe& l, decltype(&sh::orenNayarSetup), const Arguments& a) {
-    l = sh::orenNayarModel(a.color(0), a.number(1), a.t.flagA, int(a.t.diffuse));
+    l = sh::orenNayarModel(a.color(0), a.number(1), a.t.flagA, a.t.methods.at(Choice::Diffuse));
 }
 
 void set(sh::DielectricLobe& l, decltype(&sh::dielectricSetup), const Arguments& a) {
@@ -76,7 +46,6 @@ void set(sh::DielectricLobe& l, decltype(&sh::dielectricSetup), const Arguments&
     l = sh::dielectricSetup(a.color(0), a.number(1), a.pair(2), t.flagA, t.mode, t.sharedInterface,
                             t.compensate);
     l.ndf = t.ndf;
-    l = sh::dielectricMethods(l, t.albedo, t.sampling, t.fresnel);
 }
 
 void set(sh::ConductorLobe& l, decltype(&sh::conductorSetup), const Arguments& a) {
@@ -84,8 +53,6 @@ void set(sh::ConductorLobe& l, decltype(&sh::conductorSetup), const Arguments& a
     l = sh::conductorSetup(a.color(0), a.color(1), a.pair(2), t.flagA, t.compensate);
     l.ndf = t.ndf;
     if (t.film) l = sh::conductorFilm(l, a.number(3), a.number(4));
-    l = sh::conductorMethods(l, t.albedo, t.sampling, t.filmMethod);
-    l = sh::conductorFresnel(l, t.fresnel);
 }
 
 void set(sh::SchlickLobe& l, decltype(&sh::schlickSetup), const Arguments& a) {
@@ -99,29 +66,32 @@ void set(sh::SchlickLobe& l, decltype(&sh::schlickSetup), const Arguments& a) {
         if (t.film) l = sh::schlickFilm(l, a.number(5), a.number(6));
     }
     l.ndf = t.ndf;
-    l = sh::schlickMethods(l, t.albedo, t.sampling, t.filmMethod);
 }
 
-void set(sh::SheenLobe& l, decltype(&sh::sheenSetup), const Arguments& a) {
-    l = sh::sheenSetup(a.color(0), a.number(1), a.t.variant);
-    l = sh::sheenMethods(l, a.t.sheenAlbedo);
+template <class L, class F, class... Points>
+void tell(L& l, F function, const MethodSet& methods, Points... points) {
+    l = function(l, methods.at(points)...);
+}
+
+/// Methods of lobes in choicePoints.inc.
+template <LobeKind kind, class L>
+void setMethods([[maybe_unused]] L& l, [[maybe_unused]] const MethodSet& methods) {
+#define PATINA_LOBE_METHODS(Kind, prefix, function, ...)                                           \
+    if constexpr (kind == LobeKind::Kind)                                                          \
+        tell(                                                                                      \
+            l, [](const L& before, auto... m) { return sh::function(before, m...); }, methods,     \
+            __VA_ARGS__);
+#include "materialNetwork/plan/choicePoints.inc"
 }
 
 } // namespace
 
-const std::vector<std::string>& lobeParameters(LobeKind kind) {
-    return inputsOf(kind).numbers;
-}
-
-const std::string& lobeFlag(LobeKind kind) {
-    return inputsOf(kind).flag;
-}
-
 void setupLobe(const LobeTemplate& t, const glm::vec4* r, BsdfLobe& out) {
-    switch (t.prebuilt.kind) {
+    switch (t.kind) {
 #define PATINA_LOBE(Kind, prefix, traits, probe, lit)                                              \
     case LobeKind::Kind:                                                                           \
         set(out.prefix, sh::prefix##Setup, Arguments{t, r});                                       \
+        setMethods<LobeKind::Kind>(out.prefix, t.methods);                                         \
         return;
 #include "materialNetwork/lobeTable.inc"
     case LobeKind::Layered: return;

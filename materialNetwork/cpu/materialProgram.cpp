@@ -1,38 +1,53 @@
 #include "materialNetwork/cpu/materialProgram.h"
 
 #include "materialNetwork/cpu/bsdfBuilder.h"
+#include "materialNetwork/cpu/lobeSetup.h"
 #include "materialNetwork/cpu/mediumBuilder.h"
-#include "materialNetwork/cpu/programBuilder.h"
+#include "materialNetwork/cpu/programCode.h"
+#include "materialNetwork/compileCounts.h"
+#include "materialNetwork/ir/bindMethods.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace patina {
 
-RegisterFile::RegisterFile(const ProgramCode& code) : _data(_local) {
-    if (code.registerCount > localCount) {
-        static thread_local std::vector<glm::vec4> large;
-        if (int(large.size()) < code.registerCount) large.resize(size_t(code.registerCount));
-        _data = large.data();
-    }
-    std::memcpy(static_cast<void*>(_data), code.constants.data(),
-                code.constants.size() * sizeof(glm::vec4));
+namespace {
+
+BsdfLobe prebuilt(LobeTemplate& t, const glm::vec4* constants) {
+    BsdfLobe lobe;
+    lobe.kind = t.kind;
+    lobe.diffuse = t.diffuse;
+    lobe.frame = t.frame;
+    lobe.weight = lobe.albedo = glm::vec3(0.0f);
+    lobe.probability = 0.0f;
+    if (!t.constant) return lobe;
+    setupLobe(t, constants, lobe);
+    t.energy.measure(lobe);
+    return lobe;
 }
 
-void RegisterFile::run(const ProgramCode& code, const std::vector<Instruction>& instructions,
-                       const ShadingPoint& point) {
-    const PatternContext context{&point, code.textures};
-    for (const Instruction& i : instructions)
-        i.function({_data, code.inputPool.data() + i.firstInput, i.output, i.data, context});
+} // namespace
+
+ProgramCode::ProgramCode(MaterialIr ir) : MaterialIr(std::move(ir)) {
+    for (LobeTemplate& t : lobes)
+        prebuilt.push_back(patina::prebuilt(t, constants.data()));
 }
 
-MaterialProgram::MaterialProgram() = default;
+MaterialProgram::MaterialProgram(MaterialIr ir, MethodPlan planned)
+    : _facts(ir.facts), _planned(std::move(planned)),
+      _code(std::make_unique<const ProgramCode>(std::move(ir))) {}
 MaterialProgram::~MaterialProgram() = default;
 
+const MaterialIr& MaterialProgram::ir() const {
+    return *_code;
+}
+
 std::shared_ptr<const MaterialProgram>
-MaterialProgram::compile(const Plan& plan, TextureSource& textures, Diagnostics& diagnostics) {
-    return ProgramBuilder(plan, textures, diagnostics).build();
+MaterialProgram::make(const MaterialIr& ir, const MethodSet& methods, MethodPlan planned) {
+    ++compileCounts().programs;
+    return std::shared_ptr<const MaterialProgram>(
+        new MaterialProgram(bindMethods(ir, methods), std::move(planned)));
 }
 
 float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* passes,
@@ -64,7 +79,7 @@ float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* passes,
 }
 
 bool MaterialProgram::isOpaqueWith(const std::vector<int>& attributes) const {
-    if (_isOpaque) return true;
+    if (_facts.isOpaque) return true;
     if (_code->hasPassThrough || !_code->opacityFromPrimvars) return false;
     for (const Instruction& i : _code->opacityCode)
         if (i.data.slot >= 0 &&
@@ -75,7 +90,7 @@ bool MaterialProgram::isOpaqueWith(const std::vector<int>& attributes) const {
 }
 
 glm::vec3 MaterialProgram::emission(const ShadingPoint& point, const glm::vec3& wo) const {
-    if (!_hasEmission) return glm::vec3(0.0f);
+    if (!_facts.hasEmission) return glm::vec3(0.0f);
     if (_code->emissionCode.empty())
         return linearClosure(_code->edf, _code->constants.data(), wo, point.normal, point.tangent);
     RegisterFile registers(*_code);
@@ -84,7 +99,7 @@ glm::vec3 MaterialProgram::emission(const ShadingPoint& point, const glm::vec3& 
 }
 
 Medium MaterialProgram::interior(const ShadingPoint& point) const {
-    if (!_hasInterior) return Medium();
+    if (!_facts.hasInterior) return Medium();
     const auto build = [&](const glm::vec4* registers) {
         Medium medium = buildMedium(_code->vdf, registers);
         medium.emission = linearClosure(_code->volumeEdf, registers, glm::vec3(0.0f),
@@ -98,8 +113,8 @@ Medium MaterialProgram::interior(const ShadingPoint& point) const {
 }
 
 glm::vec3 MaterialProgram::displacement(const ShadingPoint& point) const {
-    if (!_hasDisplacement) return glm::vec3(0.0f);
-    if (!_jitters) return displacementAt(point);
+    if (!_facts.hasDisplacement) return glm::vec3(0.0f);
+    if (!_facts.jitters) return displacementAt(point);
     // Vertices are moved once for all samples.
     glm::vec3 sum(0.0f);
     ShadingPoint jittered = point;

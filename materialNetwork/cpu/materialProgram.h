@@ -2,11 +2,9 @@
 
 #include "materialNetwork/cpu/bsdf.h"
 #include "materialNetwork/cpu/medium.h"
-#include "materialNetwork/cpu/shadingPoint.h"
-#include "materialNetwork/diagnostics.h"
+#include "materialNetwork/ir/materialIr.h"
 #include "materialNetwork/plan/methodPlan.h"
-#include "materialNetwork/network/network.h"
-#include "materialNetwork/textureSource.h"
+#include "materialNetwork/shadingPoint.h"
 
 #include <memory>
 #include <string>
@@ -14,47 +12,40 @@
 
 namespace patina {
 
-struct Plan;
 struct ProgramCode;
-
-/// A primvar that a material reads.
-struct MaterialPrimvar {
-    std::string name;
-    ValueType type = ValueType::Float; ///< what the material wants; up to four components
-};
 
 /// A material compiled for the processor: a list of pattern instructions over vec4 registers, and
 /// the closures that they feed. Immutable and thread safe; shared by all prims that use the
-/// material. Nothing is allocated after compile().
+/// material. Nothing is allocated after make().
 class MaterialProgram {
 public:
-    /// Compiles a plan. Never fails: what cannot be compiled is reported and left out.
-    /// @param textures must outlive the program
-    static std::shared_ptr<const MaterialProgram> compile(const Plan& plan, TextureSource& textures,
-                                                          Diagnostics& diagnostics);
+    /// @param ir as compileIr() makes it; its textures must outlive the program
+    static std::shared_ptr<const MaterialProgram> make(const MaterialIr& ir,
+                                                       const MethodSet& methods,
+                                                       MethodPlan planned = {});
     ~MaterialProgram();
 
     /// Primvars in the order of their slots (PrimvarReader::read).
-    const std::vector<MaterialPrimvar>& primvars() const { return _primvars; }
+    const std::vector<MaterialPrimvar>& primvars() const { return _facts.primvars; }
 
-    bool constant() const { return _constant; } ///< lobes are the same at every point
-    bool hasEmission() const { return _hasEmission; }
-    bool isOpaque() const { return _isOpaque; } ///< opacity() is 1 everywhere
-    bool isThinWalled() const { return _isThinWalled; }
+    bool constant() const { return _facts.constant; } ///< lobes are the same at every point
+    bool hasEmission() const { return _facts.hasEmission; }
+    bool isOpaque() const { return _facts.isOpaque; } ///< opacity() is 1 everywhere
+    bool isThinWalled() const { return _facts.isThinWalled; }
     /// Has a hair lobe, which stands for a whole fibre: what it lets through leaves on the far
     /// side.
-    bool isFibre() const { return _isFibre; }
-    bool hasTransmission() const { return _hasTransmission; } ///< a lobe may send light through
-    bool hasInterior() const { return _hasInterior; }         ///< a medium fills closed objects
+    bool isFibre() const { return _facts.isFibre; }
+    bool hasTransmission() const { return _facts.hasTransmission; } ///< a lobe may send light through
+    bool hasInterior() const { return _facts.hasInterior; }         ///< a medium fills closed objects
     /// There is no surface: rays go on past the boundary, and only the medium is seen.
-    bool isVolumeOnly() const { return _isVolumeOnly; }
+    bool isVolumeOnly() const { return _facts.isVolumeOnly; }
     /// Rays that presence lets pass are inside the object afterwards: its boundary is there, but
     /// bends nothing.
-    bool passingEnters() const { return _hasInterior && _passingEnters; }
-    bool hasSubsurface() const { return _hasSubsurface; }
-    bool hasDisplacement() const { return _hasDisplacement; }
-    bool usesUv() const { return _usesUv; }   ///< reads texture coordinates
-    bool jitters() const { return _jitters; } ///< blurs, with taps that ShadingPoint::seed moves
+    bool passingEnters() const { return _facts.hasInterior && _facts.passingEnters; }
+    bool hasSubsurface() const { return _facts.hasSubsurface; }
+    bool hasDisplacement() const { return _facts.hasDisplacement; }
+    bool usesUv() const { return _facts.usesUv; }   ///< reads texture coordinates
+    bool jitters() const { return _facts.jitters; } ///< blurs, with taps that ShadingPoint::seed moves
 
     /// @returns isOpaque() for a prim that lacks some primvars
     /// @param attributes per slot of primvars(): negative when the prim has no such primvar
@@ -88,33 +79,20 @@ public:
     /// How its methods were chosen; empty without a tolerance.
     const MethodPlan& planned() const { return _planned; }
 
-    /// What other back ends are generated from.
+    /// What other back ends are generated from, with its methods.
+    const MaterialIr& ir() const;
     const ProgramCode& code() const { return *_code; }
 
     MaterialProgram(const MaterialProgram&) = delete;
     MaterialProgram& operator=(const MaterialProgram&) = delete;
 
 private:
-    friend class ProgramBuilder;
-    MaterialProgram();
+    MaterialProgram(MaterialIr ir, MethodPlan planned);
     glm::vec3 displacementAt(const ShadingPoint& point) const;
 
-    std::vector<MaterialPrimvar> _primvars;
-    bool _constant = false;
-    bool _hasEmission = false;
-    bool _isOpaque = true;
-    bool _isThinWalled = false;
-    bool _hasTransmission = false;
-    bool _isFibre = false;
-    bool _hasInterior = false;
-    bool _isVolumeOnly = false;
-    bool _hasSubsurface = false;
-    bool _hasDisplacement = false;
-    bool _passingEnters = false;
-    bool _usesUv = false;
-    bool _jitters = false;
+    MaterialFacts _facts;
     MethodPlan _planned;
-    std::unique_ptr<ProgramCode> _code;
+    std::unique_ptr<const ProgramCode> _code;
 };
 
 } // namespace patina

@@ -1,6 +1,6 @@
 #include "materialNetwork/cpu/mediumBuilder.h"
 
-#include "materialNetwork/cpu/closureTree.h"
+#include "materialNetwork/ir/closureTree.h"
 
 namespace patina {
 

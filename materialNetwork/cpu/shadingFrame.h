@@ -1,7 +1,7 @@
 #pragma once
 
 #include "materialNetwork/cpu/programCode.h"
-#include "materialNetwork/cpu/shadingPoint.h"
+#include "materialNetwork/shadingPoint.h"
 
 namespace patina {
 

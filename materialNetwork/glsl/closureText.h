@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/cpu/closureTree.h"
+#include "materialNetwork/ir/closureTree.h"
 
 #include <functional>
 #include <map>

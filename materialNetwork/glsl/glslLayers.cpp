@@ -1,6 +1,6 @@
 #include "materialNetwork/glsl/glslLayers.h"
 
-#include "materialNetwork/cpu/lobeFacts.h"
+#include "materialNetwork/ir/lobeFacts.h"
 #include "materialNetwork/glsl/glslScattering.h"
 
 namespace patina {
@@ -13,7 +13,7 @@ std::string digits(int i) {
 
 class LobeText : public ClosureText {
 public:
-    LobeText(const ProgramCode& code, const GlslRegister& registers)
+    LobeText(const MaterialIr& code, const GlslRegister& registers)
         : ClosureText(registers, "w"), _code(code) {
         for (size_t i = 0; code.returnsLight && i < code.lobes.size(); ++i)
             line("vec3 kinds" + digits(int(i)) + " = layerKinds(" + alpha(int(i)) + ", " +
@@ -44,7 +44,7 @@ public:
     static void setWalked(const std::string&, const std::string&, int) {}
 
 private:
-    LobeKind kind(int lobe) const { return _code.lobes[size_t(lobe)].prebuilt.kind; }
+    LobeKind kind(int lobe) const { return _code.lobes[size_t(lobe)].kind; }
 
     std::string passes(int lobe) const {
         const LobeTemplate& t = _code.lobes[size_t(lobe)];
@@ -55,19 +55,19 @@ private:
                    : "lobePasses(lobe" + digits(lobe) + ", " + cosine(lobe) + ")";
     }
 
-    const ProgramCode& _code;
+    const MaterialIr& _code;
 };
 
 } // namespace
 
-std::string glslWeights(const ProgramCode& code, const GlslRegister& registers) {
+std::string glslWeights(const MaterialIr& code, const GlslRegister& registers) {
     if (code.bsdf.empty()) return "";
     LobeText text(code, registers);
     weighLobes(code, int(code.bsdf.size()) - 1, text);
     return text.text();
 }
 
-std::string glslCoverage(const ProgramCode& code, const std::string& fixed) {
+std::string glslCoverage(const MaterialIr& code, const std::string& fixed) {
     const GlslRegister none;
     ClosureText text(none, "");
     return coverOf(code.layerTransmittance, fixed, text);

@@ -1,5 +1,7 @@
 #include "materialNetwork/glsl/glslLobes.h"
 
+#include "shaders/shaders.h"
+
 #include <type_traits>
 #include <vector>
 
@@ -46,11 +48,11 @@ std::string setup(L (*)(A...), const std::string& prefix, Arguments a) {
     return prefix + "Setup(" + text + ")";
 }
 
-// Lobes with methods at choice points. glslMaterial.cpp sets more of them, line by line.
+// Lobes whose set-up takes more than the inputs of a node.
 
 std::string setup(decltype(&sh::orenNayarSetup), const std::string&, Arguments a) {
     return "orenNayarModel(" + a.color(0) + ", " + a.number(1) + ", " + a.flag(a.t.flagA) + ", " +
-           std::to_string(int(a.t.diffuse)) + ")";
+           std::to_string(a.t.methods.at(Choice::Diffuse)) + ")";
 }
 
 std::string setup(decltype(&sh::dielectricSetup), const std::string&, Arguments a) {
@@ -74,14 +76,6 @@ std::string setup(decltype(&sh::schlickSetup), const std::string&, Arguments a) 
     return a.t.film ? "schlickFilm(" + bare + ", " + a.number(5) + ", " + a.number(6) + ")" : bare;
 }
 
-std::string setup(decltype(&sh::sheenSetup), const std::string&, Arguments a) {
-    const std::string bare =
-        "sheenSetup(" + a.color(0) + ", " + a.number(1) + ", " + std::to_string(a.t.variant) + ")";
-    return a.t.sheenAlbedo == sh::SHEEN_TABLED
-               ? bare
-               : "sheenMethods(" + bare + ", " + std::to_string(a.t.sheenAlbedo) + ")";
-}
-
 } // namespace
 
 std::string glslLobeType(LobeKind kind) {
@@ -92,7 +86,7 @@ std::string glslLobeType(LobeKind kind) {
 
 std::string glslLobeSetup(const LobeTemplate& t,
                           const std::function<std::string(Register)>& registers) {
-    switch (t.prebuilt.kind) {
+    switch (t.kind) {
 #define PATINA_LOBE(Kind, prefix, traits, probe, lit)                                              \
     case LobeKind::Kind:                                                                           \
         return setup(&sh::prefix##Setup, #prefix, Arguments{t, registers, {}});
@@ -100,6 +94,23 @@ std::string glslLobeSetup(const LobeTemplate& t,
     case LobeKind::Layered: break; // is never among the lobes of a program
     }
     return "";
+}
+
+std::string glslLobeMethods(const LobeTemplate& t, const std::string& lobe) {
+    std::string text;
+    const auto tell = [&](const char* function, std::initializer_list<Choice> points) {
+        std::string numbers;
+        bool differs = false;
+        for (const Choice point : points) {
+            numbers += ", " + std::to_string(t.methods.at(point));
+            differs |= t.methods.at(point) != 0;
+        }
+        if (differs) text += "    " + lobe + " = " + function + "(" + lobe + numbers + ");\n";
+    };
+#define PATINA_LOBE_METHODS(Kind, prefix, function, ...)                                           \
+    if (t.kind == LobeKind::Kind) tell(#function, {__VA_ARGS__});
+#include "materialNetwork/plan/choicePoints.inc"
+    return text;
 }
 
 } // namespace patina

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/cpu/programCode.h"
+#include "materialNetwork/ir/materialIr.h"
 
 #include <functional>
 #include <string>
@@ -14,5 +14,9 @@ std::string glslLobeType(LobeKind kind);
 /// @param registers text of a register, a vec4
 std::string glslLobeSetup(const LobeTemplate& lobe,
                           const std::function<std::string(Register)>& registers);
+
+/// Lines that tell a lobe its methods, after its set-up; none for the defaults.
+/// @param lobe the variable
+std::string glslLobeMethods(const LobeTemplate& t, const std::string& lobe);
 
 } // namespace patina

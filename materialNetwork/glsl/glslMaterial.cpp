@@ -1,7 +1,7 @@
 #include "materialNetwork/glsl/glslMaterial.h"
 
-#include "materialNetwork/cpu/lobeFacts.h"
-#include "materialNetwork/cpu/programCode.h"
+#include "materialNetwork/ir/lobeFacts.h"
+#include "materialNetwork/ir/registerFile.h"
 #include "materialNetwork/glsl/glslClosures.h"
 #include "materialNetwork/glsl/glslLayers.h"
 #include "materialNetwork/glsl/glslLobes.h"
@@ -27,15 +27,15 @@ constexpr size_t maxWithCurves = 2048;
 /// equal constants do not change the text.
 class Writer {
 public:
-    Writer(const MaterialProgram& program, const GlslFeatures& features, GlslMaterial& out)
-        : _program(program), _features(features), _code(program.code()), _out(out) {}
+    Writer(const MaterialIr& ir, const GlslFeatures& features, GlslMaterial& out)
+        : _features(features), _code(ir), _facts(ir.facts), _out(out) {}
 
     void write() {
         for (const auto* list :
              {&_code.surfaceCode, &_code.emissionCode, &_code.opacityCode, &_code.interiorCode})
             declareRegisters(*list);
         for (size_t i = 0; i < _code.lobes.size(); ++i)
-            line(glslLobeType(_code.lobes[i].prebuilt.kind) + " lobe" + number(int(i)) + ";");
+            line(glslLobeType(_code.lobes[i].kind) + " lobe" + number(int(i)) + ";");
         const int lobes = std::max(1, int(_code.lobes.size()));
         line("vec3 lobeWeight[" + number(lobes) + "];");
         line("vec3 lobeAlbedo[" + number(lobes) + "];");
@@ -50,7 +50,7 @@ public:
         setupFunction();
         presenceFunction();
         emissionFunction();
-        if (_program.hasInterior()) mediumFunction();
+        if (_facts.hasInterior) mediumFunction();
         _text += glslEval(_code) + glslSample(_code);
         const std::string textures =
             glslTextureText(_textures, _code.textures, _features.textureArrays, _out.textures,
@@ -65,14 +65,14 @@ public:
         _out.traitsText = glslTraits(_code);
         _out.definitions = glslDefinitions(_code);
         if (_out.parameters.empty()) _out.parameters.emplace_back(0.0f);
-        _out.presence = !_program.isOpaque();
-        _out.emission = _program.hasEmission();
+        _out.presence = !_facts.isOpaque;
+        _out.emission = _facts.hasEmission;
         _out.hasColoredPresence = _code.hasPassThrough;
-        _out.hasInterior = _program.hasInterior();
-        _out.volumeOnly = _program.isVolumeOnly();
-        _out.thin = _program.isThinWalled();
-        _out.fibre = _program.isFibre();
-        _out.transmits = _out.volumeOnly || (_program.hasTransmission() && !_program.isFibre());
+        _out.hasInterior = _facts.hasInterior;
+        _out.volumeOnly = _facts.isVolumeOnly;
+        _out.thin = _facts.isThinWalled;
+        _out.fibre = _facts.isFibre;
+        _out.transmits = _out.volumeOnly || (_facts.hasTransmission && !_facts.isFibre);
     }
 
 private:
@@ -173,7 +173,7 @@ private:
     /// Where the parameters hold the curve that the program reads albedos of a constant interface
     /// from. Whether there is one is a parameter too: it hangs on roughness and ior.
     std::string curve(const LobeTemplate& t) {
-        const bool schlick = t.prebuilt.kind == LobeKind::Schlick;
+        const bool schlick = t.kind == LobeKind::Schlick;
         if (!_features.energyCurves || !t.constant) return "-1";
         const size_t first = _out.parameters.size(), width = schlick ? 4 : 1;
         const size_t size = 1 + EnergyCurve::nodeCount * width;
@@ -192,28 +192,14 @@ private:
         return number(int(first));
     }
 
-    /// What lobeSetup.cpp sets after the lobe's own inputs.
-    void methodLines(const LobeTemplate& t, const std::string& lobe) {
-        const LobeKind kind = t.prebuilt.kind;
-        if (t.ndf != 0) line("    " + lobe + ".ndf = " + number(t.ndf) + ";");
-        if (!lobeHas(kind, lobe::Facets)) return;
-        if (t.albedo != 0 || t.sampling != 0 || t.fresnel != 0 || t.filmMethod != 0) {
-            const bool dielectric = kind == LobeKind::Dielectric;
-            line("    " + lobe + " = " + lobeRow(kind).prefix + "Methods(" + lobe + ", " +
-                 number(t.albedo) + ", " + number(t.sampling) + ", " +
-                 number(dielectric ? t.fresnel : t.filmMethod) + ");");
-        }
-        if (t.fresnel != 0 && kind == LobeKind::Conductor)
-            line("    " + lobe + " = conductorFresnel(" + lobe + ", " + number(t.fresnel) + ");");
-    }
-
     void instantiateLobe(size_t i) {
         const LobeTemplate& t = _code.lobes[i];
         const std::string n = number(int(i)), lobe = "lobe" + n;
         const auto registers = [&](Register r) { return reg(r); };
         line("    " + lobe + " = " + glslLobeSetup(t, registers) + ";");
-        methodLines(t, lobe);
-        const LobeKind kind = t.prebuilt.kind;
+        if (t.ndf != 0) line("    " + lobe + ".ndf = " + number(t.ndf) + ";");
+        _text += glslLobeMethods(t, lobe);
+        const LobeKind kind = t.kind;
         const bool interface = lobeHas(kind, lobe::Interface);
         const std::string wo = glslFrameOf(_code, i) + ".wo", albedo = "lobeAlbedo[" + n + "]";
         if (!lobeFactsOf(kind).fix)
@@ -317,9 +303,9 @@ private:
         line("}");
     }
 
-    const MaterialProgram& _program;
     const GlslFeatures& _features;
-    const ProgramCode& _code;
+    const MaterialIr& _code;
+    const MaterialFacts& _facts;
     GlslMaterial& _out;
     std::string _text;
     std::set<int> _declared;
@@ -329,9 +315,9 @@ private:
 
 } // namespace
 
-GlslMaterial makeGlslMaterial(const MaterialProgram& program, const GlslFeatures& features) {
+GlslMaterial makeGlslMaterial(const MaterialIr& ir, const GlslFeatures& features) {
     GlslMaterial out;
-    Writer(program, features, out).write();
+    Writer(ir, features, out).write();
     return out;
 }
 

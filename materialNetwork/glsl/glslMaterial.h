@@ -1,7 +1,7 @@
 #pragma once
 
-#include "materialNetwork/cpu/materialProgram.h"
 #include "materialNetwork/glsl/glslTextures.h"
+#include "materialNetwork/ir/materialIr.h"
 
 #include <glm/glm.hpp>
 
@@ -47,6 +47,6 @@ struct GlslFeatures {
     bool energyCurves = true;  ///< albedos of constant interfaces from curves in the parameters
 };
 
-GlslMaterial makeGlslMaterial(const MaterialProgram& program, const GlslFeatures& features = {});
+GlslMaterial makeGlslMaterial(const MaterialIr& ir, const GlslFeatures& features = {});
 
 } // namespace patina

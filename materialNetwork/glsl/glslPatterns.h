@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/cpu/programCode.h"
+#include "materialNetwork/ir/materialIr.h"
 
 #include <functional>
 #include <string>

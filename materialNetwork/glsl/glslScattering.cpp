@@ -2,6 +2,8 @@
 
 #include "materialNetwork/glsl/glslLobes.h"
 
+#include "shaders/shaders.h"
+
 namespace patina {
 
 namespace {
@@ -43,11 +45,11 @@ struct Common {
 
 } // namespace
 
-std::string glslFrameOf(const ProgramCode& code, size_t lobe) {
-    return "frames[" + number(code.lobes[lobe].prebuilt.frame) + "]";
+std::string glslFrameOf(const MaterialIr& code, size_t lobe) {
+    return "frames[" + number(code.lobes[lobe].frame) + "]";
 }
 
-std::string glslEval(const ProgramCode& code) {
+std::string glslEval(const MaterialIr& code) {
     std::string text = "MaterialEval materialEvalBut(vec3 wi, int without) {\n"
                        "    MaterialEval sum = materialEvalNone();\n"
                        "    bool reflects = isReflected(wi, point.geometricNormal, woOutside());\n";
@@ -57,17 +59,17 @@ std::string glslEval(const ProgramCode& code) {
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const LobeTemplate& t = code.lobes[i];
         const std::string n = number(int(i)), wo = glslFrameOf(code, i) + ".wo",
-                          wi = "wi" + number(t.prebuilt.frame), weight = "lobeWeight[" + n + "]";
+                          wi = "wi" + number(t.frame), weight = "lobeWeight[" + n + "]";
         text += "    if (without != " + n + ") addLobe(sum, lobeAgrees(" + wo + ".z, " + wi +
                 ".z, reflects) && hasWeight(" + weight + "), " +
-                (t.prebuilt.diffuse ? "true, " : "false, ") + weight + ", lobeChance[" + n + "], " +
-                lobeRow(t.prebuilt.kind).prefix + "Eval(lobe" + n + ", " + wo + ", " + wi + "));\n";
+                (t.diffuse ? "true, " : "false, ") + weight + ", lobeChance[" + n + "], " +
+                lobeRow(t.kind).prefix + "Eval(lobe" + n + ", " + wo + ", " + wi + "));\n";
     }
     return text + "    return sum;\n}\n"
                   "MaterialEval materialEval(vec3 wi) { return materialEvalBut(wi, -1); }\n";
 }
 
-std::string glslSample(const ProgramCode& code) {
+std::string glslSample(const MaterialIr& code) {
     std::string text = "MaterialSample materialSample(vec3 u, float uLobe) {\n"
                        "    Selection drawn = selectionNone();\n";
     for (size_t i = 0; i < code.lobes.size(); ++i) {
@@ -82,33 +84,33 @@ std::string glslSample(const ProgramCode& code) {
         const LobeTemplate& t = code.lobes[i];
         const std::string n = number(int(i)), frame = glslFrameOf(code, i);
         text += "    if (drawn.lobe == " + n + ") {\n";
-        text += "        l = " + std::string(lobeRow(t.prebuilt.kind).prefix) + "Sample(lobe" + n +
+        text += "        l = " + std::string(lobeRow(t.kind).prefix) + "Sample(lobe" + n +
                 ", " + frame + ".wo, u);\n";
         text += "        s.wi = toWorld(" + frame + ", l.wi);\n";
-        text += "        s.diffuse = " + std::string(t.prebuilt.diffuse ? "true" : "false") + ";\n";
+        text += "        s.diffuse = " + std::string(t.diffuse ? "true" : "false") + ";\n";
         text += "        weight = lobeWeight[" + n + "];\n";
         text += "        chance = lobeChance[" + n + "];\n    }\n";
     }
     return text + "    return finishSample(s, l, drawn.lobe, weight, chance);\n}\n";
 }
 
-std::string glslAlbedo(const ProgramCode& code) {
+std::string glslAlbedo(const MaterialIr& code) {
     std::string text = "vec3 materialAlbedo() {\n    vec3 sum = vec3(0.0);\n";
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const std::string n = number(int(i));
         text += "    if (hasWeight(lobeWeight[" + n + "])) sum += lobeWeight[" + n + "] * " +
-                lobeRow(code.lobes[i].prebuilt.kind).prefix + "Albedo(lobe" + n + ", " +
+                lobeRow(code.lobes[i].kind).prefix + "Albedo(lobe" + n + ", " +
                 glslFrameOf(code, i) + ".wo);\n";
     }
     return text + "    return sum;\n}\n";
 }
 
 bool glslRefracts(const LobeTemplate& t) {
-    return lobeHas(t.prebuilt.kind, lobe::Interface) && !t.passThrough &&
+    return lobeHas(t.kind, lobe::Interface) && !t.passThrough &&
            (t.mode & sh::SCATTER_T) != 0;
 }
 
-std::string glslPasses(const ProgramCode& code) {
+std::string glslPasses(const MaterialIr& code) {
     std::string sum;
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const std::string n = number(int(i));
@@ -119,12 +121,12 @@ std::string glslPasses(const ProgramCode& code) {
     return sum.empty() ? sum : "vec3 materialPasses() { return " + sum + "; }\n";
 }
 
-std::string glslTraits(const ProgramCode& code) {
+std::string glslTraits(const MaterialIr& code) {
     std::string kinds = "int lobeKind(int i) {\n", alphas = "float lobeAlpha(int i) {\n",
                 places = "Frame lobeFrame(int i) {\n", rounds = "bool lobeIsRound(int i) {\n";
     for (size_t i = 0; i < code.lobes.size(); ++i) {
         const std::string at = "    if (i == " + number(int(i)) + ") return ";
-        const Trait t = traitOf(code.lobes[i].prebuilt.kind, "lobe" + number(int(i)));
+        const Trait t = traitOf(code.lobes[i].kind, "lobe" + number(int(i)));
         kinds += at + t.kind + ";\n";
         alphas += at + t.alpha + ";\n";
         rounds += at + t.round + ";\n";
@@ -138,14 +140,14 @@ std::string glslTraits(const ProgramCode& code) {
            "    return frames[0];\n}\n";
 }
 
-std::string glslDefinitions(const ProgramCode& code) {
+std::string glslDefinitions(const MaterialIr& code) {
     Common compensate, albedo, film;
     for (const LobeTemplate& t : code.lobes) {
-        if (lobeHas(t.prebuilt.kind, lobe::Facets)) {
+        if (lobeHas(t.kind, lobe::Facets)) {
             compensate.add(t.compensate);
-            albedo.add(t.albedo);
+            albedo.add(t.methods.at(Choice::DirectionalAlbedo));
         }
-        if (t.film || t.filmDielectric) film.add(t.filmMethod);
+        if (t.film || t.filmDielectric) film.add(t.methods.at(Choice::ThinFilm));
     }
     return compensate.definition("PATINA_COMPENSATE(compensate)") +
            albedo.definition("PATINA_ALBEDO_METHOD(method)") +
@@ -153,10 +155,10 @@ std::string glslDefinitions(const ProgramCode& code) {
                             : film.definition("PATINA_FILM_METHOD(method)"));
 }
 
-std::vector<std::string> glslWalksLeftOut(const ProgramCode& code) {
+std::vector<std::string> glslWalksLeftOut(const MaterialIr& code) {
     std::vector<std::string> lines;
     for (const LobeTemplate& t : code.lobes)
-        if (t.walks && lobeHas(t.prebuilt.kind, lobe::Facets)) {
+        if (t.walks && lobeHas(t.kind, lobe::Facets)) {
             lines.push_back("energyCompensation=randomWalk is for the path tracer alone; "
                             "turquin is shown");
             break;

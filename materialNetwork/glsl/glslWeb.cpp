@@ -74,8 +74,8 @@ std::string rewritten(const std::string& line, const std::vector<glm::vec4>& par
 
 } // namespace
 
-GlslWebMaterial makeGlslWebMaterial(const MaterialProgram& program) {
-    const GlslMaterial desktop = makeGlslMaterial(program, {false, false});
+GlslWebMaterial makeGlslWebMaterial(const MaterialIr& ir) {
+    const GlslMaterial desktop = makeGlslMaterial(ir, {false, false});
     GlslWebMaterial out;
     for (const GlslTexture& t : desktop.textures)
         out.textures.push_back(t.handle);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/cpu/materialProgram.h"
+#include "materialNetwork/ir/materialIr.h"
 
 #include <glm/glm.hpp>
 
@@ -25,6 +25,6 @@ struct GlslWebMaterial {
     bool emission = false;
 };
 
-GlslWebMaterial makeGlslWebMaterial(const MaterialProgram& program);
+GlslWebMaterial makeGlslWebMaterial(const MaterialIr& ir);
 
 } // namespace patina

@@ -1,5 +1,6 @@
 #include "materialNetwork/graph/expand.h"
 
+#include "materialNetwork/compileCounts.h"
 #include "materialNetwork/network/geomprop.h"
 #include "materialNetwork/graph/graph.h"
 #include "materialNetwork/graph/simplify.h"
@@ -235,6 +236,7 @@ private:
 } // namespace
 
 Network expand(const Network& network, const ModelLookup& models, Diagnostics& diagnostics) {
+    ++compileCounts().expansions;
     return Expander(network, models, diagnostics).run();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/cpu/pattern.h"
+#include "materialNetwork/nodes/pattern.h"
 
 namespace patina {
 

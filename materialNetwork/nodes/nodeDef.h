@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/cpu/pattern.h"
+#include "materialNetwork/nodes/pattern.h"
 #include "materialNetwork/lobes.h"
 #include "materialNetwork/network/network.h"
 

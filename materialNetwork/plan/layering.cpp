@@ -16,8 +16,8 @@ bool isInterface(const PlanClosure& c) {
 }
 
 /// Why no light can be walked over this closure, apart from its parts.
-std::string whyNotOver(const Plan& plan, const PlanClosure& c) {
-    if (walksBeneath(plan, c)) return "light goes beneath the surface of its base";
+std::string whyNotOver(const Plan& plan, const PlanClosure& c, method::Subsurface subsurface) {
+    if (walksBeneath(c, subsurface)) return "light goes beneath the surface of its base";
     if (c.has(lobe::Fibre)) return "its base is hair";
     if (!isInterface(c)) return "";
     const int mode = scatterMode(plan, c);
@@ -34,14 +34,15 @@ bool darkensItself(const Plan& plan, const PlanClosure& closure) {
     return closure.kind == ClosureKind::Layer && category == "patina_coat";
 }
 
-std::vector<LayerWalkability> layerWalkability(const Plan& plan) {
+std::vector<LayerWalkability> layerWalkability(const Plan& plan,
+                                                method::Subsurface subsurface) {
     const size_t n = plan.closures.size();
     std::vector<LayerWalkability> found(n);
     std::vector<std::string> blocked(n); // parts come before wholes
     std::vector<int> depth(n, 0);        // of walked layers
     for (size_t i = 0; i < n; ++i) {
         const PlanClosure& c = plan.closures[i];
-        blocked[i] = whyNotOver(plan, c);
+        blocked[i] = whyNotOver(plan, c, subsurface);
         for (const int part : {c.a, c.b}) {
             if (part < 0) continue;
             depth[i] = std::max(depth[i], depth[size_t(part)]);

@@ -299,7 +299,8 @@ Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnosti
         plan.methods[point.name] = chosenMethod(methods, point.name);
     Planner(plan, diagnostics).run();
     if (plan.methods["layering"] == "positionFree") {
-        const std::vector<LayerWalkability> layers = layerWalkability(plan);
+        const std::vector<LayerWalkability> layers = layerWalkability(
+            plan, MethodSet(plan.methods).get<method::Subsurface>());
         for (size_t i = 0; i < layers.size(); ++i)
             if (!layers[i].reason.empty())
                 plan.leftOut.push_back(plan.graph.nodes[size_t(plan.closures[i].node)].path +

@@ -4,7 +4,6 @@
 #include "materialNetwork/plan/methodPlan.h"
 #include "materialNetwork/plan/methods.h"
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -49,7 +48,7 @@ struct Plan {
     int displacementNode = -1;         ///< in graph.nodes; -1: the surface stays where it is
     bool thinWalled = false;           ///< all of it; see PlanClosure::thin
     bool volumeOnly = false;           ///< a medium without a surface around it
-    MethodChoices methods;             ///< at every choice point
+    MethodChoices methods;             ///< at every choice point, as far as they are known yet
     MethodPlan planned;                ///< how they were found; empty: defaults and what was forced
     std::vector<std::string> leftOut;  ///< what is not modelled, one line each
 };
@@ -59,8 +58,9 @@ struct Plan {
 Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnostics,
               const MethodChoices& methods = {});
 
-/// Choice points whose method makes a difference to a closure, but not by itself to others.
-std::set<std::string> choicesOf(const Plan& plan, const PlanClosure& closure);
+/// Whether the method of a choice point makes a difference to a closure, but not by itself to
+/// others.
+bool matters(const Plan& plan, const PlanClosure& closure, Choice point);
 
 /// Choice points whose method makes a difference to this plan, in the order of choicePoints().
 std::vector<std::string> choicesThatMatter(const Plan& plan);
@@ -82,7 +82,7 @@ int lobeVariant(const Plan& plan, const PlanClosure& closure);
 bool hasFilm(const Plan& plan, const PlanClosure& closure);
 
 /// Whether light scatters beneath the surface of a subsurface lobe; else it shows as diffuse.
-bool walksBeneath(const Plan& plan, const PlanClosure& closure);
+bool walksBeneath(const PlanClosure& closure, method::Subsurface subsurface);
 
 /// Whether light that is transmitted changes direction, so that the surface has an inside.
 bool refracts(const Plan& plan, const PlanClosure& closure);

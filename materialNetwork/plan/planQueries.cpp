@@ -4,36 +4,26 @@
 
 #include "shaders/shaders.h"
 
-#include <set>
+#include <algorithm>
 
 namespace patina {
 
-std::set<std::string> choicesOf(const Plan& plan, const PlanClosure& c) {
-    std::set<std::string> matter;
-    const bool interface = c.has(lobe::Interface);
-    if (c.has(lobe::Facets)) matter.insert({"energyCompensation", "directionalAlbedo", "sampling"});
-    if (c.kind == ClosureKind::Dielectric || c.kind == ClosureKind::Conductor)
-        matter.insert("fresnel");
-    if (hasFilm(plan, c)) matter.insert("thinFilm");
-    if (c.kind == ClosureKind::OrenNayar) matter.insert("diffuse");
-    if (c.kind == ClosureKind::Subsurface && !c.thin) matter.insert("subsurface");
-    if (c.kind == ClosureKind::Sheen && lobeVariant(plan, c) == sh::SHEEN_CONTY_KULLA)
-        matter.insert("sheen");
-    if (c.kind == ClosureKind::Layer) matter.insert({"layering", "layerTransmittance"});
-    if (c.underReflection && interface && scatterMode(plan, c) == sh::SCATTER_T)
-        matter.insert("reflectionOverTransmission");
-    if (c.inThinWall && interface && (scatterMode(plan, c) & sh::SCATTER_T) != 0)
-        matter.insert("thinWalled");
-    return matter;
+bool matters(const Plan& plan, const PlanClosure& c, Choice point) {
+    switch (point) {
+#define PATINA_CHOICE(Type, name, truth, matters)                                                  \
+    case Choice::Type: return matters;
+#include "materialNetwork/plan/choicePoints.inc"
+    case Choice::Count: break;
+    }
+    return false;
 }
 
 std::vector<std::string> choicesThatMatter(const Plan& plan) {
-    std::set<std::string> matter;
-    for (const PlanClosure& c : plan.closures)
-        matter.merge(choicesOf(plan, c));
     std::vector<std::string> result;
-    for (const ChoicePoint& point : choicePoints())
-        if (matter.count(point.name)) result.push_back(point.name);
+    for (size_t i = 0; i < choicePoints().size(); ++i)
+        if (std::any_of(plan.closures.begin(), plan.closures.end(),
+                        [&](const PlanClosure& c) { return matters(plan, c, Choice(i)); }))
+            result.push_back(choicePoints()[i].name);
     return result;
 }
 
@@ -83,9 +73,9 @@ bool hasFilm(const Plan& plan, const PlanClosure& closure) {
            !isConstantValue(closureInput(plan, closure, "thinfilm_ior"), 1.0f);
 }
 
-bool walksBeneath(const Plan& plan, const PlanClosure& closure) {
+bool walksBeneath(const PlanClosure& closure, method::Subsurface subsurface) {
     return closure.kind == ClosureKind::Subsurface && !closure.thin &&
-           chosenMethod(plan.methods, "subsurface") == "randomWalk";
+           subsurface == method::Subsurface::RandomWalk;
 }
 
 bool refracts(const Plan& plan, const PlanClosure& closure) {

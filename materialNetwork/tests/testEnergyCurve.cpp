@@ -1,5 +1,5 @@
 // The interpolated energy of constant interfaces against the tables that it is measured from.
-#include "materialNetwork/cpu/energyCurve.h"
+#include "materialNetwork/cpu/lobeEnergy.h"
 
 #include <gtest/gtest.h>
 

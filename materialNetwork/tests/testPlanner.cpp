@@ -1,6 +1,6 @@
 // The planner: methods follow from the tolerance and the measured table, and from nothing else.
 #include "materialNetwork/plan/methodTable.h"
-#include "materialNetwork/plan/planner.h"
+#include "materialNetwork/planner/planner.h"
 #include "materialNetwork/tests/materialTest.h"
 
 namespace patina {

@@ -29,13 +29,8 @@ void setLight(PythonEdit& edit, const std::string& path, const py::kwargs& value
         .read("normalize", light->normalize)
         .read("enable_color_temperature", light->enableColorTemperature)
         .read("color_temperature", light->colorTemperature)
-        .read("angle", light->angle)
-        .read("radius", light->radius)
-        .read("width", light->width)
-        .read("height", light->height)
-        .read("length", light->length)
-        .read("treat_as_point", light->treatAsPoint)
-        .read("treat_as_line", light->treatAsLine)
+#define PATINA_LIGHT_INPUT(type, field, key, input, fallback, description) .read(key, light->field)
+#include "hdDelegate/scene/lightTypes.inc"
         .read("texture_file", light->textureFile)
         .read("texture_format", light->textureFormat)
         .read("texture_color_space", light->textureColorSpace)
@@ -151,6 +146,25 @@ py::list warnings(Scene& scene) {
 void bindScene(py::module_& m) {
     py::class_<PythonEdit> edit(m, "SceneEdit", "A batch of changes to a scene.");
     bindSceneGeometry(edit);
+    m.def(
+        "light_types",
+        [] {
+            py::dict types;
+            for (const LightRow& row : lightRows)
+                types[row.schemas] = row.word;
+            return types;
+        },
+        "UsdLux types, separated by blanks where several are read alike -> word for set_light().");
+    m.def(
+        "light_inputs",
+        [] {
+            py::list inputs;
+#define PATINA_LIGHT_INPUT(type, field, key, input, fallback, description)                         \
+    inputs.append(py::make_tuple(input, key, #type));
+#include "hdDelegate/scene/lightTypes.inc"
+            return inputs;
+        },
+        "Inputs that shape lights: (name in the schema, keyword of set_light(), float or bool).");
     edit.def("set_light", &setLight, "A UsdLux light; keywords are the fields of Light.")
         .def("set_camera", &setCamera, "A UsdGeomCamera; keywords are the fields of Camera.")
         .def("set_material", &setMaterial, py::arg("path"), py::arg("network"))

@@ -66,7 +66,7 @@ py::dict textureOf(const TextureSystem& textures, int handle, int largest) {
 std::vector<std::string> lobesOf(const MaterialProgram& program) {
     std::vector<std::string> list;
     for (const LobeTemplate& lobe : program.code().lobes)
-        list.push_back(lobeRow(lobe.prebuilt.kind).prefix + std::string(" ") +
+        list.push_back(lobeRow(lobe.kind).prefix + std::string(" ") +
                        std::to_string(lobe.mode) + " " + std::to_string(lobe.variant) + " " +
                        std::to_string(lobe.ndf) + (lobe.film ? " film" : "") +
                        (lobe.passThrough ? " passThrough" : ""));
@@ -81,7 +81,7 @@ py::dict webMaterial(const Network& network, const MethodChoices& methods, int l
     {
         py::gil_scoped_release release;
         program = compileMaterial(network, textures, diagnostics, methods);
-        glsl = makeGlslWebMaterial(*program);
+        glsl = makeGlslWebMaterial(program->ir());
     }
     py::dict dict;
     std::string error;

@@ -236,14 +236,10 @@ void convert(py::handle from, ImplicitShape& to) {
 }
 
 void convert(py::handle from, LightType& to) {
-    fromName<LightType>(from, to,
-                        {{"distant", LightType::Distant},
-                         {"dome", LightType::Dome},
-                         {"sphere", LightType::Sphere},
-                         {"disk", LightType::Disk},
-                         {"rect", LightType::Rect},
-                         {"cylinder", LightType::Cylinder},
-                         {"mesh", LightType::Mesh}});
+    std::map<std::string, LightType> words;
+    for (const LightRow& row : lightRows)
+        words[row.word] = row.type;
+    fromName(from, to, words);
 }
 
 void Fields::finish() const {

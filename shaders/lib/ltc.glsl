@@ -80,6 +80,7 @@ const int LTC_RECT = 0; // sides of 1 across x and y
 const int LTC_DISK = 1; // radius 1, across x and y
 const int LTC_SPHERE = 2; // radius 1
 const int LTC_CYLINDER = 3; // radius 1, length 1 along x
+const int LTC_SHAPES = 4; // those above have the numbers of shaders/lights/shapes; others no outline
 
 struct LtcOutline {
     vec3 corners[LTC_CORNERS];

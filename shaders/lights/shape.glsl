@@ -3,10 +3,14 @@
 //   disk      x^2 + y^2 <= 1, shining along z
 //   sphere    a unit sphere, shining outwards
 //   cylinder  |x| <= 1/2, y^2 + z^2 = 1, shining outwards, without caps
-// where the z axis of flat shapes is their unit normal. Each has a file with
-//   xHit     first point of the emitting side that a ray meets
-//   xPlace   a point for every receiver at once, even over the surface (of spheres see sphereInside.glsl)
-// and, where it is sampled for one receiver, xSample and xPdf.
+// where the z axis of flat shapes is their unit normal. Each has a file in shapes/ with its number,
+// `const int SHAPE_X`, and functions of points q in the shape's coordinates:
+//   xHit           first point of the emitting side that a ray meets
+//   xPlace         a point for every receiver at once, of two random numbers
+//   xPlaceDensity  its density by the world's area
+//   xNormal        the world's unit normal of the emitting side
+//   xExtent        half of the size of the box around it, along the world's axes
+// and, where it is sampled for one receiver better than by xPlace, xSample and xPdf.
 
 #ifndef PATINA_IN // C++ hands structs by reference
 #define PATINA_IN(T) T

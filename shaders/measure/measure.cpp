@@ -78,16 +78,11 @@ std::vector<Row> measureMethods(const std::string& point, bool timed) {
     const struct {
         const char* name;
         std::vector<Row> (*measure)(bool);
-    } points[] = {{"energyCompensation", energyCompensation},
-                  {"energyCompensation", energyWalk},
-                  {"directionalAlbedo", directionalAlbedo},
-                  {"sampling", sampling},
-                  {"fresnel", fresnel},
-                  {"thinFilm", thinFilm},
-                  {"diffuse", diffuse},
-                  {"sheen", sheen},
-                  {"subsurface", subsurface},
-                  {"areaLight", areaLight}};
+    } points[] = {
+#define PATINA_MEASURED(point) {#point, point},
+#include "shaders/measuredPoints.inc"
+#undef PATINA_MEASURED
+    };
     std::vector<Row> rows;
     for (const auto& p : points)
         if (point.empty() || point == p.name)

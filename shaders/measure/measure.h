@@ -57,18 +57,13 @@ private:
 /// i. Its results are summed so that nothing is left out.
 void time(const std::function<double(int)>& batch, int evaluations, Row& row);
 
-/// Rows of one choice point; empty when nothing is measured there.
-/// @param timed false leaves out the times, which is quick
-std::vector<Row> directionalAlbedo(bool timed);
-std::vector<Row> energyCompensation(bool timed);
-std::vector<Row> sampling(bool timed);
-std::vector<Row> fresnel(bool timed);
-std::vector<Row> thinFilm(bool timed);
-std::vector<Row> diffuse(bool timed);
-std::vector<Row> energyWalk(bool timed); ///< the truth of energyCompensation
-std::vector<Row> sheen(bool timed);
-std::vector<Row> subsurface(bool timed);
-std::vector<Row> areaLight(bool timed);
+/// Rows of one choice point. CMake lists these functions.
+#define PATINA_MEASURED(point) std::vector<Row> point(bool timed);
+#include "shaders/measuredPoints.inc"
+#undef PATINA_MEASURED
+
+/// Rows of the truth of energyCompensation, a part of it.
+std::vector<Row> energyTruth(bool timed);
 
 /// Rows of all choice points that concern lobes by themselves, or of `point` alone; layering has
 /// materialNetwork/measure, domeLight hdDelegate/raster/measure.

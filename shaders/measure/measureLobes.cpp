@@ -135,6 +135,8 @@ std::vector<Row> energyCompensation(bool timed) {
             rows.push_back(row);
         }
     }
+    for (Row& row : energyTruth(timed))
+        rows.push_back(std::move(row));
     return rows;
 }
 

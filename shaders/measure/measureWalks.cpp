@@ -12,7 +12,7 @@ constexpr int walksTogether = 16; // walks that are timed at once
 } // namespace
 
 // The truth that the other methods are measured against: it has no error, only a time.
-std::vector<Row> energyWalk(bool timed) {
+std::vector<Row> energyTruth(const bool timed) {
     const struct {
         const char* name;
         const char* kind;

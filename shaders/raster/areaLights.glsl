@@ -7,7 +7,7 @@
 
 // Whether the light is even over its whole surface, so that its outline says all.
 bool isOutline(Light l) {
-    return l.origin.w <= 0.0 && int(l.radiance.w) < LIGHT_POINT && l.table.x < 0.0 &&
+    return l.origin.w <= 0.0 && int(l.radiance.w) < LTC_SHAPES && l.table.x < 0.0 &&
            l.table.w < 0.0 && l.shaping.w == 0.0 && l.focusTint.w == 0.0;
 }
 

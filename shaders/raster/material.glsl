@@ -7,7 +7,7 @@
 
 const int ENERGY_CURVE_NODES = 64; // EnergyCurve::nodeCount
 
-// World space, unit vectors; see materialNetwork/cpu/shadingPoint.h.
+// World space, unit vectors; see materialNetwork/shadingPoint.h.
 struct SurfacePoint {
     vec3 position;
     vec3 objectPosition;

@@ -187,7 +187,11 @@ vec3 everyLight(vec3 p, vec3 w, vec2 u) {
                domeDirection(domeTexel(w));
     if (rectHit(p, w, t, q) || diskHit(p, w, t, q) || sphereHit(p, w, t, q) ||
         cylinderHit(p, w, t, q) || sphereLightHit(p, w, 1.0, t, pdf) || distantHit(p, 0.1, w))
-        sum += q * t * cylinderPlaceDensity(1.0, shapeNormal(f, q)) * distantPdf(0.1);
+        sum += q * t * distantPdf(0.1);
+    for (int kind = 0; kind < SHAPES; ++kind)
+        if (shapeHit(kind, p, w, t, q))
+            sum += (shapePlace(kind, u) + shapeNormalAt(kind, f, q) + shapeExtent(kind, f)) *
+                   shapePlaceDensity(kind, f, q);
     if (sphereSample(f, p, u, x)) sum += x.position * spherePdf(f, p, x.position);
     if (cylinderSample(f, p, u, x)) sum += x.normal * cylinderPdf(f, p, x.position, x.normal);
     if (lineSample(p, w, p, u.x, d, pdf)) sum += d * pdf * lineAcross(w, d);

@@ -35,24 +35,8 @@ ShapeFrame skewed(bool flat) {
     return {vec3(0.4f, 0.2f, 2.0f), axes, glm::inverse(axes), std::fabs(glm::determinant(axes))};
 }
 
-enum Kind { Rect, Disk, Cylinder };
-
-bool hit(Kind kind, vec3 o, vec3 d, float& t, vec3& q) {
-    return kind == Rect   ? rectHit(o, d, t, q)
-           : kind == Disk ? diskHit(o, d, t, q)
-                          : cylinderHit(o, d, t, q);
-}
-
-/// Density by area with which places are drawn, and the world's normal.
-float density(Kind kind, const ShapeFrame& s, const vec3& q, vec3& normal) {
-    if (kind == Cylinder) {
-        const vec3 wide = shapeNormal(s, vec3(0.0f, q.y, q.z));
-        normal = glm::normalize(wide);
-        return cylinderPlaceDensity(s.volume, wide);
-    }
-    normal = s.axes[2];
-    const float area = glm::length(glm::cross(s.axes[0], s.axes[1]));
-    return 1.0f / (kind == Disk ? PI * area : area);
+bool isFlat(int kind) {
+    return kind == SHAPE_RECT || kind == SHAPE_DISK;
 }
 
 } // namespace
@@ -61,23 +45,21 @@ float density(Kind kind, const ShapeFrame& s, const vec3& q, vec3& normal) {
 // all directions that hit. Four standard errors of both.
 TEST(Lights, placesHaveTheirDensity) {
     constexpr int count = 200000;
-    for (const Kind kind : {Rect, Disk, Cylinder}) {
-        const ShapeFrame s = skewed(kind != Cylinder);
+    for (int kind = 0; kind < SHAPES; ++kind) {
+        const ShapeFrame s = skewed(isFlat(kind));
         const vec3 point = s.origin + 1.4f * s.axes[2] - 0.3f * s.axes[0] + 0.5f * s.axes[1];
         double byPlaces = 0.0, squares = 0.0, met = 0.0;
         for (int i = 0; i < count; ++i) {
-            const vec3 q = kind == Rect   ? rectPlace(pair())
-                           : kind == Disk ? diskPlace(pair())
-                                          : cylinderPlace(pair());
-            vec3 normal;
-            const float byArea = density(kind, s, q, normal);
+            const vec3 q = shapePlace(kind, pair());
+            const vec3 normal = shapeNormalAt(kind, s, q);
+            const float byArea = shapePlaceDensity(kind, s, q);
             const float pdf = areaToSolidAngle(byArea, point - s.origin - s.axes * q, normal);
             const double one = pdf > 0.0f ? 1.0 / double(pdf) : 0.0;
             byPlaces += one / count;
             squares += one * one / count;
             float t;
             vec3 on;
-            met += hit(kind, shapeLocal(s, point), s.inverse * direction(), t, on) ? 1.0 : 0.0;
+            met += shapeHit(kind, shapeLocal(s, point), s.inverse * direction(), t, on) ? 1.0 : 0.0;
         }
         const double all = 4.0 * 3.14159265358979, share = met / count;
         const double error = std::sqrt((squares - byPlaces * byPlaces) / count) +
@@ -87,22 +69,33 @@ TEST(Lights, placesHaveTheirDensity) {
     }
 }
 
+TEST(Lights, placesAreInTheBoxAround) {
+    for (int kind = 0; kind < SHAPES; ++kind) {
+        const ShapeFrame s = skewed(isFlat(kind));
+        const vec3 extent = shapeExtent(kind, s);
+        vec3 reach(0.0f);
+        for (int i = 0; i < 20000; ++i)
+            reach = glm::max(reach, abs(s.axes * shapePlace(kind, pair())));
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_LE(reach[c], extent[c] * 1.00001f) << kind;
+            EXPECT_GE(reach[c], extent[c] * 0.95f) << kind; // the box is no larger than it must be
+        }
+    }
+}
+
 TEST(Lights, raysToPlacesMeetThem) {
-    for (const Kind kind : {Rect, Disk, Cylinder}) {
-        const ShapeFrame s = skewed(kind != Cylinder);
+    for (int kind = 0; kind < SHAPES; ++kind) {
+        const ShapeFrame s = skewed(isFlat(kind));
         const vec3 point = s.origin + 1.4f * s.axes[2];
         for (int i = 0; i < 1000; ++i) {
             const vec2 u = 0.98f * pair() + 0.01f; // the edges are rounding's
-            const vec3 place = kind == Rect   ? rectPlace(u)
-                               : kind == Disk ? diskPlace(u)
-                                              : cylinderPlace(u);
-            vec3 normal, q;
-            density(kind, s, place, normal);
+            const vec3 place = shapePlace(kind, u), normal = shapeNormalAt(kind, s, place);
+            vec3 q;
             const vec3 d = s.origin + s.axes * place - point;
             const float l = glm::length(d);
             if (glm::dot(d, normal) > -0.02f * l) continue;
             float t = 0.0f;
-            ASSERT_TRUE(hit(kind, shapeLocal(s, point), s.inverse * (d / l), t, q)) << kind;
+            ASSERT_TRUE(shapeHit(kind, shapeLocal(s, point), s.inverse * (d / l), t, q)) << kind;
             EXPECT_NEAR(t, l, 1e-4f * l);
             EXPECT_LT(glm::length(q - place), 1e-3f);
         }

@@ -1,8 +1,8 @@
 #include "hdDelegate/raster/lights/rasterLightPlan.h"
 
 #include "materialNetwork/plan/methods.h"
-#include "materialNetwork/plan/planner.h"
-#include "materialNetwork/plan/predictLight.h"
+#include "materialNetwork/planner/planner.h"
+#include "materialNetwork/planner/predictLight.h"
 
 #include <algorithm>
 #include <cmath>

@@ -54,7 +54,7 @@ std::unique_ptr<RasterBsdf> RasterBsdf::make(std::shared_ptr<const MaterialProgr
         error = "the OpenGL context cannot be used";
         return nullptr;
     }
-    const GlslMaterial glsl = makeGlslMaterial(*program);
+    const GlslMaterial glsl = makeGlslMaterial(program->ir());
     for (const std::string& line : glsl.leftOut)
         diagnostics.warn("", "", line);
     gpu->program =

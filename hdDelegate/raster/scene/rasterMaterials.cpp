@@ -16,8 +16,10 @@ namespace {
 /// of what stands in for them are counted.
 MethodChoices drawable(MethodChoices methods, double tolerance) {
     if (tolerance < 0.0) return methods;
-    for (const char* point : {"energyCompensation", "layering"})
-        methods.emplace(point, chosenMethod({}, point));
+    for (const ChoicePoint& point : choicePoints())
+        if (std::any_of(point.methods.begin(), point.methods.end(),
+                        [](const Method& m) { return m.walks; }))
+            methods.emplace(point.name, chosenMethod({}, point.name));
     return methods;
 }
 
@@ -127,7 +129,7 @@ RasterMaterials::Cached& RasterMaterials::asked(const std::string& path, const s
     Cached& cached = compiled(path, user, state, settings);
     RasterMaterial& m = cached.material;
     const bool first = !cached.built;
-    if (first) m.glsl = makeGlslMaterial(*m.program);
+    if (first) m.glsl = makeGlslMaterial(m.program->ir());
     const bool relit = !cached.lit && light(cached, settings);
     if (!first && !relit) return cached;
     cached.built = true;

@@ -136,8 +136,7 @@ int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
                            const ShadowBounds& bounds, int maximum, Sampled& out) const {
     const auto full = [&](int more) { return int(out.shadows.size()) + more > maximum; };
     const int kind = int(light.radiance.w);
-    const bool flat =
-        kind == shLights::SHAPE_RECT || kind == shLights::SHAPE_DISK || kind == Triangle;
+    const bool flat = kind == Triangle || isFlatShape(kind);
     const auto cast = [&](const mat4& worldToMap, bool clampsNear) {
         ShadowView view{worldToMap, light.sampled, category, clampsNear};
         if (kind == shLights::SHAPE_SPHERE) {

@@ -1,7 +1,7 @@
 // What the planner sees of a sky, and of materials under lights.
 #include "hdDelegate/raster/lights/rasterLightPlan.h"
 #include "hdDelegate/raster/measure/measuredSky.h"
-#include "materialNetwork/plan/planProbes.h"
+#include "materialNetwork/planner/planProbes.h"
 
 #include <gtest/gtest.h>
 

@@ -175,7 +175,7 @@ TEST_P(MaterialAgreement, OfTextWithProgram) {
     const NamedNetwork named = networks()[GetParam()];
     Compiled c(named.network);
     EXPECT_EQ(warnings(c.diagnostics), "");
-    const GlslMaterial glsl = makeGlslMaterial(*c.program);
+    const GlslMaterial glsl = makeGlslMaterial(c.program->ir());
     EXPECT_TRUE(glsl.leftOut.empty());
     std::string error;
     const auto program =
@@ -247,7 +247,7 @@ TEST(GlslMaterial, TextHasNeitherNumbersNorNamesOfTheScene) {
         node.inputs["file"] = Value::makeFilename(file);
         Compiled c(previewNetwork({{"roughness", number(roughness)}, {"ior", number(1.7f)}},
                                   {{"diffuseColor", {"albedo", "rgb"}}}, {stReader(), node}));
-        return makeGlslMaterial(*c.program).text;
+        return makeGlslMaterial(c.program->ir()).text;
     };
     const std::string a = textOf(0.3f, "a.png"), b = textOf(0.7f, "}; discard; //");
     EXPECT_EQ(a, b);

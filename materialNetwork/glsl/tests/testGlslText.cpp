@@ -73,7 +73,7 @@ protected:
                                                           : flakesUnderGlass();
         const Compiled c(network);
         EXPECT_EQ(warnings(c.diagnostics), "");
-        const GlslMaterial glsl = makeGlslMaterial(*c.program);
+        const GlslMaterial glsl = makeGlslMaterial(c.program->ir());
         EXPECT_TRUE(glsl.leftOut.empty());
         return glsl;
     }
@@ -113,7 +113,7 @@ TEST(GlslDefinitions, SayWhatAllLobesHaveInCommon) {
             {makeNode("bsdf", "ND_conductor_bsdf", {{"thinfilm_thickness", number(thickness)}})});
         FakeTextures textures;
         Diagnostics diagnostics;
-        return makeGlslMaterial(*compileMaterial(network, textures, diagnostics, methods, -1.0))
+        return makeGlslMaterial(compileMaterial(network, textures, diagnostics, methods, -1.0)->ir())
             .definitions;
     };
     EXPECT_EQ(definitions(0.0f, {}), "#define PATINA_COMPENSATE(compensate) 1\n" + none);
@@ -128,7 +128,7 @@ TEST(GlslDefinitions, SayWhatAllLobesHaveInCommon) {
 
 TEST(GlslTextStrings, NeverReachTheText) {
     const auto textOf = [](const std::string& word) {
-        return makeGlslMaterial(*Compiled(texturedBumps(word)).program).text;
+        return makeGlslMaterial(Compiled(texturedBumps(word)).program->ir()).text;
     };
     EXPECT_EQ(textOf("wood"), textOf(hostile));
 }
@@ -149,7 +149,7 @@ TEST(GlslTextTextures, ShareUnitsWhereThereAreTooMany) {
     nodes.push_back(makeNode("bsdf", "ND_burley_diffuse_bsdf", {},
                              {{"color", {"sum" + std::to_string(count - 1), ""}}}));
     const Compiled c(bsdfNetwork(nodes));
-    const GlslMaterial glsl = makeGlslMaterial(*c.program);
+    const GlslMaterial glsl = makeGlslMaterial(c.program->ir());
     ASSERT_EQ(glsl.textures.size(), size_t(count));
     for (int i = 0; i < count; ++i) {
         EXPECT_EQ(glsl.textures[size_t(i)].unit, std::min(i, glslTextureUnits - 1));

@@ -1,4 +1,6 @@
 """Which prims are drawn, and as what."""
+import functools
+
 from pxr import Tf, UsdGeom, UsdLux
 
 GPRIMS = {
@@ -8,12 +10,16 @@ GPRIMS = {
     "Volume": "volume", "NurbsPatch": "nurbsPatch", "TetMesh": "tetMesh",
     "NurbsCurves": "nurbsCurves", "HermiteCurves": "hermiteCurves",
 }
-LIGHTS = {
-    "DistantLight": "distant", "DomeLight": "dome", "DomeLight_1": "dome", "SphereLight": "sphere",
-    "DiskLight": "disk", "RectLight": "rect", "CylinderLight": "cylinder", "GeometryLight": "mesh",
-}
 UNSUPPORTED = {"PortalLight", "PluginLight", "ParticleField"}
 OTHER = {"Camera": "camera", "PointInstancer": "instancer", "SkelRoot": "skelRoot"}
+
+
+@functools.lru_cache(maxsize=None)
+def lights():
+    """:returns: UsdLux type -> word for set_light()"""
+    import _patina
+
+    return {schema: word for schemas, word in _patina.light_types().items() for schema in schemas.split()}
 
 
 class Kinds:
@@ -31,9 +37,11 @@ class Kinds:
 
     @staticmethod
     def _kind(prim, name):
-        for table in (GPRIMS, LIGHTS, OTHER):
+        for table in (GPRIMS, OTHER):
             if name in table:
-                return table[name] if table is not LIGHTS else "light"
+                return table[name]
+        if name in lights():
+            return "light"
         if name in UNSUPPORTED:
             return "unsupported"
         for base in ("Mesh", "BasisCurves", "Points", "NurbsPatch", "TetMesh", "NurbsCurves",

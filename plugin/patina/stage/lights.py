@@ -1,13 +1,13 @@
 """UsdLux lights."""
+import functools
+
 from pxr import Gf, UsdGeom, UsdLux, UsdShade
 
-from . import assets
+from . import assets, kinds
 from .context import number, vector
-from .kinds import LIGHTS
 from .transforms import transform_of
 
-_FLOATS = ("intensity", "exposure", "diffuse", "specular", "colorTemperature", "angle", "radius", "width",
-           "height", "length")
+_FLOATS = ("intensity", "exposure", "diffuse", "specular", "colorTemperature")
 _BOOLS = ("normalize", "enableColorTemperature")
 _SHAPING = {"shaping:focus": "shaping_focus", "shaping:cone:angle": "shaping_cone_angle",
             "shaping:cone:softness": "shaping_cone_softness", "shaping:ies:angleScale": "ies_angle_scale"}
@@ -18,7 +18,7 @@ _SHADOW = {"shadow:distance": "shadow_distance", "shadow:falloff": "shadow_fallo
 def emit(context, found, linking):
     prim, group = found.prim, found.state.group
     is_mesh = prim.IsA(UsdGeom.Mesh)
-    type_ = "mesh" if is_mesh else LIGHTS.get(prim.GetTypeName())
+    type_ = "mesh" if is_mesh else kinds.lights().get(prim.GetTypeName())
     fields = {"type": type_, "group": group.name}
     _read(context, prim, fields)
     _read_shaping(context, prim, fields)
@@ -42,14 +42,17 @@ def emit(context, found, linking):
         fields["material_sync_mode"] = str(_plain(context, prim, "light:materialSyncMode") or "materialGlowTintsLight")
         if is_mesh and _input(context, prim, "intensity", authored=True) is None:
             fields["intensity"] = 1.0
-    for name in ("treatAsPoint", "treatAsLine"):
-        value = _plain(context, prim, name)
-        if value is not None:
-            fields["treat_as_point" if name == "treatAsPoint" else "treat_as_line"] = bool(value)
     fields["transform"] = transform_of(context, prim, group.anchor, after)
     path = found.path if not is_mesh else found.path + "/light_of_mesh"
     context.edit.set_light(path, **fields)
     context.count("lights")
+
+
+@functools.lru_cache(maxsize=None)
+def _shape_inputs():
+    import _patina
+
+    return _patina.light_inputs()
 
 
 def _report_network(context, prim, is_mesh):
@@ -140,6 +143,12 @@ def _read(context, prim, fields):
         value = _input(context, prim, name)
         if value is not None:
             _set_number(context, prim, name, _snake(name), value, fields)
+    for name, key, type_ in _shape_inputs():
+        value = _plain(context, prim, name) if type_ == "bool" else _input(context, prim, name)
+        if value is not None and type_ == "bool":
+            fields[key] = bool(value)
+        elif value is not None:
+            _set_number(context, prim, name, key, value, fields)
     for name in _BOOLS:
         value = _input(context, prim, name)
         if value is not None:

@@ -1,4 +1,4 @@
-#include "materialNetwork/plan/predictLight.h"
+#include "materialNetwork/planner/predictLight.h"
 
 #include "materialNetwork/plan/methodTable.h"
 

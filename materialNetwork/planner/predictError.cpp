@@ -1,10 +1,12 @@
-#include "materialNetwork/plan/predictError.h"
+#include "materialNetwork/planner/predictError.h"
 
 #include "materialNetwork/plan/layering.h"
 #include "materialNetwork/plan/methodTable.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string_view>
 
 namespace patina {
 
@@ -22,38 +24,55 @@ struct Near {
     double weight;
 };
 
-/// Rows of a method that a closure lies between: of its kind, the two nearest in reflectance on
-/// either side, by the roots of their reflectances. Rows that know none come all.
-std::vector<Near> rowsFor(const std::string& point, const std::string& method,
-                          const ClosureContribution& contribution) {
-    std::vector<const MeasuredMethod*> all, kin;
-    for (const MeasuredMethod& row : methodTable())
-        if (point == row.point && method == row.method) {
-            all.push_back(&row);
-            if (std::string(row.kind) == contribution.kind) kin.push_back(&row);
-        }
-    if (kin.empty()) kin = all;
-    const MeasuredMethod *below = nullptr, *above = nullptr;
-    std::vector<Near> result;
-    for (const MeasuredMethod* row : kin) {
-        if (row->reflectance < 0.0f) {
-            result.push_back({row, 1.0});
-        } else if (row->reflectance <= contribution.reflectance) {
-            if (!below || row->reflectance > below->reflectance) below = row;
-        } else if (!above || row->reflectance < above->reflectance) {
-            above = row;
-        }
+/// The rows of one method.
+class MethodRows {
+public:
+    MethodRows(const std::string& point, const std::string& method) {
+        for (const MeasuredMethod& row : methodTable())
+            if (point == row.point && method == row.method) _all.push_back(&row);
     }
-    if (below && above) {
-        const double a = std::sqrt(below->reflectance), b = std::sqrt(above->reflectance);
-        const double f = (std::sqrt(double(contribution.reflectance)) - a) / (b - a);
-        result.push_back({below, 1.0 - f});
-        result.push_back({above, f});
-    } else if (below || above) {
-        result.push_back({below ? below : above, 1.0});
+
+    /// Those that a closure lies between: of its kind, the two nearest in reflectance on either
+    /// side, by the roots of their reflectances. Rows that know none come all.
+    std::vector<Near> around(const ClosureContribution& contribution) {
+        const MeasuredMethod *below = nullptr, *above = nullptr;
+        std::vector<Near> result;
+        for (const MeasuredMethod* row : kin(contribution.kind)) {
+            if (row->reflectance < 0.0f) {
+                result.push_back({row, 1.0});
+            } else if (row->reflectance <= contribution.reflectance) {
+                if (!below || row->reflectance > below->reflectance) below = row;
+            } else if (!above || row->reflectance < above->reflectance) {
+                above = row;
+            }
+        }
+        if (below && above) {
+            const double a = std::sqrt(below->reflectance), b = std::sqrt(above->reflectance);
+            const double f = (std::sqrt(double(contribution.reflectance)) - a) / (b - a);
+            result.push_back({below, 1.0 - f});
+            result.push_back({above, f});
+        } else if (below || above) {
+            result.push_back({below ? below : above, 1.0});
+        }
+        return result;
     }
-    return result;
-}
+
+private:
+    /// Rows of a kind, or all where there are none.
+    /// @param kind of a table; known again by where it stands
+    const std::vector<const MeasuredMethod*>& kin(const char* kind) {
+        const auto known = _kin.find(kind);
+        if (known != _kin.end()) return known->second;
+        std::vector<const MeasuredMethod*>& rows = _kin[kind];
+        for (const MeasuredMethod* row : _all)
+            if (std::string(row->kind) == kind) rows.push_back(row);
+        if (rows.empty()) rows = _all;
+        return rows;
+    }
+
+    std::vector<const MeasuredMethod*> _all;
+    std::map<const char*, std::vector<const MeasuredMethod*>> _kin;
+};
 
 /// A row's error and what it is of, at a place along its axis and a quarter of the cosine.
 struct Cell {
@@ -63,7 +82,7 @@ struct Cell {
 
 Cell cellOf(const MeasuredMethod& row, const ClosureContribution& contribution, int quarter) {
     const double place =
-        std::string(row.axis) == "thickness" ? contribution.thickness : contribution.roughness;
+        std::string_view(row.axis) == "thickness" ? contribution.thickness : contribution.roughness;
     const double x = place / row.axisEnd * methodBins - 0.5;
     const int i = std::clamp(int(std::floor(x)), 0, methodBins - 2);
     const double f = std::clamp(x - i, 0.0, 1.0);
@@ -75,7 +94,7 @@ Cell cellOf(const MeasuredMethod& row, const ClosureContribution& contribution, 
 }
 
 bool makesNoise(const MeasuredMethod& row) {
-    return std::string(row.errorOf) == "noise";
+    return std::string_view(row.errorOf) == "noise";
 }
 
 /// Mirrors need none of these.
@@ -86,8 +105,11 @@ bool onlyRough(const std::string& point) {
 class Predictor {
 public:
     Predictor(const Plan& plan, const std::string& point, const std::string& method)
-        : _plan(plan), _point(point), _method(method) {
-        if (point == "layering") _walks = layerWalkability(plan);
+        : _plan(plan), _point(point), _rows(rowsOf(plan, point, method)) {
+        if (point == "layering")
+            _walks =
+                layerWalkability(plan, MethodSet(plan.methods).get<method::Subsurface>());
+        _choice = Choice(findChoicePoint(point) - choicePoints().data());
     }
 
     Prediction run(const std::vector<std::vector<DirectionProbe>>& places) {
@@ -109,8 +131,7 @@ private:
         const int quarter = std::clamp(int(probe.cosine * methodCosines), 0, methodCosines - 1);
         double sum = 0.0;
         for (const ClosureContribution& contribution : probe.closures) {
-            if (!choicesOf(_plan, _plan.closures[size_t(contribution.closure)]).count(_point))
-                continue;
+            if (!matters(_plan, _plan.closures[size_t(contribution.closure)], _choice)) continue;
             const bool alike = !_walks.empty() && !_walks[size_t(contribution.closure)].walks;
             if (alike || (onlyRough(_point) && contribution.roughness <= 0.0f)) {
                 _result.measured = true;
@@ -121,7 +142,7 @@ private:
                 continue;
             }
             double between = 0.0, worst = 0.0, time = 0.0, weights = 0.0;
-            for (const Near& near : rowsFor(_point, _method, contribution)) {
+            for (const Near& near : _rows.around(contribution)) {
                 const Cell cell = cellOf(*near.row, contribution, quarter);
                 _result.measured = true;
                 time += near.weight * near.row->ns;
@@ -149,7 +170,7 @@ private:
         for (int c = 0; c < 3; ++c) {
             ClosureContribution channel = contribution;
             channel.reflectance = contribution.base[c];
-            for (const Near& near : layerRows(channel)) {
+            for (const Near& near : _rows.around(channel)) {
                 const Cell cell = cellOf(*near.row, channel, quarter);
                 _result.measured = true;
                 error += luminanceOf[c] * near.weight * cell.error;
@@ -162,11 +183,13 @@ private:
 
     /// Scaling is measured with the default of layerTransmittance; its other methods have rows of
     /// their own.
-    std::vector<Near> layerRows(const ClosureContribution& channel) const {
-        const std::string meaning = chosenMethod(_plan.methods, "layerTransmittance");
-        if (_method != "albedoScaling" || meaning == chosenMethod({}, "layerTransmittance"))
-            return rowsFor(_point, _method, channel);
-        return rowsFor("layerTransmittance", meaning, channel);
+    static MethodRows rowsOf(const Plan& plan, const std::string& point,
+                             const std::string& method) {
+        const std::string meaning = chosenMethod(plan.methods, "layerTransmittance");
+        if (point != "layering" || method != "albedoScaling" ||
+            meaning == chosenMethod({}, "layerTransmittance"))
+            return {point, method};
+        return {"layerTransmittance", meaning};
     }
 
     double contributedError(const MeasuredMethod& row, const ClosureContribution& contribution,
@@ -177,7 +200,7 @@ private:
         const double counts =
             _point == "directionalAlbedo" ? std::min(contribution.reflectance + 0.05, 1.0) : 1.0;
         const bool ofLight =
-            std::string(row.errorOf) == "albedo" || std::string(row.errorOf) == "reflectance";
+            std::string_view(row.errorOf) == "albedo" || std::string_view(row.errorOf) == "reflectance";
         const double below = ofLight && contribution.beneath > 0.0f
                                  ? cell.error / std::max(1.0 - cell.truth, 0.01)
                                  : 0.0;
@@ -187,7 +210,8 @@ private:
 
     const Plan& _plan;
     const std::string& _point;
-    const std::string& _method;
+    MethodRows _rows;
+    Choice _choice;
     std::vector<LayerWalkability> _walks; ///< of layering: others are scaled by every method
     Prediction _result;
 };

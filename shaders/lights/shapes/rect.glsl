@@ -1,4 +1,5 @@
-// Rect lights, see shape.glsl.
+// Rect lights, see ../shape.glsl.
+const int SHAPE_RECT = 0;
 
 PATINA_FN bool rectHit(vec3 o, vec3 d, PATINA_OUT(float) t, PATINA_OUT(vec3) q) {
     bool met = planeHit(o, d, t, q);
@@ -7,6 +8,18 @@ PATINA_FN bool rectHit(vec3 o, vec3 d, PATINA_OUT(float) t, PATINA_OUT(vec3) q) 
 
 PATINA_FN vec3 rectPlace(vec2 u) {
     return vec3(u.x - 0.5f, u.y - 0.5f, 0.0f);
+}
+
+PATINA_FN float rectPlaceDensity(PATINA_IN(ShapeFrame) s, vec3 q) {
+    return 1.0f / s.volume; // the third axis is a unit normal
+}
+
+PATINA_FN vec3 rectNormal(PATINA_IN(ShapeFrame) s, vec3 q) {
+    return s.axes[2];
+}
+
+PATINA_FN vec3 rectExtent(PATINA_IN(ShapeFrame) s) {
+    return 0.5f * (abs(s.axes[0]) + abs(s.axes[1]));
 }
 
 // Where a point of the rect lies on its image, whose left top corner is at (+x, +y) as the schema puts it.

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "materialNetwork/cpu/programCode.h"
-#include "materialNetwork/cpu/scratch.h"
+#include "materialNetwork/ir/materialIr.h"
+#include "materialNetwork/ir/scratch.h"
 
 #include "shaders/closure.h"
 

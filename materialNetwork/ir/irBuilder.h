@@ -1,19 +1,25 @@
 #pragma once
 
-#include "materialNetwork/cpu/materialProgram.h"
-#include "materialNetwork/cpu/programCode.h"
+#include "materialNetwork/ir/materialIr.h"
+#include "materialNetwork/plan/plan.h"
+#include "materialNetwork/textureSource.h"
 
 #include <map>
 
 namespace patina {
 
-/// Turns a Plan into a MaterialProgram.
-class ProgramBuilder {
+/// Compiles a plan. Never fails: what cannot be compiled is reported and left out. No method of the
+/// plan counts but those that decide what the graph means (reflectionOverTransmission, thinWalled).
+/// @param textures must outlive the IR
+MaterialIr compileIr(const Plan& plan, TextureSource& textures, Diagnostics& diagnostics);
+
+/// Turns a Plan into a MaterialIr.
+class IrBuilder {
 public:
-    ProgramBuilder(const Plan& plan, TextureSource& textures, Diagnostics& diagnostics)
+    IrBuilder(const Plan& plan, TextureSource& textures, Diagnostics& diagnostics)
         : _plan(plan), _textures(textures), _diagnostics(diagnostics) {}
 
-    std::shared_ptr<const MaterialProgram> build();
+    MaterialIr build();
 
 private:
     class Setup;
@@ -32,18 +38,15 @@ private:
     int frame(const PlanClosure& closure, bool flips, std::vector<bool>& needed);
     void markTops(std::vector<ClosureOp>& ops) const;
     void markLobes(std::vector<ClosureOp>& ops) const;
-    void markReturning(std::vector<ClosureOp>& ops) const;
-    void markWalked(std::vector<ClosureOp>& ops) const;
+    void markLayers(std::vector<ClosureOp>& ops) const;
     bool isPassThrough(const PlanClosure& closure) const;
-    void setFlags();
 
     const GraphNode& nodeOf(int node) const { return _plan.graph.nodes[size_t(node)]; }
 
     const Plan& _plan;
     TextureSource& _textures;
     Diagnostics& _diagnostics;
-    std::shared_ptr<MaterialProgram> _program;
-    ProgramCode* _code = nullptr;
+    MaterialIr _ir;
     std::vector<PatternData> _data;  ///< per graph node
     std::vector<bool> _prepared;     ///< per graph node
     std::vector<bool> _readsTexture; ///< per graph node

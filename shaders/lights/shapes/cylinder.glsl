@@ -1,5 +1,6 @@
-// Cylinder lights, see shape.glsl. For one receiver samples are even in the angle along, and across in the width that
+// Cylinder lights, see ../shape.glsl. For one receiver samples are even in the angle along, and across in the width that
 // the point sees.
+const int SHAPE_CYLINDER = 3;
 
 PATINA_FN_RARE bool cylinderHit(vec3 o, vec3 d, PATINA_OUT(float) t, PATINA_OUT(vec3) q) {
     t = 0.0f;
@@ -22,9 +23,24 @@ PATINA_FN vec3 cylinderPlace(vec2 u) {
     return vec3(u.x - 0.5f, cos(a), sin(a));
 }
 
-// By area, of cylinderPlace(). normal: of shapeNormal(), as long as the area is small
-PATINA_FN float cylinderPlaceDensity(float volume, vec3 normal) {
-    return 1.0f / (TWO_PI * volume * length(normal));
+// Of the curved side, as long as the area is small.
+PATINA_FN vec3 cylinderAcross(PATINA_IN(ShapeFrame) s, vec3 q) {
+    return shapeNormal(s, vec3(0.0f, q.y, q.z));
+}
+
+PATINA_FN float cylinderPlaceDensity(PATINA_IN(ShapeFrame) s, vec3 q) {
+    return 1.0f / (TWO_PI * s.volume * length(cylinderAcross(s, q)));
+}
+
+PATINA_FN vec3 cylinderNormal(PATINA_IN(ShapeFrame) s, vec3 q) {
+    return normalize(cylinderAcross(s, q));
+}
+
+PATINA_FN vec3 cylinderExtent(PATINA_IN(ShapeFrame) s) {
+    vec3 a = abs(s.axes[0]);
+    vec3 b = abs(s.axes[1]);
+    vec3 c = abs(s.axes[2]);
+    return 0.5f * a + sqrt(b * b + c * c);
 }
 
 // Where on the line of the cylinder that is nearest to the point the samples centre.

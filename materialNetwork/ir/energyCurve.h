@@ -1,10 +1,12 @@
 #pragma once
 
-#include "materialNetwork/cpu/bsdf.h"
+#include <glm/glm.hpp>
 
 #include <vector>
 
 namespace patina {
+
+struct BsdfLobe;
 
 /// Albedo and energy factors of a rough isotropic interface whose parameters are constant, over the
 /// cosine of wo on the outside. The baked tables hang on roughness and ior too and cost several
@@ -14,7 +16,7 @@ public:
     static constexpr int nodeCount = 64;
     static constexpr int fineCount = 512;
 
-    /// Measures the lobe. Stays empty for lobes that it does not suit: mirrors and lobes
+    /// Measures the lobe (cpu/energyCurve.cpp). Stays empty for lobes that it does not suit: mirrors and lobes
     /// nearly as narrow, anisotropic ones, interfaces that are denser on the outside (total
     /// reflection has a kink). Methods that sum over many facets (ALBEDO_SAMPLES_16 and above) are
     /// too slow to ask at every point: they get a fine curve, read by cubics, for any roughness,
@@ -37,8 +39,5 @@ public:
 private:
     std::vector<Energy> _nodes, _fine, _below;
 };
-
-/// The same by the lobe's own method. For dielectric, Schlick and conductor lobes.
-EnergyCurve::Energy lobeEnergy(const BsdfLobe& lobe, const glm::vec3& wo);
 
 } // namespace patina

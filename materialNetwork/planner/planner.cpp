@@ -1,9 +1,10 @@
-#include "materialNetwork/plan/planner.h"
+#include "materialNetwork/planner/planner.h"
 
-#include "materialNetwork/plan/predictError.h"
+#include "materialNetwork/planner/predictError.h"
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 namespace patina {
 
@@ -32,14 +33,14 @@ struct Point {
 
 class MethodPlanner {
 public:
-    MethodPlanner(const Plan& plan, const Planning& planning, TextureSource& textures)
+    MethodPlanner(const Plan& plan, const ProgramCode& code, const Planning& planning)
         : _plan(plan), _planning(planning),
-          _probes(std::make_shared<std::vector<std::vector<DirectionProbe>>>(
-              probePlan(plan, textures))),
+          _probes(std::make_shared<std::vector<std::vector<DirectionProbe>>>(probeProgram(code))),
           _places(*_probes) {}
 
     MethodPlan run() {
         _result.tolerance = _planning.tolerance;
+        _result.fallback = _plan.planned.fallback;
         _result.probes = _probes;
         _result.varies = _places.size() > 1;
         for (const auto& angles : _places)
@@ -63,7 +64,14 @@ public:
     }
 
 private:
-    Prediction predictionOf(const std::string& point, const std::string& method) const {
+    /// Asked several times for defaults and truths.
+    const Prediction& predictionOf(const std::string& point, const std::string& method) const {
+        const auto known = _predictions.find({point, method});
+        if (known != _predictions.end()) return known->second;
+        return _predictions[{point, method}] = predictionFor(point, method);
+    }
+
+    Prediction predictionFor(const std::string& point, const std::string& method) const {
         Prediction p = predict(_plan, _places, point, method);
         if (method != truthMethod(point)) {
             p.error *= _factor;
@@ -117,12 +125,10 @@ private:
     /// them.
     std::vector<Option> front(const std::string& name, const std::string& truth) const {
         std::vector<Option> all;
-        for (const ChoicePoint& choice : choicePoints())
-            if (choice.name == name)
-                for (const Method& m : choice.methods) {
-                    const Option o{m.name, predictionOf(name, m.name)};
-                    if (o.prediction.measured || m.name == truth) all.push_back(o);
-                }
+        for (const Method& m : findChoicePoint(name)->methods) {
+            const Option o{m.name, predictionOf(name, m.name)};
+            if (o.prediction.measured || m.name == truth) all.push_back(o);
+        }
         std::stable_sort(all.begin(), all.end(), [](const Option& a, const Option& b) {
             return a.prediction.ns < b.prediction.ns;
         });
@@ -139,18 +145,16 @@ private:
     Option quietest(const std::string& name) const {
         Option best;
         double minimum = std::numeric_limits<double>::infinity();
-        for (const ChoicePoint& choice : choicePoints())
-            if (choice.name == name)
-                for (const Method& m : choice.methods) {
-                    const Option o{m.name, predictionOf(name, m.name)};
-                    if (!o.prediction.measured) continue;
-                    const double effort = (1.0 + o.prediction.noise * o.prediction.noise) *
-                                          (nsPerSample + o.prediction.ns);
-                    if (effort < minimum) {
-                        minimum = effort;
-                        best = o;
-                    }
-                }
+        for (const Method& m : findChoicePoint(name)->methods) {
+            const Option o{m.name, predictionOf(name, m.name)};
+            if (!o.prediction.measured) continue;
+            const double effort =
+                (1.0 + o.prediction.noise * o.prediction.noise) * (nsPerSample + o.prediction.ns);
+            if (effort < minimum) {
+                minimum = effort;
+                best = o;
+            }
+        }
         return best;
     }
 
@@ -204,6 +208,7 @@ private:
     const std::vector<std::vector<DirectionProbe>>& _places;
     std::vector<Point> _points;
     std::vector<int> _chosen, _best;
+    mutable std::map<std::pair<std::string, std::string>, Prediction> _predictions;
     double _factor = 1.0;
     double _minimum = std::numeric_limits<double>::infinity();
     MethodPlan _result;
@@ -215,15 +220,13 @@ double bounceFactor(double albedo) {
     return 1.0 / (1.0 - 0.75 * std::clamp(albedo, 0.0, 1.0));
 }
 
-MethodPlan planMethods(const Plan& plan, const Planning& planning, TextureSource& textures) {
-    return MethodPlanner(plan, planning, textures).run();
+MethodPlan planMethods(const Plan& plan, const ProgramCode& code, const Planning& planning) {
+    return MethodPlanner(plan, code, planning).run();
 }
 
 MethodPlan withoutWalks(MethodPlan plan) {
     for (PlannedMethod& m : plan.choices) {
-        const bool walks = (m.point == "energyCompensation" && m.method == "randomWalk") ||
-                           (m.point == "layering" && m.method == "positionFree");
-        if (!walks) continue;
+        if (!findChoicePoint(m.point)->find(m.method)->walks) continue;
         plan.error += m.errorDefault - m.error;
         m.method = chosenMethod({}, m.point);
         m.error = m.errorDefault;

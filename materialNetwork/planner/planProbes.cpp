@@ -1,7 +1,6 @@
-#include "materialNetwork/plan/planProbes.h"
+#include "materialNetwork/planner/planProbes.h"
 
 #include "materialNetwork/cpu/bsdfBuilder.h"
-#include "materialNetwork/cpu/materialProgram.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,13 +72,12 @@ bool isMetallic(const BsdfLobe& l) {
            luminance(sh::fresnelSchlick(1.0f, l.schlick.fresnel)) > 0.2f;
 }
 
-class PlanProber {
+class ProgramProber {
 public:
-    PlanProber(const Plan& plan, TextureSource& textures)
-        : _plan(plan), _program(MaterialProgram::compile(plan, textures, _silent)) {}
+    explicit ProgramProber(const ProgramCode& code) : _code(code) {}
 
     std::vector<std::vector<DirectionProbe>> run() {
-        const int places = _program->constant() ? 1 : varyingPlaces;
+        const int places = _code.facts.constant ? 1 : varyingPlaces;
         std::vector<std::vector<DirectionProbe>> result;
         for (int i = 0; i < places; ++i) {
             result.emplace_back();
@@ -98,7 +96,7 @@ private:
         point.position = point.objectPosition =
             glm::vec3(spread(place, 0), spread(place, 1), spread(place, 2));
         point.viewDirection = glm::vec3(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
-        const ProgramCode& code = _program->code();
+        const ProgramCode& code = _code;
         RegisterFile registers(code);
         registers.run(code, code.surfaceCode, point);
         Bsdf bsdf;
@@ -181,7 +179,7 @@ private:
             const int i = open.back();
             open.pop_back();
             if (i < 0 || !met.insert(i).second) continue;
-            const ClosureOp& op = _program->code().bsdf[size_t(i)];
+            const ClosureOp& op = _code.bsdf[size_t(i)];
             if (op.lobe >= 0) lobes.insert(op.lobe);
             open.push_back(op.a);
             open.push_back(op.b);
@@ -191,7 +189,7 @@ private:
 
     /// Light of all lobes under layers whose top holds the closure.
     float beneath(int closure, const std::vector<float>& light) const {
-        const auto& ops = _program->code().bsdf;
+        const auto& ops = _code.bsdf;
         const int lobe = ops[size_t(closure)].lobe;
         if (lobe < 0) return 0.0f;
         std::set<int> under;
@@ -205,16 +203,14 @@ private:
         return sum;
     }
 
-    const Plan& _plan;
-    Diagnostics _silent; ///< the material's own compilation says the same
-    std::shared_ptr<const MaterialProgram> _program;
+    const ProgramCode& _code;
 };
 
 } // namespace
 
-std::vector<std::vector<DirectionProbe>> probePlan(const Plan& plan, TextureSource& textures) {
-    if (plan.bsdf < 0) return {};
-    return PlanProber(plan, textures).run();
+std::vector<std::vector<DirectionProbe>> probeProgram(const ProgramCode& code) {
+    if (code.bsdf.empty()) return {};
+    return ProgramProber(code).run();
 }
 
 } // namespace patina

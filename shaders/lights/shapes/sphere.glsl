@@ -1,5 +1,6 @@
-// Sphere lights, see shape.glsl. For one receiver samples are even over the cone that the sphere fills, in the shape's
+// Sphere lights, see ../shape.glsl. For one receiver samples are even over the cone that the sphere fills, in the shape's
 // coordinates, where every affine image of a sphere is one.
+const int SHAPE_SPHERE = 2;
 
 PATINA_FN_RARE bool sphereHit(vec3 o, vec3 d, PATINA_OUT(float) t, PATINA_OUT(vec3) q) {
     t = 0.0f;
@@ -13,6 +14,28 @@ PATINA_FN_RARE bool sphereHit(vec3 o, vec3 d, PATINA_OUT(float) t, PATINA_OUT(ve
     t = b - sqrt(discriminant / dd);
     q = o + t * d;
     return t > 0.0f;
+}
+
+PATINA_FN vec3 sphereNormal(PATINA_IN(ShapeFrame) s, vec3 q) {
+    return normalize(shapeNormal(s, q));
+}
+
+// Passes of the rasterizer draw from within the cone of all receivers instead, see sphereInside.glsl.
+PATINA_FN vec3 spherePlace(vec2 u) {
+    float z = 1.0f - 2.0f * u.x;
+    float r = sqrt(max(0.0f, 1.0f - z * z));
+    return vec3(r * cos(TWO_PI * u.y), r * sin(TWO_PI * u.y), z);
+}
+
+PATINA_FN float spherePlaceDensity(PATINA_IN(ShapeFrame) s, vec3 q) {
+    return 0.5f / (TWO_PI * s.volume * length(shapeNormal(s, q)));
+}
+
+PATINA_FN vec3 sphereExtent(PATINA_IN(ShapeFrame) s) {
+    vec3 a = abs(s.axes[0]);
+    vec3 b = abs(s.axes[1]);
+    vec3 c = abs(s.axes[2]);
+    return sqrt(a * a + b * b + c * c);
 }
 
 // 1 - cos of the half angle under which a unit sphere is seen from squared distance d2 > 1.

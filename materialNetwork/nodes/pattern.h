@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/cpu/shadingPoint.h"
+#include "materialNetwork/shadingPoint.h"
 #include "materialNetwork/textureSource.h"
 #include "materialNetwork/network/network.h"
 

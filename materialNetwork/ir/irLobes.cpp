@@ -1,19 +1,19 @@
-// Lobes of a ProgramBuilder: their kind, methods, frame and the registers of their parameters.
+// Lobes of an IrBuilder: their kind, frame and the registers of their parameters.
 
-#include "materialNetwork/cpu/programBuilder.h"
+#include "materialNetwork/ir/irBuilder.h"
 
-#include "materialNetwork/cpu/lobeSetup.h"
+#include "shaders/shaders.h"
 
 namespace patina {
 
 /// A default that comes from the geometry is the shading point's own.
-bool ProgramBuilder::isShadingPoints(const Operand& operand, const char* standard) const {
+bool IrBuilder::isShadingPoints(const Operand& operand, const char* standard) const {
     if (operand.isConstant()) return false;
     const GraphNode& source = nodeOf(operand.node);
     return source.def->id == standard && source.inputs[0].value.text == "world";
 }
 
-int ProgramBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bool>& needed) {
+int IrBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bool>& needed) {
     FrameTemplate f;
     f.flips = flips;
     const auto choose = [&](const char* input, const char* standard) {
@@ -28,12 +28,12 @@ int ProgramBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bo
     f.normal = choose("normal", "ND_normal_vector3");
     f.tangent =
         choose(closure.has(lobe::Fibre) ? "curve_direction" : "tangent", "ND_tangent_vector3");
-    auto& frames = _code->frames;
+    auto& frames = _ir.frames;
     for (size_t i = 0; i < frames.size(); ++i)
         if (frames[i].normal == f.normal && frames[i].tangent == f.tangent &&
             frames[i].flips == f.flips)
             return int(i);
-    if (int(frames.size()) >= Bsdf::maxFrames) {
+    if (int(frames.size()) >= MaterialIr::maxFrames) {
         _diagnostics.warn(nodeOf(closure.node).path, "normal",
                           "the material has too many different normals; the first is used");
         return 0;
@@ -42,33 +42,22 @@ int ProgramBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bo
     return int(frames.size()) - 1;
 }
 
-void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasInside,
+void IrBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasInside,
                           std::vector<bool>& needed) {
     const GraphNode& node = nodeOf(closure.node);
-    if (int(_code->lobes.size()) >= Bsdf::maxLobes) {
+    if (int(_ir.lobes.size()) >= MaterialIr::maxLobes) {
         _diagnostics.warn(node.path, "",
-                          "the material has more than " + std::to_string(Bsdf::maxLobes) +
+                          "the material has more than " + std::to_string(MaterialIr::maxLobes) +
                               " lobes; this one is left out");
         return;
     }
     LobeTemplate t;
-    t.prebuilt.kind = lobeKind(closure.kind);
+    t.kind = lobeKind(closure.kind);
     t.thin = closure.thin;
-    t.prebuilt.diffuse = closure.has(lobe::Diffuse);
+    t.diffuse = closure.has(lobe::Diffuse);
     const bool interface = closure.has(lobe::Interface);
     t.sharedInterface = closure.sharedInterface;
-    const std::string compensation = chosenMethod(_plan.methods, "energyCompensation");
-    t.compensate = compensation == "none"         ? sh::COMPENSATE_NONE
-                   : compensation == "kullaConty" ? sh::COMPENSATE_ADD
-                                                  : sh::COMPENSATE_SCALE;
-    t.walks = compensation == "randomWalk";
-    t.albedo = chosenIndex(_plan.methods, "directionalAlbedo");
-    t.sampling = chosenIndex(_plan.methods, "sampling");
-    t.fresnel = chosenIndex(_plan.methods, "fresnel");
-    t.filmMethod = chosenIndex(_plan.methods, "thinFilm");
-    t.sheenAlbedo = chosenIndex(_plan.methods, "sheen");
-    t.diffuse = DiffuseModel(chosenIndex(_plan.methods, "diffuse"));
-    const int flag = node.def->findInput(lobeFlag(t.prebuilt.kind));
+    const int flag = node.def->findInput(lobeFlag(t.kind));
     float on = 0.0f;
     t.flagA = flag >= 0 && constantNumber(node.inputs[size_t(flag)], on) && on != 0.0f;
     if (interface) t.mode = scatterMode(_plan, closure);
@@ -77,16 +66,14 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
     t.film = hasFilm(_plan, closure);
     // A film colours the reflectance, for which a dielectric has no room.
     t.filmDielectric = t.film && closure.kind == ClosureKind::Dielectric;
-    if (t.filmDielectric) t.prebuilt.kind = LobeKind::Schlick;
+    if (t.filmDielectric) t.kind = LobeKind::Schlick;
     // Metals and diffuse lobes show the same face on both sides; an interface has an inside.
     const bool flips = !interface || !hasInside || closure.thin;
-    t.prebuilt.frame = uint8_t(frame(closure, flips, needed));
-    t.prebuilt.weight = t.prebuilt.albedo = glm::vec3(0.0f);
-    t.prebuilt.probability = 0.0f;
+    t.frame = uint8_t(frame(closure, flips, needed));
 
-    t.constant = true;
-    const bool flat = closure.kind == ClosureKind::Subsurface && !walksBeneath(_plan, closure);
-    if (flat) t.prebuilt.kind = LobeKind::OrenNayar;
+    // A thin wall has no inside for light to go to.
+    const bool flat = closure.kind == ClosureKind::Subsurface && closure.thin;
+    if (flat) t.kind = LobeKind::OrenNayar;
     const std::vector<std::string>& names =
         lobeParameters(flat ? LobeKind::OrenNayar : lobeKind(closure.kind));
     for (size_t i = 0; i < names.size(); ++i) {
@@ -101,26 +88,21 @@ void ProgramBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasIns
             operand.value = Value::makeFloat(1.0f);
         }
         mark(operand, needed);
-        t.constant &= operand.isConstant();
         t.parameters[i] = registerOf(operand);
     }
     t.passThrough = isPassThrough(closure);
-    _code->hasPassThrough |= t.passThrough;
-    if (t.constant) {
-        setupLobe(t, _code->constants.data(), t.prebuilt);
-        t.energy.measure(t.prebuilt);
-    }
+    _ir.hasPassThrough |= t.passThrough;
     Operand weight;
     weight.value = Value::makeFloat(1.0f);
     if (node.def->findInput("weight") >= 0) weight = closureInput(_plan, closure, "weight");
     mark(weight, needed);
     op.factor = t.weight = registerOf(weight);
-    op.lobe = int(_code->lobes.size());
-    _code->lobes.push_back(t);
+    op.lobe = int(_ir.lobes.size());
+    _ir.lobes.push_back(t);
 }
 
 /// Without bending: what a shadow ray may cross.
-bool ProgramBuilder::isPassThrough(const PlanClosure& closure) const {
+bool IrBuilder::isPassThrough(const PlanClosure& closure) const {
     const bool dielectric = closure.kind == ClosureKind::Dielectric;
     if (!closure.has(lobe::Interface) || (scatterMode(_plan, closure) & sh::SCATTER_T) == 0 ||
         hasFilm(_plan, closure))

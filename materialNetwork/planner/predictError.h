@@ -1,6 +1,7 @@
 #pragma once
 
-#include "materialNetwork/plan/planProbes.h"
+#include "materialNetwork/plan/plan.h"
+#include "materialNetwork/planner/planProbes.h"
 
 #include <string>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "materialNetwork/cpu/closureTree.h"
+#include "materialNetwork/ir/bindMethods.h"
+#include "materialNetwork/ir/closureTree.h"
 
 // The weights of lobes from the tree of closures that they stand in, for both back ends (see
 // closureTree.h). `Out` also knows the lobes:
@@ -13,9 +14,6 @@
 //   meets(share)          whether a lobe of this share can be there
 
 namespace patina {
-
-/// Whether a lobe on top of a layer sends light back down to the base: an interface that reflects.
-bool isReturning(const LobeTemplate& lobe);
 
 /// One number or three for what a lobe takes from a base. @param c what lobeFix() says
 template <class Out>
@@ -36,11 +34,11 @@ template <class Out> struct PlainLayers {
     using Light = Color;
     static constexpr const char* type = "vec3";
 
-    const ProgramCode& code;
+    const MaterialIr& code;
     Out& out;
     typename Out::template List<Color, 0> passes; ///< what the closures in tops let through
 
-    PlainLayers(const ProgramCode& c, int root, Out& o)
+    PlainLayers(const MaterialIr& c, int root, Out& o)
         : code(c), out(o), passes(size_t(root) + 2) {
         for (int i = 0; i <= root; ++i)
             if (code.bsdf[size_t(i)].needsTransmittance)
@@ -97,13 +95,13 @@ template <class Out> struct ReturnedLayers {
     using Light = typename Out::Light;
     static constexpr const char* type = "LayerLight";
 
-    const ProgramCode& code;
+    const MaterialIr& code;
     Out& out;
     const uint32_t part;                           ///< lobes below the root
     typename Out::template List<Light, 0> light;   ///< what closures in bases reflect and pass
     typename Out::template List<Light, 1> through; ///< what reaches the bases of layers
 
-    ReturnedLayers(const ProgramCode& c, int root, Out& o)
+    ReturnedLayers(const MaterialIr& c, int root, Out& o)
         : code(c), out(o), part(c.bsdf[size_t(root)].lobes), light(size_t(root) + 2),
           through(size_t(root) + 2) {
         for (int i = 0; i <= root; ++i) {
@@ -193,7 +191,7 @@ private:
 
 /// Downwards: a closure's weight is the sum over the wholes that it is part of.
 template <class Layers, class Out>
-void weighLobes(const ProgramCode& code, int root, Layers&& layers, Out& out) {
+void weighLobes(const MaterialIr& code, int root, Layers&& layers, Out& out) {
     using Light = typename std::decay_t<Layers>::Light;
     using Number = typename Out::Number;
     typename Out::template List<Light, 2> weight(size_t(root) + 2);
@@ -237,7 +235,7 @@ void weighLobes(const ProgramCode& code, int root, Layers&& layers, Out& out) {
 }
 
 /// The weights of all lobes below the root.
-template <class Out> void weighLobes(const ProgramCode& code, int root, Out& out) {
+template <class Out> void weighLobes(const MaterialIr& code, int root, Out& out) {
     if (code.returnsLight)
         weighLobes(code, root, ReturnedLayers<Out>(code, root, out), out);
     else

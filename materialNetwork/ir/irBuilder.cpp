@@ -1,14 +1,15 @@
-#include "materialNetwork/cpu/programBuilder.h"
+#include "materialNetwork/ir/irBuilder.h"
 
+#include "materialNetwork/compileCounts.h"
 #include "materialNetwork/network/value.h"
 
 #include <algorithm>
 
 namespace patina {
 
-class ProgramBuilder::Setup : public PatternSetup {
+class IrBuilder::Setup : public PatternSetup {
 public:
-    Setup(ProgramBuilder& builder, int node) : _b(builder), _index(node) {}
+    Setup(IrBuilder& builder, int node) : _b(builder), _index(node) {}
 
     const Value* constant(const char* input) const override {
         const GraphNode& node = _b.nodeOf(_index);
@@ -29,7 +30,7 @@ public:
     }
     bool textureValid(int handle) const override { return _b._textures.valid(handle); }
     int primvarSlot(const std::string& name, ValueType type) override {
-        auto& list = _b._program->_primvars;
+        auto& list = _b._ir.facts.primvars;
         for (size_t i = 0; i < list.size(); ++i)
             if (list[i].name == name) return int(i);
         list.push_back({name, type});
@@ -40,11 +41,11 @@ public:
     }
 
 private:
-    ProgramBuilder& _b;
+    IrBuilder& _b;
     int _index;
 };
 
-void ProgramBuilder::prepareNode(int node) {
+void IrBuilder::prepareNode(int node) {
     if (_prepared[size_t(node)]) return;
     _prepared[size_t(node)] = true;
     const NodeDef& def = *nodeOf(node).def;
@@ -55,22 +56,22 @@ void ProgramBuilder::prepareNode(int node) {
         def.prepare(setup, data);
     }
     if (def.category == "move_texcoord" || def.category == "move_position")
-        _program->_jitters = true;
-    if (def.category == "texcoord" || _readsTexture[size_t(node)]) _program->_usesUv = true;
+        _ir.facts.jitters = true;
+    if (def.category == "texcoord" || _readsTexture[size_t(node)]) _ir.facts.usesUv = true;
 }
 
-Register ProgramBuilder::allocate(int count) {
-    if (_code->registerCount + count > 60000) {
+Register IrBuilder::allocate(int count) {
+    if (_ir.registerCount + count > 60000) {
         _overflow = true;
         return 0;
     }
-    const int first = _code->registerCount;
-    _code->registerCount += count;
+    const int first = _ir.registerCount;
+    _ir.registerCount += count;
     return Register(first);
 }
 
 /// Constants take the first registers, so all of them are made before the first instruction.
-Register ProgramBuilder::constant(const Value& value) {
+Register IrBuilder::constant(const Value& value) {
     std::vector<float> key = value.numbers;
     if (key.empty()) key.push_back(0.0f);
     if (key.size() == 1) key.resize(4, key[0]);
@@ -81,25 +82,25 @@ Register ProgramBuilder::constant(const Value& value) {
         _overflow = true;
         return 0;
     }
-    const Register r = Register(_code->constants.size());
+    const Register r = Register(_ir.constants.size());
     Value rows;
     rows.numbers = key;
-    _code->constants.resize(size_t(r) + (key.size() + 3) / 4);
-    valueRows(rows, &_code->constants[r]);
+    _ir.constants.resize(size_t(r) + (key.size() + 3) / 4);
+    valueRows(rows, &_ir.constants[r]);
     _constants.emplace(std::move(key), r);
     return r;
 }
 
-Register ProgramBuilder::registerOf(const Operand& operand) {
+Register IrBuilder::registerOf(const Operand& operand) {
     if (operand.isConstant()) return constant(operand.value);
     return Register(_register[size_t(operand.node)] + operand.output);
 }
 
-void ProgramBuilder::mark(const Operand& operand, std::vector<bool>& needed) const {
+void IrBuilder::mark(const Operand& operand, std::vector<bool>& needed) const {
     if (!operand.isConstant()) needed[size_t(operand.node)] = true;
 }
 
-void ProgramBuilder::emit(const std::vector<bool>& roots, std::vector<Instruction>& code) {
+void IrBuilder::emit(const std::vector<bool>& roots, std::vector<Instruction>& code) {
     std::vector<bool> needed = roots;
     for (size_t i = needed.size(); i-- > 0;)
         if (needed[i])
@@ -113,52 +114,23 @@ void ProgramBuilder::emit(const std::vector<bool>& roots, std::vector<Instructio
         instruction.pattern = node.def->pattern;
         instruction.function = node.def->pattern->function;
         instruction.output = Register(_register[i]);
-        instruction.firstInput = uint32_t(_code->inputPool.size());
+        instruction.firstInput = uint32_t(_ir.inputPool.size());
+        instruction.inputCount = uint16_t(node.inputs.size());
         instruction.data = _data[i];
         for (const Operand& operand : node.inputs)
-            _code->inputPool.push_back(registerOf(operand));
+            _ir.inputPool.push_back(registerOf(operand));
         code.push_back(instruction);
     }
 }
 
-void ProgramBuilder::setFlags() {
-    MaterialProgram& p = *_program;
-    p._planned = _plan.planned;
-    p._constant = _code->surfaceCode.empty();
-    p._isThinWalled = _plan.thinWalled;
-    p._hasEmission = !_code->edf.empty();
-    p._isOpaque = !_code->hasPassThrough && _plan.opacity.isConstant() &&
-                  !_plan.opacity.value.numbers.empty() && _plan.opacity.value.numbers[0] >= 1.0f;
-    for (const LobeTemplate& t : _code->lobes)
-        p._hasTransmission |= lobeHas(t.prebuilt.kind, lobe::Transmits) ||
-                              (!t.passThrough && (t.mode & sh::SCATTER_T) != 0);
-    p._isVolumeOnly = _plan.volumeOnly;
-    for (const LobeTemplate& t : _code->lobes)
-        p._isFibre |= lobeHas(t.prebuilt.kind, lobe::Fibre);
-    for (const LobeTemplate& t : _code->lobes)
-        p._hasSubsurface |= t.prebuilt.kind == LobeKind::Subsurface;
-    p._passingEnters = _plan.volumeOnly;
-    for (const LobeTemplate& t : _code->lobes)
-        p._passingEnters |= t.passThrough && !t.thin;
-    p._hasInterior = (!_code->vdf.empty() || !_code->volumeEdf.empty()) && !_plan.thinWalled &&
-                     (p._hasTransmission || p._passingEnters);
+MaterialIr compileIr(const Plan& plan, TextureSource& textures, Diagnostics& diagnostics) {
+    ++compileCounts().irs;
+    return IrBuilder(plan, textures, diagnostics).build();
 }
 
-std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
+MaterialIr IrBuilder::build() {
     const size_t n = _plan.graph.nodes.size();
-    _program = std::shared_ptr<MaterialProgram>(new MaterialProgram());
-    _program->_code = std::make_unique<ProgramCode>();
-    _code = _program->_code.get();
-    _code->textures = &_textures;
-    const auto chosen = [&](const char* point, const char* method) {
-        return chosenMethod(_plan.methods, point) == method;
-    };
-    _code->layerTransmittance =
-        chosen("layerTransmittance", "largest")   ? LayerTransmittance::Largest
-        : chosen("layerTransmittance", "average") ? LayerTransmittance::Average
-        : chosen("layerTransmittance", "tinted")  ? LayerTransmittance::Tinted
-                                                  : LayerTransmittance::Returned;
-    _code->slabsHaveTwoFaces = !chosen("thinWalled", "sheet");
+    _ir.textures = &_textures;
     _data.resize(n);
     _prepared.resize(n, false);
     _readsTexture.resize(n, false);
@@ -170,9 +142,9 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
         for (const Operand& operand : nodeOf(int(i)).inputs)
             if (operand.isConstant()) constant(operand.value);
     constant(_plan.opacity.value);
-    constant(Value::makeFloat(0.0f));
+    _ir.zero = constant(Value::makeFloat(0.0f));
     constant(Value::makeFloat(1.0f));
-    _code->registerCount = int(_code->constants.size());
+    _ir.registerCount = int(_ir.constants.size());
     for (size_t i = 0; i < n; ++i)
         if (nodeOf(int(i)).def->pattern) {
             int count = 0;
@@ -184,20 +156,20 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
         _diagnostics.warn(_plan.graph.path, "", "the material is too large; black is shown");
         Plan empty;
         empty.opacity.value = Value::makeFloat(1.0f);
-        return ProgramBuilder(empty, _textures, _diagnostics).build();
+        return IrBuilder(empty, _textures, _diagnostics).build();
     }
 
     std::vector<bool> surface(n, false), emission(n, false), interior(n, false), opacity(n, false);
     bsdfOps(surface);
-    _code->edf = linearOps(_plan.edf, emission);
-    _code->vdf = linearOps(_plan.vdf, interior);
-    _code->volumeEdf = linearOps(_plan.volumeEdf, interior);
+    _ir.edf = linearOps(_plan.edf, emission);
+    _ir.vdf = linearOps(_plan.vdf, interior);
+    _ir.volumeEdf = linearOps(_plan.volumeEdf, interior);
     mark(_plan.opacity, opacity);
-    _code->opacity = registerOf(_plan.opacity);
-    emit(surface, _code->surfaceCode);
-    emit(emission, _code->emissionCode);
-    emit(interior, _code->interiorCode);
-    emit(opacity, _code->opacityCode);
+    _ir.opacity = registerOf(_plan.opacity);
+    emit(surface, _ir.surfaceCode);
+    emit(emission, _ir.emissionCode);
+    emit(interior, _ir.interiorCode);
+    emit(opacity, _ir.opacityCode);
 
     if (_plan.displacementNode >= 0) {
         const GraphNode& node = nodeOf(_plan.displacementNode);
@@ -207,23 +179,26 @@ std::shared_ptr<const MaterialProgram> ProgramBuilder::build() {
             mark(operand, needed);
             return registerOf(operand);
         };
-        _code->displacement = read("displacement");
-        _code->displacementScale = read("scale");
-        _code->displacementIsVector =
+        _ir.displacement = read("displacement");
+        _ir.displacementScale = read("scale");
+        _ir.displacementIsVector =
             node.def->inputs[size_t(node.def->findInput("displacement"))].type == ValueType::Vec3;
-        emit(needed, _code->displacementCode);
-        _program->_hasDisplacement = true;
+        emit(needed, _ir.displacementCode);
+        _ir.facts.hasDisplacement = true;
     }
 
-    _code->opacityFromPrimvars = !_code->opacityCode.empty();
-    for (const Instruction& instruction : _code->opacityCode)
+    _ir.opacityFromPrimvars = !_ir.opacityCode.empty();
+    for (const Instruction& instruction : _ir.opacityCode)
         for (size_t i = 0; i < n; ++i)
             if (nodeOf(int(i)).def->pattern == instruction.pattern && nodeOf(int(i)).def->varying &&
                 instruction.output == _register[i])
-                _code->opacityFromPrimvars &=
+                _ir.opacityFromPrimvars &=
                     _data[i].slot >= 0 || nodeOf(int(i)).def->category == "UsdPrimvarReader";
-    setFlags();
-    return _program;
+    _ir.opacityIsOne = _plan.opacity.isConstant() && !_plan.opacity.value.numbers.empty() &&
+                       _plan.opacity.value.numbers[0] >= 1.0f;
+    _ir.facts.isThinWalled = _plan.thinWalled;
+    _ir.facts.isVolumeOnly = _plan.volumeOnly;
+    return std::move(_ir);
 }
 
 } // namespace patina

@@ -1,13 +1,12 @@
-// Trees of closures of a ProgramBuilder: which operation reads which, and what each has to know.
+// Trees of closures of an IrBuilder: which operation reads which, and what each has to know.
 
-#include "materialNetwork/cpu/programBuilder.h"
+#include "materialNetwork/ir/irBuilder.h"
 
-#include "materialNetwork/cpu/layerWeights.h"
 #include "materialNetwork/plan/layering.h"
 
 namespace patina {
 
-std::vector<ClosureOp> ProgramBuilder::linearOps(int root, std::vector<bool>& needed) {
+std::vector<ClosureOp> IrBuilder::linearOps(int root, std::vector<bool>& needed) {
     std::vector<ClosureOp> ops;
     for (int i = 0; root >= 0 && i <= root; ++i) {
         const PlanClosure& c = _plan.closures[size_t(i)];
@@ -63,7 +62,7 @@ std::vector<ClosureOp> ProgramBuilder::linearOps(int root, std::vector<bool>& ne
     return ops;
 }
 
-std::shared_ptr<const EmissionProfile> ProgramBuilder::profile(const PlanClosure& closure) {
+std::shared_ptr<const EmissionProfile> IrBuilder::profile(const PlanClosure& closure) {
     const std::string& prim = nodeOf(closure.node).path;
     const Operand& file = closureInput(_plan, closure, "file");
     if (!file.isConstant() || file.value.text.empty()) {
@@ -77,7 +76,7 @@ std::shared_ptr<const EmissionProfile> ProgramBuilder::profile(const PlanClosure
     return _textures.openProfile(request);
 }
 
-void ProgramBuilder::markTops(std::vector<ClosureOp>& ops) const {
+void IrBuilder::markTops(std::vector<ClosureOp>& ops) const {
     for (size_t i = ops.size(); i-- > 0;) {
         ClosureOp& op = ops[i];
         if (op.kind == ClosureKind::Layer && op.a >= 0) ops[size_t(op.a)].needsTransmittance = true;
@@ -88,7 +87,7 @@ void ProgramBuilder::markTops(std::vector<ClosureOp>& ops) const {
     }
 }
 
-void ProgramBuilder::bsdfOps(std::vector<bool>& needed) {
+void IrBuilder::bsdfOps(std::vector<bool>& needed) {
     bool hasInside = false;
     for (int i = 0; i <= _plan.bsdf; ++i)
         hasInside |= !_plan.closures[size_t(i)].thin && refracts(_plan, _plan.closures[size_t(i)]);
@@ -116,15 +115,14 @@ void ProgramBuilder::bsdfOps(std::vector<bool>& needed) {
         } else {
             op = ClosureOp();
         }
-        _code->bsdf.push_back(op);
+        _ir.bsdf.push_back(op);
     }
-    markTops(_code->bsdf);
-    markLobes(_code->bsdf);
-    if (_code->layerTransmittance == LayerTransmittance::Returned) markReturning(_code->bsdf);
-    if (chosenMethod(_plan.methods, "layering") == "positionFree") markWalked(_code->bsdf);
+    markTops(_ir.bsdf);
+    markLobes(_ir.bsdf);
+    markLayers(_ir.bsdf);
 }
 
-void ProgramBuilder::markLobes(std::vector<ClosureOp>& ops) const {
+void IrBuilder::markLobes(std::vector<ClosureOp>& ops) const {
     for (ClosureOp& op : ops) {
         if (op.lobe >= 0) op.lobes = 1u << op.lobe;
         for (const int part : {op.a, op.b})
@@ -132,33 +130,15 @@ void ProgramBuilder::markLobes(std::vector<ClosureOp>& ops) const {
     }
 }
 
-void ProgramBuilder::markReturning(std::vector<ClosureOp>& ops) const {
+void IrBuilder::markLayers(std::vector<ClosureOp>& ops) const {
+    const auto walking = layerWalkability(_plan, method::Subsurface::RandomWalk);
+    const auto flat = layerWalkability(_plan, method::Subsurface::Diffuse);
     for (size_t i = 0; i < ops.size(); ++i) {
         ClosureOp& op = ops[i];
-        if (op.kind != ClosureKind::Layer || darkensItself(_plan, _plan.closures[i])) continue;
-        for (size_t lobe = 0; lobe < _code->lobes.size(); ++lobe)
-            op.returns |=
-                (ops[size_t(op.a)].lobes >> lobe & 1u) != 0 && isReturning(_code->lobes[lobe]);
-        _code->returnsLight |= op.returns;
-    }
-    for (size_t i = ops.size(); i-- > 0;) {
-        const ClosureOp& op = ops[i];
-        if (op.kind == ClosureKind::Layer) ops[size_t(op.b)].beneath = true;
-        if (!op.beneath) continue;
-        for (const int part : {op.a, op.b})
-            if (part >= 0) ops[size_t(part)].beneath = true;
-    }
-}
-
-/// A walked layer takes a place among the lobes.
-void ProgramBuilder::markWalked(std::vector<ClosureOp>& ops) const {
-    const std::vector<LayerWalkability> layers = layerWalkability(_plan);
-    for (size_t i = 0; i < ops.size(); ++i) {
-        ClosureOp& op = ops[i];
-        op.walked = op.kind == ClosureKind::Layer && layers[i].walks &&
-                    ops[size_t(op.a)].lobe >= 0 &&
-                    int(_code->lobes.size()) + _code->walkedLayers < Bsdf::maxLobes;
-        _code->walkedLayers += op.walked;
+        if (op.kind != ClosureKind::Layer) continue;
+        op.darkensItself = patina::darkensItself(_plan, _plan.closures[i]);
+        op.walkable = walking[i].walks;
+        op.walkableFlat = flat[i].walks;
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "materialNetwork/plan/planProbes.h"
+#include "materialNetwork/planner/planProbes.h"
 
 #include <string>
 

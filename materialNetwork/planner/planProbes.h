@@ -1,13 +1,12 @@
 #pragma once
 
-#include "materialNetwork/plan/plan.h"
-#include "materialNetwork/textureSource.h"
-
 #include <glm/glm.hpp>
 
 #include <vector>
 
 namespace patina {
+
+struct ProgramCode;
 
 /// A lobe, or a layer as a whole, as one place of a material shows it from one angle.
 struct ClosureContribution {
@@ -32,7 +31,8 @@ struct DirectionProbe {
 
 /// Probes a material: at one place when it is constant, else at some that spread over its
 /// textures, with primvars from 0 to 1; each from the middles of the quarters of the cosine.
-/// @returns place by place
-std::vector<std::vector<DirectionProbe>> probePlan(const Plan& plan, TextureSource& textures);
+/// @param code with the default methods
+/// @returns place by place; empty where there is no surface
+std::vector<std::vector<DirectionProbe>> probeProgram(const ProgramCode& code);
 
 } // namespace patina

@@ -1,9 +1,10 @@
 #pragma once
 
 #include "materialNetwork/plan/plan.h"
-#include "materialNetwork/textureSource.h"
 
 namespace patina {
+
+struct ProgramCode;
 
 /// How methods are to be chosen.
 struct Planning {
@@ -32,8 +33,9 @@ constexpr double depthShare = 0.1;
 /// for (bounceFactor). Among methods without bias (sampling) the one with the least noise for its
 /// time is taken. Where the default is not measured, it stays.
 /// @param plan with the default methods; meanings (points without a truth) are left as they are
-/// @param textures what the material reads; errors are worst over what is seen there
-MethodPlan planMethods(const Plan& plan, const Planning& planning, TextureSource& textures);
+/// @param code made of the same plan, with what is forced and else the defaults; errors are worst
+/// over what is seen in its textures
+MethodPlan planMethods(const Plan& plan, const ProgramCode& code, const Planning& planning);
 
 /// How often light that a camera sees has met surfaces of such an albedo, on the average:
 /// 1 / (1 - 0.75 albedo).

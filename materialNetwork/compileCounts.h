@@ -1,0 +1,19 @@
+#pragma once
+
+#include <atomic>
+
+namespace patina {
+
+/// What has been done for materials since the process began, for who checks that it is done once.
+struct CompileCounts {
+    std::atomic<long> expansions{0}; ///< networks expanded into graphs
+    std::atomic<long> irs{0};        ///< plans compiled
+    std::atomic<long> programs{0};   ///< IRs with their methods, made ready for the processor
+};
+
+inline CompileCounts& compileCounts() {
+    static CompileCounts counts;
+    return counts;
+}
+
+} // namespace patina

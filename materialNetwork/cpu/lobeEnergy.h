@@ -1,0 +1,11 @@
+#pragma once
+
+#include "materialNetwork/cpu/bsdf.h"
+#include "materialNetwork/ir/energyCurve.h"
+
+namespace patina {
+
+/// What an EnergyCurve holds, by the lobe's own method. For dielectric, Schlick and conductor lobes.
+EnergyCurve::Energy lobeEnergy(const BsdfLobe& lobe, const glm::vec3& wo);
+
+} // namespace patina

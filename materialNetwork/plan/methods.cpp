@@ -156,8 +156,8 @@ const std::vector<ChoicePoint>& choicePoints() {
           {"1024", "1024 surfaces: the truth, unless they absorb next to nothing"}},
          "1024"},
         {"roulette",
-         {{"throughput", "after --rouletteDepth surfaces a path goes on with the chance of what is "
-                         "left of its light, 0.95 at most, and counts more"},
+         {{"throughput", "after --rouletteDepth surfaces a path goes on with the chance of four "
+                         "times what is left of its light, 0.95 at most, and counts more"},
           {"none", "no path is ended by chance, only by its depth: less noise of a sample, which "
                    "takes longer"}}}};
     return points;

@@ -20,7 +20,9 @@ Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
       _filter(settings.filterRadius), _cullBack(settings.cullStyle.rfind("back", 0) == 0),
       _cullFront(settings.cullStyle.rfind("front", 0) == 0),
       _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos),
-      _ambientOcclusion(settings.integrator == "ambientOcclusion") {
+      _ambientOcclusion(settings.integrator == "ambientOcclusion"),
+      _lightSamples(settings.lightSamples > 0 ? settings.lightSamples
+                                              : lights.worthwhileSamples()) {
     for (size_t i = 0; i < aovs.size(); ++i) {
         if (aovs[i].id == AovId::denoisingAlbedo) _denoisingAlbedo = int(i);
         if (aovs[i].id == AovId::denoisingNormal) _denoisingNormal = int(i);
@@ -314,7 +316,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         if (path.fromCamera()) path.alpha = 1.0f;
 
         // What the camera sees counts most, and its vertex is paid for.
-        const int lightSamples = path.fromCamera() ? std::max(_settings.lightSamples, 1) : 1;
+        const int lightSamples = path.fromCamera() ? _lightSamples : 1;
         path.lightSamples = float(lightSamples);
         // Light samples are begun here, so that what they have to wait for comes from memory while
         // the lobes are set up. Those of another side, or of other numbers, are begun anew below.

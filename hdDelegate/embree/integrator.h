@@ -93,6 +93,7 @@ private:
     PixelFilter _filter;
     MediumStack _cameraMedia; ///< that the camera stands in
     bool _cullBack, _cullFront, _cullDoubleSided, _ambientOcclusion;
+    int _lightSamples; ///< at the first vertex
 };
 
 } // namespace patina

@@ -167,14 +167,18 @@ bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& h
     return true;
 }
 
-/// A path that scatters in a bright medium goes on for long and should: it is only ended for what
-/// it has lost. Surfaces end every path now and then.
+constexpr float rouletteBelow = 0.25f; // of the throughput that a path had at the camera
+
+/// Paths are ended for what they have lost, those of little light alone: what ends sooner saves
+/// less time than its noise costs. A path that scatters in a bright medium goes on for long and
+/// should. Surfaces end every path now and then. Paths of a pixel share evenly spread numbers.
 bool Integrator::survivesRoulette(Path& path) const {
     if (path.depth + path.scatterings <= _settings.rouletteDepth) return true;
     const float bound = path.scatterings > 0 ? 1.0f : 0.95f;
-    const float survive =
-        std::min(bound, std::max({path.throughput.x, path.throughput.y, path.throughput.z}));
-    if (path.sampler.random() >= survive) return false;
+    const float left = std::max({path.throughput.x, path.throughput.y, path.throughput.z});
+    const float survive = std::min(bound, left / rouletteBelow);
+    if (survive >= 1.0f) return true;
+    if (path.sampler.next2().x >= survive) return false;
     path.throughput /= survive;
     return true;
 }

@@ -161,6 +161,12 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
     }
 }
 
+int SceneLights::worthwhileSamples() const {
+    constexpr int many = 16;
+    if (_set->lightCount() > many) return 4;
+    return _set->infiniteLights().empty() ? 1 : 2;
+}
+
 int SceneLights::triangleLight(const Surface* surface, unsigned primitive,
                                const mat4& groupToWorld) const {
     const auto found = _emitting.find(surface);

@@ -37,6 +37,10 @@ public:
     /// Some light treats diffuse and other lobes differently.
     bool splitsLobes() const { return _splitsLobes; }
 
+    /// Light samples that pay where the camera sees a surface: further ones cost shadow rays and
+    /// save noise that is there, between the lights of many and in a sky.
+    int worthwhileSamples() const;
+
     /// Light index of a triangle that was hit; -1 when it does not emit.
     int triangleLight(const Surface* surface, unsigned primitive, const mat4& groupToWorld) const;
     /// Radiance of a sampled triangle towards a point.

@@ -11,11 +11,14 @@ namespace patina {
 
 namespace {
 
-/// Whether a rect is sampled by solid angle. Far ones look the same from everywhere, and area
-/// sampling is cheaper.
+/// Whether a rect is sampled by solid angle. One that is far beside its longer edge looks alike
+/// from all of its places, and area sampling is cheaper.
 bool bySolidAngle(const AreaShape& shape, const vec3& point) {
+    if (!shape.rightAngled) return false;
     const vec3 v = point - shape.origin;
-    return shape.rightAngled && shape.area > 0.01f * glm::dot(v, v);
+    const float longest = std::max(glm::dot(shape.axes[0], shape.axes[0]),
+                                   glm::dot(shape.axes[1], shape.axes[1]));
+    return longest > 0.1f * glm::dot(v, v);
 }
 
 bool rectFrom(const AreaShape& shape, const vec3& point, SphericalRect& rect) {

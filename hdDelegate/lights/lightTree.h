@@ -97,9 +97,12 @@ template <class Visit> void LightTree::visitRay(const vec3& origin, const vec3& 
         for (int k = 0; k < 3; ++k) {
             const float a = (node.low[k] - origin[k]) * inverse[k];
             const float b = (node.high[k] - origin[k]) * inverse[k];
-            // NaN (a ray in the plane of a flat box) leaves the interval as it is.
-            t0 = std::fmax(t0, std::fmin(a, b) * (1.0f - 1e-6f));
-            t1 = std::fmin(t1, std::fmax(a, b) * (1.0f + 1e-6f));
+            // NaN (a ray in the plane of a flat box) leaves the interval as it is. No fmin and
+            // fmax: they are calls.
+            const float first = (b < a ? b : a) * (1.0f - 1e-6f);
+            const float last = (a > b ? a : b) * (1.0f + 1e-6f);
+            t0 = first > t0 ? first : t0;
+            t1 = last < t1 ? last : t1;
         }
         if (t0 > t1) continue;
         if (node.left < 0) {

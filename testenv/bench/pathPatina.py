@@ -120,7 +120,8 @@ def main(folder):
     def draw(samples, seed, file):
         renderer.start(held, "/camera", {
             "width": scene["width"], "height": scene["height"], "samples": samples, "seed": seed, "threads": scene["threads"],
-            "maxDepth": scene["depth"], "filterRadius": 0.5, "checkpointSeconds": 0.0}, film)
+            "maxDepth": scene["depth"], "filterRadius": 0.5, "checkpointSeconds": 0.0,
+            "methods": {"layerTransmittance": "largest"}}, film)  # as peers do, so that pictures are equally bright
         renderer.wait()
         state = renderer.progress()
         if state["failed"]:

@@ -51,6 +51,7 @@ class _Signals:
 def test_a_signal_while_rendering_saves_image_and_checkpoint(number, folder, monkeypatch, capsys):
     make = _patina.make_renderer
     monkeypatch.setattr(_patina, "make_renderer", lambda backend: _Signals(make(backend), number))
+    monkeypatch.delenv("PATINA_COMMAND", raising=False)
     before = [signal.getsignal(n) for n in interrupts.NUMBERS]
     assert main.main(["record", "stage.usda", "a.exr", *LONG]) == 75
     said = capsys.readouterr().err

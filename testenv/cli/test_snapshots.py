@@ -231,3 +231,19 @@ def test_an_interrupted_sequence_goes_on_by_the_command_that_it_prints(folder, m
     assert main.main(command[1:]) == 0
     for frame in range(1, 5):
         assert np.array_equal(pixels(f"a.{frame}.exr"), pixels(f"whole.{frame}.exr"))
+
+
+def test_a_render_leaves_no_stage_open(tmp_path, monkeypatch):
+    """Whoever renders the file again, in the same process, finds what it says by then."""
+    import gc
+
+    from pxr import Sdf
+
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "own.usda").write_text(STAGE)
+    gc.disable()  # a cycle of objects would be found at any time
+    try:
+        assert main.main(["record", "own.usda", "a.exr", *SHORT, "--quiet"]) == 0
+        assert Sdf.Layer.Find("own.usda") is None
+    finally:
+        gc.enable()

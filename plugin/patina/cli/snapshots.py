@@ -33,6 +33,7 @@ class Snapshots:
         return self
 
     def __exit__(self, *_):
+        self._write = None  # it holds the stage, which the next reader of the file would find unchanged
         if self._before is not None:
             signal.signal(signal.SIGUSR1, self._before)
         return False

@@ -20,9 +20,9 @@ else()
     set(libraryName libpatina.so.${PROJECT_VERSION_MAJOR})
 endif()
 
-# All rooms but the host's.
+# All rooms but those of Hydra's hosts.
 get_property(rooms GLOBAL PROPERTY PATINA_ROOMS)
-list(REMOVE_ITEM rooms patinaHydra)
+list(REMOVE_ITEM rooms patinaHydra patinaHydraHost patinaHydraEdits)
 foreach(room ${rooms})
     list(APPEND archives $<TARGET_FILE:${room}>)
 endforeach()
@@ -58,6 +58,10 @@ if(PATINA_PACKAGE AND PATINA_LEVELS)
     endforeach()
 endif()
 
+if(TARGET hdPatina)
+    file(RELATIVE_PATH fromPlugin /plugin/usd /${libraryFolder})
+    set_property(TARGET hdPatina APPEND PROPERTY INSTALL_RPATH "$ORIGIN/${fromPlugin}")
+endif()
 install(TARGETS patina EXPORT patinaTargets LIBRARY DESTINATION ${libraryFolder} OPTIONAL)
 if(TARGET patinaReadField) # beside the library that starts it, of whatever level
     install(TARGETS patinaReadField RUNTIME DESTINATION ${libraryFolder}/patina)
@@ -67,7 +71,8 @@ if(NOT SKBUILD)
     install(DIRECTORY hdDelegate materialNetwork shaders DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina
         FILES_MATCHING PATTERN "*.h" PATTERN "*.def" PATTERN "*.inc" PATTERN "*.glsl"
         PATTERN hydra EXCLUDE PATTERN tests EXCLUDE PATTERN bake EXCLUDE PATTERN measure EXCLUDE)
-    install(FILES ${CMAKE_BINARY_DIR}/shaders/everyLobe.glsl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina/shaders)
+    install(FILES ${CMAKE_BINARY_DIR}/shaders/everyLobe.glsl ${CMAKE_BINARY_DIR}/shaders/everyShape.glsl
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/patina/shaders)
     set(configFolder ${CMAKE_INSTALL_LIBDIR}/cmake/Patina)
     include(CMakePackageConfigHelpers)
     configure_package_config_file(cmake/package/patinaConfig.cmake.in ${CMAKE_BINARY_DIR}/package/PatinaConfig.cmake

@@ -20,6 +20,7 @@ std::shared_ptr<const MaterialProgram>
 CompiledMaterials::program(const std::shared_ptr<const MaterialPrim>& prim,
                            const MethodChoices& methods, double tolerance) {
     std::promise<Program> promise;
+    std::multimap<const MaterialPrim*, Entry>::iterator entry;
     {
         std::unique_lock<std::mutex> lock(_mutex);
         const auto range = _entries.equal_range(prim.get());
@@ -36,14 +37,23 @@ CompiledMaterials::program(const std::shared_ptr<const MaterialPrim>& prim,
         };
         for (auto it = _entries.begin(); it != _entries.end();)
             it = unused(it->second.program) ? _entries.erase(it) : std::next(it);
-        _entries.emplace(prim.get(), Entry{prim, methods, tolerance, promise.get_future().share()});
+        entry = _entries.emplace(prim.get(), Entry{prim, methods, tolerance, promise.get_future().share()});
         ++_built;
     }
-    Program program =
-        compileMaterial(prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork(),
-                        _textures, _diagnostics, methods, tolerance);
-    promise.set_value(program);
-    return program;
+    try {
+        const Program program = compileMaterial(
+            prim && !prim->network.empty() ? prim->network : makeDisplayColorNetwork(), _textures,
+            _diagnostics, methods, tolerance);
+        promise.set_value(program);
+        return program;
+    } catch (...) { // out of memory: the next who asks tries again
+        {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            _entries.erase(entry);
+        }
+        promise.set_exception(std::current_exception());
+        throw;
+    }
 }
 
 size_t CompiledMaterials::programsBuilt() const {

@@ -43,7 +43,7 @@ std::optional<SceneEdits> CompiledScene::editsSince(uint64_t version, const Scen
     if (!delta) return std::nullopt;
     SceneEdits edits;
     for (const auto& [path, edit] : delta->geometry)
-        if (edit != PrimEdit::Removed) edits.touched.insert(path);
+        if (edit == PrimEdit::Set || edit == PrimEdit::Added) edits.touched.insert(path);
     if (!delta->materials.empty()) {
         const std::lock_guard<std::mutex> lock(_mutex);
         _users.update(state,

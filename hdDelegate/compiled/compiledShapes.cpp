@@ -2,6 +2,7 @@
 
 #include "hdDelegate/geometry/displace.h"
 #include "hdDelegate/geometry/splitTriangles.h"
+#include "hdDelegate/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -52,6 +53,28 @@ TriangleMesh makeTriangles(const ShapeRequest& request, Diagnostics& diagnostics
     return mesh;
 }
 
+bool CompiledShapes::Entry::isOf(const ShapeRequest& wanted) const {
+    if (request.prim) return request == wanted;
+    ShapeRequest own = request;
+    own.prim = prim.lock();
+    if (!own.prim) return false;
+    for (const auto& displacer : displacers) {
+        own.displacers.push_back(displacer.lock());
+        if (!own.displacers.back()) return false;
+    }
+    return own == wanted;
+}
+
+void CompiledShapes::Entry::letGo() {
+    if (request.displaces() && std::count(request.displacers.begin(), request.displacers.end(),
+                                          nullptr) > 0)
+        return; // some faces are displaced, some are not: rare, and kept as they are
+    prim = request.prim;
+    if (request.displaces()) displacers.assign(request.displacers.begin(), request.displacers.end());
+    request.prim = nullptr;
+    request.displacers.clear();
+}
+
 void CompiledShapes::forgetUnused() {
     if (_entries.size() < _forgetAt) return;
     for (auto it = _entries.begin(); it != _entries.end();)
@@ -67,7 +90,7 @@ std::shared_ptr<const TriangleMesh> CompiledShapes::triangles(const ShapeRequest
         std::unique_lock<std::mutex> lock(_mutex);
         const auto range = _entries.equal_range(request.prim.get());
         for (auto it = range.first; it != range.second; ++it) {
-            if (!(it->second.request == request)) continue;
+            if (!it->second.isOf(request)) continue;
             if (Triangles known = it->second.made.lock()) return known;
             if (!it->second.pending.valid()) continue;
             const std::shared_future<Triangles> pending = it->second.pending;
@@ -75,13 +98,16 @@ std::shared_ptr<const TriangleMesh> CompiledShapes::triangles(const ShapeRequest
             return pending.get();
         }
         forgetUnused();
-        entry =
-            _entries.emplace(request.prim.get(), Entry{request, {}, promise.get_future().share()});
+        entry = _entries.emplace(
+            request.prim.get(), Entry{request, {}, promise.get_future().share(), {}, {}});
         ++_made;
     }
     Triangles made;
     try {
-        made = std::make_shared<const TriangleMesh>(makeTriangles(request, _diagnostics));
+        // A thread that took up another mesh while it waits could wait for one that waits for this.
+        runIsolated([&] {
+            made = std::make_shared<const TriangleMesh>(makeTriangles(request, _diagnostics));
+        });
         promise.set_value(made);
     } catch (...) {
         promise.set_exception(std::current_exception());
@@ -92,6 +118,7 @@ std::shared_ptr<const TriangleMesh> CompiledShapes::triangles(const ShapeRequest
     const std::lock_guard<std::mutex> lock(_mutex);
     entry->second.made = made;
     entry->second.pending = {};
+    entry->second.letGo();
     return made;
 }
 

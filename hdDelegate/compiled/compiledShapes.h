@@ -40,9 +40,15 @@ public:
 private:
     using Triangles = std::shared_ptr<const TriangleMesh>;
     struct Entry {
-        ShapeRequest request;
+        ShapeRequest request; ///< without the prim and materials once the triangles are made
         std::weak_ptr<const TriangleMesh> made;
         std::shared_future<Triangles> pending; ///< while a thread makes it
+        std::weak_ptr<const Geometry> prim;
+        std::vector<std::weak_ptr<const MaterialProgram>> displacers;
+
+        bool isOf(const ShapeRequest& wanted) const;
+        /// Holds prim and materials no longer: an edited mesh lives on only where it is shown.
+        void letGo();
     };
     void forgetUnused();
 

@@ -39,9 +39,12 @@ std::optional<std::vector<EmbreeScene::Work>> EmbreeScene::touchedWork(View& vie
         ++_counts.looked;
         const auto& prim = view.state.geometry.at(path);
         const bool draws = isDrawn(*prim, view.settings);
-        if (draws && prim->kind == GeometryKind::Volume) return std::nullopt;
         const auto known = _surfaces.find(path);
-        if (draws != (known != _surfaces.end())) return std::nullopt;
+        // Volumes are no surfaces: what is not drawn now may have been one.
+        if (prim->kind == GeometryKind::Volume ||
+            (known == _surfaces.end() && !_volumes.empty()) ||
+            draws != (known != _surfaces.end()))
+            return std::nullopt;
         if (!draws) continue;
         CachedSurface& cached = known->second;
         if (cached.prim->group != prim->group) return std::nullopt;

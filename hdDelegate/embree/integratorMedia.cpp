@@ -168,13 +168,15 @@ bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& h
 }
 
 constexpr float rouletteBelow = 0.25f; // of the throughput that a path had at the camera
+constexpr int endlessDepth = 16;       // surfaces, beyond which nearly white rooms end paths too
 
 /// Paths are ended for what they have lost, those of little light alone: what ends sooner saves
 /// less time than its noise costs. A path that scatters in a bright medium goes on for long and
-/// should. Surfaces end every path now and then. Paths of a pixel share evenly spread numbers.
+/// should, and so should one in a white room, up to a depth. Paths of a pixel share evenly spread
+/// numbers.
 bool Integrator::survivesRoulette(Path& path) const {
     if (path.depth + path.scatterings <= _settings.rouletteDepth) return true;
-    const float bound = path.scatterings > 0 ? 1.0f : 0.95f;
+    const float bound = path.scatterings > 0 || path.depth <= endlessDepth ? 1.0f : 0.95f;
     const float left = std::max({path.throughput.x, path.throughput.y, path.throughput.z});
     const float survive = std::min(bound, left / rouletteBelow);
     if (survive >= 1.0f) return true;

@@ -13,7 +13,7 @@ TileSchedule::TileSchedule(const Film& film, const RenderSettings& settings)
       _tolerance(_begin > 0 ? 0.0 : settings.tolerance),
       _tiles(tilesOf(film.width(), film.height(), settings.dataWindow)) {
     if (settings.sampleEnd > 0) _samples = std::min(_samples, settings.sampleEnd);
-    if (settings.tileParts > 1)
+    if (settings.tileParts != 1 || settings.tilePart != 0)
         _tiles = tilesOfPart(_tiles, settings.tilePart, settings.tileParts);
     _errorChecks.resize(_tiles.size());
 }

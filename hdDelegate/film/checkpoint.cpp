@@ -31,7 +31,11 @@ void Film::loadCheckpoint(const std::string& file) {
     if (pixels > reader.left() / FilmStream::bytesOfPixel(header.aovs))
         reader.fail("it is truncated");
     Film loaded;
-    FilmStream::reset(loaded, header);
+    try {
+        FilmStream::reset(loaded, header);
+    } catch (const std::invalid_argument&) {
+        reader.fail("it is damaged");
+    }
     FilmStream::readPixels(reader, loaded, {0, 0, header.width, header.height});
     reader.finish();
 

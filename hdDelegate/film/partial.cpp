@@ -14,7 +14,12 @@ constexpr FilmFileKind partial = {"part", {'P', 'a', 't', 'i', 'n', 'a', 'P', 'T
 constexpr uint32_t longestDescription = 1u << 28;
 
 /// Like FilmStream::Header's reset for a film that parts are merged into.
-void begin(Film& film, FilmStream::Header header, const FilmFileReader& file) {
+void begin(Film& film, FilmStream::Header header, size_t tiles, const FilmFileReader& file) {
+    // A small file cannot ask for much memory.
+    constexpr uint64_t mostParts = 1 << 16, tileArea = uint64_t(tileSize) * tileSize;
+    if (header.width < 1 || header.height < 1 ||
+        uint64_t(header.width) * uint64_t(header.height) > tiles * tileArea * mostParts)
+        file.fail("it is damaged");
     header.firstSample = 0;
     header.dropped = 0;
     header.token.clear();
@@ -39,7 +44,13 @@ bool inside(const Tile& t, const Film& film) {
 /// Whether a tile has stopped before this sample, or does so now.
 bool hasEnough(const Film& film, const Tile& tile, uint32_t first, const PartialMerge& merge) {
     const uint32_t samples = film.sampleCount(tile.x0, tile.y0);
-    if (samples != first) return true;
+    if (samples != first) {
+        if (!(merge.tolerance > 0.0))
+            throw std::runtime_error("the parts do not follow each other: " +
+                                     std::to_string(samples) + " samples are there, and the next "
+                                     "are from " + std::to_string(first) + " on");
+        return true;
+    }
     if (!(merge.tolerance > 0.0) || int(samples) < std::max(2, merge.minSamples) ||
         !isErrorStep(int(samples)))
         return false;
@@ -59,6 +70,9 @@ PartialWriter::PartialWriter(const std::string& file, const std::string& descrip
 }
 
 void PartialWriter::add(const Film& film) {
+    if (_finished) throw std::logic_error("the part is finished");
+    for (const Tile& tile : _tiles)
+        if (!inside(tile, film)) throw std::invalid_argument("a tile lies outside of the film");
     _file.value(uint32_t(1));
     FilmStream::writeHeader(_file, film);
     for (const Tile& tile : _tiles)
@@ -66,6 +80,8 @@ void PartialWriter::add(const Film& film) {
 }
 
 void PartialWriter::commit(const std::string& report) {
+    if (_finished) throw std::logic_error("the part is finished");
+    _finished = true;
     _file.value(uint32_t(0));
     _file.text(report);
     _file.finish();
@@ -90,7 +106,7 @@ std::string mergePartial(Film& film, const std::string& file, const PartialMerge
     Film part;
     while (reader.value<uint32_t>() != 0) {
         const FilmStream::Header header = FilmStream::readHeader(reader);
-        if (film.width() == 0) begin(film, header, reader);
+        if (film.width() == 0) begin(film, header, tiles.size(), reader);
         if (header.width != film.width() || header.height != film.height() ||
             !sameAovs(header.aovs, film.aovs()))
             reader.fail("it is of another size or other AOVs than the parts before");

@@ -20,6 +20,7 @@ public:
     /// @param description what made the part; its host reads it
     PartialWriter(const std::string& file, const std::string& description,
                   std::vector<Tile> tiles);
+    /// @throws std::invalid_argument where a tile lies outside of the film
     void add(const Film& film);
     /// @param report what the render told; its host reads it
     void commit(const std::string& report);
@@ -28,6 +29,7 @@ private:
     AtomicFile _target;
     FilmFileWriter _file;
     std::vector<Tile> _tiles;
+    bool _finished = false;
 };
 
 /// @returns what PartialWriter was given

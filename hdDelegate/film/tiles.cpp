@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <stdexcept>
 
 namespace patina {
 
@@ -22,6 +23,7 @@ std::vector<Tile> tilesOf(int width, int height, const std::array<int, 4>& windo
 }
 
 std::vector<Tile> tilesOfPart(const std::vector<Tile>& tiles, int part, int parts) {
+    if (part < 0 || part >= parts) throw std::invalid_argument("there is no such part of a frame");
     // Multiples of the golden ratio, modulo 1, are spread evenly however many they are (Knuth 1973,
     // The Art of Computer Programming 3, 6.4): their order deals the tiles out.
     std::vector<uint32_t> order(tiles.size());

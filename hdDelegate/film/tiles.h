@@ -20,6 +20,7 @@ std::vector<Tile> tilesOf(int width, int height, const std::array<int, 4>& windo
 /// The tiles of one of several parts. Each part's tiles lie all over the image, so that the parts
 /// take about equally long, and their numbers differ by one at most.
 /// @param part from 0 to parts - 1
+/// @throws std::invalid_argument where there is no such part
 std::vector<Tile> tilesOfPart(const std::vector<Tile>& tiles, int part, int parts);
 
 } // namespace patina

@@ -1,6 +1,7 @@
 #include "hdDelegate/hydra/settingsTable.h"
 
 #include "hdDelegate/scene/settingRows.h"
+#include "materialNetwork/plan/methods.h"
 
 #include <pxr/base/tf/diagnostic.h>
 #include <pxr/base/tf/stringUtils.h>
@@ -178,7 +179,11 @@ std::string applySetting(const TfToken& key, const VtValue& value, HdPatinaSetti
     const VtValue converted = settingValue(key, value);
     if (converted.IsEmpty()) return "has a value of the wrong type; it is left as it was";
     if (isMethod(key.GetString())) {
-        settings.methods[key.GetString().substr(7)] = converted.UncheckedGet<std::string>();
+        const MethodChoices chosen = {
+            {key.GetString().substr(7), converted.UncheckedGet<std::string>()}};
+        if (const std::string problem = checkMethods(chosen); !problem.empty())
+            return "is left as it was: " + problem;
+        settings.methods[chosen.begin()->first] = chosen.begin()->second;
         return std::string();
     }
     if (!rowOf(key)->set(settings, converted))

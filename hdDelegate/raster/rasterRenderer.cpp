@@ -59,9 +59,15 @@ private:
             const EglContext::Use use(*_context);
             if (!use.ok()) throw DeviceError("the OpenGL context cannot be used");
             if (!_deviceFailure.empty()) throw DeviceError(_deviceFailure);
+            struct Release { // also where the render fails, which may be for want of memory
+                std::unique_ptr<RasterScene>& raster;
+                ~Release() {
+                    if (raster) raster->releaseShapes();
+                }
+            };
             try {
+                const Release release{_raster};
                 RenderLoop::prepareAndRender(state, camera);
-                if (_raster) _raster->releaseShapes();
             } catch (const DeviceError& error) {
                 _deviceFailure = error.what();
                 release(); // another back end needs the memory

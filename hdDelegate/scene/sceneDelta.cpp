@@ -10,10 +10,10 @@ void append(SceneDelta::Paths& paths, const SceneDelta::Paths& later) {
     for (const auto& [path, edit] : later) {
         const auto [known, isNew] = paths.emplace(path, edit);
         if (isNew) continue;
-        if (edit == PrimEdit::Added)
-            known->second = PrimEdit::Set; // it was taken away in between
-        else if (edit == PrimEdit::Removed || known->second != PrimEdit::Added)
-            known->second = edit;
+        const bool wasThere = known->second == PrimEdit::Set || known->second == PrimEdit::Removed;
+        const bool isThere = edit == PrimEdit::Set || edit == PrimEdit::Added;
+        known->second = wasThere ? (isThere ? PrimEdit::Set : PrimEdit::Removed)
+                                 : (isThere ? PrimEdit::Added : PrimEdit::Passing);
     }
 }
 

@@ -14,10 +14,11 @@ enum class PrimEdit {
     Set,     ///< it is another object
     Added,   ///< it was not there before
     Removed, ///< it is not there any more
+    Passing, ///< it came and went: it was not there before and is not now
 };
 
 /// What differs between two states of a scene: paths by kind, without the prims, so that none is
-/// kept alive. A path that was added and taken away again counts as removed.
+/// kept alive.
 struct SceneDelta {
     using Paths = std::map<std::string, PrimEdit>;
 

@@ -226,7 +226,8 @@ MethodPlan planMethods(const Plan& plan, const ProgramCode& code, const Planning
 
 MethodPlan withoutWalks(MethodPlan plan) {
     for (PlannedMethod& m : plan.choices) {
-        if (!findChoicePoint(m.point)->find(m.method)->walks) continue;
+        const Method* method = findChoicePoint(m.point)->find(m.method);
+        if (!method || !method->walks) continue; // hosts may force what is no method
         plan.error += m.errorDefault - m.error;
         m.method = chosenMethod({}, m.point);
         m.error = m.errorDefault;

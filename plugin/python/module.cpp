@@ -96,7 +96,15 @@ Film, images and colour; Renderer and its settings; materials: see the classes' 
 
     py::register_exception_translator(&patina::translateRuntimeError);
 #ifdef PATINA_BIND_FILM
-    py::register_exception<patina::TemporaryFailure>(m, "TemporaryFailure", PyExc_RuntimeError);
+    static py::exception<patina::TemporaryFailure> temporary(m, "TemporaryFailure",
+                                                             PyExc_RuntimeError);
+    py::register_exception_translator([](std::exception_ptr pointer) {
+        try {
+            if (pointer) std::rethrow_exception(pointer);
+        } catch (const patina::TemporaryFailure& error) {
+            temporary(patina::validUtf8(error.what()).c_str());
+        }
+    });
 #endif
     patina::bindMachine(m);
     patina::bindNetwork(m);

@@ -53,6 +53,9 @@ TEST(SettingsTable, NumbersOfEveryTypeAreTaken) {
     EXPECT_EQ(with("enableShadows", VtValue(0)).enableShadows, false);
     EXPECT_EQ(with("enableShadows", VtValue(std::string("off"))).enableShadows, false);
     EXPECT_EQ(with("cullStyle", VtValue(TfToken("back"))).cullStyle, "back");
+    HdPatinaSettings untouched;
+    EXPECT_NE(applySetting(settingKey(TfToken("method:fresnel")), VtValue(std::string("schlik")), untouched), "");
+    EXPECT_TRUE(untouched.methods.empty());
     EXPECT_EQ(with("method:energyCompensation", VtValue(std::string("none")))
                   .methods["energyCompensation"],
               "none");

@@ -150,6 +150,7 @@ bool RasterScene::updateTouched(const SceneEdits& edits, const SceneState& state
     for (const auto& item : delta.geometry)
         if (const auto span = _spans.find(item.first); span != _spans.end())
             uploadTouched(span->second);
+    _shapes.forgetReplaced();
     if (_instancesDiffer) ++_instancesWritten;
     if (_linkRows.size() != linkRows) _linkBuffer = GlBuffer(_links);
     return true;

@@ -98,13 +98,23 @@ void RasterShapeCache::forgetUnused() {
     }
 }
 
+void RasterShapeCache::forgetReplaced() {
+    if (_entries.size() < _forgetAt) return;
+    for (auto it = _entries.begin(); it != _entries.end();)
+        it = !it->second.shape || it->second.shape.use_count() == 1 ? _entries.erase(it)
+                                                                     : std::next(it);
+    _forgetAt = std::max<size_t>(64, 2 * _entries.size());
+}
+
 size_t RasterShapeCache::bytes() const {
     size_t sum = 0;
-    for (const auto& item : _entries)
+    for (const auto& item : _entries) {
+        if (!item.second.shape) continue; // it could not be built
         for (const auto* surfaces : {&item.second.shape->surfaces, &item.second.shape->casting})
             for (const RasterSurface& surface : *surfaces)
                 for (const RasterChunk& chunk : surface.chunks)
                     sum += chunk.bytes();
+    }
     return sum;
 }
 

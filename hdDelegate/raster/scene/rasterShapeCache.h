@@ -58,6 +58,8 @@ public:
     /// Forgets the shapes that nobody has asked for since the last call.
     void forgetUnused();
 
+    /// Forgets shapes that nobody holds, once there are as many of them as of the others.
+    void forgetReplaced();
     size_t built() const { return _built; } ///< shapes, since this was made
     size_t bytes() const;                   ///< of all buffers
 
@@ -74,6 +76,7 @@ private:
     bool _holds = false;
     std::vector<std::shared_ptr<const TriangleMesh>> _held;
     std::map<std::tuple<std::string, float, float>, Entry> _entries; ///< by name, edge and time
+    size_t _forgetAt = 64; ///< so many entries are looked through
     size_t _built = 0;
 };
 

@@ -58,11 +58,21 @@ TEST(SceneDelta, AddsUpWhatFollowsEachOther) {
     scene.edit().set(mesh("/kept"));
     scene.edit().set(mesh("/short"));
     scene.edit().remove("/short");
+    scene.edit().set(mesh("/twice"));
+    scene.edit().remove("/twice");
+    scene.edit().set(mesh("/twice"));
+    scene.edit().set(mesh("/gone"));
+    const uint64_t middle = scene.snapshot()->version;
+    scene.edit().remove("/gone");
     const auto delta = scene.changes(before, scene.snapshot()->version);
     ASSERT_TRUE(delta);
     EXPECT_EQ(delta->geometry, (Paths{{"/kept", PrimEdit::Set},
                                       {"/new", PrimEdit::Added},
-                                      {"/short", PrimEdit::Removed}}));
+                                      {"/gone", PrimEdit::Passing},
+                                      {"/short", PrimEdit::Passing},
+                                      {"/twice", PrimEdit::Added}}));
+    EXPECT_EQ(scene.changes(middle, scene.snapshot()->version)->geometry,
+              (Paths{{"/gone", PrimEdit::Removed}}));
 }
 
 TEST(SceneDelta, IsEmptyBetweenAVersionAndItself) {

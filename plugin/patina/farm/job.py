@@ -7,7 +7,7 @@ import time
 import uuid
 
 from patina.cli import outputs
-from patina.cli.errors import CommandError
+from patina.cli.errors import CommandError, TemporaryError
 from patina.cli.progress import Progress
 from patina.farm import engines, identity, partial, sender, simulation, work, worker
 
@@ -29,11 +29,15 @@ class Job:
         if arguments.allowMixed:
             machine = {"version": machine["version"]}
         folders = sorted({os.path.dirname(os.path.abspath(frame.image)) for frame in self.frames})
-        self.checks = (uuid.uuid4().hex, files, folders, machine)
+        for frame in self.frames:
+            frame.check(files)
+        self.checks = (uuid.uuid4().hex, files, folders, machine, os.getcwd())
         self.progress = Progress("farm", arguments.quiet)
 
     def _frame_flags(self, time_code):
-        return [f"--frames={time_code:.6f}".rstrip("0").rstrip(".")] if self.arguments.frames else []
+        flags = [f"--frames={time_code:.6f}".rstrip("0").rstrip(".")] if self.arguments.frames else []
+        # A whole image goes on from its checkpoint.
+        return flags + (["--resume"] if self.arguments.resume and self.arguments.cut.parts == 1 else [])
 
     def run(self, counts):
         """:param counts: numbers of workers to simulate afterwards
@@ -44,6 +48,7 @@ class Job:
             return
         with engines.Cluster(self.engine) as cluster:
             self._preflight(cluster)
+            self._prepare(frames)
             cost = self._sender_seconds(cluster) if counts else 0.0
             begin = time.perf_counter()
             threads = engines.threads(self.engine) if self.arguments.threads is None else self.arguments.threads
@@ -51,8 +56,15 @@ class Job:
             link = cluster.dashboard()
             try:
                 one.run(frames, waiting, lambda state: self._show(state, frames, link))
+            except KeyboardInterrupt:
+                if one.done:
+                    raise TemporaryError(f"interrupted; {len(one.written)} of {len(frames)} images are written; --resume goes "
+                                         "on with what is there") from None
+                raise
             finally:
                 self.progress.clear()
+                for frame in frames:
+                    frame.leave()
             seconds = time.perf_counter() - begin
         self._tell(one, frames, seconds, cost, counts)
 
@@ -65,12 +77,16 @@ class Job:
             there = set()
             if self.arguments.resume and frame.cut.parts > 1:
                 there = work.parts_there(self.module, frame, self._wanted())
-            elif not self.arguments.resume:
-                frame.forget()
-            frame.prepare()
             frames.append(frame)
             waiting += frame.tasks(there)
         return waiting, frames
+
+    def _prepare(self, frames):
+        """Begins to write: there is a worker that can take a part."""
+        for frame in frames:
+            if not self.arguments.resume:
+                frame.forget()
+            frame.prepare()
 
     def _wanted(self):
         """:returns: dict of the flags that parts of an earlier job must have been made with"""
@@ -134,7 +150,9 @@ class Job:
             print(f"patina: {task}: {task.failures[-1][1]}", file=sys.stderr)
         lost = len(frames) - len(written)
         if lost:
-            raise CommandError(f"{lost} of {len(frames)} images are not written; --resume goes on with what is there")
+            kind = TemporaryError if one.lost or all(task.passing for task in one.failed) else CommandError
+            raise kind((f"{one.lost}; " if one.lost else "")
+                       + f"{lost} of {len(frames)} images are not written; --resume goes on with what is there")
 
 
 def table(one, seconds):

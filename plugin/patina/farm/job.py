@@ -12,6 +12,7 @@ from patina.cli.progress import Progress
 from patina.farm import engines, identity, partial, sender, simulation, work, worker
 
 FIRST_WORKER_SECONDS = 600  # a queue may be full
+LOOK_SECONDS = 2  # so often it is looked whether the queue has refused
 EMPTY_TASKS = 500  # to measure the sender by, for --simulate
 
 
@@ -99,10 +100,7 @@ class Job:
         client = cluster.client
         if not client.scheduler_info(n_workers=-1)["workers"]:
             self.progress.say(f"waiting for the first worker of {self.arguments.engine}")
-        try:
-            client.wait_for_workers(1, timeout=FIRST_WORKER_SECONDS)
-        except TimeoutError:
-            raise CommandError(f"{self.arguments.engine} has no worker after {FIRST_WORKER_SECONDS} s") from None
+        self._wait(cluster)
         found = client.run(worker.check, *self.checks, on_error="return")
         bad, first = 0, ""
         for address, problems in sorted(found.items()):
@@ -114,6 +112,20 @@ class Job:
                 self.progress.say(f"worker {address} is left out: {worker.words(problems)}")
         if bad == len(found):
             raise CommandError(f"no worker can take a part: {first}")
+
+    def _wait(self, cluster):
+        """Until there is a worker."""
+        end = time.monotonic() + FIRST_WORKER_SECONDS
+        while True:
+            try:
+                cluster.client.wait_for_workers(1, timeout=LOOK_SECONDS)
+                return
+            except TimeoutError:
+                problem = cluster.problem()
+                if problem:
+                    raise CommandError(f"no workers of {self.arguments.engine}: {problem}") from None
+                if time.monotonic() > end:
+                    raise CommandError(f"{self.arguments.engine} has no worker after {FIRST_WORKER_SECONDS} s") from None
 
     def _show(self, state, frames, link):
         text = f"{len(state.written)} of {len(frames)} frames, {state.done} of {state.total} tasks, {state.count} workers"

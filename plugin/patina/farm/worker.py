@@ -1,15 +1,16 @@
 """What runs on a worker. Everything goes through paths that the worker shares with the sender."""
 import os
-import signal
 import socket
 import subprocess
 import sys
 import time
 
+from patina.cli import interrupts
 from patina.cli.errors import TEMPORARY
 
-# Statuses of commands that may do it when they are run again; the kernel kills by SIGKILL where memory runs out.
-PASSING = (TEMPORARY, -signal.SIGKILL, -signal.SIGTERM, -signal.SIGINT, -signal.SIGHUP)
+_SIGKILL = 9  # by which the kernel ends what takes too much memory
+# Statuses of commands that may do it when they are run again.
+PASSING = (TEMPORARY, -_SIGKILL, *(-int(number) for number in interrupts.NUMBERS))
 _checked = {}  # job -> problems of this process
 
 

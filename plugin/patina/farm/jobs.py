@@ -53,7 +53,7 @@ def template(arguments, record, shots, folder):
     else:
         parameters.append(_path("Parts", "DIRECTORY", "INOUT", record.image + ".parts", folder, "parts until they are merged"))
         steps = _cut_steps(arguments, flags, frames)
-    name = f"patina {os.path.basename(record.stage)}".replace("{{", "{ {")[:LONGEST_NAME]
+    name = f"patina {os.path.basename(record.stage)}".translate(str.maketrans("{}", "()"))[:LONGEST_NAME]
     return {"specificationVersion": VERSION, "name": name, "parameterDefinitions": parameters, "steps": steps}
 
 
@@ -127,8 +127,8 @@ def _flags(arguments, record):
         elif flag in _FILES and equals:
             word = f"{flag}={os.path.abspath(file)}"
         takes = not takes and word in _FILES
-        if "{{" in word:
-            raise CommandError(f"--write-job: {word}: a job template takes {{{{ for an expression")
+        if "{{" in word or "}}" in word:
+            raise CommandError(f"--write-job: {word}: a job template takes double braces for an expression")
         flags.append(word)
     threads = [f"--threads={arguments.threads}"] if arguments.threads else []
     return flags + threads + ["--quiet"]

@@ -76,8 +76,6 @@ class _Job:
             prim = renderSettings.SettingsPrim(self.stage, a.settings, getattr(a, "given", ())) if a.settings else None
         if prim:
             self.arguments = a = renderSettings.applied(a, prim)
-            if a.denoise:
-                denoiser.prepare(self.module)
             partJob.check(a)  # once more: now with what the prim says
             if a.denoise:
                 denoiser.prepare(self.module)
@@ -89,9 +87,6 @@ class _Job:
             if not a.image:
                 for output in shot.outputs:
                     self.module.check_image_path(output.image, list(output.aovs))
-        reports.plan(a, self.shots, self.stage)
-        self.snapshots.check([image for shot in self.shots for image in shot.images], a.snapshotSuffix)
-        for shot in self.shots:
             self._check_outputs(shot)
         self.renderer = self.module.make_renderer(a.backend)
         self.scene = self.module.Scene()
@@ -115,10 +110,7 @@ class _Job:
             self._write(film, shot, settings, info)
         if self.arguments.report:
             with self.statistics.phase("report"):
-                problem = reports.write(self, film, shot, settings, info)
-            if problem:
-                self.statistics.warn(shot.image, "", problem)
-                self._check_warnings()
+                reports.write(self, film, shot, settings, info)
         self.statistics.end_frame()
         if self.arguments.verbose:
             self._say_all(verbose.lines(self.statistics.frames()[-1]))
@@ -130,7 +122,7 @@ class _Job:
     def _check_outputs(self, shot):
         a = self.arguments
         files = shot.images + ([snapshots.path_of(image, a.snapshotSuffix) for image in shot.images] if a.snapshot else [])
-        outputs.check_all([*files, a.json, shot.page])
+        outputs.check_all([*files, a.json, reports.path_of(a, shot)])
         if a.checkpointSeconds > 0.0 or a.keepCheckpoint or a.resume:
             outputs.check(checkpoints.path_of(shot.image))
 
@@ -243,7 +235,8 @@ class _Job:
         metadata = self.statistics.metadata(a, settings, info.camera)
         for output in shot.outputs:
             self.module.write_images(film, output.image, shots.image_options(a, shot, output, settings), metadata)
-        self.snapshots.remove()
+        if a.snapshot:
+            snapshots.remove(shot.images, a.snapshotSuffix)
         if not self.interrupted and not a.keepCheckpoint:
             checkpoints.remove(checkpoints.path_of(shot.image))
 
@@ -253,9 +246,8 @@ class _Job:
             denoiser.run(self.module, film, self.arguments.threads)
         metadata = statistics.of_snapshot(self.arguments, film, camera)
         for output in shot.outputs:
-            path = self.snapshots.place_of(output.image, self.arguments.snapshotSuffix)
-            self.module.write_images(film, path, shots.image_options(self.arguments, shot, output, settings), metadata)
-            self.snapshots.wrote(path)
+            self.module.write_images(film, snapshots.path_of(output.image, self.arguments.snapshotSuffix),
+                                     shots.image_options(self.arguments, shot, output, settings), metadata)
 
     def _check_warnings(self):
         """Shows what is new; with --strict the render ends here."""

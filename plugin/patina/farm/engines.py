@@ -90,8 +90,8 @@ class Cluster:
     def __exit__(self, *_):
         for one in (self.client, self._cluster):
             if one is not None:
-                # A scheduler that died does not answer; what was rendered is told all the same.
-                with contextlib.suppress(OSError, RuntimeError, TimeoutError):
+                # A scheduler that died does not answer, and jobs that were refused are no running ones.
+                with contextlib.suppress(OSError, RuntimeError, TimeoutError, AssertionError):
                     one.close()
 
     def problem(self):
@@ -117,9 +117,9 @@ class Cluster:
             return cluster
         jobqueue = _import("dask_jobqueue", "dask-jobqueue")
         # What a queue says to a job that it does not take comes to no other place.
-        log = logging.getLogger("tornado.application")
-        log.addHandler(self._complaints)
-        log.propagate = False
+        for name in ("tornado.application", "asyncio"):
+            log = logging.getLogger(name)
+            log.handlers, log.propagate = [self._complaints], False
         cluster = getattr(jobqueue, QUEUES[engine.kind])(**{
             "cores": 1, "processes": 1, "memory": "4GiB", "python": shlex.quote(sys.executable),
             "job_script_prologue": [f"export {name}={shlex.quote(value)}" for name, value in environment().items()],

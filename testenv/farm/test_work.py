@@ -1,6 +1,7 @@
 """What a job removes, which commands it sends, and how it tells that what failed may pass."""
 import concurrent.futures
 import os
+import time
 import types
 
 import pytest
@@ -38,6 +39,15 @@ def test_an_input_among_the_parts_is_refused(tmp_path):
 
 def test_a_worker_leaves_no_image_of_fewer_samples(tmp_path):
     assert "--onlyWhole" in work.Task(frame(tmp_path, 1), None).arguments(["stage.usda", "a.exr"], 0)
+
+
+def test_what_a_job_has_kept_is_known_by_its_files(tmp_path):
+    one = frame(tmp_path)
+    now = time.time()
+    assert not one.kept(now - 60)
+    one.prepare()
+    (tmp_path / "a.exr.parts" / "2.part").write_text("")
+    assert one.kept(now - 60) and not one.kept(now + 60)
 
 
 def test_the_folder_of_commands_is_looked_at(tmp_path):

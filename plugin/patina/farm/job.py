@@ -47,27 +47,33 @@ class Job:
         if not waiting:
             self.progress.say("all images are there")
             return
+        try:
+            one, seconds, cost = self._on_workers(frames, waiting, counts)
+        finally:
+            for frame in frames:
+                frame.leave()  # no worker writes a log any more
+        self._tell(one, frames, seconds, cost, counts)
+
+    def _on_workers(self, frames, waiting, counts):
+        """:returns: the Sender that did it, seconds that it took, and those of the sender for a task"""
         with engines.Cluster(self.engine) as cluster:
             self._preflight(cluster)
             self._prepare(frames)
             cost = self._sender_seconds(cluster) if counts else 0.0
-            begin = time.perf_counter()
+            begin, started = time.perf_counter(), time.time()
             threads = engines.threads(self.engine) if self.arguments.threads is None else self.arguments.threads
             one = sender.Sender(cluster.client, self.arguments.passed_on, os.getcwd(), self.checks, threads)
             link = cluster.dashboard()
             try:
                 one.run(frames, waiting, lambda state: self._show(state, frames, link))
             except KeyboardInterrupt:
-                if one.done:
-                    raise TemporaryError(f"interrupted; {len(one.written)} of {len(frames)} images are written; --resume goes "
-                                         "on with what is there") from None
+                if one.done or any(frame.kept(started) for frame in frames):
+                    raise TemporaryError("interrupted; --resume goes on with what is there") from None
                 raise
             finally:
                 self.progress.clear()
-                for frame in frames:
-                    frame.leave()
             seconds = time.perf_counter() - begin
-        self._tell(one, frames, seconds, cost, counts)
+        return one, seconds, cost
 
     def _waiting(self):
         """:returns: the tasks that can begin, and the frames that they are of"""

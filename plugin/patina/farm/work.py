@@ -4,6 +4,7 @@ import os
 import re
 from dataclasses import dataclass, field
 
+from patina.cli import checkpoints
 from patina.cli.errors import CommandError
 from patina.farm import cut, identity, partial
 
@@ -87,6 +88,12 @@ class Frame:
             with contextlib.suppress(OSError):
                 os.remove(self.part_file(part))
         self.leave()
+
+    def kept(self, since):
+        """:param since: seconds of the clock, when the job began
+        :returns: whether it has left something that --resume goes on with"""
+        files = [self.image, checkpoints.path_of(self.image), *map(self.part_file, self.parts() if self.cut.parts > 1 else ())]
+        return any(os.path.isfile(file) and os.stat(file).st_mtime >= since for file in files)
 
     def leave(self):
         """Removes the folder where nothing is in it."""

@@ -16,7 +16,7 @@ import os
 from patina import inputs
 from patina.cli import compiled, denoiser, frames, openStage, outputs, overrides, recordFlags, renderSettings
 from patina.cli.errors import UsageError
-from patina.farm import cut, engines
+from patina.farm import cut, engines, work
 
 PASSES_ON = True  # to `patina record`
 _STAGE, _IMAGE = "\0stage", "\0image"  # no word of a command line holds a zero
@@ -108,8 +108,16 @@ def _record_arguments(arguments):
     if record.verbose:
         raise UsageError("patina farm: --verbose is of one render; --json tells what each task took")
     overrides.parse(record.set)
+    _check_task(parser, arguments, argv, record)
     record.words = _words(parser, arguments.passed_on, record)
     return record
+
+
+def _check_task(parser, arguments, argv, record):
+    """:raises UsageError: where a worker would not understand its command line"""
+    frame = work.Frame(None, record.image, arguments.cut, [])
+    task = work.Task(frame, frame.parts()[0] if arguments.cut.parts > 1 else None)
+    parser.parse_intermixed_args(task.arguments(argv, arguments.threads or 0)[1:])
 
 
 def _words(parser, passed_on, record):

@@ -80,7 +80,7 @@ def test_files_of_flags_are_absolute_and_their_values_stay(tmp_path, monkeypatch
 
 def test_what_a_template_cannot_hold_is_said(tmp_path):
     stage = movie.write_stage(tmp_path)
-    assert "takes double braces for an expression" in template(tmp_path, stage, tmp_path / "a.exr", "--camera=/a{{b", check=False)
+    assert "takes double braces for" in template(tmp_path, stage, tmp_path / "a.exr", "--camera=/a{{b", check=False)
     frames = ",".join(str(frame * frame) for frame in range(400))
     assert "longer than" in template(tmp_path, stage, tmp_path / "a.######.exr", f"--frames={frames}", check=False)
     braces = tmp_path / "{{a}}.usda"

@@ -177,7 +177,8 @@ def test_settings_prims_may_ask_for_denoising(folder):
 def test_counts_are_those_of_the_frame(folder):
     stage, flags = scene("diffuseBox"), ("--imageWidth", "32", "--samples", "50")
     patina("record", stage, folder / "n.exr", *flags, "--quiet", f"--json={folder / 'whole.json'}")
-    patina("merge", *parts(folder, stage, folder / "n.exr", "1x2", *flags), folder / "n.exr", f"--json={folder / 'merged.json'}")
+    files = parts(folder, stage, folder / "n.exr", "1x2", *flags)
+    patina("merge", *files, folder / "n.exr", f"--json={folder / 'merged.json'}")
     told = [json.loads((folder / f"{name}.json").read_text()) for name in ("whole", "merged")]
     for name in ("rays", "paths"):
         assert told[0][name] == told[1][name] > 0

@@ -41,8 +41,8 @@ def template(arguments, record, shots, folder):
               "with a place for the frame, as `patina record` takes it" if frames else "what is written"),
     ]
     if frames and frames["type"] == "INT" and len(frames["range"]) > MAX_TEXT:
-        raise CommandError(f"--write-job: the list of frames is longer than a parameter of a job template ({MAX_TEXT} characters)"
-                           "; write several jobs")
+        raise CommandError(f"--write-job: the list of frames is longer than a parameter of a job template ({MAX_TEXT} "
+                           "characters); write several jobs")
     if frames and frames["type"] == "INT":
         parameters.append({"name": "Frames", "type": "STRING", "default": frames["range"],
                            "description": "such as 1-240 or 1-9:2,20"})

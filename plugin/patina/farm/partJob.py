@@ -93,8 +93,8 @@ def of(job):
         def _write(self, film, shot, settings, info):
             state = self.renderer.progress()
             self._writer.commit(json.dumps({
-                "statistics": {**state["statistics"], **self._sums}, "plans": state["plans"], "sceneChoices": state["sceneChoices"],
-                "backend": state["backend"], "warnings": self.statistics.warnings(),
+                "statistics": {**state["statistics"], **self._sums}, "plans": state["plans"],
+                "sceneChoices": state["sceneChoices"], "backend": state["backend"], "warnings": self.statistics.warnings(),
                 "seconds": self.statistics.seconds}, default=str))
 
     return PartJob

@@ -30,8 +30,8 @@ def describe(part, samples, identity, arguments, options, frame, camera, setting
     :param more: folder of the stage, denoise: whether the merged film is denoised, decimals: of the frames
     :returns: the text that PartialWriter takes"""
     return json.dumps({"identity": identity, "part": str(part), "range": list(samples), "frame": frame, "camera": camera,
-                       "settings": settings, "noiseTolerance": noise, "arguments": plain(arguments), "options": options, **more},
-                      default=str)
+                       "settings": settings, "noiseTolerance": noise, "arguments": plain(arguments), "options": options,
+                       **more}, default=str)
 
 
 def add_up(sums, statistics):

@@ -19,7 +19,7 @@ class Refused(Exception):
 
 
 class PartFailed(Exception):
-    """A command ended with a reason, its whole log lies in a file. The reason, the worker's address, and whether it may pass."""
+    """A command ended with a reason, its log lies in a file. The reason, the worker's address, and whether it may pass."""
 
 
 def check(job, files, folders, machine, home=None):

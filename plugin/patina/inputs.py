@@ -23,7 +23,13 @@ def forget():
 def note(path):
     """:param path: of a file that is read; <UDIM> stands for any tile, a file in a package for the package"""
     if path:
-        _noted.add(os.path.abspath(path.partition("[")[0] if ".usdz[" in path.lower() else path))
+        _noted.add(os.path.abspath(file_of(path)))
+
+
+def file_of(path):
+    """:returns: the path itself, or of a file in a package that of the package"""
+    end = path.lower().find(".usdz[")
+    return path if end < 0 else path[:end + len(".usdz")]
 
 
 def note_document(path):

@@ -165,3 +165,12 @@ def test_what_a_command_needs_is_installed_by_it(checkout, command):
 def test_what_is_left_out_is_told_once_it_is_known(checkout):
     write(checkout.tools / "cmake", CMAKE.replace("*) echo", '*) echo "-- Left out: volumes (no headers)"; echo'), program=True)
     assert "patina: Left out: volumes (no headers)" in checkout.run("record")[0].stderr
+
+
+@pytest.mark.parametrize("words, requirements", [
+    (("record", "a", "b", "--denoise"), "denoise"), (("farm", "a", "b", "--denoise"), "denoise"),
+    (("merge", "a", "b"), "denoise"), (("farm", "a", "b"), "farm"), (("python", "-m", "distributed.cli.dask_scheduler"), "farm")])
+def test_arguments_may_need_more(checkout, words, requirements):
+    checkout.run("record")
+    assert any(f"requirements-{requirements}.txt" in call for call in checkout.run(*words)[1])
+    assert checkout.run(*words)[1] == []

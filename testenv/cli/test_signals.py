@@ -63,6 +63,14 @@ def test_a_signal_while_rendering_saves_image_and_checkpoint(number, folder, mon
     assert [signal.getsignal(n) for n in interrupts.NUMBERS] == before
 
 
+def test_only_whole_images_are_written_where_that_is_asked_for(folder, monkeypatch, capsys):
+    make = _patina.make_renderer
+    monkeypatch.setattr(_patina, "make_renderer", lambda backend: _Signals(make(backend), signal.SIGTERM))
+    assert main.main(["record", "stage.usda", "a.exr", *LONG, "--onlyWhole"]) == 75
+    assert "it is not written; --resume continues" in capsys.readouterr().err
+    assert sorted(os.listdir()) == ["a.exr.checkpoint", "stage.usda"]
+
+
 @pytest.mark.parametrize("number, said", [(signal.SIGINT, "interrupted"), (signal.SIGTERM, "terminated"),
                                           (signal.SIGHUP, "ended with its terminal")])
 def test_a_signal_outside_of_rendering_tidies_up(number, said, folder, monkeypatch, capsys):

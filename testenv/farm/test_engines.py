@@ -92,6 +92,20 @@ def test_workers_are_refused_that_cannot_read_or_compute_otherwise(tmp_path):
         worker.run(["--version"], str(tmp_path), str(tmp_path / "log"), ("b", [], [], {}))
 
 
+def test_the_words_of_a_queue_that_refuses_are_told(tmp_path):
+    pytest.importorskip("dask_jobqueue")
+    (tmp_path / "sbatch").write_text("#!/bin/sh\necho 'sbatch: error: invalid partition: nope' >&2\nexit 1\n")
+    (tmp_path / "sbatch").chmod(0o755)
+    stage = movie.write_stage(tmp_path)
+    result = subprocess.run(
+        movie.command("farm", stage, tmp_path / "a.exr", "--engine=slurm:2", "--engineOption=walltime=00:10:00", "--quiet"),
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120,
+        env={**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}"})
+    assert result.returncode == 1
+    assert result.stderr == "patina: no workers of slurm:2: sbatch: error: invalid partition: nope\n"
+    assert not (tmp_path / "a.exr.parts").exists()
+
+
 def test_a_movie_survives_the_death_of_its_workers(tmp_path):
     pytest.importorskip("distributed")
     import killedMovie

@@ -51,3 +51,49 @@ def test_a_job_makes_the_bits_of_one_process(tmp_path):
     names = movie.at_once(stage, str(tmp_path / "once"), "2", FLAGS)
     assert not movie.different(names, tmp_path / "once", out)
     assert os.path.isdir(str(out / "movie.####.exr.parts"))
+
+
+def template(folder, *arguments, check=True):
+    """:returns: the template, or what is said where there is none"""
+    job = folder / "job.json"
+    result = patina("farm", *arguments, "--write-job", job, check=check)
+    return json.loads(job.read_text()) if result.returncode == 0 else result.stderr
+
+
+def record_words(job):
+    return job["steps"][0]["script"]["actions"]["onRun"]["args"]
+
+
+def test_files_of_flags_are_absolute_and_their_values_stay(tmp_path, monkeypatch):
+    movie.write_stage(tmp_path)
+    for name in ("over.usda", "session.usda"):
+        (tmp_path / name).write_text("#usda 1.0\n")
+    monkeypatch.chdir(tmp_path)
+    # The camera's value is also the image's name.
+    words = record_words(template(tmp_path, "--camera", "a.exr", "--layer", "over.usda", "--sessionLayer=session.usda",
+                                  "movie.usda", "a.exr", *FLAGS))
+    assert words[words.index("--camera") + 1] == "a.exr"
+    assert words[words.index("--layer") + 1] == str(tmp_path / "over.usda")
+    assert f"--sessionLayer={tmp_path / 'session.usda'}" in words
+    assert "movie.usda" not in words and words.count("a.exr") == 1
+
+
+def test_what_a_template_cannot_hold_is_said(tmp_path):
+    stage = movie.write_stage(tmp_path)
+    assert "takes double braces for" in template(tmp_path, stage, tmp_path / "a.exr", "--camera=/a{{b", check=False)
+    frames = ",".join(str(frame * frame) for frame in range(400))
+    assert "longer than" in template(tmp_path, stage, tmp_path / "a.######.exr", f"--frames={frames}", check=False)
+    braces = tmp_path / "{{a}}.usda"
+    braces.write_text(movie.STAGE)
+    template(tmp_path, braces, tmp_path / "a.exr")
+    assert openjd("check", tmp_path / "job.json").returncode == 0
+
+
+def test_a_template_may_lie_elsewhere(tmp_path):
+    stage, other = movie.write_stage(tmp_path), tmp_path / "jobs"
+    other.mkdir()
+    job = template(other, stage, tmp_path / "a.exr", *FLAGS)
+    job["parameterDefinitions"][0]["default"] = "/bin/true"
+    (other / "job.json").write_text(json.dumps(job))
+    result = openjd("run", other / "job.json")
+    assert result.returncode == 0, result.stdout[-3000:]

@@ -1,4 +1,5 @@
 """A frame that was cut has the bits of the frame rendered at once; parts that do not belong together are refused."""
+import json
 import os
 import re
 import shutil
@@ -122,6 +123,65 @@ def test_missing_parts_are_named_and_rendered(folder, stage, files):
     patina("merge", made[0], folder / "rendered.exr", "--renderMissing", "--quiet")
     assert contents(folder / "rendered.exr") == whole(stage, folder / "whole2.exr", *FEW)
     assert not list(folder.glob("rendered.exr.*"))
+
+
+def test_merging_writes_over_nothing_that_was_read(folder, stage, files):
+    textures = sorted(t for t in (folder / "scenes" / "textures").iterdir() if t.suffix == ".png")
+    before = textures[0].read_bytes()
+    assert "this command reads" in refusal(*files, textures[0])
+    assert textures[0].read_bytes() == before
+    result = patina("record", stage, textures[0], *FEW, "--part=1/2", f"--partial={folder / 'p.part'}", check=False)
+    assert result.returncode == 1 and "this command reads" in result.stderr
+    result = patina("record", stage, folder / "p.exr", *FEW, "--part=1/2", f"--partial={folder / 'p.exr'}", check=False)
+    assert result.returncode == 1 and "is the same file" in result.stderr
+
+
+def test_rendering_what_is_missing_leaves_the_users_files(folder, stage, files):
+    image = folder / "kept.exr"
+    kept = folder / "kept.exr.1.part"
+    kept.write_text("mine")
+    patina("merge", files[0], image, "--renderMissing", "--quiet")
+    assert image.exists() and kept.read_text() == "mine"
+    assert sorted(folder.glob("kept.exr*")) == [image, kept]
+
+
+def test_frames_keep_their_decimals(folder, stage):
+    file = folder / "half.part"
+    patina("record", stage, folder / "f.##.#.exr", *FEW, "--frames=1.5", "--part=1/1", f"--partial={file}", "--quiet")
+    result = patina("merge", file, folder / "f.####.exr", check=False)
+    assert result.returncode == 2 and "1 decimals" in result.stderr and not list(folder.glob("f.0*"))
+    patina("merge", file, folder / "f.##.#.exr")
+    assert len(list(folder.glob("f.*1.5.exr"))) == 1
+
+
+def test_settings_prims_may_ask_for_denoising(folder):
+    import _patina
+
+    from patina.cli import denoiser
+    from patina.cli.errors import CommandError
+
+    try:
+        denoiser.prepare(_patina)
+    except CommandError as error:
+        pytest.skip(str(error))
+    text = open(scene("diffuseBox"), encoding="utf-8").read()
+    stage = folder / "denoised.usda"
+    stage.write_text(text + '\ndef RenderSettings "clean"\n{\n    bool patina:denoise = 1\n}\n')
+    flags = ("--settings=/clean", *SIZE, "--samples=2")
+    expected = whole(stage, folder / "clean.exr", *flags)
+    assert "color.noisy.R" in expected[0] or any("noisy" in name for name in expected[0])
+    patina("merge", *parts(folder, stage, folder / "clean.exr", "2", *flags), folder / "merged.exr")
+    assert contents(folder / "merged.exr") == expected
+
+
+def test_counts_are_those_of_the_frame(folder):
+    stage, flags = scene("diffuseBox"), ("--imageWidth", "32", "--samples", "50")
+    patina("record", stage, folder / "n.exr", *flags, "--quiet", f"--json={folder / 'whole.json'}")
+    files = parts(folder, stage, folder / "n.exr", "1x2", *flags)
+    patina("merge", *files, folder / "n.exr", f"--json={folder / 'merged.json'}")
+    told = [json.loads((folder / f"{name}.json").read_text()) for name in ("whole", "merged")]
+    for name in ("rays", "paths"):
+        assert told[0][name] == told[1][name] > 0
 
 
 @pytest.mark.parametrize("flags, status, words", [

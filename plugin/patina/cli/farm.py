@@ -10,13 +10,16 @@ whichever cannot is named before anything is rendered. Parts lie in IMAGE.parts 
 that failed stay there.
 """
 import argparse
+import contextlib
 import os
 
-from patina.cli import compiled, frames, openStage, outputs, recordFlags
+from patina import inputs
+from patina.cli import compiled, denoiser, frames, openStage, outputs, overrides, recordFlags, renderSettings
 from patina.cli.errors import UsageError
-from patina.farm import cut, engines
+from patina.farm import cut, engines, work
 
 PASSES_ON = True  # to `patina record`
+_STAGE, _IMAGE = "\0stage", "\0image"  # no word of a command line holds a zero
 
 
 def add_arguments(parser):
@@ -50,13 +53,15 @@ def run(arguments):
     counts = _counts(arguments.simulate)
     module = compiled.load()
     outputs.check_all([arguments.json, arguments.writeJob])
-    settings = recordFlags.settings_of(record)
+    recordFlags.settings_of(record)
     recordFlags.purposes_of(record)
-    cut.ranges(module.span_ends(settings["samples"]), arguments.cut.ranges)
     stage = openStage.open_stage(record.stage, record.mask, record.sessionLayer, record.layer)
+    _check_render(module, arguments, _with_prim(record, stage))
     shots = frames.plan(record, stage)
-    for _, image in shots:
-        outputs.check(image)
+    files = _files(record)
+    for file in files:
+        inputs.note(file)
+    outputs.check_all([arguments.json, arguments.writeJob, *(image for _, image in shots)])
     if arguments.writeJob:
         from patina.farm import jobs
 
@@ -64,7 +69,26 @@ def run(arguments):
         return
     from patina.farm import job
 
-    job.Job(module, engine, arguments, record, shots, _files(record)).run(counts)
+    job.Job(module, engine, arguments, record, shots, files).run(counts)
+
+
+def _with_prim(record, stage):
+    """:returns: the arguments with what --settings says, as each task will have them"""
+    if not record.settings:
+        return record
+    overrides.apply(stage, record.set)
+    return renderSettings.applied(record, renderSettings.SettingsPrim(stage, record.settings, record.given))
+
+
+def _check_render(module, arguments, record):
+    """What each task would refuse is said at once."""
+    if arguments.cut.parts > 1:
+        from patina.farm import partJob
+
+        partJob.check(argparse.Namespace(**dict(vars(record), part=cut.Part(1, arguments.cut), partial="part")))
+    cut.ranges(module.span_ends(recordFlags.settings_of(record)["samples"]), arguments.cut.ranges)
+    if record.denoise:
+        denoiser.prepare(module)
 
 
 def _record_arguments(arguments):
@@ -75,16 +99,38 @@ def _record_arguments(arguments):
     recordFlags.add_arguments(parser)
     argv = main._normalise(arguments.passed_on + ([f"--frames={arguments.frames}"] if arguments.frames else []))
     record = parser.parse_intermixed_args(argv)
+    record.given = main._given(parser, parser.parse_intermixed_args, argv)
     if not record.image:
         raise UsageError("patina farm: an IMAGE is wanted")
     for name in ("part", "partial", "keepCheckpoint"):
         if getattr(record, name):
             raise UsageError(f"patina farm: --{name} is the farm's own business")
-    if arguments.cut.parts > 1:
-        from patina.farm import partJob
-
-        partJob.check(argparse.Namespace(**dict(vars(record), part=cut.Part(1, arguments.cut), partial="part")))
+    if record.verbose:
+        raise UsageError("patina farm: --verbose is of one render; --json tells what each task took")
+    overrides.parse(record.set)
+    _check_task(parser, arguments, argv, record)
+    record.words = _words(parser, arguments.passed_on, record)
     return record
+
+
+def _check_task(parser, arguments, argv, record):
+    """:raises UsageError: where a worker would not understand its command line"""
+    frame = work.Frame(None, record.image, arguments.cut, [])
+    task = work.Task(frame, frame.parts()[0] if arguments.cut.parts > 1 else None)
+    parser.parse_intermixed_args(task.arguments(argv, arguments.threads or 0)[1:])
+
+
+def _words(parser, passed_on, record):
+    """:returns: what was passed on without stage and image, wherever these stand among the flags"""
+    words = list(passed_on)
+    for name, mark in (("stage", _STAGE), ("image", _IMAGE)):
+        for index in [index for index, word in enumerate(words) if word == getattr(record, name)]:
+            trial = words[:index] + [mark] + words[index + 1:]
+            with contextlib.suppress(UsageError):  # it is the value of a flag that takes no such
+                if getattr(parser.parse_intermixed_args(trial), name) == mark:
+                    words = trial
+                    break
+    return [word for word in words if word not in (_STAGE, _IMAGE)]
 
 
 def _counts(text):
@@ -107,4 +153,4 @@ def _files(record):
     files += [record.sessionLayer] if record.sessionLayer else []
     files += record.layer or []
     # What is in a package is the package's.
-    return sorted({os.path.abspath(file.partition("[")[0]) for file in files})
+    return sorted({os.path.abspath(inputs.file_of(file)) for file in files})

@@ -8,7 +8,9 @@ Parts say what made them: the stage with all of its layers and textures, the set
 Those that do not belong together are refused, and missing ones are named. What the image's file holds follows from the
 flags that the parts were made with.
 """
+import contextlib
 import os
+import tempfile
 
 from patina import inputs
 from patina.cli import compiled, frames, outputs
@@ -34,34 +36,42 @@ def run(arguments):
     from patina.farm import merging, missing, parts
 
     module = compiled.load()
-    _note(arguments.files)
     found = parts.Parts(module, arguments.files, arguments.allowMixed)
+    _note(arguments.files, found.first)
     if frames.has_place(arguments.image) and found.first.frame is not None:
-        arguments.image = frames.image_name(arguments.image, found.first.frame, 0)
+        arguments.image = frames.image_name(arguments.image, found.first.frame, found.first.decimals)
     outputs.check_all([arguments.image, arguments.json])
     module.check_image_path(arguments.image)
     absent = found.missing()
-    made = []
-    try:
-        if absent and not arguments.renderMissing:
-            raise CommandError(f"{parts.names(absent)} (--renderMissing renders them)")
+    if absent and not arguments.renderMissing:
+        raise CommandError(f"{parts.names(absent)} (--renderMissing renders them)")
+    with _folder_beside(arguments.image) if absent else contextlib.nullcontext() as folder:
+        made = []
         for part in absent:
-            made.append(f"{arguments.image}.{part.number}.part")
+            made.append(os.path.join(folder, f"{part.number}.part"))
             Progress("", arguments.quiet).say(f"rendering part {part}")
             missing.render(found.first, part, made[-1], arguments)
         if made:
-            _note(arguments.files)
             found = parts.Parts(module, arguments.files + made, arguments.allowMixed)
+            _note(arguments.files, found.first)
         told = merging.merge(module, found, arguments.image, arguments.threads)
-    finally:
-        for file in made:
-            if os.path.exists(file):
-                os.remove(file)
     if arguments.json:
         told.write(arguments.json)
 
 
-def _note(files):
-    """So that the image is written over none of them."""
+def _note(files, description):
+    """So that the image is written over none of them, and over nothing that the parts were made of."""
     for file in files:
         inputs.note(file)
+    for name in description.identity["files"]:
+        if not name.startswith("anonymous "):
+            inputs.note(os.path.join(description.folder, name))
+
+
+def _folder_beside(image):
+    """:returns: a folder of its own for parts; it goes with the block"""
+    folder, name = os.path.split(os.path.abspath(image))
+    try:
+        return tempfile.TemporaryDirectory(prefix=name + ".", dir=folder)
+    except OSError as error:
+        raise CommandError(f"cannot make a folder in {folder}: {error.strerror}") from error

@@ -76,6 +76,9 @@ class _Job:
             prim = renderSettings.SettingsPrim(self.stage, a.settings, getattr(a, "given", ())) if a.settings else None
         if prim:
             self.arguments = a = renderSettings.applied(a, prim)
+            partJob.check(a)  # once more: now with what the prim says
+            if a.denoise:
+                denoiser.prepare(self.module)
         self.settings, self.purposes = recordFlags.settings_of(a), recordFlags.purposes_of(a)
         self.shots = shots.plan(a, self.stage, prim)
         for warning in prim.warnings if prim else ():
@@ -102,8 +105,7 @@ class _Job:
         self._render(film, shot, settings, info.camera)
         self._check_warnings()
         if self.arguments.denoise:
-            with self.statistics.phase("denoise"):
-                denoiser.run(self.module, film, self.arguments.threads)
+            self._denoise(film)
         with self.statistics.phase("write"):
             self._write(film, shot, settings, info)
         if self.arguments.report:
@@ -112,6 +114,10 @@ class _Job:
         self.statistics.end_frame()
         if self.arguments.verbose:
             self._say_all(verbose.lines(self.statistics.frames()[-1]))
+
+    def _denoise(self, film):
+        with self.statistics.phase("denoise"):
+            denoiser.run(self.module, film, self.arguments.threads)
 
     def _check_outputs(self, shot):
         a = self.arguments
@@ -213,7 +219,7 @@ class _Job:
         if self.interrupted or a.keepCheckpoint:
             if film.width:
                 film.save_checkpoint(checkpoints.path_of(shot.image))
-        if self.interrupted and not state["samplesDone"]:
+        if self.interrupted and (a.onlyWhole or not state["samplesDone"]):
             raise self.ended(self.shots[self.shots.index(shot):], "interrupted before the image was whole; it is not written")
 
     def ended(self, left, reason="interrupted"):

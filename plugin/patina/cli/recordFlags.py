@@ -101,6 +101,8 @@ def _add_run_flags(group):
     settingFlags.add(group, "the run", _TEXTS)
     group.add_argument("--keepCheckpoint", action="store_true",
                        help="save the checkpoint at the end and keep it, to add samples later with --resume")
+    group.add_argument("--onlyWhole", action="store_true",
+                       help="a signal that ends the render early leaves no image of fewer samples, only the checkpoint")
     group.add_argument("--part", type=cut.part, metavar="K/TILES[xRANGES]",
                        help="render one part of the frame, from 1 to TILES times RANGES: its tiles are cut into so many "
                             "groups, and the samples of each into so many ranges; --partial takes it")

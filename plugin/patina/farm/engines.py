@@ -1,6 +1,8 @@
 """What runs the parts: a Dask cluster that is there, one of this machine, or one that a queue or Kubernetes starts."""
 import contextlib
+import importlib.util
 import json
+import logging
 import os
 import re
 import shlex
@@ -68,6 +70,7 @@ class Cluster:
     def __init__(self, engine):
         self.engine = engine
         self._cluster = self.client = None
+        self._complaints = _Complaints()
 
     def __enter__(self):
         _quiet()
@@ -87,10 +90,19 @@ class Cluster:
     def __exit__(self, *_):
         for one in (self.client, self._cluster):
             if one is not None:
-                one.close()
+                # A scheduler that died does not answer, and jobs that were refused are no running ones.
+                with contextlib.suppress(OSError, RuntimeError, TimeoutError, AssertionError):
+                    one.close()
+
+    def problem(self):
+        """:returns: why no worker will come, where the queue has taken no job; else an empty text"""
+        jobs = list(getattr(self._cluster, "workers", {}).values())
+        return "" if any(getattr(job, "job_id", None) for job in jobs) else self._complaints.text
 
     def dashboard(self):
-        """:returns: the address of Dask's own page, or an empty text"""
+        """:returns: the address of Dask's own page, or an empty text: it needs bokeh"""
+        if self.engine.kind != "dask" and not importlib.util.find_spec("bokeh"):
+            return ""
         return getattr(self.client, "dashboard_link", "") or ""
 
     def _start(self, distributed):
@@ -104,13 +116,28 @@ class Cluster:
                                               **engine.options})
             return cluster
         jobqueue = _import("dask_jobqueue", "dask-jobqueue")
+        # What a queue says to a job that it does not take comes to no other place.
+        for name in ("tornado.application", "asyncio"):
+            log = logging.getLogger(name)
+            log.handlers, log.propagate = [self._complaints], False
         cluster = getattr(jobqueue, QUEUES[engine.kind])(**{
-            "cores": 1, "processes": 1, "memory": "4GiB", "python": sys.executable,
+            "cores": 1, "processes": 1, "memory": "4GiB", "python": shlex.quote(sys.executable),
             "job_script_prologue": [f"export {name}={shlex.quote(value)}" for name, value in environment().items()],
             # One part at a time, which takes all of a job's cores.
             "worker_extra_args": ["--nthreads", "1"], **engine.options})
         cluster.scale(jobs=engine.workers)
         return cluster
+
+
+class _Complaints(logging.Handler):
+    """Keeps the last error of what runs beside, in one line."""
+
+    text = ""
+
+    def emit(self, record):
+        if record.exc_info and record.exc_info[1]:
+            said = str(record.exc_info[1])
+            self.text = " ".join((said.rpartition("stderr:")[2].strip() or said).split())
 
 
 def environment():
@@ -135,8 +162,6 @@ def _quiet():
 
 
 def _import(name, package):
-    import importlib
-
     try:
         return importlib.import_module(name)
     except ImportError as error:

@@ -7,11 +7,12 @@ import time
 import uuid
 
 from patina.cli import outputs
-from patina.cli.errors import CommandError
+from patina.cli.errors import CommandError, TemporaryError
 from patina.cli.progress import Progress
 from patina.farm import engines, identity, partial, sender, simulation, work, worker
 
 FIRST_WORKER_SECONDS = 600  # a queue may be full
+LOOK_SECONDS = 2  # so often it is looked whether the queue has refused
 EMPTY_TASKS = 500  # to measure the sender by, for --simulate
 
 
@@ -29,11 +30,15 @@ class Job:
         if arguments.allowMixed:
             machine = {"version": machine["version"]}
         folders = sorted({os.path.dirname(os.path.abspath(frame.image)) for frame in self.frames})
-        self.checks = (uuid.uuid4().hex, files, folders, machine)
+        for frame in self.frames:
+            frame.check(files)
+        self.checks = (uuid.uuid4().hex, files, folders, machine, os.getcwd())
         self.progress = Progress("farm", arguments.quiet)
 
     def _frame_flags(self, time_code):
-        return [f"--frames={time_code:.6f}".rstrip("0").rstrip(".")] if self.arguments.frames else []
+        flags = [f"--frames={time_code:.6f}".rstrip("0").rstrip(".")] if self.arguments.frames else []
+        # A whole image goes on from its checkpoint.
+        return flags + (["--resume"] if self.arguments.resume and self.arguments.cut.parts == 1 else [])
 
     def run(self, counts):
         """:param counts: numbers of workers to simulate afterwards
@@ -42,19 +47,33 @@ class Job:
         if not waiting:
             self.progress.say("all images are there")
             return
+        try:
+            one, seconds, cost = self._on_workers(frames, waiting, counts)
+        finally:
+            for frame in frames:
+                frame.leave()  # no worker writes a log any more
+        self._tell(one, frames, seconds, cost, counts)
+
+    def _on_workers(self, frames, waiting, counts):
+        """:returns: the Sender that did it, seconds that it took, and those of the sender for a task"""
         with engines.Cluster(self.engine) as cluster:
             self._preflight(cluster)
+            self._prepare(frames)
             cost = self._sender_seconds(cluster) if counts else 0.0
-            begin = time.perf_counter()
+            begin, started = time.perf_counter(), time.time()
             threads = engines.threads(self.engine) if self.arguments.threads is None else self.arguments.threads
             one = sender.Sender(cluster.client, self.arguments.passed_on, os.getcwd(), self.checks, threads)
             link = cluster.dashboard()
             try:
                 one.run(frames, waiting, lambda state: self._show(state, frames, link))
+            except KeyboardInterrupt:
+                if one.done or any(frame.kept(started) for frame in frames):
+                    raise TemporaryError("interrupted; --resume goes on with what is there") from None
+                raise
             finally:
                 self.progress.clear()
             seconds = time.perf_counter() - begin
-        self._tell(one, frames, seconds, cost, counts)
+        return one, seconds, cost
 
     def _waiting(self):
         """:returns: the tasks that can begin, and the frames that they are of"""
@@ -65,12 +84,16 @@ class Job:
             there = set()
             if self.arguments.resume and frame.cut.parts > 1:
                 there = work.parts_there(self.module, frame, self._wanted())
-            elif not self.arguments.resume:
-                frame.forget()
-            frame.prepare()
             frames.append(frame)
             waiting += frame.tasks(there)
         return waiting, frames
+
+    def _prepare(self, frames):
+        """Begins to write: there is a worker that can take a part."""
+        for frame in frames:
+            if not self.arguments.resume:
+                frame.forget()
+            frame.prepare()
 
     def _wanted(self):
         """:returns: dict of the flags that parts of an earlier job must have been made with"""
@@ -83,10 +106,7 @@ class Job:
         client = cluster.client
         if not client.scheduler_info(n_workers=-1)["workers"]:
             self.progress.say(f"waiting for the first worker of {self.arguments.engine}")
-        try:
-            client.wait_for_workers(1, timeout=FIRST_WORKER_SECONDS)
-        except TimeoutError:
-            raise CommandError(f"{self.arguments.engine} has no worker after {FIRST_WORKER_SECONDS} s") from None
+        self._wait(cluster)
         found = client.run(worker.check, *self.checks, on_error="return")
         bad, first = 0, ""
         for address, problems in sorted(found.items()):
@@ -98,6 +118,20 @@ class Job:
                 self.progress.say(f"worker {address} is left out: {worker.words(problems)}")
         if bad == len(found):
             raise CommandError(f"no worker can take a part: {first}")
+
+    def _wait(self, cluster):
+        """Until there is a worker."""
+        end = time.monotonic() + FIRST_WORKER_SECONDS
+        while True:
+            try:
+                cluster.client.wait_for_workers(1, timeout=LOOK_SECONDS)
+                return
+            except TimeoutError:
+                problem = cluster.problem()
+                if problem:
+                    raise CommandError(f"no workers of {self.arguments.engine}: {problem}") from None
+                if time.monotonic() > end:
+                    raise CommandError(f"{self.arguments.engine} has no worker after {FIRST_WORKER_SECONDS} s") from None
 
     def _show(self, state, frames, link):
         text = f"{len(state.written)} of {len(frames)} frames, {state.done} of {state.total} tasks, {state.count} workers"
@@ -134,7 +168,9 @@ class Job:
             print(f"patina: {task}: {task.failures[-1][1]}", file=sys.stderr)
         lost = len(frames) - len(written)
         if lost:
-            raise CommandError(f"{lost} of {len(frames)} images are not written; --resume goes on with what is there")
+            kind = TemporaryError if one.lost or all(task.passing for task in one.failed) else CommandError
+            raise kind((f"{one.lost}; " if one.lost else "")
+                       + f"{lost} of {len(frames)} images are not written; --resume goes on with what is there")
 
 
 def table(one, seconds):

@@ -7,6 +7,8 @@ from patina.cli.errors import CommandError, UsageError
 
 VERSION = "jobtemplate-2023-09"
 LONGEST_NAME = 64  # of a job, by the specification
+MAX_TEXT = 1024  # characters of a parameter's value, by the specification
+_FILES = ("--layer", "--sessionLayer", "--report")  # flags of files: a task runs in a folder of its own
 MAX_VALUES = 1024  # of a parameter that is a list, by the specification
 
 
@@ -32,13 +34,15 @@ def template(arguments, record, shots, folder):
     """:param folder: of the template, which its default paths begin in
     :returns: the job as a dict"""
     frames = _frames([time for time, _ in shots]) if arguments.frames else None
-    stage, image = os.path.relpath(record.stage, folder), os.path.relpath(record.image, folder)
     parameters = [
         {"name": "Patina", "type": "STRING", "default": _launcher(), "description": "the command"},
-        {"name": "Stage", "type": "PATH", "objectType": "FILE", "dataFlow": "IN", "default": stage},
-        {"name": "Image", "type": "PATH", "objectType": "FILE", "dataFlow": "OUT", "default": image,
-         "description": "with a place for the frame, as `patina record` takes it" if frames else "what is written"},
+        _path("Stage", "FILE", "IN", record.stage, folder, "the stage"),
+        _path("Image", "FILE", "OUT", record.image, folder,
+              "with a place for the frame, as `patina record` takes it" if frames else "what is written"),
     ]
+    if frames and frames["type"] == "INT" and len(frames["range"]) > MAX_TEXT:
+        raise CommandError(f"--write-job: the list of frames is longer than a parameter of a job template ({MAX_TEXT} "
+                           "characters); write several jobs")
     if frames and frames["type"] == "INT":
         parameters.append({"name": "Frames", "type": "STRING", "default": frames["range"],
                            "description": "such as 1-240 or 1-9:2,20"})
@@ -47,11 +51,19 @@ def template(arguments, record, shots, folder):
     if arguments.cut.parts == 1:
         steps = [_step("Frames", ["record", "{{Param.Stage}}", "{{Param.Image}}", *flags, *_frame_flag(frames)], frames)]
     else:
-        parameters.append({"name": "Parts", "type": "PATH", "objectType": "DIRECTORY", "dataFlow": "INOUT",
-                           "default": image + ".parts", "description": "parts until they are merged"})
+        parameters.append(_path("Parts", "DIRECTORY", "INOUT", record.image + ".parts", folder, "parts until they are merged"))
         steps = _cut_steps(arguments, flags, frames)
-    return {"specificationVersion": VERSION, "name": f"patina {os.path.basename(record.stage)}"[:LONGEST_NAME],
-            "parameterDefinitions": parameters, "steps": steps}
+    name = f"patina {os.path.basename(record.stage)}".translate(str.maketrans("{}", "()"))[:LONGEST_NAME]
+    return {"specificationVersion": VERSION, "name": name, "parameterDefinitions": parameters, "steps": steps}
+
+
+def _path(name, kind, flow, path, folder, description):
+    """:returns: the definition of a parameter. The specification joins defaults of paths to the template's folder and lets
+        none lead out of it; what lies elsewhere is a text"""
+    relative = os.path.relpath(path, folder)
+    if relative.split(os.sep)[0] == os.pardir:
+        return {"name": name, "type": "STRING", "default": os.path.abspath(path), "description": description}
+    return {"name": name, "type": "PATH", "objectType": kind, "dataFlow": flow, "default": relative, "description": description}
 
 
 def _cut_steps(arguments, flags, frames):
@@ -107,11 +119,19 @@ def _range(numbers):
 
 def _flags(arguments, record):
     """:returns: flags of `patina record` that the user has given, without stage and image"""
-    left = list(arguments.passed_on)
-    for positional in (record.stage, record.image):
-        left.remove(positional)
+    flags, takes = [], False
+    for word in record.words:
+        flag, equals, file = word.partition("=")
+        if takes:
+            word = os.path.abspath(word)
+        elif flag in _FILES and equals:
+            word = f"{flag}={os.path.abspath(file)}"
+        takes = not takes and word in _FILES
+        if "{{" in word or "}}" in word:
+            raise CommandError(f"--write-job: {word}: a job template takes double braces for an expression")
+        flags.append(word)
     threads = [f"--threads={arguments.threads}"] if arguments.threads else []
-    return left + threads + ["--quiet"]
+    return flags + threads + ["--quiet"]
 
 
 def _launcher():

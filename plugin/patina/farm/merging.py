@@ -4,9 +4,7 @@ import json
 
 from patina.cli import denoiser, statistics
 from patina.cli.errors import CommandError
-
-_SUMMED = ("rays", "shadowRays", "paths", "droppedSamples")  # of the parts' statistics
-
+from patina.farm import partial
 
 def merge(module, parts, image, threads=0):
     """Merges all parts and writes the image.
@@ -16,7 +14,9 @@ def merge(module, parts, image, threads=0):
     :raises CommandError: where a file is damaged or the image cannot be written"""
     first = parts.first
     arguments = argparse.Namespace(**first.arguments)
-    arguments.image, arguments.threads = image, threads
+    arguments.image, arguments.threads, arguments.denoise = image, threads, first.denoise
+    if arguments.denoise:
+        denoiser.prepare(module)
     film, reports = module.Film(), []
     try:
         for description in parts.in_order():
@@ -27,7 +27,6 @@ def merge(module, parts, image, threads=0):
     told = _Told(arguments, first.frame, image, reports)
     told.rendered(_state(reports), film)
     if arguments.denoise:
-        denoiser.prepare(module)
         denoiser.run(module, film, threads)
     try:
         module.write_images(film, image, first.options,
@@ -40,12 +39,11 @@ def merge(module, parts, image, threads=0):
 
 def _state(reports):
     """:returns: what the renderer of a whole frame would have said at its end"""
-    numbers = dict(reports[0]["statistics"], secondsBuild=0.0)
-    for name in _SUMMED:
-        if name in numbers:
-            numbers[name] = sum(report["statistics"].get(name, 0) for report in reports)
-    return {"statistics": numbers, "plans": reports[0]["plans"], "sceneChoices": reports[0]["sceneChoices"],
-            "backend": reports[0]["backend"], "materialSeconds": {}, "converged": True}
+    sums = {}
+    for report in reports:
+        partial.add_up(sums, report["statistics"])
+    return {"statistics": {**reports[0]["statistics"], **sums, "secondsBuild": 0.0},
+            "plans": reports[0]["plans"], "sceneChoices": reports[0]["sceneChoices"], "backend": reports[0]["backend"], "materialSeconds": {}, "converged": True}
 
 
 class _Told(statistics.Statistics):

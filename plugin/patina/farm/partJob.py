@@ -2,7 +2,7 @@
 import json
 import os
 
-from patina.cli import shots
+from patina.cli import frames, outputs, shots
 from patina.cli.errors import CommandError, UsageError
 from patina.farm import cut, identity, partial
 
@@ -41,18 +41,17 @@ def of(job):
             if len(self.shots) != 1 or len(self.shots[0].outputs) != 1:
                 raise UsageError("patina record: --part is of one frame and one image")
 
-        def _check_outputs(self, *_):
-            from patina.cli import outputs
-
+        def _check_outputs(self, shot):
             outputs.make_folder(os.path.dirname(self.arguments.partial))
-            outputs.check_all([self.arguments.partial, self.arguments.json])
+            # The image is checked, too: merging writes it.
+            outputs.check_all([*shot.images, self.arguments.partial, self.arguments.json])
 
         def _render(self, film, shot, settings, camera):
             part = self.arguments.part
             tiles = cut.tiles(self.module, settings, part)
             ranges = cut.ranges(self.module.span_ends(settings["samples"]), part.cut.ranges)
             begin, end = ranges[part.range_index]
-            self._writer = None
+            self._writer, self._sums = None, {}
             for first, last in self._pieces(settings, begin, end):
                 film.resume_token = ""
                 super()._render(film, shot, dict(
@@ -63,6 +62,7 @@ def of(job):
                     self._writer = self.module.PartialWriter(
                         self.arguments.partial, self._description(shot, settings, camera, (begin, end)), tiles)
                 self._writer.add(film)
+                partial.add_up(self._sums, self.renderer.progress()["statistics"])
 
         def _pieces(self, settings, begin, end):
             """:returns: ranges of samples that each make a film: sums from the first sample on, or of one span"""
@@ -81,7 +81,11 @@ def of(job):
             noise = state["statistics"].get("noiseTolerance", 0.0) if settings["tolerance"] > 0.0 else 0.0
             options = shots.image_options(a, shot, shot.outputs[0], settings)
             return partial.describe(a.part, samples, made, self.typed, options, self.statistics.frame, camera, settings,
-                                    noise)
+                                    noise, folder=os.path.dirname(self.stage.GetRootLayer().realPath), denoise=bool(a.denoise),
+                                    decimals=frames.times(self.typed, self.stage)[1])
+
+        def _denoise(self, _film):
+            """The merged film is denoised, not what a part has of it."""
 
         def _write_snapshot(self, *_):
             """A part is no image: a signal that asks for one is not heard."""
@@ -89,8 +93,8 @@ def of(job):
         def _write(self, film, shot, settings, info):
             state = self.renderer.progress()
             self._writer.commit(json.dumps({
-                "statistics": state["statistics"], "plans": state["plans"], "sceneChoices": state["sceneChoices"],
-                "backend": state["backend"], "warnings": self.statistics.warnings(),
+                "statistics": {**state["statistics"], **self._sums}, "plans": state["plans"],
+                "sceneChoices": state["sceneChoices"], "backend": state["backend"], "warnings": self.statistics.warnings(),
                 "seconds": self.statistics.seconds}, default=str))
 
     return PartJob

@@ -4,6 +4,7 @@ import json
 from patina.cli.errors import CommandError
 from patina.farm import cut
 
+COUNTED = ("rays", "shadowRays", "paths", "droppedSamples")  # statistics of which parts have shares
 
 class Description:
     """What a part's file says of itself."""
@@ -17,18 +18,29 @@ class Description:
             self.arguments, self.options = values["arguments"], values["options"]
             self.frame, self.camera, self.settings = values["frame"], values["camera"], values["settings"]
             self.noise = float(values["noiseTolerance"])
+            self.folder, self.denoise, self.decimals = values["folder"], values["denoise"], int(values["decimals"])
         except (KeyError, TypeError, ValueError):
             raise CommandError(f"{file} is of another version of Patina") from None
 
 
-def describe(part, samples, identity, arguments, options, frame, camera, settings, noise):
+def describe(part, samples, identity, arguments, options, frame, camera, settings, noise, **more):
     """:param samples: (begin, end) of the part
     :param arguments: as they were typed
     :param options: of the image's file
+    :param more: folder of the stage, denoise: whether the merged film is denoised, decimals: of the frames
     :returns: the text that PartialWriter takes"""
     return json.dumps({"identity": identity, "part": str(part), "range": list(samples), "frame": frame, "camera": camera,
-                       "settings": settings, "noiseTolerance": noise, "arguments": plain(arguments), "options": options},
-                      default=str)
+                       "settings": settings, "noiseTolerance": noise, "arguments": plain(arguments), "options": options,
+                       **more}, default=str)
+
+
+def add_up(sums, statistics):
+    """Adds what is counted of one render to that of others.
+
+    :param sums: dict that is changed"""
+    for name in COUNTED:
+        if name in statistics:
+            sums[name] = sums.get(name, 0) + statistics[name]
 
 
 def read(module, file):

@@ -3,7 +3,9 @@ import collections
 import dataclasses
 import queue
 import time
+from concurrent.futures import CancelledError
 
+from patina.cli.errors import is_temporary
 from patina.farm import work, worker
 
 LOOK_SECONDS = 1.0  # so often it is seen whether more workers have come
@@ -34,6 +36,7 @@ class Sender:
         self.arguments, self.folder, self.checks, self.threads = arguments, folder, checks, threads
         self.tasks = {}  # future -> task
         self.failed = []  # tasks that were given up
+        self.lost = ""  # why there is no scheduler any more
         self.refusals = []  # why workers were refused, each once
         self.refused = set()  # their addresses
         self.rows = collections.defaultdict(Row)  # by workers' names
@@ -50,15 +53,23 @@ class Sender:
         left = collections.deque(waiting)
         self.total = sum(frame.left + 1 if frame.cut.parts > 1 else 1 for frame in frames)
         while left or self.tasks:
-            self._fill(left)
-            told(self)
             try:
-                future = self.ended.get(timeout=LOOK_SECONDS)
-            except queue.Empty:
-                continue
-            follows = self._ended(self.tasks.pop(future), future)
-            if follows:
-                left.appendleft(follows)
+                self._step(left, told)
+            except (OSError, RuntimeError, TimeoutError, CancelledError) as error:
+                # Tasks end by themselves as failures: this is of the scheduler, or of the way to it.
+                self.lost = f"the scheduler is lost ({_words(error)})"
+                return
+
+    def _step(self, left, told):
+        self._fill(left)
+        told(self)
+        try:
+            future = self.ended.get(timeout=LOOK_SECONDS)
+        except queue.Empty:
+            return
+        follows = self._ended(self.tasks.pop(future), future)
+        if follows:
+            left.appendleft(follows)
 
     def _fill(self, left):
         workers = [address for address in self._workers() if address not in self.refused]
@@ -106,10 +117,12 @@ class Sender:
     def _failure(self, task, error):
         """:returns: the task, where it is tried again"""
         kind = type(error).__name__
-        if kind in ("Refused", "PartFailed"):
-            reason, address = error.args
-        else:
-            reason, address = _words(error), _last_worker(error)
+        if kind == "PartFailed":
+            reason, address, task.passing = error.args
+        elif kind == "Refused":
+            (reason, address), task.passing = error.args, False
+        else:  # Dask tells of workers that went away
+            reason, address, task.passing = _words(error), _last_worker(error), kind == "KilledWorker" or is_temporary(error)
         if kind == "Refused":
             task.refusals += 1
             if address not in self.refused:

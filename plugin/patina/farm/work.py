@@ -1,13 +1,15 @@
 """The frames and parts of a job: what is to be done, in which order, and which commands do it."""
 import contextlib
 import os
-import shutil
+import re
 from dataclasses import dataclass, field
 
+from patina.cli import checkpoints
 from patina.cli.errors import CommandError
 from patina.farm import cut, identity, partial
 
-TRIES = 4  # of a part: the first, and three more on other workers
+TRIES = 4  # of a part: the first, and three more, on other workers where there are any
+_OWN = re.compile(r"\d+\.part|(\d+|image)\.(\d{8}-\d{6}\.\d+\.failed\.)?log")
 
 
 @dataclass
@@ -16,6 +18,7 @@ class Task:
     frame: "Frame"
     part: object  # cut.Part; None merges the parts, or renders a frame that is not cut
     failures: list = field(default_factory=list)  # (address of the worker that it failed on, why)
+    passing: bool = False  # whether the reason of the last failure may pass
     refusals: int = 0  # by workers that take nothing of this job
 
     def __str__(self):
@@ -40,7 +43,8 @@ class Task:
             return ["merge", *files, frame.image, *shared, *frame.merge_flags]
         # A later flag counts.
         found = ["record", *record, *frame.flags, *shared, "--quiet"]
-        return found + ([f"--part={self.part}", f"--partial={self.file}"] if self.part else [])
+        # A worker that is told to end leaves nothing that --resume would take for a whole image.
+        return found + ([f"--part={self.part}", f"--partial={self.file}"] if self.part else ["--onlyWhole"])
 
 
 @dataclass
@@ -83,12 +87,35 @@ class Frame:
         for part in self.parts():
             with contextlib.suppress(OSError):
                 os.remove(self.part_file(part))
+        self.leave()
+
+    def kept(self, since):
+        """:param since: seconds of the clock, when the job began
+        :returns: whether it has left something that --resume goes on with"""
+        files = [self.image, checkpoints.path_of(self.image), *map(self.part_file, self.parts() if self.cut.parts > 1 else ())]
+        return any(os.path.isfile(file) and os.stat(file).st_mtime >= since for file in files)
+
+    def leave(self):
+        """Removes the folder where nothing is in it."""
         with contextlib.suppress(OSError):
             os.rmdir(self.folder)
 
     def forget(self):
-        """Removes what an earlier job has left."""
-        shutil.rmtree(self.folder, ignore_errors=True)
+        """Removes what an earlier job has left: files by the names that a job gives."""
+        with contextlib.suppress(OSError):
+            for name in os.listdir(self.folder):
+                if _OWN.fullmatch(name):
+                    with contextlib.suppress(OSError):
+                        os.remove(os.path.join(self.folder, name))
+        self.leave()
+
+    def check(self, files):
+        """:param files: that the render reads
+        :raises CommandError: where one lies in the folder of the parts"""
+        folder = os.path.realpath(self.folder)
+        for file in files:
+            if os.path.realpath(file).startswith(folder + os.sep):
+                raise CommandError(f"{file} lies in {self.folder}, where parts lie and are removed; name another image")
 
 
 def parts_there(module, frame, wanted):

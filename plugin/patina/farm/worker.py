@@ -5,6 +5,12 @@ import subprocess
 import sys
 import time
 
+from patina.cli import interrupts
+from patina.cli.errors import TEMPORARY
+
+_SIGKILL = 9  # by which the kernel ends what takes too much memory
+# Statuses of commands that may do it when they are run again.
+PASSING = (TEMPORARY, -_SIGKILL, *(-int(number) for number in interrupts.NUMBERS))
 _checked = {}  # job -> problems of this process
 
 
@@ -13,23 +19,26 @@ class Refused(Exception):
 
 
 class PartFailed(Exception):
-    """A command ended with a reason, its whole log lies in a file. The reason, and the worker's address."""
+    """A command ended with a reason, its log lies in a file. The reason, the worker's address, and whether it may pass."""
 
 
-def check(job, files, folders, machine):
+def check(job, files, folders, machine, home=None):
     """:param job: a name; what was found is kept for it
     :param files: that the render reads
     :param folders: that it writes to
     :param machine: identity.of_machine() that the worker must have; None takes any
+    :param home: the folder that commands run in
     :returns: list of problems, in words"""
     if job not in _checked:
-        _checked[job] = _problems(files, folders, machine)
+        _checked[job] = _problems(files, folders, machine, home)
     return _checked[job]
 
 
-def _problems(files, folders, machine):
+def _problems(files, folders, machine, home):
     found = [f"cannot read {file}" for file in files if not os.access(file, os.R_OK)]
     found += [f"cannot write to {folder}" for folder in folders if not os.access(folder, os.W_OK | os.X_OK)]
+    if home and not (os.path.isdir(home) and os.access(home, os.X_OK)):
+        found.append(f"cannot enter {home}")
     try:
         import _patina
 
@@ -62,7 +71,7 @@ def run(arguments, folder, log, checks):
     if status != 0:
         kept = f"{log[:-len('.log')]}.{time.strftime('%Y%m%d-%H%M%S')}.{os.getpid()}.failed.log"
         os.replace(log, kept)
-        raise PartFailed(f"{_reason(kept, status)} (on {name}, see {kept})", address)
+        raise PartFailed(f"{_reason(kept, status)} (on {name}, see {kept})", address, status in PASSING)
     os.remove(log)
     return {"worker": name, "host": host, "address": address, "seconds": time.perf_counter() - begin}
 

@@ -1,0 +1,93 @@
+"""What a job removes, which commands it sends, and how it tells that what failed may pass."""
+import concurrent.futures
+import os
+import time
+import types
+
+import pytest
+
+from patina.cli.errors import CommandError
+from patina.farm import cut, sender, work, worker
+
+
+def frame(folder, tiles=2):
+    return work.Frame(None, str(folder / "a.exr"), cut.Cut(tiles), [])
+
+
+def test_what_is_not_the_jobs_own_stays(tmp_path):
+    one = frame(tmp_path)
+    one.prepare()
+    own = ["1.part", "12.part", "2.log", "image.log", "3.20250101-101500.77.failed.log", "image.20250101-101500.7.failed.log"]
+    others = ["7.2.part", "stage.usda", "notes.log", "kept.failed.log", "1.part.txt"]
+    for name in own + others:
+        (tmp_path / "a.exr.parts" / name).write_text("")
+    one.forget()
+    assert sorted(os.listdir(one.folder)) == sorted(others)
+    for name in others:
+        os.remove(os.path.join(one.folder, name))
+    one.forget()
+    assert not os.path.exists(one.folder)
+    one.forget()  # nothing is there
+
+
+def test_an_input_among_the_parts_is_refused(tmp_path):
+    one = frame(tmp_path)
+    one.check([str(tmp_path / "stage.usda"), str(tmp_path / "a.exr.partsOfOthers" / "b.png")])
+    with pytest.raises(CommandError, match="b.png lies in .*a.exr.parts"):
+        one.check([str(tmp_path / "a.exr.parts" / "deep" / "b.png")])
+
+
+def test_a_worker_leaves_no_image_of_fewer_samples(tmp_path):
+    assert "--onlyWhole" in work.Task(frame(tmp_path, 1), None).arguments(["stage.usda", "a.exr"], 0)
+
+
+def test_what_a_job_has_kept_is_known_by_its_files(tmp_path):
+    one = frame(tmp_path)
+    now = time.time()
+    assert not one.kept(now - 60)
+    one.prepare()
+    (tmp_path / "a.exr.parts" / "2.part").write_text("")
+    assert one.kept(now - 60) and not one.kept(now + 60)
+
+
+def test_the_folder_of_commands_is_looked_at(tmp_path):
+    assert worker.check("home", [], [], None, str(tmp_path / "none")) == [f"cannot enter {tmp_path / 'none'}"]
+
+
+class Client:
+    """Ends each task with the next of some errors."""
+
+    def __init__(self, *errors):
+        self.errors = list(errors)
+
+    def scheduler_info(self, n_workers):
+        return {"workers": {"tcp://1": {"name": "one"}}}
+
+    def submit(self, *_, **__):
+        future, error = concurrent.futures.Future(), self.errors.pop(0)
+        future.cancel() if error is None else future.set_exception(error)
+        return future
+
+
+@pytest.mark.parametrize("passing", [True, False])
+def test_reasons_that_may_pass_are_known(tmp_path, passing):
+    one = frame(tmp_path, 1)
+    failed = [worker.PartFailed("why", "tcp://1", passing) for _ in range(work.TRIES)]
+    sent = sender.Sender(Client(*failed), [], str(tmp_path), (), 0)
+    sent.run([one], one.tasks(set()), lambda _: None)
+    assert [task.passing for task in sent.failed] == [passing] and not sent.lost
+
+
+def test_a_scheduler_that_dies_ends_the_job_in_words(tmp_path):
+    one = frame(tmp_path, 1)
+    sent = sender.Sender(Client(None), [], str(tmp_path), (), 0)
+    sent.run([one], one.tasks(set()), lambda _: None)
+    assert "the scheduler is lost (CancelledError" in sent.lost and not sent.written
+
+
+def test_which_statuses_may_pass(tmp_path, monkeypatch):
+    for status, passing in ((75, True), (1, False), (-9, True), (-11, False)):
+        monkeypatch.setattr(worker, "subprocess", types.SimpleNamespace(call=lambda *_, **__: status, DEVNULL=None))
+        with pytest.raises(worker.PartFailed) as failed:
+            worker.run([], str(tmp_path), str(tmp_path / "1.log"), ("statuses", [], [], None))
+        assert failed.value.args[2] is passing

@@ -61,6 +61,9 @@ def test_broken_spec_is_a_usage_error(spec):
     ("a.<F>.png", 123, "a.123.png"),
     ("a.%04d.png", 7, "a.0007.png"),
     ("%d/a.png", 12, "12/a.png"),
+    ("/proj#1/a.####.exr", 7, "/proj#1/a.0007.exr"),
+    ("my%20dir/%4d.png", 7, "my%20dir/   7.png"),
+    ("my%20dir/%d/a.png", 7, "my%20dir/7/a.png"),
 ])
 def test_name(pattern, frame, expected):
     assert frames.image_name(pattern, frame, 0) == expected
@@ -76,6 +79,12 @@ def test_plan():
     assert frames.plan(Arguments("a.png", default=True), Stage()) == [(None, "a.png")]
     assert frames.plan(Arguments("a.png", "9"), Stage()) == [(9.0, "a.png")]
     assert frames.plan(Arguments("a.#.png", "1:2"), Stage()) == [(1.0, "a.1.png"), (2.0, "a.2.png")]
+
+
+def test_what_only_looks_like_a_place_is_none(tmp_path):
+    assert not frames.has_place("my%20dir/a.png") and not frames.has_place("a%20d.png")
+    (tmp_path / "proj#1").mkdir()
+    assert not frames.has_place(f"{tmp_path}/proj#1/a.png") and frames.has_place(f"{tmp_path}/proj#2/a.png")
 
 
 @pytest.mark.parametrize("image, spec", [("a.png", "1:2"), ("a.#.b.#.png", "1:2"), ("a.#.b.<F>.png", "1:2"), ("a.#.png", None),

@@ -1,6 +1,7 @@
 """The launcher decides rightly what to install and what to build. Its tools are stand-ins that note
 that they were called."""
 import os
+import re
 import shutil
 import stat
 import subprocess
@@ -45,8 +46,8 @@ class Checkout:
         self.root, self.calls, self.tools = root, calls, tools
         for folder in FOLDERS:
             write(root / folder / "a.txt", "text")
-        for name in ("patina", "requirements.txt", "requirements-test.txt", "requirements-compare.txt",
-                     "requirements-browser.txt", "requirements-denoise.txt", "requirements-farm.txt", "CMakeLists.txt"):
+        requirements = [name for name in os.listdir(ROOT) if name.startswith("requirements")]
+        for name in ("patina", "CMakeLists.txt", *requirements):
             shutil.copy(os.path.join(ROOT, name), root / name)
         write(root / ".venv" / "bin" / "python", PYTHON, program=True)
         write(tools / "cmake", CMAKE, program=True)
@@ -174,3 +175,25 @@ def test_arguments_may_need_more(checkout, words, requirements):
     checkout.run("record")
     assert any(f"requirements-{requirements}.txt" in call for call in checkout.run(*words)[1])
     assert checkout.run(*words)[1] == []
+
+
+@pytest.mark.parametrize("arguments, wanted", [
+    (("test",), "browser compare denoise farm jobs test"),
+    (("test", "-k", "furnace"), "browser compare denoise farm jobs test"),
+    (("test", "--tier", "smoke"), "browser compare denoise farm jobs test"),
+    (("test", "--tier", "unit"), "compare denoise test"),
+    (("test", "--tier=unit", "--room", "shaders"), "compare test"),
+    (("test", "--room", "shaders"), "compare test"),
+    (("test", "--room=view"), "browser compare test"),
+    (("test", "--room", "farm", "--tier", "full"), "compare denoise farm jobs test"),
+    (("test", "--tier", "long"), "browser cluster compare denoise farm jobs long test"),
+    (("test", __file__ + "::test_x"), "browser cluster compare denoise farm jobs long test"),
+    (("bench", "path"), "long"), (("bench",), ""), (("farm", "a.usda"), "cluster farm")])
+def test_only_what_is_used_is_installed(checkout, arguments, wanted):
+    checkout.say_installed(everything=False)
+    write(checkout.tools / "id", "#!/bin/sh\necho 0\n", program=True)
+    calls = checkout.run(*arguments)[1]
+    files = [re.search(r"requirements-(\w+)[.]txt", call) for call in calls if call.startswith("pip")]
+    assert " ".join(sorted(file[1] for file in files if file)) == wanted
+    assert any("chromium" in call for call in calls) == ("browser" in wanted)
+    assert checkout.run(*arguments)[1] == []

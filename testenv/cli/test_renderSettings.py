@@ -9,7 +9,7 @@ import pytest
 _patina = pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
-from patina.cli import main, products  # noqa: E402
+from patina.cli import denoiser, main, products  # noqa: E402
 
 STAGE = """#usda 1.0
 (
@@ -247,3 +247,31 @@ def test_a_layer_that_is_none_is_named(folder, capsys, layer, said):
     (folder / "broken.usda").write_text("no layer")
     assert record("a.exr", "--layer", layer) == 1
     assert said in capsys.readouterr().err and not os.path.exists("a.exr")
+
+
+def test_denoise_on_a_prim_finds_its_library_before_the_render(folder, monkeypatch, capsys):
+    def missing(_):
+        raise denoiser.CommandError("no library")
+
+    monkeypatch.setattr(denoiser, "prepare", missing)
+    text = (folder / "stage.usda").read_text()
+    (folder / "stage.usda").write_text(text.replace("int patina:seed = 9", "bool patina:denoise = 1"))
+    assert record("a.exr", "--settings", "/Render/alone") == 1
+    assert "no library" in capsys.readouterr().err and not os.path.exists("a.exr")
+
+
+def test_each_render_has_a_report_of_its_own(folder, capsys):
+    small = ("--settings", "/Render/main", "--samples", 1, "-w", 8)
+    assert record(*small, "--frames", "1", "--report", "p.html") == 0
+    assert "/camera" in (folder / "p.html").read_text() and "/side" in (folder / "p.2.html").read_text()
+    assert record("a.##.#.exr", "--frames", "1:2x0.5", "--samples", 1, "-w", 8, "--report", "q.##.html") == 2
+    assert "q.##.html has room for 0" in capsys.readouterr().err
+
+
+def test_a_report_that_fails_is_a_warning(folder, monkeypatch):
+    def fail(*_):
+        raise ValueError("odd numbers")
+
+    monkeypatch.setattr("patina.report.page.document", fail)
+    assert record("a.exr", "--frames", "1", "--samples", 1, "-w", 8, "--report", "p.html") == 0
+    assert "no report p.html: odd numbers" in [w["message"] for w in told()["warnings"]] and os.path.exists("a.exr")

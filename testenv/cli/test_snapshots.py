@@ -58,6 +58,18 @@ def watched(monkeypatch, act):
     monkeypatch.setattr(_patina, "make_renderer", lambda backend: _Watched(make(backend), act))
 
 
+def signalled(monkeypatch):
+    """Each render is asked for a snapshot by a signal."""
+    begin = snapshots.Snapshots.begin
+
+    def asked(self, write):
+        begin(self, write)
+        os.kill(os.getpid(), signal.SIGUSR1)
+
+    watched(monkeypatch, lambda _: None)
+    monkeypatch.setattr(snapshots.Snapshots, "begin", asked)
+
+
 def pixels(path):
     return np.array(_patina.read_image(str(path)).pixels)
 
@@ -135,6 +147,36 @@ def test_a_snapshot_never_takes_the_place_of_another_image(folder, capsys):
     assert main.main(["record", "stage.usda", "a.exr", *SHORT, "--snapshot", "1", "--snapshotSuffix", "a/b"]) == 2
 
 
+def test_only_snapshots_that_were_written_are_removed(folder, monkeypatch):
+    (folder / "a_part.exr").write_text("somebody's")
+    assert main.main(["record", "stage.usda", "a.exr", *SHORT, "--quiet", "--snapshot", "3600"]) == 0
+    assert (folder / "a_part.exr").read_text() == "somebody's"
+    signalled(monkeypatch)
+    assert main.main(["record", "stage.usda", "b.exr", *SHORT, "--quiet"]) == 0
+    assert sorted(os.listdir()) == ["a.exr", "a_part.exr", "b.exr", "stage.usda"]  # one that a signal asked for goes too
+
+
+def test_a_snapshot_takes_no_name_of_another_frames_image(folder, monkeypatch, capsys):
+    flags = (*SHORT, "--snapshotSuffix", "0", "--frames", "10,1")
+    assert main.main(["record", "stage.usda", "a.#.exr", *flags, "--snapshot", "1"]) == 1
+    assert "cannot write 'a.10.exr': it is a snapshot's name" in capsys.readouterr().err
+    assert os.listdir() == ["stage.usda"]
+    signalled(monkeypatch)
+    assert main.main(["record", "stage.usda", "a.#.exr", *flags]) == 0
+    assert "no snapshot: cannot write 'a.10.exr'" in capsys.readouterr().err
+    assert pixels("a.10.exr").shape[1] == 32 and pixels("a.1.exr").shape[1] == 32
+
+
+def test_a_snapshot_by_signal_is_not_written_over_an_input(folder, monkeypatch, capsys):
+    _patina.write_image("a_part.png", np.ones((2, 2, 3), np.float32))
+    before = (folder / "a_part.png").read_bytes()
+    (folder / "stage.usda").write_text(STAGE.replace('"dome"\n{', '"dome"\n{\n    asset inputs:texture:file = @a_part.png@'))
+    signalled(monkeypatch)
+    assert main.main(["record", "stage.usda", "a.png", *SHORT]) == 0
+    assert "no snapshot: cannot write 'a_part.png': this command reads" in capsys.readouterr().err
+    assert (folder / "a_part.png").read_bytes() == before
+
+
 def test_verbose_tells_time_and_memory_of_each_phase(folder, capsys):
     assert main.main(["record", "stage.usda", "a.exr", *SHORT, "--verbose", "--json=s.json"]) == 0
     lines = capsys.readouterr().err.splitlines()
@@ -185,7 +227,8 @@ def test_a_full_disk_is_temporary(folder):
     record = shlex.join([sys.executable, "-m", "patina", "record", "stage.usda", "small/a.exr", "-w", "256", "--samples", "1",
                          "--quiet", "--compression", "none", "--checkpointSeconds", "0"])
     done = subprocess.run([*own, "sh", "-c", f"mount -t tmpfs -o size=64k none small && {record}; s=$?; ls -A small; exit $s"],
-                          capture_output=True, text=True)
+                          capture_output=True, text=True,
+                          env=dict(os.environ, PYTHONPATH=os.pathsep.join(filter(None, sys.path))))  # from another folder
     assert done.returncode == 75 and "No space left on device" in done.stderr and len(done.stderr.splitlines()) == 1, done
     assert done.stdout == ""  # nothing is left behind
 

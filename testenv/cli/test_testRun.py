@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 
-from patina.cli import main
+from patina.cli import main, testRun
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 
@@ -48,3 +48,11 @@ def test_a_tier_that_there_is_not(capsys):
 def test_the_command_of_ci_is_the_readmes():
     with open(os.path.join(ROOT, ".ci", "run"), encoding="utf-8") as file:
         assert file.read().rstrip().endswith("exec ./patina test")
+
+
+@pytest.mark.parametrize("place", ["assets", "other/assets", "none"])
+def test_public_assets_are_found_near_the_checkout(tmp_path, place):
+    (tmp_path / "aGame" / "assets").mkdir(parents=True)  # is called so, and is another
+    (tmp_path / place / "StandardShaderBall").mkdir(parents=True)
+    found = testRun.find_assets(str(tmp_path / "checkout"))
+    assert found == (None if place == "none" else str(tmp_path / place))

@@ -173,3 +173,16 @@ def test_each_frame_has_a_page_where_its_name_has_a_place(made):
         assert sorted(p.name for p in made.glob(name.replace("#", "*"))) == pages
     text = (made / "last.html").read_text()
     assert "<h2>Frames</h2>" in text and "f.1.png" in text and "f.2.png" in text
+
+
+def test_errors_that_are_not_finite_are_counted_and_left_out():
+    from patina.report import pictures, sections
+
+    error = np.array([[0.01, np.inf], [np.nan, 0.02]])
+    facts = sections.Facts(**dict.fromkeys(sections.Facts.__dataclass_fields__))
+    facts.error, facts.samples, facts.window = error, np.ones((2, 2)), (0, 0, 1, 1)
+    text = sections._pixels(facts)
+    assert "the worst, pixel 1, 1" in text and "left out" in text and '<td class="n">2</td>' in text
+    assert pictures.heat("error", error, log=True)["legend"]["high"] == 0.02
+    facts.error = np.full((2, 2), np.nan)
+    assert "No pixel has a finite number" in sections._pixels(facts)

@@ -1,5 +1,6 @@
 """Frame specs as usdrecord understands them, and image names with a place for the frame as usdrecord, husk and printf have it."""
 import math
+import os
 import re
 
 from patina.cli.errors import CommandError, UsageError
@@ -10,8 +11,8 @@ FRAMESPEC_HELP = (
     "then holds the frame's place: image.####.png, image.###.##.png, image.<F4>.png or image.%%04d.png")
 MAX_FRAMES = 1000000
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
-# ####, ###.##, <F4>, <F>, %04d, %d
-_PLACE = re.compile(r"#+(?:\.(?P<decimals>#+))?|<F(?P<digits>\d{0,2})>|%(?P<zeros>0?\d{0,2})d")
+# ####, ###.##, <F4>, <F>, %04d, %4d, %d; not %20d: %20 is a space in names that come from addresses.
+_PLACE = re.compile(r"#+(?:\.(?P<decimals>#+))?|<F(?P<digits>\d{0,2})>|%(?P<zeros>0\d{0,2}|\d?)d")
 
 
 def _decimals(text):
@@ -52,9 +53,19 @@ def expand(spec, start, end):
     return frames, decimals
 
 
+def _places(pattern):
+    """:returns: matches of the places for a frame: those in the file's own name; where it has none, those in its folders,
+        unless such a folder is there"""
+    own = pattern.rfind("/") + 1
+    found = list(_PLACE.finditer(pattern, own))
+    if found or os.path.isdir(pattern[:own]):
+        return found
+    return list(_PLACE.finditer(pattern, 0, own))
+
+
 def image_name(pattern, frame, decimals):
-    """:returns: the pattern with the frame in its place"""
-    match = _PLACE.search(pattern)
+    """:returns: the pattern, which has a place, with the frame in it"""
+    match = _places(pattern)[0]
     precision = len(match["decimals"] or "")
     if precision < decimals:
         raise UsageError(f"patina record: the frames have {decimals} decimals, but {pattern} has room for {precision} "
@@ -70,7 +81,7 @@ def image_name(pattern, frame, decimals):
 
 def has_place(pattern):
     """:returns: whether an image's name has exactly one place for a frame"""
-    return len(list(_PLACE.finditer(pattern))) == 1
+    return len(_places(pattern)) == 1
 
 
 def named(pattern, frame, decimals):

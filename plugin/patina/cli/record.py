@@ -87,6 +87,9 @@ class _Job:
             if not a.image:
                 for output in shot.outputs:
                     self.module.check_image_path(output.image, list(output.aovs))
+        reports.plan(a, self.shots, self.stage)
+        self.snapshots.check([image for shot in self.shots for image in shot.images], a.snapshotSuffix)
+        for shot in self.shots:
             self._check_outputs(shot)
         self.renderer = self.module.make_renderer(a.backend)
         self.scene = self.module.Scene()
@@ -110,7 +113,10 @@ class _Job:
             self._write(film, shot, settings, info)
         if self.arguments.report:
             with self.statistics.phase("report"):
-                reports.write(self, film, shot, settings, info)
+                problem = reports.write(self, film, shot, settings, info)
+            if problem:
+                self.statistics.warn(shot.image, "", problem)
+                self._check_warnings()
         self.statistics.end_frame()
         if self.arguments.verbose:
             self._say_all(verbose.lines(self.statistics.frames()[-1]))
@@ -122,7 +128,7 @@ class _Job:
     def _check_outputs(self, shot):
         a = self.arguments
         files = shot.images + ([snapshots.path_of(image, a.snapshotSuffix) for image in shot.images] if a.snapshot else [])
-        outputs.check_all([*files, a.json, reports.path_of(a, shot)])
+        outputs.check_all([*files, a.json, shot.page])
         if a.checkpointSeconds > 0.0 or a.keepCheckpoint or a.resume:
             outputs.check(checkpoints.path_of(shot.image))
 
@@ -235,8 +241,7 @@ class _Job:
         metadata = self.statistics.metadata(a, settings, info.camera)
         for output in shot.outputs:
             self.module.write_images(film, output.image, shots.image_options(a, shot, output, settings), metadata)
-        if a.snapshot:
-            snapshots.remove(shot.images, a.snapshotSuffix)
+        self.snapshots.remove()
         if not self.interrupted and not a.keepCheckpoint:
             checkpoints.remove(checkpoints.path_of(shot.image))
 
@@ -246,8 +251,9 @@ class _Job:
             denoiser.run(self.module, film, self.arguments.threads)
         metadata = statistics.of_snapshot(self.arguments, film, camera)
         for output in shot.outputs:
-            self.module.write_images(film, snapshots.path_of(output.image, self.arguments.snapshotSuffix),
-                                     shots.image_options(self.arguments, shot, output, settings), metadata)
+            path = self.snapshots.place_of(output.image, self.arguments.snapshotSuffix)
+            self.module.write_images(film, path, shots.image_options(self.arguments, shot, output, settings), metadata)
+            self.snapshots.wrote(path)
 
     def _check_warnings(self):
         """Shows what is new; with --strict the render ends here."""

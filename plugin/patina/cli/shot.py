@@ -18,6 +18,7 @@ class Shot:
     camera: object = None  # path or name; None: the stage's own
     size: tuple = (None, None)  # pixels; what is None follows from the camera's aperture
     settings: dict = field(default_factory=dict)  # render settings that differ from those of the command
+    page: object = None  # of --report
 
     @property
     def image(self):

@@ -5,7 +5,8 @@ import signal
 import threading
 import time
 
-from patina.cli.errors import is_temporary
+from patina.cli import outputs
+from patina.cli.errors import CommandError, is_temporary
 
 SUFFIX = "_part"  # husk's
 
@@ -26,6 +27,8 @@ class Snapshots:
         self._last = None  # when the last one was, or the first samples were there
         self._asked = False
         self._before = None
+        self._images = {}  # real path -> name of every image that the command writes
+        self._written = []  # of the render that runs
 
     def __enter__(self):
         if hasattr(signal, "SIGUSR1") and threading.current_thread() is threading.main_thread():
@@ -38,11 +41,45 @@ class Snapshots:
             signal.signal(signal.SIGUSR1, self._before)
         return False
 
+    def check(self, images, suffix):
+        """Says whether snapshots may be written.
+
+        :param images: the command writes, of all renders
+        :raises CommandError: where one would take the place of an image, or of a file that is read"""
+        self._images = {os.path.realpath(image): image for image in images}
+        for image in images if self._seconds > 0.0 else ():
+            self.place_of(image, suffix)
+
+    def place_of(self, image, suffix):
+        """:returns: where the snapshot of an image may be written
+        :raises CommandError: where it may not"""
+        path = path_of(image, suffix)
+        outputs.check(path)
+        taken = self._images.get(os.path.realpath(path))
+        if taken:
+            raise CommandError(f"cannot write '{path}': it is a snapshot's name and that of the image {taken}; "
+                               "--snapshotSuffix makes others")
+        return path
+
+    def wrote(self, path):
+        """Notes a snapshot that goes with the render."""
+        if path not in self._written:
+            self._written.append(path)
+
+    def remove(self):
+        """Removes what this render wrote: its images are there."""
+        for path in self._written:
+            try:
+                os.remove(path)
+            except OSError:
+                pass
+        self._written = []
+
     def begin(self, write):
         """Another render starts.
 
         :param write: function(film) that writes a snapshot of it"""
-        self._write, self._last = write, None
+        self._write, self._last, self._written = write, None, []
 
     def _ask(self, *_):
         self._asked = True
@@ -71,15 +108,6 @@ class Snapshots:
         finally:
             self._last = time.monotonic()
         return None
-
-
-def remove(images, suffix):
-    """Removes the snapshots of images that are written."""
-    for image in images:
-        try:
-            os.remove(path_of(image, suffix))
-        except OSError:
-            pass
 
 
 def words(error):

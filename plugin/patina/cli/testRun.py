@@ -7,7 +7,12 @@ the package. ./patina builds what is needed before.
   patina test -k furnace        further arguments go to pytest; named files and tests run whatever tier they are in
 
 testenv/manifest.py says which tier and rooms a test belongs to. Two processes or more share the tests (`-n 0`: one).
+
+Some tests look at public assets (the Standard Shader Ball, MaterialX's examples). PATINA_ASSETS names their folder; without
+it a folder `assets` that holds them is looked for beside the checkout, and in the folders beside it. Where there is none,
+these tests are skipped and say so.
 """
+import glob
 import importlib.util
 import os
 import signal
@@ -20,6 +25,9 @@ from patina.cli.errors import CommandError, UsageError
 HELP = "run the tests of a checkout"
 PASSES_ON = True
 TIERS = ("lint", "unit", "smoke", "full", "long", "all")
+
+
+_ASSET = "StandardShaderBall"  # what tells the folder of public assets from others that are called so
 
 
 def add_arguments(parser):
@@ -35,9 +43,9 @@ def run(arguments):
     if not os.path.isfile(os.path.join(testenv, "conftest.py")):
         raise CommandError("the tests are in a checkout only: run ./patina test there")
     environment = dict(os.environ)
-    assets = os.path.normpath(os.path.join(root, "..", "shared", "assets"))
-    if "PATINA_ASSETS" not in environment and os.path.isdir(assets):
-        environment["PATINA_ASSETS"] = assets
+    assets = find_assets(root)
+    if assets:
+        environment.setdefault("PATINA_ASSETS", assets)
     environment.setdefault("PATINA_BUILD_DIR", os.path.join(root, "build"))
     environment.setdefault("PATINA_OIDN_LIBRARY", denoiser.of_wheel())  # googletest programs find it so
     environment["PYTHONPATH"] = os.pathsep.join(filter(None, [environment.get("PYTHONPATH"), testenv]))
@@ -50,6 +58,17 @@ def run(arguments):
         if signal.getsignal(number) == signal.SIG_IGN:  # as by nohup; tests send them, and the processes that they start inherit
             signal.signal(number, signal.SIG_DFL)
     return min(1, subprocess.call(command, env=environment, cwd=root))
+
+
+def find_assets(root):
+    """:param root: of a checkout
+    :returns: the folder of public assets near it, or None"""
+    beside = glob.escape(os.path.dirname(root))
+    for pattern in ("assets", "*/assets"):
+        for folder in sorted(glob.glob(os.path.join(beside, pattern))):
+            if os.path.isdir(os.path.join(folder, _ASSET)):
+                return folder
+    return None
 
 
 def _named(argument):

@@ -59,8 +59,8 @@ def heat(name, values, unit="", log=False, missing=None):
     """A picture of one number per pixel.
 
     :param log: colours are of the logarithm
-    :param missing: mask of pixels without one, which are black"""
-    gone = (values >= MISS) if missing is None else missing
+    :param missing: mask of pixels without one, which are black, as are those whose number is not finite"""
+    gone = ((values >= MISS) if missing is None else missing) | ~np.isfinite(values)
     kept = values[~gone]
     low, high = (float(kept.min()), float(kept.max())) if kept.size else (0.0, 0.0)
     if log:

@@ -123,14 +123,20 @@ def _by_material(frame):
 
 def _pixels(facts):
     error, samples = facts.inside(facts.error), facts.inside(facts.samples)
+    known = np.isfinite(error)
+    left_out = int(error.size - known.sum())
+    error, numbers = np.where(known, error, -1.0), error[known]
     worst = np.unravel_index(int(np.argmax(error)), error.shape)
     x0, y0 = facts.window[:2]
-    rows = [[f"{name}", f"{100.0 * np.quantile(error, q):.3g} %"] for name, q in
-            (("half of the pixels are below", 0.5), ("nine in ten", 0.9), ("99 in 100", 0.99))]
-    rows.append([f"the worst, pixel {worst[1] + x0}, {worst[0] + y0}", f"{100.0 * error[worst]:.3g} %"])
+    rows = [[f"{name}", f"{100.0 * np.quantile(numbers, q):.3g} %"] for name, q in
+            (("half of the pixels are below", 0.5), ("nine in ten", 0.9), ("99 in 100", 0.99)) if numbers.size]
+    if numbers.size:
+        rows.append([f"the worst, pixel {worst[1] + x0}, {worst[0] + y0}", f"{100.0 * error[worst]:.3g} %"])
+    if left_out:
+        rows.append(["pixels whose error is no finite number, which are left out", f"{left_out}"])
     return ('<h2>Error and samples of the pixels</h2><div class="columns"><div><h3>Error</h3>'
             + _table(["standard error of the luminance over luminance + 0.01", ""], rows, ["", "n"])
-            + _histogram(np.log10(np.maximum(100.0 * error, 1e-4)), lambda x: f"{10.0 ** x:.3g} %")
+            + _histogram(np.log10(np.maximum(100.0 * numbers, 1e-4)), lambda x: f"{10.0 ** x:.3g} %")
             + "</div><div><h3>Samples</h3>"
             + _table(["samples of a pixel", ""], [["fewest", f"{samples.min():g}"], ["mean", f"{samples.mean():.5g}"],
                                                  ["most", f"{samples.max():g}"]], ["", "n"])
@@ -139,6 +145,9 @@ def _pixels(facts):
 
 def _histogram(values, text, bins=60):
     """:returns: SVG of how many pixels have which value"""
+    values = values[np.isfinite(values)]
+    if not values.size:
+        return '<p class="dim">No pixel has a finite number.</p>'
     low, high = float(values.min()), float(values.max())
     if high - low < 1e-9:
         return f'<p class="dim">All pixels have {escape(text(low))}.</p>'

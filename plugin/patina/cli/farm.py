@@ -109,7 +109,7 @@ def _record_arguments(arguments):
         raise UsageError("patina farm: --verbose is of one render; --json tells what each task took")
     overrides.parse(record.set)
     _check_task(parser, arguments, argv, record)
-    record.words = _words(parser, arguments.passed_on, record)
+    arguments.record_words = _words(parser, arguments.passed_on, record)
     return record
 
 

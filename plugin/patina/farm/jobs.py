@@ -47,7 +47,7 @@ def template(arguments, record, shots, folder):
         parameters.append({"name": "Frames", "type": "STRING", "default": frames["range"],
                            "description": "such as 1-240 or 1-9:2,20"})
         frames = dict(frames, range="{{Param.Frames}}")
-    flags = _flags(arguments, record)
+    flags = _flags(arguments)
     if arguments.cut.parts == 1:
         steps = [_step("Frames", ["record", "{{Param.Stage}}", "{{Param.Image}}", *flags, *_frame_flag(frames)], frames)]
     else:
@@ -117,10 +117,10 @@ def _range(numbers):
     return ",".join(parts)
 
 
-def _flags(arguments, record):
+def _flags(arguments):
     """:returns: flags of `patina record` that the user has given, without stage and image"""
     flags, takes = [], False
-    for word in record.words:
+    for word in arguments.record_words:
         flag, equals, file = word.partition("=")
         if takes:
             word = os.path.abspath(word)

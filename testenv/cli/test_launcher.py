@@ -197,3 +197,12 @@ def test_only_what_is_used_is_installed(checkout, arguments, wanted):
     assert " ".join(sorted(file[1] for file in files if file)) == wanted
     assert any("chromium" in call for call in calls) == ("browser" in wanted)
     assert checkout.run(*arguments)[1] == []
+
+
+def test_the_installed_command_imports_nothing_of_the_current_folder(tmp_path):
+    with open(os.path.join(ROOT, "cmake", "package", "patina.in")) as file:
+        write(tmp_path / "bin" / "patina", file.read().replace("@toPython@", "../python"), program=True)
+    write(tmp_path / "show", '#!/bin/sh\necho "$PYTHONSAFEPATH $PYTHONPATH $*"\n', program=True)
+    shown = subprocess.run([str(tmp_path / "bin" / "patina"), "check"], capture_output=True, text=True, check=True,
+                           env={"PATH": os.environ["PATH"], "PATINA_PYTHON": str(tmp_path / "show")}).stdout
+    assert shown == f"1 {tmp_path}/bin/../python -m patina check\n"

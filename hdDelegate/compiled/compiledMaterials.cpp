@@ -37,7 +37,8 @@ CompiledMaterials::program(const std::shared_ptr<const MaterialPrim>& prim,
         };
         for (auto it = _entries.begin(); it != _entries.end();)
             it = unused(it->second.program) ? _entries.erase(it) : std::next(it);
-        entry = _entries.emplace(prim.get(), Entry{prim, methods, tolerance, promise.get_future().share()});
+        entry = _entries.emplace(prim.get(),
+                                 Entry{prim, methods, tolerance, promise.get_future().share()});
         ++_built;
     }
     try {

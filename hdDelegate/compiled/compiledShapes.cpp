@@ -70,7 +70,8 @@ void CompiledShapes::Entry::letGo() {
                                           nullptr) > 0)
         return; // some faces are displaced, some are not: rare, and kept as they are
     prim = request.prim;
-    if (request.displaces()) displacers.assign(request.displacers.begin(), request.displacers.end());
+    if (request.displaces())
+        displacers.assign(request.displacers.begin(), request.displacers.end());
     request.prim = nullptr;
     request.displacers.clear();
 }

@@ -47,8 +47,9 @@ bool hasEnough(const Film& film, const Tile& tile, uint32_t first, const Partial
     if (samples != first) {
         if (!(merge.tolerance > 0.0))
             throw std::runtime_error("the parts do not follow each other: " +
-                                     std::to_string(samples) + " samples are there, and the next "
-                                     "are from " + std::to_string(first) + " on");
+                                     std::to_string(samples) +
+                                     " samples are there, and the next are from " +
+                                     std::to_string(first) + " on");
         return true;
     }
     if (!(merge.tolerance > 0.0) || int(samples) < std::max(2, merge.minSamples) ||

@@ -54,7 +54,8 @@ TEST(SettingsTable, NumbersOfEveryTypeAreTaken) {
     EXPECT_EQ(with("enableShadows", VtValue(std::string("off"))).enableShadows, false);
     EXPECT_EQ(with("cullStyle", VtValue(TfToken("back"))).cullStyle, "back");
     HdPatinaSettings untouched;
-    EXPECT_NE(applySetting(settingKey(TfToken("method:fresnel")), VtValue(std::string("schlik")), untouched), "");
+    const TfToken fresnel = settingKey(TfToken("method:fresnel"));
+    EXPECT_NE(applySetting(fresnel, VtValue(std::string("schlik")), untouched), "");
     EXPECT_TRUE(untouched.methods.empty());
     EXPECT_EQ(with("method:energyCompensation", VtValue(std::string("none")))
                   .methods["energyCompensation"],

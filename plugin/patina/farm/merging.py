@@ -43,7 +43,8 @@ def _state(reports):
     for report in reports:
         partial.add_up(sums, report["statistics"])
     return {"statistics": {**reports[0]["statistics"], **sums, "secondsBuild": 0.0},
-            "plans": reports[0]["plans"], "sceneChoices": reports[0]["sceneChoices"], "backend": reports[0]["backend"], "materialSeconds": {}, "converged": True}
+            "plans": reports[0]["plans"], "sceneChoices": reports[0]["sceneChoices"],
+            "backend": reports[0]["backend"], "materialSeconds": {}, "converged": True}
 
 
 class _Told(statistics.Statistics):

@@ -13,11 +13,6 @@ namespace patina {
 
 namespace {
 
-void onEmbreeError(void* user, RTCError code, const char* text) {
-    if (code != RTC_ERROR_NONE && code != RTC_ERROR_CANCELLED)
-        static_cast<Diagnostics*>(user)->warn("Embree", "", text ? text : "unknown error");
-}
-
 bool onEmbreeMemory(void* user, ssize_t bytes, bool) {
     *static_cast<std::atomic<int64_t>*>(user) += bytes;
     return true;
@@ -51,10 +46,18 @@ size_t trianglesOf(const Surface& surface) {
     return surface.rest ? surface.rest->mesh.triangles.size() : 0;
 }
 
+void EmbreeScene::onError(void* self, RTCError code, const char* text) {
+    EmbreeScene& scene = *static_cast<EmbreeScene*>(self);
+    if (code == RTC_ERROR_OUT_OF_MEMORY)
+        scene._outOfMemory = true;
+    else if (code != RTC_ERROR_NONE && code != RTC_ERROR_CANCELLED)
+        scene._diagnostics.warn("Embree", "", text ? text : "unknown error");
+}
+
 EmbreeScene::EmbreeScene(CompiledScene& compiled)
     : _compiled(compiled), _diagnostics(compiled.scene()->diagnostics()) {
     _device = rtcNewDevice(nullptr);
-    rtcSetDeviceErrorFunction(_device, onEmbreeError, &_diagnostics);
+    rtcSetDeviceErrorFunction(_device, onError, this);
     rtcSetDeviceMemoryMonitorFunction(_device, onEmbreeMemory, &_embreeBytes);
 }
 
@@ -86,6 +89,16 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
             _compiled.subdivision().of(state, *_parts.placements, camera, settings);
         updateAll(view);
         _lightsMayDiffer = true;
+    }
+    if (_outOfMemory.exchange(false)) { // Embree throws nothing; which structures lack it is unknown
+        _world = nullptr;
+        _nodes.clear();
+        _groups.clear();
+        _surfacesOf.clear();
+        _emitting.clear();
+        _surfaces.clear();
+        _shapes.clear();
+        throw std::bad_alloc();
     }
     _complete = !stop;
     _version = state.version;

@@ -49,6 +49,7 @@ public:
     /// @param stop is polled; the build gives up early when it becomes true
     /// @param origin in the world: all places and rays are relative to it, those of instances
     /// inside of groups aside
+    /// @throws std::bad_alloc; the next update makes whole what this one did not
     void update(const SceneState& state, const Camera& camera, const RenderSettings& settings,
                 const std::atomic<bool>& stop, const dvec3& origin = dvec3(0.0));
     /// Whether the last update may have changed what lights are made from.
@@ -128,6 +129,7 @@ private:
         /// By group: the surfaces that differ from the last update's. Null: all of them may.
         const Members* changed = nullptr;
     };
+    static void onError(void* self, RTCError code, const char* text);
     void updateAll(View& view);
     /// @returns false where more than prims in their places has changed: nothing is done then
     bool updateTouched(View& view, const SceneEdits& edits);
@@ -212,6 +214,7 @@ private:
     size_t _translucent = 0, _withMedia = 0, _surfaceBytes = 0; ///< of all surfaces
     bool _lightsMayDiffer = true;
     mutable std::atomic<bool> _toldOfRays{false};
+    std::atomic<bool> _outOfMemory{false}; ///< of Embree, since the last update began
     vec3 _boundsMin{0.0f}, _boundsMax{0.0f};
     size_t _trianglesStored = 0, _instanceCount = 0;
 };

@@ -124,12 +124,13 @@ void EmbreeScene::updateSurface(const Work& work, bool keepRest) {
         return;
     }
     std::shared_ptr<Surface> surface;
+    Programs displacers = work.displacers; // what runs out of memory does so before `cached` changes
+    bool keepsRest = !shared && cached.keepsRest;
     if (shared) {
         surface = shape(prim, shared);
-        cached.keepsRest = false;
     } else if (reshape || cached.shared || !cached.keepsRest) {
         surface = shape(prim, work.edge, work.displacers, keepRest);
-        cached.keepsRest = keepRest;
+        keepsRest = keepRest;
         ++_counts.tessellated;
     } else {
         surface = std::make_shared<Surface>(*cached.surface);
@@ -143,7 +144,8 @@ void EmbreeScene::updateSurface(const Work& work, bool keepRest) {
     cached.surface = std::move(surface);
     cached.edgeLength = work.edge;
     cached.shared = shared;
-    cached.displacers = work.displacers;
+    cached.displacers = std::move(displacers);
+    cached.keepsRest = keepsRest;
     cached.prim = prim;
 }
 

@@ -85,12 +85,12 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
     const ScreenScale screen = screenScale(camera, settings, origin);
     View view{state, camera, settings, rays, screen, stop, {}, nullptr};
     if (!edits || !updateTouched(view, *edits)) {
-        _subdivision =
-            _compiled.subdivision().of(state, *_parts.placements, camera, settings);
+        _subdivision = _compiled.subdivision().of(state, *_parts.placements, camera, settings);
         updateAll(view);
         _lightsMayDiffer = true;
     }
-    if (_outOfMemory.exchange(false)) { // Embree throws nothing; which structures lack it is unknown
+    if (_outOfMemory.exchange(
+            false)) { // Embree throws nothing; which structures lack it is unknown
         _world = nullptr;
         _nodes.clear();
         _groups.clear();

@@ -195,7 +195,7 @@ private:
     SharedShapes _shapes;
     std::map<std::string, CachedSurface> _surfaces;
     std::map<std::string, CachedProgram> _programs;
-    Subdivision _subdivision; ///< of the last update
+    Subdivision _subdivision;                                    ///< of the last update
     std::map<std::string, std::unique_ptr<EmbreeGroup>> _groups; ///< by name; "" is the world
     Members _surfacesOf;
     std::map<std::string, const CachedSurface*> _emitting; ///< by path
@@ -213,7 +213,7 @@ private:
     dvec3 _origin{0.0}, _builtFrom{0.0}; ///< of the last update; of what is cached
     size_t _translucent = 0, _withMedia = 0, _surfaceBytes = 0; ///< of all surfaces
     bool _lightsMayDiffer = true;
-    mutable std::atomic<bool> _toldOfRays{false};
+    mutable std::atomic<bool> _warnedOfRays{false};
     std::atomic<bool> _outOfMemory{false}; ///< of Embree, since the last update began
     vec3 _boundsMin{0.0f}, _boundsMax{0.0f};
     size_t _trianglesStored = 0, _instanceCount = 0;

@@ -31,8 +31,7 @@ RasterDetail::RasterDetail(const Geometry& prim, const PrimExtent& extent,
     if (subdivided) _area = extent.area;
     if (_round) {
         const Implicit& shape = static_cast<const Implicit&>(prim);
-        _finest =
-            6.2831853f / float(roundSegments) * std::max(shape.radius, shape.radiusTop);
+        _finest = 6.2831853f / float(roundSegments) * std::max(shape.radius, shape.radiusTop);
     }
     const bool refines = !extent.empty && (subdivided || _round || _slight);
     if (!(edgeLength > 0.0f) || !(refines || displaced)) return;

@@ -79,8 +79,7 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
     _emitters.clear();
     _volumes.begin();
     RasterInstances places(_parts.placements, camera.timeCode(0.5f), _origin);
-    _subdivision =
-        _compiled.subdivision().of(state, *_parts.placements, camera.camera(), settings);
+    _subdivision = _compiled.subdivision().of(state, *_parts.placements, camera.camera(), settings);
     prepareMaterials(state, settings, places);
     finishPrograms(stop, compiling);
     for (const auto& item : state.instancers) {

@@ -175,8 +175,8 @@ private:
     RasterEmitters _emitters;
     std::map<std::string, Span> _spans; ///< by path
     std::vector<GpuInstance> _instances, _written;
-    std::vector<RasterBox> _boxes;          ///< of instances, world space
-    std::vector<int> _links;                ///< see shaders/raster/links.glsl
+    std::vector<RasterBox> _boxes; ///< of instances, world space
+    std::vector<int> _links;       ///< see shaders/raster/links.glsl
     std::map<std::vector<int>, int> _linkRows;
     GlBuffer _instanceBuffer, _linkBuffer;
     vec3 _origin{0.0f}, _boundsMin{0.0f}, _boundsMax{0.0f};

@@ -67,8 +67,7 @@ void RasterVolumes::build(Cached& cached, const std::string& path) {
     for (const mat4& toWorld : cached.places) {
         const mat4 inverse = glm::inverse(toWorld);
         if (!std::isfinite(inverse[0][0] + inverse[1][1] + inverse[2][2] + inverse[3][3])) {
-            _diagnostics.warn(path, "transform",
-                              "has no inverse; the volume is not drawn");
+            _diagnostics.warn(path, "transform", "has no inverse; the volume is not drawn");
             continue;
         }
         RasterVolume volume;

@@ -17,8 +17,6 @@
 
 namespace patina {
 
-class CameraRays;
-
 enum RayMask : unsigned { RayCamera = 1, RayIndirect = 2, RayShadow = 4 };
 
 /// Of a surface alone: none where it shares them.
@@ -122,7 +120,6 @@ private:
         const SceneState& state;
         const Camera& camera;
         const RenderSettings& settings;
-        const CameraRays& rays;
         const ScreenScale& screen;
         const std::atomic<bool>& stop;
         std::map<std::string, std::vector<mat4>> transformsOf; ///< by group, of those asked for

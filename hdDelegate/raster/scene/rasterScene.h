@@ -80,8 +80,11 @@ public:
     /// Moves to another time of the shutter: transforms exactly, points that move to the nearest of
     /// deformationSteps times. @returns false when nothing moves
     bool moveTo(float timeCode);
-    /// Lets go of what is held for another back end, see RasterShapeCache.
-    void releaseShapes() { _shapes.release(); }
+    /// Lets go of what is held for another back end, see RasterShapeCache and RasterVolumes.
+    void releaseShapes() {
+        _shapes.release();
+        _volumes.release();
+    }
 
     const std::vector<RasterDraw>& draws() const { return _draws; }
     const std::vector<const RasterVolume*>& volumes() const { return _volumes.placed(); }

@@ -110,6 +110,8 @@ def has_usdrecord():
 def has_qt():
     """:returns: whether the Python of this OpenUSD can open windows, as usdview needs"""
     build = _read()
+    if not os.path.exists(build["python"]):  # it was built without Python
+        return False
     return subprocess.run([build["python"], "-c", "import PySide6.QtWidgets"], env=environment(),
                           capture_output=True, check=False).returncode == 0
 

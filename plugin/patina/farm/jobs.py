@@ -49,7 +49,9 @@ def template(arguments, record, shots, folder):
         frames = dict(frames, range="{{Param.Frames}}")
     flags = _flags(arguments)
     if arguments.cut.parts == 1:
-        steps = [_step("Frames", ["record", "{{Param.Stage}}", "{{Param.Image}}", *flags, *_frame_flag(frames)], frames)]
+        # A task that is told to end leaves no image that would pass for a whole one.
+        whole = ["--onlyWhole", "--resume"] if arguments.resume else ["--onlyWhole"]
+        steps = [_step("Frames", ["record", "{{Param.Stage}}", "{{Param.Image}}", *flags, *whole, *_frame_flag(frames)], frames)]
     else:
         parameters.append(_path("Parts", "DIRECTORY", "INOUT", record.image + ".parts", folder, "parts until they are merged"))
         steps = _cut_steps(arguments, flags, frames)

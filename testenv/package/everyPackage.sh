@@ -38,7 +38,7 @@ for program in c++ cmake ninja dpkg-deb dpkg-shlibdeps file python3; do
     command -v $program >/dev/null || lacks "$program is missing"
 done
 python3 -c 'import venv, ensurepip' 2>/dev/null || lacks "python3-venv is missing"
-! command -v ccache >/dev/null || export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$folder CCACHE_NOHASHDIR=1
+! command -v ccache >/dev/null || export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=${CCACHE_BASEDIR:-$folder} CCACHE_NOHASHDIR=1
 
 stage=$folder/stage
 mkdir -p "$stage"
@@ -60,7 +60,7 @@ assert a.shape == b.shape and a.std() > 0.0 and numpy.array_equal(a, b), sys.arg
 
 # The wheel.
 loudly python3 -m venv --clear "$folder/wheel"
-loudly "$folder/wheel/bin/pip" wheel --no-deps -w "$folder/dist" "$checkout"
+loudly "$folder/wheel/bin/pip" wheel --no-deps --config-settings=build-dir="$folder/wheelBuild" -w "$folder/dist" "$checkout"
 loudly "$folder/wheel/bin/pip" install "$(ls -t "$folder"/dist/*.whl | head -n 1)"
 say "the wheel: $(du -h "$folder"/dist/*.whl | cut -f1)"
 render wheel "$folder/wheel/bin/patina"

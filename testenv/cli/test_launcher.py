@@ -178,14 +178,14 @@ def test_arguments_may_need_more(checkout, words, requirements):
 
 
 @pytest.mark.parametrize("arguments, wanted", [
-    (("test",), "browser compare denoise farm jobs test"),
-    (("test", "-k", "furnace"), "browser compare denoise farm jobs test"),
-    (("test", "--tier", "smoke"), "browser compare denoise farm jobs test"),
+    (("test",), "browser cluster compare denoise farm jobs test"),
+    (("test", "-k", "furnace"), "browser cluster compare denoise farm jobs test"),
+    (("test", "--tier", "smoke"), "browser cluster compare denoise farm jobs test"),
     (("test", "--tier", "unit"), "compare denoise test"),
     (("test", "--tier=unit", "--room", "shaders"), "compare test"),
     (("test", "--room", "shaders"), "compare test"),
     (("test", "--room=view"), "browser compare test"),
-    (("test", "--room", "farm", "--tier", "full"), "compare denoise farm jobs test"),
+    (("test", "--room", "farm", "--tier", "full"), "cluster compare denoise farm jobs test"),
     (("test", "--tier", "long"), "browser cluster compare denoise farm jobs long test"),
     (("test", __file__ + "::test_x"), "browser cluster compare denoise farm jobs long test"),
     (("bench", "path"), "long"), (("bench",), ""), (("farm", "a.usda"), "cluster farm")])

@@ -45,6 +45,7 @@ FOLDERS = {  # folder: tier, rooms
     "testenv/raster/": ("full", "raster"),
     "testenv/render/": ("full", "embree lights scene geometry image"),
     "testenv/stability/": ("full", "shaders materialNetwork raster"),
+    "testenv/tutorials/": ("long", "testenv cli"),
     "testenv/view/": ("full", "view"),
     "testenv/lint/": ("lint", "testenv"),  # reads files that are committed, and renders nothing
     "testenv/tests/": ("unit", "testenv"),
@@ -75,6 +76,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/cli/test_snapshots.py::test_looking_changes_no_bit[[]raster[]]", "full", "cli raster"),
     ("testenv/cli/test_renderSettings.py::*", "smoke", "cli stage"),
     ("testenv/view/test_report.py::*", "full", "cli view embree"),
+    ("testenv/tutorials/test_blocks.py::*", "smoke", None),
     ("testenv/cli/test_progress.py::*", "unit", None),
     ("plugin/patina/stage/*", "unit", None),
     ("testenv/farm/test_cut.py::*", "unit", None),

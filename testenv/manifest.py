@@ -73,6 +73,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/cli/test_usage.py::*", "unit", None),
     ("testenv/cli/test_testRun.py::*", "unit", "cli testenv"),
     ("testenv/cli/test_imageMetrics.py::*", "unit", None),
+    ("testenv/cli/test_look.py::*", "unit", "cli chart"),
     ("testenv/cli/test_snapshots.py::test_looking_changes_no_bit[[]raster[]]", "full", "cli raster"),
     ("testenv/cli/test_renderSettings.py::*", "smoke", "cli stage"),
     ("testenv/view/test_report.py::*", "full", "cli view embree"),

@@ -1,8 +1,7 @@
 #pragma once
 
-// The shader dialect as C++: every lobe in float (patina::sh) and in double (patina::sh64), from
-// the text that the rasterizer reads as GLSL. The double instance is the oracle of the tests and
-// the source of the baked tables; it reads the same float tables.
+// The shader dialect as C++: every lobe in float (patina::sh), from the text that the rasterizer
+// reads as GLSL. shaders/oracle.h has the same in double.
 //
 // Every lobe X offers, with the structs and event bits of lib/lobe.glsl:
 //   xSetup(inputs of the MaterialX node without weight, normal, tangent) -> XLobe; any input is
@@ -36,24 +35,6 @@ namespace sh {
 #include "shaders/compat/cpp.h"
 #include "shaders/lobes.glsl"
 } // namespace sh
-
-#undef PATINA_FN
-#undef PATINA_FN_RARE
-#undef PATINA_OUT
-#undef PATINA_INOUT
-#undef PATINA_UNUSED
-#undef PATINA_ENERGY_KNOWN
-#undef PATINA_COMPENSATE
-#undef PATINA_ALBEDO_METHOD
-#undef PATINA_FILM
-#undef PATINA_FILM_METHOD
-
-namespace sh64 {
-#define float double
-#include "shaders/compat/cpp.h"
-#include "shaders/lobes.glsl"
-#undef float
-} // namespace sh64
 
 #undef PATINA_FN
 #undef PATINA_FN_RARE

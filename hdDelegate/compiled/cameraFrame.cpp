@@ -1,5 +1,7 @@
 #include "hdDelegate/compiled/cameraFrame.h"
 
+#include "hdDelegate/scene/lightUnits.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -52,6 +54,17 @@ float CameraFrame::windowDepth(const vec3& p) const {
     if (orthographic) return std::clamp((z - clipNear) / (clipFar - clipNear), 0.0f, 1.0f);
     if (z <= 0.0f) return 0.0f;
     return std::clamp(clipFar * (z - clipNear) / (z * (clipFar - clipNear)), 0.0f, 1.0f);
+}
+
+dvec3 cameraPlace(const Camera& camera, const RenderSettings& settings) {
+    const CameraFrame frame(camera, settings);
+    return dvec3(exactTransformAt(camera.transform, frame.timeCode(0.5f))[3]);
+}
+
+ScreenScale screenScale(const Camera& camera, const RenderSettings& settings, const dvec3& origin) {
+    const CameraFrame frame(camera, settings);
+    return {vec3(cameraPlace(camera, settings) - origin), !frame.orthographic, frame.pixelSpread(),
+            camera.clipNear, double(settings.width) * settings.height};
 }
 
 dvec3 originNear(const dvec3& middle, double size, double far, double cell) {

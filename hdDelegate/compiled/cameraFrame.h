@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hdDelegate/plan/primExtent.h"
 #include "hdDelegate/scene/camera.h"
 #include "hdDelegate/scene/settings.h"
 
@@ -24,6 +25,11 @@ struct CameraFrame {
     /// Depth in [0,1] as OpenGL's default window depth over the camera's own clipping range.
     float windowDepth(const vec3& cameraPoint) const;
 };
+
+/// Where the camera is in the middle of the shutter.
+dvec3 cameraPlace(const Camera& camera, const RenderSettings& settings);
+/// How large things look from there. @param origin of the space that they are in, see seenFrom()
+ScreenScale screenScale(const Camera& camera, const RenderSettings& settings, const dvec3& origin);
 
 /// Where the origin should be of a space that what is seen is given in by numbers of 32 bits, which
 /// are too coarse for what is small and far away: 0, the world's own, where that is within `far`

@@ -6,7 +6,8 @@ namespace patina {
 
 CompiledScene::CompiledScene(const std::shared_ptr<Scene>& scene)
     : _scene(scene), _textures(scene->diagnostics()), _lightImages(scene->diagnostics()),
-      _materials(_textures, scene->diagnostics()), _shapes(scene->diagnostics()) {}
+      _materials(_textures, scene->diagnostics()), _shapes(scene->diagnostics()),
+      _volumes(_materials, scene->diagnostics()), _subdivision(_materials, _extents) {}
 
 std::shared_ptr<CompiledScene> CompiledScene::of(const std::shared_ptr<Scene>& scene) {
     static std::mutex mutex;

@@ -2,10 +2,12 @@
 
 #include "hdDelegate/compiled/compiledMaterials.h"
 #include "hdDelegate/compiled/compiledShapes.h"
+#include "hdDelegate/compiled/compiledVolumes.h"
 #include "hdDelegate/compiled/linkNames.h"
 #include "hdDelegate/compiled/materialUsers.h"
 #include "hdDelegate/compiled/meshLights.h"
 #include "hdDelegate/compiled/placements.h"
+#include "hdDelegate/compiled/subdivision.h"
 #include "hdDelegate/image/textureSystem.h"
 #include "hdDelegate/lights/lightImages.h"
 
@@ -31,7 +33,8 @@ struct SceneEdits {
 };
 
 /// What every back end needs of a scene, made once for all its renderers: texels, images of lights,
-/// programs of materials, triangles, where instances are, and what edits touch. Thread safe.
+/// programs of materials, shapes, media of volumes, where instances are, how finely surfaces are
+/// drawn, and what edits touch. Thread safe.
 class CompiledScene {
 public:
     explicit CompiledScene(const std::shared_ptr<Scene>& scene);
@@ -44,6 +47,9 @@ public:
     LightImages& lightImages() { return _lightImages; }
     CompiledMaterials& materials() { return _materials; }
     CompiledShapes& shapes() { return _shapes; }
+    CompiledVolumes& volumes() { return _volumes; }
+    Extents& extents() { return _extents; }
+    SubdivisionChoice& subdivision() { return _subdivision; }
 
     CompiledState compiled(const SceneState& state, const RenderSettings& settings);
     /// What was edited between an earlier version and a state.
@@ -56,6 +62,9 @@ private:
     LightImages _lightImages;
     CompiledMaterials _materials;
     CompiledShapes _shapes;
+    CompiledVolumes _volumes;
+    Extents _extents;
+    SubdivisionChoice _subdivision;
 
     std::mutex _mutex; ///< guards what follows
     CompiledState _compiled;

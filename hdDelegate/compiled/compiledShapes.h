@@ -1,61 +1,64 @@
 #pragma once
 
+#include "hdDelegate/compiled/madeOnce.h"
 #include "hdDelegate/geometry/tessellate.h"
 #include "materialNetwork/cpu/materialProgram.h"
 
-#include <future>
-#include <map>
-#include <memory>
-#include <mutex>
+#include <array>
 #include <vector>
 
 namespace patina {
 
-/// What the triangles of a mesh or of an implicit prim are made from.
+/// What the shape of a prim is made from.
 struct ShapeRequest {
     std::shared_ptr<const Geometry> prim;
     TessellationOptions options;
     /// Materials that displace() takes; empty, or all null: nothing is displaced.
     std::vector<std::shared_ptr<const MaterialProgram>> displacers;
-    mat4 toWorld{1.0f}; ///< that displacement sees
+    mat4 toWorld{1.0f}; ///< that displacement sees: displacementSpace()
 
     bool displaces() const;
-    /// Whether another request asks for the same triangles.
-    bool operator==(const ShapeRequest& other) const;
 };
 
-/// Tessellates, cuts and displaces. Object space.
-TriangleMesh makeTriangles(const ShapeRequest& request, Diagnostics& diagnostics);
+/// What displacement takes for the world: a prim where it is in the middle of the shutter. Prims of
+/// prototypes are displaced once for all instances, in the space of their group.
+mat4 displacementSpace(const Geometry& prim, float timeCode);
 
-/// The triangles of a scene's prims, made once for all who ask for the same, at any number of
-/// levels. Who needs them holds them; what nobody holds is forgotten. Thread safe: who asks for
-/// what another thread makes waits for it.
+/// A prim ready to be drawn, in its own space: the one of these that its kind asks for.
+struct PrimShape {
+    TriangleMesh mesh; ///< of meshes and implicit prims
+    CurveSet curves;
+    PointSet points;
+};
+
+/// Tessellates, cuts and displaces, or takes curves and points apart.
+PrimShape makeShape(const ShapeRequest& request, Diagnostics& diagnostics);
+
+/// The shapes of a scene's prims, made once for all who ask for the same, at any number of levels.
+/// Who needs them holds them; what nobody holds is forgotten. Thread safe.
 class CompiledShapes {
 public:
     explicit CompiledShapes(Diagnostics& diagnostics) : _diagnostics(diagnostics) {}
 
-    std::shared_ptr<const TriangleMesh> triangles(const ShapeRequest& request);
-    size_t made() const; ///< since this was made
+    std::shared_ptr<const PrimShape> shape(const ShapeRequest& request);
+    size_t made() const { return _shapes.count(); } ///< since this was made
 
 private:
-    using Triangles = std::shared_ptr<const TriangleMesh>;
-    struct Entry {
-        ShapeRequest request; ///< without the prim and materials once the triangles are made
-        std::weak_ptr<const TriangleMesh> made;
-        std::shared_future<Triangles> pending; ///< while a thread makes it
-        std::weak_ptr<const Geometry> prim;
-        std::vector<std::weak_ptr<const MaterialProgram>> displacers;
+    /// Holds neither prim nor materials: an edited mesh lives on only where it is shown.
+    class Key {
+    public:
+        Key(const ShapeRequest& request);
+        bool isOf(const ShapeRequest& request) const;
 
-        bool isOf(const ShapeRequest& wanted) const;
-        /// Holds prim and materials no longer: an edited mesh lives on only where it is shown.
-        void letGo();
+    private:
+        Reference<const Geometry> _prim;
+        std::array<double, 7> _numbers;
+        std::vector<Reference<const MaterialProgram>> _displacers; ///< empty: nothing is displaced
+        mat4 _toWorld;
     };
-    void forgetUnused();
 
     Diagnostics& _diagnostics;
-    mutable std::mutex _mutex;
-    std::multimap<const Geometry*, Entry> _entries;
-    size_t _made = 0, _forgetAt = 64; ///< so many entries are looked through
+    MadeOnce<ShapeRequest, Key, PrimShape> _shapes;
 };
 
 } // namespace patina

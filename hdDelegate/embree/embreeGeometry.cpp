@@ -11,21 +11,34 @@ void shareBuffer(RTCGeometry geometry, RTCBufferType type, unsigned slot, RTCFor
     rtcSetSharedGeometryBuffer(geometry, type, slot, format, data, 0, stride, count);
 }
 
-RTCGeometry makeTriangles(RTCDevice device, const TriangleMesh& mesh,
+void sharePoints(RTCGeometry geometry, const PlacedShape& placed) {
+    rtcSetGeometryTimeStepCount(geometry, unsigned(placed.points.size()));
+    for (size_t step = 0; step < placed.points.size(); ++step)
+        shareBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, unsigned(step), RTC_FORMAT_FLOAT4,
+                    placed.points[step].data(), sizeof(vec4), placed.points[step].size());
+}
+
+void shareNormals(RTCGeometry geometry, const PlacedShape& placed) {
+    for (size_t step = 0; step < placed.points.size(); ++step)
+        shareBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, unsigned(step), RTC_FORMAT_FLOAT3,
+                    placed.normals[std::min(step, placed.normals.size() - 1)].data(), sizeof(vec3),
+                    placed.points[step].size());
+}
+
+RTCGeometry makeTriangles(RTCDevice device, const std::vector<std::vector<vec3>>& positions,
                           const std::vector<uvec3>& triangles) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetGeometryTimeStepCount(geometry, unsigned(mesh.positions.size()));
-    for (size_t step = 0; step < mesh.positions.size(); ++step)
+    rtcSetGeometryTimeStepCount(geometry, unsigned(positions.size()));
+    for (size_t step = 0; step < positions.size(); ++step)
         shareBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, unsigned(step), RTC_FORMAT_FLOAT3,
-                    mesh.positions[step].data(), sizeof(vec3), mesh.positions[step].size());
+                    positions[step].data(), sizeof(vec3), positions[step].size());
     shareBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(),
                 sizeof(uvec3), triangles.size());
     return geometry;
 }
 
-RTCGeometryType curveType(const CurveSet& curves) {
-    const bool ribbon = !curves.normals.empty();
-    switch (curves.basis) {
+RTCGeometryType curveType(CurveBasis basis, bool ribbon) {
+    switch (basis) {
     case CurveBasis::Bezier:
         return ribbon ? RTC_GEOMETRY_TYPE_NORMAL_ORIENTED_BEZIER_CURVE
                       : RTC_GEOMETRY_TYPE_ROUND_BEZIER_CURVE;
@@ -39,36 +52,22 @@ RTCGeometryType curveType(const CurveSet& curves) {
     }
 }
 
-RTCGeometry makeCurves(RTCDevice device, const CurveSet& curves) {
-    RTCGeometry geometry = rtcNewGeometry(device, curveType(curves));
-    rtcSetGeometryTimeStepCount(geometry, unsigned(curves.controlPoints.size()));
-    for (size_t step = 0; step < curves.controlPoints.size(); ++step) {
-        shareBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, unsigned(step), RTC_FORMAT_FLOAT4,
-                    curves.controlPoints[step].data(), sizeof(vec4),
-                    curves.controlPoints[step].size());
-        if (!curves.normals.empty() && curves.basis != CurveBasis::Linear)
-            shareBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, unsigned(step), RTC_FORMAT_FLOAT3,
-                        curves.normals[std::min(step, curves.normals.size() - 1)].data(),
-                        sizeof(vec3), curves.controlPoints[step].size());
-    }
+RTCGeometry makeCurves(RTCDevice device, const CurveSet& curves, const PlacedShape& placed) {
+    const bool ribbon = !placed.normals.empty();
+    RTCGeometry geometry = rtcNewGeometry(device, curveType(curves.basis, ribbon));
+    sharePoints(geometry, placed);
+    if (ribbon && curves.basis != CurveBasis::Linear) shareNormals(geometry, placed);
     shareBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, curves.segments.data(),
                 sizeof(uint32_t), curves.segments.size());
     return geometry;
 }
 
-RTCGeometry makePoints(RTCDevice device, const PointSet& points) {
-    const bool disks = !points.normals.empty();
+RTCGeometry makePoints(RTCDevice device, const PlacedShape& placed) {
+    const bool disks = !placed.normals.empty();
     RTCGeometry geometry = rtcNewGeometry(device, disks ? RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT
                                                         : RTC_GEOMETRY_TYPE_SPHERE_POINT);
-    rtcSetGeometryTimeStepCount(geometry, unsigned(points.points.size()));
-    for (size_t step = 0; step < points.points.size(); ++step) {
-        shareBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, unsigned(step), RTC_FORMAT_FLOAT4,
-                    points.points[step].data(), sizeof(vec4), points.points[step].size());
-        if (disks)
-            shareBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, unsigned(step), RTC_FORMAT_FLOAT3,
-                        points.normals[std::min(step, points.normals.size() - 1)].data(),
-                        sizeof(vec3), points.points[step].size());
-    }
+    sharePoints(geometry, placed);
+    if (disks) shareNormals(geometry, placed);
     return geometry;
 }
 
@@ -86,14 +85,15 @@ RTCGeometry makeInstance(RTCDevice device, const Surface& surface) {
 
 RTCGeometry makeGeometry(RTCDevice device, const Surface& surface) {
     if (surface.shared) return makeInstance(device, surface);
-    const std::vector<uvec3>& triangles = surface.topology().triangles;
-    if (surface.shape == Surface::Shape::Triangles && !triangles.empty())
-        return makeTriangles(device, surface.mesh, triangles);
-    if (surface.shape == Surface::Shape::Curves && !surface.curves.segments.empty())
-        return makeCurves(device, surface.curves);
-    if (surface.shape == Surface::Shape::Points && !surface.points.points.empty() &&
-        !surface.points.points[0].empty())
-        return makePoints(device, surface.points);
+    const PrimShape& rest = *surface.rest;
+    const PlacedShape& placed = surface.placed;
+    if (surface.shape == Surface::Shape::Triangles && !rest.mesh.triangles.empty())
+        return makeTriangles(device, placed.positions, rest.mesh.triangles);
+    if (surface.shape == Surface::Shape::Curves && !rest.curves.segments.empty())
+        return makeCurves(device, rest.curves, placed);
+    if (surface.shape == Surface::Shape::Points && !placed.points.empty() &&
+        !placed.points[0].empty())
+        return makePoints(device, placed);
     return nullptr;
 }
 

@@ -234,6 +234,7 @@ void EmbreeGroup::updateSurfaces(RTCDevice device, const Surfaces& surfaces) {
 void EmbreeGroup::replace(RTCDevice device, const Surfaces& surfaces, const Nodes* nodes,
                           const std::atomic<bool>& stop) {
     changed = false;
+    _broken = true;
     _firstFree = 0;
     for (const auto& surface : surfaces) {
         const auto old = _surfaces.find(surface->prim->path);
@@ -320,7 +321,8 @@ void EmbreeGroup::updateNodes(RTCDevice device, const Nodes& nodes) {
 void EmbreeGroup::update(RTCDevice device, const Surfaces& surfaces, const Nodes& nodes,
                          bool interactive, const std::atomic<bool>& stop) {
     changed = false;
-    if (scene && (_cancelled || _interactive != interactive)) clear();
+    if (scene && (_broken || _interactive != interactive)) clear();
+    _broken = true;
     _interactive = interactive;
     _firstFree = 0;
     if (!scene) {
@@ -341,7 +343,7 @@ void EmbreeGroup::update(RTCDevice device, const Surfaces& surfaces, const Nodes
 
 void EmbreeGroup::commit(const std::atomic<bool>& stop) {
     if (changed) rtcCommitScene(scene);
-    _cancelled = changed && stop; // perhaps in the middle of the commit
+    _broken = changed && stop; // perhaps in the middle of the commit
 }
 
 } // namespace patina

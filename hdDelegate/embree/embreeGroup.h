@@ -103,7 +103,8 @@ private:
     std::map<std::string, SurfaceMember> _surfaces; ///< by path; only what has geometry
     std::map<std::string, NodeMember> _nodes;       ///< by path; only what has instances
     size_t _firstFree = 0;                          ///< no id below is free
-    bool _interactive = false, _cancelled = false;
+    bool _interactive = false;
+    bool _broken = false; ///< an update was stopped or ran out of memory: the next starts anew
 };
 
 /// What Embree takes, in debugging builds on pain of death: no NaN, no distance below 0, numbers

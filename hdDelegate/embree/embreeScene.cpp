@@ -13,11 +13,6 @@ namespace patina {
 
 namespace {
 
-void onEmbreeError(void* user, RTCError code, const char* text) {
-    if (code != RTC_ERROR_NONE && code != RTC_ERROR_CANCELLED)
-        static_cast<Diagnostics*>(user)->warn("Embree", "", text ? text : "unknown error");
-}
-
 bool onEmbreeMemory(void* user, ssize_t bytes, bool) {
     *static_cast<std::atomic<int64_t>*>(user) += bytes;
     return true;
@@ -30,16 +25,16 @@ bool emits(const Surface& surface) {
                        [](const auto& m) { return m.program->hasEmission(); });
 }
 
+/// @param keepsRest what is placed stands once more in the prim's own space
 size_t bytesOf(const Surface& surface, bool keepsRest) {
     size_t total = trianglesOf(surface) * sizeof(uvec3);
     const auto add = [&](const auto& steps) {
         for (const auto& step : steps)
             total += step.capacity() * sizeof(step[0]) * (keepsRest ? 2 : 1);
     };
-    add(surface.mesh.positions);
-    add(surface.mesh.normals);
-    add(surface.curves.controlPoints);
-    add(surface.points.points);
+    add(surface.placed.positions);
+    add(surface.placed.points);
+    add(surface.placed.normals);
     for (const MeshAttribute& attribute : surface.attributes())
         total += attribute.data.size() * sizeof(float);
     return total;
@@ -48,13 +43,21 @@ size_t bytesOf(const Surface& surface, bool keepsRest) {
 } // namespace
 
 size_t trianglesOf(const Surface& surface) {
-    return surface.rest ? surface.rest->triangles.size() : 0;
+    return surface.rest ? surface.rest->mesh.triangles.size() : 0;
+}
+
+void EmbreeScene::onError(void* self, RTCError code, const char* text) {
+    EmbreeScene& scene = *static_cast<EmbreeScene*>(self);
+    if (code == RTC_ERROR_OUT_OF_MEMORY)
+        scene._outOfMemory = true;
+    else if (code != RTC_ERROR_NONE && code != RTC_ERROR_CANCELLED)
+        scene._diagnostics.warn("Embree", "", text ? text : "unknown error");
 }
 
 EmbreeScene::EmbreeScene(CompiledScene& compiled)
     : _compiled(compiled), _diagnostics(compiled.scene()->diagnostics()) {
     _device = rtcNewDevice(nullptr);
-    rtcSetDeviceErrorFunction(_device, onEmbreeError, &_diagnostics);
+    rtcSetDeviceErrorFunction(_device, onError, this);
     rtcSetDeviceMemoryMonitorFunction(_device, onEmbreeMemory, &_embreeBytes);
 }
 
@@ -78,15 +81,24 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
     const auto edits = sameView && sameParts ? _compiled.editsSince(_version, state) : std::nullopt;
     _complete = false;
     _origin = origin;
-    RenderSettings planned = settings;
     const CameraRays rays(camera, settings, origin);
-    View view{state, camera, planned, rays, stop, {}, nullptr};
-    planned.edgeLength = _edgeLength;
+    const ScreenScale screen = screenScale(camera, settings, origin);
+    View view{state, camera, settings, rays, screen, stop, {}, nullptr};
     if (!edits || !updateTouched(view, *edits)) {
-        planned.edgeLength = settings.edgeLength;
-        planned.edgeLength = _edgeLength = planSubdivision(view);
+        _subdivision =
+            _compiled.subdivision().of(state, *_parts.placements, camera, settings);
         updateAll(view);
         _lightsMayDiffer = true;
+    }
+    if (_outOfMemory.exchange(false)) { // Embree throws nothing; which structures lack it is unknown
+        _world = nullptr;
+        _nodes.clear();
+        _groups.clear();
+        _surfacesOf.clear();
+        _emitting.clear();
+        _surfaces.clear();
+        _shapes.clear();
+        throw std::bad_alloc();
     }
     _complete = !stop;
     _version = state.version;
@@ -98,7 +110,7 @@ EmbreeScene::Work EmbreeScene::workOf(const std::shared_ptr<const Geometry>& pri
                                       CachedSurface& cached, int rank, View& view) {
     Work work{prim, &cached, 0.0f, rank, displacers(*prim, view), std::nullopt};
     const bool displaced = !work.displacers.empty();
-    work.edge = targetEdge(*prim, displaced, view);
+    work.edge = targetEdge(cached, prim, displaced, view);
     // Prims of prototypes are shared already, and Embree may know a single level of instances.
     // Lights are made of the triangles that there are, and displacement of many.
     if (prim->kind == GeometryKind::Implicit && prim->group.empty() && !displaced &&
@@ -151,7 +163,7 @@ void EmbreeScene::describe(CachedSurface& cached, const View& view) {
         _emitting[prim.path] = &cached;
     else
         _emitting.erase(prim.path);
-    cached.bytes = bytesOf(surface, cached.rest != nullptr);
+    cached.bytes = bytesOf(surface, cached.keepsRest);
     _translucent += cached.opaque ? 0 : 1;
     _withMedia += cached.hasMedia ? 1 : 0;
     _surfaceBytes += cached.bytes;
@@ -226,18 +238,12 @@ void EmbreeScene::updateAll(View& view) {
         for (const auto& instancer : _parts.placements->in(group))
             _instanceCount += instancer->transforms.size();
 
-    const auto volumeProgram = [&](const Volume& prim, const Network& plain) {
-        if (!prim.material.empty()) {
-            auto own = program(prim.material, prim.path, view);
-            if (own->hasInterior()) return own;
-            _diagnostics.warn(prim.path, "material:binding",
-                              "the material is not a volume; a white one is shown");
-        }
-        if (!_plainVolume) _plainVolume = _compiled.materials().compile(plain);
-        return _plainVolume;
+    const auto mediumOf = [&](const std::shared_ptr<const Volume>& prim) {
+        if (state.materials.count(prim->material)) program(prim->material, prim->path, view);
+        return _compiled.volumes().medium(prim, state, view.settings);
     };
     _volumes.update(
-        volumes, volumeProgram, [&](const std::string& group) { return groupTransforms(group); },
+        volumes, mediumOf, [&](const std::string& group) { return groupTransforms(group); },
         _shutterOpen, _origin, _diagnostics);
     takeBounds();
     collectEmissive();
@@ -280,7 +286,7 @@ ScenePlan EmbreeScene::plan() const {
     ScenePlan plan;
     for (const auto& item : _programs)
         plan.add(item.first, item.second.program->planned());
-    plan.add(_subdivision);
+    plan.add(_subdivision.method);
     return plan;
 }
 

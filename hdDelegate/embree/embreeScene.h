@@ -55,6 +55,7 @@ public:
     /// @param stop is polled; the build gives up early when it becomes true
     /// @param origin in the world: all places and rays are relative to it, those of instances
     /// inside of groups aside
+    /// @throws std::bad_alloc; the next update makes whole what this one did not
     void update(const SceneState& state, const Camera& camera, const RenderSettings& settings,
                 const std::atomic<bool>& stop, const dvec3& origin = dvec3(0.0));
     /// Whether the last update may have changed what lights are made from.
@@ -108,9 +109,10 @@ private:
         std::optional<ShapeKey> key;
         std::shared_ptr<const SharedShape> shared;
         std::shared_ptr<Surface> surface;
-        std::shared_ptr<const RestShape> rest; ///< for interactive renders
-        int rank = 0;                          ///< of the path among all, drawn or not
-        size_t member = 0;                     ///< index in _surfacesOf
+        std::shared_ptr<const PrimExtent> extent; ///< of `prim`; null where nobody has asked
+        bool keepsRest = false; ///< Surface::rest has all, so that a move is no new shape
+        int rank = 0;           ///< of the path among all, drawn or not
+        size_t member = 0;      ///< index in _surfacesOf
         bool opaque = true, hasMedia = false, emits = false;
         size_t bytes = 0;
     };
@@ -128,13 +130,15 @@ private:
     struct View {
         const SceneState& state;
         const Camera& camera;
-        const RenderSettings& settings; ///< edgeLength: as planned
+        const RenderSettings& settings;
         const CameraRays& rays;
+        const ScreenScale& screen;
         const std::atomic<bool>& stop;
         std::map<std::string, std::vector<mat4>> transformsOf; ///< by group, of those asked for
         /// By group: the surfaces that differ from the last update's. Null: all of them may.
         const Members* changed = nullptr;
     };
+    static void onError(void* self, RTCError code, const char* text);
     void updateAll(View& view);
     /// @returns false where more than prims in their places has changed: nothing is done then
     bool updateTouched(View& view, const SceneEdits& edits);
@@ -155,13 +159,12 @@ private:
                                                    const View& view);
     /// The programs of a prim's materials as displace() takes them; empty when none displaces.
     Programs displacers(const Geometry& prim, const View& view);
-    /// Chooses how long edges of subdivision surfaces are on screen. @returns pixels
-    float planSubdivision(const View& view);
     /// How long the edges of a tessellated prim may be, in its own space: --edgeLength pixels where
     /// it is nearest, rounded to a power of two so that small moves of the camera change nothing.
     /// 0: it is drawn as it is.
     /// @param displaced it has a material that moves its points
-    float targetEdge(const Geometry& prim, bool displaced, View& view) const;
+    float targetEdge(CachedSurface& cached, const std::shared_ptr<const Geometry>& prim,
+                     bool displaced, View& view);
     /// The roundEdge of an implicit prim of the world, see TessellationOptions. 0: all segments.
     float roundEdge(const Implicit& prim, const View& view) const;
     /// Whether a material of a prim makes it a light.
@@ -198,11 +201,10 @@ private:
     uint64_t _version = 0;
     Camera _camera;
     RenderSettings _settings; ///< as asked for
-    float _edgeLength = 0.0f; ///< planned
     SharedShapes _shapes;
     std::map<std::string, CachedSurface> _surfaces;
     std::map<std::string, CachedProgram> _programs;
-    PlannedMethod _subdivision; ///< of this update; without a name where nothing was planned
+    Subdivision _subdivision; ///< of the last update
     std::map<std::string, std::unique_ptr<EmbreeGroup>> _groups; ///< by name; "" is the world
     Members _surfacesOf;
     std::map<std::string, const CachedSurface*> _emitting; ///< by path
@@ -216,12 +218,12 @@ private:
     EmbreeGroup* _world = nullptr;
     std::vector<const Surface*> _emissive;
     VolumeScene _volumes;
-    std::shared_ptr<const MaterialProgram> _plainVolume;
     float _shutterOpen = 0.0f, _shutterClose = 0.0f;
     dvec3 _origin{0.0}, _builtFrom{0.0}; ///< of the last update; of what is cached
     size_t _translucent = 0, _withMedia = 0, _surfaceBytes = 0; ///< of all surfaces
     bool _lightsMayDiffer = true;
     mutable std::atomic<bool> _toldOfRays{false};
+    std::atomic<bool> _outOfMemory{false}; ///< of Embree, since the last update began
     vec3 _boundsMin{0.0f}, _boundsMax{0.0f};
     size_t _trianglesStored = 0, _instanceCount = 0;
 };

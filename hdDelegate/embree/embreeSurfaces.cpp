@@ -13,76 +13,26 @@
 
 namespace patina {
 
-namespace {
-
-float maxScale(const mat4& m) {
-    return std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
-}
-
-} // namespace
-
-float EmbreeScene::planSubdivision(const View& view) {
-    const CameraRays& rays = view.rays;
-    const RenderSettings& settings = view.settings;
-    const ScreenScale screen{vec3(glm::inverse(rays.worldToCamera())[3]), !rays.orthographic(),
-                             rays.pixelSpread(), rays.camera().clipNear,
-                             double(settings.width) * settings.height};
-    SubdivisionPlan plan(settings, screen);
-    for (const auto& item : view.state.geometry) {
-        const Geometry& prim = *item.second;
-        if (!plan.isActive() || !subdivides(prim) || !isDrawn(prim, settings)) continue;
-        std::vector<mat4> places = groupTransforms(prim.group);
-        for (mat4& place : places)
-            place = place * interpolate(prim.transform, 0.0f, originOf(prim.group));
-        plan.add(CageSize(static_cast<const Mesh&>(prim)), places,
-                 program(prim.material, prim.path, view)->planned());
-    }
-    _subdivision = plan.chosen();
-    return plan.edgeLength();
-}
-
-float EmbreeScene::targetEdge(const Geometry& prim, bool displaced, View& view) const {
-    const CameraRays& rays = view.rays;
-    const RenderSettings& settings = view.settings;
-    const bool refined = subdivides(prim);
-    if ((!displaced && !refined) || !(settings.edgeLength > 0.0f)) return 0.0f;
-    vec3 lower(INFINITY), upper(-INFINITY);
-    if (prim.kind == GeometryKind::Implicit) {
-        const Implicit& shape = static_cast<const Implicit&>(prim);
-        upper = vec3(0.5f * std::max({2.0f * shape.radius, 2.0f * shape.radiusTop, shape.height,
-                                      shape.size}));
-        lower = -upper;
-    } else if (const Mesh& mesh = static_cast<const Mesh&>(prim); !mesh.points.empty()) {
-        for (const vec3& p : mesh.points.first())
-            if (std::isfinite(p.x + p.y + p.z)) {
-                lower = glm::min(lower, p);
-                upper = glm::max(upper, p);
-            }
-    }
-    auto places = view.transformsOf.find(prim.group);
+float EmbreeScene::targetEdge(CachedSurface& cached, const std::shared_ptr<const Geometry>& prim,
+                              bool displaced, View& view) {
+    const bool refined = subdivides(*prim);
+    const float pixels = _subdivision.edgeOf(displaced);
+    if ((!displaced && !refined) || !(pixels > 0.0f)) return 0.0f;
+    cached.extent = _compiled.extents().of(prim);
+    const PrimExtent& extent = *cached.extent;
+    if (extent.empty) return 0.0f;
+    auto places = view.transformsOf.find(prim->group);
     if (places == view.transformsOf.end())
-        places = view.transformsOf.emplace(prim.group, groupTransforms(prim.group)).first;
-    const vec3 eye = vec3(glm::inverse(rays.worldToCamera())[3]);
+        places = view.transformsOf.emplace(prim->group, groupTransforms(prim->group)).first;
     float edge = 0.0f;
     for (const mat4& place : places->second) {
-        const mat4 m = place * interpolate(prim.transform, 0.0f, originOf(prim.group));
-        const float scale = maxScale(m);
-        const vec3 center = vec3(m * vec4(0.5f * (lower + upper), 1.0f));
-        const float radius = 0.5f * glm::length(upper - lower) * scale;
-        const float distance = rays.orthographic() ? 1.0f
-                                                   : std::max(view.camera.clipNear,
-                                                              glm::length(center - eye) - radius);
-        // Displacement shows more of itself on shorter edges, which no row of the table is of.
-        const float asked = displaced && !_subdivision.forced && !_subdivision.point.empty()
-                                ? std::min(settings.edgeLength, SubdivisionPlan::standardEdge)
-                                : settings.edgeLength;
-        const float wanted = asked * rays.pixelSpread() * distance / scale;
+        const mat4 m = place * interpolate(prim->transform, 0.0f, originOf(prim->group));
+        const float wanted = pixels * view.screen.unit(m, extent.center(), extent.radius());
         if (std::isfinite(wanted) && wanted > 0.0f)
             edge = edge > 0.0f ? std::min(edge, wanted) : wanted;
     }
     // Far away a cage of few faces would stay as it is: up to twice as wide as its surface.
-    if (refined && prim.kind == GeometryKind::Mesh && edge > 0.0f && upper.x >= lower.x)
-        edge = std::min(edge, 0.25f * glm::length(upper - lower));
+    if (refined && edge > 0.0f) edge = std::min(edge, 0.5f * extent.radius());
     return edge > 0.0f ? std::exp2(std::floor(std::log2(edge))) : 0.0f;
 }
 
@@ -91,57 +41,35 @@ std::shared_ptr<Surface> EmbreeScene::shape(const std::shared_ptr<const Geometry
                                             bool keepRest) const {
     auto surface = std::make_shared<Surface>();
     surface->prim = prim;
-    TessellationOptions options;
-    options.shutterOpen = _shutterOpen;
-    options.shutterClose = _shutterClose;
-    options.targetEdge = edgeLength;
-    if (displacers.empty()) options.roundEdge = edgeLength;
-    switch (prim->kind) {
-    case GeometryKind::Mesh:
-    case GeometryKind::Implicit: {
-        ShapeRequest request{prim, options, displacers};
-        if (!displacers.empty()) {
-            const auto transforms = resample(prim->transform, _shutterOpen, _shutterClose);
-            request.toWorld = transforms[transforms.size() / 2];
-        }
-        if (keepRest) {
-            surface->rest = _compiled.shapes().triangles(request);
-            surface->mesh.positions = surface->rest->positions;
-            surface->mesh.normals = surface->rest->normals;
-        } else {
-            TriangleMesh mesh = makeTriangles(request, _diagnostics);
-            surface->mesh.positions = std::move(mesh.positions);
-            surface->mesh.normals = std::move(mesh.normals);
-            surface->rest = std::make_shared<const TriangleMesh>(std::move(mesh));
-        }
-        break;
-    }
-    case GeometryKind::Curves:
-        surface->shape = Surface::Shape::Curves;
-        surface->curves = buildCurves(static_cast<const Curves&>(*prim), options, _diagnostics);
-        break;
-    case GeometryKind::Points:
-        surface->shape = Surface::Shape::Points;
-        surface->points = buildPoints(static_cast<const Points&>(*prim), options, _diagnostics);
-        break;
-    case GeometryKind::Volume: break; // no surface, see VolumeScene
+    surface->shape = prim->kind == GeometryKind::Curves   ? Surface::Shape::Curves
+                     : prim->kind == GeometryKind::Points ? Surface::Shape::Points
+                                                          : Surface::Shape::Triangles;
+    ShapeRequest request{prim, {}, displacers};
+    request.options.shutterOpen = _shutterOpen;
+    request.options.shutterClose = _shutterClose;
+    request.options.targetEdge = edgeLength;
+    if (displacers.empty()) request.options.roundEdge = edgeLength;
+    request.toWorld = displacementSpace(*prim, 0.5f * (_shutterOpen + _shutterClose));
+    if (keepRest) {
+        surface->rest = _compiled.shapes().shape(request);
+        surface->placed = atRest(*surface->rest);
+    } else {
+        PrimShape shape = makeShape(request, _diagnostics);
+        surface->placed = takeAtRest(shape);
+        surface->rest = std::make_shared<const PrimShape>(std::move(shape));
     }
     surface->stAttribute = surface->findAttribute("st");
     return surface;
 }
 
 float EmbreeScene::roundEdge(const Implicit& prim, const View& view) const {
-    const CameraRays& rays = view.rays;
+    const ScreenScale& screen = view.screen;
     // Half of what one of 64 samples counts in a pixel that the outline crosses.
     constexpr float gap = 1.0f / 128.0f; // pixels between an outline and its segments
     const float radius = std::max({prim.radius, prim.radiusTop, 0.0f});
     const float across = std::max({radius, 0.5f * prim.height, 0.5f * prim.size});
-    const vec3 eye = vec3(glm::inverse(rays.worldToCamera())[3]);
     const mat4 m = interpolate(prim.transform, 0.0f, _origin);
-    const float scale = maxScale(m);
-    const float away = glm::length(vec3(m[3]) - eye) - 2.0f * across * scale;
-    const float distance = rays.orthographic() ? 1.0f : std::max(view.camera.clipNear, away);
-    const float pixel = rays.pixelSpread() * distance / scale;
+    const float pixel = screen.unit(m, vec3(0.0f), 2.0f * across);
     // A segment of length s lies s^2 / 8 r inside of a circle, and two thirds of that inside of one
     // that its polygon is as wide as in the mean, which is how coarse shapes are made.
     const float edge = std::sqrt(12.0f * gap * std::max(pixel, 0.0f) * radius);
@@ -176,7 +104,7 @@ EmbreeScene::shape(const std::shared_ptr<const Geometry>& prim,
         MeshAttribute attribute;
         if (primvar.name != "normals" &&
             expandConstant(primvar, prim->path, _diagnostics, attribute))
-            surface->mesh.attributes.push_back(std::move(attribute));
+            surface->own.push_back(std::move(attribute));
     }
     surface->stAttribute = surface->findAttribute("st");
     return surface;
@@ -196,17 +124,18 @@ void EmbreeScene::updateSurface(const Work& work, bool keepRest) {
         return;
     }
     std::shared_ptr<Surface> surface;
+    Programs displacers = work.displacers; // what runs out of memory does so before `cached` changes
+    bool keepsRest = !shared && cached.keepsRest;
     if (shared) {
         surface = shape(prim, shared);
-        cached.rest = nullptr;
-    } else if (reshape || cached.shared || !cached.rest) {
+    } else if (reshape || cached.shared || !cached.keepsRest) {
         surface = shape(prim, work.edge, work.displacers, keepRest);
-        cached.rest = keepRest ? std::make_shared<const RestShape>(restOf(*surface)) : nullptr;
+        keepsRest = keepRest;
         ++_counts.tessellated;
     } else {
         surface = std::make_shared<Surface>(*cached.surface);
         surface->prim = prim;
-        restore(*cached.rest, *surface);
+        surface->placed = atRest(*surface->rest);
     }
     if (!shared)
         bake(*surface,
@@ -215,7 +144,8 @@ void EmbreeScene::updateSurface(const Work& work, bool keepRest) {
     cached.surface = std::move(surface);
     cached.edgeLength = work.edge;
     cached.shared = shared;
-    cached.displacers = work.displacers;
+    cached.displacers = std::move(displacers);
+    cached.keepsRest = keepsRest;
     cached.prim = prim;
 }
 
@@ -248,8 +178,9 @@ EmbreeScene::Programs EmbreeScene::displacers(const Geometry& prim, const View& 
     bool any = false;
     Programs result;
     const auto add = [&](const std::string& path) {
-        result.push_back(mayDisplace(path) ? program(path, prim.path, view) : nullptr);
-        any |= result.back() && result.back()->hasDisplacement();
+        const auto own = mayDisplace(path) ? program(path, prim.path, view) : nullptr;
+        result.push_back(own && own->hasDisplacement() ? own : nullptr);
+        any |= result.back() != nullptr;
     };
     add(prim.material);
     for (const GeomSubset& subset : prim.subsets)

@@ -29,7 +29,7 @@ double areaOf(const Surface& surface, const mat4& place) {
     for (const uvec3& t : surface.topology().triangles) {
         vec3 p[3];
         for (int k = 0; k < 3; ++k)
-            p[k] = vec3(place * vec4(surface.mesh.positions[0][t[k]], 1.0f));
+            p[k] = vec3(place * vec4(surface.placed.positions[0][t[k]], 1.0f));
         area += 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
     }
     return area;
@@ -131,7 +131,7 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
             LightTriangle triangle;
             for (int k = 0; k < 3; ++k)
                 triangle.vertices[k] =
-                    vec3(place * vec4(surface.mesh.positions[0][triangles[t][k]], 1.0f));
+                    vec3(place * vec4(surface.placed.positions[0][triangles[t][k]], 1.0f));
             // One-sided triangles shine along their winding; a mirroring transform turned it.
             const bool mirrored =
                 surface.flipNormals != (glm::determinant(glm::mat3(place)) < 0.0f);

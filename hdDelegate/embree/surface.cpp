@@ -42,9 +42,9 @@ struct Local {
 
 Local triangleLocal(const Hit& hit) {
     const Surface& surface = *hit.surface;
-    const TriangleMesh &mesh = surface.topology(), &placed = surface.placed();
+    const TriangleMesh& mesh = surface.topology();
     const uvec3 tri = mesh.triangles[hit.primitive];
-    const auto positions = stepsAt(placed.positions, hit.time);
+    const auto positions = stepsAt(surface.positions(), hit.time);
     const vec3 p[3] = {positions.at(tri.x), positions.at(tri.y), positions.at(tri.z)};
     const float w = 1.0f - hit.u - hit.v;
     Local local;
@@ -54,8 +54,8 @@ Local triangleLocal(const Hit& hit) {
     if (surface.flipNormals) ng = -ng;
     local.geometricNormal = safeNormalize(ng, vec3(0, 0, 1));
     local.normal = local.geometricNormal;
-    if (!placed.normals.empty()) {
-        const auto normals = stepsAt(placed.normals, hit.time);
+    if (!surface.normals().empty()) {
+        const auto normals = stepsAt(surface.normals(), hit.time);
         vec3 n;
         if (mesh.normalRate == MeshAttribute::Rate::PerCorner) {
             const size_t c = size_t(hit.primitive) * 3;
@@ -90,8 +90,8 @@ Local curveLocal(const Hit& hit, const vec3& position) {
     local.position = position;
     local.geometricNormal = local.normal = safeNormalize(hit.groupNormal, vec3(0, 0, 1));
     if (hit.surface->shape != Surface::Shape::Curves) return local;
-    const CurveSet& curves = hit.surface->curves;
-    const auto points = stepsAt(curves.controlPoints, hit.time);
+    const CurveSet& curves = hit.surface->rest->curves;
+    const auto points = stepsAt(hit.surface->placed.points, hit.time);
     const size_t first = curves.segments[hit.primitive];
     const int count = curves.basis == CurveBasis::Linear ? 2 : 4;
     const vec4 slopes = basisSlopes(curves.basis, hit.u),
@@ -142,23 +142,24 @@ mat4 Surface::placeAt(float time) const {
 
 const MaterialSlot& Surface::material(unsigned primitive) const {
     const auto& subsets = shape == Shape::Triangles ? topology().triangleSubset
-                          : shape == Shape::Curves  ? curves.segmentSubset
-                                                    : points.pointSubset;
+                          : shape == Shape::Curves  ? rest->curves.segmentSubset
+                                                    : rest->points.pointSubset;
     const size_t subset = primitive < subsets.size() ? subsets[primitive] : 0;
     return materials[subset < materials.size() ? subset : 0];
 }
 
 int Surface::element(unsigned primitive) const {
     if (shape == Shape::Triangles) return topology().triangleFace[primitive];
-    return shape == Shape::Curves ? curves.segmentCurve[primitive] : points.pointIndex[primitive];
+    return shape == Shape::Curves ? rest->curves.segmentCurve[primitive]
+                                  : rest->points.pointIndex[primitive];
 }
 
 bool readAttribute(const Surface& surface, int attribute, unsigned primitive, float u, float v,
                    float out[4]) {
     const MeshAttribute& a = surface.attribute(attribute);
     switch (surface.shape) {
-    case Surface::Shape::Curves: return evalAttribute(surface.curves, a, primitive, u, out);
-    case Surface::Shape::Points: return evalAttribute(surface.points, a, primitive, out);
+    case Surface::Shape::Curves: return evalAttribute(surface.rest->curves, a, primitive, u, out);
+    case Surface::Shape::Points: return evalAttribute(surface.rest->points, a, primitive, out);
     default: return evalAttribute(surface.topology(), a, primitive, u, v, out);
     }
 }
@@ -215,7 +216,8 @@ void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& directi
     }
     s.viewDirection = -direction;
     // Ribbons and disks are seen from both sides alike.
-    const bool flat = !surface.curves.normals.empty() || !surface.points.normals.empty();
+    const bool flat =
+        surface.shape != Surface::Shape::Triangles && !surface.placed.normals.empty();
     if (flat && glm::dot(s.geometricNormal, s.viewDirection) < 0.0f) {
         s.geometricNormal = -s.geometricNormal;
         s.normal = -s.normal;

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "hdDelegate/compiled/compiledShapes.h"
 #include "hdDelegate/compiled/instanceValues.h"
 #include "hdDelegate/embree/sharedShapes.h"
-#include "hdDelegate/geometry/triangleMesh.h"
 #include "hdDelegate/scene/geometry.h"
 #include "materialNetwork/cpu/materialProgram.h"
 #include "materialNetwork/shadingPoint.h"
@@ -18,19 +18,25 @@ struct MaterialSlot {
     bool opaque = true;          ///< opacity is 1 everywhere on this prim
 };
 
-/// A prim made ready for rays. Positions and normals are those of its group's space (world space
-/// for prims that are not instanced).
+/// What rays meet of a prim, in its group's space (world space for prims that are not instanced),
+/// at each time step.
+struct PlacedShape {
+    std::vector<std::vector<vec3>> positions; ///< of triangles
+    std::vector<std::vector<vec4>> points;    ///< with radii: of curves' control points, of points
+    std::vector<std::vector<vec3>> normals;   ///< of each of these
+};
+
+/// A prim made ready for rays.
 struct Surface {
     std::shared_ptr<const Geometry> prim;
-    /// Topology and values of triangles, which the rasterizer may draw too; and, in interactive
-    /// renders, positions and normals in the prim's own space. Null for other shapes.
-    std::shared_ptr<const TriangleMesh> rest;
-    TriangleMesh mesh; ///< positions and normals
-    CurveSet curves;
-    PointSet points;
-    /// Of one implicit prim among many: the triangles stand here, `mesh` has no more than what is
-    /// the prim's own, and its hits are those of an instance.
+    /// Topology and values, which the rasterizer may draw too; and, in interactive renders, what
+    /// PlacedShape has, in the prim's own space. Null where `shared` is not.
+    std::shared_ptr<const PrimShape> rest;
+    PlacedShape placed;
+    /// Of one implicit prim among many: the triangles stand here, and its hits are those of an
+    /// instance.
     std::shared_ptr<const SharedShape> shared;
+    std::vector<MeshAttribute> own;      ///< what a prim with a shared shape has of values
     std::vector<mat4> places;            ///< from the shared shape to the group, at uniform steps
     std::vector<MaterialSlot> materials; ///< [0] the prim's, [i + 1] that of subset i
     mat4 groupToObject{1.0f};            ///< at the middle of the shutter
@@ -43,14 +49,20 @@ struct Surface {
     enum class Shape { Triangles, Curves, Points } shape = Shape::Triangles;
 
     const std::vector<MeshAttribute>& attributes() const {
-        return shape == Shape::Triangles ? (rest ? rest->attributes : mesh.attributes)
-               : shape == Shape::Curves  ? curves.attributes
-                                         : points.attributes;
+        return shared                    ? own
+               : shape == Shape::Triangles ? rest->mesh.attributes
+               : shape == Shape::Curves    ? rest->curves.attributes
+                                           : rest->points.attributes;
     }
-    /// Where positions and normals stand.
-    const TriangleMesh& placed() const { return shared ? shared->mesh : mesh; }
+    /// Positions and normals of triangles.
+    const std::vector<std::vector<vec3>>& positions() const {
+        return shared ? shared->mesh.positions : placed.positions;
+    }
+    const std::vector<std::vector<vec3>>& normals() const {
+        return shared ? shared->mesh.normals : placed.normals;
+    }
     /// Where triangles, faces and values stand.
-    const TriangleMesh& topology() const { return rest ? *rest : shared ? shared->mesh : mesh; }
+    const TriangleMesh& topology() const { return shared ? shared->mesh : rest->mesh; }
     mat4 placeAt(float time) const; ///< of a shared shape. @param time 0..1 over the shutter
     int findAttribute(const std::string& name) const;
     const MeshAttribute& attribute(int index) const; ///< of findAttribute()

@@ -48,20 +48,20 @@ mat4 transformAtStep(const std::vector<mat4>& transforms, int step, int count) {
     return f == 0.0f ? transforms[i] : transforms[i] * (1.0f - f) + transforms[i + 1] * f;
 }
 
-RestShape restOf(const Surface& surface) {
-    return {surface.curves.controlPoints, surface.curves.normals, surface.points.points,
-            surface.points.normals};
+PlacedShape atRest(const PrimShape& shape) {
+    const CurveSet& curves = shape.curves;
+    if (!curves.controlPoints.empty()) return {{}, curves.controlPoints, curves.normals};
+    if (!shape.points.points.empty()) return {{}, shape.points.points, shape.points.normals};
+    return {shape.mesh.positions, {}, shape.mesh.normals};
 }
 
-void restore(const RestShape& rest, Surface& surface) {
-    if (surface.rest) {
-        surface.mesh.positions = surface.rest->positions;
-        surface.mesh.normals = surface.rest->normals;
-    }
-    surface.curves.controlPoints = rest.controlPoints;
-    surface.curves.normals = rest.curveNormals;
-    surface.points.points = rest.points;
-    surface.points.normals = rest.pointNormals;
+PlacedShape takeAtRest(PrimShape& shape) {
+    CurveSet& curves = shape.curves;
+    PointSet& points = shape.points;
+    if (!curves.controlPoints.empty())
+        return {{}, std::move(curves.controlPoints), std::move(curves.normals)};
+    if (!points.points.empty()) return {{}, std::move(points.points), std::move(points.normals)};
+    return {std::move(shape.mesh.positions), {}, std::move(shape.mesh.normals)};
 }
 
 void bake(Surface& surface, const std::vector<mat4>& transforms) {
@@ -88,12 +88,9 @@ void bake(Surface& surface, const std::vector<mat4>& transforms) {
         const float length = glm::length(t);
         return length > 0.0f ? t / length : vec3(0, 0, 1);
     };
-    bakePositions(surface.mesh.positions, point);
-    bakePositions(surface.mesh.normals, normal);
-    bakePositions(surface.curves.controlPoints, sphere);
-    bakePositions(surface.curves.normals, normal);
-    bakePositions(surface.points.points, sphere);
-    bakePositions(surface.points.normals, normal);
+    bakePositions(surface.placed.positions, point);
+    bakePositions(surface.placed.points, sphere);
+    bakePositions(surface.placed.normals, normal);
     surface.flipNormals = glm::determinant(mat3(transforms[0])) < 0.0f;
     surface.groupToObject = glm::inverse(transforms[transforms.size() / 2]);
 }

@@ -4,17 +4,10 @@
 
 namespace patina {
 
-/// Positions and normals in object space, for prims that may be moved often; those of triangles
-/// are in Surface::rest.
-struct RestShape {
-    std::vector<std::vector<vec4>> controlPoints;
-    std::vector<std::vector<vec3>> curveNormals;
-    std::vector<std::vector<vec4>> points;
-    std::vector<std::vector<vec3>> pointNormals;
-};
-
-RestShape restOf(const Surface& surface);              ///< before bake()
-void restore(const RestShape& rest, Surface& surface); ///< undoes bake()
+/// What there is to place of a shape, in the prim's own space.
+PlacedShape atRest(const PrimShape& shape);
+/// The same, which the shape then lacks.
+PlacedShape takeAtRest(PrimShape& shape);
 
 /// A motion transform at uniform steps over the shutter; a single step where it stands still.
 /// @param origin of the space that it is wanted in, see seenFrom()
@@ -24,7 +17,7 @@ std::vector<mat4> resample(const MotionTransform& transform, float open, float c
 /// Step `step` of `count` of transforms that resample() made.
 mat4 transformAtStep(const std::vector<mat4>& transforms, int step, int count);
 
-/// Moves positions and normals into the group's space, at every time step.
+/// Moves what is at rest into the group's space, at every time step.
 void bake(Surface& surface, const std::vector<mat4>& transforms);
 
 } // namespace patina

@@ -62,60 +62,17 @@ double rowError(const std::string& method, const char* kind, double roughness, d
 
 } // namespace
 
-bool subdivides(const Geometry& prim) {
-    return prim.kind == GeometryKind::Mesh &&
-           static_cast<const Mesh&>(prim).scheme != SubdivisionScheme::None;
-}
-
-CageSize::CageSize(const Mesh& mesh) {
-    if (mesh.points.empty()) return;
-    const std::vector<vec3>& points = mesh.points.first();
-    low = vec3(INFINITY);
-    high = vec3(-INFINITY);
-    for (const vec3& p : points)
-        if (std::isfinite(p.x + p.y + p.z)) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
-    if (!(low.x <= high.x)) {
-        low = high = vec3(0.0f);
-        return;
-    }
-    const vec3 center = 0.5f * (low + high);
-    const auto at = [&](size_t corner) {
-        const int i = mesh.faceVertexIndices[corner];
-        return i >= 0 && size_t(i) < points.size() ? points[size_t(i)] - center : vec3(0.0f);
-    };
-    double sum = 0.0, volume = 0.0;
-    size_t first = 0;
-    for (const int count : mesh.faceVertexCounts) {
-        if (count < 0 || first + size_t(count) > mesh.faceVertexIndices.size()) break;
-        for (size_t k = 2; k < size_t(count); ++k) {
-            const vec3 a = at(first), b = at(first + k - 1), c = at(first + k);
-            sum += 0.5 * double(glm::length(glm::cross(b - a, c - a)));
-            volume += double(glm::dot(a, glm::cross(b, c))) / 6.0;
-        }
-        first += size_t(count);
-    }
-    if (!std::isfinite(sum) || !std::isfinite(volume)) sum = volume = 0.0;
-    area = float(sum);
-    across = glm::length(high - low) / std::sqrt(3.0f);
-    const float ball = sum > 0.0 ? float(6.0 * std::abs(volume) / sum) : 0.0f;
-    round = std::clamp(ball, 0.125f * across, across);
-}
-
 SubdivisionPlan::SubdivisionPlan(const RenderSettings& settings, const ScreenScale& screen)
     : _settings(settings), _screen(screen),
       _active(settings.tolerance >= 0.0 && settings.edgeLength < 0.0f) {}
 
-void SubdivisionPlan::add(const CageSize& cage, const std::vector<mat4>& places,
+void SubdivisionPlan::add(const PrimExtent& cage, const std::vector<mat4>& places,
                           const MethodPlan& material) {
     if (places.empty() || !(cage.across > 0.0f)) return;
     _any = true;
-    const vec3 center = 0.5f * (cage.low + cage.high);
+    const vec3 center = cage.center();
     for (const mat4& m : places) {
-        const double scale =
-            std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
+        const double scale = largestScale(m);
         const float away = glm::length(vec3(m * vec4(center, 1.0f)) - _screen.eye);
         const double radius = 0.5 * std::sqrt(3.0) * cage.across * scale;
         const double distance =

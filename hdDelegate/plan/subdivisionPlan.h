@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hdDelegate/scene/geometry.h"
+#include "hdDelegate/plan/primExtent.h"
 #include "hdDelegate/scene/settings.h"
 #include "materialNetwork/plan/methodPlan.h"
 
@@ -8,30 +8,6 @@ namespace patina {
 
 /// Share of the tolerance that subdivision surfaces may take by being drawn with flat triangles.
 constexpr double subdivisionShare = 0.1;
-
-/// How large things look: where the camera is and what a pixel of it covers.
-struct ScreenScale {
-    vec3 eye{0.0f};
-    bool perspective = true;
-    float pixelSpread = 0.0f; ///< angle of a pixel; its width when orthographic
-    float nearest = 0.0f;     ///< distance that nothing is nearer than
-    double pixels = 1.0;      ///< of the image
-};
-
-/// Whether a prim is drawn more or less finely: a mesh with a subdivision scheme.
-bool subdivides(const Geometry& prim);
-
-/// Size of a subdivision surface by its cage, object units.
-struct CageSize {
-    vec3 low{0.0f}, high{0.0f};
-    float area = 0.0f;
-    /// Diameter of a ball that is as round: six times volume over area, at least an eighth of
-    /// `across` (sheets have no volume) and at most that.
-    float round = 0.0f;
-    float across = 0.0f; ///< diagonal of the box over the root of three
-
-    explicit CageSize(const Mesh& mesh);
-};
 
 /// Finds how long edges of subdivision surfaces may be on screen, one length for all of an image:
 /// the longest whose predicted error is within subdivisionShare of the tolerance, by the rows
@@ -47,9 +23,10 @@ public:
 
     /// Whether there is anything to choose; else no surface has to be added.
     bool isActive() const { return _active; }
+    /// @param cage of a subdivision surface
     /// @param places from object to world
     /// @param material of the surface, as planned
-    void add(const CageSize& cage, const std::vector<mat4>& places, const MethodPlan& material);
+    void add(const PrimExtent& cage, const std::vector<mat4>& places, const MethodPlan& material);
 
     /// Of the choice point `subdivision`; without a name where no surface was added.
     PlannedMethod chosen() const;

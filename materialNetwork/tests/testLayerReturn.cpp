@@ -2,6 +2,7 @@
 // absorbed, gain nothing, and count what an interface sends back down to its base.
 #include "materialNetwork/cpu/programCode.h"
 #include "materialNetwork/tests/statistics.h"
+#include "shaders/oracle.h"
 
 #include <cmath>
 

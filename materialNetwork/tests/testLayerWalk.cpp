@@ -1,6 +1,7 @@
 // The method positionFree of layering: energy, closed forms, values and samples that agree.
 #include "materialNetwork/cpu/programCode.h"
 #include "materialNetwork/tests/statistics.h"
+#include "shaders/oracle.h"
 
 namespace patina {
 

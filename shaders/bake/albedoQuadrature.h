@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "shaders/shaders.h"
+#include "shaders/oracle.h"
 
 namespace patina::bake {
 

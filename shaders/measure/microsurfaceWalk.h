@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "shaders/shaders.h"
+#include "shaders/oracle.h"
 
 namespace patina::measure {
 

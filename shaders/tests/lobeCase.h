@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "shaders/shaders.h"
+#include "shaders/oracle.h"
 
 namespace patina::test {
 

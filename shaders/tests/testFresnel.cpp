@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "shaders/shaders.h"
+#include "shaders/oracle.h"
 
 using namespace patina;
 using sh64::vec3;

@@ -78,6 +78,45 @@ def test_every_include_is_an_arrow_of_the_table_and_every_arrow_is_there():
         assert allowed <= met[name], f"ARCHITECTURE.md has arrows that no include needs: {name} to {allowed - met[name]}"
 
 
+def file_includes():
+    """:returns: file -> files of the checkout that it includes, be they C++, GLSL or tables, named from the root or beside it"""
+    found = {}
+    for top in FOLDERS:
+        for folder, folders, names in os.walk(os.path.join(ROOT, top)):
+            folders[:] = [name for name in folders if name != "node_modules"]
+            for name in names:
+                if name.endswith((".h", ".cpp", ".inc", ".def", ".glsl")):
+                    path = os.path.join(folder, name)
+                    with open(path, encoding="utf-8") as file:
+                        targets = re.findall(r'^\s*#\s*include\s+["<]([^">]+)[">]', file.read(), re.MULTILINE)
+                    at = os.path.relpath(path, ROOT).replace(os.sep, "/")
+                    found[at] = [t for name in targets for t in (name, os.path.normpath(os.path.join(os.path.dirname(at), name)))]
+    return {path: {target for target in targets if target in found} for path, targets in found.items()}
+
+
+def in_one_back_end(included):
+    """:returns: files that both back ends include, directly or through others, and that lie in one of them"""
+    rooms_of_both = ("hdDelegate/embree/", "hdDelegate/raster/")
+    reached = []
+    for room in rooms_of_both:
+        own = {path for path in included if path.startswith(room)}
+        reached.append(set().union(own, *(reachable(included, path) for path in own)))
+    return sorted(path for path in reached[0] & reached[1] if path.startswith(rooms_of_both))
+
+
+def test_what_both_back_ends_include_lies_in_neither():
+    assert in_one_back_end(file_includes()) == []
+
+
+def test_a_file_of_one_back_end_that_the_other_includes_is_found():
+    """Through a room that both may include, and beside the file."""
+    included = {"hdDelegate/embree/a.cpp": {"hdDelegate/compiled/b.h"}, "hdDelegate/raster/c.cpp": {"hdDelegate/raster/d.inc"},
+                "hdDelegate/compiled/b.h": {"hdDelegate/raster/d.inc"}, "hdDelegate/raster/d.inc": set()}
+    assert in_one_back_end(included) == ["hdDelegate/raster/d.inc"]
+    included["hdDelegate/compiled/b.h"] = set()
+    assert in_one_back_end(included) == []
+
+
 def test_arrows_run_one_way():
     known = rooms(section())
     for name in known:

@@ -210,6 +210,34 @@ def test_equal_implicit_prims_share_their_buffers():
     np.testing.assert_array_equal(together, apart)
 
 
+def test_shapes_that_were_replaced_are_forgotten():
+    """However often a prim takes another shape: up to 64 that nobody shows are left to be looked for."""
+    import _patina
+
+    scene, renderer, film = _patina.Scene(), _patina.make_renderer("raster"), _patina.Film()
+    with scene.edit() as edit:
+        edit.set_light("/sun", type="distant", intensity=3.0)
+        edit.set_camera("/camera")
+
+    def draw(radius):
+        """:returns: bytes in buffers"""
+        matrix = np.eye(4)
+        matrix[3, 2] = -4.0
+        with scene.edit() as edit:
+            edit.set_implicit("/ball", shape="sphere", radius=radius, transform=matrix)
+        renderer.start(scene, "/camera", {"width": 8, "height": 8, "samples": 1}, film)
+        renderer.wait()
+        found = renderer.progress()
+        assert not found["failed"], found["error"]
+        return found["statistics"]["bytes"]
+
+    draw(0.5)
+    one = draw(0.6)
+    for i in range(150):
+        last = draw(0.6 + 0.001 * i)
+    assert 0 < last <= 66 * one
+
+
 @pytest.mark.parametrize("backend", ["embree", "raster"])
 def test_edits_look_at_what_they_touch_however_many_prims_there_are(backend):
     """And the image is that of a renderer which has looked at everything."""

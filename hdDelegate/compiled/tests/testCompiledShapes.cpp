@@ -26,17 +26,21 @@ struct Shapes : ::testing::Test {
     ShapeRequest request;
 
     Shapes() { request.prim = cube(); }
+    std::shared_ptr<const TriangleMesh> triangles(const ShapeRequest& asked) {
+        const auto shape = shapes.shape(asked);
+        return {shape, &shape->mesh};
+    }
 };
 
 TEST_F(Shapes, AreMadeOnceForWhoeverAsks) {
-    const auto first = shapes.triangles(request);
+    const auto first = triangles(request);
     EXPECT_EQ(first->triangles.size(), 12u);
     ShapeRequest other = request;
     other.options.shutterClose = 0.5f; // its points stand still
     other.options.roundEdge = 1.0f;    // and it is not round
     other.displacers = {nullptr};
     other.toWorld[3][0] = 5.0f;
-    EXPECT_EQ(shapes.triangles(other), first);
+    EXPECT_EQ(triangles(other), first);
     EXPECT_EQ(shapes.made(), 1u);
 }
 
@@ -45,12 +49,12 @@ TEST_F(Shapes, AreKeptByLevel) {
     smooth->scheme = SubdivisionScheme::CatmullClark;
     request.prim = smooth;
     request.options.targetEdge = 0.6f;
-    const auto fine = shapes.triangles(request);
+    const auto fine = triangles(request);
     request.options.targetEdge = 1.2f;
-    const auto coarse = shapes.triangles(request);
+    const auto coarse = triangles(request);
     EXPECT_EQ(fine->triangles.size(), 4 * coarse->triangles.size());
     request.options.targetEdge = 0.6f;
-    EXPECT_EQ(shapes.triangles(request), fine);
+    EXPECT_EQ(triangles(request), fine);
     EXPECT_EQ(shapes.made(), 2u);
 }
 
@@ -59,29 +63,29 @@ TEST_F(Shapes, DependOnTimesWherePointsMove) {
     moving->points.times = {0.0f, 1.0f};
     moving->points.values.push_back(moving->points.values[0]);
     request.prim = moving;
-    const auto still = shapes.triangles(request);
+    const auto still = triangles(request);
     request.options.shutterClose = 1.0f;
-    EXPECT_NE(shapes.triangles(request), still);
+    EXPECT_NE(triangles(request), still);
 }
 
 TEST_F(Shapes, AreForgottenWhenNobodyHoldsThem) {
-    std::weak_ptr<const TriangleMesh> watched = shapes.triangles(request);
+    std::weak_ptr<const TriangleMesh> watched = triangles(request);
     EXPECT_TRUE(watched.expired());
-    const auto again = shapes.triangles(request);
+    const auto again = triangles(request);
     EXPECT_EQ(shapes.made(), 2u);
     request.prim = cube();
-    EXPECT_NE(shapes.triangles(request), again) << "an edit makes another prim";
+    EXPECT_NE(triangles(request), again) << "an edit makes another prim";
     std::weak_ptr<const Geometry> prim;
     {
         ShapeRequest brief = request;
         brief.prim = cube();
         prim = brief.prim;
-        shapes.triangles(brief);
+        triangles(brief);
     }
     for (int i = 0; i < 200; ++i) {
         ShapeRequest brief = request;
         brief.prim = cube();
-        shapes.triangles(brief);
+        triangles(brief);
     }
     EXPECT_TRUE(prim.expired()) << "requests are forgotten too";
 }
@@ -90,7 +94,7 @@ TEST_F(Shapes, AreMadeOnceForThreadsThatAskTogether) {
     std::vector<std::shared_ptr<const TriangleMesh>> found(8);
     std::vector<std::thread> threads;
     for (auto& mesh : found)
-        threads.emplace_back([&] { mesh = shapes.triangles(request); });
+        threads.emplace_back([&] { mesh = triangles(request); });
     for (std::thread& thread : threads)
         thread.join();
     for (const auto& mesh : found)

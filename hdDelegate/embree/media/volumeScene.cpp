@@ -94,23 +94,20 @@ private:
 };
 
 void VolumeScene::update(const std::vector<std::shared_ptr<const Volume>>& prims,
-                         const ProgramOf& programOf, const PlacesOf& placesOf, float open,
+                         const MediumOf& mediumOf, const PlacesOf& placesOf, float open,
                          const dvec3& origin, Diagnostics& diagnostics) {
-    std::map<std::string, Cached> kept;
-    _placed.clear();
+    std::vector<std::shared_ptr<const VolumeMedium>> held;
+    std::vector<Placed> placed;
     _min = vec3(INFINITY);
     _max = vec3(-INFINITY);
     for (const auto& prim : prims) {
-        Cached& cached = kept[prim->path] = std::move(_cache[prim->path]);
-        const auto program = programOf(*prim, plainVolume());
-        if (cached.prim != prim || cached.program != program || !cached.medium)
-            cached = {prim, program, std::make_shared<VolumeMedium>(*prim, program, diagnostics)};
-        if (cached.medium->empty()) continue;
+        const auto medium = held.emplace_back(mediumOf(prim));
+        if (medium->empty()) continue;
         for (const mat4& place : placesOf(prim->group)) {
             const dvec3 from = prim->group.empty() ? origin : dvec3(0.0);
             const mat4 toWorld = place * interpolate(prim->transform, open, from);
             const mat4 inverse = glm::inverse(toWorld);
-            const vec3 lower = cached.medium->boundsMin(), upper = cached.medium->boundsMax();
+            const vec3 lower = medium->boundsMin(), upper = medium->boundsMax();
             bool usable = true;
             for (int corner = 0; corner < 8; ++corner) {
                 const vec3 p((corner & 1) ? upper.x : lower.x, (corner & 2) ? upper.y : lower.y,
@@ -123,13 +120,14 @@ void VolumeScene::update(const std::vector<std::shared_ptr<const Volume>>& prims
                 _max = glm::max(_max, w);
             }
             if (usable)
-                _placed.push_back({cached.medium, inverse, prim->visibility});
+                placed.push_back({medium, inverse, prim->visibility});
             else
                 diagnostics.warn(prim->path, "transform",
                                  "has no inverse; the volume is not drawn");
         }
     }
-    _cache = std::move(kept);
+    _placed = std::move(placed);
+    _held = std::move(held);
 }
 
 VolumeScene::Collision VolumeScene::track(const vec3& origin, const vec3& direction, float end,

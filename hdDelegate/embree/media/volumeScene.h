@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <functional>
-#include <map>
 #include <memory>
 
 namespace patina {
@@ -15,14 +14,14 @@ namespace patina {
 /// and Decomposition Tracking. Volumes that overlap add up.
 class VolumeScene {
 public:
-    using ProgramOf =
-        std::function<std::shared_ptr<const MaterialProgram>(const Volume&, const Network&)>;
+    using MediumOf =
+        std::function<std::shared_ptr<const VolumeMedium>(const std::shared_ptr<const Volume>&)>;
     using PlacesOf = std::function<std::vector<mat4>(const std::string& group)>;
 
-    /// Takes over the volumes of a scene. What did not change is kept.
+    /// Takes over the volumes of a scene.
     /// @param open time of the shutter's opening; volumes stand still
     /// @param origin of the space that they are wanted in, see seenFrom(); places are in it already
-    void update(const std::vector<std::shared_ptr<const Volume>>& prims, const ProgramOf& programOf,
+    void update(const std::vector<std::shared_ptr<const Volume>>& prims, const MediumOf& mediumOf,
                 const PlacesOf& placesOf, float open, const dvec3& origin,
                 Diagnostics& diagnostics);
 
@@ -51,14 +50,9 @@ private:
         mat4 worldToObject{1.0f};
         Visibility visibility;
     };
-    struct Cached {
-        std::shared_ptr<const Volume> prim;
-        std::shared_ptr<const MaterialProgram> program;
-        std::shared_ptr<const VolumeMedium> medium;
-    };
     class Tracker;
     std::vector<Placed> _placed;
-    std::map<std::string, Cached> _cache;
+    std::vector<std::shared_ptr<const VolumeMedium>> _held; ///< those that are nowhere too
     vec3 _min{INFINITY}, _max{-INFINITY};
 };
 

@@ -1,3 +1,4 @@
+#include "hdDelegate/image/fieldGrid.h"
 #include "hdDelegate/renderer/renderer.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -278,6 +279,33 @@ TEST_P(Edits, PrimsComeAndGo) {
     EXPECT_EQ(session.rendered(), "0 0 2 0 0");
     session.settings.interactive = !session.settings.interactive;
     session.rendered();
+}
+
+TEST_P(Edits, AVolumeStopsBeingDrawn) {
+    Session session(GetParam());
+    session.settings.renderTags = {"geometry"};
+    session.rendered();
+    const std::vector<float> clear = session.film->resolve("color");
+    auto grid = std::make_shared<FieldGrid>(ivec3(0), ivec3(1), 1,
+                                            translate(-1.5f, -0.5f, 1.0f) *
+                                                glm::scale(mat4(1.0f), vec3(0.4f)));
+    grid->setBrick(ivec3(0), std::vector<float>(FieldGrid::voxels, 1.0f));
+    auto fog = std::make_shared<Volume>();
+    fog->path = "/fog";
+    fog->fields.push_back({"density", "", "", std::move(grid)});
+    const auto draw = [&](std::shared_ptr<Geometry> prim) {
+        put<Geometry>(*session.scene, prim);
+        session.rendered(); // as a fresh renderer does
+        return session.film->resolve("color");
+    };
+    EXPECT_FALSE(sameBits(draw(fog), clear));
+    auto guide = std::make_shared<Volume>(*fog);
+    guide->renderTag = "guide";
+    EXPECT_TRUE(sameBits(draw(guide), clear));
+    EXPECT_FALSE(sameBits(draw(fog), clear));
+    auto mesh = makeCube("/fog", mat4(1.0f)); // what is not drawn has been a volume
+    mesh->renderTag = "guide";
+    EXPECT_TRUE(sameBits(draw(mesh), clear));
 }
 
 TEST_P(Edits, LookAtWhatTheyTouchHoweverManyPrimsThereAre) {

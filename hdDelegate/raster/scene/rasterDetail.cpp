@@ -1,7 +1,6 @@
 #include "hdDelegate/raster/scene/rasterDetail.h"
 
 #include "hdDelegate/geometry/tessellate.h"
-#include "hdDelegate/plan/subdivisionPlan.h"
 #include "hdDelegate/scene/lightUnits.h"
 
 #include <algorithm>
@@ -10,79 +9,38 @@
 
 namespace patina {
 
-RasterExtent::RasterExtent(const Geometry& prim) {
-    if (prim.kind == GeometryKind::Implicit) {
-        const Implicit& p = static_cast<const Implicit&>(prim);
-        high = vec3(std::max({p.radius, p.radiusTop, 0.5f * p.height + p.radius}));
-        low = -high;
-        refines = p.shape != ImplicitShape::Cube && p.shape != ImplicitShape::Plane;
-        round = refines;
-        if (round) finest = 6.2831853f / float(roundSegments) * std::max(p.radius, p.radiusTop);
-    }
-    const auto around = [&](const std::vector<vec3>& points) {
-        low = vec3(INFINITY);
-        high = vec3(-INFINITY);
-        for (const vec3& p : points)
-            if (std::isfinite(p.x + p.y + p.z)) {
-                low = glm::min(low, p);
-                high = glm::max(high, p);
-            }
-        refines = low.x <= high.x;
-    };
-    slight = prim.kind == GeometryKind::Curves || prim.kind == GeometryKind::Points;
-    if (prim.kind == GeometryKind::Curves && !static_cast<const Curves&>(prim).points.empty())
-        around(static_cast<const Curves&>(prim).points.first());
-    if (prim.kind == GeometryKind::Points && !static_cast<const Points&>(prim).points.empty())
-        around(static_cast<const Points&>(prim).points.first());
-    if (slight) {
-        // Widths count too: a single point has no other extent.
-        float wide = 0.0f;
-        if (const Primvar* widths = prim.primvar("widths"))
-            for (const float width : widths->values)
-                if (std::isfinite(width)) wide = std::max(wide, width);
-        low -= 0.5f * wide;
-        high += 0.5f * wide;
-    }
-    if (prim.kind != GeometryKind::Mesh) return;
-    const Mesh& mesh = static_cast<const Mesh&>(prim);
-    if (mesh.points.empty()) return;
-    const std::vector<vec3>& points = mesh.points.first();
-    around(points);
-    if (mesh.scheme == SubdivisionScheme::None) {
-        refines = false;
-        return;
-    }
-    double sum = 0.0;
-    const auto point = [&](size_t corner) {
-        const int i = mesh.faceVertexIndices[corner];
-        return i >= 0 && size_t(i) < points.size() ? points[size_t(i)] : vec3(0.0f);
-    };
-    size_t first = 0;
-    for (const int count : mesh.faceVertexCounts) {
-        if (count < 0 || first + size_t(count) > mesh.faceVertexIndices.size()) break;
-        for (size_t k = 2; k < size_t(count); ++k)
-            sum += 0.5 * glm::length(glm::cross(point(first + k - 1) - point(first),
-                                                point(first + k) - point(first)));
-        first += size_t(count);
-    }
-    area = std::isfinite(sum) ? float(sum) : 0.0f;
+namespace {
+
+bool isRound(const Geometry& prim) {
+    if (prim.kind != GeometryKind::Implicit) return false;
+    const ImplicitShape shape = static_cast<const Implicit&>(prim).shape;
+    return shape != ImplicitShape::Cube && shape != ImplicitShape::Plane;
 }
 
-RasterDetail::RasterDetail(const RasterExtent& extent, const MotionTransform& transform,
+} // namespace
+
+RasterDetail::RasterDetail(const Geometry& prim, const PrimExtent& extent,
                            const RasterCamera& camera, const RenderSettings& settings,
-                           bool displaced, bool glows)
+                           const vec3& origin, float edgeLength, bool displaced, bool glows)
     : _gap((glows ? 0.25f : 1.0f) * largestGap *
            std::clamp(camera.pixels() / gapPixels, 0.25f, 1.0f)),
-      _area(extent.area), _round(extent.round), _slight(extent.slight), _displaced(displaced) {
-    _finest = extent.finest;
-    if (!(settings.edgeLength > 0.0f) || !(extent.refines || displaced)) return;
-    const vec3 &low = extent.low, &high = extent.high;
-    _view = camera.view(vec2(0.0f), vec2(0.0f), 0.5f, low, high);
-    _toGroup = exactTransformAt(transform, camera.timeCode(0.5f));
-    _center = 0.5f * (low + high);
-    _radius = 0.5f * glm::length(high - low);
-    _nearest = camera.camera().clipNear;
-    _edgeLength = settings.edgeLength;
+      _round(isRound(prim)),
+      _slight(prim.kind == GeometryKind::Curves || prim.kind == GeometryKind::Points),
+      _displaced(displaced) {
+    const bool subdivided = subdivides(prim);
+    if (subdivided) _area = extent.area;
+    if (_round) {
+        const Implicit& shape = static_cast<const Implicit&>(prim);
+        _finest =
+            6.2831853f / float(roundSegments) * std::max(shape.radius, shape.radiusTop);
+    }
+    const bool refines = !extent.empty && (subdivided || _round || _slight);
+    if (!(edgeLength > 0.0f) || !(refines || displaced)) return;
+    _screen = screenScale(camera.camera(), settings, dvec3(origin));
+    _toGroup = exactTransformAt(prim.transform, camera.timeCode(0.5f));
+    _center = extent.center();
+    _radius = extent.radius();
+    _edgeLength = edgeLength;
     const float finer = std::min(_edgeLength / SubdivisionPlan::standardEdge, 1.0f);
     _gap *= finer * finer;
 }
@@ -102,13 +60,8 @@ size_t RasterDetail::trianglesFor(float edge) const {
 
 float RasterDetail::edgeAt(const RasterPlace& place) const {
     if (!(_edgeLength > 0.0f) || !(_radius > 0.0f)) return 0.0f;
-    const mat4 m(place.groupToWorld * _toGroup);
-    const float scale =
-        std::max({glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))});
-    const vec3 center = vec3(m * vec4(_center, 1.0f));
-    const float away = glm::length(center - _view.eye) - _radius * scale;
-    const float distance = _view.perspective ? std::max(_nearest, away) : 1.0f;
-    const float unit = _view.pixelSpread * distance / scale, asked = _edgeLength * unit;
+    const float unit = _screen.unit(mat4(place.groupToWorld * _toGroup), _center, _radius);
+    const float asked = _edgeLength * unit;
     float wanted = asked;
     if (_slight)
         wanted = unit;

@@ -1,23 +1,10 @@
 #pragma once
 
+#include "hdDelegate/compiled/subdivision.h"
 #include "hdDelegate/raster/scene/rasterCamera.h"
 #include "hdDelegate/raster/scene/rasterInstances.h"
-#include "hdDelegate/scene/geometry.h"
 
 namespace patina {
-
-/// What of a prim's size tells how finely it is drawn. Object space.
-struct RasterExtent {
-    vec3 low{0.0f}, high{0.0f};
-    float area = 0.0f;    ///< of the cage of a subdivision surface
-    bool refines = false; ///< it is drawn more or less finely even where nothing displaces it
-    bool round = false;   ///< an implicit shape, of radius `high`
-    float finest = 0.0f;  ///< of round prims: their shortest edges, in object units
-    bool slight = false;  ///< curves or points, which only ask for the width of a pixel
-
-    RasterExtent() = default;
-    explicit RasterExtent(const Geometry& prim);
-};
 
 /// How finely a prim is drawn, by its size on screen.
 class RasterDetail {
@@ -27,9 +14,10 @@ public:
     /// displaced: normals are smooth. Where shorter edges are asked for than the default's, the gap
     /// is smaller with their square. Small round shapes have shorter ones instead, as the path
     /// tracer's always do. Against the edge of what glows a quarter of the gap is seen as well.
-    RasterDetail(const RasterExtent& extent, const MotionTransform& transform,
-                 const RasterCamera& camera, const RenderSettings& settings, bool displaced,
-                 bool glows);
+    /// @param origin of the space that places are in
+    RasterDetail(const Geometry& prim, const PrimExtent& extent, const RasterCamera& camera,
+                 const RenderSettings& settings, const vec3& origin, float edgeLength,
+                 bool displaced, bool glows);
 
     /// The longest edge, in object units, that looks as long from the camera as the settings ask
     /// for: a power of two, so that few of them differ. 0: the prim is not refined. Of curves and
@@ -52,10 +40,12 @@ private:
     dmat4 _toGroup{1.0};
     vec3 _center{0.0f};
     float _gap = largestGap; ///< pixels
-    float _radius = 0.0f, _area = 0.0f, _edgeLength = 0.0f, _nearest = 0.0f;
-    float _finest = 0.0f;
-    bool _round = false, _slight = false, _displaced = false;
-    RasterView _view;
+    float _radius = 0.0f, _area = 0.0f, _edgeLength = 0.0f;
+    float _finest = 0.0f; ///< of round prims: their shortest edges, in object units
+    bool _round = false;  ///< an implicit shape
+    bool _slight = false; ///< curves or points, which only ask for the width of a pixel
+    bool _displaced = false;
+    ScreenScale _screen;
 };
 
 } // namespace patina

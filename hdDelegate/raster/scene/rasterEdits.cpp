@@ -63,9 +63,7 @@ bool RasterScene::redraw(const std::shared_ptr<const Geometry>& prim, const Scen
         after.triangles -= triangles;
         after.trianglesDrawn -= triangles * _groups[size_t(_draws[d].group)].places.size();
     }
-    RenderSettings settings = _settings;
-    settings.edgeLength = _edgeLength;
-    addPrim(prim, old.rank, state, camera, settings, places);
+    addPrim(prim, old.rank, state, camera, _settings, places);
     const Span added = _spans.at(prim->path);
     bool fits = !added.emits && !_moves && added.groups == old.groups && added.draws == old.draws;
     for (size_t g = 0; fits && g < old.groups; ++g)
@@ -91,7 +89,9 @@ bool RasterScene::redraw(const std::shared_ptr<const Geometry>& prim, const Scen
         group.firstInstance = first;
     }
     cutTo(after);
-    _spans[prim->path] = old;
+    Span& kept = _spans[prim->path];
+    kept = old;
+    kept.extent = added.extent;
     if (wide) findBounds();
     return true;
 }

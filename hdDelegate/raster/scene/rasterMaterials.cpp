@@ -117,12 +117,6 @@ RasterMaterials::Cached& RasterMaterials::compiled(const std::string& path, cons
     return cached;
 }
 
-const MethodPlan& RasterMaterials::planned(const std::string& path, const std::string& user,
-                                           const SceneState& state,
-                                           const RenderSettings& settings) {
-    return compiled(path, user, state, settings).material.program->planned();
-}
-
 RasterMaterials::Cached& RasterMaterials::asked(const std::string& path, const std::string& user,
                                                 const SceneState& state,
                                                 const RenderSettings& settings) {

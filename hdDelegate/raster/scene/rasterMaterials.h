@@ -73,9 +73,6 @@ public:
     /// @param user who is told about in messages
     const RasterMaterial& get(const std::string& path, const std::string& user,
                               const SceneState& state, const RenderSettings& settings);
-    /// How its methods are chosen; nothing of it is on the GPU before get() asks for it.
-    const MethodPlan& planned(const std::string& path, const std::string& user,
-                              const SceneState& state, const RenderSettings& settings);
     /// Forgets materials whose prim has changed; programs and textures stay.
     /// @param lights that materials are lit by, for how they are
     void update(const SceneState& state, const RenderSettings& settings,

@@ -104,8 +104,7 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     RasterShapeCache::Request request;
     request.prim = prim;
     request.timeCode = camera.timeCode(0.5f);
-    request.toWorld = mat4(where[0].groupToWorld * toGroup);
-    request.toWorld[3] += vec4(_origin, 0.0f);
+    request.toWorld = displacementSpace(*prim, request.timeCode);
     request.needsMesh = _parts.meshLights->of(prim->path, settings) != nullptr;
     for (const RasterMaterial* material : materials) {
         const MaterialProgram& program = *material->program;
@@ -120,16 +119,9 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     const bool displaced =
         std::any_of(request.displacers.begin(), request.displacers.end(),
                     [](const std::shared_ptr<const MaterialProgram>& p) { return p != nullptr; });
-    auto& [measured, extent] = _extents[prim->path];
-    if (measured != prim) {
-        measured = prim;
-        extent = RasterExtent(*prim);
-    }
-    RenderSettings fine = settings;
-    // Displacement shows more of itself on shorter edges, which no row of the table is of.
-    if (displaced && !_subdivision.forced && !_subdivision.point.empty())
-        fine.edgeLength = std::min(fine.edgeLength, SubdivisionPlan::standardEdge);
-    const RasterDetail detail(extent, prim->transform, camera, fine, displaced, request.needsMesh);
+    span.extent = _compiled.extents().of(prim);
+    const RasterDetail detail(*prim, *span.extent, camera, settings, _origin,
+                              _subdivision.edgeOf(displaced), displaced, request.needsMesh);
     std::map<float, std::vector<uint32_t>> byEdge;
     for (size_t i = 0; i < where.size(); ++i)
         byEdge[detail.edgeAt(where[i])].push_back(uint32_t(i));

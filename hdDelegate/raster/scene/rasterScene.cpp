@@ -11,26 +11,6 @@
 
 namespace patina {
 
-float RasterScene::planSubdivision(const SceneState& state, const RasterCamera& camera,
-                                   const RenderSettings& settings, RasterInstances& places) {
-    const RasterView view = camera.view(vec2(0.0f), vec2(0.0f), 0.5f, vec3(-1.0f), vec3(1.0f));
-    const ScreenScale screen{view.eye, view.perspective, view.pixelSpread, camera.camera().clipNear,
-                             double(settings.width) * settings.height};
-    SubdivisionPlan plan(settings, screen);
-    for (const auto& item : state.geometry) {
-        const Geometry& prim = *item.second;
-        if (!plan.isActive() || !subdivides(prim) || !isDrawnInRaster(prim, settings)) continue;
-        const dmat4 toGroup = exactTransformAt(prim.transform, camera.timeCode(0.5f));
-        std::vector<mat4> toWorld;
-        for (const RasterPlace& place : places.places(prim.group))
-            toWorld.push_back(mat4(place.groupToWorld * toGroup));
-        plan.add(CageSize(static_cast<const Mesh&>(prim)), toWorld,
-                 _materials.planned(prim.material, prim.path, state, settings));
-    }
-    _subdivision = plan.chosen();
-    return plan.edgeLength();
-}
-
 /// Asks for all programs before the first is waited for.
 void RasterScene::prepareMaterials(const SceneState& state, const RenderSettings& settings,
                                    RasterInstances& places) {
@@ -78,10 +58,12 @@ void RasterScene::finishPrograms(const std::atomic<bool>& stop, const Compiling&
 void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
                             const RasterLightPlan& lights, const std::atomic<bool>& stop,
                             const Compiling& compiling) {
-    RenderSettings settings = _settings;
+    const RenderSettings& settings = _settings;
+    // Until the prims are there again, what was measured of them is held.
+    const std::map<std::string, Span> before = std::move(_spans);
+    _spans.clear();
     _draws.clear();
     _groups.clear();
-    _spans.clear();
     _instances.clear();
     _values.clear();
     _boxes.clear();
@@ -98,7 +80,8 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
     _emitters.clear();
     _volumes.begin();
     RasterInstances places(_parts.placements, camera.timeCode(0.5f), _origin);
-    settings.edgeLength = _edgeLength = planSubdivision(state, camera, settings, places);
+    _subdivision =
+        _compiled.subdivision().of(state, *_parts.placements, camera.camera(), settings);
     prepareMaterials(state, settings, places);
     finishPrograms(stop, compiling);
     for (const auto& item : state.instancers) {
@@ -123,8 +106,6 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
         addPrim(item.second, own, state, camera, settings, places);
     }
     _shapes.forgetUnused();
-    for (auto it = _extents.begin(); it != _extents.end();)
-        it = state.geometry.count(it->first) ? std::next(it) : _extents.erase(it);
     _volumes.end();
     if (_draws.empty() && _volumes.placed().empty()) _boundsMin = _boundsMax = vec3(0.0f);
     _linkBuffer = GlBuffer(_links);
@@ -204,7 +185,7 @@ RasterVisible RasterScene::visible(const mat4& worldToClip, bool clampsNear) con
 
 ScenePlan RasterScene::plan() const {
     ScenePlan plan = _materials.plan();
-    plan.add(_subdivision);
+    plan.add(_subdivision.method);
     return plan;
 }
 

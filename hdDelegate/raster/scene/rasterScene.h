@@ -1,7 +1,6 @@
 #pragma once
 
 #include "hdDelegate/compiled/compiledScene.h"
-#include "hdDelegate/plan/subdivisionPlan.h"
 #include "hdDelegate/raster/lights/rasterEmitters.h"
 #include "hdDelegate/raster/scene/rasterCamera.h"
 #include "hdDelegate/raster/scene/rasterDetail.h"
@@ -56,8 +55,8 @@ public:
     /// @param compiler see RasterMaterials
     explicit RasterScene(CompiledScene& compiled, ProgramCompiler* compiler = nullptr)
         : _compiled(compiled), _diagnostics(compiled.scene()->diagnostics()),
-          _materials(compiled, compiler), _shapes(compiled.shapes(), _diagnostics),
-          _volumes(compiled.materials(), _diagnostics) {}
+          _materials(compiled, compiler), _shapes(compiled.shapes()),
+          _volumes(compiled.volumes(), _diagnostics) {}
 
     using Compiling = std::function<void(const RasterMaterials::Ready&)>;
 
@@ -124,6 +123,7 @@ private:
         int rank = 0;
         size_t firstGroup = 0, groups = 0, firstDraw = 0, draws = 0;
         bool emits = false;
+        std::shared_ptr<const PrimExtent> extent; ///< held for the next update
     };
     /// What a prim's groups were before it was drawn anew.
     struct Sizes {
@@ -144,9 +144,6 @@ private:
     void findBounds();
     void finishPrograms(const std::atomic<bool>& stop, const Compiling& compiling);
 
-    /// Chooses how long edges of subdivision surfaces are on screen. @returns pixels
-    float planSubdivision(const SceneState& state, const RasterCamera& camera,
-                          const RenderSettings& settings, RasterInstances& places);
     void prepareMaterials(const SceneState& state, const RenderSettings& settings,
                           RasterInstances& places);
     void addPrim(const std::shared_ptr<const Geometry>& prim, int rank, const SceneState& state,
@@ -175,13 +172,11 @@ private:
     uint64_t _version = 0;
     Camera _camera;
     RenderSettings _settings; ///< as asked for
-    float _edgeLength = 0.0f; ///< planned
     bool _lightsMayDiffer = true;
     size_t _looked = 0;
     RasterMaterials _materials;
     std::vector<RasterDraw> _draws;
     RasterShapeCache _shapes;
-    std::map<std::string, std::pair<std::shared_ptr<const Geometry>, RasterExtent>> _extents;
     RasterVolumes _volumes;
     std::vector<RasterGroup> _groups;
     RasterEmitters _emitters;
@@ -196,7 +191,7 @@ private:
     size_t _triangles = 0, _trianglesDrawn = 0, _instancesWritten = 0;
     float _shutterOpen = 0.0f, _shutterClose = 0.0f; ///< time codes
     bool _moves = false, _instancesDiffer = false;
-    PlannedMethod _subdivision; ///< of this update; without a name where nothing was planned
+    Subdivision _subdivision; ///< of the last update
 };
 
 } // namespace patina

@@ -125,22 +125,24 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Request& reques
     options.shutterOpen = options.shutterClose = request.timeCode;
     options.targetEdge = options.roundEdge = request.edge;
     options.edgeBudget = request.edgeBudget;
-    if (request.prim->kind == GeometryKind::Mesh || request.prim->kind == GeometryKind::Implicit) {
-        const auto mesh =
-            _compiled.triangles({request.prim, options, request.displacers, request.toWorld});
-        if (mesh->positions.empty() || mesh->triangles.empty()) return shape;
-        describe(*shape, *mesh);
-        RasterSurfaceBuilder builder(*mesh, storageLimit());
+    const auto made = _compiled.shape({request.prim, options, request.displacers, request.toWorld});
+    const bool faces =
+        request.prim->kind == GeometryKind::Mesh || request.prim->kind == GeometryKind::Implicit;
+    if (_holds && (request.edge == 0.0f || !faces)) _held.push_back(made);
+    if (faces) {
+        const TriangleMesh& mesh = made->mesh;
+        if (mesh.positions.empty() || mesh.triangles.empty()) return shape;
+        describe(*shape, mesh);
+        RasterSurfaceBuilder builder(mesh, storageLimit());
         for (size_t subset = 0; subset < request.primvars.size(); ++subset)
             shape->surfaces.push_back(builder.make(subset, request.primvars[subset]));
-        if (request.needsMesh) shape->mesh = mesh;
-        if (_holds && request.edge == 0.0f) _held.push_back(mesh);
+        if (request.needsMesh) shape->mesh = std::shared_ptr<const TriangleMesh>(made, &mesh);
         return shape;
     }
     RasterFineness fineness;
     fineness.gap = RasterDetail::largestGap * request.edge;
     if (request.strips) fineness.thick = request.edge;
-    RasterForm form = rasterTriangles(*request.prim, options, fineness, _diagnostics);
+    RasterForm form = rasterTriangles(*made, fineness);
     TriangleMesh& mesh = form.seen.mesh;
     if (mesh.positions.empty() || mesh.triangles.empty()) return shape;
     describe(*shape, mesh);

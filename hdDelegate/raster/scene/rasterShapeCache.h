@@ -4,7 +4,6 @@
 #include "hdDelegate/raster/scene/rasterSurface.h"
 #include "hdDelegate/scene/geometry.h"
 #include "materialNetwork/cpu/materialProgram.h"
-#include "materialNetwork/diagnostics.h"
 
 #include <cstdint>
 #include <map>
@@ -45,10 +44,9 @@ public:
         bool strips = true; ///< thin curves may be strips
     };
 
-    RasterShapeCache(CompiledShapes& compiled, Diagnostics& diagnostics)
-        : _compiled(compiled), _diagnostics(diagnostics) {}
+    explicit RasterShapeCache(CompiledShapes& compiled) : _compiled(compiled) {}
 
-    /// Whether triangles that do not depend on the camera are held, once they are in buffers, for
+    /// Whether shapes that do not depend on the camera are held, once they are in buffers, for
     /// another back end of the scene, until release().
     void hold(bool holds) { _holds = holds; }
     void release() { _held.clear(); }
@@ -72,9 +70,8 @@ private:
     std::shared_ptr<const RasterShape> build(const Request& request);
 
     CompiledShapes& _compiled;
-    Diagnostics& _diagnostics;
     bool _holds = false;
-    std::vector<std::shared_ptr<const TriangleMesh>> _held;
+    std::vector<std::shared_ptr<const PrimShape>> _held;
     std::map<std::tuple<std::string, float, float>, Entry> _entries; ///< by name, edge and time
     size_t _forgetAt = 64; ///< so many entries are looked through
     size_t _built = 0;

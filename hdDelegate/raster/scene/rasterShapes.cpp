@@ -118,28 +118,17 @@ TriangleMesh pointTriangles(const PointSet& set, float gap) {
 
 } // namespace
 
-RasterForm rasterTriangles(const Geometry& prim, const TessellationOptions& options,
-                           const RasterFineness& fineness, Diagnostics& diagnostics) {
+RasterForm rasterTriangles(const PrimShape& shape, const RasterFineness& fineness) {
     RasterForm form;
-    switch (prim.kind) {
-    case GeometryKind::Curves: {
-        const CurveSet set = buildCurves(static_cast<const Curves&>(prim), options, diagnostics);
-        if (set.segments.empty()) break;
+    if (const CurveSet& set = shape.curves; !set.segments.empty()) {
         RasterFineness own = fineness;
         const bool thin = fitCurves(set, own, maxCurveTriangles);
         const bool domed = thin && domedStripsFit(set, own, maxCurveTriangles);
         form.seen = curveTriangles(set, own, thin, domed);
         if ((domed || !thin) && set.normals.empty()) form.casting = curveTriangles(set, own, true);
-        break;
     }
-    case GeometryKind::Points: {
-        const PointSet set = buildPoints(static_cast<const Points&>(prim), options, diagnostics);
-        if (!set.points.empty() && !set.points[0].empty())
-            form.seen.mesh = pointTriangles(set, fineness.gap);
-        break;
-    }
-    default: break; // see CompiledShapes
-    }
+    if (const PointSet& set = shape.points; !set.points.empty() && !set.points[0].empty())
+        form.seen.mesh = pointTriangles(set, fineness.gap);
     return form;
 }
 

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "hdDelegate/geometry/tessellate.h"
+#include "hdDelegate/compiled/compiledShapes.h"
 
 namespace patina {
 
-/// Triangles, and how shaders read them.
 /// How a strip ends. Its normal is that long, as the vertex stage has it (instance.glsl): the rim
 /// of an open tube shows as half an ellipse, and round ends as half a circle, for which it is
 /// longer.
@@ -19,6 +18,7 @@ enum StripEnd {
 /// Above the StripEnd of vertices that the vertex stage raises over a strip.
 constexpr float StripDome = 8.0f;
 
+/// Triangles, and how shaders read them.
 struct RasterTriangles {
     TriangleMesh mesh;
     /// Per vertex of a strip: its half width, negative on the right. Such a vertex is on the axis
@@ -45,8 +45,7 @@ struct RasterFineness {
 };
 
 /// Curves and points as triangles: strips, tubes or ribbons, and spheres or disks.
-RasterForm rasterTriangles(const Geometry& prim, const TessellationOptions& options,
-                           const RasterFineness& fineness, Diagnostics& diagnostics);
+RasterForm rasterTriangles(const PrimShape& shape, const RasterFineness& fineness);
 
 /// Makes curves coarser until they take so many triangles at most, as far as that is possible.
 /// @returns whether they are thin enough for strips

@@ -1,8 +1,6 @@
 #include "hdDelegate/raster/scene/rasterVolumes.h"
 
-#include "hdDelegate/image/volumeMedium.h"
 #include "hdDelegate/parallel.h"
-#include "materialNetwork/material.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,18 +35,9 @@ void RasterVolume::bind() const {
     emission.bind(2);
 }
 
-void RasterVolumes::build(Cached& cached, const RenderSettings& settings) {
+void RasterVolumes::build(Cached& cached, const std::string& path) {
     cached.volumes.clear();
-    std::shared_ptr<const MaterialProgram> program;
-    if (cached.material && !cached.material->network.empty())
-        program = _materials.program(cached.material, settings.methods, settings.tolerance);
-    if (program && !program->hasInterior()) {
-        _diagnostics.warn(cached.prim->path, "material:binding",
-                          "the material is not a volume; a white one is shown");
-        program = nullptr;
-    }
-    if (!program) program = _materials.compile(plainVolume());
-    const VolumeMedium medium(*cached.prim, program, _diagnostics);
+    const VolumeMedium& medium = *cached.medium;
     if (medium.empty()) return;
     const vec3 low = medium.boundsMin(), extent = medium.boundsMax() - low;
     const float longest = std::max({extent.x, extent.y, extent.z});
@@ -78,7 +67,7 @@ void RasterVolumes::build(Cached& cached, const RenderSettings& settings) {
     for (const mat4& toWorld : cached.places) {
         const mat4 inverse = glm::inverse(toWorld);
         if (!std::isfinite(inverse[0][0] + inverse[1][1] + inverse[2][2] + inverse[3][3])) {
-            _diagnostics.warn(cached.prim->path, "transform",
+            _diagnostics.warn(path, "transform",
                               "has no inverse; the volume is not drawn");
             continue;
         }
@@ -96,15 +85,12 @@ void RasterVolumes::build(Cached& cached, const RenderSettings& settings) {
 void RasterVolumes::add(const std::shared_ptr<const Volume>& prim, const SceneState& state,
                         const RenderSettings& settings, const std::vector<mat4>& toWorld,
                         vec3& minimum, vec3& maximum) {
-    std::shared_ptr<const MaterialPrim> material;
-    const auto found = state.materials.find(prim->material);
-    if (found != state.materials.end() && settings.enableSceneMaterials) material = found->second;
     Cached& cached = _cache[prim->path];
-    if (cached.prim != prim || cached.material != material || cached.places != toWorld) {
-        cached.prim = prim;
-        cached.material = material;
+    auto medium = _compiled.medium(prim, state, settings);
+    if (cached.medium != medium || cached.places != toWorld) {
+        cached.medium = std::move(medium);
         cached.places = toWorld;
-        build(cached, settings);
+        build(cached, prim->path);
     }
     cached.used = true;
     for (const RasterVolume& volume : cached.volumes) {

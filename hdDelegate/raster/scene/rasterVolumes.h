@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hdDelegate/compiled/compiledMaterials.h"
+#include "hdDelegate/compiled/compiledVolumes.h"
 #include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
@@ -23,8 +23,8 @@ struct RasterVolume {
 /// The volume prims of a scene.
 class RasterVolumes {
 public:
-    RasterVolumes(CompiledMaterials& materials, Diagnostics& diagnostics)
-        : _diagnostics(diagnostics), _materials(materials) {}
+    RasterVolumes(CompiledVolumes& compiled, Diagnostics& diagnostics)
+        : _diagnostics(diagnostics), _compiled(compiled) {}
 
     /// Begins an update; what add() does not name again is forgotten by end().
     void begin() { _placed.clear(); }
@@ -39,16 +39,15 @@ public:
 
 private:
     struct Cached {
-        std::shared_ptr<const Volume> prim;
-        std::shared_ptr<const MaterialPrim> material;
+        std::shared_ptr<const VolumeMedium> medium;
         std::vector<mat4> places;
         std::vector<RasterVolume> volumes; ///< per place
         bool used = false;
     };
-    void build(Cached& cached, const RenderSettings& settings);
+    void build(Cached& cached, const std::string& path);
 
     Diagnostics& _diagnostics;
-    CompiledMaterials& _materials;
+    CompiledVolumes& _compiled;
     std::map<std::string, Cached> _cache; ///< by path
     std::vector<const RasterVolume*> _placed;
 };

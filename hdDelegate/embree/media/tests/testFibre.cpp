@@ -3,7 +3,7 @@
 
 #include "hdDelegate/embree/media/tests/mediaScene.h"
 
-#include "shaders/shaders.h"
+#include "shaders/oracle.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,29 @@
+#include "hdDelegate/compiled/compiledVolumes.h"
+
+namespace patina {
+
+std::shared_ptr<const MaterialProgram> CompiledVolumes::plain() {
+    std::call_once(_plainMade, [this] { _plain = _materials.compile(plainVolume()); });
+    return _plain;
+}
+
+std::shared_ptr<const VolumeMedium>
+CompiledVolumes::medium(const std::shared_ptr<const Volume>& prim, const SceneState& state,
+                        const RenderSettings& settings) {
+    Request request{prim, nullptr};
+    if (!prim->material.empty() && settings.enableSceneMaterials) {
+        if (const auto material = _materials.find(prim->material, prim->path, state, settings))
+            request.program = _materials.program(material, settings.methods, settings.tolerance);
+        if (!request.program || !request.program->hasInterior()) {
+            _diagnostics.warn(prim->path, "material:binding",
+                              "the material is not a volume; a white one is shown");
+            request.program = nullptr;
+        }
+    }
+    if (!request.program) request.program = plain();
+    return _media.get(prim.get(), request, [&] {
+        return std::make_shared<const VolumeMedium>(*prim, request.program, _diagnostics);
+    });
+}
+
+} // namespace patina

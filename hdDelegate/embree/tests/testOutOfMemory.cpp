@@ -1,0 +1,122 @@
+// Updates of a scene that run out of memory anywhere: the next one makes whole what they did not.
+
+#include "hdDelegate/compiled/compiledScene.h"
+#include "hdDelegate/embree/embreeScene.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+
+namespace {
+/// Allocations of this thread until one fails; negative: none does.
+thread_local long allocationsLeft = -1;
+} // namespace
+
+void* operator new(std::size_t size) {
+    if (allocationsLeft >= 0 && allocationsLeft-- == 0) throw std::bad_alloc();
+    if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+using namespace patina;
+
+namespace {
+
+std::shared_ptr<Mesh> square(const std::string& path, float x, const std::string& group = "") {
+    auto mesh = std::make_shared<Mesh>();
+    mesh->path = path;
+    mesh->group = group;
+    mesh->points = std::vector<vec3>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    mesh->faceVertexCounts = {4};
+    mesh->faceVertexIndices = {0, 1, 2, 3};
+    mesh->transform = glm::translate(mat4(1.0f), vec3(x, 0, 0));
+    return mesh;
+}
+
+/// What rays along a line meet: the path of the prim, or nothing.
+std::vector<std::string> seen(const EmbreeScene& scene) {
+    std::vector<std::string> paths;
+    for (float x = -12.0f; x <= 12.0f; x += 1.5f) {
+        Hit hit;
+        const bool met = scene.intersect(vec3(x, 0.1f, 5.0f), vec3(0, 0, -1), 0.0f, 100.0f, 0.5f,
+                                         RayCamera, hit);
+        paths.push_back(met ? hit.surface->prim->path : "");
+    }
+    return paths;
+}
+
+class OutOfMemory : public testing::TestWithParam<bool> {};
+
+} // namespace
+
+TEST_P(OutOfMemory, TheNextUpdateMakesWholeWhatAnEditDidNot) {
+    auto scene = std::make_shared<Scene>();
+    {
+        SceneEdit edit = scene->edit();
+        for (int i = 0; i < 4; ++i)
+            edit.set(std::shared_ptr<const Geometry>(
+                square("/prim" + std::to_string(i), 3.0f * float(i))));
+        edit.set(std::shared_ptr<const Geometry>(square("/leaf", 0.0f, "leaves")));
+        auto instancer = std::make_shared<Instancer>();
+        instancer->path = "/leaves";
+        instancer->prototypes = {"leaves"};
+        for (int i = 1; i < 4; ++i) {
+            instancer->transforms.push_back(glm::translate(mat4(1.0f), vec3(-3.0f * i, 0, 0)));
+            instancer->prototypeIndices.push_back(0);
+        }
+        edit.set(std::shared_ptr<const Instancer>(instancer));
+    }
+    const auto before = scene->snapshot();
+    {
+        SceneEdit edit = scene->edit();
+        edit.set(std::shared_ptr<const Geometry>(square("/prim1", 1.5f)));
+        edit.set(std::shared_ptr<const Geometry>(square("/leaf", 0.7f, "leaves")));
+        edit.remove("/prim2");
+        edit.set(std::shared_ptr<const Geometry>(square("/prim9", 7.5f)));
+    }
+    const auto after = scene->snapshot();
+    const auto compiled = CompiledScene::of(scene);
+    RenderSettings settings;
+    settings.interactive = GetParam();
+    const std::atomic<bool> stop{false};
+    const Camera camera;
+    const auto fresh = [&] {
+        EmbreeScene scene(*compiled);
+        scene.update(*after, camera, settings, stop);
+        return seen(scene);
+    }();
+    ASSERT_GT(std::count(fresh.begin(), fresh.end(), "/leaf"), 0);
+    ASSERT_GT(std::count(fresh.begin(), fresh.end(), "/prim9"), 0);
+    int failures = 0;
+    bool reached = true;
+    for (long at = 0; reached; at += 1 + at / 8) {
+        EmbreeScene scene(*compiled);
+        scene.update(*before, camera, settings, stop);
+        allocationsLeft = at;
+        bool failed = false;
+        try {
+            scene.update(*after, camera, settings, stop);
+        } catch (const std::bad_alloc&) {
+            failed = true;
+        }
+        reached = allocationsLeft < 0;
+        allocationsLeft = -1;
+        failures += failed;
+        scene.update(*after, camera, settings, stop);
+        EXPECT_EQ(seen(scene), fresh) << "after allocation " << at << " failed";
+    }
+    EXPECT_GT(failures, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(, OutOfMemory, testing::Bool(), [](const auto& info) {
+    return std::string(info.param ? "interactive" : "final");
+});

@@ -122,7 +122,15 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3, python3-numpy")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libglm-dev) # for hosts in C++
+if(TARGET _patina) # a module is of one version of Python
+    get_target_property(suffix _patina SUFFIX)
+    if(suffix MATCHES "cpython-3([0-9]+)")
+        math(EXPR next "${CMAKE_MATCH_1} + 1")
+        set(CPACK_DEBIAN_PACKAGE_DEPENDS "python3 (>= 3.${CMAKE_MATCH_1}), python3 (<< 3.${next}), python3-numpy")
+    endif()
+endif()
+# A Python environment that has usd-core; OpenGL in software, where there is no other; hosts in C++.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-venv, libgl1-mesa-dri, libglm-dev")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 include(CPack)

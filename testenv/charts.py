@@ -2,6 +2,7 @@
 """Measures the project's own charts again, on this machine, and writes those that documents show.
 
     charts.py [--out FOLDER] [--only KIND]... [--quick]
+    charts.py --redraw           draws those that have a table anew, from the table: nothing is measured
 
 Kinds are those of `patina chart`: lobes, scenes, stability, predictions. Each runs in a process of its own; of what it writes
 the files named below go to the folder (default: docs/charts). --quick takes small pictures and few samples, to see whether it
@@ -80,6 +81,20 @@ def run(kind, folder, quick):
     return list(written.values())
 
 
+def redraw(folder):
+    """:returns: paths of the charts of scenes and lobes, drawn from their tables"""
+    import csv
+    from patina.chart import lobes, sceneCharts, sceneResults
+
+    with tempfile.TemporaryDirectory() as made:
+        sceneCharts.write(sceneResults.read_csv(os.path.join(folder, "scenes.csv")), made)
+        with open(os.path.join(folder, "lobes.csv"), encoding="utf-8", newline="") as file:
+            rows = [dict(row, ns=float(row["ns"]), mean=float(row["mean"])) for row in csv.DictReader(file)]
+        lobes.write_charts(rows, made)
+        return [shutil.copy(path, folder) for kind in ("scenes", "lobes") for pattern in KINDS[kind][2]
+                for path in sorted(glob.glob(os.path.join(made, pattern)))]
+
+
 def append(table, whole):
     """The rows of one CSV file below those of another with the same columns."""
     with open(table, encoding="utf-8") as rows, open(whole, "a", encoding="utf-8") as file:
@@ -98,7 +113,11 @@ def main():
     parser.add_argument("--out", default=os.path.join(ROOT, "docs", "charts"))
     parser.add_argument("--only", action="append", choices=KINDS)
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--redraw", action="store_true")
     a = parser.parse_args()
+    if a.redraw:
+        print("\n".join(redraw(a.out)))
+        return
     os.makedirs(a.out, exist_ok=True)
     for kind in a.only or KINDS:
         for path in run(kind, a.out, a.quick):

@@ -2,7 +2,7 @@
 
     ./patina python testenv/generateDocs.py [--check] [PAGE ...]
 
-Pages: nodes, flags, methods, aovs, byDesign. testenv/lint/test_generatedDocs.py fails where one is stale.
+Pages: nodes, flags, methods, aovs, byDesign, messages. testenv/lint/test_generatedDocs.py fails where one is stale.
 """
 import argparse
 import os
@@ -170,7 +170,22 @@ def by_design():
             *table(("feature", "the rasterizer instead", "test scenes", "test of the difference"), rows)]
 
 
-PAGES = {"nodes": nodes, "flags": flags, "methods": methods, "aovs": aovs, "byDesign": by_design}
+def messages():
+    import messageTexts
+    from patina.cli import advice, causes
+
+    lines = ["# Messages", "",
+             "Warnings name a prim and an input, say what is wrong, and what is shown instead. Here … stands for what differs from",
+             "scene to scene. An *error* means that something that was authored is missing from the picture; a *warning*, that a",
+             "default or an approximation is used. `patina record --strict` fails at either. What a command cannot do at all it says",
+             "in one line, and ends with 1 (or 2 for wrong usage, 75 if the same may work later)."]
+    for area, listed in messageTexts.texts().items():
+        rows = [(causes.severity({"message": text}), text, advice.advice(text)) for text in listed]
+        lines += ["", f"## {area}", "", *table(("", "message", "what to do"), rows)]
+    return lines
+
+
+PAGES = {"nodes": nodes, "flags": flags, "methods": methods, "aovs": aovs, "byDesign": by_design, "messages": messages}
 NOTE = "<!-- Made by `./patina python testenv/generateDocs.py`; edits are lost. -->"
 
 

@@ -148,11 +148,11 @@ def _as_on_disk(stage):
 
 def _folder():
     """:returns: where this build's references are kept; None without a build folder"""
-    build = os.environ.get("PATINA_BUILD_DIR")
-    if not build or not os.access(build, os.W_OK):
+    place = os.environ.get("PATINA_BUILD_DIR")
+    if not place or not os.access(place, os.W_OK):
         return None
-    every = os.path.join(build, "references")
-    folder = os.path.join(every, _build())
+    every = os.path.join(place, "references")
+    folder = os.path.join(every, build())
     if not os.path.isdir(folder):
         os.makedirs(folder, exist_ok=True)
         newest = os.stat(folder).st_mtime
@@ -164,7 +164,7 @@ def _folder():
 
 
 @functools.lru_cache(maxsize=None)
-def _build():
+def build():
     """:returns: a digest of the compiled module and of all Python files that take part in a render"""
     import _patina
     import patina

@@ -4,11 +4,17 @@
 
 namespace patina {
 
-Placements::Placements(const SceneState& state, const RenderSettings& settings) {
+Placements::Placements(const SceneState& state, const RenderSettings& settings,
+                       Diagnostics& diagnostics, const Placements* before) {
     for (const auto& item : state.instancers)
         if (isDrawn(*item.second, settings)) {
             _drawn.push_back(item.second);
             _in[item.second->group].push_back(item.second);
+            auto values = before ? before->valuesOf(*item.second) : nullptr;
+            if (!values) values = std::make_shared<InstanceValues>(*item.second, diagnostics);
+            for (std::string& name : values->names())
+                _valueNames.insert(std::move(name));
+            _values[item.second.get()] = std::move(values);
         }
     for (const auto& group : _in)
         for (const auto& instancer : group.second) {
@@ -28,6 +34,11 @@ const std::vector<Placements::Use>& Placements::of(const std::string& prototype)
     static const std::vector<Use> none;
     const auto found = _of.find(prototype);
     return found == _of.end() ? none : found->second;
+}
+
+std::shared_ptr<const InstanceValues> Placements::valuesOf(const Instancer& instancer) const {
+    const auto found = _values.find(&instancer);
+    return found == _values.end() ? nullptr : found->second;
 }
 
 const Placements::Instancers& Placements::in(const std::string& group) const {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "hdDelegate/compiled/instanceValues.h"
 #include "hdDelegate/scene/scene.h"
 #include "hdDelegate/scene/settings.h"
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,12 +27,19 @@ public:
     using Instancers = std::vector<std::shared_ptr<const Instancer>>;
 
     /// @param settings excludePaths counts
-    Placements(const SceneState& state, const RenderSettings& settings);
+    /// @param before of an earlier state: values of instancers that stayed are taken from it; or
+    /// null
+    Placements(const SceneState& state, const RenderSettings& settings, Diagnostics& diagnostics,
+               const Placements* before = nullptr);
 
     /// In the order of the groups that they stand in, then of their paths.
     const std::vector<Use>& of(const std::string& prototype) const;
     const Instancers& in(const std::string& group) const; ///< in the order of their paths
     const Instancers& drawn() const { return _drawn; }    ///< in the order of their paths
+    /// Of an instancer that is drawn.
+    std::shared_ptr<const InstanceValues> valuesOf(const Instancer& instancer) const;
+    /// Whether any instance has a primvar of this name.
+    bool haveValue(const std::string& name) const { return _valueNames.count(name) > 0; }
 
     /// Visits every place of a group in the world, through all levels of instances.
     /// @param inner what stands for the group's own space
@@ -57,6 +66,8 @@ private:
     Instancers _drawn;
     std::map<std::string, Instancers> _in;
     std::map<std::string, std::vector<Use>> _of;
+    std::map<const Instancer*, std::shared_ptr<const InstanceValues>> _values;
+    std::set<std::string> _valueNames;
 };
 
 } // namespace patina

@@ -30,9 +30,7 @@ public:
     }
     /// A surface without it has zeros.
     bool primvar(float out[4]) const {
-        const int attribute = _hit.surface->findAttribute(*primvarName);
-        if (attribute >= 0)
-            readAttribute(*_hit.surface, attribute, _hit.primitive, _hit.u, _hit.v, out);
+        readPrimvar(_hit, *primvarName, out);
         return true;
     }
 

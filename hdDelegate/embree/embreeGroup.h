@@ -26,6 +26,7 @@ struct InstancerNode {
     std::vector<EmbreeGroup*> targets; ///< per instance; null is not drawn
     std::vector<uint64_t> versions; ///< per prototype of the prim: EmbreeGroup::version it is for
     std::vector<std::vector<int>> categories;
+    std::shared_ptr<const InstanceValues> values;
     std::vector<bool> collapses; ///< per instance: (nearly) flat at some time; rays are checked
 
     mat4 transformAt(int instance, float time) const;

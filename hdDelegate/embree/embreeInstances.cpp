@@ -11,7 +11,7 @@ namespace patina {
 std::shared_ptr<InstancerNode> EmbreeScene::node(const std::shared_ptr<const Instancer>& prim) {
     auto result = std::make_shared<InstancerNode>();
     result->prim = prim;
-    warnOfInstancePrimvars(*prim, _diagnostics);
+    result->values = _parts.placements->valuesOf(*prim);
     std::vector<std::vector<mat4>> sampled(prim->transforms.size());
     for (size_t i = 0; i < sampled.size(); ++i) {
         sampled[i] =
@@ -123,6 +123,22 @@ std::vector<mat4> EmbreeScene::groupTransforms(const std::string& group) const {
             return true;
         },
         [&](const mat4& place) { result.push_back(place); });
+    return result;
+}
+
+std::vector<GroupPlace> EmbreeScene::groupPlaces(const std::string& group) const {
+    std::vector<GroupPlace> result;
+    _parts.placements->forPlaces(
+        group, GroupPlace(),
+        [&](const Instancer& instancer, uint32_t i, int, GroupPlace& place) {
+            place.toWorld =
+                interpolate(instancer.transforms[i], 0.0f, originOf(instancer.group)) *
+                place.toWorld;
+            place.steps.insert(place.steps.begin(),
+                               {_parts.placements->valuesOf(instancer).get(), int(i)});
+            return true;
+        },
+        [&](const GroupPlace& place) { result.push_back(place); });
     return result;
 }
 

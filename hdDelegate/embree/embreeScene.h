@@ -31,6 +31,12 @@ struct BuildCounts {
     size_t looked = 0; ///< prims that an update looked at to see whether anything is to be done
 };
 
+/// Where a group is in the space that rays are traced in.
+struct GroupPlace {
+    mat4 toWorld{1.0f};
+    std::vector<InstanceStep> steps; ///< from the outermost instance inwards
+};
+
 /// Embree's view of a scene: prims in the world are baked into one acceleration structure,
 /// prototypes into one each, and instances refer to them, nested to any depth.
 class EmbreeScene {
@@ -68,6 +74,8 @@ public:
     const std::vector<const Surface*>& emissiveSurfaces() const { return _emissive; }
     /// World transforms of a group (for lights inside prototypes).
     std::vector<mat4> groupTransforms(const std::string& group) const;
+    /// The same with the instances around. Their values live as long as sharedPlacements().
+    std::vector<GroupPlace> groupPlaces(const std::string& group) const;
     const LinkNames& links() const { return *_parts.links; }
     vec3 boundsMin() const { return _boundsMin; }
     vec3 boundsMax() const { return _boundsMax; }
@@ -80,6 +88,7 @@ public:
         return _emissiveSources;
     }
     const Placements& placements() const { return *_parts.placements; }
+    const std::shared_ptr<const Placements>& sharedPlacements() const { return _parts.placements; }
     const BuildCounts& counts() const { return _counts; } ///< since construction
     /// What the methods of the materials in use are expected to cost.
     ScenePlan plan() const;

@@ -194,7 +194,11 @@ MaterialSlot EmbreeScene::makeSlot(const Surface& surface, const std::string& ma
     slot.program = program(materialPath, surface.prim->path, view);
     for (const auto& primvar : slot.program->primvars())
         slot.attributes.push_back(surface.findAttribute(primvar.name));
-    slot.opaque = slot.program->isOpaqueWith(slot.attributes);
+    std::vector<int> there = slot.attributes;
+    if (!surface.prim->group.empty())
+        for (size_t i = 0; i < there.size(); ++i)
+            if (_parts.placements->haveValue(slot.program->primvars()[i].name)) there[i] = 0;
+    slot.opaque = slot.program->isOpaqueWith(there);
     return slot;
 }
 

@@ -14,6 +14,7 @@ bool EmbreeScene::finishHit(const RTCRayHit& rayHit, const TraceContext& context
     hit.groupToWorld = mat4(1.0f);
     hit.instanceId = -1;
     hit.instanceCategories = nullptr;
+    hit.stepCount = 0;
 
     const EmbreeGroup* group = _world;
     unsigned native = rayHit.hit.instID[0];
@@ -23,6 +24,7 @@ bool EmbreeScene::finishHit(const RTCRayHit& rayHit, const TraceContext& context
         hit.instanceId = node.id(instance, hit.instanceId);
         if (size_t(instance) < node.categories.size())
             hit.instanceCategories = &node.categories[instance];
+        hit.steps[hit.stepCount++] = {node.values.get(), instance};
     };
     if (native == throughUserGeometry) {
         for (int i = 0; i < context.hitDepth; ++i)

@@ -10,14 +10,16 @@ namespace patina {
 
 namespace {
 
-Hit hitOn(const Surface* surface, unsigned primitive, const mat4& place, vec2 uv) {
+Hit hitOn(const Surface* surface, unsigned primitive, const GroupPlace& place, vec2 uv) {
     Hit hit;
     hit.surface = surface;
     hit.primitive = primitive;
     hit.u = uv.x;
     hit.v = uv.y;
-    hit.groupToWorld = place;
+    hit.groupToWorld = place.toWorld;
     hit.instanced = !surface->prim->group.empty();
+    for (const InstanceStep& step : place.steps)
+        if (hit.stepCount < Hit::maxSteps) hit.steps[hit.stepCount++] = step;
     return hit;
 }
 
@@ -107,6 +109,7 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
     std::sort(surfaces.begin(), surfaces.end(),
               [](const Surface* a, const Surface* b) { return a->prim->path < b->prim->path; });
     surfaces.erase(std::unique(surfaces.begin(), surfaces.end()), surfaces.end());
+    _placements = scene.sharedPlacements();
     for (const Surface* surface : surfaces)
         addSurface(*surface, scene, input);
     _set = std::make_unique<LightSet>(std::move(input), images, diagnostics);
@@ -116,11 +119,12 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
                              LightSetInput& input) {
     const auto meshLight = _meshLights.find(&surface);
     const bool isMeshLight = meshLight != _meshLights.end();
-    for (const mat4& place : scene.groupTransforms(surface.prim->group)) {
+    for (const GroupPlace& where : scene.groupPlaces(surface.prim->group)) {
+        const mat4& place = where.toWorld;
         const std::vector<uvec3>& triangles = surface.topology().triangles;
         Emitting emitting{place, std::vector<int>(triangles.size(), -1)};
         const int number = int(_places.size());
-        _places.push_back(place);
+        _places.push_back(where);
         for (unsigned t = 0; t < triangles.size(); ++t) {
             const bool glows = surface.material(t).program->hasEmission();
             if (!isMeshLight && !glows) continue;
@@ -139,7 +143,7 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
             const vec3 n = ng / length * (mirrored ? -1.0f : 1.0f);
             float brightest = 0.0f;
             for (const vec2 uv : {vec2(1 / 3.0f), vec2(0.1f), vec2(0.8f, 0.1f), vec2(0.1f, 0.8f)}) {
-                const Hit hit = hitOn(&surface, t, place, uv);
+                const Hit hit = hitOn(&surface, t, where, uv);
                 SurfacePoint point;
                 const vec3 p = triangle.vertices[0] * (1 - uv.x - uv.y) +
                                triangle.vertices[1] * uv.x + triangle.vertices[2] * uv.y;

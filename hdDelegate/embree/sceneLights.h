@@ -74,7 +74,8 @@ private:
     std::vector<LightInfo> _infos;
     std::vector<int> _triangleInfos;
     std::vector<Source> _sources; ///< per triangle
-    std::vector<mat4> _places;
+    std::vector<GroupPlace> _places;
+    std::shared_ptr<const Placements> _placements; ///< keeps the values that _places points to
     std::map<const Surface*, std::vector<Emitting>> _emitting;
     std::map<const Surface*, MeshLight> _meshLights;
     int _glowInfo = 0;

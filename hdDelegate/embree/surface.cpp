@@ -164,10 +164,20 @@ bool readAttribute(const Surface& surface, int attribute, unsigned primitive, fl
     }
 }
 
+bool readPrimvar(const Hit& hit, const std::string& name, float out[4]) {
+    const int attribute = hit.surface->findAttribute(name);
+    return attribute >= 0
+               ? readAttribute(*hit.surface, attribute, hit.primitive, hit.u, hit.v, out)
+               : readInstances(hit.steps, hit.stepCount, name, out);
+}
+
 bool SurfacePoint::read(int slotIndex, float out[4]) const {
     const int attribute = slot->attributes[slotIndex];
-    return attribute >= 0 &&
-           readAttribute(*hit->surface, attribute, hit->primitive, hit->u, hit->v, out);
+    if (attribute >= 0)
+        return readAttribute(*hit->surface, attribute, hit->primitive, hit->u, hit->v, out);
+    return hit->stepCount > 0 &&
+           readInstances(hit->steps, hit->stepCount,
+                         slot->program->primvars()[size_t(slotIndex)].name, out);
 }
 
 void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& direction, float coneWidth,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hdDelegate/compiled/compiledShapes.h"
+#include "hdDelegate/compiled/instanceValues.h"
 #include "hdDelegate/embree/sharedShapes.h"
 #include "hdDelegate/scene/geometry.h"
 #include "materialNetwork/cpu/materialProgram.h"
@@ -79,11 +80,18 @@ struct Hit {
     mat4 groupToWorld{1.0f};
     int instanceId = -1;
     const std::vector<int>* instanceCategories = nullptr;
+    static constexpr int maxSteps = 9; ///< TraceContext::maxDepth and an instance of Embree's
+    int stepCount = 0;
+    InstanceStep steps[maxSteps]; ///< the first stepCount: from the outermost instance inwards
 };
 
 /// Reads an attribute of a surface at a hit. @returns false when the attribute has no value there.
 bool readAttribute(const Surface& surface, int attribute, unsigned primitive, float u, float v,
                    float out[4]);
+
+/// Reads a primvar at a hit by its name: the prim's own, else that of an instance around it.
+/// @returns false when neither has a value there
+bool readPrimvar(const Hit& hit, const std::string& name, float out[4]);
 
 /// Everything about the surface at a hit; also the reader of its primvars.
 struct SurfacePoint : PrimvarReader {

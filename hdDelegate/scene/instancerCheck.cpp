@@ -61,14 +61,6 @@ bool isWideEnough(const mat4& m) {
     return hasInverse(m);
 }
 
-void warnOfInstancePrimvars(const Instancer& instancer, Diagnostics& diagnostics) {
-    for (const Primvar& primvar : instancer.primvars)
-        if (primvar.interpolation != Interpolation::Constant)
-            diagnostics.warn(instancer.path, "primvars:" + primvar.name,
-                             "values per instance are not supported; instances show those of their "
-                             "prototypes");
-}
-
 void warnOfInstances(const Instancer& instancer, float timeCode, Diagnostics& diagnostics) {
     bool outside = false;
     std::string problem;

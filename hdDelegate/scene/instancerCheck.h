@@ -24,8 +24,6 @@ bool hasInverse(const mat4& m);
 /// Whether rays that go into the space of a transform stay so small that none has to be checked.
 bool isWideEnough(const mat4& m);
 
-/// Warns of primvars with a value per instance, which no renderer draws.
-void warnOfInstancePrimvars(const Instancer& instancer, Diagnostics& diagnostics);
 /// Warns of instances whose prototype does not exist, or whose transform at a time has no inverse.
 void warnOfInstances(const Instancer& instancer, float timeCode, Diagnostics& diagnostics);
 

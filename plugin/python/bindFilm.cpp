@@ -202,11 +202,13 @@ void bindFilm(py::module_& m) {
                 return copy;
             },
             py::call_guard<py::gil_scoped_release>(), "An equal film of its own.")
-        .def_property_readonly("width", &Film::width)
-        .def_property_readonly("height", &Film::height)
+        .def_property_readonly("width", &Film::width, "Pixels.")
+        .def_property_readonly("height", &Film::height, "Pixels.")
         .def_property_readonly("aovs", &aovNames, "Names besides color and alpha.")
-        .def_property_readonly("dropped_samples", &Film::droppedSamples)
-        .def_readwrite("resume_token", &Film::resumeToken)
+        .def_property_readonly("dropped_samples", &Film::droppedSamples,
+                               "Samples that were not finite; they count as black.")
+        .def_readwrite("resume_token", &Film::resumeToken,
+                       "What made the film, in words; a checkpoint of another is refused.")
         .def("resolve", &resolve, py::arg("name"),
              "Array of height x width (x components), top row first; int32 for ids.")
         .def(
@@ -219,11 +221,14 @@ void bindFilm(py::module_& m) {
             "Expected mean of |luminance - its limit| / (limit + 0.01) over the pixels, by their "
             "samples; shared: all pixels have the same random numbers (rasterizer).")
         .def("add_color", &addColor, py::arg("x"), py::arg("y"), py::arg("radiance"),
-             py::arg("alpha") = 1.0f)
+             py::arg("alpha") = 1.0f,
+             "Adds a sample of linear colour; False, and black, where it is not finite.")
         .def("save_checkpoint", &Film::saveCheckpoint, py::arg("file"),
-             py::call_guard<py::gil_scoped_release>())
+             py::call_guard<py::gil_scoped_release>(),
+             "Writes the samples to a file; RuntimeError says in one line why not.")
         .def("load_checkpoint", &Film::loadCheckpoint, py::arg("file"),
-             py::call_guard<py::gil_scoped_release>());
+             py::call_guard<py::gil_scoped_release>(),
+             "Reads what save_checkpoint() wrote; RuntimeError where it is something else.");
 
     py::class_<ImageData>(m, "ImageData", "An image as it is in its file.")
         .def_readonly("width", &ImageData::width)
@@ -243,15 +248,18 @@ void bindFilm(py::module_& m) {
                 return py::array_t<float>(shape, image.pixels.data(), self);
             },
             "Float array of height x width x channels, top row first, without a copy.")
-        .def_property_readonly("metadata",
-                               [](const ImageData& image) { return metadataTo(image.metadata); });
+        .def_property_readonly(
+            "metadata", [](const ImageData& image) { return metadataTo(image.metadata); },
+            "What the file says of itself, by name.");
 
     py::class_<AtomicFile>(m, "AtomicFile",
                            "A file that appears all at once: written to temporary_path, and "
                            "renamed by commit(). RuntimeError where the path is no regular file.")
         .def(py::init<const std::string&>(), py::arg("path"))
-        .def_property_readonly("temporary_path", &AtomicFile::temporaryPath)
-        .def("commit", &AtomicFile::commit, py::call_guard<py::gil_scoped_release>())
+        .def_property_readonly("temporary_path", &AtomicFile::temporaryPath,
+                               "Where to write; it has the file's own ending.")
+        .def("commit", &AtomicFile::commit, py::call_guard<py::gil_scoped_release>(),
+             "Renames what was written to its place; RuntimeError where that fails.")
         .def("discard", &AtomicFile::discard, "Ends without the file, unless it was committed.");
     m.def("set_denoiser_library", &setDenoiserLibrary, py::arg("path"),
           "Which Open Image Denoise to load; empty for $PATINA_OIDN_LIBRARY or the system's.");
@@ -276,11 +284,15 @@ void bindFilm(py::module_& m) {
     m.def("check_image_path", &checkImagePath, py::arg("path"),
           py::arg("aovs") = std::vector<std::string>{},
           "RuntimeError says early why an image could not be written.");
-    m.def("displays", [] { return ColorSpaces::shared().displays(); });
+    m.def(
+        "displays", [] { return ColorSpaces::shared().displays(); },
+        "Displays of the OCIO configuration, in its order.");
     m.def(
         "views", [](const std::string& display) { return ColorSpaces::shared().views(display); },
-        py::arg("display"));
-    m.def("color_spaces", [] { return ColorSpaces::shared().names(); });
+        py::arg("display"), "Views of a display, in the order of the configuration.");
+    m.def(
+        "color_spaces", [] { return ColorSpaces::shared().names(); },
+        "Names of colour spaces that colours and textures may have.");
     m.def(
         "color_to_rendering",
         [](std::vector<float> numbers, const std::string& space) -> py::object {

@@ -125,13 +125,18 @@ void bindRender(py::module_& m) {
              "Starts rendering the scene's newest state; ValueError names an unknown setting.")
         .def("stop", &Renderer::stop, py::call_guard<py::gil_scoped_release>(),
              "Returns when no thread works on the film any more.")
-        .def("pause", &Renderer::pause, py::call_guard<py::gil_scoped_release>())
-        .def("resume", &Renderer::resume, py::call_guard<py::gil_scoped_release>())
-        .def_property_readonly("is_running", &Renderer::isRunning)
+        .def("pause", &Renderer::pause, py::call_guard<py::gil_scoped_release>(),
+             "Holds the render; the film keeps its samples.")
+        .def("resume", &Renderer::resume, py::call_guard<py::gil_scoped_release>(),
+             "Goes on after pause().")
+        .def_property_readonly("is_running", &Renderer::isRunning,
+                               "Whether it renders, or is paused.")
         .def("wait", &wait, py::arg("timeout") = -1.0,
              "Waits for the end, or for so many seconds. Returns whether the render has ended.")
         .def("progress", &progress, "A dict with the fields of RenderProgress.");
-    m.def("make_renderer", &make, py::arg("backend") = "embree");
+    m.def("make_renderer", &make, py::arg("backend") = "embree",
+          "A renderer of the back end embree, raster, interactive or auto; ValueError for another "
+          "name. Where raster cannot run, the path tracer renders instead, with a warning.");
     m.def("default_render_settings", &defaults, "Every setting with its default.");
 }
 

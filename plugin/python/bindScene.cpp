@@ -165,50 +165,66 @@ void bindScene(py::module_& m) {
             return inputs;
         },
         "Inputs that shape lights: (name in the schema, keyword of set_light(), float or bool).");
-    edit.def("set_light", &setLight, "A UsdLux light; keywords are the fields of Light.")
-        .def("set_camera", &setCamera, "A UsdGeomCamera; keywords are the fields of Camera.")
-        .def("set_material", &setMaterial, py::arg("path"), py::arg("network"))
-        .def("set_meters_per_unit", &PythonEdit::setMetersPerUnit, py::arg("meters_per_unit"))
+    edit.def("set_light", &setLight, py::arg("path"),
+             "A UsdLux light; keywords are the fields of Light.")
+        .def("set_camera", &setCamera, py::arg("path"),
+             "A UsdGeomCamera; keywords are the fields of Camera.")
+        .def("set_material", &setMaterial, py::arg("path"), py::arg("network"),
+             "A material; prims name it by its path.")
+        .def("set_meters_per_unit", &PythonEdit::setMetersPerUnit, py::arg("meters_per_unit"),
+             "Length of a scene unit in metres, above 0.")
         .def(
             "remove", [](PythonEdit& edit, const std::string& path) { edit.remove(path); },
-            py::arg("path"))
+            py::arg("path"), "Removes the prim with that path, of whatever kind, if there is one.")
         .def("clear", &PythonEdit::clear, "Removes everything that was there before.")
-        .def("commit", &PythonEdit::commit, py::call_guard<py::gil_scoped_release>())
+        .def("commit", &PythonEdit::commit, py::call_guard<py::gil_scoped_release>(),
+             "Makes the changes the scene's newest state, all at once; a `with` block does so.")
         .def(
             "warn",
             [](PythonEdit& edit, const std::string& prim, const std::string& input,
                const std::string& message) {
                 edit.scene->diagnostics().warn(prim, input, message);
             },
-            py::arg("prim"), py::arg("input"), py::arg("message"))
+            py::arg("prim"), py::arg("input"), py::arg("message"), "Adds a warning to the scene's.")
         .def("__enter__", [](py::object self) { return self; })
         .def("__exit__", [](PythonEdit& self, const py::args&) { self.commit(); });
 
     py::class_<Scene, std::shared_ptr<Scene>>(m, "Scene", "The renderer's own scene.")
         .def(py::init<>())
-        .def("edit",
-             [](std::shared_ptr<Scene> s) { return std::make_unique<PythonEdit>(std::move(s)); })
-        .def_property_readonly("version", [](const Scene& s) { return s.snapshot()->version; })
-        .def_property_readonly("meters_per_unit",
-                               [](const Scene& s) { return s.snapshot()->metersPerUnit; })
-        .def("paths", &paths, py::arg("kind"))
-        .def("camera", &cameraDict, py::arg("path"))
+        .def(
+            "edit",
+            [](std::shared_ptr<Scene> s) { return std::make_unique<PythonEdit>(std::move(s)); },
+            "A new batch of changes, which commits at the end of a `with` block.")
+        .def_property_readonly(
+            "version", [](const Scene& s) { return s.snapshot()->version; },
+            "Grows by one with every commit.")
+        .def_property_readonly(
+            "meters_per_unit", [](const Scene& s) { return s.snapshot()->metersPerUnit; },
+            "Length of a scene unit in metres.")
+        .def("paths", &paths, py::arg("kind"),
+             "Paths of all geometry, instancers, lights, cameras or materials; ValueError for "
+             "another kind.")
+        .def("camera", &cameraDict, py::arg("path"),
+             "A camera's values by set_camera()'s keywords; KeyError where there is none.")
         .def(
             "material",
             [](const Scene& s, const std::string& path) {
                 return find(s.snapshot()->materials, path).network;
             },
-            py::arg("path"))
+            py::arg("path"), "A material as it was set; KeyError where there is none.")
         .def(
             "dump", [](const Scene& s, int values) { return dumpScene(*s.snapshot(), values); },
-            py::arg("values") = 16)
+            py::arg("values") = 16, "The scene as text; arrays are cut after so many values.")
         .def(
             "warn",
             [](Scene& s, const std::string& prim, const std::string& input,
                const std::string& message) { s.diagnostics().warn(prim, input, message); },
-            py::arg("prim"), py::arg("input"), py::arg("message"))
-        .def("warnings", &warnings)
-        .def("clear_warnings", [](Scene& s) { s.diagnostics().clear(); });
+            py::arg("prim"), py::arg("input"), py::arg("message"),
+            "Adds a warning; one that is there already is counted.")
+        .def("warnings", &warnings,
+             "What was wrong: dicts of prim, input, message, and count, how often it was met.")
+        .def(
+            "clear_warnings", [](Scene& s) { s.diagnostics().clear(); }, "Forgets all warnings.");
 }
 
 } // namespace patina

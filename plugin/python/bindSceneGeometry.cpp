@@ -190,20 +190,26 @@ void setInstancer(PythonEdit& edit, const std::string& path, const py::kwargs& v
 } // namespace
 
 void bindSceneGeometry(py::class_<PythonEdit>& edit) {
-    edit.def("set_mesh", &setMesh, "A UsdGeomMesh; keywords are the fields of Mesh.")
-        .def("set_curves", &setCurves, "A UsdGeomBasisCurves; keywords are the fields of Curves.")
-        .def("set_nurbs_patch", &setNurbsPatch,
+    edit.def("set_mesh", &setMesh, py::arg("path"),
+             "A UsdGeomMesh; keywords are the fields of Mesh.")
+        .def("set_curves", &setCurves, py::arg("path"),
+             "A UsdGeomBasisCurves; keywords are the fields of Curves.")
+        .def("set_nurbs_patch", &setNurbsPatch, py::arg("path"),
              "A UsdGeomNurbsPatch; weights are one per point, ranges two numbers.")
-        .def("set_tet_mesh", &setTetMesh,
+        .def("set_tet_mesh", &setTetMesh, py::arg("path"),
              "A UsdGeomTetMesh; tets are four indices of points each, surface three or nothing.")
-        .def("set_hermite_curves", &setHermiteCurves, "A UsdGeomHermiteCurves, as Bezier curves.")
-        .def("set_nurbs_curves", &setNurbsCurves,
+        .def("set_hermite_curves", &setHermiteCurves, py::arg("path"),
+             "A UsdGeomHermiteCurves, as Bezier curves.")
+        .def("set_nurbs_curves", &setNurbsCurves, py::arg("path"),
              "A UsdGeomNurbsCurves, as Bezier curves; ranges are two numbers per curve.")
-        .def("set_points", &setPoints, "A UsdGeomPoints; keywords are the fields of Points.")
-        .def("set_implicit", &setImplicit, "Sphere, cube, cone, cylinder, capsule or plane.")
-        .def("set_volume", &setVolume,
+        .def("set_points", &setPoints, py::arg("path"),
+             "A UsdGeomPoints; keywords are the fields of Points.")
+        .def("set_implicit", &setImplicit, py::arg("path"),
+             "Sphere, cube, cone, cylinder, capsule or plane.")
+        .def("set_volume", &setVolume, py::arg("path"),
              "A UsdVolVolume; fields are given by their names, files and the grids in the files.")
-        .def("set_instancer", &setInstancer, "Copies of groups; keywords are Instancer's fields.");
+        .def("set_instancer", &setInstancer, py::arg("path"),
+             "Copies of groups; keywords are Instancer's fields.");
 }
 
 } // namespace patina

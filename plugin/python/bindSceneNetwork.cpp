@@ -89,8 +89,11 @@ void bindNetwork(py::module_& m) {
                  return network;
              }),
              py::arg("path"))
-        .def_readonly("path", &Network::path)
-        .def("add_node", &addNode, py::arg("path"), py::arg("id"))
+        .def_readonly("path", &Network::path, "The material's own path.")
+        .def(
+            "add_node", &addNode, py::arg("path"), py::arg("id"),
+            "A node by its definition's name, such as ND_conductor_bsdf. ValueError where the path "
+            "is taken; a definition that is not known is warned of when the material is compiled.")
         .def(
             "set_input",
             [](Network& network, const std::string& node, const std::string& input,
@@ -106,22 +109,28 @@ void bindNetwork(py::module_& m) {
                const std::string& source, const std::string& output) {
                 nodeOf(network, node).connections[input] = Connection{source, output};
             },
-            py::arg("node"), py::arg("input"), py::arg("source"), py::arg("output") = "")
+            py::arg("node"), py::arg("input"), py::arg("source"), py::arg("output") = "",
+            "Connects a node's input to an output of another node; empty: its only one. KeyError "
+            "where the node was not added.")
         .def(
             "set_terminal",
             [](Network& network, const std::string& name, const std::string& node,
                const std::string& output) {
                 network.terminals[name] = Connection{node, output};
             },
-            py::arg("name"), py::arg("node"), py::arg("output") = "")
-        .def_property_readonly("empty", &Network::empty)
-        .def("nodes", &nodes)
-        .def("terminals", [](const Network& network) {
-            py::dict dict;
-            for (const auto& [name, connection] : network.terminals)
-                dict[py::str(name)] = py::make_tuple(connection.node, connection.output);
-            return dict;
-        });
+            py::arg("name"), py::arg("node"), py::arg("output") = "",
+            "Names the node that is the material's surface, displacement or volume.")
+        .def_property_readonly("empty", &Network::empty, "Whether it has no node.")
+        .def("nodes", &nodes, "Dicts of path, id, inputs and connections.")
+        .def(
+            "terminals",
+            [](const Network& network) {
+                py::dict dict;
+                for (const auto& [name, connection] : network.terminals)
+                    dict[py::str(name)] = py::make_tuple(connection.node, connection.output);
+                return dict;
+            },
+            "Name -> (node, output).");
 }
 
 } // namespace patina

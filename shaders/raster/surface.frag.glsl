@@ -6,7 +6,7 @@ in vec3 vNormal;
 in vec2 vAcross;
 flat in mat3 vNormalMatrix;
 flat in float vScale;
-flat in ivec2 vInstance; // id, row of links
+flat in ivec3 vInstance; // id, row of links, bits of primvars that are those of an instance
 #if PRIMVARS > 0
 in vec4 vPrimvars[PRIMVARS];
 #endif
@@ -16,11 +16,12 @@ vec3 vBitangent;
 vec3 vGeometricNormal;
 float vUvPerLength;
 ivec4 vIds; // element, instance, row of links
-layout(location = 1) uniform ivec4 drawInfo; // bits of primvars that there are, prim id, flags of RasterShape
+layout(location = 1) uniform ivec4 drawInfo; // bits of the prim's primvars, prim id, flags of RasterShape, InstanceValues
 
 vec4 primvar(int slot, vec4 fallback) {
 #if PRIMVARS > 0
-    if (slot >= 0 && slot < PRIMVARS && (drawInfo.x & (1 << slot)) != 0) return vPrimvars[slot];
+    if (slot >= 0 && slot < PRIMVARS && ((drawInfo.x | vInstance.z) & (1 << slot)) != 0)
+        return vPrimvars[slot];
 #endif
     return fallback;
 }
@@ -38,7 +39,7 @@ void loadTriangle() {
     vTangent = linear * t.dPdu.xyz * scale;
     vBitangent = linear * t.dPdv.xyz * scale;
     vUvPerLength = t.dPdu.w / max(vScale, 1e-20);
-    vIds = ivec4(floatBitsToInt(t.dPdv.w), vInstance, 0);
+    vIds = ivec4(floatBitsToInt(t.dPdv.w), vInstance.xy, 0);
 }
 
 const int FACETED = 2;

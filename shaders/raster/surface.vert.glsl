@@ -9,6 +9,9 @@ layout(location = 3) uniform int category; // of what casts, -1: everything
 #endif
 #if PRIMVARS > 0
 layout(std430, binding = 6) readonly buffer Primvars { vec4 primvars[]; };
+// Per instance of a draw: in xy the low and high 16 bits of what it has, then PRIMVARS values.
+layout(std430, binding = 11) readonly buffer InstanceValues { vec4 instanceValues[]; };
+layout(location = 1) uniform ivec4 drawInfo; // w: where the draw's values begin, plus 1; 0: it has none
 #endif
 
 invariant gl_Position; // depths that were drawn before are met again
@@ -22,7 +25,7 @@ out vec3 vNormal; // of strips: along the curve
 out vec2 vAcross; // of strips, see onStrip()
 flat out mat3 vNormalMatrix;
 flat out float vScale;
-flat out ivec2 vInstance; // id, row of links
+flat out ivec3 vInstance; // id, row of links, bits of primvars that are those of an instance
 #if PRIMVARS > 0
 out vec4 vPrimvars[PRIMVARS];
 #endif
@@ -38,10 +41,16 @@ void main() {
 #endif
     vAcross = onStrip();
     vNormal = inPosition.w != 0.0 ? alongStrip() : vNormalMatrix * inNormal;
-    vInstance = inIds.xy;
+    vInstance = ivec3(inIds.xy, 0);
 #if PRIMVARS > 0
     for (int i = 0; i < PRIMVARS; ++i)
         vPrimvars[i] = primvars[gl_VertexID * PRIMVARS + i];
+    if (drawInfo.w > 0) {
+        int at = drawInfo.w - 1 + inIds.z * (PRIMVARS + 1);
+        vInstance.z = int(instanceValues[at].x) | int(instanceValues[at].y) << 16;
+        for (int i = 0; i < PRIMVARS; ++i)
+            if ((vInstance.z & (1 << i)) != 0) vPrimvars[i] = instanceValues[at + 1 + i];
+    }
 #endif
 #ifdef SHADOW
     gl_Position = worldToMap * vec4(vPosition, 1.0);

@@ -13,6 +13,8 @@ def bsdf(given):
     if "glass" in given:
         return {"type": "roughdielectric", "distribution": "ggx", "alpha": given["roughness"] ** 2, "int_ior": given["glass"],
                 "ext_ior": 1.0}
+    if "diffuse" in given:
+        return {"type": "diffuse", "reflectance": {"type": "rgb", "value": given["diffuse"]}}
     color = {"type": "bitmap", "filename": given["image"]} if given["image"] else {"type": "rgb", "value": given["color"]}
     return {"type": "twosided", "own": {"type": "principled", "base_color": color, "roughness": given["roughness"],
                                         "metallic": given["metallic"], "specular": 0.5}}
@@ -36,20 +38,22 @@ def shape(mi, folder, name, held, arrays):
 
 
 def main(folder, variant):
+    import drjit
     import mitsuba as mi
 
     started = time.perf_counter()
     mi.set_variant(variant)
     scene, arrays = pathWorker.load(folder)
     if scene["threads"]:
-        mi.Thread.set_thread_count(scene["threads"]) if hasattr(mi, "Thread") else None
+        drjit.set_thread_count(scene["threads"])
 
     def transform(rows):
         return mi.ScalarTransform4f(np.asarray(rows, float).T)
 
     eye, target, view = scene["camera"]
     turned = transform(pathScenes.facing(eye, target)) @ mi.ScalarTransform4f().rotate([0, 1, 0], 180)
-    made = {"type": "scene", "integrator": {"type": "path", "max_depth": scene["depth"] + 1},
+    made = {"type": "scene", "integrator": {"type": "path", "max_depth": scene["depth"] + 1,
+                                               "rr_depth": 5 if scene.get("roulette", True) else 1 << 20},
             "sensor": {"type": "perspective", "fov": view, "to_world": turned,
                        "film": {"type": "hdrfilm", "width": scene["width"], "height": scene["height"],
                                 "rfilter": {"type": "box"}, "pixel_format": "rgb"},

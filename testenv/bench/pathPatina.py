@@ -28,6 +28,22 @@ def material(stage, name, given):
         surface.CreateInput("bsdf", Sdf.ValueTypeNames.Token).ConnectToSource(lobe.ConnectableAPI(), "out")
         made.CreateSurfaceOutput("mtlx").ConnectToSource(surface.ConnectableAPI(), "out")
         return made
+    if "diffuse" in given:
+        lobe = UsdShade.Shader.Define(stage, f"/materials/{name}/lobe")
+        lobe.CreateIdAttr("ND_oren_nayar_diffuse_bsdf")
+        lobe.CreateInput("color", Sdf.ValueTypeNames.Color3f).Set(tuple(given["diffuse"]))
+        surface.CreateIdAttr("ND_surface")
+        surface.CreateInput("bsdf", Sdf.ValueTypeNames.Token).ConnectToSource(lobe.ConnectableAPI(), "out")
+        made.CreateSurfaceOutput("mtlx").ConnectToSource(surface.ConnectableAPI(), "out")
+        return made
+    if given.get("standard"):
+        surface.CreateIdAttr("ND_standard_surface_surfaceshader")
+        surface.CreateInput("base", Sdf.ValueTypeNames.Float).Set(1.0)
+        surface.CreateInput("base_color", Sdf.ValueTypeNames.Color3f).Set(tuple(given["color"]))
+        surface.CreateInput("metalness", Sdf.ValueTypeNames.Float).Set(given["metallic"])
+        surface.CreateInput("specular_roughness", Sdf.ValueTypeNames.Float).Set(given["roughness"])
+        made.CreateSurfaceOutput("mtlx").ConnectToSource(surface.ConnectableAPI(), "out")
+        return made
     surface.CreateIdAttr("UsdPreviewSurface")
     color = surface.CreateInput("diffuseColor", Sdf.ValueTypeNames.Color3f)
     color.Set(tuple(given["color"]))
@@ -121,6 +137,7 @@ def main(folder):
         renderer.start(held, "/camera", {
             "width": scene["width"], "height": scene["height"], "samples": samples, "seed": seed, "threads": scene["threads"],
             "maxDepth": scene["depth"], "filterRadius": 0.5, "checkpointSeconds": 0.0,
+            "rouletteDepth": 1 if scene.get("roulette", True) else 4096,
             "methods": {"layerTransmittance": "largest"}}, film)  # as peers do, so that pictures are equally bright
         renderer.wait()
         state = renderer.progress()

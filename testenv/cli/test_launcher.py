@@ -178,17 +178,18 @@ def test_arguments_may_need_more(checkout, words, requirements):
 
 
 @pytest.mark.parametrize("arguments, wanted", [
-    (("test",), "browser compare denoise farm jobs test"),
-    (("test", "-k", "furnace"), "browser compare denoise farm jobs test"),
-    (("test", "--tier", "smoke"), "browser compare denoise farm jobs test"),
+    (("test",), "browser cluster compare denoise farm jobs test"),
+    (("test", "-k", "furnace"), "browser cluster compare denoise farm jobs test"),
+    (("test", "--tier", "smoke"), "browser cluster compare denoise farm jobs test"),
     (("test", "--tier", "unit"), "compare denoise test"),
     (("test", "--tier=unit", "--room", "shaders"), "compare test"),
     (("test", "--room", "shaders"), "compare test"),
     (("test", "--room=view"), "browser compare test"),
-    (("test", "--room", "farm", "--tier", "full"), "compare denoise farm jobs test"),
-    (("test", "--tier", "long"), "browser cluster compare denoise farm jobs long test"),
-    (("test", __file__ + "::test_x"), "browser cluster compare denoise farm jobs long test"),
-    (("bench", "path"), "long"), (("bench",), ""), (("farm", "a.usda"), "cluster farm")])
+    (("test", "--room", "farm", "--tier", "full"), "cluster compare denoise farm jobs test"),
+    (("test", "--tier", "long"), "browser cluster compare denoise docs farm jobs long stubs test"),
+    (("test", __file__ + "::test_x"), "browser cluster compare denoise docs farm jobs long stubs test"),
+    (("bench", "path"), "long"), (("bench",), ""), (("farm", "a.usda"), "cluster farm"),
+    (("docs", "site"), "docs")])
 def test_only_what_is_used_is_installed(checkout, arguments, wanted):
     checkout.say_installed(everything=False)
     write(checkout.tools / "id", "#!/bin/sh\necho 0\n", program=True)

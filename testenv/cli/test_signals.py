@@ -71,6 +71,25 @@ def test_only_whole_images_are_written_where_that_is_asked_for(folder, monkeypat
     assert sorted(os.listdir()) == ["a.exr.checkpoint", "stage.usda"]
 
 
+class _NeverStarts(_Signals):
+    """A renderer that builds for as long as it is let."""
+
+    def start(self, *_):
+        pass
+
+    def wait(self, _):
+        os.kill(os.getpid(), self._number)
+        return False
+
+
+def test_nothing_is_promised_where_nothing_is_saved(folder, monkeypatch, capsys):
+    make = _patina.make_renderer
+    monkeypatch.setattr(_patina, "make_renderer", lambda backend: _NeverStarts(make(backend), signal.SIGTERM))
+    assert main.main(["record", "stage.usda", "a.exr", *LONG]) == 1
+    assert capsys.readouterr().err == "patina: interrupted before there were samples; nothing is saved\n"
+    assert os.listdir() == ["stage.usda"]
+
+
 @pytest.mark.parametrize("number, said", [(signal.SIGINT, "interrupted"), (signal.SIGTERM, "terminated"),
                                           (signal.SIGHUP, "ended with its terminal")])
 def test_a_signal_outside_of_rendering_tidies_up(number, said, folder, monkeypatch, capsys):

@@ -39,7 +39,10 @@ def run(folder, frames, cut, workers, every, flags, seed=1):
     import psutil
 
     stage = movie.write_stage(folder)
+    begin = time.monotonic()
     names = movie.at_once(stage, os.path.join(folder, "once"), frames, flags)
+    # A part that takes as long as its worker lives would never be done, however quick or slow the machine is today.
+    every = max(every, (time.monotonic() - begin) / len(names))
     farmed = os.path.join(folder, "farm")
     os.makedirs(farmed, exist_ok=True)
     chance, killed = random.Random(seed), 0
@@ -69,7 +72,8 @@ def main():
     parser.add_argument("--frames", default="1:24")
     parser.add_argument("--cut", default="2x2")
     parser.add_argument("--workers", type=int, default=4)
-    parser.add_argument("--every", type=float, default=3.0, help="seconds between two kills")
+    parser.add_argument("--every", type=float, default=3.0,
+                        help="seconds between two kills, or what a frame takes at once where that is longer")
     arguments, flags = parser.parse_known_args()
     os.makedirs(arguments.folder, exist_ok=True)
     status, killed, wrong, names = run(os.path.abspath(arguments.folder), arguments.frames, arguments.cut, arguments.workers,

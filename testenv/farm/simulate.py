@@ -17,7 +17,8 @@ from patina.farm import simulation  # noqa: E402
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--part", type=float, nargs="+", required=True, metavar="SECONDS", help="of parts; each takes one by chance")
+    parser.add_argument("--part", type=float, nargs="+", required=True, metavar="SECONDS",
+                        help="of parts; each takes one by chance")
     parser.add_argument("--merge", type=float, nargs="+", required=True, metavar="SECONDS")
     parser.add_argument("--sender", type=float, required=True, metavar="SECONDS")
     parser.add_argument("--frames", type=int, default=240)

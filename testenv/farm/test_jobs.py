@@ -78,6 +78,15 @@ def test_files_of_flags_are_absolute_and_their_values_stay(tmp_path, monkeypatch
     assert "movie.usda" not in words and words.count("a.exr") == 1
 
 
+def test_whole_frames_leave_no_image_of_fewer_samples(tmp_path):
+    stage = movie.write_stage(tmp_path)
+    words = record_words(template(tmp_path, stage, tmp_path / "a.exr"))
+    assert "--onlyWhole" in words and "--resume" not in words
+    assert {"--onlyWhole", "--resume"} <= set(record_words(template(tmp_path, stage, tmp_path / "a.exr", "--resume")))
+    words = record_words(template(tmp_path, stage, tmp_path / "a.exr", "--cut=2", "--resume"))
+    assert not {"--onlyWhole", "--resume"} & set(words), "a part is whole or not there"
+
+
 def test_what_a_template_cannot_hold_is_said(tmp_path):
     stage = movie.write_stage(tmp_path)
     assert "takes double braces for" in template(tmp_path, stage, tmp_path / "a.exr", "--camera=/a{{b", check=False)

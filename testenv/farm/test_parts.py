@@ -125,6 +125,23 @@ def test_missing_parts_are_named_and_rendered(folder, stage, files):
     assert not list(folder.glob("rendered.exr.*"))
 
 
+def test_missing_parts_are_rendered_from_any_folder(folder, stage, monkeypatch):
+    inner, elsewhere = folder / "inner", folder / "else" / "where"
+    for one in (inner, elsewhere):
+        one.mkdir(parents=True)
+    (folder / "bright.usda").write_text('#usda 1.0\nover "looks"\n{\n}\n')
+    flags = (*FEW, "--layer=../bright.usda")
+    monkeypatch.chdir(inner)
+    named = os.path.relpath(stage, inner)
+    expected = whole(named, folder / "whole3.exr", *flags)
+    made = parts(folder, named, "a.exr", "2", *flags)
+    monkeypatch.chdir(elsewhere)
+    patina("merge", made[1], "b.exr", "--renderMissing", "--json=told.json", "--quiet")
+    assert contents(elsewhere / "b.exr") == expected
+    assert os.getcwd() == str(elsewhere) and sorted(os.listdir(elsewhere)) == ["b.exr", "told.json"]
+    assert os.listdir(inner) == []
+
+
 def test_merging_writes_over_nothing_that_was_read(folder, stage, files):
     textures = sorted(t for t in (folder / "scenes" / "textures").iterdir() if t.suffix == ".png")
     before = textures[0].read_bytes()

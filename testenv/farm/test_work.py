@@ -55,7 +55,7 @@ def test_the_folder_of_commands_is_looked_at(tmp_path):
 
 
 class Client:
-    """Ends each task with the next of some errors."""
+    """Ends each task with the next of some errors, or a result."""
 
     def __init__(self, *errors):
         self.errors = list(errors)
@@ -65,7 +65,12 @@ class Client:
 
     def submit(self, *_, **__):
         future, error = concurrent.futures.Future(), self.errors.pop(0)
-        future.cancel() if error is None else future.set_exception(error)
+        if error is None:
+            future.cancel()
+        elif isinstance(error, dict):
+            future.set_result(error)
+        else:
+            future.set_exception(error)
         return future
 
 
@@ -76,6 +81,22 @@ def test_reasons_that_may_pass_are_known(tmp_path, passing):
     sent = sender.Sender(Client(*failed), [], str(tmp_path), (), 0)
     sent.run([one], one.tasks(set()), lambda _: None)
     assert [task.passing for task in sent.failed] == [passing] and not sent.lost
+
+
+class KilledWorker(Exception):
+    """Known by its name, as Dask's own is."""
+
+
+@pytest.mark.parametrize("losses, failures, given_up", [(work.LOSSES - 1, work.TRIES - 1, False), (work.LOSSES, 0, True),
+                                                        (3, work.TRIES, True)])
+def test_workers_that_die_are_no_fault_of_a_part(tmp_path, losses, failures, given_up):
+    one = frame(tmp_path, 1)
+    errors = [KilledWorker("died")] * losses + [worker.PartFailed("why", "tcp://1", False)] * failures
+    client = Client(*errors, {"worker": "one", "host": "here", "seconds": 1.0})
+    sent = sender.Sender(client, [], str(tmp_path), (), 0)
+    sent.run([one], one.tasks(set()), lambda _: None)
+    assert bool(sent.failed) is given_up and bool(sent.written) is not given_up
+    assert len(client.errors) == given_up, "given up at once, or sent until it is done"
 
 
 def test_a_scheduler_that_dies_ends_the_job_in_words(tmp_path):

@@ -110,6 +110,8 @@ def has_usdrecord():
 def has_qt():
     """:returns: whether the Python of this OpenUSD can open windows, as usdview needs"""
     build = _read()
+    if not os.path.exists(build["python"]):  # it was built without Python
+        return False
     return subprocess.run([build["python"], "-c", "import PySide6.QtWidgets"], env=environment(),
                           capture_output=True, check=False).returncode == 0
 
@@ -127,8 +129,13 @@ def _checked(process, command, check):
     return process
 
 
+OF_OPENUSD = (
+    "Color correction presently unsupported",  # usdrecord without a GPU, of every renderer
+    "Found invalid info:implementationSource value ''",  # 24.08, scene indices, of every light: it goes on with the default
+)
+
+
 def warnings_of(process):
-    """:returns: lines of a finished process that OpenUSD or the renderer warned with. That usdrecord corrects no
-        colours without a GPU is left out: it says so of every renderer"""
+    """:returns: lines of a finished process that OpenUSD or the renderer warned with, without those of OF_OPENUSD"""
     return [line for line in process.stderr.splitlines() if line.startswith(("Warning:", "Error", "Coding Error"))
-            and "Color correction presently unsupported" not in line]
+            and not any(text in line for text in OF_OPENUSD)]

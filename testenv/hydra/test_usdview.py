@@ -21,7 +21,7 @@ DRIVER = os.path.join(os.path.dirname(__file__), "usdview", "drive.py")
 ], ids=["delegate", "sceneIndex", "raster"])
 def test_turn_pick_edit(tmp_path, renderer, plugin, size, scene_index):
     if not hydraBuild.xvfb() or not hydraBuild.has_qt():
-        pytest.skip("Xvfb or PySide not found: usdview needs both")
+        pytest.skip("Xvfb, or an OpenUSD with Python and PySide, not found: usdview needs them")
     stage = os.path.join(stages.SCENES, "diffuseBox.usda")
     environment = hydraBuild.environment(
         scene_index, PATINA_DRIVE_SHADER="/World/materials/white/diffuse", PATINA_DRIVE_INPUT="color",

@@ -86,7 +86,8 @@ def pair(name, folder, samples, width, depths=(DIRECT, WHOLE), seed=0):
         seconds = record(stage, image, "--backend", backend, "--samples", str(samples), "-w", str(width), *extra)
         return pixels(image), seconds
 
-    row = {"name": name, "command": command(name, samples, width), "settings": [samples, width, seed], "traced": {}}
+    row = {"name": name, "command": command(name, samples, width), "settings": [samples, width, seed],
+           "build": inProcess.build(), "traced": {}}
     row["raster"], row["rasterSeconds"] = render("raster", "--seed", str(seed))
     for depth in depths:
         image, seconds = render("embree", "--maxDepth", str(depth), "--seed", str(TRACED_SEED))
@@ -119,6 +120,10 @@ def keep(row, folder):
                        for depth, found in row["traced"].items()}
     with open(os.path.join(folder, everyAsset.flat(row["name"]) + ".json"), "w", encoding="utf-8") as out:
         json.dump(light, out, indent=1)
+
+
+def of_this_build(row):
+    return row.get("build") == inProcess.build()
 
 
 def kept(name, folder, samples, width, seed=0):

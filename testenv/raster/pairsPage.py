@@ -8,13 +8,12 @@ import zlib
 import numpy as np
 
 from pairs import DIRECT, WHOLE
+from patina.chart import look
 
-STYLE = """body{font:14px sans-serif;margin:20px}td,th{padding:4px 10px;text-align:left;vertical-align:top}
-td.n{text-align:right}img{image-rendering:pixelated;width:min(288px,19vw)}code{overflow-wrap:anywhere}
-td:first-child{max-width:22em}tr:nth-child(even){background:#f4f4f4}.bad{color:#b00}"""
+STYLE = """td{text-align:left}td.n{text-align:right}img{image-rendering:pixelated;width:min(288px,19vw)}td:first-child{max-width:22em}"""
 
 
-def png(array):
+def png(array, alt=""):
     """:returns: an <img> of linear values, shown as sRGB"""
     v = np.clip(np.nan_to_num(array), 0, 1)
     v = np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055)
@@ -27,7 +26,7 @@ def png(array):
 
     file = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", w, h, 8, 2, 0, 0, 0))
             + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
-    return f'<img alt="" src="data:image/png;base64,{base64.b64encode(file).decode()}">'
+    return f'<img alt="{html.escape(alt, quote=True)}" src="data:image/png;base64,{base64.b64encode(file).decode()}">'
 
 
 def flip_text(value):
@@ -53,16 +52,17 @@ def _table(rows, remarks):
 
 def write(rows, folder, title, remarks=None):
     """Writes index.html into the folder. :returns: its path"""
-    lines = [f"<!doctype html><meta charset=utf-8><title>Both back ends</title><style>{STYLE}</style>",
-             f"<h1>{html.escape(title)}</h1>", _table(rows, remarks or {}),
+    lines = [look.page("Patina: both back ends", STYLE), f"<h1>{html.escape(title)}</h1>", _table(rows, remarks or {}),
              "<h2>Rasterizer; path tracer, direct light; all light; difference from direct light x 4</h2><table>"]
     for row in rows:
         if "error" in row:
             continue
         images = [t["image"] for t in row["traced"].values()]
         lines.append(f"<tr><td><b>{html.escape(row['name'])}</b><br><code>{html.escape(row['command'])}</code><td>"
-                     + "<td>".join(png(i) for i in [row["raster"], *images, 4 * np.abs(row["raster"] - images[0])]))
-    lines.append("</table>")
+                     + "<td>".join(png(i, f"{row['name']}, {what}") for i, what in zip(
+                         [row["raster"], *images, 4 * np.abs(row["raster"] - images[0])],
+                         ["rasterizer", *["path tracer"] * len(images), "difference"])))
+    lines.append("</table>" + look.END)
     path = os.path.join(folder, "index.html")
     with open(path, "w", encoding="utf-8") as out:
         out.write("\n".join(lines))

@@ -22,13 +22,14 @@ std::shared_ptr<Instancer> instancer(const std::string& path, const std::string&
 struct Fixture : ::testing::Test {
     SceneState state;
     RenderSettings settings;
+    mutable Diagnostics diagnostics;
 
     void add(const std::shared_ptr<Instancer>& prim) { state.instancers.set(prim->path, prim); }
 
     /// Of each place the instances that lead to it, innermost first.
     std::vector<std::string> placesOf(const std::string& group, size_t* steps = nullptr) const {
         std::vector<std::string> found;
-        Placements(state, settings)
+        Placements(state, settings, diagnostics)
             .forPlaces(
                 group, std::string(),
                 [&](const Instancer& prim, uint32_t i, int, std::string& place) {
@@ -69,7 +70,7 @@ TEST_F(Fixture, LeavesOutBadIndicesAndWhatIsNotDrawn) {
     add(unseen);
     settings.excludePaths = {"/out"};
     EXPECT_EQ(placesOf("a"), Found{"/bad1"});
-    EXPECT_EQ(Placements(state, settings).drawn().size(), 1u);
+    EXPECT_EQ(Placements(state, settings, diagnostics).drawn().size(), 1u);
 }
 
 TEST_F(Fixture, EndsWhereInstancesAreNestedInThemselves) {
@@ -85,7 +86,7 @@ TEST_F(Fixture, KeepsTheOrderOfGroupsAndPaths) {
     add(instancer("/0", "z", {"a"}, {0}));
     add(instancer("/z", "", {"z"}, {0}));
     EXPECT_EQ(placesOf("a"), (Found{"/a0", "/b0", "/00/z0"}));
-    const Placements placements(state, settings);
+    const Placements placements(state, settings, diagnostics);
     ASSERT_EQ(placements.in("").size(), 3u);
     EXPECT_EQ(placements.in("")[0]->path, "/a");
 }

@@ -15,15 +15,16 @@ namespace {
 thread_local long allocationsLeft = -1;
 } // namespace
 
-void* operator new(std::size_t size) {
+// One of these inlined without its partner looks to g++ as if new and free were mixed.
+__attribute__((noinline)) void* operator new(std::size_t size) {
     if (allocationsLeft >= 0 && allocationsLeft-- == 0) throw std::bad_alloc();
     if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
     throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept {
+__attribute__((noinline)) void operator delete(void* memory) noexcept {
     std::free(memory);
 }
-void operator delete(void* memory, std::size_t) noexcept {
+__attribute__((noinline)) void operator delete(void* memory, std::size_t) noexcept {
     std::free(memory);
 }
 

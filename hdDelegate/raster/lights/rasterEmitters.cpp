@@ -83,9 +83,11 @@ public:
 
     bool read(int slot, float out[4]) const override {
         const int attribute = _source.attributes[size_t(slot)];
-        return attribute >= 0 &&
-               evalAttribute(*_source.mesh, _source.mesh->attributes[size_t(attribute)], _triangle,
-                             _uv.x, _uv.y, out);
+        if (attribute >= 0)
+            return evalAttribute(*_source.mesh, _source.mesh->attributes[size_t(attribute)],
+                                 _triangle, _uv.x, _uv.y, out);
+        return readInstances(_source.steps.data(), int(_source.steps.size()),
+                             _source.program->primvars()[size_t(slot)].name, out);
     }
 
     /// Radiance towards a direction, as SceneLights::triangleRadiance() has it.
@@ -198,7 +200,8 @@ float RasterEmitters::brightness(const Source& source, unsigned triangle, bool c
 void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t subset,
                          const std::shared_ptr<const MaterialProgram>& program,
                          const RasterMeshLight& light, const mat4& toWorld, int category,
-                         bool closed, const vec3& origin) {
+                         bool closed, const vec3& origin,
+                         const std::vector<InstanceStep>& steps) {
     Source source;
     source.glows = program->hasEmission();
     if (!source.glows && light.mode == RasterMeshLight::None) return;
@@ -210,6 +213,7 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
     source.toWorld = toWorld;
     source.normalMatrix = glm::transpose(glm::inverse(mat3(toWorld)));
     source.origin = origin;
+    source.steps = steps;
     source.st = mesh->attribute("st");
     source.even = (!usesGlow || !dependsOnView(program->code())) && program->isOpaque();
     source.sides = light.mode == RasterMeshLight::Adds || !source.even;

@@ -54,9 +54,11 @@ public:
     /// @param category as of RasterEmitter
     /// @param closed no light from inside gets out: of tubes, whose maps show strips alone
     /// @param origin that `toWorld` is relative to
+    /// @param steps instances around the place, whose values stand in for primvars
     void add(const std::shared_ptr<const TriangleMesh>& mesh, size_t subset,
              const std::shared_ptr<const MaterialProgram>& program, const RasterMeshLight& light,
-             const mat4& toWorld, int category, bool closed, const vec3& origin);
+             const mat4& toWorld, int category, bool closed, const vec3& origin,
+             const std::vector<InstanceStep>& steps);
     bool empty() const { return _emitters.empty(); }
 
     /// @returns a triangle; `within` a number in [0,1) that is left of u, `chance` the probability
@@ -76,6 +78,7 @@ private:
         mat4 toWorld{1.0f};
         mat3 normalMatrix{1.0f};
         vec3 origin{0.0f};
+        std::vector<InstanceStep> steps;
         std::vector<int> attributes; ///< of the mesh, per primvar of the program; -1: none
         const MeshAttribute* st = nullptr;
         bool glows = false, even = false; ///< even: alike towards all directions of a side

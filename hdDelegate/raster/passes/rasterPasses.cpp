@@ -135,7 +135,7 @@ void RasterPasses::drawSurfaces(const RasterScene& scene, const RasterVisible& v
                 d.material->textures[i]->bind(GLuint(i));
         }
         lastMaterial = d.material;
-        gl.Uniform4i(1, d.surface->primvarBits, d.primId, d.flags, 0);
+        gl.Uniform4i(1, d.surface->primvarBits, d.primId, d.flags, d.values);
         if (aovs && !_aovRequest.primvars.empty()) {
             int slots[RasterAovRequest::maxPrimvars] = {-1, -1, -1, -1};
             for (size_t i = 0; i < _aovRequest.primvars.size(); ++i)

@@ -110,6 +110,14 @@ void RasterScene::showMaterials(const Geometry& prim, const SceneState& state) {
     }
 }
 
+bool RasterScene::showsInstances(const std::string& path) const {
+    const auto known = _spans.find(path);
+    if (known == _spans.end()) return false;
+    const auto first = _draws.begin() + std::ptrdiff_t(known->second.firstDraw);
+    return std::any_of(first, first + std::ptrdiff_t(known->second.draws),
+                       [this](const RasterDraw& draw) { return readsInstances(draw); });
+}
+
 void RasterScene::uploadTouched(const Span& span) {
     for (size_t g = span.firstGroup; g < span.firstGroup + span.groups; ++g) {
         const size_t first = size_t(_groups[g].firstInstance);
@@ -132,7 +140,8 @@ bool RasterScene::updateTouched(const SceneEdits& edits, const SceneState& state
     if (!delta.geometry.empty() && !_volumes.placed().empty()) return false;
     _looked += edits.touched.size();
     for (const std::string& path : edits.touched)
-        if (state.geometry.at(path)->kind == GeometryKind::Volume) return false;
+        if (state.geometry.at(path)->kind == GeometryKind::Volume || showsInstances(path))
+            return false;
     if (!_materials.edit(delta.materials, state, _settings)) return false;
     finishPrograms(stop, compiling);
     if (stop) return true; // the next update looks at everything
@@ -146,6 +155,7 @@ bool RasterScene::updateTouched(const SceneEdits& edits, const SceneState& state
             showMaterials(*prim, state);
         else if (!redraw(prim, state, camera, places))
             return false;
+        if (showsInstances(path)) return false;
     }
     for (const auto& item : delta.geometry)
         if (const auto span = _spans.find(item.first); span != _spans.end())

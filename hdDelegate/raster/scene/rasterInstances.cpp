@@ -44,6 +44,8 @@ const std::vector<RasterPlace>& RasterInstances::places(const std::string& group
             place.id = own;
         else if (prototype < instancer.idCounts.size())
             place.id += own * instancer.idCounts[prototype];
+        place.steps.insert(place.steps.begin(),
+                           {_placements->valuesOf(instancer).get(), int(i)});
         if (i < instancer.categories.size())
             place.categories.insert(place.categories.end(), instancer.categories[i].begin(),
                                     instancer.categories[i].end());

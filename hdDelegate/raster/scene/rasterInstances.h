@@ -11,6 +11,7 @@ struct RasterPlace {
     dmat4 groupToWorld{1.0}; ///< all digits: the origin may be taken from large numbers
     int id = -1;             ///< for the instanceId AOV
     std::vector<std::string> categories;
+    std::vector<InstanceStep> steps; ///< from the outermost instance inwards
 };
 
 /// Where groups are drawn: instancers, nested ones too, made flat.

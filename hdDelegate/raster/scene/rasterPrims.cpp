@@ -74,6 +74,7 @@ void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& pl
         instance.place(toWorld);
         instance.ids[0] = places[i].id;
         instance.ids[1] = linksOf(group.prim->categories, places[i].categories);
+        instance.ids[2] = int(_instances.size()) - group.firstInstance;
         _instances.push_back(instance);
         const RasterBox box =
             RasterBox::around(group.shape->boundsMin, group.shape->boundsMax, toWorld);
@@ -147,6 +148,34 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
     span.emits = request.needsMesh;
 }
 
+bool RasterScene::readsInstances(const RasterDraw& draw) const {
+    const std::vector<std::string>& names = draw.material->primvars;
+    bool reads = false;
+    for (size_t i = 0; i < names.size(); ++i)
+        reads |= (draw.surface->primvarBits & (1 << i)) == 0 &&
+                 _parts.placements->haveValue(names[i]);
+    return reads && !draw.prim->group.empty();
+}
+
+int RasterScene::addValues(const RasterDraw& draw, const RasterGroup& group,
+                           const std::vector<RasterPlace>& places) {
+    if (!readsInstances(draw)) return 0;
+    const std::vector<std::string>& names = draw.material->primvars;
+    const size_t first = _values.size();
+    for (const uint32_t place : group.places) {
+        const std::vector<InstanceStep>& steps = places[place].steps;
+        const size_t at = _values.size();
+        _values.resize(at + 1 + names.size(), vec4(0.0f));
+        int bits = 0;
+        for (size_t i = 0; i < names.size(); ++i)
+            if ((draw.surface->primvarBits & (1 << i)) == 0 &&
+                readInstances(steps.data(), int(steps.size()), names[i], &_values[at + 1 + i].x))
+                bits |= 1 << i;
+        _values[at] = vec4(float(bits & 0xffff), float(bits >> 16), 0.0f, 0.0f);
+    }
+    return int(first) + 1;
+}
+
 void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank,
                            const std::vector<const RasterMaterial*>& materials, size_t firstGroup,
                            const std::vector<RasterPlace>& places, const dmat4& toGroup,
@@ -180,10 +209,12 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
                 for (const uint32_t i : group.places)
                     _emitters.add(group.shape->mesh, subset, draw.material->program, draw.meshLight,
                                   mat4(places[i].groupToWorld * toGroup), lit,
-                                  (draw.flags & RasterShape::tube) != 0, _origin);
+                                  (draw.flags & RasterShape::tube) != 0, _origin,
+                                  places[i].steps);
             draw.subset = int(subset);
             draw.show(*group.shape);
             if (draw.surface->triangles == 0) continue;
+            draw.values = addValues(draw, group, places);
             _triangles += draw.surface->triangles;
             _trianglesDrawn += draw.surface->triangles * group.places.size();
             _draws.push_back(draw);

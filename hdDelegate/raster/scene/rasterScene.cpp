@@ -65,6 +65,7 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
     _draws.clear();
     _groups.clear();
     _instances.clear();
+    _values.clear();
     _boxes.clear();
     _triangles = _trianglesDrawn = 0;
     _moves = false;
@@ -86,7 +87,6 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
     prepareMaterials(state, settings, places);
     finishPrograms(stop, compiling);
     for (const auto& item : state.instancers) {
-        warnOfInstancePrimvars(*item.second, _diagnostics);
         warnOfInstances(*item.second, camera.timeCode(0.5f), _diagnostics);
         for (const MotionTransform& transform : item.second->transforms)
             _moves |= transform.moves();
@@ -111,6 +111,8 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
     _volumes.end();
     if (_draws.empty() && _volumes.placed().empty()) _boundsMin = _boundsMax = vec3(0.0f);
     _linkBuffer = GlBuffer(_links);
+    if (_values.empty()) _values.emplace_back(0.0f);
+    _valueBuffer = GlBuffer(_values);
     upload();
 }
 
@@ -191,6 +193,7 @@ ScenePlan RasterScene::plan() const {
 
 void RasterScene::bind(GLuint vertexArray) const {
     _linkBuffer.bindStorage(9);
+    _valueBuffer.bindStorage(11);
     gl.VertexArrayVertexBuffer(vertexArray, 1, _instanceBuffer.id(), 0, sizeof(GpuInstance));
 }
 

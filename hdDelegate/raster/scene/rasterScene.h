@@ -37,6 +37,7 @@ struct RasterDraw {
     const RasterSurface* casting = nullptr; ///< what shadow maps show
     int group = 0, subset = 0;
     int primId = 0, flags = 0; ///< flags: of RasterShape
+    int values = 0;            ///< where those of instances begin, plus 1; 0: it shows none
     RasterMeshLight meshLight;
 };
 
@@ -156,6 +157,12 @@ private:
                   const std::vector<const RasterMaterial*>& materials, size_t firstGroup,
                   const std::vector<RasterPlace>& places, const dmat4& toGroup,
                   const RenderSettings& settings);
+    /// Whether a draw may show values of instances, for want of the prim's own.
+    bool readsInstances(const RasterDraw& draw) const;
+    bool showsInstances(const std::string& path) const; ///< the same of a prim's draws
+    /// Writes down what a draw shows of instances. @returns RasterDraw::values
+    int addValues(const RasterDraw& draw, const RasterGroup& group,
+                  const std::vector<RasterPlace>& places);
     void upload();
     void deform(float timeCode);
     int linksOf(const std::vector<std::string>& prim, const std::vector<std::string>& place);
@@ -181,7 +188,8 @@ private:
     std::vector<RasterBox> _boxes; ///< of instances, world space
     std::vector<int> _links;       ///< see shaders/raster/links.glsl
     std::map<std::vector<int>, int> _linkRows;
-    GlBuffer _instanceBuffer, _linkBuffer;
+    std::vector<vec4> _values; ///< of instances, see shaders/raster/surface.vert.glsl
+    GlBuffer _instanceBuffer, _linkBuffer, _valueBuffer;
     vec3 _origin{0.0f}, _boundsMin{0.0f}, _boundsMax{0.0f};
     size_t _triangles = 0, _trianglesDrawn = 0, _instancesWritten = 0;
     float _shutterOpen = 0.0f, _shutterClose = 0.0f; ///< time codes

@@ -85,7 +85,7 @@ void RasterPasses::drawCasters(const RasterScene& scene, const ShadowView& view,
             d.material->parameters.bindUniform(1);
             for (size_t t = 0; t < d.material->textures.size(); ++t)
                 d.material->textures[t]->bind(GLuint(t));
-            gl.Uniform4i(1, d.casting->primvarBits, d.primId, d.flags, 0);
+            gl.Uniform4i(1, d.casting->primvarBits, d.primId, d.flags, d.values);
         }
         drawRuns(d, *d.casting, visible);
     }

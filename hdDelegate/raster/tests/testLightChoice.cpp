@@ -57,7 +57,8 @@ TEST(LightChoice, smallImagesTakeMoreLightsByCoarserMaps) {
     }
     const patina::RenderSettings settings;
     patina::Diagnostics diagnostics;
-    patina::RasterInstances places(std::make_shared<patina::Placements>(state, settings), 0.0f);
+    patina::RasterInstances places(
+        std::make_shared<patina::Placements>(state, settings, diagnostics), 0.0f);
     patina::LightImages images(diagnostics);
     patina::RasterDomes domes;
     const patina::RasterLights lights(state, settings, places, 0.0f, 4, {"sampled"}, images, domes,

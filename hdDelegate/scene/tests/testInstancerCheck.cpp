@@ -21,26 +21,10 @@ Instancer twoInstances() {
 } // namespace
 
 TEST(InstancerCheck, saysNothingOfWhatIsDrawn) {
-    Instancer instancer = twoInstances();
-    instancer.primvars.resize(1);
-    instancer.primvars[0].name = "wind";
-    instancer.primvars[0].interpolation = Interpolation::Constant;
+    const Instancer instancer = twoInstances();
     Diagnostics diagnostics;
-    warnOfInstancePrimvars(instancer, diagnostics);
     warnOfInstances(instancer, 0.0f, diagnostics);
     EXPECT_EQ(diagnostics.count(), 0);
-}
-
-TEST(InstancerCheck, namesThePrimvar) {
-    Instancer instancer = twoInstances();
-    instancer.primvars.resize(1);
-    instancer.primvars[0].name = "displayColor";
-    instancer.primvars[0].interpolation = Interpolation::Vertex;
-    Diagnostics diagnostics;
-    warnOfInstancePrimvars(instancer, diagnostics);
-    ASSERT_EQ(diagnostics.count(), 1);
-    EXPECT_EQ(diagnostics.all()[0].prim, "/World/trees");
-    EXPECT_EQ(diagnostics.all()[0].input, "primvars:displayColor");
 }
 
 TEST(InstancerCheck, tellsOfInstancesThatAreLeftOut) {

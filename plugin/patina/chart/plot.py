@@ -2,10 +2,12 @@
 import math
 from xml.sax.saxutils import escape
 
+from patina.chart import labels, look
+
 WIDTH, HEIGHT = 640, 420
-LEFT, TOP, RIGHT, BOTTOM = 64, 46, 20, 96
-GREY = "#8a8f98"
-HALO = {"paint_order": "stroke", "stroke": "white", "stroke_width": 3, "stroke_linejoin": "round"}  # text over lines
+LEFT, TOP, RIGHT, BOTTOM = 64, 46, 20, 64
+GREY = look.DIM
+HALO = {"paint_order": "stroke", "stroke": look.PAPER, "stroke_width": 3, "stroke_linejoin": "round"}  # text over lines
 
 
 class Axis:
@@ -38,12 +40,13 @@ def number(value):
 
 
 def text(x, y, words, anchor="middle", **attributes):
+    attributes = {"fill": look.INK, **attributes}
     more = "".join(f' {name.replace("_", "-")}="{value}"' for name, value in attributes.items())
     return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{more}>{escape(words)}</text>'
 
 
 def mark(kind, x, y, colour, filled=True):
-    paint = f'fill="{colour if filled else "white"}" stroke="{colour}" stroke-width="1.6"'
+    paint = f'fill="{colour if filled else look.PAPER}" stroke="{colour}" stroke-width="1.6"'
     if kind == "circle":
         return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" {paint}/>'
     r = 4.0 if kind == "square" else 5.2
@@ -87,31 +90,31 @@ class Plot:
         ys = [p[1] for s in self.series for p in s[1]] + [f[1] for f in self.floors]
         self.x = Axis(xs, LEFT, WIDTH - RIGHT)
         self.y = Axis(ys, HEIGHT - BOTTOM, TOP, above=0.08 if self.crossings else 0.0)
-        out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT}" '
-               f'viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" font-size="11" fill="#222">',
-               f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>',
+        self.places = labels.Places((LEFT + 2, TOP + 2, WIDTH - RIGHT - 2, HEIGHT - BOTTOM - 2))
+        out = [look.start(WIDTH, HEIGHT),
                text(WIDTH / 2, 20, self.title, font_size=14, font_weight="bold")]
         out += self._grid()
         if len(self.front) > 1:
             way = " ".join(f"{self.x.at(p[0]):.1f},{self.y.at(p[1]):.1f}" for p in self.front)
-            out.append(f'<polyline points="{way}" fill="none" stroke="#f2c94c" stroke-width="9" stroke-opacity="0.45" '
+            out.append(f'<polyline points="{way}" fill="none" stroke="{look.FRONT}" stroke-width="9" '
                        'stroke-linejoin="round" stroke-linecap="round"/>')
         out += [line for guide in self.guides for line in self._guide(*guide)]
         out += [line for name, value, colour in self.floors for line in self._floor(name, value, colour)]
         out += [line for crossing in self.crossings for line in self._crossing(*crossing)]
         out += [line for series in self.series for line in self._series(*series)]
-        out += self._legend()
+        out += self._names()
+        out += [text(WIDTH / 2, HEIGHT - 8, self.foot, fill=look.DIM, font_size=9)] if self.foot else []
         return "\n".join([*out, "</svg>"]) + "\n"
 
     def _grid(self):
         bottom, right = HEIGHT - BOTTOM, WIDTH - RIGHT
-        out = [f'<rect x="{LEFT}" y="{TOP}" width="{right - LEFT}" height="{bottom - TOP}" fill="none" stroke="#bbb"/>']
+        out = [f'<rect x="{LEFT}" y="{TOP}" width="{right - LEFT}" height="{bottom - TOP}" fill="none" stroke="{look.FRAME}"/>']
         for value in self.x_ticks or self.x.ticks():
             at = self.x.at(value)
-            out += [f'<path d="M{at:.1f} {TOP}V{bottom}" stroke="#e4e4e4"/>', text(at, bottom + 15, number(value))]
+            out += [f'<path d="M{at:.1f} {TOP}V{bottom}" stroke="{look.GRID}"/>', text(at, bottom + 15, number(value))]
         for value in self.y.ticks():
             at = self.y.at(value)
-            out += [f'<path d="M{LEFT} {at:.1f}H{right}" stroke="#e4e4e4"/>', text(LEFT - 6, at + 4, number(value), "end")]
+            out += [f'<path d="M{LEFT} {at:.1f}H{right}" stroke="{look.GRID}"/>', text(LEFT - 6, at + 4, number(value), "end")]
         middle = (TOP + bottom) / 2
         return out + [text((LEFT + right) / 2, bottom + 31, self.x_label),
                       text(16, middle, self.y_label, transform=f"rotate(-90 16 {middle:.1f})")]
@@ -133,6 +136,7 @@ class Plot:
 
     def _floor(self, name, value, colour):
         at = self.y.at(value)
+        self.places.take((LEFT, at - 14, LEFT + 8 + 5.6 * len(name), at + 1))
         return [f'<path d="M{LEFT} {at:.1f}H{WIDTH - RIGHT}" stroke="{colour}" stroke-dasharray="2 3"/>',
                 text(LEFT + 4, at - 4, name, "start", fill=colour, font_size=10, **HALO)]
 
@@ -140,7 +144,9 @@ class Plot:
         at = self.x.at(value)
         dash = "" if sure else ' stroke-dasharray="4 4"'
         left = at > WIDTH / 2
-        return [f'<path d="M{at:.1f} {TOP}V{HEIGHT - BOTTOM}" stroke="#222" stroke-width="1.2"{dash}/>',
+        room = 10 + 6.6 * len(name)
+        self.places.take((at - (room if left else 0), TOP, at + (0 if left else room), TOP + 18))
+        return [f'<path d="M{at:.1f} {TOP}V{HEIGHT - BOTTOM}" stroke="{look.INK}" stroke-width="1.2"{dash}/>',
                 text(at + (-5 if left else 5), TOP + 14, name, "end" if left else "start", font_weight="bold", **HALO)]
 
     def _guide(self, slope, name):
@@ -151,20 +157,27 @@ class Plot:
         if y1 < low:
             x1, y1 = x0 * (low / y0) ** (1.0 / slope), low
         a, b, c, d = self.x.at(x0), self.y.at(y0), self.x.at(x1), self.y.at(y1)
+        self.places.take((c - 6 - 5.6 * len(name), d - 19, c - 6, d - 5))
         return [f'<path d="M{a:.1f} {b:.1f}L{c:.1f} {d:.1f}" stroke="{GREY}" stroke-dasharray="1 3" stroke-width="1.5"/>',
                 text(c - 6, d - 8, name, "end", fill=GREY, font_size=10, **HALO)]
 
-    def _legend(self):
-        out, x, y = [], LEFT, HEIGHT - 44
-        entries = [(name, colour, kind, filled) for name, _, colour, kind, filled, _, _ in self.series]
+    def _names(self):
+        """The names of series and of the front, each beside what it names."""
+        out = []
+        for _, points, *_ in self.series:
+            places = [(self.x.at(x), self.y.at(y)) for x, y, _ in points]
+            self.places.cover(labels.along(places))
+            for (x, y), (_, _, words) in zip(places, points):
+                self.places.take((x - 5, y - 5, x + 5, y + 5))
+                if words:
+                    self.places.take((x - 5, y - 16, x + 9 + 6 * len(words), y))
+        for name, points, colour, *_ in self.series:
+            anchors = [(self.x.at(x), self.y.at(y)) for x, y, _ in points]
+            out.append(self._name(name, anchors[::-1], colour))
         if len(self.front) > 1:
-            entries.append(("Pareto front", "#f2c94c", "line", True))
-        for name, colour, kind, filled in entries:
-            room = 24 + 6.2 * len(name)
-            if x + room > WIDTH - RIGHT and x > LEFT:
-                x, y = LEFT, y + 16
-            out.append(f'<path d="M{x} {y - 4}h14" stroke="{colour}" stroke-width="8" stroke-opacity="0.5"/>'
-                       if kind == "line" else mark(kind, x + 7, y - 4, colour, filled))
-            out.append(text(x + 19, y, name, "start"))
-            x += room
-        return out + ([text(WIDTH / 2, HEIGHT - 8, self.foot, fill="#666", font_size=9)] if self.foot else [])
+            out.append(self._name("Pareto front", [(self.x.at(x), self.y.at(y)) for x, y in self.front], look.DIM))
+        return out
+
+    def _name(self, name, anchors, colour):
+        x, y, anchor, _ = self.places.place(anchors, look.CHAR * len(name))
+        return text(x, y, name, anchor, fill=colour, font_weight="bold", **HALO)

@@ -1,13 +1,13 @@
 """The charts of a stage: error over seconds for each measure, and error over samples."""
 import os
 
-from patina.chart import front, sceneMeasures
+from patina.chart import front, look, sceneMeasures
 from patina.chart.plot import Plot
 from patina.chart.sceneRenders import WORDS
 from patina.chart.sceneResults import NAMES
 from patina.cli import outputs
 
-COLOURS = {"embree": "#1b6ca8", "raster": "#c8452b"}
+COLOURS = look.BACKENDS
 KINDS = {"embree": "circle", "raster": "square"}
 
 

@@ -4,21 +4,14 @@ from html import escape
 
 import numpy as np
 
-from patina.chart import png, sceneCharts, sceneResults
+from patina.chart import look, png, sceneCharts, sceneResults
 from patina.chart.sceneMeasures import LUMINANCE, seconds_text
 from patina.chart.sceneRenders import WORDS
 from patina.cli import outputs
 
 STYLE = """
-body{font:15px/1.45 system-ui,sans-serif;color:#222;background:#fafafa;margin:0 auto;max-width:1320px;padding:24px}
-h1{font-size:24px;margin:0 0 6px}h2{font-size:20px;margin:44px 0 6px;border-top:2px solid #ddd;padding-top:20px}
-h3{font-size:15px;margin:18px 0 6px}code{background:#eee;padding:1px 4px;border-radius:3px;overflow-wrap:anywhere}
-table{border-collapse:collapse;font-size:13px;background:#fff}td,th{padding:3px 9px;border:1px solid #ddd;text-align:right}
-th{background:#f1f1f1;font-weight:600}td.t,th.t{text-align:left}.wide{overflow-x:auto}
-.charts{display:flex;flex-wrap:wrap;gap:12px}.charts svg{background:#fff;border:1px solid #ddd;max-width:100%;height:auto}
-.shots{display:flex;flex-wrap:wrap;gap:10px}figure{margin:0}figcaption{font-size:12px;color:#555;max-width:256px}
-img{display:block;width:256px;image-rendering:pixelated;border:1px solid #ccc}
-.finding{background:#fff6d6;border-left:4px solid #f2c94c;padding:8px 12px;margin:8px 0}.bad{color:#a11}
+figcaption{max-width:256px}img{display:block;width:256px;image-rendering:pixelated;border:1px solid var(--line)}
+.finding{background:var(--tint);border-left:4px solid var(--mark);padding:8px 12px;margin:8px 0}
 """
 ROW = (("relMSE", "relMSE"), ("rmse", "RMSE"), ("flip", "FLIP"), ("meanError", "bias"), ("relative", "mean |error|"),
        ("relMSEDirect", "relMSE"), ("flipDirect", "FLIP"), ("meanErrorDirect", "bias"))
@@ -26,14 +19,12 @@ SHARES = ("meanError", "relative", "meanErrorDirect")  # shown in per cent
 
 
 def write(results, path, machine, command, seed):
-    lines = ['<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" '
-             'content="width=device-width"><title>Patina: speed against error</title>', f"<style>{STYLE}</style></head><body>",
-             "<h1>Speed against error</h1>", *_head(machine, command, seed)]
+    lines = [look.page("Patina: speed against error", STYLE), "<h1>Speed against error</h1>", *_head(machine, command, seed)]
     lines += [f'<p class="bad">{escape(_short(r.stage))}: {escape(r.problem)}</p>' for r in results if r.problem]
     for result in results:
         if not result.problem:
             lines += _stage(result)
-    outputs.write_text(path, "\n".join([*lines, "</body></html>"]) + "\n")
+    outputs.write_text(path, "\n".join([*lines, look.END]))
 
 
 def _short(stage):

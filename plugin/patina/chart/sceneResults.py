@@ -36,16 +36,24 @@ def of(name, ladder, seed):
         result.rows.append(_row(name, ladder, rung, seed))
     for backend in ladder.first:
         steps = [row for row in result.rows if row["backend"] == backend and not row["tolerance"]]
-        for measure, order in ORDERS.items():
-            found = sceneMeasures.floor([r["samples"] for r in steps], [r[measure] for r in steps], order)
-            if found is not None:
-                result.floors[backend, measure] = found
+        _find_floors(result, backend, steps)
         result.slopes[backend] = _slopes(ladder, backend)
+    _find_crossovers(result)
+    return result
+
+
+def _find_floors(result, backend, steps):
+    for measure, order in ORDERS.items():
+        found = sceneMeasures.floor([r["samples"] for r in steps], [r[measure] for r in steps], order)
+        if found is not None:
+            result.floors[backend, measure] = found
+
+
+def _find_crossovers(result):
     for measure in ("relMSE", "flip"):
         found = _crossover(result.rows, measure)
         if found:
             result.crossovers[measure] = found
-    return result
 
 
 def _row(name, ladder, rung, seed):
@@ -104,6 +112,31 @@ def write_csv(results, path):
         for row in (row for result in results for row in result.rows):
             writer.writerow({name: "" if row[name] is None else f"{row[name]:.6g}" if isinstance(row[name], float)
                              else row[name] for name in COLUMNS})
+
+
+def read_csv(path):
+    """What write_csv() wrote, as far as charts are drawn from it: without pictures and without slopes by tile.
+
+    :returns: a StageResult for each stage"""
+    results = {}
+    with open(path, encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            for name in COLUMNS:
+                if name not in ("stage", "backend", "toleranceMet"):
+                    row[name] = float(row[name]) if row[name] else "" if name == "tolerance" else None
+            results.setdefault(row["stage"], StageResult(row["stage"])).rows.append(row)
+    for result in results.values():
+        for backend in WORDS:
+            steps = [row for row in result.rows if row["backend"] == backend and not row["tolerance"]]
+            if steps:
+                _find_floors(result, backend, steps)
+                light = "direct" if (steps[-1]["rmseDirect"] or steps[-1]["rmse"]) < steps[-1]["rmse"] else "all"
+                counts = [row["samples"] for row in steps]
+                errors = [row["rmseDirect" if light == "direct" else "rmse"] for row in steps]
+                found = sceneMeasures.slope(counts, errors)
+                result.slopes[backend] = found and {"slope": found, "against": light, "samples": counts, "rmse": errors}
+        _find_crossovers(result)
+    return list(results.values())
 
 
 def as_json(results, machine, command):

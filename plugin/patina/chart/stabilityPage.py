@@ -4,15 +4,10 @@ from html import escape
 
 import numpy as np
 
-from patina.chart import svgLines
+from patina.chart import look, svgLines
 from patina.cli import outputs
 
-STYLE = """
-body{font:15px/1.45 system-ui,sans-serif;color:#222;background:#fafafa;margin:0 auto;max-width:1440px;padding:24px}
-h1{font-size:24px;margin:0 0 6px}h2{font-size:20px;margin:36px 0 8px;border-top:2px solid #ddd;padding-top:16px}
-.charts{display:flex;flex-wrap:wrap;gap:14px}figure{margin:0;background:#fff;border:1px solid #ddd;width:460px}
-figcaption{font-size:13px;padding:4px 12px 10px}b{font-weight:600}.bad{color:#a11}
-"""
+STYLE = ".charts figure{border:1px solid var(--line);background:var(--card);max-width:460px}figcaption{padding:4px 12px 10px}.charts svg{border:0}"
 HEAD = """<p>Each chart takes one parameter through the region where a method fails. The wide grey line is the truth: a closed form,
 an integral, or a walk. Dots mark the method that is used there; a dotted upright line, where another takes over; crosses at
 the upper edge, where a method gives no number. Below each
@@ -53,8 +48,7 @@ def write(sweeps, folder):
     families = {}
     for sweep in sweeps:
         families.setdefault(sweep.family, []).append(sweep)
-    lines = ['<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
-             f"<title>Patina: where methods fail</title><style>{STYLE}</style></head><body><h1>Where methods fail</h1>", HEAD]
+    lines = [look.page("Patina: where methods fail", STYLE), "<h1>Where methods fail</h1>", HEAD]
     for family, group in families.items():
         lines.append(f'<h2>{escape(family[0].upper() + family[1:])}</h2><div class="charts">')
         for sweep in group:
@@ -63,7 +57,7 @@ def write(sweeps, folder):
             lines.append(f"<figure>{svgLines.lines(sweep)}<figcaption>{escape(caption(sweep))}{notes}{bad}</figcaption></figure>")
         lines.append("</div>")
     paths = [os.path.join(folder, "stability.html")]
-    outputs.write_text(paths[0], "\n".join([*lines, "</body></html>"]) + "\n")
+    outputs.write_text(paths[0], "\n".join([*lines, look.END]))
     named = {sweep.name: sweep for sweep in sweeps}
     if all(name in named for name in OVERVIEW):
         paths.append(os.path.join(folder, "stability.svg"))

@@ -2,9 +2,9 @@
 import math
 from xml.sax.saxutils import escape
 
+from patina.chart import look
 from patina.chart.front import pareto
 
-COLOURS = ("#1b6ca8", "#c8452b", "#3a7d44", "#8a4fa0", "#b8860b", "#45768a", "#7a4a2b")
 LEFT, TOP, RIGHT, BOTTOM = 62, 40, 16, 46
 
 
@@ -27,6 +27,7 @@ class Axis:
 
 
 def _text(x, y, words, anchor="middle", more=""):
+    more += "" if " fill=" in more else f' fill="{look.INK}"'
     return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{more}>{escape(words)}</text>'
 
 
@@ -54,28 +55,26 @@ def scatter(title, points, x_label, y_label, width=520, height=340):
     """
     x = Axis([p[0] for p in points], LEFT, width - RIGHT)
     y = Axis([p[1] for p in points], height - BOTTOM, TOP)
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
-           f'viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="11">',
-           f'<rect width="{width}" height="{height}" fill="white"/>',
+    out = [look.start(width, height),
            _text(width / 2, 18, title, more=' font-size="13" font-weight="bold"')]
     for value in x.decades():
         at = x.at(value)
-        out.append(f'<path d="M{at:.1f} {TOP}V{height - BOTTOM}" stroke="#dddddd"/>')
+        out.append(f'<path d="M{at:.1f} {TOP}V{height - BOTTOM}" stroke="{look.GRID}"/>')
         out.append(_text(at, height - BOTTOM + 15, _decade(value)))
     for value in y.decades():
         at = y.at(value)
-        out.append(f'<path d="M{LEFT} {at:.1f}H{width - RIGHT}" stroke="#dddddd"/>')
+        out.append(f'<path d="M{LEFT} {at:.1f}H{width - RIGHT}" stroke="{look.GRID}"/>')
         out.append(_text(LEFT - 6, at + 4, _decade(value), "end"))
     out.append(_text((LEFT + width - RIGHT) / 2, height - 10, x_label))
     middle = (TOP + height - BOTTOM) / 2
     out.append(_text(14, middle, y_label, more=f' transform="rotate(-90 14 {middle:.1f})"'))
     line = " ".join(f"{x.at(p[0]):.1f},{y.at(p[1]):.1f}" for p in pareto(points))
-    out.append(f'<polyline points="{line}" fill="none" stroke="#999999" stroke-dasharray="4 3"/>')
+    out.append(f'<polyline points="{line}" fill="none" stroke="{look.DIM}" stroke-dasharray="4 3"/>')
     taken = [(x.at(p[0]) - 5, y.at(p[1]) + 4, 10) for p in points]
     for i, (px, py, label) in enumerate(points):
         cx, cy = x.at(px), y.at(py)
-        out.append(f'<circle cx="{cx:.1f}" cy="{cy:.1f}" r="4.5" fill="{COLOURS[i % len(COLOURS)]}"/>')
+        out.append(f'<circle cx="{cx:.1f}" cy="{cy:.1f}" r="4.5" fill="{look.COLOURS[i % len(look.COLOURS)]}"/>')
         label += "" if py > 0.0 else " (0)"  # not on the axis: it stands at the lower end
         out.append(_text(*_free(cx, cy, 6.2 * len(label), width, taken), anchor="start", words=label,
-                         more=f' fill="{COLOURS[i % len(COLOURS)]}"'))
+                         more=f' fill="{look.COLOURS[i % len(look.COLOURS)]}"'))
     return "\n".join([*out, "</svg>"]) + "\n"

@@ -1,9 +1,10 @@
 """Line charts as SVG text: methods over a parameter, the truth, and where one method takes over from another."""
 import math
 
-from patina.chart.svg import COLOURS, _text
+from patina.chart import labels, look
+from patina.chart.svg import _text
 
-LEFT, TOP, RIGHT, BOTTOM = 58, 34, 14, 44
+LEFT, TOP, RIGHT, BOTTOM = 58, 24, 14, 34
 
 
 class Scale:
@@ -63,27 +64,25 @@ def lines(sweep, width=460, height=290):
         every += [max(truths) + 2 * sweep.bound, low if min(truths) < 0.0 else max(low, 0.0)]
     x = Scale(sweep.x, LEFT, width - RIGHT, sweep.log_x)
     y = Scale(every, height - BOTTOM, TOP, sweep.log_y)
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
-           'font-family="sans-serif" font-size="10.5">', f'<rect width="{width}" height="{height}" fill="white"/>',
+    out = [look.start(width, height, 10.5),
            _text(width / 2, 14, sweep.name, more=' font-size="12" font-weight="bold"')]
     for value, text in x.ticks():
-        out.append(f'<path d="M{x.at(value):.1f} {TOP}V{height - BOTTOM}" stroke="#e4e4e4"/>')
+        out.append(f'<path d="M{x.at(value):.1f} {TOP}V{height - BOTTOM}" stroke="{look.GRID}"/>')
         out.append(_text(x.at(value), height - BOTTOM + 13, text))
     for value, text in y.ticks():
-        out.append(f'<path d="M{LEFT} {y.at(value):.1f}H{width - RIGHT}" stroke="#e4e4e4"/>')
+        out.append(f'<path d="M{LEFT} {y.at(value):.1f}H{width - RIGHT}" stroke="{look.GRID}"/>')
         out.append(_text(LEFT - 5, y.at(value) + 3.5, text, "end"))
     out.append(_text((LEFT + width - RIGHT) / 2, height - BOTTOM + 26, sweep.x_label))
     middle, long = (TOP + height - BOTTOM) / 2, min(1.0, height / (6.2 * len(sweep.y_label)))
     out.append(_text(12, middle, sweep.y_label, more=f' font-size="{10.5 * long:.1f}" transform="rotate(-90 12 {middle:.1f})"'))
     if sweep.switch is not None:
         at = x.at(sweep.switch)
-        out.append(f'<path d="M{at:.1f} {TOP}V{height - BOTTOM}" stroke="#111" stroke-dasharray="2 3"/>')
+        out.append(f'<path d="M{at:.1f} {TOP}V{height - BOTTOM}" stroke="{look.INK}" stroke-dasharray="2 3"/>')
         near = at < width - 90
-        out.append(_text(at + (3 if near else -3), TOP + 9, "switch", "start" if near else "end", ' fill="#111"'))
-    out.append(f'<path d="{_path(sweep.x, truths, x, y)}" fill="none" stroke="#bbbbbb" stroke-width="5" opacity="0.7"/>')
-    shown = {"truth": "#bbbbbb"}
+        out.append(_text(at + (3 if near else -3), TOP + 9, "switch", "start" if near else "end"))
+    out.append(f'<path d="{_path(sweep.x, truths, x, y)}" fill="none" stroke="{look.TRUTH}" stroke-width="5"/>')
     for i, (name, values) in enumerate(sweep.curves.items()):
-        shown[name] = colour = COLOURS[i % len(COLOURS)]
+        colour = look.COLOURS[i % len(look.COLOURS)]
         out.append(f'<path d="{_path(sweep.x, list(map(float, values)), x, y)}" fill="none" stroke="{colour}" '
                    'stroke-width="1.4"/>')
         for a, b, chosen in zip(sweep.x, map(float, values), sweep.chosen):
@@ -91,10 +90,29 @@ def lines(sweep, width=460, height=290):
                 out.append(f'<circle cx="{x.at(a):.1f}" cy="{y.at(b):.1f}" r="2.1" fill="{colour}"/>')
             elif not math.isfinite(b):  # no number: a cross at the upper edge
                 out.append(f'<path d="M{x.at(a) - 3:.1f} {TOP + 2 + 7 * i}l6 6m0 -6l-6 6" stroke="{colour}" fill="none"/>')
-    room = sum(25 + 6.0 * len(name) for name in shown)
-    fit, at = min(1.0, (width - 16) / room), 8 if room > width - LEFT else LEFT
-    for name, colour in shown.items():
-        out.append(f'<path d="M{at:.1f} {height - 7}h{12 * fit:.1f}" stroke="{colour}" stroke-width="3"/>')
-        out.append(_text(at + 15 * fit, height - 3.5, name, "start", f' font-size="{10.5 * fit:.1f}"'))
-        at += (25 + 6.0 * len(name)) * fit
-    return "\n".join([*out, "</svg>"]) + "\n"
+    return "\n".join([*out, *_names(sweep, truths, x, y, (LEFT + 2, TOP + 2, width - RIGHT + 8, height - BOTTOM - 2)), "</svg>"]) + "\n"
+
+
+def _names(sweep, truths, x, y, frame):
+    """Names beside their curves, those of curves that go apart from the others at the widest gap."""
+    places = labels.Places(frame)
+    curves = {"truth": (truths, look.DIM)}
+    curves.update({name: (list(map(float, values)), look.COLOURS[i % len(look.COLOURS)])
+                   for i, (name, values) in enumerate(sweep.curves.items())})
+    drawn = {name: [(x.at(a), y.at(b)) for a, b in zip(sweep.x, values) if math.isfinite(b)] for name, (values, _) in curves.items()}
+    for points in drawn.values():
+        places.cover(labels.along(points))
+    if sweep.switch is not None:
+        at = x.at(sweep.switch)
+        places.take((at - 40, frame[1] - 4, at + 40, frame[1] + 12))
+    out = []
+    for name, points in sorted(drawn.items(), key=lambda item: item[0] == "truth"):
+        if not points:  # crosses alone
+            points = [(x.at(sweep.x[len(sweep.x) // 2]), frame[1] + 14)]
+        others = {i: [p[i][1] for other, p in drawn.items() if other != name and len(p) == len(points)] for i in range(len(points))}
+        gap = {i: min([abs(points[i][1] - b) for b in others[i]] or [0.0]) for i in others}
+        anchors = [points[i] for i in sorted(gap, key=lambda i: -min(gap[i], 40.0))]
+        px, py, anchor, _ = places.place(anchors, 5.8 * len(name))
+        halo = f' paint-order="stroke" stroke="{look.PAPER}" stroke-width="3" stroke-linejoin="round"'
+        out.append(_text(px, py, name, anchor, f' fill="{curves[name][1]}" font-weight="bold"{halo}'))
+    return out

@@ -17,6 +17,7 @@ PASSES_ON = True
 BENCHMARKS = {
     "hydra": ("hydraBench.py", "frames in Hydra: first, after a camera move, rays per second, memory; beside "
                                "hdEmbree and Storm"),
+    "lobes": ("lobeBench.py", "what the lobes of a constant material cost at a vertex of a path; beside Mitsuba 3"),
     "path": ("pathBench.py", "path tracing: seconds until the error is small, what a sample takes; beside Mitsuba 3 and Cycles"),
     "raster": ("rasterBench.py", "frames of the rasterizer: first, after an edit, after a camera move, and where their time "
                                  "goes; beside Storm"),

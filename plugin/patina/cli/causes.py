@@ -10,6 +10,8 @@ and within each what was met most often first.
 """
 import re
 
+from patina.cli.advice import advice
+
 MAX_CAUSES = 20  # causes on the terminal; all of them are in --json
 SEVERITIES = ("error", "warning")
 
@@ -67,6 +69,7 @@ class Causes:
             if group is None:
                 group = groups[kind, culprit] = {
                     "severity": severity(warning), "message": warning["message"], "culprit": culprit, "kind": kind,
+                    "advice": plain(advice(warning["message"])),
                     "prim": warning["prim"], "input": warning["input"], "count": 0, "prims": 0, "_prims": set()}
             group["count"] += warning["count"]
             group["_prims"].add(warning["prim"])
@@ -105,6 +108,11 @@ class Causes:
         if hidden and last:
             out.append(f"warning: {hidden} more causes" + (" are in --json" if json else ""))
         return out
+
+
+def plain(markdown):
+    """:returns: text without links and code marks"""
+    return re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", markdown).replace("`", "")
 
 
 def printable(text):

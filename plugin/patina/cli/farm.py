@@ -31,7 +31,7 @@ def add_arguments(parser):
     parser.add_argument("--engine", default="local", metavar="ENGINE", help=engines.HELP)
     parser.add_argument("--engineOption", action="append", default=[], metavar="NAME=VALUE",
                         help="of Dask's class for the engine (repeatable), such as queue=render, cores=8, memory=32GiB, "
-                             "walltime=04:00:00 or image=ghcr.io/studio/patina")
+                             "walltime=04:00:00; of pods image=studio/patina and volumes=CLAIM:/PATH")
     parser.add_argument("--threads", type=int, default=None, metavar="N",
                         help="that a task takes (default: the worker's cores)")
     parser.add_argument("--resume", action="store_true", help="leave out images that are there, and parts that fit")

@@ -24,6 +24,7 @@ COMMANDS = {
     "hydra": "hydra",
     "bench": "bench",
     "chart": "chart",
+    "docs": "docs",
     "test": "testRun",
 }
 
@@ -40,6 +41,7 @@ SUMMARIES = {
     "hydra": "where the Hydra plugin is, and whether hosts can use it",
     "bench": "measure speed and memory, beside peers",
     "chart": "measure what methods cost and how far they are off",
+    "docs": "build the site of a checkout: tutorials, gallery, reference",
     "test": "run the tests of a checkout, by tier and room",
 }
 

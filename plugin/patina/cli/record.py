@@ -222,6 +222,8 @@ class _Job:
             raise (TemporaryError if state["temporary"] or state["deviceFailed"] else CommandError)(state["error"])
         self.interrupted = interrupts.met and not state["converged"]
         self.statistics.rendered(state, film)
+        if self.interrupted and not film.width:
+            raise CommandError("interrupted before there were samples; nothing is saved")
         if self.interrupted or a.keepCheckpoint:
             if film.width:
                 film.save_checkpoint(checkpoints.path_of(shot.image))

@@ -10,6 +10,7 @@ import sys
 from dataclasses import dataclass, field
 
 from patina.cli.errors import CommandError, UsageError
+from patina.farm import pods
 
 QUEUES = {"slurm": "SLURMCluster", "pbs": "PBSCluster", "lsf": "LSFCluster", "sge": "SGECluster"}
 HELP = ("dask://HOST[:PORT] is a scheduler that runs; local:N starts N workers here; slurm:N, pbs:N, lsf:N and sge:N ask a "
@@ -41,6 +42,8 @@ def parse(text, options):
         raise UsageError(f"patina farm: --engine {text}: there is none such ({HELP.partition(' (default')[0]})")
     if kind != "local" and not colon:
         raise UsageError(f"patina farm: --engine {text}: say how many workers, as in {kind}:8")
+    if kind == "k8s":
+        pods.check(known)
     return Engine(kind, "", int(count) if colon else max(1, (os.cpu_count() or 1) // 2), known)
 
 
@@ -62,6 +65,14 @@ def threads(engine):
     if engine.kind == "local":
         return max(1, (os.cpu_count() or 1) // engine.workers)
     return int(engine.options.get("cores", 1)) if engine.kind in QUEUES else 0
+
+
+def queue_options(engine):
+    """:returns: dict of what dask-jobqueue's class for the queue takes"""
+    return {"cores": 1, "processes": 1, "memory": "4GiB", "python": shlex.quote(sys.executable),
+            "job_script_prologue": [f"export {name}={shlex.quote(value)}" for name, value in environment().items()],
+            # One part at a time, which takes all of a job's cores.
+            "worker_extra_args": ["--nthreads", "1"], **engine.options}
 
 
 class Cluster:
@@ -112,19 +123,16 @@ class Cluster:
                                                "memory_limit": 0, "dashboard_address": "127.0.0.1:0", **engine.options})
         if engine.kind == "k8s":
             operator = _import("dask_kubernetes.operator", "dask-kubernetes")
-            cluster = operator.KubeCluster(**{"name": "patina", "n_workers": engine.workers, "env": environment(),
-                                              **engine.options})
+            cluster = operator.KubeCluster(**pods.cluster_options(operator.make_cluster_spec, engine.workers, engine.options,
+                                                                  environment()))
+            cluster.scale(engine.workers)
             return cluster
         jobqueue = _import("dask_jobqueue", "dask-jobqueue")
         # What a queue says to a job that it does not take comes to no other place.
         for name in ("tornado.application", "asyncio"):
             log = logging.getLogger(name)
             log.handlers, log.propagate = [self._complaints], False
-        cluster = getattr(jobqueue, QUEUES[engine.kind])(**{
-            "cores": 1, "processes": 1, "memory": "4GiB", "python": shlex.quote(sys.executable),
-            "job_script_prologue": [f"export {name}={shlex.quote(value)}" for name, value in environment().items()],
-            # One part at a time, which takes all of a job's cores.
-            "worker_extra_args": ["--nthreads", "1"], **engine.options})
+        cluster = getattr(jobqueue, QUEUES[engine.kind])(**queue_options(engine))
         cluster.scale(jobs=engine.workers)
         return cluster
 

@@ -49,6 +49,8 @@ def template(arguments, record, shots, folder):
         frames = dict(frames, range="{{Param.Frames}}")
     flags = _flags(arguments)
     if arguments.cut.parts == 1:
+        # A task that is told to end leaves no image that would pass for a whole one.
+        flags += ["--onlyWhole", "--resume"] if arguments.resume else ["--onlyWhole"]
         steps = [_step("Frames", ["record", "{{Param.Stage}}", "{{Param.Image}}", *flags, *_frame_flag(frames)], frames)]
     else:
         parameters.append(_path("Parts", "DIRECTORY", "INOUT", record.image + ".parts", folder, "parts until they are merged"))

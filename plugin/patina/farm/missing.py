@@ -1,5 +1,7 @@
 """Renders a part with the flags that another part was made with."""
 import argparse
+import contextlib
+import os
 
 from patina import inputs
 from patina.cli.errors import CommandError
@@ -14,9 +16,23 @@ def render(description, part, file, arguments):
 
     inputs.forget()  # parts that were merged are no inputs of the render
     flags = argparse.Namespace(**description.arguments)
-    flags.image, flags.part, flags.partial, flags.json = arguments.image, part, file, None
+    flags.image, flags.part, flags.partial, flags.json = os.path.abspath(arguments.image), part, os.path.abspath(file), None
     flags.threads, flags.quiet = arguments.threads, arguments.quiet
     try:
-        record.run(flags)
+        with _inside(description.home):
+            record.run(flags)
     except CommandError as error:
         raise CommandError(f"part {part} is missing, and cannot be rendered: {error}") from error
+
+
+@contextlib.contextmanager
+def _inside(folder):
+    """The block runs in the folder that the flags were typed in: stage, layers and search paths are named relative to it. Where
+    it is not there, as on another machine, the block runs where it is."""
+    before = os.getcwd()
+    with contextlib.suppress(OSError):
+        os.chdir(folder)
+    try:
+        yield
+    finally:
+        os.chdir(before)

@@ -81,7 +81,8 @@ def of(job):
             noise = state["statistics"].get("noiseTolerance", 0.0) if settings["tolerance"] > 0.0 else 0.0
             options = shots.image_options(a, shot, shot.outputs[0], settings)
             return partial.describe(a.part, samples, made, self.typed, options, self.statistics.frame, camera, settings,
-                                    noise, folder=os.path.dirname(self.stage.GetRootLayer().realPath), denoise=bool(a.denoise),
+                                    noise, folder=os.path.dirname(self.stage.GetRootLayer().realPath), home=os.getcwd(),
+                                    denoise=bool(a.denoise),
                                     decimals=frames.times(self.typed, self.stage)[1])
 
         def _denoise(self, _film):

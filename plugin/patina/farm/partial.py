@@ -18,7 +18,8 @@ class Description:
             self.arguments, self.options = values["arguments"], values["options"]
             self.frame, self.camera, self.settings = values["frame"], values["camera"], values["settings"]
             self.noise = float(values["noiseTolerance"])
-            self.folder, self.denoise, self.decimals = values["folder"], values["denoise"], int(values["decimals"])
+            self.folder, self.home = values["folder"], values["home"]
+            self.denoise, self.decimals = values["denoise"], int(values["decimals"])
         except (KeyError, TypeError, ValueError):
             raise CommandError(f"{file} is of another version of Patina") from None
 
@@ -27,7 +28,8 @@ def describe(part, samples, identity, arguments, options, frame, camera, setting
     """:param samples: (begin, end) of the part
     :param arguments: as they were typed
     :param options: of the image's file
-    :param more: folder of the stage, denoise: whether the merged film is denoised, decimals: of the frames
+    :param more: folder of the stage, home: folder in which the names of `arguments` are meant, denoise: whether the merged film
+        is denoised, decimals: of the frames
     :returns: the text that PartialWriter takes"""
     return json.dumps({"identity": identity, "part": str(part), "range": list(samples), "frame": frame, "camera": camera,
                        "settings": settings, "noiseTolerance": noise, "arguments": plain(arguments), "options": options,

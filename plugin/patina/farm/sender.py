@@ -131,7 +131,10 @@ class Sender:
             again = task.refusals < REFUSALS and any(one not in self.refused for one in self._workers())
         else:
             self.rows[self.names.get(address, address or "unknown")].failures += 1
-            again = len(task.failures) + 1 < work.TRIES
+            if kind == "KilledWorker":
+                task.losses += 1
+            own = len(task.failures) + 1 - task.losses - task.refusals
+            again = task.losses < work.LOSSES and own < work.TRIES
         task.failures.append((address, reason))
         if again:
             return task

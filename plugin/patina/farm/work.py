@@ -9,6 +9,7 @@ from patina.cli.errors import CommandError
 from patina.farm import cut, identity, partial
 
 TRIES = 4  # of a part: the first, and three more, on other workers where there are any
+LOSSES = 16  # times that Dask gives a part up because its workers died (four of them): parts run beside workers and end none
 _OWN = re.compile(r"\d+\.part|(\d+|image)\.(\d{8}-\d{6}\.\d+\.failed\.)?log")
 
 
@@ -20,6 +21,7 @@ class Task:
     failures: list = field(default_factory=list)  # (address of the worker that it failed on, why)
     passing: bool = False  # whether the reason of the last failure may pass
     refusals: int = 0  # by workers that take nothing of this job
+    losses: int = 0  # of workers that went away with it
 
     def __str__(self):
         what = f"part {self.part}" if self.part else "merging" if self.frame.cut.parts > 1 else "the image"

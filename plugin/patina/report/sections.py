@@ -160,12 +160,16 @@ def _histogram(values, text, bins=60):
     return f'<svg class="histogram" viewBox="0 0 600 110" role="img" aria-label="histogram">{bars}{marks}</svg>'
 
 
+def _advice(group):
+    return f'<br><span class="dim">{escape(group["advice"])}</span>' if group["advice"] else ""
+
+
 def _warnings(facts):
     groups = causes.Causes(facts.warnings).groups
     notes = "".join(f'<p class="dim">{escape(note)}</p>' for note in facts.notes)
     if not groups:
         return f"<h2>Warnings</h2><p>None.</p>{notes}"
-    rows = [[f'<span class="{g["severity"]}">{g["severity"]}</span>', escape(causes.printable(g["message"])),
+    rows = [[f'<span class="{g["severity"]}">{g["severity"]}</span>', escape(causes.printable(g["message"])) + _advice(g),
              escape(causes.printable(g["prim"] + ("." + g["input"] if g["input"] else ""))), str(g["count"]), str(g["prims"])]
             for g in groups[:200]]
     more = f'<p class="dim">and {len(groups) - 200} more causes (--json has all)</p>' if len(groups) > 200 else ""

@@ -136,8 +136,8 @@ class _Translation:
         value = attribute.Get(self.time)
         if value is None:
             return
-        if type_.isArray:
-            self._warn(prim, name, f"values of type {type_} cannot be used; the default is")
+        if type_.isArray or isinstance(value, Sdf.UnregisteredValue):  # of a type that USD does not know
+            self._warn(prim, name, f"values of type {attribute.GetMetadata('typeName')} cannot be used; the default is")
             return
         if type_ == Sdf.ValueTypeNames.Asset:
             value = assets.resolve(self.context, attribute)

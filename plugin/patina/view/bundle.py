@@ -24,10 +24,11 @@ def _digest(*files):
     return digest.hexdigest()[:16]
 
 
-def cache_folder():
+def cache_folder(web=WEB):
+    """:param web: a folder with package.json and package-lock.json"""
     chosen = os.environ.get("PATINA_VIEW_CACHE")
     base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
-    lock = _digest(os.path.join(WEB, "package.json"), os.path.join(WEB, "package-lock.json"))
+    lock = _digest(os.path.join(web, "package.json"), os.path.join(web, "package-lock.json"))
     return os.path.join(chosen or os.path.join(base, "patina", "view"), lock)
 
 
@@ -40,12 +41,14 @@ def node():
     return found
 
 
-def packages():
-    """Fetches the npm packages unless they are there.
+def packages(web=WEB):
+    """Fetches npm packages unless they are there.
 
+    :param web: a folder whose package.json and package-lock.json name them
     :returns: the folder that holds node_modules
+    :raises CommandError: where Node or npm is missing, or npm fails
     """
-    folder = cache_folder()
+    folder = cache_folder(web)
     if os.path.isdir(os.path.join(folder, "node_modules")):
         return folder
     node()
@@ -56,7 +59,7 @@ def packages():
     made = tempfile.mkdtemp(prefix="npm-", dir=os.path.dirname(folder))
     try:
         for name in ("package.json", "package-lock.json"):
-            shutil.copy(os.path.join(WEB, name), made)
+            shutil.copy(os.path.join(web, name), made)
         done = subprocess.run([npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"],
                               cwd=made, capture_output=True, text=True, check=False)
         if done.returncode != 0:

@@ -150,6 +150,17 @@ def test_textures_inside_a_package(read, statements, tmp_path):
     assert "<UDIM>" in tiles and os.path.exists(tiles.replace("<UDIM>", "1002"))
 
 
+def test_a_type_that_usd_does_not_know_is_told(read):
+    reading = read("""
+    def Material "look" { token outputs:mtlx:surface.connect = </look/s.outputs:out>
+        def Shader "s" { uniform token info:id = "ND_standard_surface_surfaceshader"
+            vector2f inputs:base = (0.5, 0.5)
+            token outputs:out } }
+    def Sphere "s" (prepend apiSchemas = ["MaterialBindingAPI"]) { rel material:binding = </look> }""")
+    assert reading.has("/look")
+    assert any("/look/s" in w and "vector2f cannot be used; the default is" in w for w in reading.warnings), reading.warnings
+
+
 def test_references_to_materialx_documents(read, tmp_path):
     (tmp_path / "doc.mtlx").write_text("""<?xml version="1.0"?><materialx version="1.39">
         <standard_surface name="shader" type="surfaceshader"><input name="base" type="float" value="0.3"/></standard_surface>

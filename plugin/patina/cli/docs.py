@@ -1,0 +1,31 @@
+"""Builds the site: documents, tutorials, gallery, measurements, and the reference of the Python and C++ interfaces.
+
+  patina docs site                  then open site/index.html
+
+The pages are read without a server and without a network, search included. They are part of a checkout (docs/site). Building
+them takes MkDocs, which ./patina docs installs, npm for the script that draws diagrams, and Doxygen for the C++ pages; where
+one of the last two is missing, a line says what is left out.
+"""
+import importlib.util
+import os
+import sys
+
+from patina.cli.errors import CommandError
+
+
+def add_arguments(parser):
+    parser.add_argument("folder", metavar="FOLDER", help="where the site goes: a new or empty folder, or one that holds an earlier site")
+    parser.add_argument("--strict", action="store_true", help="exit with 1 where a page links to nothing, or a part is left out")
+
+
+def run(arguments):
+    root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+    folder = os.path.join(root, "docs", "site")
+    if not os.path.isfile(os.path.join(folder, "build.py")):
+        raise CommandError("the documents are in a checkout only: run ./patina docs there")
+    if importlib.util.find_spec("mkdocs") is None:
+        raise CommandError("PyPI's mkdocs-material is not installed (./patina docs installs it where it may)")
+    sys.path.insert(0, folder)
+    import build
+
+    return build.main(os.path.abspath(arguments.folder), arguments.strict)

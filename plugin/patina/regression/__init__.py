@@ -1,0 +1,1 @@
+"""Regression tests of a folder of stages, for pytest: `pytest --patina-scenes FOLDER` (plugin.py)."""

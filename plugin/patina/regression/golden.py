@@ -1,0 +1,122 @@
+"""Renders of a stage, what is kept of them, and whether new ones are of the same picture."""
+import contextlib
+import dataclasses
+import hashlib
+import io
+import json
+import os
+import tempfile
+
+import numpy as np
+
+from patina import __version__
+from patina.cli import compiled, outputs
+from patina.regression import welch
+
+FIRST_SEED, OTHER_SEEDS = 1, 100001  # golden renders and new ones share no random numbers
+NOISE = 5.0  # margins: where a typical tile's interval is wider, the test says that it hardly sees anything
+
+
+class RenderError(Exception):
+    """A stage could not be rendered; the text is the command's own."""
+
+
+def render(stage, seed, arguments):
+    """:param arguments: of `patina record`
+    :returns: linear colour, float32 array (height, width, 3)
+    :raises RenderError: where the command fails, or the image has values that are no numbers"""
+    from patina.cli import main
+
+    said = io.StringIO()
+    with tempfile.TemporaryDirectory(prefix="patina-") as folder:
+        image = os.path.join(folder, "image.exr")
+        with contextlib.redirect_stderr(said), contextlib.redirect_stdout(said):
+            status = main.main(["record", stage, image, "--seed", str(seed), "--quiet", *arguments])
+        if status != 0 or not os.path.exists(image):
+            raise RenderError(said.getvalue().strip() or f"patina record ended with {status}")
+        pixels = color_of(image)
+    bad = int((~np.isfinite(pixels)).sum())
+    if bad:
+        raise RenderError(f"the image has {bad} values that are no numbers")
+    return pixels
+
+
+def color_of(path):
+    """:returns: linear colour of an OpenEXR file, float32 array (height, width, 3)"""
+    found = compiled.load().read_image(path)
+    return np.array(found.pixels)[..., [found.channels.index(c) for c in "RGB"]].astype(np.float32)
+
+
+def digest(pixels):
+    return hashlib.sha256(np.ascontiguousarray(pixels, np.float32).tobytes()).hexdigest()
+
+
+@dataclasses.dataclass
+class Golden:
+    """What is kept: tile means of each render, the digest of the first, and what made them."""
+    means: np.ndarray
+    first: str
+    size: tuple  # width, height
+    arguments: list
+    version: str
+
+    @classmethod
+    def made(cls, stage, scene):
+        """:returns: (the Golden, the mean image)"""
+        images = [render(stage, FIRST_SEED + i, scene.arguments) for i in range(scene.renders)]
+        height, width = images[0].shape[:2]
+        return cls(welch.tiles(images), digest(images[0]), (width, height), list(scene.arguments), __version__), np.mean(images, axis=0)
+
+    def write(self, path):
+        about = {"first": self.first, "size": self.size, "arguments": self.arguments, "version": self.version}
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        data = io.BytesIO()
+        np.savez_compressed(data, means=self.means, about=np.array(json.dumps(about)))
+        with outputs.Together() as files:
+            with open(files.add(path), "wb") as file:
+                file.write(data.getvalue())
+
+    @classmethod
+    def read(cls, path):
+        """:raises RenderError: where the file is no golden one"""
+        try:
+            with np.load(path, allow_pickle=False) as data:
+                about = json.loads(str(data["about"]))
+                return cls(data["means"], about["first"], tuple(about["size"]), about["arguments"], about["version"])
+        except (OSError, ValueError, KeyError) as error:
+            raise RenderError(f"{path} cannot be read: {error}") from None
+
+
+@dataclasses.dataclass
+class Result:
+    """Of a comparison. `problem`: in words, empty where the picture is the same; `image`: the new one, or None where its
+    first render had the golden bits; `sees`: relative difference that a typical tile would show, 0 for equal bits"""
+    problem: str = ""
+    image: object = None
+    sees: float = 0.0
+    hint: str = ""
+
+
+def compare(stage, scene, golden):
+    """Renders a stage again. Where the first render has the bits of the golden one, it is the same and that is all. Else as
+    many renders as the golden ones, with other seeds, are compared by `welch`.
+
+    :raises RenderError: where the stage cannot be rendered"""
+    if golden.arguments != list(scene.arguments):
+        return Result(f"the golden image was made with {' '.join(golden.arguments)}, the test asks for {' '.join(scene.arguments)}")
+    again = render(stage, FIRST_SEED, scene.arguments)
+    if again.shape[1::-1] != golden.size:
+        return Result(f"the image is {again.shape[1]} x {again.shape[0]}, the golden one {golden.size[0]} x {golden.size[1]}", again)
+    if digest(again) == golden.first:
+        return Result()
+    images = [render(stage, OTHER_SEEDS + i, scene.arguments) for i in range(scene.renders)]
+    interval = welch.compare(welch.tiles(images), golden.means)
+    result = Result(image=np.mean(images, axis=0), sees=scene.margin + float(np.median(interval.half)))
+    which = interval.differs(scene.margin)
+    if which.any():
+        result.problem = (f"{which.any(axis=-1).sum()} of {which[..., 0].size} tiles differ by more than {100 * scene.margin:g} % "
+                          f"(significance 1 % for all of them): {interval.worst(which)}")
+    elif result.sees > (1.0 + NOISE) * scene.margin:
+        result.hint = (f"noise hides differences of a tile below {100 * result.sees:.2g} %; more samples or renders show smaller "
+                       "ones")
+    return result

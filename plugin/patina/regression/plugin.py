@@ -1,0 +1,128 @@
+"""pytest plugin: every stage of a folder is a test that compares its render with a golden one.
+
+  pytest --patina-scenes FOLDER                     the tests
+  pytest --patina-scenes FOLDER --patina-update     makes the golden images, or makes them anew
+  pytest --patina-scenes FOLDER -k kitchen          one of them
+
+An installed Patina registers the plugin by itself; from a checkout it is `./patina python -m pytest -p
+patina.regression.plugin --patina-scenes FOLDER`. The tests need SciPy.
+"""
+import os
+import warnings
+
+import pytest
+
+from patina.regression.scenes import Folder, SceneError
+
+HOW = "pytest --patina-scenes {folder} -k {name} --patina-update"
+
+
+def pytest_addoption(parser):
+    group = parser.getgroup("patina", "stages rendered by Patina")
+    group.addoption("--patina-scenes", metavar="FOLDER", help="test every stage of this folder against its golden image")
+    group.addoption("--patina-update", action="store_true", help="make the golden images anew; every stage passes that renders")
+    group.addoption("--patina-out", metavar="FOLDER", help="where images of failed tests go (default: `failed` in the folder)")
+
+
+def pytest_configure(config):
+    folder = config.getoption("--patina-scenes")
+    if not folder:
+        return
+    try:
+        config.patina_folder = Folder(folder)
+    except SceneError as error:
+        raise pytest.UsageError(str(error)) from None
+    named = getattr(config, "args_source", None) == pytest.Config.ArgsSource.ARGS
+    args = config.args if named or hasattr(config, "workerinput") else []
+    if config.patina_folder.path not in args:
+        config.args = [*args, config.patina_folder.path]
+
+
+def pytest_collect_directory(path, parent):
+    folder = getattr(parent.config, "patina_folder", None)
+    if folder and os.path.abspath(path) == folder.path:
+        return _Scenes.from_parent(parent, path=path)
+    return None
+
+
+class SceneFailure(Exception):
+    pass
+
+
+class SceneWarning(UserWarning):
+    """A test that passes without having seen much."""
+
+
+class _Scenes(pytest.Directory):
+    """The folder."""
+
+    def collect(self):
+        for name in self.config.patina_folder.names():
+            yield _Stage.from_parent(self, name=name)
+
+
+class _Stage(pytest.Item):
+    """One stage."""
+
+    def runtest(self):
+        from patina.regression import golden
+
+        folder = self.config.patina_folder
+        stage, scene = os.path.join(folder.path, *self.name.split("/")), folder.scene(self.name)
+        kept = folder.golden(self.name, ".npz")
+        try:
+            if self.config.getoption("--patina-update"):
+                made, image = golden.Golden.made(stage, scene)
+                made.write(kept)
+                _write(folder.golden(self.name, ".exr"), image)
+                return
+            if not os.path.exists(kept):
+                raise SceneFailure(f"there is no golden image; make it, and look at it: {self._how()}")
+            result = golden.compare(stage, scene, golden.Golden.read(kept))
+        except golden.RenderError as error:
+            raise SceneFailure(str(error)) from None
+        if result.hint:
+            warnings.warn(SceneWarning(f"{self.name}: {result.hint}"))
+        if result.problem:
+            raise SceneFailure("\n".join([result.problem, *self._pictures(folder, result.image), f"if the new one is right: {self._how()}"]))
+
+    def _how(self):
+        return HOW.format(folder=self.config.getoption("--patina-scenes"), name=self.name)
+
+    def _pictures(self, folder, image):
+        """Writes the new image, and where the golden one has its size, the difference.
+
+        :returns: lines that say where they are"""
+        if image is None:
+            return []
+        from patina.chart.scenePage import signed
+        from patina.regression.golden import color_of
+
+        out = os.path.abspath(self.config.getoption("--patina-out") or os.path.join(folder.path, "failed"))
+        path = os.path.join(out, *(self.name + ".exr").split("/"))
+        _write(path, image)
+        lines = [f"new: {path}"]
+        golden = folder.golden(self.name, ".exr")
+        if os.path.exists(golden):
+            lines.append(f"golden: {golden}")
+            pixels = color_of(golden)
+            if pixels.shape == image.shape:
+                picture = path[:-len(".exr")] + ".difference.png"
+                _write(picture, signed(image, pixels))
+                lines.append(f"difference: {picture} (red: brighter now, blue: darker, full colour from 50 % on)")
+        return lines
+
+    def repr_failure(self, excinfo, style=None):
+        if isinstance(excinfo.value, SceneFailure):
+            return f"{self.name}: {excinfo.value}"
+        return super().repr_failure(excinfo)
+
+    def reportinfo(self):
+        return self.path, None, self.name
+
+
+def _write(path, image):
+    from patina.cli import compiled
+
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    compiled.load().write_image(path, image.astype("float32"))

@@ -1,0 +1,128 @@
+"""`pytest --patina-scenes`: golden images are made, hold for another noise, and fail for another picture. Each test runs a
+pytest of its own in a folder of its own."""
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+pytest.importorskip("_patina")
+pytest.importorskip("scipy.stats", reason="SciPy is not installed")
+
+from patina.regression import golden, plugin, welch  # noqa: E402
+from patina.regression.scenes import Folder, Scene, SceneError  # noqa: E402
+
+STAGE = """#usda 1.0
+def Camera "camera" { matrix4d xformOp:transform = ((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,6,1))
+    uniform token[] xformOpOrder = ["xformOp:transform"] }
+def DomeLight "sky" { float inputs:intensity = 1 }
+def SphereLight "lamp" { float inputs:radius = 0.3
+    float inputs:intensity = 20
+    double3 xformOp:translate = (2, 2, 2)
+    uniform token[] xformOpOrder = ["xformOp:translate"] }
+def Sphere "ball" { color3f[] primvars:displayColor = [(0.5, COLOUR, 0.1)] }
+"""
+SETTINGS = {"*": {"arguments": ["-w", "32", "--samples", "16"], "renders": 4}}
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "one.usda").write_text(STAGE.replace("COLOUR", "0.2"))
+    (tmp_path / "scenes.json").write_text(json.dumps(SETTINGS))
+    return tmp_path
+
+
+def run(folder, *arguments):
+    """:returns: exit status and output of a pytest that knows the plugin alone"""
+    done = subprocess.run([sys.executable, "-m", "pytest", "-p", "patina.regression.plugin", "-p", "no:cacheprovider", "-q", "-rA",
+                           "--patina-scenes", str(folder), *arguments], cwd=folder, capture_output=True, text=True,
+                          env=dict(os.environ, PYTEST_DISABLE_PLUGIN_AUTOLOAD="1"))
+    return done.returncode, done.stdout + done.stderr
+
+
+def edit(folder, before, after):
+    text = (folder / "one.usda").read_text()
+    assert before in text
+    (folder / "one.usda").write_text(text.replace(before, after))
+
+
+def test_the_way_of_a_scene(folder):
+    status, text = run(folder)
+    assert status == 1 and "there is no golden image" in text and "--patina-update" in text
+    assert run(folder, "--patina-update")[0] == 0
+    assert (folder / "golden" / "one.usda.npz").exists() and (folder / "golden" / "one.usda.exr").exists()
+    status, text = run(folder)
+    assert status == 0 and "1 passed" in text
+    edit(folder, "(0.5, 0.2, 0.1)", "(0.5, 0.24, 0.1)")  # a fifth more green
+    status, text = run(folder)
+    assert status == 1 and "tiles differ" in text and " G +" in text, text
+    assert (folder / "failed" / "one.usda.exr").exists() and (folder / "failed" / "one.usda.difference.png").exists()
+    assert run(folder, "--patina-update")[0] == 0 and run(folder)[0] == 0
+
+
+def test_another_noise_is_the_same_picture(folder, monkeypatch):
+    """The golden renders' own seeds would have their bits; others are judged by the statistics (at most 1 % are rejected)."""
+    stage, scene = str(folder / "one.usda"), Folder(folder).scene("one.usda")
+    made, _ = golden.Golden.made(stage, scene)
+    assert golden.compare(stage, scene, made).image is None
+    made.first = "another build's bits"
+    result = golden.compare(stage, scene, made)
+    assert result.image is not None and not result.problem and result.sees > scene.margin
+
+
+def test_what_cannot_be_compared_is_told(folder):
+    stage, scene = str(folder / "one.usda"), Folder(folder).scene("one.usda")
+    made, _ = golden.Golden.made(stage, scene)
+    made.size = (31, 18)
+    assert "the golden one 31 x 18" in golden.compare(stage, scene, made).problem
+    other = Scene(arguments=("-w", "16"), renders=2)
+    assert "the golden image was made with -w 32" in golden.compare(stage, other, made).problem
+    (folder / "two.usda").write_text("no stage")
+    status, text = run(folder, "--patina-update", "-k", "two")
+    assert status == 1 and "two.usda" in text and "cannot be opened" in text
+    (folder / "golden").mkdir(exist_ok=True)
+    (folder / "golden" / "one.usda.npz").write_text("no numbers")
+    assert "cannot be read" in run(folder, "-k", "one")[1]
+
+
+@pytest.mark.parametrize("text, words", [
+    ("{", "scenes.json"), ("[]", "an object is expected"), ('{"*": {"sampels": 1}}', "there is no 'sampels'"),
+    ('{"*": {"renders": 1}}', "from 2 to 1000"), ('{"*": {"margin": -1}}', "0 or more"),
+    ('{"*": {"arguments": "-w 3"}}', "list of texts"), ('{"*": {"arguments": ["--seed", "3"]}}', "--seed is chosen"),
+    ('{"stages": "*"}', "list of patterns"), ('{"a": 1}', "is an object")])
+def test_settings_that_cannot_be_used(folder, text, words):
+    (folder / "scenes.json").write_text(text)
+    with pytest.raises(SceneError, match=words.replace("(", "[(]")):
+        Folder(folder)
+
+
+def test_a_folder_that_is_not_there_ends_the_run(folder):
+    status, text = run(folder / "none")
+    assert status == 4 and "there is no folder" in text
+
+
+def test_stages_are_chosen_by_patterns(folder):
+    (folder / "shots" / "a").mkdir(parents=True)
+    (folder / "shots" / "a" / "b.usda").write_text("")
+    (folder / "golden").mkdir()
+    (folder / "golden" / "one.usda").write_text("")
+    assert Folder(folder).names() == ["one.usda"]
+    (folder / "scenes.json").write_text(json.dumps({"stages": ["**/*.usd*"], "*": {"renders": 3}, "shots/*": {"renders": 5}}))
+    chosen = Folder(folder)
+    assert chosen.names() == ["one.usda", "shots/a/b.usda"]
+    assert [chosen.scene(name).renders for name in chosen.names()] == [3, 5]
+
+
+def test_equal_pictures_are_rejected_no_more_often_than_stated():
+    """400 pairs of noise alone, without margin: at 1 % each, more than 12 rejections have a probability below 0.001
+    (binomial); seed 3."""
+    generator = np.random.default_rng(3)
+    rejected = sum(welch.compare(*generator.normal(1.0, 0.1, (2, 4, 3, 5, 3))).differs(0.0).any() for _ in range(400))
+    assert rejected <= 12
+
+
+def test_the_help_names_what_there_is():
+    for flag in ("--patina-scenes", "--patina-update"):
+        assert flag in plugin.__doc__

@@ -1,0 +1,113 @@
+"""Queues that are not on this machine. Their programs are stand-ins that keep the script of a job and run it: the scripts, and
+what becomes of them, are real."""
+import os
+import re
+import signal
+import subprocess
+import sys
+
+import pytest
+
+import movie
+from patina.cli.errors import UsageError
+from patina.farm import engines, pods
+
+FLAGS = ["--imageWidth=48", "--samples=4"]
+# Takes a script as its last argument or as its input, says a number, and runs the script in a session of its own.
+SUBMIT = """#!/bin/bash
+number=$$
+if [ $# -gt 0 ] && [ -f "${{@: -1}}" ]; then cp "${{@: -1}}" "{jobs}/$number.sh"; else cat >"{jobs}/$number.sh"; fi
+setsid bash "{jobs}/$number.sh" >"{jobs}/$number.log" 2>&1 </dev/null &
+echo $! >"{jobs}/$number.pid"
+echo "{said}"
+"""
+CANCEL = """#!/bin/bash
+for number; do kill -- -"$(cat "{jobs}/${{number%%.*}}.pid")"; done
+"""
+QUEUES = {  # programs, what the first says, a walltime, and what the script must ask for
+    "pbs": ("qsub", "qdel", "$number.host", "00:20:00",
+            [r"#PBS -q render", r"#PBS -l select=1:ncpus=1:mem=\S+", r"#PBS -l walltime=00:20:00"]),
+    "sge": ("qsub", "qdel", "Your job $number (dask-worker) has been submitted", "00:20:00",
+            [r"#\$ -q render", r"#\$ -l h_rt=00:20:00"]),
+    "lsf": ("bsub", "bkill", "Job <$number> is submitted to queue <render>.", "00:20",
+            [r"#BSUB -q render", r"#BSUB -n 1", r"#BSUB -W 00:20", r"#BSUB -M \d+"]),
+}
+
+
+def program(path, text):
+    path.write_text(text)
+    path.chmod(0o755)
+
+
+@pytest.mark.parametrize("queue", QUEUES)
+def test_a_movie_through_a_queue(tmp_path, queue):
+    pytest.importorskip("dask_jobqueue")
+    submit, cancel, said, walltime, directives = QUEUES[queue]
+    tools, jobs, out = tmp_path / "tools", tmp_path / "jobs", tmp_path / "out"
+    for folder in (tools, jobs, out):
+        folder.mkdir()
+    program(tools / submit, SUBMIT.format(jobs=jobs, said=said))
+    program(tools / cancel, CANCEL.format(jobs=jobs))
+    stage = movie.write_stage(tmp_path)
+    result = subprocess.run(
+        movie.command("farm", stage, out / "movie.####.exr", "--frames=1:2", "--cut=2", f"--engine={queue}:2",
+                      "--engineOption=queue=render", f"--engineOption=walltime={walltime}", "--engineOption=interface=lo",
+                      *FLAGS),
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=180,
+        env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "DASK_JOBQUEUE__LSF__LSF_UNITS": "mb"})
+    scripts = [script.read_text() for script in jobs.glob("*.sh")]
+    try:
+        assert result.returncode == 0, result.stderr + "".join(log.read_text()[-2000:] for log in jobs.glob("*.log"))
+        names = movie.at_once(stage, str(tmp_path / "once"), "1:2", FLAGS)
+        assert len(names) == 2 and not movie.different(names, tmp_path / "once", out)
+        assert len(scripts) == 2 and re.search(r"^all +6 ", result.stdout, re.MULTILINE)
+        for script in scripts:
+            for line in directives:
+                assert re.search(f"^{line}", script, re.MULTILINE), f"{line} is not in\n{script}"
+            assert "--nthreads 1" in script and f"{sys.executable} -m distributed" in script
+            assert re.search(r"^export PYTHONPATH=", script, re.MULTILINE)
+    finally:
+        running = [int(pid.read_text()) for pid in jobs.glob("*.pid") if os.path.exists(f"/proc/{pid.read_text().strip()}")]
+        for pid in running:
+            os.killpg(pid, signal.SIGKILL)
+    assert not running, "jobs were left in the queue"
+
+
+def test_pods_that_cannot_render_are_refused():
+    engines.parse("k8s:2", ["image=a", "volumes=shows:/shows,my-textures:/assets/textures"])
+    engines.parse("k8s:2", ["custom_cluster_spec=cluster.yaml"])
+    for options, words in (([], "image=NAME"), (["image=a", "volumes=/shows"], "CLAIM:/PATH"),
+                           (["image=a", "volumes=A_b:/x"], "CLAIM:/PATH")):
+        with pytest.raises(UsageError, match=words):
+            engines.parse("k8s:2", options)
+
+
+def test_pods_are_what_kubernetes_knows():
+    operator = pytest.importorskip("dask_kubernetes.operator", reason="dask-kubernetes is not installed")
+    from kubernetes import client
+
+    engine = engines.parse("k8s:3", ["image=studio/patina:1", "volumes=shows:/shows,shows:/again,textures:/textures",
+                                     'resources={"limits": {"cpu": "8"}}', 'env={"OCIO": "/shows/config.ocio"}',
+                                     "namespace=render"])
+    made = pods.cluster_options(operator.make_cluster_spec, engine.workers, engine.options, {"PYTHONPATH": "/shows/patina"})
+    assert made["namespace"] == "render" and set(made) == {"namespace", "custom_cluster_spec"}
+    worker = made["custom_cluster_spec"]["spec"]["worker"]
+    assert worker["replicas"] == 3
+    container = worker["spec"]["containers"][0]
+    assert container["args"][:3] == ["dask-worker", "--nthreads", "1"], "a pod takes one part at a time"
+    assert {"name": "OCIO", "value": "/shows/config.ocio"} in container["env"]
+    assert {"name": "PYTHONPATH", "value": "/shows/patina"} in container["env"]
+    claims = {volume["name"]: volume["persistentVolumeClaim"]["claimName"] for volume in worker["spec"]["volumes"]}
+    mounts = [(claims[mount["name"]], mount["mountPath"]) for mount in container["volumeMounts"]]
+    assert mounts == [("shows", "/shows"), ("shows", "/again"), ("textures", "/textures")] and len(claims) == 2
+    # Kubernetes' own classes take all of it: what they do not know would not come back.
+    api = client.ApiClient()
+    for part in ("worker", "scheduler"):
+        pod = made["custom_cluster_spec"]["spec"][part]["spec"]
+        known = api._ApiClient__deserialize(pod, "V1PodSpec")
+        assert api.sanitize_for_serialization(known) == pod
+
+
+def test_a_cluster_of_the_users_own_is_taken_as_it_is():
+    options = {"custom_cluster_spec": "cluster.yaml", "namespace": "render"}
+    assert pods.cluster_options(None, 4, options, {"A": "b"}) == options

@@ -1,0 +1,119 @@
+#!/usr/bin/env bash
+# Makes every package of this checkout and uses each as its users do: the wheel in a fresh Python environment, the .deb with the
+# system's Python, the tarball where it is unpacked, and the example host against what the .deb holds. All must render the same
+# bits, with the library of every level that the processor has.
+#
+#   testenv/package/everyPackage.sh FOLDER [--install]
+#
+# FOLDER takes what is made. Without --install the system stays as it is: the .deb is unpacked, and its dependencies are looked
+# up. With it (root, on a Debian that may be changed) missing packages are installed, and the .deb as well, by apt.
+# Exit status 3: this machine lacks something, which is said.
+set -euo pipefail
+
+[ $# -ge 1 ] || { sed -n '2,11s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+checkout=$(cd "$(dirname "$0")/../.." && pwd -P)
+mkdir -p "$1"
+folder=$(cd "$1" && pwd -P)
+install=${2:-}
+log=$folder/log
+: >"$log"
+
+say() { printf 'everyPackage: %s\n' "$*"; }
+lacks() { say "$*"; exit 3; }
+loudly() { # a step whose output is of interest only where it fails
+    printf '\n$ %s\n' "$*" >>"$log"
+    "$@" >>"$log" 2>&1 || { tail -n 40 "$log" >&2; say "failed: $*"; exit 1; }
+}
+
+if [ "$install" = --install ]; then
+    [ "$(id -u)" = 0 ] || lacks "--install needs the rights of root"
+    # The page's own line, so that it is known to be enough.
+    wanted=$(awk '/^    apt-get install --/ {on = 1} on {more = sub(/\\$/, ""); printf "%s ", $0; if (!more) exit}' \
+        "$checkout/docs/install.md")
+    export DEBIAN_FRONTEND=noninteractive
+    loudly apt-get update -q
+    loudly ${wanted/apt-get install/apt-get install -y -q}
+fi
+for program in c++ cmake ninja dpkg-deb dpkg-shlibdeps file python3; do
+    command -v $program >/dev/null || lacks "$program is missing"
+done
+python3 -c 'import venv, ensurepip' 2>/dev/null || lacks "python3-venv is missing"
+! command -v ccache >/dev/null || export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=${CCACHE_BASEDIR:-$folder} CCACHE_NOHASHDIR=1
+
+stage=$folder/stage
+mkdir -p "$stage"
+cp -r "$checkout/testenv/scenes/"{texturedDiffuse.usda,shaderball.usda,textures} "$stage"
+cd "$stage" # not in the checkout
+loader=$(ls /lib64/ld-linux-x86-64.so.2 2>/dev/null || true)
+render() { # NAME PYTHON COMMAND...: an image of the path tracer, and one of the rasterizer
+    local name=$1; shift
+    loudly "$@" record texturedDiffuse.usda "$folder/$name.exr" -w 96 --samples 4 --quiet
+    loudly "$@" record shaderball.usda "$folder/$name.png" --backend raster -w 96 --samples 1 --strict --quiet
+    say "$name renders"
+}
+same() { # NAME NAME: whether two images have equal bits
+    loudly "$folder/wheel/bin/python" -c '
+import sys, numpy, _patina
+a, b = (numpy.array(_patina.read_image(name).pixels) for name in sys.argv[1:3])
+assert a.shape == b.shape and a.std() > 0.0 and numpy.array_equal(a, b), sys.argv[1:]' "$folder/$1.exr" "$folder/$2.exr"
+}
+
+# The wheel.
+loudly python3 -m venv --clear "$folder/wheel"
+loudly "$folder/wheel/bin/pip" wheel --no-deps --config-settings=build-dir="$folder/wheelBuild" -w "$folder/dist" "$checkout"
+loudly "$folder/wheel/bin/pip" install "$(ls -t "$folder"/dist/*.whl | head -n 1)"
+say "the wheel: $(du -h "$folder"/dist/*.whl | cut -f1)"
+render wheel "$folder/wheel/bin/patina"
+
+# The library of each level: the loader is told to look for no higher one.
+package=$("$folder/wheel/bin/python" -c 'import os, patina; print(os.path.dirname(patina.__file__))')
+for level in "" $(ls "$package/lib/glibc-hwcaps"); do
+    [ -n "$loader" ] && [ -z "$level" ] || "$loader" --help | grep -q "$level (supported" || continue
+    name=wheel-${level:-lowest}
+    loudly env PYTHONSAFEPATH=1 "$loader" --glibc-hwcaps-mask "${level:-none}" "$folder/wheel/bin/python" -m patina record \
+        texturedDiffuse.usda "$folder/$name.exr" -w 96 --samples 4 --quiet
+    same wheel "$name"
+    say "the library of level ${level:-x86-64-v2} gives the same bits"
+done
+
+# The .deb and the tarball.
+loudly cmake -S "$checkout" -B "$folder/build" --preset portable
+loudly cmake --build "$folder/build"
+(cd "$folder/build" && loudly cpack -B "$folder/dist")
+deb=$(ls -t "$folder"/dist/*.deb | head -n 1)
+say "the .deb: $(du -h "$deb" | cut -f1), depends on $(dpkg-deb -f "$deb" Depends)"
+if [ "$install" = --install ]; then
+    loudly apt-get install -y -q --no-install-recommends "$deb"
+    prefix=/usr
+else
+    loudly dpkg-deb -x "$deb" "$folder/unpacked"
+    prefix=$folder/unpacked/usr
+    dpkg-deb -f "$deb" Depends | tr ',' '\n' | sed 's/|.*//; s/(.*//; s/ //g' | while read -r package; do
+        dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
+            lacks "the .deb depends on $package, which is not installed"
+    done
+fi
+loudly python3 -m venv --clear --system-site-packages "$folder/system"
+loudly "$folder/system/bin/pip" install usd-core
+PATINA_PYTHON=$folder/system/bin/python render deb "$prefix/bin/patina"
+same wheel deb
+mkdir -p "$folder/tarball"
+loudly tar -xf "$(ls -t "$folder"/dist/*.tar.gz | head -n 1)" -C "$folder/tarball" --strip-components=1
+PATINA_PYTHON=$folder/system/bin/python render tarball "$(find "$folder/tarball" -path '*/bin/patina')"
+same wheel tarball
+
+# A host in C++.
+options=()
+[ "$prefix" = /usr ] || options=("-DCMAKE_PREFIX_PATH=$prefix")
+loudly cmake -G Ninja -S "$checkout/docs/examples/host" -B "$folder/host" ${options[@]+"${options[@]}"}
+loudly cmake --build "$folder/host"
+loudly "$folder/host/host" "$folder/host.exr"
+loudly "$folder/host/host" "$folder/host.png" raster
+say "the example renders"
+
+if [ "$install" = --install ]; then
+    loudly apt-get remove -y -q hdpatina
+    [ -z "$(find /usr/lib /usr/include /usr/bin -iname '*patina*' -print -quit)" ] || { say "apt-get remove leaves files"; exit 1; }
+    say "the .deb is removed without a trace"
+fi
+say "all is well"

@@ -1,0 +1,176 @@
+"""Primvars with a value per instance: instances look like copies that have the values themselves."""
+import os
+
+import numpy as np
+import pytest
+
+from inProcess import without_opengl
+from rendering import color, patina, record
+
+HEAD = """#usda 1.0
+(
+    upAxis = "Y"
+)
+def Camera "camera"
+{
+    float2 clippingRange = (0.01, 1000)
+    float focalLength = 50
+    float horizontalAperture = 20
+    float verticalAperture = 20
+    double3 xformOp:translate = (0, 0, 10)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def DomeLight "sky"
+{
+    float inputs:intensity = 1
+}
+def Material "reads"
+{
+    token outputs:surface.connect = </reads/surface.outputs:surface>
+    def Shader "surface"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:diffuseColor.connect = </reads/tint.outputs:result>
+        color3f inputs:emissiveColor.connect = </reads/glow.outputs:result>
+        token outputs:surface
+    }
+    def Shader "tint"
+    {
+        uniform token info:id = "UsdPrimvarReader_float3"
+        string inputs:varname = "tint"
+        float3 inputs:fallback = (0.2, 0.2, 0.2)
+        float3 outputs:result
+    }
+    def Shader "glow"
+    {
+        uniform token info:id = "UsdPrimvarReader_float3"
+        string inputs:varname = "glow"
+        float3 outputs:result
+    }
+}
+"""
+PLACES = [(-1.2, -1, 0), (0, 1, 0), (1.2, -1, 0)]
+COLOURS = [(0.8, 0.1, 0.1), (0.1, 0.8, 0.1), (0.1, 0.1, 0.8)]
+
+
+def primvar(kind, name, values, per_instance):
+    text = ", ".join(str(v) for v in values)
+    end = '(\n        interpolation = "vertex"\n    )' if per_instance else ""
+    return f"    {kind}[] primvars:{name} = [{text}] {end}\n"
+
+
+def ball(name, place, primvars, bound):
+    binding = "    rel material:binding = </reads>\n" if bound else ""
+    return f"""def Sphere "{name}" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
+{{
+    double radius = 0.6
+    double3 xformOp:translate = {place}
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+{binding}{primvars}}}
+"""
+
+
+def instanced(primvars, own="", bound=False):
+    """Balls at PLACES as instances. :param primvars: dict name: (type, values)"""
+    text = "".join(primvar(kind, name, values, True) for name, (kind, values) in primvars.items())
+    return f"""def PointInstancer "balls"
+{{
+    point3f[] positions = {list(PLACES)}
+    int[] protoIndices = [0, 0, 0]
+    int64[] ids = [7, 3, 5]
+    rel prototypes = [</balls/ball>]
+{text}{ball("ball", (0, 0, 0), own, bound)}}}
+"""
+
+
+def copies(primvars, own="", bound=False):
+    return "".join(ball(f"copy{i}", place, own + "".join(primvar(kind, name, values[i:i + 1], False)
+                                                         for name, (kind, values) in primvars.items()), bound)
+                   for i, place in enumerate(PLACES))
+
+
+def render(folder, name, text, *arguments):
+    stage, image = folder / (name + ".usda"), folder / (name + ".exr")
+    stage.write_text(HEAD + text)
+    record(str(stage), str(image), "--imageWidth", "48", "--samples", "16", "--strict", *arguments)
+    return image
+
+
+def same(folder, primvars, *arguments, **more):
+    a = color(render(folder, "instances", instanced(primvars, **more), *arguments))
+    b = color(render(folder, "copies", copies(primvars, **more), *arguments))
+    assert a.std() > 0.05  # something is seen
+    assert np.allclose(a, b, atol=2e-3)
+    return a
+
+
+def test_colours_are_those_of_each_instance(tmp_path):
+    image = same(tmp_path, {"displayColor": ("color3f", COLOURS)})
+    for channel, (x, y, _) in enumerate(PLACES):  # ten units away, a frame of four units
+        pixel = image[int(24 - 12 * y), int(24 + 12 * x)]
+        assert pixel.argmax() == channel and pixel[channel] > 2.0 * np.delete(pixel, channel).max()
+
+
+def test_opacity_lets_shadows_and_eyes_through(tmp_path):
+    same(tmp_path, {"displayOpacity": ("float", [0.2, 1, 0.6])})
+
+
+def test_materials_read_them_by_name(tmp_path):
+    same(tmp_path, {"tint": ("color3f", COLOURS)}, bound=True)
+
+
+def test_what_glows_by_them_lights_alike(tmp_path):
+    """Light of a mesh is sampled by what each instance emits."""
+    floor = """def Cube "wall"
+{
+    double size = 6
+    double3 xformOp:translate = (0, 0, -3.7)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+    primvars = {"glow": ("color3f", [(9, 0, 0), (0, 0, 0), (0, 0, 9)])}
+    images = [color(render(tmp_path, name, make(primvars, bound=True) + floor, "--samples", "256"))
+              for name, make in (("instances", instanced), ("copies", copies))]
+    for side, channel in ((slice(0, 24), 0), (slice(24, 48), 2)):  # the walls beside the balls
+        a, b = (image[:, side, channel].mean() for image in images)
+        assert a == pytest.approx(b, rel=0.03)
+
+
+def test_the_prims_own_value_wins(tmp_path):
+    own = primvar("color3f", "displayColor", [(0.3, 0.3, 0.9)], False)
+    image = color(render(tmp_path, "instances", instanced({"displayColor": ("color3f", COLOURS)}, own)))
+    plain = color(render(tmp_path, "plain", instanced({}, own)))
+    assert np.array_equal(image, plain)
+
+
+def test_the_rasterizer_shows_them_too(tmp_path):
+    reason = without_opengl()
+    if reason:
+        pytest.skip(reason)
+    primvars = {"displayColor": ("color3f", COLOURS), "displayOpacity": ("float", [1, 0.4, 1])}
+    same(tmp_path, primvars, "--backend", "raster")
+
+
+def test_aovs_show_values_and_ids_of_instances(tmp_path):
+    import _patina
+
+    image = render(tmp_path, "aovs", instanced({"tint": ("color3f", COLOURS)}), "--aov", "primvars:instanceId", "--aov",
+                   "primvars:tint")
+    found = _patina.read_image(str(image))
+    data = {name: np.array(found.pixels)[..., i] for i, name in enumerate(found.channels)}
+    ids = next(v for k, v in data.items() if k.startswith("primvars:instanceId"))
+    tints = [v for k, v in data.items() if k.startswith("primvars:tint")][:3]
+    for (x, y, _), own, tint in zip(PLACES, (7, 3, 5), COLOURS):
+        at = int(24 - 12 * y), int(24 + 12 * x)
+        assert ids[at] == own
+        assert [t[at] for t in tints] == pytest.approx(tint, abs=1e-5)
+
+
+def test_too_few_values_are_told(tmp_path):
+    stage = tmp_path / "few.usda"
+    stage.write_text(HEAD + instanced({"displayColor": ("color3f", COLOURS[:2])}))
+    process = patina("record", stage, tmp_path / "few.exr", "--imageWidth", 16, "--samples", 1)
+    assert os.path.exists(tmp_path / "few.exr")
+    assert "/balls" in process.stderr and "displayColor" in process.stderr

@@ -80,6 +80,7 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
                            _parts.meshLights == before.meshLights;
     const auto edits = sameView && sameParts ? _compiled.editsSince(_version, state) : std::nullopt;
     _complete = false;
+    _outOfMemory = false;
     _origin = origin;
     const ScreenScale screen = screenScale(camera, settings, origin);
     View view{state, camera, settings, screen, stop, {}, nullptr};

@@ -68,7 +68,6 @@ private:
             try {
                 const Release release{_raster};
                 RenderLoop::prepareAndRender(state, camera);
-                if (!stopped() && _passes) _passes->releaseShadows();
             } catch (const DeviceError& error) {
                 _deviceFailure = error.what();
                 release(); // another back end needs the memory

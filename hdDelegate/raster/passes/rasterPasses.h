@@ -60,10 +60,6 @@ public:
         return taken < RasterLook::smoothed ? taken : 0;
     }
 
-    /// Lets go of the shadow maps, which each pass draws anew: many megabytes that a render which
-    /// has ended needs no more.
-    void releaseShadows();
-
     /// What the driver's seconds go into, of all that was drawn since clearSeconds().
     enum Share { Aovs, Shadows, Surfaces, ReadBack, ShareCount };
     double seconds(Share share) const { return _seconds[share]; }

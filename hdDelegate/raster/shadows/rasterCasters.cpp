@@ -22,15 +22,6 @@ void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<Shado
         drawCasters(scene, views[i], _shadowMaps, int(i), &_shadowSlopes);
 }
 
-void RasterPasses::releaseShadows() {
-    // A texture lives on while a framebuffer has it.
-    for (const GLenum attachment : {GL_DEPTH_ATTACHMENT, GL_COLOR_ATTACHMENT0})
-        gl.NamedFramebufferTextureLayer(_shadowTarget, attachment, 0, 0, 0);
-    _shadowMaps = GlTexture();
-    _shadowSlopes = GlTexture();
-    _shadowLayers = 0;
-}
-
 /// The first pass of a small scene draws all cells; a large one gets them by and by, and one whose
 /// casters let light pass, too, since their materials are evaluated for every texel.
 int RasterPasses::skyCells(const RasterScene& scene) {

@@ -8,12 +8,12 @@ namespace lobe {
 /// What a kind of lobe is to the rest of a material.
 enum Trait : unsigned {
     None = 0,
-    Diffuse = 1,   ///< counts as diffuse light
-    Transmits = 2, ///< always sends light to the other side, for good
-    Facets = 4,    ///< of microfacets, with the methods of these
-    Interface = 8, ///< has an inside, and a scatter mode
-    Covers = 16,   ///< in a layer the base gets what its albedo leaves
-    Fibre = 32     ///< is light in a hair, not at a surface
+    Diffuse = 1,    ///< counts as diffuse light
+    Transmits = 2,  ///< always sends light to the other side, for good
+    Microfacet = 4, ///< of microfacets, with the methods of these
+    Interface = 8,  ///< has an inside, and a scatter mode
+    Covers = 16,    ///< in a layer the base gets what its albedo leaves
+    Fibre = 32      ///< is light in a hair, not at a surface
 };
 constexpr Trait operator|(Trait a, Trait b) {
     return Trait(unsigned(a) | unsigned(b));

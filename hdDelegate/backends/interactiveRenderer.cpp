@@ -227,10 +227,10 @@ void InteractiveRenderer::changeOver(const std::string& camera) {
             _listener(*_film, slow.progress);
             return end(slow.progress);
         }
-        RenderProgress told = slow.hasImage() ? slow.progress : quick.progress;
-        told.converged = told.failed = false;
-        told.mayWait = true;
-        _listener(slow.hasImage() ? *slow.film : *quick.film, told);
+        RenderProgress shown = slow.hasImage() ? slow.progress : quick.progress;
+        shown.converged = shown.failed = false;
+        shown.mayWait = true;
+        _listener(slow.hasImage() ? *slow.film : *quick.film, shown);
     }
     end(RenderProgress());
 }

@@ -88,10 +88,9 @@ bool CompiledShapes::Key::isOf(const ShapeRequest& request) const {
     if (!request.displaces() || _displacers.empty())
         return !request.displaces() && _displacers.empty();
     return _toWorld == request.toWorld &&
-           std::equal(
-               _displacers.begin(), _displacers.end(), request.displacers.begin(),
-               request.displacers.end(),
-               [](const auto& known, const auto& displacer) { return known.is(displacer); });
+           std::equal(_displacers.begin(), _displacers.end(), request.displacers.begin(),
+                      request.displacers.end(),
+                      [](const auto& known, const auto& displacer) { return known.is(displacer); });
 }
 
 std::shared_ptr<const PrimShape> CompiledShapes::shape(const ShapeRequest& request) {

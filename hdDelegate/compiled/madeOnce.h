@@ -85,8 +85,8 @@ private:
         if (_entries.size() < _forgetAt) return;
         for (auto it = _entries.begin(); it != _entries.end();) {
             const Entry& entry = it->second;
-            it = !entry.pending.valid() && entry.made.expired() ? _entries.erase(it)
-                                                                : std::next(it);
+            it =
+                !entry.pending.valid() && entry.made.expired() ? _entries.erase(it) : std::next(it);
         }
         _forgetAt = std::max<size_t>(64, 2 * _entries.size());
     }

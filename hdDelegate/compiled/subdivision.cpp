@@ -60,10 +60,8 @@ Subdivision SubdivisionChoice::plan(const SceneState& state, const Placements& p
             std::vector<mat4> toEye;
             for (const dmat4& place : known->second)
                 toEye.push_back(seenFrom(eye, place * exactTransformAt(prim->transform, 0.0f)));
-            const auto material =
-                _materials.find(prim->material, prim->path, state, settings);
-            const auto program =
-                _materials.program(material, settings.methods, settings.tolerance);
+            const auto material = _materials.find(prim->material, prim->path, state, settings);
+            const auto program = _materials.program(material, settings.methods, settings.tolerance);
             const auto extent = _extents.of(prim);
             plan.add(*extent, toEye, program->planned());
             held.insert(held.end(), {extent, program});

@@ -1,5 +1,6 @@
 #include "hdDelegate/embree/embreeGroup.h"
 
+#include "hdDelegate/embree/embreeErrors.h"
 #include "hdDelegate/embree/embreeGeometry.h"
 #include "hdDelegate/embree/embreeScene.h"
 
@@ -235,6 +236,7 @@ void EmbreeGroup::replace(RTCDevice device, const Surfaces& surfaces, const Node
                           const std::atomic<bool>& stop) {
     changed = false;
     _broken = true;
+    rtcGetDeviceError(device); // what is not of this update
     _firstFree = 0;
     for (const auto& surface : surfaces) {
         const auto old = _surfaces.find(surface->prim->path);
@@ -253,7 +255,7 @@ void EmbreeGroup::replace(RTCDevice device, const Surfaces& surfaces, const Node
         if (added != _surfaces.end()) rayLimit = std::min(rayLimit, added->second.rayLimit);
     }
     if (nodes) updateNodes(device, *nodes);
-    commit(stop);
+    commit(device, stop);
 }
 
 void EmbreeGroup::attachNode(RTCDevice device, NodeMember& member) {
@@ -323,6 +325,7 @@ void EmbreeGroup::update(RTCDevice device, const Surfaces& surfaces, const Nodes
     changed = false;
     if (scene && (_broken || _interactive != interactive)) clear();
     _broken = true;
+    rtcGetDeviceError(device); // what is not of this update
     _interactive = interactive;
     _firstFree = 0;
     if (!scene) {
@@ -338,11 +341,13 @@ void EmbreeGroup::update(RTCDevice device, const Surfaces& surfaces, const Nodes
     }
     updateSurfaces(device, surfaces);
     updateNodes(device, nodes);
-    commit(stop);
+    commit(device, stop);
 }
 
-void EmbreeGroup::commit(const std::atomic<bool>& stop) {
+void EmbreeGroup::commit(RTCDevice device, const std::atomic<bool>& stop) {
+    throwIfOutOfMemory(device);
     if (changed) rtcCommitScene(scene);
+    throwIfOutOfMemory(device);
     _broken = changed && stop; // perhaps in the middle of the commit
 }
 

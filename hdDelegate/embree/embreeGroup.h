@@ -96,7 +96,7 @@ private:
     /// @param id that it gets if that is free; -1: any
     void attachSurface(RTCDevice device, const std::shared_ptr<Surface>& surface, int id,
                        std::map<std::string, SurfaceMember>& members);
-    void commit(const std::atomic<bool>& stop);
+    void commit(RTCDevice device, const std::atomic<bool>& stop);
     void updateNodes(RTCDevice device, const Nodes& nodes);
     void attachNode(RTCDevice device, NodeMember& member);
 

@@ -80,17 +80,16 @@ void EmbreeScene::update(const SceneState& state, const Camera& camera,
                            _parts.meshLights == before.meshLights;
     const auto edits = sameView && sameParts ? _compiled.editsSince(_version, state) : std::nullopt;
     _complete = false;
+    _outOfMemory = false;
     _origin = origin;
-    const CameraRays rays(camera, settings, origin);
     const ScreenScale screen = screenScale(camera, settings, origin);
-    View view{state, camera, settings, rays, screen, stop, {}, nullptr};
+    View view{state, camera, settings, screen, stop, {}, nullptr};
     if (!edits || !updateTouched(view, *edits)) {
-        _subdivision =
-            _compiled.subdivision().of(state, *_parts.placements, camera, settings);
+        _subdivision = _compiled.subdivision().of(state, *_parts.placements, camera, settings);
         updateAll(view);
         _lightsMayDiffer = true;
     }
-    if (_outOfMemory.exchange(false)) { // Embree throws nothing; which structures lack it is unknown
+    if (_outOfMemory.exchange(false)) { // Embree does not say which structures lack it
         _world = nullptr;
         _nodes.clear();
         _groups.clear();

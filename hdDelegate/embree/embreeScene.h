@@ -17,8 +17,6 @@
 
 namespace patina {
 
-class CameraRays;
-
 enum RayMask : unsigned { RayCamera = 1, RayIndirect = 2, RayShadow = 4 };
 
 /// Of a surface alone: none where it shares them.
@@ -131,7 +129,6 @@ private:
         const SceneState& state;
         const Camera& camera;
         const RenderSettings& settings;
-        const CameraRays& rays;
         const ScreenScale& screen;
         const std::atomic<bool>& stop;
         std::map<std::string, std::vector<mat4>> transformsOf; ///< by group, of those asked for
@@ -204,7 +201,7 @@ private:
     SharedShapes _shapes;
     std::map<std::string, CachedSurface> _surfaces;
     std::map<std::string, CachedProgram> _programs;
-    Subdivision _subdivision; ///< of the last update
+    Subdivision _subdivision;                                    ///< of the last update
     std::map<std::string, std::unique_ptr<EmbreeGroup>> _groups; ///< by name; "" is the world
     Members _surfacesOf;
     std::map<std::string, const CachedSurface*> _emitting; ///< by path
@@ -222,7 +219,7 @@ private:
     dvec3 _origin{0.0}, _builtFrom{0.0}; ///< of the last update; of what is cached
     size_t _translucent = 0, _withMedia = 0, _surfaceBytes = 0; ///< of all surfaces
     bool _lightsMayDiffer = true;
-    mutable std::atomic<bool> _toldOfRays{false};
+    mutable std::atomic<bool> _warnedOfRays{false};
     std::atomic<bool> _outOfMemory{false}; ///< of Embree, since the last update began
     vec3 _boundsMin{0.0f}, _boundsMax{0.0f};
     size_t _trianglesStored = 0, _instanceCount = 0;

@@ -124,7 +124,7 @@ void EmbreeScene::updateSurface(const Work& work, bool keepRest) {
         return;
     }
     std::shared_ptr<Surface> surface;
-    Programs displacers = work.displacers; // what runs out of memory does so before `cached` changes
+    Programs displacers = work.displacers; // no memory may be missing while `cached` changes
     bool keepsRest = !shared && cached.keepsRest;
     if (shared) {
         surface = shape(prim, shared);

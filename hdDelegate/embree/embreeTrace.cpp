@@ -50,7 +50,7 @@ bool EmbreeScene::finishHit(const RTCRayHit& rayHit, const TraceContext& context
 bool EmbreeScene::accepts(const RTCRay& ray) const {
     if (isTraceable(ray, _world->rayLimit)) return true;
     const bool clipped = ray.tfar < 0.0f; // there is nothing wrong with such a ray
-    if (!clipped && !_toldOfRays.exchange(true))
+    if (!clipped && !_warnedOfRays.exchange(true))
         _diagnostics.warn("", "rays",
                           "some start too far away, or have no direction; they meet nothing");
     return false;

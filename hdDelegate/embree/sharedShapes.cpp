@@ -1,5 +1,6 @@
 #include "hdDelegate/embree/sharedShapes.h"
 
+#include "hdDelegate/embree/embreeErrors.h"
 #include "hdDelegate/geometry/tessellate.h"
 #include "hdDelegate/scene/instancerCheck.h"
 
@@ -82,6 +83,7 @@ void SharedShapes::update(RTCDevice device, const std::map<ShapeKey, int>& uses,
                           const std::map<ShapeKey, const Implicit*>& examples,
                           Diagnostics& diagnostics) {
     std::map<ShapeKey, std::shared_ptr<const SharedShape>> next;
+    rtcGetDeviceError(device); // what is not of this update
     for (const auto& [key, count] : uses) {
         if (count < minInstances) continue;
         auto& known = _shapes[key];
@@ -106,7 +108,9 @@ void SharedShapes::update(RTCDevice device, const std::map<ShapeKey, int>& uses,
             rtcCommitGeometry(geometry);
             rtcAttachGeometry(shape->scene, geometry);
             rtcReleaseGeometry(geometry);
+            throwIfOutOfMemory(device);
             rtcCommitScene(shape->scene);
+            throwIfOutOfMemory(device);
             known = std::move(shape);
         }
         next[key] = known;

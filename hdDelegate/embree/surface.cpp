@@ -216,8 +216,7 @@ void computeSurfacePoint(const Hit& hit, const vec3& origin, const vec3& directi
     }
     s.viewDirection = -direction;
     // Ribbons and disks are seen from both sides alike.
-    const bool flat =
-        surface.shape != Surface::Shape::Triangles && !surface.placed.normals.empty();
+    const bool flat = surface.shape != Surface::Shape::Triangles && !surface.placed.normals.empty();
     if (flat && glm::dot(s.geometricNormal, s.viewDirection) < 0.0f) {
         s.geometricNormal = -s.geometricNormal;
         s.normal = -s.normal;

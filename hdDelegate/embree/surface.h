@@ -49,7 +49,7 @@ struct Surface {
     enum class Shape { Triangles, Curves, Points } shape = Shape::Triangles;
 
     const std::vector<MeshAttribute>& attributes() const {
-        return shared                    ? own
+        return shared                      ? own
                : shape == Shape::Triangles ? rest->mesh.attributes
                : shape == Shape::Curves    ? rest->curves.attributes
                                            : rest->points.attributes;

@@ -16,9 +16,9 @@ constexpr uint32_t longestDescription = 1u << 28;
 /// Like FilmStream::Header's reset for a film that parts are merged into.
 void begin(Film& film, FilmStream::Header header, size_t tiles, const FilmFileReader& file) {
     // A small file cannot ask for much memory.
-    constexpr uint64_t mostParts = 1 << 16, tileArea = uint64_t(tileSize) * tileSize;
+    constexpr uint64_t maxParts = 1 << 16, tileArea = uint64_t(tileSize) * tileSize;
     if (header.width < 1 || header.height < 1 ||
-        uint64_t(header.width) * uint64_t(header.height) > tiles * tileArea * mostParts)
+        uint64_t(header.width) * uint64_t(header.height) > tiles * tileArea * maxParts)
         file.fail("it is damaged");
     header.firstSample = 0;
     header.dropped = 0;
@@ -46,10 +46,9 @@ bool hasEnough(const Film& film, const Tile& tile, uint32_t first, const Partial
     const uint32_t samples = film.sampleCount(tile.x0, tile.y0);
     if (samples != first) {
         if (!(merge.tolerance > 0.0))
-            throw std::runtime_error("the parts do not follow each other: " +
-                                     std::to_string(samples) +
-                                     " samples are there, and the next are from " +
-                                     std::to_string(first) + " on");
+            throw std::runtime_error(
+                "the parts do not follow each other: " + std::to_string(samples) +
+                " samples are there, and the next are from " + std::to_string(first) + " on");
         return true;
     }
     if (!(merge.tolerance > 0.0) || int(samples) < std::max(2, merge.minSamples) ||

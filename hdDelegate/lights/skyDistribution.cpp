@@ -213,8 +213,8 @@ SkyDistribution::Draw SkyDistribution::begin(const glm::vec2& u, const glm::vec3
     draw.left = _left[size_t(block.x)];
     draw.count = _left[size_t(block.x) + 1] - draw.left;
     draw.cells = &_rowCells[rowCells(draw.row, block.x)];
-    constexpr int cacheLine = 16, mostLines = 5; // longer rows are searched by halves
-    for (int i = 0; i <= std::min(draw.count, mostLines * cacheLine); i += cacheLine)
+    constexpr int cacheLine = 16, maxLines = 5; // longer rows are searched by halves
+    for (int i = 0; i <= std::min(draw.count, maxLines * cacheLine); i += cacheLine)
         __builtin_prefetch(draw.cells + i);
     return draw;
 }

@@ -288,9 +288,9 @@ private:
         _passes->draw(*_raster, *_lights, *_domes, _raster->environmentSamples(), camera, sample,
                       film);
         checkDevice(0);
-        RenderProgress told = progress();
-        told.samplesDone = 1;
-        if (!stopped()) _listener(film, told);
+        RenderProgress shown = progress();
+        shown.samplesDone = 1;
+        if (!stopped()) _listener(film, shown);
     }
 
     /// @param border of the image, as RasterPasses::resize() has left it

@@ -20,7 +20,7 @@ void RenderLoop::start(std::shared_ptr<Scene> scene, const std::string& camera,
     _film = std::move(film);
     _settings = settings;
     _stop = _interrupt = _pause = false;
-    _deviceFailed = _told = false;
+    _deviceFailed = _notified = false;
     {
         const std::lock_guard<std::mutex> lock(_mutex);
         RenderProgress fresh;
@@ -97,10 +97,10 @@ void RenderLoop::prepareAndRender(const SceneState& state, const std::string& pa
 
 void RenderLoop::notify() {
     constexpr double pause = 0.03; // seconds: hosts do not draw more often
-    if (!_listener || (_told && secondsSince(_lastTold) < pause)) return;
-    _told = true;
+    if (!_listener || (_notified && secondsSince(_lastNotified) < pause)) return;
+    _notified = true;
     _listener(*_film, progress());
-    _lastTold = Clock::now();
+    _lastNotified = Clock::now();
 }
 
 /// The listener hears the end before progress() tells it.

@@ -88,8 +88,8 @@ private:
     std::atomic<bool> _running{false}, _stop{false}, _interrupt{false}, _pause{false};
     bool _idle = true; ///< no thread touches the film; guarded by _mutex
     bool _deviceFailed = false;
-    bool _told = false; ///< the listener heard of this render
-    Clock::time_point _started, _sampling, _lastCheckpoint, _lastTold;
+    bool _notified = false; ///< the listener knows of this render
+    Clock::time_point _started, _sampling, _lastCheckpoint, _lastNotified;
 };
 
 } // namespace patina

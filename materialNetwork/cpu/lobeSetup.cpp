@@ -69,7 +69,7 @@ void set(sh::SchlickLobe& l, decltype(&sh::schlickSetup), const Arguments& a) {
 }
 
 template <class L, class F, class... Points>
-void tell(L& l, F function, const MethodSet& methods, Points... points) {
+void applyMethods(L& l, F function, const MethodSet& methods, Points... points) {
     l = function(l, methods.at(points)...);
 }
 
@@ -78,7 +78,7 @@ template <LobeKind kind, class L>
 void setMethods([[maybe_unused]] L& l, [[maybe_unused]] const MethodSet& methods) {
 #define PATINA_LOBE_METHODS(Kind, prefix, function, ...)                                           \
     if constexpr (kind == LobeKind::Kind)                                                          \
-        tell(                                                                                      \
+        applyMethods(                                                                              \
             l, [](const L& before, auto... m) { return sh::function(before, m...); }, methods,     \
             __VA_ARGS__);
 #include "materialNetwork/plan/choicePoints.inc"

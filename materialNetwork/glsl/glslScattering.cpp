@@ -20,7 +20,7 @@ struct Trait {
 Trait traitOf(LobeKind kind, const std::string& lobe) {
     Trait t;
     t.kind = lobeRow(kind).lit;
-    if (!lobeHas(kind, lobe::Facets)) return t;
+    if (!lobeHas(kind, lobe::Microfacet)) return t;
     t.kind = (lobeHas(kind, lobe::Interface) ? lobe + ".mode == SCATTER_R && " : "") + lobe +
              ".retro > 0.0 ? LOBE_MIRROR : LOBE_OTHER";
     t.alpha = "sqrt(" + lobe + ".alpha.x * " + lobe + ".alpha.y)";
@@ -84,8 +84,8 @@ std::string glslSample(const MaterialIr& code) {
         const LobeTemplate& t = code.lobes[i];
         const std::string n = number(int(i)), frame = glslFrameOf(code, i);
         text += "    if (drawn.lobe == " + n + ") {\n";
-        text += "        l = " + std::string(lobeRow(t.kind).prefix) + "Sample(lobe" + n +
-                ", " + frame + ".wo, u);\n";
+        text += "        l = " + std::string(lobeRow(t.kind).prefix) + "Sample(lobe" + n + ", " +
+                frame + ".wo, u);\n";
         text += "        s.wi = toWorld(" + frame + ", l.wi);\n";
         text += "        s.diffuse = " + std::string(t.diffuse ? "true" : "false") + ";\n";
         text += "        weight = lobeWeight[" + n + "];\n";
@@ -106,8 +106,7 @@ std::string glslAlbedo(const MaterialIr& code) {
 }
 
 bool glslRefracts(const LobeTemplate& t) {
-    return lobeHas(t.kind, lobe::Interface) && !t.passThrough &&
-           (t.mode & sh::SCATTER_T) != 0;
+    return lobeHas(t.kind, lobe::Interface) && !t.passThrough && (t.mode & sh::SCATTER_T) != 0;
 }
 
 std::string glslPasses(const MaterialIr& code) {
@@ -143,7 +142,7 @@ std::string glslTraits(const MaterialIr& code) {
 std::string glslDefinitions(const MaterialIr& code) {
     Common compensate, albedo, film;
     for (const LobeTemplate& t : code.lobes) {
-        if (lobeHas(t.kind, lobe::Facets)) {
+        if (lobeHas(t.kind, lobe::Microfacet)) {
             compensate.add(t.compensate);
             albedo.add(t.methods.at(Choice::DirectionalAlbedo));
         }
@@ -158,7 +157,7 @@ std::string glslDefinitions(const MaterialIr& code) {
 std::vector<std::string> glslWalksLeftOut(const MaterialIr& code) {
     std::vector<std::string> lines;
     for (const LobeTemplate& t : code.lobes)
-        if (t.walks && lobeHas(t.kind, lobe::Facets)) {
+        if (t.walks && lobeHas(t.kind, lobe::Microfacet)) {
             lines.push_back("energyCompensation=randomWalk is for the path tracer alone; "
                             "turquin is shown");
             break;

@@ -44,7 +44,7 @@ size_t digitsFrom(const std::string& text, size_t i) {
 /// One line in the words of ES: parameters[3] -> vec4(...), parameters[i] -> parameterAt(i),
 /// primvar(2, x) -> primvar2(x).
 std::string rewritten(const std::string& line, const std::vector<glm::vec4>& parameters,
-                      bool& looksUp) {
+                      bool& readsTables) {
     static const std::string parameter = "parameters[", primvar = "primvar(";
     std::string out;
     for (size_t i = 0; i < line.size();) {
@@ -66,7 +66,7 @@ std::string rewritten(const std::string& line, const std::vector<glm::vec4>& par
             const size_t end = line.find(']', from);
             out += "parameterAt(" + line.substr(from, end - from) + ")";
             i = end + 1;
-            looksUp = true;
+            readsTables = true;
         }
     }
     return out;
@@ -90,7 +90,7 @@ GlslWebMaterial makeGlslWebMaterial(const MaterialIr& ir) {
     static const std::string lookUp = "materialParameter(";
     const bool calls =
         desktop.text.find(lookUp, desktop.text.find(lookUp) + 1) != std::string::npos;
-    bool looksUp = false;
+    bool readsTables = false;
     for (size_t from = 0; from < desktop.text.size();) {
         size_t to = desktop.text.find('\n', from);
         if (to == std::string::npos) to = desktop.text.size();
@@ -102,9 +102,9 @@ GlslWebMaterial makeGlslWebMaterial(const MaterialIr& ir) {
             if (line.find(" uniform Parameters ") != std::string::npos) continue;
             line = line.substr(line.find(") ") + 2);
         }
-        out.text += rewritten(line, desktop.parameters, looksUp) + "\n";
+        out.text += rewritten(line, desktop.parameters, readsTables) + "\n";
     }
-    if (looksUp) {
+    if (readsTables) {
         out.parameters = desktop.parameters;
         out.text =
             "uniform sampler2D parameterTable;\n"

@@ -196,7 +196,7 @@ bool rewriteClosure(const Graph& graph, const GraphNode& node, Operand& out, std
     case ClosureKind::Add:
         if (isNone(in[0])) return keep(in[1], "");
         return isNone(in[1]) && keep(in[0], "");
-    case ClosureKind::ThinWall: return isNone(in[0]) && keep(in[0], "");
+    case ClosureKind::ThinSlab: return isNone(in[0]) && keep(in[0], "");
     case ClosureKind::Multiply:
         if (isNone(in[0])) return keep(in[0], "");
         if (isConstantValue(in[1], 0.0f)) return cut("factor 0");

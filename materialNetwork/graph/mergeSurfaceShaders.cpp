@@ -228,9 +228,9 @@ private:
     void wrapThin(Surface& s, const std::string& path) {
         const bool solid = s.thin.isConstant() && isNumber(s.thin, 0.0f);
         if (!solid && !isNone(s.bsdf)) {
-            const Operand wall = append("PatinaThinWall", {s.bsdf}, path);
+            const Operand slab = append("PatinaThinSlab", {s.bsdf}, path);
             s.bsdf =
-                s.thin.isConstant() ? wall : append("ND_mix_bsdf", {wall, s.bsdf, s.thin}, path);
+                s.thin.isConstant() ? slab : append("ND_mix_bsdf", {slab, s.bsdf, s.thin}, path);
         }
         s.thin = numberOf(0.0f);
         s.changed = true;

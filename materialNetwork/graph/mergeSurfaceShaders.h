@@ -11,8 +11,8 @@ namespace patina {
 ///   seen. Without a back shader, or with one that has no closure, both sides show the front; with
 ///   a back shader alone the front side is not there (MaterialX leaves that open);
 /// - `surface_unlit` becomes a `surface` that emits, and passes light straight on;
-/// - a `surface` whose thin_walled varies, and mixes of thin walls with solid surfaces, become
-///   mixes in which the thin closures stand in a `patina_thin_wall`;
+/// - a `surface` whose thin_walled varies, and mixes of thin slabs with solid surfaces, become
+///   mixes in which the thin closures stand in a `patina_thin_slab`;
 /// - mixes of displacement and volume shaders become mixes of what they displace and hold;
 /// - a material on the surface terminal gives its displacement and volume to terminals not set.
 ///

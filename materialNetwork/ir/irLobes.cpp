@@ -43,7 +43,7 @@ int IrBuilder::frame(const PlanClosure& closure, bool flips, std::vector<bool>& 
 }
 
 void IrBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasInside,
-                          std::vector<bool>& needed) {
+                     std::vector<bool>& needed) {
     const GraphNode& node = nodeOf(closure.node);
     if (int(_ir.lobes.size()) >= MaterialIr::maxLobes) {
         _diagnostics.warn(node.path, "",
@@ -71,7 +71,7 @@ void IrBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasInside,
     const bool flips = !interface || !hasInside || closure.thin;
     t.frame = uint8_t(frame(closure, flips, needed));
 
-    // A thin wall has no inside for light to go to.
+    // A thin slab has no inside for light to go to.
     const bool flat = closure.kind == ClosureKind::Subsurface && closure.thin;
     if (flat) t.kind = LobeKind::OrenNayar;
     const std::vector<std::string>& names =
@@ -81,7 +81,7 @@ void IrBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasInside,
         operand.value = Value::makeFloat(0.0f);
         const int input = node.def->findInput(names[i]);
         if (input >= 0) operand = node.inputs[size_t(input)];
-        // Light goes straight through a thin wall; the layer above has taken what is reflected.
+        // Light goes straight through a thin slab; the layer above has taken what is reflected.
         if (closure.thin && closure.sharedInterface && t.mode == sh::SCATTER_T &&
             closure.kind == ClosureKind::Dielectric && names[i] == "ior") {
             operand = Operand();

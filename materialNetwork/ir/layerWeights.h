@@ -38,11 +38,10 @@ template <class Out> struct PlainLayers {
     Out& out;
     typename Out::template List<Color, 0> passes; ///< what the closures in tops let through
 
-    PlainLayers(const MaterialIr& c, int root, Out& o)
-        : code(c), out(o), passes(size_t(root) + 2) {
+    PlainLayers(const MaterialIr& c, int root, Out& o) : code(c), out(o), passes(size_t(root) + 2) {
         for (int i = 0; i <= root; ++i)
             if (code.bsdf[size_t(i)].needsTransmittance)
-                passes[i] = out.named(type, passed(i, code.bsdf[size_t(i)]));
+                passes[i] = out.named(type, transmitted(i, code.bsdf[size_t(i)]));
     }
 
     bool reaches(const ClosureOp&) const { return true; }
@@ -64,7 +63,7 @@ template <class Out> struct PlainLayers {
 private:
     Color passesOf(int i) { return i < 0 ? out.grey(1.0f) : passes[i]; }
 
-    Color passed(int i, const ClosureOp& op) {
+    Color transmitted(int i, const ClosureOp& op) {
         switch (op.kind) {
         case ClosureKind::Layer:
             return PATINA_CLOSURE(out, closureProduct, passesOf(op.a), passesOf(op.b));
@@ -110,7 +109,8 @@ template <class Out> struct ReturnedLayers {
                 if (op.beneath) light[i] = none();
                 continue;
             }
-            if (op.kind == ClosureKind::Layer) through[i] = passed(op.a, light[op.b], op.returns);
+            if (op.kind == ClosureKind::Layer)
+                through[i] = transmitted(op.a, light[op.b], op.returns);
             if (op.beneath) light[i] = out.named(type, reflected(i, op));
         }
     }
@@ -152,28 +152,28 @@ private:
 
     /// What a top lets through. @param base albedo of what lies below; @param returns whether light
     /// comes back to it
-    Light passed(int top, const Light& base, bool returns) {
+    Light transmitted(int top, const Light& base, bool returns) {
         if (top < 0) return all();
-        return out.named(type, passedBy(top, code.bsdf[size_t(top)], base, returns));
+        return out.named(type, transmittedBy(top, code.bsdf[size_t(top)], base, returns));
     }
 
-    Light passedBy(int top, const ClosureOp& op, const Light& base, bool returns) {
+    Light transmittedBy(int top, const ClosureOp& op, const Light& base, bool returns) {
         switch (op.kind) {
         case ClosureKind::Layer: {
-            const Light lower = passed(op.b, base, returns);
+            const Light lower = transmitted(op.b, base, returns);
             const Light below = out.named(type, sum(lightOf(op.b), product(lower, base)));
-            return product(passed(op.a, below, returns), lower);
+            return product(transmitted(op.a, below, returns), lower);
         }
         case ClosureKind::Mix: {
-            const Light a = passed(op.a, base, returns), b = passed(op.b, base, returns);
+            const Light a = transmitted(op.a, base, returns), b = transmitted(op.b, base, returns);
             return PATINA_CLOSURE(out, layerMix, a, b, out.share(top, op));
         }
         case ClosureKind::Add: {
-            const Light a = passed(op.a, base, returns), b = passed(op.b, base, returns);
+            const Light a = transmitted(op.a, base, returns), b = transmitted(op.b, base, returns);
             return PATINA_CLOSURE(out, layerBeside, a, b);
         }
         case ClosureKind::Multiply: {
-            const Light a = passed(op.a, base, returns);
+            const Light a = transmitted(op.a, base, returns);
             const Color cover = PATINA_CLOSURE(out, shareLargest, out.factor(top, op));
             return PATINA_CLOSURE(out, layerCovered, a, cover);
         }

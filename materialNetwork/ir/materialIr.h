@@ -38,7 +38,7 @@ struct LobeTemplate {
     bool sharedInterface = false;
     bool film = false;           ///< has a thin film
     bool filmDielectric = false; ///< a dielectric with a film: LobeKind::Schlick
-    bool thin = false;           ///< of a thin wall
+    bool thin = false;           ///< of a thin slab
     bool passThrough = false;    ///< passes light straight on: part of the presence
     int mode = 0;                ///< SCATTER_*
     int variant = 0;             ///< lobeVariant()
@@ -129,7 +129,7 @@ struct MaterialIr {
     // What bindMethods() sets; hasEmission and what follows from lobes too.
     MaterialFacts facts;
     int walkedLayers = 0;          ///< of `bsdf`
-    bool slabsHaveTwoFaces = true; ///< thin walls
+    bool slabsHaveTwoFaces = true; ///< thin slabs
     LayerTransmittance layerTransmittance = LayerTransmittance::Returned;
     bool returnsLight = false; ///< a layer of `bsdf` returns light
 };

@@ -26,13 +26,12 @@ bool nestsTooDeeply(const pugi::xml_node& root) {
 } // namespace
 
 size_t markupOf(const std::string& text) {
-    return size_t(std::count_if(text.begin(), text.end(),
-                                [](char c) { return c == '<' || c == '='; }));
+    return size_t(
+        std::count_if(text.begin(), text.end(), [](char c) { return c == '<' || c == '='; }));
 }
 
-bool loadXml(const std::string& text, pugi::xml_document& out, std::string& problem,
-             size_t mostMarkup) {
-    if (markupOf(text) > mostMarkup) {
+bool loadXml(const std::string& text, pugi::xml_document& out, std::string& problem, size_t limit) {
+    if (markupOf(text) > limit) {
         problem = "holds more tags and attributes than the " + std::to_string(maxMarkup) +
                   " that are read of a document and what it includes";
         return false;

@@ -17,11 +17,11 @@ inline constexpr size_t maxMarkup = size_t(1) << 21;
 size_t markupOf(const std::string& text);
 
 /// Reads text as XML.
-/// @param mostMarkup see markupOf()
+/// @param limit see markupOf()
 /// @returns false, with the reason as in "is not readable as XML: ...", when it is none, holds more
 ///          than that or nests too deeply
 bool loadXml(const std::string& text, pugi::xml_document& out, std::string& problem,
-             size_t mostMarkup = maxMarkup);
+             size_t limit = maxMarkup);
 
 /// The name that an element's name, or what it refers to, has for others: "namespace:name" where
 /// the element or one around it has a namespace, else the name itself.

@@ -45,7 +45,7 @@ const NodeRow rows[] = {
             ClosureKind::Mix),
     closure("ND_mix_volumeshader", "mix", "volumeshader fg, volumeshader bg, float mix=0",
             "volumeshader", ClosureKind::Mix),
-    closure("PatinaThinWall", "patina_thin_wall", "BSDF in", "BSDF", ClosureKind::ThinWall),
+    closure("PatinaThinSlab", "patina_thin_slab", "BSDF in", "BSDF", ClosureKind::ThinSlab),
     closure("ND_add_bsdf", "add", "BSDF in1, BSDF in2", "BSDF", ClosureKind::Add),
     closure("ND_add_edf", "add", "EDF in1, EDF in2", "EDF", ClosureKind::Add),
     closure("ND_add_vdf", "add", "VDF in1, VDF in2", "VDF", ClosureKind::Add),

@@ -25,7 +25,7 @@ enum class ClosureKind {
     Mix,   ///< (fg, bg, mix)
     Add,
     Multiply,
-    ThinWall, ///< its closure belongs to a surface without an inside
+    ThinSlab, ///< its closure belongs to a surface without an inside
     Surface,
     SurfaceUnlit,
     Volume,

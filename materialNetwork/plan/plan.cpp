@@ -18,7 +18,7 @@ public:
 
     void run() {
         _sharesInterfaces = _plan.methods["reflectionOverTransmission"] == "fused";
-        _thinWalls = _plan.methods["thinWalled"] != "solid";
+        _thinSlabs = _plan.methods["thinWalled"] != "solid";
         _plan.opacity.value = Value::makeFloat(1.0f);
         const auto surface = _plan.graph.terminals.find("surface");
         if (surface != _plan.graph.terminals.end()) planSurface(surface->second, "surface");
@@ -50,7 +50,7 @@ private:
             _plan.opacity = input(node, "opacity");
             float thin = 0.0f;
             constantNumber(input(node, "thin_walled"), thin);
-            _plan.thinWalled = thin != 0.0f && _thinWalls;
+            _plan.thinWalled = thin != 0.0f && _thinSlabs;
             buildBsdf(bsdf, thin != 0.0f);
             _plan.edf = build(edf);
             return;
@@ -101,7 +101,7 @@ private:
         }
         case ClosureKind::Add: return either(interior(node.inputs[0]), interior(node.inputs[1]));
         case ClosureKind::Multiply: return interior(node.inputs[0]);
-        case ClosureKind::ThinWall: return _thinWalls ? Operand() : interior(node.inputs[0]);
+        case ClosureKind::ThinSlab: return _thinSlabs ? Operand() : interior(node.inputs[0]);
         default: return {};
         }
     }
@@ -154,7 +154,7 @@ private:
     /// Where a closure stands.
     struct Place {
         bool underReflection; ///< a reflection lobe is above
-        bool thin;            ///< in a thin wall
+        bool thin;            ///< in a thin slab
     };
 
     /// @returns index in Plan::closures, -1 for no closure
@@ -173,8 +173,8 @@ private:
         const GraphNode node = nodeOf(index);
         closure.kind = node.def->closure;
         closure.node = index;
-        closure.thin = place.thin && _thinWalls;
-        closure.inThinWall = place.thin;
+        closure.thin = place.thin && _thinSlabs;
+        closure.inThinSlab = place.thin;
         closure.underReflection = place.underReflection;
         switch (closure.kind) {
         case ClosureKind::Layer: {
@@ -197,7 +197,7 @@ private:
             closure.b = build(node.inputs[1], place);
             if (closure.a < 0 && closure.b < 0) return -1;
             break;
-        case ClosureKind::ThinWall: return build(node.inputs[0], {place.underReflection, true});
+        case ClosureKind::ThinSlab: return build(node.inputs[0], {place.underReflection, true});
         case ClosureKind::Multiply:
             closure.a = build(node.inputs[0], place);
             if (closure.a < 0) return -1;
@@ -242,7 +242,7 @@ private:
         for (size_t i = 0; i < node.inputs.size(); ++i)
             checkWord(node, i);
         if (closure.kind == ClosureKind::Subsurface && closure.thin)
-            leaveOut(node, "a thin wall has no inside; subsurface scattering is diffuse");
+            leaveOut(node, "a thin slab has no inside; subsurface scattering is diffuse");
     }
 
     /// The same closures with the film on every interface that reflects, as MaterialX 1.39 reads
@@ -283,7 +283,7 @@ private:
 
     Plan& _plan;
     Diagnostics& _diagnostics;
-    bool _sharesInterfaces = true, _thinWalls = true; ///< methods
+    bool _sharesInterfaces = true, _thinSlabs = true; ///< methods
     std::map<std::tuple<int, bool, bool>, int> _built;
     std::map<int, Operand> _interiors; ///< by node
 };
@@ -299,8 +299,8 @@ Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnosti
         plan.methods[point.name] = chosenMethod(methods, point.name);
     Planner(plan, diagnostics).run();
     if (plan.methods["layering"] == "positionFree") {
-        const std::vector<LayerWalkability> layers = layerWalkability(
-            plan, MethodSet(plan.methods).get<method::Subsurface>());
+        const std::vector<LayerWalkability> layers =
+            layerWalkability(plan, MethodSet(plan.methods).get<method::Subsurface>());
         for (size_t i = 0; i < layers.size(); ++i)
             if (!layers[i].reason.empty())
                 plan.leftOut.push_back(plan.graph.nodes[size_t(plan.closures[i].node)].path +

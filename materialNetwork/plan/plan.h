@@ -18,7 +18,7 @@ struct PlanClosure {
     bool sharedInterface = false; ///< a transmission lobe under a reflection lobe, see Plan
     bool thin = false;            ///< of a surface without an inside
     /// Where the network has it, whatever the methods make of that.
-    bool inThinWall = false, underReflection = false;
+    bool inThinSlab = false, underReflection = false;
 
     bool isLobe() const { return patina::isLobe(kind); }
     /// False of what is no lobe.

@@ -55,7 +55,7 @@ int microfacetDistribution(const Plan& plan, const PlanClosure& closure) {
 }
 
 int lobeVariant(const Plan& plan, const PlanClosure& closure) {
-    if (closure.has(lobe::Facets)) return 0;
+    if (closure.has(lobe::Microfacet)) return 0;
     const NodeDef& def = *plan.graph.nodes[size_t(closure.node)].def;
     for (const InputDef& input : def.inputs)
         if (!input.words.empty()) return chosenWord(plan, closure, input.name.c_str());
@@ -65,7 +65,7 @@ int lobeVariant(const Plan& plan, const PlanClosure& closure) {
 bool hasFilm(const Plan& plan, const PlanClosure& closure) {
     const GraphNode& node = plan.graph.nodes[size_t(closure.node)];
     if (node.def->findInput("thinfilm_thickness") < 0) return false;
-    // A film on a thin wall's transmission is that of the reflection over it.
+    // A film on a thin slab's transmission is that of the reflection over it.
     if (closure.thin && node.def->findInput("scatter_mode") >= 0 &&
         scatterMode(plan, closure) == sh::SCATTER_T)
         return false;

@@ -50,8 +50,9 @@ std::vector<std::pair<const char*, Network>> lossless() {
                                            {{"roughness", pair(0.3f)},
                                             {"thinfilm_thickness", number(420.0f)},
                                             {"thinfilm_ior", number(2.0f)}});
-    const NetworkNode red = makeNode("top", "ND_generalized_schlick_bsdf",
-                                     {{"color0", color(1.0f, 0.4f, 0.4f)}, {"roughness", pair(0.1f)}});
+    const NetworkNode red =
+        makeNode("top", "ND_generalized_schlick_bsdf",
+                 {{"color0", color(1.0f, 0.4f, 0.4f)}, {"roughness", pair(0.1f)}});
     const NetworkNode glass = interface("base", 1.5f, 0.2f, {{"scatter_mode", text("RT")}});
     const NetworkNode half = interface("top", 1.5f, 0.0f, {{"weight", number(0.5f)}});
     const NetworkNode first = interface("top", 1.4f, 0.1f), second = interface("inner", 1.8f, 0.0f);
@@ -101,10 +102,9 @@ TEST(LayerReturn, SmoothOverDiffuseIsAGeometricSeries) {
         const double inside = 1.0 - (1.0 - mean) / double(ior * ior);
         for (const float a : {0.05f, 0.5f, 0.9f})
             for (const float degrees : {0.0f, 70.0f}) {
-                const double f =
-                    sh64::fresnelDielectric(double(direction(degrees).z), double(ior));
-                const double truth = f + (1.0 - f) * double(a) * (1.0 - inside) /
-                                             (1.0 - double(a) * inside);
+                const double f = sh64::fresnelDielectric(double(direction(degrees).z), double(ior));
+                const double truth =
+                    f + (1.0 - f) * double(a) * (1.0 - inside) / (1.0 - double(a) * inside);
                 const glm::vec3 found =
                     albedoOf(bsdfNetwork({interface("top", ior, 0.0f), diffuse("base", grey(a)),
                                           layer("bsdf", "top", "base")}),
@@ -156,12 +156,12 @@ TEST(LayerReturn, TintsColourTheTopAlone) {
         albedoOf(bsdfNetwork({interface("top", 1.5f, 0.0f, {{"tint", color(1.0f, 0.5f, 0.0f)}}),
                               diffuse("base", grey(1.0f)), layer("bsdf", "top", "base")}),
                  0.0f);
-    const glm::vec3 factored = albedoOf(
-        bsdfNetwork({interface("bare", 1.5f, 0.0f),
-                     makeNode("top", "ND_multiply_bsdfC", {{"in2", color(1.0f, 0.5f, 0.0f)}},
-                              {{"in1", {"bare", ""}}}),
-                     diffuse("base", grey(1.0f)), layer("bsdf", "top", "base")}),
-        0.0f);
+    const glm::vec3 factored =
+        albedoOf(bsdfNetwork({interface("bare", 1.5f, 0.0f),
+                              makeNode("top", "ND_multiply_bsdfC",
+                                       {{"in2", color(1.0f, 0.5f, 0.0f)}}, {{"in1", {"bare", ""}}}),
+                              diffuse("base", grey(1.0f)), layer("bsdf", "top", "base")}),
+                 0.0f);
     for (const glm::vec3& found : {tinted, factored})
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(found[c], 1.0f - 0.02f * float(c), 1e-4f) << c;

@@ -1,4 +1,4 @@
-// Interfaces of a thin wall, or between equal media, and presence: light that goes straight on.
+// Interfaces of a thin slab, or between equal media, and presence: light that goes straight on.
 
 struct Slab {
     vec3 transmittance; // share that goes straight on, without the lobe's weight

@@ -286,9 +286,8 @@ TEST_P(Edits, AVolumeStopsBeingDrawn) {
     session.settings.renderTags = {"geometry"};
     session.rendered();
     const std::vector<float> clear = session.film->resolve("color");
-    auto grid = std::make_shared<FieldGrid>(ivec3(0), ivec3(1), 1,
-                                            translate(-1.5f, -0.5f, 1.0f) *
-                                                glm::scale(mat4(1.0f), vec3(0.4f)));
+    auto grid = std::make_shared<FieldGrid>(
+        ivec3(0), ivec3(1), 1, translate(-1.5f, -0.5f, 1.0f) * glm::scale(mat4(1.0f), vec3(0.4f)));
     grid->setBrick(ivec3(0), std::vector<float>(FieldGrid::voxels, 1.0f));
     auto fog = std::make_shared<Volume>();
     fog->path = "/fog";

@@ -140,7 +140,7 @@ public:
         float weights = 0.0f;
         const int across = steps.y > 0.0f ? parts : 0;
         for (int k = -across; k < std::max(across, 1); ++k) {
-            const float aside = across > 0 ? (float(k) + 0.5f) / float(across) : 0.0f;
+            const float beside = across > 0 ? (float(k) + 0.5f) / float(across) : 0.0f;
             // Edges mostly run along turns: each looks at angles of its own (golden ratio).
             const float shift = glm::fract(0.5f + 0.618034f * float(k + across));
             for (int j = -parts; j < parts; ++j) {
@@ -148,8 +148,8 @@ public:
                 const float at = theta + steps.x * offset;
                 if (at < 0.0f || at > pi) continue;
                 const float weight =
-                    (1.0f - std::fabs(aside)) * (1.0f - std::fabs(offset)) * std::sin(at);
-                sum += weight * towards(at, turn + steps.y * aside);
+                    (1.0f - std::fabs(beside)) * (1.0f - std::fabs(offset)) * std::sin(at);
+                sum += weight * towards(at, turn + steps.y * beside);
                 weights += weight;
             }
         }
@@ -205,8 +205,8 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
     Source source;
     source.glows = program->hasEmission();
     if (!source.glows && light.mode == RasterMeshLight::None) return;
-    const bool looksAtGlow = source.glows && light.mode != RasterMeshLight::Alone;
-    const bool constant = !looksAtGlow || program->code().emissionCode.empty();
+    const bool usesGlow = source.glows && light.mode != RasterMeshLight::Alone;
+    const bool constant = !usesGlow || program->code().emissionCode.empty();
     source.mesh = mesh;
     source.program = program;
     source.light = light;
@@ -215,7 +215,7 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
     source.origin = origin;
     source.steps = steps;
     source.st = mesh->attribute("st");
-    source.even = (!looksAtGlow || !dependsOnView(program->code())) && program->isOpaque();
+    source.even = (!usesGlow || !dependsOnView(program->code())) && program->isOpaque();
     source.sides = light.mode == RasterMeshLight::Adds || !source.even;
     for (const MaterialPrimvar& primvar : program->primvars()) {
         const MeshAttribute* a = mesh->attribute(primvar.name);

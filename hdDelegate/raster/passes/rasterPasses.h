@@ -47,8 +47,8 @@ public:
               int environmentSamples, const RasterCamera& camera, const RasterSample& sample,
               Film& film);
 
-    /// Is told whenever a program is drawn with for the first time.
-    void setFirstDraws(std::function<void()> told) { _firstDraws = std::move(told); }
+    /// @param notify is called whenever a program is drawn with for the first time
+    void setFirstDraws(std::function<void()> notify) { _firstDraws = std::move(notify); }
 
     /// Draws what earlier passes have left for later ones, for a film that holds `taken` of them.
     /// @param moveTo brings the scene to the shutter time of a pass

@@ -21,7 +21,7 @@ bool isRound(const Geometry& prim) {
 
 RasterDetail::RasterDetail(const Geometry& prim, const PrimExtent& extent,
                            const RasterCamera& camera, const RenderSettings& settings,
-                           const vec3& origin, float edgeLength, bool displaced, bool glows)
+                           float edgeLength, bool displaced, bool glows)
     : _gap((glows ? 0.25f : 1.0f) * largestGap *
            std::clamp(camera.pixels() / gapPixels, 0.25f, 1.0f)),
       _round(isRound(prim)),
@@ -29,17 +29,18 @@ RasterDetail::RasterDetail(const Geometry& prim, const PrimExtent& extent,
       _displaced(displaced) {
     const bool subdivided = subdivides(prim);
     if (subdivided) _area = extent.area;
+    _center = extent.center();
+    _radius = extent.radius();
     if (_round) {
-        const Implicit& shape = static_cast<const Implicit&>(prim);
-        _finest =
-            6.2831853f / float(roundSegments) * std::max(shape.radius, shape.radiusTop);
+        const Implicit& p = static_cast<const Implicit&>(prim);
+        _finest = 6.2831853f / float(roundSegments) * std::max(p.radius, p.radiusTop);
+        // One that a capsule of these sizes is in, whatever the shape.
+        _radius = std::sqrt(3.0f) * std::max({p.radius, p.radiusTop, 0.5f * p.height + p.radius});
     }
     const bool refines = !extent.empty && (subdivided || _round || _slight);
     if (!(edgeLength > 0.0f) || !(refines || displaced)) return;
-    _screen = screenScale(camera.camera(), settings, dvec3(origin));
+    _screen = screenScale(camera.camera(), settings, dvec3(0.0)); // it is where places are
     _toGroup = exactTransformAt(prim.transform, camera.timeCode(0.5f));
-    _center = extent.center();
-    _radius = extent.radius();
     _edgeLength = edgeLength;
     const float finer = std::min(_edgeLength / SubdivisionPlan::standardEdge, 1.0f);
     _gap *= finer * finer;

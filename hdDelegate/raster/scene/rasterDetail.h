@@ -14,10 +14,8 @@ public:
     /// displaced: normals are smooth. Where shorter edges are asked for than the default's, the gap
     /// is smaller with their square. Small round shapes have shorter ones instead, as the path
     /// tracer's always do. Against the edge of what glows a quarter of the gap is seen as well.
-    /// @param origin of the space that places are in
     RasterDetail(const Geometry& prim, const PrimExtent& extent, const RasterCamera& camera,
-                 const RenderSettings& settings, const vec3& origin, float edgeLength,
-                 bool displaced, bool glows);
+                 const RenderSettings& settings, float edgeLength, bool displaced, bool glows);
 
     /// The longest edge, in object units, that looks as long from the camera as the settings ask
     /// for: a power of two, so that few of them differ. 0: the prim is not refined. Of curves and

@@ -204,10 +204,10 @@ RasterMaterials::Ready RasterMaterials::ready() const {
 }
 
 void RasterMaterials::finish(const std::atomic<bool>& stop,
-                             const std::function<void(const Ready&)>& told) {
+                             const std::function<void(const Ready&)>& notify) {
     while (!stop) {
         const Ready now = ready();
-        if (told) told(now);
+        if (notify) notify(now);
         if (now.ready == now.wanted) return;
         if (!_compiler->help()) _compiler->wait(std::chrono::milliseconds(50));
     }

@@ -59,8 +59,8 @@ public:
     /// Lets a material be compiled that get() will be asked for.
     void prepare(const std::string& path, const SceneState& state, const RenderSettings& settings);
     /// Waits for the programs of all materials that are in use.
-    /// @param told how far they are, again and again
-    void finish(const std::atomic<bool>& stop, const std::function<void(const Ready&)>& told);
+    /// @param notify is called with how far they are, again and again
+    void finish(const std::atomic<bool>& stop, const std::function<void(const Ready&)>& notify);
     /// The same until one more is ready, or for so long.
     void waitForMore(std::chrono::milliseconds maximum);
     Ready ready() const;

@@ -120,8 +120,8 @@ void RasterScene::addPrim(const std::shared_ptr<const Geometry>& prim, int rank,
         std::any_of(request.displacers.begin(), request.displacers.end(),
                     [](const std::shared_ptr<const MaterialProgram>& p) { return p != nullptr; });
     span.extent = _compiled.extents().of(prim);
-    const RasterDetail detail(*prim, *span.extent, camera, settings, _origin,
-                              _subdivision.edgeOf(displaced), displaced, request.needsMesh);
+    const RasterDetail detail(*prim, *span.extent, camera, settings, _subdivision.edgeOf(displaced),
+                              displaced, request.needsMesh);
     std::map<float, std::vector<uint32_t>> byEdge;
     for (size_t i = 0; i < where.size(); ++i)
         byEdge[detail.edgeAt(where[i])].push_back(uint32_t(i));

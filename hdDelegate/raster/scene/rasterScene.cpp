@@ -80,8 +80,10 @@ void RasterScene::updateAll(const SceneState& state, const RasterCamera& camera,
     _emitters.clear();
     _volumes.begin();
     RasterInstances places(_parts.placements, camera.timeCode(0.5f), _origin);
-    _subdivision =
-        _compiled.subdivision().of(state, *_parts.placements, camera.camera(), settings);
+    Camera inWorld = camera.camera(); // which is relative to the origin, as places are
+    for (dmat4& place : inWorld.transform.values)
+        place[3] += glm::dvec4(dvec3(_origin), 0.0);
+    _subdivision = _compiled.subdivision().of(state, *_parts.placements, inWorld, settings);
     prepareMaterials(state, settings, places);
     finishPrograms(stop, compiling);
     for (const auto& item : state.instancers) {

@@ -81,8 +81,11 @@ public:
     /// Moves to another time of the shutter: transforms exactly, points that move to the nearest of
     /// deformationSteps times. @returns false when nothing moves
     bool moveTo(float timeCode);
-    /// Lets go of what is held for another back end, see RasterShapeCache.
-    void releaseShapes() { _shapes.release(); }
+    /// Lets go of what is held for another back end, see RasterShapeCache and RasterVolumes.
+    void releaseShapes() {
+        _shapes.release();
+        _volumes.release();
+    }
 
     const std::vector<RasterDraw>& draws() const { return _draws; }
     const std::vector<const RasterVolume*>& volumes() const { return _volumes.placed(); }
@@ -182,8 +185,8 @@ private:
     RasterEmitters _emitters;
     std::map<std::string, Span> _spans; ///< by path
     std::vector<GpuInstance> _instances, _written;
-    std::vector<RasterBox> _boxes;          ///< of instances, world space
-    std::vector<int> _links;                ///< see shaders/raster/links.glsl
+    std::vector<RasterBox> _boxes; ///< of instances, world space
+    std::vector<int> _links;       ///< see shaders/raster/links.glsl
     std::map<std::vector<int>, int> _linkRows;
     std::vector<vec4> _values; ///< of instances, see shaders/raster/surface.vert.glsl
     GlBuffer _instanceBuffer, _linkBuffer, _valueBuffer;

@@ -102,7 +102,7 @@ void RasterShapeCache::forgetReplaced() {
     if (_entries.size() < _forgetAt) return;
     for (auto it = _entries.begin(); it != _entries.end();)
         it = !it->second.shape || it->second.shape.use_count() == 1 ? _entries.erase(it)
-                                                                     : std::next(it);
+                                                                    : std::next(it);
     _forgetAt = std::max<size_t>(64, 2 * _entries.size());
 }
 

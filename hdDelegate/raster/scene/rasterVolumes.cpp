@@ -35,7 +35,7 @@ void RasterVolume::bind() const {
     emission.bind(2);
 }
 
-void RasterVolumes::build(Cached& cached, const std::string& path) {
+void RasterVolumes::build(Cached& cached) {
     cached.volumes.clear();
     const VolumeMedium& medium = *cached.medium;
     if (medium.empty()) return;
@@ -67,7 +67,7 @@ void RasterVolumes::build(Cached& cached, const std::string& path) {
     for (const mat4& toWorld : cached.places) {
         const mat4 inverse = glm::inverse(toWorld);
         if (!std::isfinite(inverse[0][0] + inverse[1][1] + inverse[2][2] + inverse[3][3])) {
-            _diagnostics.warn(path, "transform",
+            _diagnostics.warn(cached.prim->path, "transform",
                               "has no inverse; the volume is not drawn");
             continue;
         }
@@ -86,11 +86,17 @@ void RasterVolumes::add(const std::shared_ptr<const Volume>& prim, const SceneSt
                         const RenderSettings& settings, const std::vector<mat4>& toWorld,
                         vec3& minimum, vec3& maximum) {
     Cached& cached = _cache[prim->path];
-    auto medium = _compiled.medium(prim, state, settings);
-    if (cached.medium != medium || cached.places != toWorld) {
-        cached.medium = std::move(medium);
+    const auto found = state.materials.find(prim->material);
+    const auto material =
+        found != state.materials.end() && settings.enableSceneMaterials ? found->second : nullptr;
+    if (cached.prim != prim || cached.material != material || cached.methods != settings.methods ||
+        cached.places != toWorld) {
+        cached.medium = _compiled.medium(prim, state, settings);
+        cached.prim = prim;
+        cached.material = material;
+        cached.methods = settings.methods;
         cached.places = toWorld;
-        build(cached, prim->path);
+        build(cached);
     }
     cached.used = true;
     for (const RasterVolume& volume : cached.volumes) {
@@ -105,6 +111,11 @@ void RasterVolumes::add(const std::shared_ptr<const Volume>& prim, const SceneSt
             maximum = glm::max(maximum, p);
         }
     }
+}
+
+void RasterVolumes::release() {
+    for (auto& item : _cache)
+        item.second.medium = nullptr;
 }
 
 void RasterVolumes::end() {

@@ -34,17 +34,23 @@ public:
              const RenderSettings& settings, const std::vector<mat4>& toWorld, vec3& minimum,
              vec3& maximum);
     void end();
+    /// Lets go of the media, which are in textures, once other back ends have had time to take them
+    /// over.
+    void release();
 
     const std::vector<const RasterVolume*>& placed() const { return _placed; }
 
 private:
     struct Cached {
-        std::shared_ptr<const VolumeMedium> medium;
+        std::shared_ptr<const Volume> prim;
+        std::shared_ptr<const MaterialPrim> material;
+        MethodChoices methods;
+        std::shared_ptr<const VolumeMedium> medium; ///< until release()
         std::vector<mat4> places;
         std::vector<RasterVolume> volumes; ///< per place
         bool used = false;
     };
-    void build(Cached& cached, const std::string& path);
+    void build(Cached& cached);
 
     Diagnostics& _diagnostics;
     CompiledVolumes& _compiled;

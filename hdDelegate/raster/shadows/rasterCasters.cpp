@@ -23,6 +23,9 @@ void RasterPasses::drawShadows(const RasterScene& scene, const std::vector<Shado
 }
 
 void RasterPasses::releaseShadows() {
+    // A texture lives on while a framebuffer has it.
+    for (const GLenum attachment : {GL_DEPTH_ATTACHMENT, GL_COLOR_ATTACHMENT0})
+        gl.NamedFramebufferTextureLayer(_shadowTarget, attachment, 0, 0, 0);
     _shadowMaps = GlTexture();
     _shadowSlopes = GlTexture();
     _shadowLayers = 0;

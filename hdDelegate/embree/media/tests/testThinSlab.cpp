@@ -1,4 +1,4 @@
-// Thin walls: light goes straight through, also to lights, with the colour of the wall.
+// Thin slabs: light goes straight through, also to lights, with the colour of the wall.
 
 #include "hdDelegate/embree/media/tests/mediaScene.h"
 

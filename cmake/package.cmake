@@ -134,6 +134,8 @@ if(TARGET _patina) # a module is of one version of Python
 endif()
 # A Python environment that has usd-core; OpenGL in software, where there is no other; hosts in C++.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-venv, libgl1-mesa-dri, libglm-dev")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/cmake/package/prerm)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 include(CPack)

@@ -74,8 +74,14 @@ for level in lowest $(ls "$package/lib/glibc-hwcaps"); do
     *) say "the library of level $level is not tried: the loader or the processor knows none"; continue ;;
     esac
     name=wheel-$level
-    loudly env PYTHONSAFEPATH=1 "$loader" --glibc-hwcaps-mask "$level" "$folder/wheel/bin/python" -m patina record \
-        texturedDiffuse.usda "$folder/$name.exr" -w 96 --samples 4 --quiet
+    of_level=(env PYTHONSAFEPATH=1 "$loader" --glibc-hwcaps-mask "$level" "$folder/wheel/bin/python")
+    loaded=$("${of_level[@]}" -c 'import _patina; print(*{line.split()[-1] for line in open("/proc/self/maps") if "libpatina" in line})')
+    case $level,$loaded in
+    lowest,*/glibc-hwcaps/*) say "failed: $loaded is loaded where no level is looked for"; exit 1 ;;
+    lowest,*/libpatina.so | *,*/glibc-hwcaps/$level/libpatina.so) ;;
+    *) say "failed: $loaded is loaded for $level"; exit 1 ;;
+    esac
+    loudly "${of_level[@]}" -m patina record texturedDiffuse.usda "$folder/$name.exr" -w 96 --samples 4 --quiet
     same wheel "$name"
     say "the library of level $level gives the same bits"
 done

@@ -38,7 +38,8 @@ for program in c++ cmake ninja dpkg-deb dpkg-shlibdeps file python3; do
     command -v $program >/dev/null || lacks "$program is missing"
 done
 python3 -c 'import venv, ensurepip' 2>/dev/null || lacks "python3-venv is missing"
-! command -v ccache >/dev/null || export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=${CCACHE_BASEDIR:-$folder} CCACHE_NOHASHDIR=1
+# One name of the compiler, so that what the wheel has compiled is taken for the .deb.
+! command -v ccache >/dev/null || export CXX=c++ CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=${CCACHE_BASEDIR:-$folder} CCACHE_NOHASHDIR=1
 
 stage=$folder/stage
 mkdir -p "$stage"

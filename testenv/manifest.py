@@ -77,6 +77,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/cli/test_snapshots.py::test_looking_changes_no_bit[[]raster[]]", "full", "cli raster"),
     ("testenv/cli/test_renderSettings.py::*", "smoke", "cli stage"),
     ("testenv/view/test_report.py::*", "full", "cli view embree"),
+    ("testenv/view/test_site.py::*", "long", "view testenv"),
     ("testenv/tutorials/test_blocks.py::*", "smoke", None),
     ("testenv/cli/test_progress.py::*", "unit", None),
     ("plugin/patina/stage/*", "unit", None),

@@ -42,6 +42,7 @@ FOLDERS = {  # folder: tier, rooms
     "testenv/hydra/": ("full", "hydra"),
     "testenv/mitsuba/": ("long", "embree lights shaders"),
     "testenv/package/": ("long", "python cli backends"),
+    "testenv/python/": ("long", "python"),
     "testenv/raster/": ("full", "raster"),
     "testenv/render/": ("full", "embree lights scene geometry image"),
     "testenv/stability/": ("full", "shaders materialNetwork raster"),

@@ -22,7 +22,7 @@ if __name__ == "__main__":
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 BINDINGS = os.path.join(ROOT, "plugin", "python")
 STUB = os.path.join(BINDINGS, "_patina.pyi")
-NOTE = "# Made by `./patina python testenv/generateStubs.py`; edits are lost.\n"
+NOTE = "# SPDX-License-Identifier: Apache-2.0\n# Made by `./patina python testenv/generateStubs.py`; edits are lost.\n"
 ARRAY = r"numpy\.ndarray\[numpy\.(float32|int32)\]"
 
 

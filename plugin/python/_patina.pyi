@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Made by `./patina python testenv/generateStubs.py`; edits are lost.
 """
 The compiled part of Patina.

@@ -79,6 +79,8 @@ def text():
             raise ValueError(f"pybind11-stubgen: {done.stderr.strip()[-1000:]}")
         with open(os.path.join(folder, "_patina.pyi"), encoding="utf-8") as file:
             made = file.read()
+    made = re.sub(r'^"""\n.*?^"""\n', '"""The compiled part of Patina; docs/api/module.md says what values look like."""\n', made, count=1,
+                  flags=re.MULTILINE | re.DOTALL)
     made = re.sub(r"^__all__.*\n", "", made, flags=re.MULTILINE)  # the module has none
     made = re.sub(r"list\[(float|int)\[\d+\]\]", r"typing.Sequence[\1]", made)
     made = re.sub("-> " + ARRAY, r"-> numpy.typing.NDArray[numpy.\1]", made)

@@ -1,49 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Made by `./patina python testenv/generateStubs.py`; edits are lost.
-"""
-The compiled part of Patina.
-
-Scene()
-    edit() -> SceneEdit         a batch of changes; also a context manager that commits
-    version, meters_per_unit
-    paths(kind)                 kind is geometry, instancers, lights, cameras or materials
-    camera(path) -> dict[str, typing.Any]        apertures, focal_length, orthographic... as set; KeyError if absent
-    material(path) -> Network   as set; KeyError if absent
-    dump(values=16) -> str      the scene as text, arrays cut after so many values
-    warn(prim, input, message), warnings() -> list of dicts prim, input, message, count
-    clear_warnings()
-
-SceneEdit, each prim by path and keywords named like the fields of the C++ structs, in snake case;
-an unknown keyword is a TypeError, a value of the wrong shape a ValueError
-    set_mesh(path, points=, face_vertex_counts=, face_vertex_indices=, scheme=, ...)
-    set_curves(path, points=, curve_vertex_counts=, basis=, wrap=, ...)
-    set_points(path, points=, ...)
-    set_implicit(path, shape=, axis=, radius=, ...)
-    set_instancer(path, prototypes=, prototype_indices=, transforms=, ...)
-    set_light(path, type=, transform=, ...)
-    set_camera(path, transform=, ...)
-    set_material(path, network)
-    set_meters_per_unit(x), remove(path), clear(), commit(), warn(prim, input, message)
-
-Arrays are anything that has the buffer protocol (numpy, pxr.Vt) and are copied once.
-Matrices are those of Gf: 16 numbers row by row, the translation last.
-transform     a matrix, or (times, matrices)
-points        N x 3, or (times, list of N x 3)
-transforms    instances x 16, or (times, list of instances x 16)
-primvars      list of (name, interpolation, values[, indices]); values N or N x components
-subsets       list of (path, material, indices)
-visibility    True, False or (camera, indirect, shadow)
-Times are time codes relative to the frame, ascending.
-
-Network(path)
-    add_node(path, id)
-    set_input(node, input, type, value, color_space='')
-    connect(node, input, source, output='')
-    set_terminal(name, node, output='')
-    nodes() -> list of dicts, terminals() -> dict[str, typing.Any]
-
-Film, images and colour; Renderer and its settings; materials: see the classes' own help.
-"""
+"""The compiled part of Patina; docs/api/module.md says what values look like."""
 from __future__ import annotations
 import numpy
 import numpy.typing

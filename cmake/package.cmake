@@ -91,6 +91,7 @@ if(TARGET _patina)
     file(RELATIVE_PATH toLibrary /${pythonFolder} /${libraryFolder})
     set_target_properties(_patina PROPERTIES INSTALL_RPATH "$ORIGIN/${toLibrary}")
     install(TARGETS _patina LIBRARY DESTINATION ${pythonFolder})
+    install(FILES plugin/python/_patina.pyi DESTINATION ${pythonFolder})
     install(DIRECTORY plugin/patina DESTINATION ${pythonFolder}
         PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
     foreach(table hdDelegate/scene/settings.def hdDelegate/film/aovs.def)

@@ -47,8 +47,9 @@ public:
 
     double operator()(double z0, double z1, double p0, double p1) const {
         const double whole = rule(z0, z1, p0, p1);
-        // A cell with a peak in it is cut before it is trusted. So is one at the horizon, where densities
-        // may rise without bound, and one that seems empty, which may have something in a corner.
+        // A cell with a peak in it is cut before it is trusted. So is one at the horizon, where
+        // densities may rise without bound, and one that seems empty, which may have something in a
+        // corner.
         const bool odd = z0 == 0.0 || z1 == 0.0 || whole == 0.0;
         return refine(z0, z1, p0, p1, whole, whole > 5e-3 ? -3 : odd ? -1 : 0);
     }

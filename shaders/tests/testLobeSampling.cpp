@@ -2,10 +2,10 @@
 // the sphere. Significance 0.01 for the whole suite (Sidak over all runs), at a fixed seed. Delta
 // parts are left out here; LobeDegenerate tests them.
 //
-// One histogram of 120000 samples finds more than two out of three of 100000 would. The statistic of
-// many cells is near normal, with a mean that grows with the number of samples: where 100000 reject
-// with a chance of 0.5, 0.9 and 0.99, two out of three do with 0.5, 0.97 and 0.9997, and 120000 with
-// 0.80, 0.99 and 0.9999 (threshold at 4.1 deviations).
+// One histogram of 120000 samples finds more than two out of three of 100000 would. The statistic
+// of many cells is near normal, with a mean that grows with the number of samples: where 100000
+// reject with a chance of 0.5, 0.9 and 0.99, two out of three do with 0.5, 0.97 and 0.9997, and
+// 120000 with 0.80, 0.99 and 0.9999 (threshold at 4.1 deviations).
 
 #include <cmath>
 

@@ -10,6 +10,12 @@ import os
 import subprocess
 import sys
 
+if __name__ == "__main__":
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    import checkout
+
+    checkout.enter()
+
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 LINE = "SPDX-License-Identifier: Apache-2.0"
 # ending or name -> what begins and ends a comment of one line

@@ -92,7 +92,7 @@ TEST(Material, VaryingOpacityPassesLightStraight) {
         }
 }
 
-TEST(Material, ThinWallsAreSlabs) {
+TEST(Material, ThinSlabsHaveTwoFaces) {
     const glm::vec3 tint(0.9f, 0.5f, 0.2f);
     for (const float theta : {0.0f, 60.0f, 180.0f}) {
         Compiled c(

@@ -43,7 +43,7 @@ void plane(MediaScene& s, const std::string& path, const vec3& center, float siz
 
 } // namespace
 
-TEST(ThinWalls, ShadowsHaveTheColourOfTheWall) {
+TEST(ThinSlabs, ShadowsHaveTheColourOfTheSlab) {
     const vec3 tint(0.9f, 0.5f, 0.1f);
     const auto lit = [&](bool withPane) {
         MediaScene s;
@@ -65,7 +65,7 @@ TEST(ThinWalls, ShadowsHaveTheColourOfTheWall) {
 }
 
 // Significance: five standard errors, as in testMedia.cpp.
-TEST(ThinWalls, WhiteWallsLoseNothing) {
+TEST(ThinSlabs, WhiteOnesLoseNothing) {
     for (float roughness : {0.0f, 0.4f}) {
         MediaScene s;
         s.material("/pane", pane(vec3(1), roughness));
@@ -80,7 +80,7 @@ TEST(ThinWalls, WhiteWallsLoseNothing) {
     }
 }
 
-TEST(ThinWalls, PassedLightIsTintedOnceByEachWall) {
+TEST(ThinSlabs, LightIsTintedOnceByEach) {
     const vec3 tint(0.9f, 0.5f, 0.1f);
     MediaScene s;
     s.material("/pane", pane(tint, 0.0f));

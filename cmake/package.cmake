@@ -45,11 +45,14 @@ add_dependencies(patina ${rooms})
 # The same library by level, each from a build of its own.
 if(PATINA_PACKAGE AND PATINA_LEVELS)
     include(ExternalProject)
+    # The launcher as it was given: patina.cmake makes a list of it. Lists keep together by another separator.
+    string(REPLACE ";" "|" launcher "$CACHE{CMAKE_CXX_COMPILER_LAUNCHER}")
+    string(REPLACE ";" "|" prefixes "${CMAKE_PREFIX_PATH}")
     foreach(level ${PATINA_LEVELS})
         set(folder ${CMAKE_BINARY_DIR}/levels/${level})
         ExternalProject_Add(patina-${level} SOURCE_DIR ${CMAKE_SOURCE_DIR} BINARY_DIR ${folder}
             CMAKE_ARGS -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
-                       -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER} -DCMAKE_PREFIX_PATH=${CMAKE_PREFIX_PATH}
+                       -DCMAKE_CXX_COMPILER_LAUNCHER=${launcher} -DCMAKE_PREFIX_PATH=${prefixes}
                        -DPATINA_BUILD_TESTS=OFF -DPATINA_NATIVE=OFF -DPATINA_LEVEL=${level} -DPATINA_LEVELS=
                        -DCMAKE_DISABLE_FIND_PACKAGE_pxr=ON -DPATINA_MODULE=OFF -DSKBUILD=${SKBUILD}
             BUILD_COMMAND ${CMAKE_COMMAND} --build ${folder} --target patina INSTALL_COMMAND "" BUILD_ALWAYS ON
@@ -88,6 +91,7 @@ if(TARGET _patina)
     file(RELATIVE_PATH toLibrary /${pythonFolder} /${libraryFolder})
     set_target_properties(_patina PROPERTIES INSTALL_RPATH "$ORIGIN/${toLibrary}")
     install(TARGETS _patina LIBRARY DESTINATION ${pythonFolder})
+    install(FILES plugin/python/_patina.pyi DESTINATION ${pythonFolder})
     install(DIRECTORY plugin/patina DESTINATION ${pythonFolder}
         PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
     foreach(table hdDelegate/scene/settings.def hdDelegate/film/aovs.def)
@@ -131,6 +135,8 @@ if(TARGET _patina) # a module is of one version of Python
 endif()
 # A Python environment that has usd-core; OpenGL in software, where there is no other; hosts in C++.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-venv, libgl1-mesa-dri, libglm-dev")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/cmake/package/prerm)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 include(CPack)

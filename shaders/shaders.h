@@ -4,16 +4,17 @@
 // reads as GLSL. shaders/oracle.h has the same in double.
 //
 // Every lobe X offers, with the structs and event bits of lib/lobe.glsl:
-//   xSetup(inputs of the MaterialX node without weight, normal, tangent) -> XLobe; any input is
-//   safe xEval(lobe, wo, wi) -> LobeEval: value times |cos wi|, and pdf xSample(lobe, wo, u in [0,
-//   1)^3) -> LobeSample xAlbedo(lobe, wo) -> directional albedo; xAlbedoReflect where a lobe also
-//   transmits: the layer
-//     below is scaled by 1 minus this
-//   Where a lobe differs from the default, its file overloads one of these for its struct; C++
-//   looks which there are (materialNetwork/ir/lobeFacts.h): lobeFix(lobe, wo, albedo) -> what
-//   depends on wo alone is looked up; albedo is exact for
-//     interfaces and else an estimate that is good enough to choose lobes by. Returns the share
-//     that the lobe keeps from the base of a layer, without tint. Default: xAlbedo, and 1
+//   xSetup(inputs of the MaterialX node without weight, normal, tangent) -> XLobe
+//     any input is safe
+//   xEval(lobe, wo, wi) -> LobeEval: value times |cos wi|, and pdf
+//   xSample(lobe, wo, u in [0, 1)^3) -> LobeSample
+//   xAlbedo(lobe, wo) -> directional albedo
+//   xAlbedoReflect, where a lobe also transmits: the layer below is scaled by 1 minus this
+// Where a lobe differs from the default, its file overloads one of these for its struct; C++
+// looks which there are (materialNetwork/ir/lobeFacts.h):
+//   lobeFix(lobe, wo, albedo) -> the share that it keeps from the base of a layer, without tint
+//     looks up all that depends on wo alone; albedo is exact for interfaces, and else an estimate
+//     that is good enough to choose lobes by. Default: xAlbedo, and 1
 //   lobeRoughness(lobe) -> GGX alpha, mean of both axes. Default: 1
 //   lobePasses(lobe, z) -> the share of its light that an interface of mode RT sends down for good
 //   lobeIsDelta(lobe) -> whether eval is 0 everywhere. Default: false

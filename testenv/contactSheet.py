@@ -1,6 +1,6 @@
-"""Renders every stage under a folder and pastes the images into one sheet.
+"""Renders every stage under a folder and pastes the images into one sheet: an image, or a page with a caption for each.
 
-    ./patina python testenv/contactSheet.py FOLDER SHEET.png [--width 240] [--samples 32] [--record FLAGS...]
+    ./patina python testenv/contactSheet.py FOLDER SHEET.png|SHEET.html [--width 240] [--samples 32] [--record FLAGS...]
     ./patina python testenv/contactSheet.py FOLDER SHEET.png --host usdrecord [--sceneIndex] [--gl]
 
 With usdrecord as host the images come through Hydra, with as many samples as the delegate takes.
@@ -90,6 +90,23 @@ def paste(images, width, columns):
     return sheet
 
 
+def page(path, title, shots):
+    """Writes a page of pictures with captions.
+
+    :param shots: list of (pixels or None, name, line below it)"""
+    from html import escape
+
+    from patina.chart import look, png
+
+    style = "figure{width:min-content}figcaption{overflow-wrap:anywhere}img{display:block}"
+    lines = [look.page(escape(title), style), f"<h1>{escape(title)}</h1>", '<div class="shots">']
+    for pixels, name, below in shots:
+        picture = "" if pixels is None else f'<img alt="{escape(name, quote=True)}" src="{png.data_uri(pixels)}">'
+        lines.append(f"<figure>{picture}<figcaption><b>{escape(name)}</b><br>{escape(below)}</figcaption></figure>")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join([*lines, "</div>", look.END]))
+
+
 def check(arguments, found, kind):
     """Ends in one line, before anything slow, where there is nothing to render or no place for the sheet."""
     import _patina
@@ -97,7 +114,8 @@ def check(arguments, found, kind):
     if not found:
         sys.exit(f"{arguments.folder}: there are no {kind}")
     try:
-        _patina.check_image_path(arguments.sheet, ["color", "alpha"])
+        if not arguments.sheet.lower().endswith(".html"):
+            _patina.check_image_path(arguments.sheet, ["color", "alpha"])
         _patina.check_output(arguments.sheet)
     except RuntimeError as error:
         sys.exit(str(error))
@@ -117,7 +135,7 @@ def main():
     arguments = parser.parse_args()
     stages = list(find(arguments.folder))
     check(arguments, stages, "stages")
-    images = []
+    images, shots = [], []
     with tempfile.TemporaryDirectory() as folder:
         for stage in stages:
             if arguments.host == "usdrecord":
@@ -127,11 +145,15 @@ def main():
             pixels, seconds, warnings, error = found
             images.append(pixels)
             name = os.path.relpath(stage, arguments.folder)
+            shots.append((pixels, name, error[0] if error else f"{seconds:.2f} s" + (f", {len(warnings)} warnings" if warnings else "")))
             print(f"{len(images) - 1:4d} {seconds:7.2f} s  {name}  {'FAILED ' + error[0] if error else ''}", flush=True)
             for warning in warnings:
                 print(f"              {warning}")
     import _patina
 
+    if arguments.sheet.lower().endswith(".html"):
+        page(arguments.sheet, os.path.basename(os.path.normpath(arguments.folder)), shots)
+        return 0
     _patina.write_image(arguments.sheet, np.ascontiguousarray(paste(images, arguments.width, arguments.columns), np.float32))
     return 0
 

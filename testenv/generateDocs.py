@@ -83,6 +83,8 @@ def head_comment(source):
     for line in source.splitlines():
         if not line.startswith("//"):
             break
+        if "SPDX-License-Identifier" in line:
+            continue
         lines.append(line[2:].strip())
     return re.split(r"[.:](?:\s|$)", " ".join(lines))[0]
 

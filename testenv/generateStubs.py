@@ -22,9 +22,8 @@ if __name__ == "__main__":
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 BINDINGS = os.path.join(ROOT, "plugin", "python")
 STUB = os.path.join(BINDINGS, "_patina.pyi")
-NOTE = "# Made by `./patina python testenv/generateStubs.py`; edits are lost.\n"
-ARRAY = "numpy.ndarray[typing.Any, numpy.dtype[numpy.float32]]"
-ANY_ARRAY = "numpy.ndarray[typing.Any, numpy.dtype[typing.Any]]"
+NOTE = "# SPDX-License-Identifier: Apache-2.0\n# Made by `./patina python testenv/generateStubs.py`; edits are lost.\n"
+ARRAY = r"numpy\.ndarray\[numpy\.(float32|int32)\]"
 
 
 def missing():
@@ -80,10 +79,13 @@ def text():
             raise ValueError(f"pybind11-stubgen: {done.stderr.strip()[-1000:]}")
         with open(os.path.join(folder, "_patina.pyi"), encoding="utf-8") as file:
             made = file.read()
+    made = re.sub(r'^"""\n.*?^"""\n', '"""The compiled part of Patina; docs/api/module.md says what values look like."""\n', made, count=1,
+                  flags=re.MULTILINE | re.DOTALL)
+    made = re.sub(r"^__all__.*\n", "", made, flags=re.MULTILINE)  # the module has none
     made = re.sub(r"list\[(float|int)\[\d+\]\]", r"typing.Sequence[\1]", made)
-    made = re.sub(r"-> " + re.escape(ARRAY), "-> numpy.typing.NDArray[numpy.float32]", made)
-    made = re.sub(r"-> " + re.escape(ANY_ARRAY), "-> numpy.typing.NDArray[typing.Any]", made)
-    made = made.replace(ARRAY, "numpy.typing.ArrayLike").replace("import numpy\n", "import numpy\nimport numpy.typing\n", 1)
+    made = re.sub("-> " + ARRAY, r"-> numpy.typing.NDArray[numpy.\1]", made)
+    made = re.sub(r"-> numpy\.ndarray:", "-> numpy.typing.NDArray[typing.Any]:", made)
+    made = re.sub(ARRAY, "numpy.typing.ArrayLike", made).replace("import numpy\n", "import numpy\nimport numpy.typing\n", 1)
     made = made.replace("def __exit__(self, *args) -> None", "def __exit__(self, *args: typing.Any) -> None")
     made = made.replace("def __enter__(self) -> typing.Any", "def __enter__(self) -> SceneEdit")
     made = re.sub(r"\bdict(?=[\s,)\]:=])", "dict[str, typing.Any]", made)

@@ -18,7 +18,7 @@ if __name__ == "__main__":
 
 import numpy as np  # noqa: E402
 
-from contactSheet import check, paste, render  # noqa: E402
+from contactSheet import check, page, paste, render  # noqa: E402
 
 SKY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "scenes", "textures", "sky.exr")
 STAGE = """#usda 1.0
@@ -140,7 +140,7 @@ def main():
                        if name.endswith(".mtlx"))
     found = [(document, name) for document in documents for name in materials(document)]
     check(arguments, found, "materials")
-    images = []
+    images, shots = [], []
     with tempfile.TemporaryDirectory() as folder:
         for document, name in found:
             stage = os.path.join(folder, "stage.usda")
@@ -148,12 +148,16 @@ def main():
                 file.write(stage_of(document, name))
             pixels, seconds, warnings, error = render(stage, folder, arguments.width, arguments.samples, arguments.record)
             images.append(pixels)
+            shots.append((pixels, name, error[0] if error else os.path.relpath(document, arguments.folder)))
             print(f"{len(images) - 1:4d} {seconds:7.2f} s  {os.path.relpath(document, arguments.folder)}:{name}"
                   f"  {'FAILED ' + error[0] if error else ''}", flush=True)
             for warning in warnings:
                 print(f"              {warning}")
     import _patina
 
+    if arguments.sheet.lower().endswith(".html"):
+        page(arguments.sheet, os.path.basename(os.path.normpath(arguments.folder)), shots)
+        return 0
     _patina.write_image(arguments.sheet, np.ascontiguousarray(paste(images, arguments.width, arguments.columns), np.float32))
     return 0
 

@@ -102,7 +102,10 @@ def _mkdocs(folder, source, made):
 
     with open(os.path.join(HERE, "mkdocs.yml"), encoding="utf-8") as file:
         text = file.read()
-    text = text.replace("[PYTHON]", repr([os.path.join(pages.ROOT, "plugin"), os.path.join(pages.ROOT, "plugin", "python")]))
+    stubs = os.path.join(folder, "stubs")  # a stub without its module is looked for as a source
+    os.makedirs(stubs)
+    shutil.copy(os.path.join(pages.ROOT, "plugin", "python", "_patina.pyi"), os.path.join(stubs, "_patina.py"))
+    text = text.replace("[PYTHON]", repr([stubs, os.path.join(pages.ROOT, "plugin")]))
     path = os.path.join(folder, "mkdocs.yml")
     with open(path, "w", encoding="utf-8") as file:
         file.write(text)

@@ -81,7 +81,7 @@ def log_density(raw, wi):
 def main():
     mus = ((np.arange(MUS) + 0.5) / MUS) ** 1.3
     alphas = np.exp(np.linspace(np.log(0.006), 0.0, ALPHAS))
-    places, raws, own, lobes = [], np.zeros((ALPHAS, MUS, 4)), 0.0, {}
+    raws, own, lobes = np.zeros((ALPHAS, MUS, 4)), 0.0, {}
     for i in reversed(range(ALPHAS)):
         for k in reversed(range(MUS)):
             wi, weight, target = lobe(mus[k], alphas[i])

@@ -47,22 +47,31 @@ public:
 
     double operator()(double z0, double z1, double p0, double p1) const {
         const double whole = rule(z0, z1, p0, p1);
-        // A cell with a peak in it is cut before it is trusted.
-        return refine(z0, z1, p0, p1, whole, whole > 5e-3 ? -2 : 0);
+        // A cell with a peak in it is cut before it is trusted. So is one at the horizon, where
+        // densities may rise without bound, and one that seems empty, which may have something in a
+        // corner.
+        const bool odd = z0 == 0.0 || z1 == 0.0 || whole == 0.0;
+        return refine(z0, z1, p0, p1, whole, whole > 5e-3 ? -3 : odd ? -1 : 0);
     }
 
 private:
     double rule(double z0, double z1, double p0, double p1) const {
         static const double x[] = {0.069431844202973714, 0.33000947820757187};
         static const double w[] = {0.17392742256872693, 0.32607257743127307};
+        double cosine[4], sine[4];
+        for (int j = 0; j < 4; ++j) {
+            const double p = p0 + (j < 2 ? x[j] : 1.0 - x[3 - j]) * (p1 - p0);
+            cosine[j] = std::cos(p);
+            sine[j] = std::sin(p);
+        }
         double sum = 0.0;
-        for (int i = 0; i < 4; ++i)
-            for (int j = 0; j < 4; ++j) {
-                const double s = i < 2 ? x[i] : 1.0 - x[3 - i];
-                const double t = j < 2 ? x[j] : 1.0 - x[3 - j];
-                const vec3 wi = direction(z0 + s * (z1 - z0), p0 + t * (p1 - p0));
-                sum += w[std::min(i, 3 - i)] * w[std::min(j, 3 - j)] * _lobe.eval(_wo, wi).pdf;
-            }
+        for (int i = 0; i < 4; ++i) {
+            const double z = z0 + (i < 2 ? x[i] : 1.0 - x[3 - i]) * (z1 - z0);
+            const double r = std::sqrt(std::max(0.0, 1.0 - z * z));
+            for (int j = 0; j < 4; ++j)
+                sum += w[std::min(i, 3 - i)] * w[std::min(j, 3 - j)] *
+                       _lobe.eval(_wo, vec3(r * cosine[j], r * sine[j], z)).pdf;
+        }
         return sum * (z1 - z0) * (p1 - p0);
     }
 
@@ -74,8 +83,9 @@ private:
         const double c = rule(z0, z, p, p1);
         const double d = rule(z, z1, p, p1);
         const double parts = a + b + c + d;
-        const bool fine = std::fabs(parts - whole) < 2e-7 + 1e-4 * whole;
-        if (depth >= 9 || (fine && depth >= 1)) return parts;
+        // Cells that are smooth end with the first cut, which has to agree more closely.
+        const double tolerance = (2e-7 + 1e-4 * whole) * (depth < 1 ? 0.05 : 1.0);
+        if (depth >= 9 || (depth >= 0 && std::fabs(parts - whole) < tolerance)) return parts;
         return refine(z0, z, p0, p, a, depth + 1) + refine(z, z1, p0, p, b, depth + 1) +
                refine(z0, z, p, p1, c, depth + 1) + refine(z, z1, p, p1, d, depth + 1);
     }

@@ -1,7 +1,11 @@
 // The float samplers draw from the density that the double instance states: chi-squared tests over
-// the sphere. Significance 0.01 for the whole suite (Sidak over all runs); three fixed seeds, a
-// case fails when two of the three reject. Delta parts are left out here; LobeDegenerate tests
-// them.
+// the sphere. Significance 0.01 for the whole suite (Sidak over all runs), at a fixed seed. Delta
+// parts are left out here; LobeDegenerate tests them.
+//
+// One histogram of 120000 samples finds more than two out of three of 100000 would. The statistic
+// of many cells is near normal, with a mean that grows with the number of samples: where 100000
+// reject with a chance of 0.5, 0.9 and 0.99, two out of three do with 0.5, 0.97 and 0.9997, and
+// 120000 with 0.80, 0.99 and 0.9999 (threshold at 4.1 deviations).
 
 #include <cmath>
 
@@ -14,8 +18,8 @@ using namespace patina::test;
 
 namespace {
 
-constexpr int sampleCount = 100000;
-constexpr std::uint64_t seeds[] = {11, 222, 3333};
+constexpr int sampleCount = 120000;
+constexpr std::uint64_t seed = 11;
 
 } // namespace
 
@@ -41,29 +45,21 @@ TEST(LobeSampling, DrawsFromItsPdf) {
     const std::vector<LobeCase> cases = lobeCases(0);
     int runs = 0;
     for (const LobeCase& c : cases)
-        runs += int(outgoing(c).size()) * 3;
+        runs += int(outgoing(c).size());
     const double significance = 1.0 - std::pow(1.0 - 0.01, 1.0 / runs);
     for (const LobeCase& c : cases) {
         // Narrower lobes fit into a few cells: the half vector density is the same code.
         if (c.alpha < 0.02) continue;
         for (vec3 wo : outgoing(c)) {
             const DensityGrid grid(c.f64, wo);
-            int rejected = 0;
-            int run = 0;
-            double worst = 1.0;
-            for (std::uint64_t seed : seeds) {
-                if (run++ == 2 && rejected == 0) break; // the third cannot change the outcome
-                const ChiSquared t = grid.test(c.f32, wo, sampleCount, seed);
-                EXPECT_FALSE(t.stray) << c.name << " wo.z " << wo.z;
-                EXPECT_LT(t.expected, 1.0 + 2e-3) << c.name << " wo.z " << wo.z;
-                // Samples that find a direction are as many as the density says: 5 sigma.
-                const double p = std::min(t.expected, 1.0);
-                const double sigma = std::sqrt(p * (1.0 - p) / sampleCount);
-                EXPECT_NEAR(t.hits, t.expected, 5.0 * sigma + 2e-3) << c.name << " wo.z " << wo.z;
-                rejected += t.pValue < significance;
-                worst = std::min(worst, t.pValue);
-            }
-            EXPECT_LT(rejected, 2) << c.name << " wo.z " << wo.z << " p " << worst;
+            const ChiSquared t = grid.test(c.f32, wo, sampleCount, seed);
+            EXPECT_FALSE(t.stray) << c.name << " wo.z " << wo.z;
+            EXPECT_LT(t.expected, 1.0 + 2e-3) << c.name << " wo.z " << wo.z;
+            // Samples that find a direction are as many as the density says: 5 sigma.
+            const double p = std::min(t.expected, 1.0);
+            const double sigma = std::sqrt(p * (1.0 - p) / sampleCount);
+            EXPECT_NEAR(t.hits, t.expected, 5.0 * sigma + 2e-3) << c.name << " wo.z " << wo.z;
+            EXPECT_GE(t.pValue, significance) << c.name << " wo.z " << wo.z;
         }
     }
 }

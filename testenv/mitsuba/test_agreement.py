@@ -15,7 +15,7 @@ import pytest
 
 mi = pytest.importorskip("mitsuba", reason="Mitsuba 3 is not installed")
 stats = pytest.importorskip("scipy.stats", reason="SciPy is not installed")
-from pxr import Sdf, Usd  # noqa: E402
+from pxr import Usd  # noqa: E402
 
 sys.path.insert(0, os.path.dirname(__file__))
 import exportScene  # noqa: E402

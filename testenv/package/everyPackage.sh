@@ -38,13 +38,15 @@ for program in c++ cmake ninja dpkg-deb dpkg-shlibdeps file python3; do
     command -v $program >/dev/null || lacks "$program is missing"
 done
 python3 -c 'import venv, ensurepip' 2>/dev/null || lacks "python3-venv is missing"
-! command -v ccache >/dev/null || export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=${CCACHE_BASEDIR:-$folder} CCACHE_NOHASHDIR=1
+# One name of the compiler, so that what the wheel has compiled is taken for the .deb.
+! command -v ccache >/dev/null || export CXX=c++ CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=${CCACHE_BASEDIR:-$folder} CCACHE_NOHASHDIR=1
 
 stage=$folder/stage
 mkdir -p "$stage"
 cp -r "$checkout/testenv/scenes/"{texturedDiffuse.usda,shaderball.usda,textures} "$stage"
 cd "$stage" # not in the checkout
-loader=$(ls /lib64/ld-linux-x86-64.so.2 2>/dev/null || true)
+loader=/lib64/ld-linux-x86-64.so.2
+levels=$("$loader" --help 2>/dev/null || true) # of glibc 2.33 or later: those of the processor are said to be supported
 render() { # NAME PYTHON COMMAND...: an image of the path tracer, and one of the rasterizer
     local name=$1; shift
     loudly "$@" record texturedDiffuse.usda "$folder/$name.exr" -w 96 --samples 4 --quiet
@@ -67,13 +69,22 @@ render wheel "$folder/wheel/bin/patina"
 
 # The library of each level: the loader is told to look for no higher one.
 package=$("$folder/wheel/bin/python" -c 'import os, patina; print(os.path.dirname(patina.__file__))')
-for level in "" $(ls "$package/lib/glibc-hwcaps"); do
-    [ -n "$loader" ] && [ -z "$level" ] || "$loader" --help | grep -q "$level (supported" || continue
-    name=wheel-${level:-lowest}
-    loudly env PYTHONSAFEPATH=1 "$loader" --glibc-hwcaps-mask "${level:-none}" "$folder/wheel/bin/python" -m patina record \
-        texturedDiffuse.usda "$folder/$name.exr" -w 96 --samples 4 --quiet
+for level in lowest $(ls "$package/lib/glibc-hwcaps"); do
+    case $level,$levels in
+    lowest,*glibc-hwcaps-mask* | *"$level (supported"*) ;;
+    *) say "the library of level $level is not tried: the loader or the processor knows none"; continue ;;
+    esac
+    name=wheel-$level
+    of_level=(env PYTHONSAFEPATH=1 "$loader" --glibc-hwcaps-mask "$level" "$folder/wheel/bin/python")
+    loaded=$("${of_level[@]}" -c 'import _patina; print(*{line.split()[-1] for line in open("/proc/self/maps") if "libpatina" in line})')
+    case $level,$loaded in
+    lowest,*/glibc-hwcaps/*) say "failed: $loaded is loaded where no level is looked for"; exit 1 ;;
+    lowest,*/libpatina.so | *,*/glibc-hwcaps/$level/libpatina.so) ;;
+    *) say "failed: $loaded is loaded for $level"; exit 1 ;;
+    esac
+    loudly "${of_level[@]}" -m patina record texturedDiffuse.usda "$folder/$name.exr" -w 96 --samples 4 --quiet
     same wheel "$name"
-    say "the library of level ${level:-x86-64-v2} gives the same bits"
+    say "the library of level $level gives the same bits"
 done
 
 # The .deb and the tarball.

@@ -83,6 +83,8 @@ def test_the_installed_command_needs_no_checkout(prefix, tmp_path):
     assert _patina.read_image(str(tmp_path / "a.png")).width == 16
     page = (tmp_path / "a.html").read_text()
     assert ROOT not in page and "patina record stage.usda" in page
+    module = next((prefix / "lib").rglob("_patina*.so")).parent
+    assert (module / "_patina.pyi").exists() and (module / "patina" / "py.typed").exists()  # for type checkers
     link = tmp_path / "linked"
     link.symlink_to(command)
     run(link, "explain", "--help", env=environment)

@@ -88,7 +88,7 @@ def main():
     parser.add_argument("--resume", action="store_true")
     parser.add_argument("--sheets", type=int, metavar="N")
     parser.add_argument("--table", action="store_true")
-    a = parser.parse_args()
+    a = parser.parse_intermixed_args()
     held = recordedPairs.load()
     if a.table:
         return table(held)

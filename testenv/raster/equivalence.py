@@ -29,23 +29,26 @@ class Power:
 
     `widest`: half of the widest interval, as a part of the tile's value; `samples`: passes of the rasterizer per render;
     `traced`: samples of the path tracer per render; `looks`: renders of each back end at which is looked, the last the cap;
-    `spare`: share of tiles and channels that may stay undecided there (one that differs never may)"""
+    `spare`: share of tiles and channels that may stay undecided there (one that differs never may); `tile`: pixels of a tile's
+    side"""
     widest: float
     samples: int
     traced: int
     looks: tuple
     spare: float = 0.0
+    tile: int = TILE
 
 
 FULL = Power(widest=5 * MARGIN, samples=16, traced=64, looks=(12, 24), spare=0.25)
 LONG = Power(widest=MARGIN, samples=128, traced=512, looks=(12, 24, 48, 96))
 
 
-def tiles(images):
+def tiles(images, side=TILE):
     """:param images: (n, height, width, 3)
+    :param side: about that of a tile, in pixels
     :returns: means of tiles, (n, rows, columns, 3)"""
     images = np.asarray(images, np.float64)
-    rows, columns = (max(1, round(size / TILE)) for size in images.shape[1:3])
+    rows, columns = (max(1, round(size / side)) for size in images.shape[1:3])
     split = [np.stack([part.mean(axis=1) for part in np.array_split(images, rows, axis=1)], axis=1)]
     return np.stack([part.mean(axis=2) for part in np.array_split(split[0], columns, axis=2)], axis=2)
 
@@ -109,7 +112,7 @@ def decide(render_raster, render_traced, power):
         # The back ends share no random numbers.
         first += list(render_raster([1 + i for i in range(len(first), number)]))
         second += list(render_traced([100001 + i for i in range(len(second), number)]))
-        verdict = compare(tiles(first), tiles(second), power)
+        verdict = compare(tiles(first, power.tile), tiles(second, power.tile), power)
         if verdict.differs.any() or not verdict.open:
             break
     return verdict, np.array(first), np.array(second)

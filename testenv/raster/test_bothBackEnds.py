@@ -3,6 +3,7 @@
 Test scenes, emitters out of view, and stages that were not made for this. All seeds are fixed, so that the same comes every
 time. A failing pair leaves a page with both images and their difference.
 """
+import dataclasses
 import os
 
 import numpy as np
@@ -32,7 +33,8 @@ def hold(case, folder, power):
     path = equivalentStages.path_of(case, folder)
     if path is None:
         pytest.skip("no such file in $PATINA_ASSETS")
-    verdict, raster, traced = sameImage.decide(path, None, *case.arguments, depth=case.depth, power=power)
+    verdict, raster, traced = sameImage.decide(path, None, *case.arguments, depth=case.depth,
+                                               power=dataclasses.replace(power, tile=case.tile))
     print(f"{case.name}: {len(raster)} renders, largest difference {100 * np.abs(verdict.difference).max():.2f} %, half "
           f"intervals {100 * np.median(verdict.half):.2f} % (median) to {100 * verdict.half.max():.2f} %")
     if verdict.differs.any() or verdict.open:

@@ -3,7 +3,6 @@
 Every stage is a floor with a block on it under one kind of light.
 """
 import dataclasses
-import os
 
 import numpy as np
 import pytest

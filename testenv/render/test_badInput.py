@@ -1,7 +1,6 @@
 """Bad input gives a message that names the prim, and an image where there can be one."""
 import json
 import os
-import shutil
 
 import numpy as np
 import pytest

@@ -102,7 +102,11 @@ def same(folder, primvars, *arguments, **more):
     a = color(render(folder, "instances", instanced(primvars, **more), *arguments))
     b = color(render(folder, "copies", copies(primvars, **more), *arguments))
     assert a.std() > 0.05  # something is seen
-    assert np.allclose(a, b, atol=2e-3)
+    # A prototype's place is rounded otherwise than a copy's: a ray that grazes an edge may go another way. That is one
+    # sample of 16 of a pixel, of either sign.
+    away = abs(a - b).max(axis=2)
+    assert np.mean(away > 2e-3) < 0.05 and away.max() < 2.0 / 16
+    assert abs((a - b).mean()) < 1e-3
     return a
 
 
@@ -149,8 +153,13 @@ def test_the_rasterizer_shows_them_too(tmp_path):
     reason = without_opengl()
     if reason:
         pytest.skip(reason)
-    primvars = {"displayColor": ("color3f", COLOURS), "displayOpacity": ("float", [1, 0.4, 1])}
-    same(tmp_path, primvars, "--backend", "raster")
+    same(tmp_path, {"displayColor": ("color3f", COLOURS)}, "--backend", "raster")
+    # What is let through is drawn by lot, by the numbers of prims: alike in the mean of a ball's middle.
+    primvars = {"displayOpacity": ("float", [1, 0.4, 1])}
+    a, b = (color(render(tmp_path, name, make(primvars), "--backend", "raster", "--samples", "64"))[9:15, 21:27].mean()
+            for name, make in (("instances", instanced), ("copies", copies)))
+    opaque = color(render(tmp_path, "opaque", instanced({}), "--backend", "raster"))[9:15, 21:27].mean()
+    assert a == pytest.approx(b, rel=0.05) and a > 1.1 * opaque
 
 
 def test_aovs_show_values_and_ids_of_instances(tmp_path):

@@ -95,6 +95,19 @@ def test_tiles_cover_every_pixel():
         assert tiles(whole).sum() > 0.0
 
 
+def test_a_coarse_tile_decides_what_noise_hides_from_fine_ones():
+    """Pixels' noise is 30 %: 12 renders know a tile of 8 pixels to about 5 %, and the whole image to a tenth of that."""
+    generator = np.random.default_rng(13)
+    render = lambda seeds, light=0.5: light * (1 + 0.3 * generator.normal(size=(len(seeds), 64, 64, 3)))  # noqa: E731
+    fine = Power(widest=0.02, samples=1, traced=1, looks=(12,))
+    coarse = Power(widest=0.02, samples=1, traced=1, looks=(12,), tile=64)
+    assert tiles(render([1]), 64).shape == (1, 1, 1, 3)
+    assert decide(render, render, fine)[0].open
+    verdict = decide(render, render, coarse)[0]
+    assert not verdict.open and not verdict.differs.any()
+    assert decide(lambda seeds: render(seeds, 0.53), render, coarse)[0].differs.all()
+
+
 def test_the_margin_is_one_percent_for_all():
     assert equivalence.MARGIN == 0.01 and equivalence.SIGNIFICANCE == 0.01
     assert equivalence.LONG.widest <= equivalence.MARGIN <= equivalence.FULL.widest

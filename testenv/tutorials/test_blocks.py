@@ -8,7 +8,7 @@ import tutorialBlocks
 from tutorialBlocks import BlockFailure
 
 PAGE = """# Page
-```{language} title="play/a.txt"
+```text title="play/a.txt"
 words
 ```
 Text.

@@ -70,7 +70,9 @@ def run(path, folder, environment=None, say=lambda line: None):
                 ended = subprocess.run(command, cwd=folder, env=variables, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                        stdin=subprocess.DEVNULL, text=True, errors="replace", timeout=SECONDS)
             except subprocess.TimeoutExpired as error:
-                raise BlockFailure(f"{where}: no end after {SECONDS} s\n{block.text}{error.output or ''}") from None
+                said = error.output or b""  # bytes, whatever was asked for
+                said = said.decode(errors="replace") if isinstance(said, bytes) else said
+                raise BlockFailure(f"{where}: no end after {SECONDS} s\n{block.text}{said[-2000:]}") from None
             say(ended.stdout)
             if ended.returncode != 0:
                 raise BlockFailure(f"{where}: exit status {ended.returncode}\n{block.text}{ended.stdout[-4000:]}")

@@ -47,8 +47,7 @@ int main(int count, char** arguments) {
     const auto scene = makeScene();
     const auto film = std::make_shared<Film>();
     RenderSettings settings;
-    settings.width = 64, settings.height = 48;
-    settings.samples = 16;
+    settings.width = 64, settings.height = 48, settings.samples = 16;
     renderer->start(scene, "/camera", settings, film);
     renderer->wait();
     if (renderer->progress().failed)

@@ -57,7 +57,7 @@ TEST(RasterContext, NamesFileAndLineOfAnError) {
     EXPECT_FALSE(GlProgram::make({{GL_COMPUTE_SHADER, "broken",
                                    "#include \"shaders/lib/lobe.glsl\"\n"
                                    "layout(local_size_x = 1) in;\n"
-                                   "void main() {}\n"}},
+                                   "void main() { lobeMean(vec3(0.0)); }\n"}},
                                  error));
     EXPECT_NE(error.find("shaders/lib/lobe.glsl:"), std::string::npos) << error;
     EXPECT_FALSE(

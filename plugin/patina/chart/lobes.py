@@ -10,6 +10,7 @@ from patina.cli import outputs
 COLUMNS = ("point", "method", "subject", "errorOf", "ns", "nsLow", "nsHigh", "cost", "mean", "largest", "rms")
 
 _TABLE_HEAD = """\
+// SPDX-License-Identifier: Apache-2.0
 // Written by `patina chart --lobes --table`: measure again after a change to a lobe or a method.
 #include "materialNetwork/plan/methodTable.h"
 

@@ -4,6 +4,8 @@ The hues are about those of Okabe and Ito (2008). Their lightness was searched f
 all cones and without long-wave or middle-wave ones, among colours that can be read as text on white, or on the dark paper. testenv/cli/test_look.py holds them to that. A chart is drawn for white; a rule in it
 replaces its colours where the reader's system asks for dark.
 """
+from xml.sax.saxutils import quoteattr
+
 PAPER, INK, DIM, GRID, FRAME, TRUTH, FRONT = "#ffffff", "#222222", "#5c6066", "#e4e4e4", "#bbbbbb", "#b4b8be", "#f0d878"
 BLUE, ORANGE, GREEN, PURPLE, BROWN, BLACK = "#0967ed", "#a36704", "#19825f", "#9c0082", "#443300", "#27292a"
 COLOURS = (BLUE, ORANGE, GREEN, PURPLE, BROWN, BLACK)
@@ -13,11 +15,12 @@ BACKENDS = {"embree": BLUE, "raster": ORANGE}
 CHAR = 6.1  # width of a letter of 11 pixels' height, about
 
 
-def start(width, height, size=11):
-    """:param size: of letters, in pixels
+def start(title, width, height, size=11):
+    """:param title: what a screen reader says of it
+    :param size: of letters, in pixels
     :returns: the head of a chart, with its paper"""
     swaps = "".join(f'.chart [{kind}="{light}"]{{{kind}:{dark}}}' for light, dark in DARK.items() for kind in ("fill", "stroke"))
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" class="chart" role="img" width="{width}" height="{height}" '
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" class="chart" role="img" aria-label={quoteattr(title)} width="{width}" height="{height}" '
             f'viewBox="0 0 {width} {height}" font-family="system-ui, sans-serif" font-size="{size}">'
             f"<style>@media (prefers-color-scheme:dark){{{swaps}}}</style>"
             f'<rect width="{width}" height="{height}" fill="{PAPER}"/>')
@@ -48,4 +51,5 @@ def page(title, style=""):
             f"<title>{title}</title><style>{PAGE}{style}</style></head><body><main>")
 
 
+WIDE = '<div class="wide" tabindex="0" role="region" aria-label="table">'  # scrolls by keyboard, too
 END = "</main></body></html>\n"

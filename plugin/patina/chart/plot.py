@@ -91,7 +91,7 @@ class Plot:
         self.x = Axis(xs, LEFT, WIDTH - RIGHT)
         self.y = Axis(ys, HEIGHT - BOTTOM, TOP, above=0.08 if self.crossings else 0.0)
         self.places = labels.Places((LEFT + 2, TOP + 2, WIDTH - RIGHT - 2, HEIGHT - BOTTOM - 2))
-        out = [look.start(WIDTH, HEIGHT),
+        out = [look.start(self.title, WIDTH, HEIGHT),
                text(WIDTH / 2, 20, self.title, font_size=14, font_weight="bold")]
         out += self._grid()
         if len(self.front) > 1:

@@ -39,7 +39,7 @@ def _head(machine, command, seed):
             "band joins the images that no other beats in both time and error. A dotted floor is the error that more samples "
             "do not lower: what a back end or its methods leave out. Times are of warm renders, medians of three below a "
             "second; errors are means over the repeats, each of which has a seed of its own.</p>",
-            f'<div class="wide"><table>{pairs}</table></div>']
+            f"{look.WIDE}<table>{pairs}</table></div>"]
 
 
 def _stage(result):
@@ -143,7 +143,7 @@ def _costs(ladder):
 
 
 def _table(result):
-    lines = ['<h3>All renders</h3><div class="wide"><table><tr><th class="t" colspan="7"></th>'
+    lines = ['<h3>All renders</h3>' + look.WIDE + '<table><tr><th class="t" colspan="7"></th>'
              '<th colspan="5">against the reference</th><th colspan="3">against direct light</th><th></th></tr>'
              '<tr><th class="t">back end</th><th>samples</th><th>tolerance</th><th>repeats</th><th>seconds</th><th>in all</th><th>cores</th>'
              + "".join(f"<th>{words}</th>" for _, words in ROW) + "<th>1 / (relMSE s)</th></tr>"]

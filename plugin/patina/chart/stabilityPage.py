@@ -68,8 +68,7 @@ def write(sweeps, folder):
 def overview(sweeps, columns=4, width=340, height=230):
     """:returns: an `svg` element of some sweeps side by side"""
     rows = -(-len(sweeps) // columns)
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{columns * width}" height="{rows * height}" '
-             f'viewBox="0 0 {columns * width} {rows * height}">']
+    parts = [look.start("Methods through the regions where they fail", columns * width, rows * height)]
     for i, sweep in enumerate(sweeps):
         text = svgLines.lines(sweep, width, height)
         parts.append(text.replace("<svg ", f'<svg x="{i % columns * width}" y="{i // columns * height}" ', 1).strip())

@@ -55,7 +55,7 @@ def scatter(title, points, x_label, y_label, width=520, height=340):
     """
     x = Axis([p[0] for p in points], LEFT, width - RIGHT)
     y = Axis([p[1] for p in points], height - BOTTOM, TOP)
-    out = [look.start(width, height),
+    out = [look.start(title, width, height),
            _text(width / 2, 18, title, more=' font-size="13" font-weight="bold"')]
     for value in x.decades():
         at = x.at(value)

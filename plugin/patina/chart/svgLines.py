@@ -64,7 +64,7 @@ def lines(sweep, width=460, height=290):
         every += [max(truths) + 2 * sweep.bound, low if min(truths) < 0.0 else max(low, 0.0)]
     x = Scale(sweep.x, LEFT, width - RIGHT, sweep.log_x)
     y = Scale(every, height - BOTTOM, TOP, sweep.log_y)
-    out = [look.start(width, height, 10.5),
+    out = [look.start(sweep.name, width, height, 10.5),
            _text(width / 2, 14, sweep.name, more=' font-size="12" font-weight="bold"')]
     for value, text in x.ticks():
         out.append(f'<path d="M{x.at(value):.1f} {TOP}V{height - BOTTOM}" stroke="{look.GRID}"/>')

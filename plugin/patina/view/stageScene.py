@@ -3,7 +3,6 @@ import numpy as np
 
 from patina.cli import compiled, openStage, overrides
 from patina.cli.errors import CommandError
-from patina.view import shapes
 
 MAX_SHAPES = 4
 

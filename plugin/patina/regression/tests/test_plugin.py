@@ -15,14 +15,25 @@ from patina.regression import golden, plugin, welch  # noqa: E402
 from patina.regression.scenes import Folder, Scene, SceneError  # noqa: E402
 
 STAGE = """#usda 1.0
-def Camera "camera" { matrix4d xformOp:transform = ((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,6,1))
-    uniform token[] xformOpOrder = ["xformOp:transform"] }
-def DomeLight "sky" { float inputs:intensity = 1 }
-def SphereLight "lamp" { float inputs:radius = 0.3
+def Camera "camera"
+{
+    double3 xformOp:translate = (0, 0, 6)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def DomeLight "sky"
+{
+}
+def SphereLight "lamp"
+{
+    float inputs:radius = 0.3
     float inputs:intensity = 20
     double3 xformOp:translate = (2, 2, 2)
-    uniform token[] xformOpOrder = ["xformOp:translate"] }
-def Sphere "ball" { color3f[] primvars:displayColor = [(0.5, COLOUR, 0.1)] }
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Sphere "ball"
+{
+    color3f[] primvars:displayColor = [(0.5, COLOUR, 0.1)]
+}
 """
 SETTINGS = {"*": {"arguments": ["-w", "32", "--samples", "16"], "renders": 4}}
 
@@ -37,7 +48,7 @@ def folder(tmp_path):
 def run(folder, *arguments):
     """:returns: exit status and output of a pytest that knows the plugin alone"""
     done = subprocess.run([sys.executable, "-m", "pytest", "-p", "patina.regression.plugin", "-p", "no:cacheprovider", "-q", "-rA",
-                           "--patina-scenes", str(folder), *arguments], cwd=folder, capture_output=True, text=True,
+                           "--patina-scenes", str(folder), *arguments], cwd=folder.parent, capture_output=True, text=True,
                           env=dict(os.environ, PYTEST_DISABLE_PLUGIN_AUTOLOAD="1"))
     return done.returncode, done.stdout + done.stderr
 

@@ -1,0 +1,620 @@
+# SPDX-License-Identifier: Apache-2.0
+# Made by `./patina python testenv/generateStubs.py`; edits are lost.
+"""The compiled part of Patina; docs/api/module.md says what values look like."""
+from __future__ import annotations
+import numpy
+import numpy.typing
+import typing
+class TemporaryFailure(RuntimeError):
+    pass
+class Network:
+    """
+    A material as authored.
+    """
+    def __init__(self, path: str) -> None:
+        ...
+    def add_node(self, path: str, id: str) -> None:
+        """
+        A node by its definition's name, such as ND_conductor_bsdf. ValueError where the path is taken; a definition that is not known is warned of when the material is compiled.
+        """
+    def connect(self, node: str, input: str, source: str, output: str = '') -> None:
+        """
+        Connects a node's input to an output of another node; empty: its only one. KeyError where the node was not added.
+        """
+    def nodes(self) -> list[typing.Any]:
+        """
+        Dicts of path, id, inputs and connections.
+        """
+    def set_input(self, node: str, input: str, type: str, value: typing.Any, color_space: str = '') -> None:
+        """
+        ValueError when the value does not fit the type. Types are MaterialX's or Sdf's.
+        """
+    def set_terminal(self, name: str, node: str, output: str = '') -> None:
+        """
+        Names the node that is the material's surface, displacement or volume.
+        """
+    def terminals(self) -> dict[str, typing.Any]:
+        """
+        Name -> (node, output).
+        """
+    @property
+    def empty(self) -> bool:
+        """
+        Whether it has no node.
+        """
+    @property
+    def path(self) -> str:
+        """
+        The material's own path.
+        """
+class SceneEdit:
+    """
+    A batch of changes to a scene.
+    """
+    def __enter__(self) -> SceneEdit:
+        ...
+    def __exit__(self, *args: typing.Any) -> None:
+        ...
+    def clear(self) -> None:
+        """
+        Removes everything that was there before.
+        """
+    def commit(self) -> None:
+        """
+        Makes the changes the scene's newest state, all at once; a `with` block does so.
+        """
+    def remove(self, path: str) -> None:
+        """
+        Removes the prim with that path, of whatever kind, if there is one.
+        """
+    def set_camera(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        A UsdGeomCamera; keywords are the fields of Camera.
+        Keywords: transform, orthographic, horizontal_aperture, vertical_aperture, horizontal_aperture_offset, vertical_aperture_offset, focal_length, f_stop, focus_distance, clip_near, clip_far, clipping_planes, shutter_open, shutter_close, exposure_scale.
+        """
+    def set_curves(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        A UsdGeomBasisCurves; keywords are the fields of Curves.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points, curve_vertex_counts, basis, wrap.
+        """
+    def set_hermite_curves(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        A UsdGeomHermiteCurves, as Bezier curves.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points, tangents, curve_vertex_counts.
+        """
+    def set_implicit(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        Sphere, cube, cone, cylinder, capsule or plane.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, shape, axis, radius, radius_top, height, size, width, length.
+        """
+    def set_instancer(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        Copies of groups; keywords are Instancer's fields.
+        Keywords: group, prototypes, prototype_indices, transforms, ids, categories, primvars, visibility.
+        """
+    def set_light(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        A UsdLux light; keywords are the fields of Light.
+        Keywords: group, type, transform, visible, camera_visible, color, intensity, exposure, diffuse, specular, normalize, enable_color_temperature, color_temperature, texture_file, texture_format, texture_color_space, guide_radius, shaping_focus, shaping_focus_tint, shaping_cone_angle, shaping_cone_softness, shaping_cone_authored, ies_file, ies_angle_scale, ies_normalize, shadow_enable, shadow_color, shadow_distance, shadow_falloff, shadow_falloff_gamma, light_link, shadow_link, geometry, material_sync_mode, angle, radius, width, height, length, treat_as_point, treat_as_line.
+        """
+    def set_material(self, path: str, network: Network) -> None:
+        """
+        A material; prims name it by its path.
+        """
+    def set_mesh(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        A UsdGeomMesh; keywords are the fields of Mesh.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points, face_vertex_counts, face_vertex_indices, hole_indices, scheme, interpolate_boundary, face_varying_linear_interpolation, triangle_subdivision_rule, crease_indices, crease_lengths, crease_sharpnesses, corner_indices, corner_sharpnesses, refine_level.
+        """
+    def set_meters_per_unit(self, meters_per_unit: float) -> None:
+        """
+        Length of a scene unit in metres, above 0.
+        """
+    def set_nurbs_curves(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        A UsdGeomNurbsCurves, as Bezier curves; ranges are two numbers per curve.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points, curve_vertex_counts, orders, knots, ranges, weights.
+        """
+    def set_nurbs_patch(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        A UsdGeomNurbsPatch; weights are one per point, ranges two numbers.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points, u_vertex_count, v_vertex_count, u_order, v_order, u_knots, v_knots, u_range, v_range, weights, refine_level.
+        """
+    def set_points(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        A UsdGeomPoints; keywords are the fields of Points.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points.
+        """
+    def set_tet_mesh(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        A UsdGeomTetMesh; tets are four indices of points each, surface three or nothing.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points, tets, surface.
+        """
+    def set_volume(self, path: str, **kwargs: typing.Any) -> None:
+        """
+        A UsdVolVolume; fields are given by their names, files and the grids in the files.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, field_names, field_files, field_grids.
+        """
+    def warn(self, prim: str, input: str, message: str) -> None:
+        """
+        Adds a warning to the scene's.
+        """
+class Scene:
+    """
+    The renderer's own scene.
+    """
+    def __init__(self) -> None:
+        ...
+    def camera(self, path: str) -> dict[str, typing.Any]:
+        """
+        A camera's values by set_camera()'s keywords; KeyError where there is none.
+        """
+    def clear_warnings(self) -> None:
+        """
+        Forgets all warnings.
+        """
+    def dump(self, values: int = 16) -> str:
+        """
+        The scene as text; arrays are cut after so many values.
+        """
+    def edit(self) -> SceneEdit:
+        """
+        A new batch of changes, which commits at the end of a `with` block.
+        """
+    def material(self, path: str) -> Network:
+        """
+        A material as it was set; KeyError where there is none.
+        """
+    def paths(self, kind: str) -> list[str]:
+        """
+        Paths of all geometry, instancers, lights, cameras or materials; ValueError for another kind.
+        """
+    def warn(self, prim: str, input: str, message: str) -> None:
+        """
+        Adds a warning; one that is there already is counted.
+        """
+    def warnings(self) -> list[typing.Any]:
+        """
+        What was wrong: dicts of prim, input, message, and count, how often it was met.
+        """
+    @property
+    def meters_per_unit(self) -> float:
+        """
+        Length of a scene unit in metres.
+        """
+    @property
+    def version(self) -> int:
+        """
+        Grows by one with every commit.
+        """
+class Film:
+    """
+    Accumulates the samples of an image.
+    """
+    def __init__(self) -> None:
+        ...
+    def add_color(self, x: int, y: int, radiance: typing.Sequence[float], alpha: float = 1.0) -> bool:
+        """
+        Adds a sample of linear colour; False, and black, where it is not finite.
+        """
+    def copy(self) -> Film:
+        """
+        An equal film of its own.
+        """
+    def load_checkpoint(self, file: str) -> None:
+        """
+        Reads what save_checkpoint() wrote; RuntimeError where it is something else.
+        """
+    def relative_error(self, shared: bool = False) -> float:
+        """
+        Expected mean of |luminance - its limit| / (limit + 0.01) over the pixels, by their samples; shared: all pixels have the same random numbers (rasterizer).
+        """
+    def reset(self, width: int, height: int, aovs: list[str] = [], keep: bool = False) -> None:
+        """
+        Clears the film; ValueError names an unknown AOV.
+        """
+    def resolve(self, name: str) -> numpy.typing.NDArray[typing.Any]:
+        """
+        Array of height x width (x components), top row first; int32 for ids.
+        """
+    def save_checkpoint(self, file: str) -> None:
+        """
+        Writes the samples to a file; RuntimeError says in one line why not.
+        """
+    @property
+    def aovs(self) -> list[str]:
+        """
+        Names besides color and alpha.
+        """
+    @property
+    def dropped_samples(self) -> int:
+        """
+        Samples that were not finite; they count as black.
+        """
+    @property
+    def height(self) -> int:
+        """
+        Pixels.
+        """
+    @property
+    def resume_token(self) -> str:
+        """
+        What made the film, in words; a checkpoint of another is refused.
+        """
+    @resume_token.setter
+    def resume_token(self, arg0: str) -> None:
+        ...
+    @property
+    def width(self) -> int:
+        """
+        Pixels.
+        """
+class ImageData:
+    """
+    An image as it is in its file.
+    """
+    @property
+    def channels(self) -> list[str]:
+        ...
+    @property
+    def display_height(self) -> int:
+        ...
+    @property
+    def display_width(self) -> int:
+        ...
+    @property
+    def height(self) -> int:
+        ...
+    @property
+    def metadata(self) -> dict[str, typing.Any]:
+        """
+        What the file says of itself, by name.
+        """
+    @property
+    def pixel_aspect_ratio(self) -> float:
+        ...
+    @property
+    def pixels(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Float array of height x width x channels, top row first, without a copy.
+        """
+    @property
+    def width(self) -> int:
+        ...
+    @property
+    def x(self) -> int:
+        ...
+    @property
+    def y(self) -> int:
+        ...
+class AtomicFile:
+    """
+    A file that appears all at once: written to temporary_path, and renamed by commit(). RuntimeError where the path is no regular file.
+    """
+    def __init__(self, path: str) -> None:
+        ...
+    def commit(self) -> None:
+        """
+        Renames what was written to its place; RuntimeError where that fails.
+        """
+    def discard(self) -> None:
+        """
+        Ends without the file, unless it was committed.
+        """
+    @property
+    def temporary_path(self) -> str:
+        """
+        Where to write; it has the file's own ending.
+        """
+class Tile:
+    """
+    A rectangle of pixels, ends excluded.
+    """
+    @property
+    def x0(self) -> int:
+        ...
+    @property
+    def x1(self) -> int:
+        ...
+    @property
+    def y0(self) -> int:
+        ...
+    @property
+    def y1(self) -> int:
+        ...
+class PartialWriter:
+    """
+    Writes the file of a part; RuntimeError says in one line why not.
+    """
+    def __init__(self, file: str, description: str, tiles: list[Tile]) -> None:
+        ...
+    def add(self, film: Film) -> None:
+        """
+        A film with the samples of one span, or of all spans from the first.
+        """
+    def commit(self, report: str) -> None:
+        ...
+class Renderer:
+    """
+    Renders a scene into a film, in the background.
+    """
+    def pause(self) -> None:
+        """
+        Holds the render; the film keeps its samples.
+        """
+    def progress(self) -> dict[str, typing.Any]:
+        """
+        A dict[str, typing.Any] with the fields of RenderProgress.
+        """
+    def resume(self) -> None:
+        """
+        Goes on after pause().
+        """
+    def start(self, scene: Scene, camera: str, settings: dict[str, typing.Any], film: Film) -> None:
+        """
+        Starts rendering the scene's newest state; ValueError names an unknown setting.
+        """
+    def stop(self) -> None:
+        """
+        Returns when no thread works on the film any more.
+        """
+    def wait(self, timeout: float = -1.0) -> bool:
+        """
+        Waits for the end, or for so many seconds. Returns whether the render has ended.
+        """
+    @property
+    def is_running(self) -> bool:
+        """
+        Whether it renders, or is paused.
+        """
+class MaterialProbe:
+    """
+    A compiled material at one shading point.
+    """
+    def __init__(self, network: Network, methods: dict[str, str] = {}, tolerance: float = -1.0) -> None:
+        ...
+    def albedo(self, wo: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        Directional albedo, delta lobes included.
+        """
+    def emission(self, wo: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float32]:
+        ...
+    def emission_at(self, uv: numpy.typing.ArrayLike, footprint: float = 0.0) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        What the unit square of the xy plane emits at its points (u, v), seen from above.
+        """
+    def eval(self, wo: numpy.typing.ArrayLike, wi: numpy.typing.ArrayLike) -> tuple[typing.Any, ...]:
+        """
+        f without the cosine, and the density of sample(); delta lobes have no part in it.
+        """
+    def move_to(self, u: float, v: float) -> None:
+        """
+        Chooses the point (u, v) of the unit square in the xy plane for all that follows.
+        """
+    def opacity(self, wo: typing.Sequence[float] = [0.0, 0.0, 1.0]) -> float:
+        """
+        Presence: the chance that light meets the surface rather than pass straight on.
+        """
+    def sample(self, wo: numpy.typing.ArrayLike, u: numpy.typing.ArrayLike) -> dict[str, typing.Any]:
+        """
+        wi, weight (f cos / pdf), pdf and event (0: no sample) for rows of four random numbers.
+        """
+    @property
+    def constant(self) -> bool:
+        ...
+    @property
+    def stochastic(self) -> bool:
+        """
+        Whether a lobe has no formula: eval() and albedo() are then means over random walks (256 and 2048 of them), and densities estimates.
+        """
+    @property
+    def uses_uv(self) -> bool:
+        ...
+    @property
+    def warnings(self) -> list[typing.Any]:
+        ...
+class RasterProbe:
+    """
+    A material at one shading point, computed by the rasterizer's driver from its GLSL. RuntimeError where there is no OpenGL.
+    """
+    def __init__(self, network: Network, methods: dict[str, str] = {}) -> None:
+        ...
+    def albedo(self, wo: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float32]:
+        ...
+    def emission(self, wo: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float32]:
+        ...
+    def eval(self, wo: numpy.typing.ArrayLike, wi: numpy.typing.ArrayLike) -> tuple[typing.Any, ...]:
+        ...
+    def move_to(self, u: float, v: float) -> None:
+        ...
+    def opacity(self, wo: typing.Sequence[float] = [0.0, 0.0, 1.0]) -> float:
+        ...
+    def sample(self, wo: numpy.typing.ArrayLike, u: numpy.typing.ArrayLike) -> dict[str, typing.Any]:
+        ...
+    @property
+    def warnings(self) -> list[typing.Any]:
+        ...
+def albedo_table() -> numpy.typing.NDArray[numpy.float32]:
+    """
+    The baked directional albedos, in the layout of shaders/lib/albedoTable.glsl.
+    """
+def check_image_path(path: str, aovs: list[str] = []) -> None:
+    """
+    RuntimeError says early why an image could not be written.
+    """
+def check_methods(methods: dict[str, str]) -> str:
+    """
+    Empty, or a sentence that names the choice point or method that does not exist.
+    """
+def check_output(path: str) -> None:
+    """
+    RuntimeError says early why a file could not be written; its folder is not touched.
+    """
+def choice_points() -> list[typing.Any]:
+    """
+    List of (choice point, list of (method, description)); the first is the default.
+    """
+def color_spaces() -> list[str]:
+    """
+    Names of colour spaces that colours and textures may have.
+    """
+def color_to_rendering(numbers: list[float], color_space: str) -> typing.Any:
+    """
+    A colour value in linear Rec.709, as materials take it: three numbers are converted, what follows them stays. None for an unknown space.
+    """
+def colors_to_rendering(colors: numpy.typing.ArrayLike, color_space: str) -> typing.Any:
+    """
+    The same for an array of colours, one a row of three or more numbers.
+    """
+def default_render_settings() -> dict[str, typing.Any]:
+    """
+    Every setting with its default.
+    """
+def denoise(film: Film, threads: int = 0) -> None:
+    """
+    Replaces the film's colour by what Open Image Denoise makes of it, led by the AOVs denoisingAlbedo and denoisingNormal where both are there; the noisy one is color.noisy then. RuntimeError says in one line why not.
+    """
+def denoiser_missing() -> str:
+    """
+    Why images cannot be denoised here, in one line; empty where they can.
+    """
+def display_color_network() -> Network:
+    """
+    The material of prims without one.
+    """
+def displays() -> list[str]:
+    """
+    Displays of the OCIO configuration, in its order.
+    """
+def explain_material(network: Network, warnings: typing.Any = None, methods: dict[str, str] = {}) -> str:
+    """
+    What is modelled of a material, as text. Warnings are appended to the list.
+    """
+def instruction_set() -> str:
+    """
+    What this build computes with, in words: renders of two machines have equal bits where build and instruction set are equal.
+    """
+def light_inputs() -> list[typing.Any]:
+    """
+    Inputs that shape lights: (name in the schema, keyword of set_light(), float or bool).
+    """
+def light_types() -> dict[str, typing.Any]:
+    """
+    UsdLux types, separated by blanks where several are read alike -> word for set_light().
+    """
+def machine() -> dict[str, typing.Any]:
+    """
+    A dict[str, typing.Any]: compiler, openglRenderer, openglVersion, and openglError, why there is no OpenGL.
+    """
+def make_renderer(backend: str = 'embree') -> Renderer:
+    """
+    A renderer of the back end embree, raster, interactive or auto; ValueError for another name. Where raster cannot run, the path tracer renders instead, with a warning.
+    """
+def measure_methods(point: str = '', timed: bool = True) -> list[typing.Any]:
+    """
+    Measures the methods of a choice point, or of all, here and now, on one thread.
+    """
+def merge_partial(film: Film, file: str, tolerance: float = 0.0, min_samples: int = 0) -> str:
+    """
+    Adds a part behind the samples that a film has, and returns its report. Of the same tiles the parts come in the order of their samples.
+    """
+def method_figures(point: str, method: str) -> typing.Any:
+    """
+    dict[str, typing.Any] of errorOf, cost (over the default method), mean and largest error over all subjects; None where nothing is measured.
+    """
+def method_table() -> list[typing.Any]:
+    """
+    The measured methods as the program was built with them: list of dicts (point, method, subject, errorOf, ns, cost, mean, largest, rms, and errors over cells with kind, reflectance, axis, axisEnd and truths as in materialNetwork/plan/methodTable.h).
+    """
+def model_warnings() -> list[typing.Any]:
+    """
+    What was wrong with the models of the library, those of PATINA_MODEL_PATH among them.
+    """
+def node_defaults(id: str) -> dict[str, typing.Any]:
+    """
+    Default values of a node's inputs; those that come from the geometry are left out.
+    """
+def node_inputs(id: str) -> dict[str, typing.Any]:
+    """
+    Names and MaterialX types of a node's inputs; empty for an unknown node.
+    """
+def node_words(id: str) -> dict[str, list[str]]:
+    """
+    What the strings of a node may say, where that is a list.
+    """
+def override_material(network: Network, inputs: dict[str, str]) -> Network:
+    """
+    The network with inputs replaced, given as text; ValueError names what cannot be.
+    """
+def partial_description(file: str) -> str:
+    """
+    What made a part, as PartialWriter was told.
+    """
+def plan_material(network: Network, methods: dict[str, str] = {}, tolerance: float = -1.0) -> dict[str, typing.Any]:
+    """
+    How the methods of a material are chosen for a tolerance (0: truths, negative: defaults): dict[str, typing.Any] of tolerance, error (relative luminance), albedo, varies, fallback (of displayColor, which is shown in place of the material), and choices.
+    """
+def read_image(path: str) -> ImageData:
+    """
+    Reads any image; RuntimeError says in one line why not.
+    """
+def read_mtlx(path: str, warnings: typing.Any = None) -> list[Network]:
+    """
+    The materials of a MaterialX document. Warnings are appended to the list.
+    """
+def set_denoiser_library(path: str) -> None:
+    """
+    Which Open Image Denoise to load; empty for $PATINA_OIDN_LIBRARY or the system's.
+    """
+def shader_text(path: str) -> str:
+    """
+    Text of a shader that is compiled in, with its includes; ValueError for others.
+    """
+def span_ends(samples: int) -> list[int]:
+    """
+    After how many samples a frame of so many may be cut; the last is its end.
+    """
+def tiles_of_part(width: int, height: int, window: typing.Sequence[int] = [0, 0, -1, -1], part: int = 0, parts: int = 1) -> list[Tile]:
+    """
+    The tiles of one of several parts of an image, from 0.
+    """
+def translatable_models() -> list[str]:
+    ...
+def translate_material(network: Network, target: str, warnings: typing.Any = None) -> Network:
+    """
+    The material as another shading model; a network without terminals where it cannot be.
+    """
+def views(display: str) -> list[str]:
+    """
+    Views of a display, in the order of the configuration.
+    """
+def web_light_meshes(scene: Scene) -> list[str]:
+    """
+    Paths of meshes that are lights.
+    """
+def web_lights(scene: Scene) -> dict[str, typing.Any]:
+    """
+    lights: (path, floats in the layout of shaders/web/lights.glsl); table: the values (n, 4) that they point into; domes: dicts of path, texture, radiance, axes and, where the image is no latlong map, pixels of one; notes: texts on what is left out.
+    """
+def web_material(network: Network, methods: dict[str, str] = {}, largest_texture: int = 1024) -> dict[str, typing.Any]:
+    """
+    A material as GLSL ES 3.00 with what it reads: text, primvars (name, type), textures as arrays of linear texels no larger than largest_texture, lobes, warnings, what was left out.
+    """
+def web_mesh(scene: Scene, path: str) -> dict[str, typing.Any]:
+    """
+    Triangles of a prim as arrays with three rows each: points, normals, uv, colors; toWorld as 16 columns. KeyError, or ValueError for a prim without triangles.
+    """
+def web_shapes(scene: Scene) -> list[typing.Any]:
+    """
+    (path, material) of the prims that web_mesh() takes.
+    """
+def write_image(path: str, pixels: numpy.typing.ArrayLike, channels: list[str] = [], options: dict[str, typing.Any] = {}, metadata: dict[str, typing.Any] = {}) -> None:
+    """
+    Writes a float array of linear colour.
+    """
+def write_images(film: Film, path: str, options: dict[str, typing.Any] = {}, metadata: dict[str, typing.Any] = {}) -> None:
+    """
+    Writes a film: OpenEXR with all its AOVs, or an image for the screen.
+    """
+ALBEDO_MICROFACET_SIZE: int = 511424
+ALBEDO_WARD_TABLE: int = 1051008

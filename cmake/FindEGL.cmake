@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Finds EGL with the headers of OpenGL's core profile and defines EGL::EGL. OpenGL itself is loaded
 # through EGL, so its library is not linked.
 find_path(EGL_INCLUDE_DIR EGL/egl.h)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Finds Embree 4 or 3 and defines Embree::embree; PATINA_EMBREE_MAJOR says which it is.
 find_path(Embree_INCLUDE_DIR NAMES embree4/rtcore.h embree3/rtcore.h)
 if(Embree_INCLUDE_DIR AND EXISTS ${Embree_INCLUDE_DIR}/embree4/rtcore.h)

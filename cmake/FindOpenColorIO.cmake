@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Finds OpenColorIO, of which Debian 12 installs no CMake package, and defines
 # OpenColorIO::OpenColorIO.
 find_path(OpenColorIO_INCLUDE_DIR NAMES OpenColorIO/OpenColorIO.h)

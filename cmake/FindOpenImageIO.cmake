@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Finds OpenImageIO and defines OpenImageIO::OpenImageIO. Debian 12's own package file names the
 # headers of OpenCV, which it does not require, and so stops CMake.
 find_path(OpenImageIO_INCLUDE_DIR NAMES OpenImageIO/imageio.h)

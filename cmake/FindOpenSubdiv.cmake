@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Finds OpenSubdiv's CPU library and defines OpenSubdiv::osdCPU.
 find_path(OpenSubdiv_INCLUDE_DIR NAMES opensubdiv/version.h)
 find_library(OpenSubdiv_LIBRARY NAMES osdCPU)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # OpenVDB::openvdb, where there is one. (OpenVDB's own module wants versions of its dependencies that
 # it was not built with on some systems.)
 find_path(OpenVDB_INCLUDE_DIR openvdb/openvdb.h)

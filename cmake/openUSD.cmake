@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Looks for an OpenUSD with Hydra: in PXR_USD_LOCATION, pxr_DIR, CMAKE_PREFIX_PATH and /usr/local/USD.
 # Hydra is a host like any other: without it the build says so in one line and goes on.
 # Sets PATINA_HAS_HYDRA, PATINA_PXR_ROOT and PATINA_PXR_LIBRARIES.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The renderer as one shared library for hosts outside of this build, and what `cmake --install`, `cpack` and `pip install .` put where.
 #
 #   PREFIX/lib/libpatina.so, include/patina, lib/cmake/Patina   for hosts in C++: find_package(Patina), Patina::patina

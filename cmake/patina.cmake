@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Helpers that give every room the same flags.
 
 function(_patina_flags target)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # patina_probe(NAME SOURCE WITHOUT LIBS targets...): compiles and links SOURCE, which includes what the project includes of
 # an optional library. Unsets NAME_FOUND where that fails, and says in one line what is left out (WITHOUT) and why.
 # A success is remembered; after a failure the next configuration tries again, since a package may have been installed.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 // Lobes under area lights by their outlines, as C++, in the same namespace as the lobes.

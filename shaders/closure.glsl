@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How lobes become a material: shading frames, weights of layers, mixes and slabs, the choice of a lobe
 // and sums over all of them, emission and media. Stands on shaders/lobes.glsl.
 #include "shaders/closure/amounts.glsl"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All that makes up lights. Hosts that compile GLSL may include fewer of these, in this order.
 #include "shaders/lights/table.glsl"
 #include "shaders/lights/ies.glsl"

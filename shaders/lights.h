@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 // The light functions of the shader dialect as C++. They are apart from the lobes, so that what

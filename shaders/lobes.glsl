@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every lobe of the dialect, in the order of their dependencies. The files have no guards, since
 // C++ includes them once per scalar type; GLSL needs shaders/compat/glsl.glsl in front. everyLobe.glsl
 // is made by shaders/CMakeLists.txt: the files of shaders/lobes in the order of their names.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 // Every lobe of the dialect once more in double (patina::sh64): the oracle of tests and of

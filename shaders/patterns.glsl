@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mathematics of pattern nodes, beyond plain arithmetic. Needs shaders/lib/degenerate.glsl.
 #ifndef PATINA_ATAN2
 #define PATINA_ATAN2(y, x) atan(y, x)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 // The shader dialect as C++: every lobe in float (patina::sh), from the text that the rasterizer

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Measures the project's own charts again, on this machine, and writes those that documents show.
 
     charts.py [--out FOLDER] [--only KIND]... [--quick]

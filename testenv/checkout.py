@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Lets scripts of testenv be started by any Python: what `python3 testenv/wedges.py` lacks, `./patina python testenv/wedges.py`
 has, so that is what it goes on as."""
 import importlib.util

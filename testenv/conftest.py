@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Collects the googletest programs of the build as pytest items, one for each test suite."""
 import os
 import stat

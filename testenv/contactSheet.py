@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renders every stage under a folder and pastes the images into one sheet: an image, or a page with a caption for each.
 
     ./patina python testenv/contactSheet.py FOLDER SHEET.png|SHEET.html [--width 240] [--samples 32] [--record FLAGS...]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The project's documents, for tests that hold them to the code."""
 import glob
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Writes the pages of docs/generated from the code, or with --check tells which of them are stale.
 
     ./patina python testenv/generateDocs.py [--check] [PAGE ...]

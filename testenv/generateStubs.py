@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Writes plugin/python/_patina.pyi, the typed interface of the compiled module, from the module; with --check tells whether it
 is stale.
 

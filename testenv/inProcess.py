@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renders and commands of tests, in the test's own process: no start of Python, nothing written that is not asked for.
 
 Path traced references are kept in the build folder by what they are made of: the stage with all that it uses, settings, and

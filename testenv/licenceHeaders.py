@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Puts the line that names the licence at the head of every source file that has none.
 
     ./patina python testenv/licenceHeaders.py [--check]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Which tier and which rooms each test belongs to: the one place that says so.
 
 A test's name is its place: `testenv/cli/test_frames.py::test_x`, or for a suite of a googletest program the folder that its

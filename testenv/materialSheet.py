@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renders every material of the MaterialX documents under a folder on a ball, as one sheet.
 
     ./patina python testenv/materialSheet.py FOLDER SHEET.png [--width 200] [--samples 64] [--columns 7]

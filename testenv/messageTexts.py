@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The warnings in the code: their texts, with … for what differs from scene to scene."""
 import ast
 import glob

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """pytest plugin: `--tier` and `--room` choose tests by manifest.py."""
 import os
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renders the wedge pictures of docs/gallery.md: rows of balls along which one parameter goes.
 
     ./patina python testenv/wedges.py [roughness|anisotropy|film|sheen|classic ...] [--out docs/pictures] [--samples 256]

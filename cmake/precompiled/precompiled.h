@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 // What most files include of other people's headers, compiled once. Every file still includes what

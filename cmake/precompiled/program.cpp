@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Only its header is wanted.
 int main() {
     return 0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GL/glcorearb.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Builds the site into a folder: pages, MkDocs, Doxygen."""
 import logging
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The checkout's documents as pages of the site: where each stands, and its links from there."""
 import os
 import posixpath

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/compiled/subdivision.h"
 
 #include "hdDelegate/compiled/cameraFrame.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 // The differences between Embree 3 and 4 stand here and nowhere else.

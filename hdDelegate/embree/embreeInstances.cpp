@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Instances of EmbreeScene: the tree of instancers as groups that Embree traces, and as transforms.
 
 #include "hdDelegate/embree/cameraRays.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Surfaces of EmbreeScene: how finely a prim is tessellated, its shape, its materials.
 
 #include "hdDelegate/compiled/drawFilter.h"

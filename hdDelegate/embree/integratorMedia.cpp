@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/integrator.h"
 
 #include "hdDelegate/embree/media/freeFlight.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/sceneLights.h"
 
 #include "hdDelegate/scene/lightUnits.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A checkpoint is a film's header and all of its pixels.
 
 #include "hdDelegate/film/atomicFile.h"

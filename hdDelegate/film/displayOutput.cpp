@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/imageOutput.h"
 #include "hdDelegate/parallel.h"
 #include "materialNetwork/color/colorSpaces.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/filmFile.h"
 
 #include "hdDelegate/film/temporaryFailure.h"

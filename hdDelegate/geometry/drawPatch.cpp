@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NURBS patches as triangles: every vertex is on the surface and has its normal.
 
 #include "hdDelegate/geometry/drawnFaces.h"

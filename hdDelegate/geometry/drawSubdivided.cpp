@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/geometry/drawnFaces.h"
 #include "hdDelegate/geometry/refineValues.h"
 #include "hdDelegate/geometry/sharpNormals.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NURBS curves as Bezier ones: between two knots a cubic with the ends and slopes of the curve.
 
 #include "hdDelegate/geometry/bezierBatch.h"

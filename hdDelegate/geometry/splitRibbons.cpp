@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/geometry/splitRibbons.h"
 
 #include "hdDelegate/geometry/curveSegments.h"

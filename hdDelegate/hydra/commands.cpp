@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/commands.h"
 
 #include "hdDelegate/film/atomicFile.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 // The one place that knows what differs between OpenUSD releases. The oldest one is 23.11.

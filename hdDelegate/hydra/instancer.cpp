@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/instancer.h"
 
 #include "hdDelegate/hydra/instancerTransforms.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/primvars.h"
 
 #include "hdDelegate/hydra/sampling.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/renderDelegate.h"
 
 #include "hdDelegate/hydra/aovs.h"

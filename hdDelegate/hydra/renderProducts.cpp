@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/renderProducts.h"
 
 #include "hdDelegate/film/imageFile.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/session.h"
 
 #include "hdDelegate/backends/backends.h"

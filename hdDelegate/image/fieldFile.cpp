@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs patinaReadField and takes what it writes.
 #include "hdDelegate/image/fieldGrid.h"
 

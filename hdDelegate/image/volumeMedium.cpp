@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/image/volumeMedium.h"
 
 #include "hdDelegate/parallel.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/lights/areaShape.h"
 
 #include "hdDelegate/lights/sphericalRect.h"

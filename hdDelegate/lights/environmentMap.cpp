@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/lights/environmentMap.h"
 
 #include "materialNetwork/maths.h"

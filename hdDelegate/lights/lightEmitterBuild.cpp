@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a light becomes, and the reasons why it gives no light.
 
 #include "hdDelegate/lights/lightEmitter.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/plan/scenePlan.h"
 
 #include "hdDelegate/plan/subdivisionPlan.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/plan/subdivisionPlan.h"
 
 #include "materialNetwork/plan/methodTable.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/scene/cameraCheck.h"
 
 #include "hdDelegate/scene/instancerCheck.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/scene/lightUnits.h"
 
 #include "hdDelegate/scene/motionSteps.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/scene/scene.h"
 
 #include "hdDelegate/scene/cameraCheck.h"

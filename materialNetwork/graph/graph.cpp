@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/graph/graph.h"
 
 #include "materialNetwork/graph/differences.h"

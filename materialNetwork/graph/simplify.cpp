@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/graph/simplify.h"
 
 #include "materialNetwork/graph/algebra.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Trees of closures of an IrBuilder: which operation reads which, and what each has to know.
 
 #include "materialNetwork/ir/irBuilder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lobes of an IrBuilder: their kind, frame and the registers of their parameters.
 
 #include "materialNetwork/ir/irBuilder.h"

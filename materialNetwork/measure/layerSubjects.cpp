@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/measure/layerSubjects.h"
 
 #include "materialNetwork/cpu/bsdf.h"

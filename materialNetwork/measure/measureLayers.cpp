@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/measure/measureLayers.h"
 
 #include "materialNetwork/measure/layerSubjects.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/mtlx/document.h"
 
 #include "materialNetwork/graph/expand.h"

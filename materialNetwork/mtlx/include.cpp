@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/mtlx/include.h"
 
 #include "materialNetwork/mtlx/xmlFile.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Inputs replaced from the command line.
 #include "materialNetwork/material.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nodes that take values apart, put them together and change their type.
 #include "materialNetwork/nodes/nodeTable.h"
 

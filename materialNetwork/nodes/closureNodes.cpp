@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Closures: BSDF, EDF and VDF nodes, their combiners, and the shaders made of them.
 #include "materialNetwork/nodes/nodeTable.h"
 

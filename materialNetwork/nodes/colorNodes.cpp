@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adjustments of colours, and compositing.
 #include "materialNetwork/nodes/nodeTable.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Choices.
 #include "materialNetwork/nodes/nodeTable.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nodes that need their input at neighbouring points. Graphs are evaluated at one point, so the
 // part of the graph that makes their input is copied, with the texture coordinates and
 // positions that it reads moved a little (materialNetwork/graph/differences.h).

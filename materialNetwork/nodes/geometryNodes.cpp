@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nodes that read the surface.
 #include "materialNetwork/nodes/nodeTable.h"
 

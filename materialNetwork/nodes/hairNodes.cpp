@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nodes that turn what is known of hair into the inputs of chiang_hair_bsdf.
 #include "materialNetwork/nodes/nodeTable.h"
 

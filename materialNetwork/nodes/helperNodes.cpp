@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nodes that turn artistic parameters into those of lobes.
 #include "materialNetwork/nodes/nodeTable.h"
 

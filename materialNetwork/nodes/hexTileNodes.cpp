@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hex-tiled images: a texture repeated without visible repetition.
 #include "materialNetwork/nodes/imageSetup.h"
 #include "materialNetwork/nodes/nodeTable.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arithmetic, component by component. Scalars fill their register, so one function serves all
 // sizes and the scalar-vector variants.
 #include "materialNetwork/nodes/nodeTable.h"

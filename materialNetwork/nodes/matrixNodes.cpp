@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Matrices. A matrix takes one register per row; vectors are rows too and multiply from the left,
 // so glm's matrix of the same columns multiplies from the right.
 #include "materialNetwork/nodes/nodeTable.h"

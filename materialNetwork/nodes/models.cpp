@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/nodes/models.h"
 
 #include "materialNetwork/mtlx/document.h"

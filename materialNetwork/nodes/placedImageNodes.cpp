@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Image nodes that bring their own placement: glTF's, latitude-longitude maps, three planes.
 #include "materialNetwork/nodes/imageSetup.h"
 #include "materialNetwork/nodes/nodeTable.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shapes, tilings, ramps and splits of the plane.
 #include "materialNetwork/nodes/nodeTable.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nodes that bring points, vectors and normals from one space to another, and what belongs to the
 // frame and the view.
 #include "materialNetwork/nodes/nodeTable.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // MaterialX image nodes.
 #include "materialNetwork/nodes/imageSetup.h"
 #include "materialNetwork/nodes/nodeTable.h"

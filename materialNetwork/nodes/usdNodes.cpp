@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // UsdUVTexture of the UsdPreviewSurface specification.
 #include "materialNetwork/nodes/nodeTable.h"
 

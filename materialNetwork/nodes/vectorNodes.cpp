@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nodes that look at a vector as a whole.
 #include "materialNetwork/nodes/nodeTable.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/plan/layering.h"
 
 #include "shaders/shaders.h"

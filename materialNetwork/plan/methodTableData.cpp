@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Written by `patina chart --lobes --table`: measure again after a change to a lobe or a method.
 #include "materialNetwork/plan/methodTable.h"
 

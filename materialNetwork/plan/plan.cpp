@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/plan/plan.h"
 
 #include "materialNetwork/plan/layering.h"

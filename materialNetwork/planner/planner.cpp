@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/planner/planner.h"
 
 #include "materialNetwork/planner/predictError.h"

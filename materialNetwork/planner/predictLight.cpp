@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/planner/predictLight.h"
 
 #include "materialNetwork/plan/methodTable.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The BSDF of whole materials: energy, sampling, layers, sides.
 #include "materialNetwork/tests/materialTest.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/color/colorSpaces.h"
 #include "materialNetwork/color/colorSpacesBuiltin.h"
 

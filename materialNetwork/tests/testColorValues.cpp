@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colour values know the colour spaces that textures know.
 #include "materialNetwork/tests/materialTest.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A material is expanded and compiled once, whatever is planned for it. Methods are bound to what
 // was compiled.
 #include "materialNetwork/compileCounts.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every node definition of MaterialX is known, by table or by model, but for the ones named here.
 #include "materialNetwork/nodes/models.h"
 #include "materialNetwork/nodes/nodeTable.h"

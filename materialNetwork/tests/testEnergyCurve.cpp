@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The interpolated energy of constant interfaces against the tables that it is measured from.
 #include "materialNetwork/cpu/lobeEnergy.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Broken networks: never a crash or a hang, always a message, always the documented fallback.
 #include "materialNetwork/tests/materialTest.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The method `returned` of layerTransmittance, the default: layers lose nothing where nothing is
 // absorbed, gain nothing, and count what an interface sends back down to its base.
 #include "materialNetwork/cpu/programCode.h"

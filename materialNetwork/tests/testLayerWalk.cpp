@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The method positionFree of layering: energy, closed forms, values and samples that agree.
 #include "materialNetwork/cpu/programCode.h"
 #include "materialNetwork/tests/statistics.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of lobes: the nodes have what the setup of their lobe takes.
 
 #include "materialNetwork/cpu/lobeSetup.h"

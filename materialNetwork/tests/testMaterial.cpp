@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs: what they ask for, what they say about themselves, patterns, textures, overrides.
 #include "materialNetwork/tests/materialTest.h"
 

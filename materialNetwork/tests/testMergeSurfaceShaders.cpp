@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mixes of whole shaders, back shaders, unlit surfaces: one program that acts as its parts do.
 #include "materialNetwork/tests/materialTest.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The meanings that the field leaves open: every method gives the numbers that it promises.
 #include "materialNetwork/tests/materialTest.h"
 

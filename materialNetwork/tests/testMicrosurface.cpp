@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The method randomWalk of energyCompensation: energy, values and samples that agree.
 #include "materialNetwork/tests/statistics.h"
 #include "shaders/measure/microsurfaceWalk.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shading models that come with the library.
 #include "materialNetwork/tests/materialTest.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // MaterialX documents that ask for more stack, memory or time than there is.
 #include "materialNetwork/tests/materialTest.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Namespaces of MaterialX documents.
 #include "materialNetwork/tests/materialTest.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Included documents, and documents of MaterialX 1.38.
 #include "materialNetwork/tests/patternTest.h"
 

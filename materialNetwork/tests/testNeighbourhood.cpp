@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nodes that look at the neighbourhood of a point, against what calculus says.
 #include "materialNetwork/tests/patternTest.h"
 

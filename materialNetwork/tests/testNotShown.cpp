@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a material asks for and does not get is told, by prim and input.
 #include "materialNetwork/tests/materialTest.h"
 

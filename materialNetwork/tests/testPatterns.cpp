@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colour, shape and matrix nodes against closed forms.
 #include "materialNetwork/tests/patternTest.h"
 

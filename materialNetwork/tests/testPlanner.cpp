@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The planner: methods follow from the tolerance and the measured table, and from nothing else.
 #include "materialNetwork/plan/methodTable.h"
 #include "materialNetwork/planner/planner.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Only regular files of a bounded size are read.
 #include "materialNetwork/regularFile.h"
 

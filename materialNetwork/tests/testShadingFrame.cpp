@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/tests/materialTest.h"
 
 #include "shaders/closure.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nodes that read the surface or images: spaces, slopes, placed images.
 #include "materialNetwork/tests/patternTest.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Translations between shading models.
 #include "materialNetwork/tests/patternTest.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // patinaHydraInfo: where the plugin is, which OpenUSD it runs in, and why a host would refuse it.
 
 #include "hdDelegate/hydra/compat.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "plugin/hydra/meshLightSceneIndex.h"
 
 #include <pxr/imaging/hd/lightSchema.h>

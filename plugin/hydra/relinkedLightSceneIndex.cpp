@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "plugin/hydra/relinkedLightSceneIndex.h"
 
 #if PATINA_HAS_LIGHT_LINKING

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What has to happen to a scene before the delegate sees it.
 
 #include "plugin/hydra/meshLightSceneIndex.h"

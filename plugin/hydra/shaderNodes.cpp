@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tells Sdr of every node that Patina knows: networks then reach Hydra whole, also where OpenUSD
 // was built without MaterialX or with an older one.
 

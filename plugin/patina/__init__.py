@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Patina: renders USD stages with physically based shading networks.
 
 `_patina` is the compiled module, `patina.stage` reads stages with pxr, `patina.cli` is the command

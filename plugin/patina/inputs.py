@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The files that a command has read: so that it reads nothing but regular files of a bounded size, and
 writes over none of them."""
 import os

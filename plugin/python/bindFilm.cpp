@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Film, image files and colour of the Python module. Names are PEP 8's; options of images are the
 // fields of ImageOptions in snake case.
 

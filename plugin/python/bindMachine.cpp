@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What this build and this machine's driver call themselves: for pages that show measured times.
 
 #ifdef PATINA_HAS_RASTER

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Materials of the Python module: numbers of a BSDF, explanations, MaterialX documents. Arrays of
 // directions have a row of three for each; unit vectors in the shading frame (z normal, x tangent).
 

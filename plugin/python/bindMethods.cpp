@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Choice points as they were measured, and measuring them.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts of cut frames: the tiles and spans that they are made of, and their files.
 
 #include "hdDelegate/film/film.h"

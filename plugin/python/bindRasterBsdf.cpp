@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // RasterProbe: numbers of a material as the rasterizer's driver computes them, with the methods of
 // MaterialProbe.
 #ifdef PATINA_HAS_RASTER

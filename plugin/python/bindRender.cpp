@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The renderer of the Python module. Settings are a dict with the names of RenderSettings' fields.
 
 #include "hdDelegate/renderer/renderer.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The scene, its edits, lights and cameras.
 
 #include "plugin/python/sceneEdit.h"

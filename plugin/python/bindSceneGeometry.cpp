@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Geometry of a scene edit.
 
 #include "plugin/python/sceneEdit.h"

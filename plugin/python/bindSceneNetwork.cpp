@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Material networks.
 
 #include "materialNetwork/network/network.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a page needs to show a material in WebGL2: its text, its textures, and what all share.
 
 #include "hdDelegate/image/textureSystem.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes of a scene, as the material page takes them.
 
 #include "hdDelegate/geometry/tessellate.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Fits three facets that stand in for all: `albedoFit.py NODES.bin CENTRES.bin OUT.glsl`.
 
 The directional albedo of an isotropic GGX reflection is the mean of the reflectance F over the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the directional albedo tables of shaders/lib/albedoTable.glsl: `bakeAlbedo OUT.cpp` makes
 // the array that C++ links.
 

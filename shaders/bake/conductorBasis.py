@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Prints the matrix of shaders/lib/conductorAlbedo.glsl.
 
 A conductor's reflectance is written as a sum of (1 - c)^p over six exponents of the moment table,

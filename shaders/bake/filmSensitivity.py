@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Prints the constants of shaders/lib/film.glsl: needs numpy and scipy.
 
 The sensitivity of each linear Rec.709 channel, under an equal energy spectrum and scaled to 1, is

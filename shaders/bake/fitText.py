@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """GLSL of small networks, from the numbers that albedoFit.py finds."""
 
 HEAD = """\

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Writes shaders/lib/ltcFit.glsl: linear transforms of a cosine (Heitz, Dupuy, Hill and Neubelt 2016, "Real-Time
 Polygonal-Light Shading with Linearly Transformed Cosines") that stand for the reflection of isotropic GGX facets.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes what shaders/bake/albedoFit.py is fitted to: `microfacetCosines BINS MU ALPHA OUT`. For MU
 // by ALPHA directions and roughnesses, the spread of the cosine between view and facet over the
 // reflected light of an isotropic GGX mirror. From it the albedo under any reflectance is one sum.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The reflectance curves that shaders/bake/albedoFit.py is fitted to, as functions of the cosine."""
 import numpy as np
 

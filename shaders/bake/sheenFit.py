@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Fits the directional albedo of the Conty-Kulla sheen lobe: `sheenFit.py OUT.glsl`.
 
 Its logarithm is nearly a polynomial in the root of the cosine and the logarithm of the roughness. Fitted by

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Amounts as authored, made fit to compute with: negative and NaN count as 0. They are compared, since
 // drivers may pick either side of max() where one is NaN.
 

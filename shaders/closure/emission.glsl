@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Leaves of emission. A surface emits alike on both sides.
 
 PATINA_FN vec3 emissionScaled(vec3 color, float amount) {

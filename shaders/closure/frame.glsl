@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shading frames. World space; directions are unit vectors that point away from the surface.
 
 struct Frame {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Layers that count what the interface on top sends back down to its base: the method `returned` of
 // layerTransmittance. All numbers are shares of light per channel.
 //

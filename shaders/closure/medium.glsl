@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Participating media: what a VDF says at one point. All coefficients are per scene unit, finite and
 // not negative.
 

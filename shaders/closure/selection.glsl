@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lobes as a whole: which of them is drawn, and the sums over all of them.
 
 // BSDF times |cos wi| of all lobes that are no delta, and the density with which sampling finds wi.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Interfaces of a thin slab, or between equal media, and presence: light that goes straight on.
 
 struct Slab {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // C++ side of the shader dialect. Included INSIDE a namespace by shaders/shaders.h, once per scalar
 // type: there `float` may be a macro for double, so this file includes nothing and has no include
 // guard. What is missing here is missing from the dialect.

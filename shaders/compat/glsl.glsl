@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // GLSL side of the shader dialect (GLSL 4.3 and up; GLSL ES 3.0 with PATINA_ALBEDO_TABLE_FETCH).
 // Include it first, after #version. What is missing here is missing from the dialect.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Three facets that stand in for all that a view sees of isotropic GGX: the directional albedo of a
 // reflection under any Fresnel curve F is about w.x F(c.x) + w.y F(c.y) + w.z F(c.z). For light from
 // the thinner side; total reflection has a kink that three places miss.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directional albedo of the bare interface, isotropic, from tables that shaders/bake writes at build
 // time with the functions of this dialect, one set per distribution of facets. Layout and
 // coordinates stand here once: the look-ups use them forwards, the bake program backwards.

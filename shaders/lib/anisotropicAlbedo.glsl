@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directional albedos of microfacet lobes of any alpha: those of the isotropic lobe that stands in,
 // plus what anisotropy changes, from tables over the azimuth and the ratio of both alphas. Same
 // quantities as in albedoTable.glsl, stored as differences.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Beckmann microfacet distribution (Beckmann and Spizzichino 1963), anisotropic, with Smith's
 // masking in its exact form (Walter et al. 2007; Heitz 2014) and visible normal sampling after Heitz
 // and d'Eon 2014 ("Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directional albedos of the classic lobes in white, from tables that shaders/bake writes behind
 // that of sheen: one plane per lobe over (mu, alpha) in the coordinates of albedoTable.glsl, and
 // the moments of the V-cavity lobe in the layout of the moment table.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mean reflectance of a conductor over the facets that wo sees. The exact reflectance, read at six
 // cosines, is written as a sum of (1 - c)^p, p = 0, 1.7, 2.5, 5, 10, 20, whose albedos the moment
 // table has. The matrix is the inverse of that basis at those cosines, printed by

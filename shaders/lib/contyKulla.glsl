@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The Conty-Kulla sheen lobe as it is published, see lobes/sheen.glsl.
 
 // Share of the samples that the half vector makes; the rest is uniform. Broad lobes need none.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every threshold below which a quantity counts as degenerate. Nothing outside this file compares
 // against a magic epsilon.
 

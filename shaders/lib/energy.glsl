@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Multiple scattering between microfacets, as a factor on the single scattering lobe. A method
 // choice: `compensate` is one of COMPENSATE_*. Scaling is not reciprocal (the factor hangs on wo
 // only) and keeps the lobe's shape; methods/kullaConty.glsl adds a lobe instead.

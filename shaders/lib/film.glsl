@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Interference in a thin layer on an interface: Airy's sum over the bounces inside the layer, seen
 // by three broad channels (Belcour and Barla 2017, "A Practical Extension to Microfacet Theory for
 // the Modeling of Varying Iridescence"). Each order's term is the channel's sensitivity, Fourier

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fresnel reflectance: exact for dielectrics and conductors, and the generalized Schlick curve. No
 // approximation hides here.
 

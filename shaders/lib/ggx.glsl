@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The GGX microfacet distribution (Walter et al. 2007), anisotropic, with height-correlated Smith
 // masking-shadowing (Heitz 2014, "Understanding the Masking-Shadowing Function", eq. 86 and 99) and
 // visible normal sampling by spherical caps (Dupuy and Benyoub 2023). alpha: roughness along x and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light of polygons by linearly transformed cosines (Heitz, Dupuy, Hill and Neubelt 2016). A polygon's
 // share of a cosine lobe is a sum over its edges (Lambert 1760); a linear map of its corners gives its
 // share of lobes that are the cosine's image. Frames have the normal as z. ltcFit.glsl has the maps.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A linear transform of the clamped cosine that stands for the reflection of isotropic GGX facets
 // (Heitz, Dupuy, Hill and Neubelt 2016): in a frame with the normal as z and the view in the xz plane,
 // light from l is as likely as the cosine's from

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the lobes on microfacets share, for both distributions of facet normals. With the length
 // l(w) of either, Smith's masking is the same:
 //   G1(o) / o.z          = 2 / (o.z + l(o))

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Warps from the unit square, and small functions that several lobes need.
 
 PATINA_FN float sqr(float x) {

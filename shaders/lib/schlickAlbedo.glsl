@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mean reflectance of a generalized Schlick curve over the facets that wo sees: exact but for the
 // tables (and the curve's clamp at 0). Times E[0] it is the single scattering albedo.
 PATINA_FN vec3 schlickMean(MicrofacetPlace p, SchlickFresnel s) {

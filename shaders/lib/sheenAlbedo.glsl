@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directional albedo of the Conty-Kulla sheen lobe before it is bounded, from a table that
 // shaders/bake writes behind those of albedoTable.glsl. Both axes crowd where the albedo is steep:
 // at grazing angles and at small roughness.

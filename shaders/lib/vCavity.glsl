@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Beckmann facets with the V-cavity masking of Torrance and Sparrow 1967, isotropic, and visible
 // normal sampling for them (Heitz and d'Eon 2014, "Importance Sampling Microfacet-Based BSDFs using
 // the Distribution of Visible Normals", supplement): facets come in pairs that lean to either side,

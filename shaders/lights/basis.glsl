@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two unit vectors that complete a right-handed frame about a third (Duff et al. 2017).
 
 struct LightBasis {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distant lights: a cone of directions. versine: 1 - cos of half its angle, which stays precise where it is narrow.
 
 PATINA_FN float distantPdf(float versine) {

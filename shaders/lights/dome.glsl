@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Latlong images around a dome, whose frame has y as its pole: +z is in the middle, -x at the right.
 
 // From the left top corner, both 0 to 1; directions along the seam may be beyond by rounding.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // IES profiles: how much a luminaire shines which way. Hosts keep them as tables over directions, see table.glsl, or
 // as the angles of the file.
 

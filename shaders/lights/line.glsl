@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines that stand for thin cylinders. They shine by the sine of the angle off the line.
 
 PATINA_FN float lineAcross(vec3 axis, vec3 direction) {

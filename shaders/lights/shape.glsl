@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shapes of lights are unit shapes under an affine map. In the shape's coordinates, inverse * (p - origin), they are
 //   rect      |x|, |y| <= 1/2, shining along z
 //   disk      x^2 + y^2 <= 1, shining along z

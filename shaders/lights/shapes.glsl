@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shapes that lights have, by number. everyShape.glsl is made by shaders/CMakeLists.txt: the files
 // of shaders/lights/shapes, and the functions that choose among them by number:
 //   bool shapeHit(kind, o, d, out t, out q)   float shapePlaceDensity(kind, s, q)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a light's emission varies with direction (UsdLux ShapingAPI), all angles measured from the light's axis:
 //   focus   mix(focusTint, 1, |cos|^focus)
 //   cone    1 - smoothstep(mix(cutoff, 0, softness), cutoff, angle)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Samples of a sphere light that serve every point at once, as one shadow map per sample asks. Places are
 // uniform on a sphere of four dimensions, projected (Archimedes): seen from far away they are spread evenly
 // over the outline from every side, where half of the places on the surface would face away. They lie

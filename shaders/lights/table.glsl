@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bilinear interpolation in tables that every host reads in its own way.
 
 struct TableCell {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Blinn 1977 with a cosine power of the half vector, normalised exactly to the colour at normal
 // incidence: factor (n + 2) (n + 4) / (8 PI (n + 2^(-n/2))), which gains nowhere (Giesen 2009,
 // "Phong Normalization Factor derivation"). Reciprocal, one-sided.

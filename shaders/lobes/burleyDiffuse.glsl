@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Diffuse reflection of Burley 2012 ("Physically Based Shading at Disney"): MaterialX
 // burley_diffuse_bsdf. Reciprocal, one-sided. Not energy preserving: a white lobe of roughness 1
 // gains 12 percent at 70 degrees and 56 at the horizon, and loses at roughness 0; that is the model.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Light scattered by a hair fibre: MaterialX chiang_hair_bsdf. Chiang, Bitterli, Tappan and Burley
 // 2016 ("A Practical and Controllable Hair and Fur Model for Production Path Tracing") on the
 // longitudinal lobe of d'Eon et al. 2011 ("An Energy-Conserving Hair Reflectance Model"): lobes R,

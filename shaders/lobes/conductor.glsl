@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rough or smooth metal: microfacet reflection with the exact Fresnel equations of a complex ior.
 // MaterialX conductor_bsdf. One-sided: no light for wo or wi at or below the
 // horizon. Reciprocal when `compensate` is 0.

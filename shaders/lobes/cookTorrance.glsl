@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cook and Torrance 1982 ("A Reflectance Model for Computer Graphics"): Beckmann facets, V-cavity
 // masking, with the normalisation by 4 that the paper lacks. Reflectance by Schlick's curve from a
 // colour, or exact for a complex ior. Reciprocal, one-sided, no multiple scattering.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rough or smooth interface between two dielectrics: microfacet reflection (R), refraction (T) or
 // both (RT) with the exact Fresnel equations. MaterialX dielectric_bsdf, without thin film.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directional factors on emission, over the cosine between the direction of emission and the
 // normal: MaterialX generalized_schlick_edf and conical_edf.
 

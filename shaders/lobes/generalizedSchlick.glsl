@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Microfacet interface with a generalized Schlick reflectance: MaterialX generalized_schlick_bsdf.
 // Also the coloured reflectance of dielectric_bsdf under a thin film, since dielectric.glsl has one
 // number.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rough diffuse reflection: MaterialX oren_nayar_diffuse_bsdf. Without energy compensation the
 // qualitative model of Oren and Nayar 1994, with it the energy preserving model EON of Portsmouth,
 // Kutz and Hill 2025 ("EON: a practical energy-preserving rough diffuse BRDF"), which is Fujii's

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Phase function of a medium (Henyey and Greenstein 1941). Unlike a lobe it has no shading frame:
 // wo and wi are unit vectors in any common frame, and both point away from the scattering point.
 // Its value is its density, so it integrates to 1. Reciprocal.

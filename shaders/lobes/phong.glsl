@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Phong 1975 about the mirror direction, normalised so that it is reciprocal and never gains
 // energy (Lafortune and Willems 1994, "Using the Modified Phong Reflectance Model for Physically
 // Based Rendering"). A sharp lobe reflects cos(theta) only: that is the model. One-sided.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Back-scattering fibres over a base: MaterialX sheen_bsdf. Mode conty_kulla is the microfacet
 // model of Conty and Kulla 2017 ("Production Friendly Microfacet Sheen BRDF", eq. 2) without
 // Fresnel and masking, over the smooth denominator of Neubelt and Pettineo 2013 ("Crafting a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Subsurface scattering: MaterialX subsurface_bsdf. Where nobody walks beneath the surface it shows
 // as Lambert reflection.
 

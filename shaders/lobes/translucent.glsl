@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lambert transmission: MaterialX translucent_bsdf. Light leaves on the other side from wo, spread
 // by the cosine, from either side. Reciprocal; eta is 1 because no medium is entered.
 

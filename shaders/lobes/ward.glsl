@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ward 1992 ("Measuring and Modeling Anisotropic Reflection"), with the exponent in the half vector
 // itself instead of the paper's approximation for small angles. WARD_EXACT has the published
 // 1 / sqrt(cos o cos i), whose albedo grows without bound at grazing angles: a white lobe gains.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "shaders/areaLights.h"
 #include "shaders/lights.h"
 #include "shaders/measure/measure.h"

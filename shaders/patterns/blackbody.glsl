@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colour of heated bodies.
 
 // Linear Rec.709 of luminance 1. temperature: kelvin, 800 to 25000. Chromaticity after Kang et al.

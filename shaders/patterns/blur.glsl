@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a blur looks at its input: one tap in each of 5 x 5 cells of a square of width 1 around the
 // point. The cells of a Gaussian hold the same share each of a normal distribution of deviation 0.2,
 // cut off at the square.

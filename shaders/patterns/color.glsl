@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colour arithmetic of pattern nodes. Colours are linear.
 
 // coefficients: of the working space's luminance, Rec.709 by default.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Metal flakes of MaterialX 1.39 (flake2d, flake3d): randomly turned cubes in the cells of a
 // lattice; where several overlap, the one of highest priority shows. Needs patterns/noise.glsl.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hex tiling after Mikkelsen 2022, "Practical Real-Time Hex-Tiling" (JCGT 11.2), as MaterialX 1.39
 // parameterises it: the plane is cut into hexagons, each reads the texture at its own rotation,
 // scale and offset, and three are blended at every point.

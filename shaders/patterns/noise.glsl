@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lattice noise of MaterialX 1.39, whose values are those of OSL's noise(): improved Perlin noise
 // (Perlin 2002) over the lookup3 hash (Jenkins 2006, public domain).
 

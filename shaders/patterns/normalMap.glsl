@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tangent space normal maps.
 
 // encoded: normal in [0, 1] per channel, 0.5 being 0. scale: strength along tangent and bitangent.

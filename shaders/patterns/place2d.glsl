@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Placement of texture coordinates.
 
 // angle: degrees, counter-clockwise for the coordinates (so a texture turns clockwise), as

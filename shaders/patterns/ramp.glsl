@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ramps of MaterialX 1.39.
 
 // Where a point of the unit square lies on a ramp. kind: 0 along u, 1 around the middle, 2 and 3

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Helpers that turn artistic parameters into those of lobes.
 
 // MaterialX roughness_anisotropy: GGX alpha along x and y from roughness and anisotropy in [0, 1].

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shapes and tilings of the plane, after MaterialX 1.39. All give 0 or 1; nothing is antialiased
 // here, which a renderer that takes several samples per pixel does anyway.
 

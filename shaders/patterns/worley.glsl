@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Worley (cellular) noise of MaterialX 1.39: distances to the nearest of one point per cell
 // (Worley 1996). Needs patterns/noise.glsl.
 

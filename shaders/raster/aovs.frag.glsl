@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 layout(location = 0) out vec4 outPosition;
 layout(location = 1) out vec4 outNormal;
 layout(location = 2) out ivec4 outIds;

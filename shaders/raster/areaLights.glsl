@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Area lights by linearly transformed cosines (choice point areaLight): no noise but that of shadows.
 // Shadows are the share of the lights' samples above the surface's horizon that are seen, all of them
 // alike. Diffuse lobes count as Lambert's, mirrors as round GGX with the albedo of the view; sheen has

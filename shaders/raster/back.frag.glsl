@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The nearest faces that are turned away from the camera.
 layout(location = 0) out vec4 outPosition;
 layout(location = 1) out vec4 outNormal;

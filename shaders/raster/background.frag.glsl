@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the camera sees where no surface is: area lights as solid shapes, and domes.
 #include "shaders/compat/glsl.glsl"
 #define ALL_LIGHTS

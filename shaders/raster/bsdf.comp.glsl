@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers of a material at one point, one query per invocation; see hdDelegate/raster/scene/rasterBsdf.h.
 layout(local_size_x = 1) in;
 layout(std430, binding = 0) readonly buffer Queries { vec4 queries[]; };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The camera's ray through the place in the window that a fragment shows.
 in vec2 vWindow;
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Attributes of the vertex stage: a vertex, and the instance that it is drawn for.
 layout(location = 0) in vec4 inPosition; // w: of strips the half width, negative on the right; else 0
 layout(location = 1) in vec3 inNormal; // of strips: along the curve, as long as a StripEnd

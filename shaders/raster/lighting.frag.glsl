@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Direct light: one sample of each light with a shadow map, and samples of the BSDF for what lights
 // would miss. Both find the same light, so their shares follow the power heuristic (Veach 1997).
 // The shadows of the BSDF's samples are approximate, hence the lights' weigh more than their density

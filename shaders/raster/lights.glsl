@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lights as a pass knows them, and their shapes. See hdDelegate/raster/lights/rasterLight.h.
 
 #include "shaders/lights/table.glsl"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which lights reach and are blocked by a prim: rows of bits, one per category of links. The first
 // number tells the words of a row.
 layout(std430, binding = 9) readonly buffer Links { int links[]; };

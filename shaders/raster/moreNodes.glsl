@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pattern nodes that few materials have, and that cost a driver time to read: noise of many kinds,
 // flakes, hexagonal tiles, matrices, placed images, differences, hair. The text of a material
 // includes this where it needs it. As materialNetwork/nodes, in GLSL.

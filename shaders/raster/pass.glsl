@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers and lights of a pass.
 #include "shaders/raster/passBlock.glsl"
 #include "shaders/raster/lights.glsl"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What all passes know. Binding points: uniform blocks 0 pass, 1 parameters of a material; storage
 // 2 vertices, 3 instances, 4 lights, 5 shadow matrices, 7 albedo tables, 8 tables of lights,
 // 9 links, 10 sky cells; textures from 16 on: 16 domes, 17 their densities, 18 shadow maps,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Casters that light may pass: presence as a chance, as seen from the light.
 layout(location = 6) uniform vec4 towardsLight; // position of the light, or direction where w is 0
 #include "shaders/raster/lightShape.glsl"

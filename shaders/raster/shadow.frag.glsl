@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "shaders/raster/slope.glsl"
 #ifdef AROUND_LIGHT
 #include "shaders/raster/lightShape.glsl"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Opaque casters: positions only.
 #include "shaders/raster/instance.glsl"
 layout(location = 2) uniform mat4 worldToMap;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shadows of lights' samples, and of directions that are none, by the cells of the sky.
 // Defined before: isTube(), planeTowards() and departure() as surface.frag.glsl has them.
 layout(std430, binding = 5) readonly buffer ShadowMatrices { mat4 shadowMatrices[]; };

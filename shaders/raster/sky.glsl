@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Domes by other methods than samples with shadow maps (choice point domeLight). Passes are free of
 // noise but for shadows.
 layout(binding = 20) uniform sampler2DArray prefilteredMaps;

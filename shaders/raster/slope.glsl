@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Of a caster: how its depth changes from texel to texel of a shadow map.
 layout(location = 0) out vec2 slope;
 void writeSlope() {

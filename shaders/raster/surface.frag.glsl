@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Begins the fragment stage of everything that evaluates a material: the shading point.
 #include "shaders/raster/triangles.glsl"
 in vec3 vPosition;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "shaders/raster/passBlock.glsl"
 #include "shaders/raster/instance.glsl"
 

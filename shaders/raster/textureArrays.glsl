@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Textures that are layers of an array: UDIM tiles, and those that have no unit of their own.
 // As hdDelegate/image/textureSystem.cpp.
 vec4 nodeLayerAt(sampler2DArray s, vec2 uv, float footprint, int layer) {

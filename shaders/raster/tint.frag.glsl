@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What coloured surfaces do to all that is behind them, where this pass does not show them: factors,
 // so that their order does not matter.
 layout(location = 0) out vec4 outColor;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A volume prim over what is drawn already: one place where light scatters is drawn from each ray's
 // steps and lit, by light that is scattered there for the first time and by what diffuses.
 #include "shaders/compat/glsl.glsl"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The methods for directional albedos against quadrature, over the 32 x 32 cell centres of (cosine,
 // root of alpha): RMSE times 65535, single scattering. Everything here is deterministic.
 

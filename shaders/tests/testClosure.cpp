@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How lobes become a material: frames, slabs, the choice of a lobe, media. Layers are tested with
 // whole materials (materialNetwork/tests/testLayerReturn.cpp).
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Identities and textbook values of the reflectance curves.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lobes, patterns and lights as GLSL: every file of the dialect compiles as a compute shader (with
 // storage buffer) and as an OpenGL ES 3.0 fragment shader (with the host's own table look-up).
 

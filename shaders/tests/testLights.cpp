@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shapes, shaping and maps of lights: what the rasterizer and the page have of them is what
 // geometry says. The path tracer's samples are tested in hdDelegate/lights/tests.
 

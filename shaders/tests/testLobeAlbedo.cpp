@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directional albedos against quadrature, furnaces against 1, and the tables' error as measured
 // here.
 

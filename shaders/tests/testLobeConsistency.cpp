@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // eval, sample and albedo of every lobe say the same thing, in float and in double.
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Extremes of every input: nothing is ever NaN, infinite or negative, mirrors are exact, the switch
 // to a mirror is not seen, and the identities between lobes hold.
 

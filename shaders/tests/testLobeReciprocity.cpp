@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lobes that are declared reciprocal are, in the flux form of refraction (each side weighted by its
 // ior squared); the energy factor breaks it, and is declared to.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The float samplers draw from the density that the double instance states: chi-squared tests over
 // the sphere. Significance 0.01 for the whole suite (Sidak over all runs), at a fixed seed. Delta
 // parts are left out here; LobeDegenerate tests them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Linearly transformed cosines against brute force: shares of polygons are exact for the cosine,
 // and within a stated bound of what facets reflect. Everything here is deterministic.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The random walk on the microsurface, and how far energy compensation is from it. Fixed seeds;
 // bounds are five standard errors, so that a wrong walk fails and chance does so once in a million.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The phase function: normalised, sampled by its own density, with the mean cosine that it
 // promises.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Samples of sphere lights: their density is that of where they are, and it does not change much
 // over what a point sees of the light. Fixed seeds; the limits are far above what they leave.
 

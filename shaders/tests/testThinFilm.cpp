@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Thin film against the exact spectral Airy formula, integrated over the channels' sensitivities,
 // and the identities that hold whatever the fit.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functions that a stage does not need are left out of its text, and nothing else.
 
 #include "shaders/unusedFunctions.h"

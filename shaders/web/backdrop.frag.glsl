@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What stands behind the shape: the environment, or a colour.
 precision highp float;
 precision highp int;

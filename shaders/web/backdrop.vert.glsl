@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 precision highp float;
 uniform vec2 jitter;
 in vec3 position;

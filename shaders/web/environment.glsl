@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What comes from infinitely far: a map around a vertical axis, and an even part.
 #include "shaders/lights/dome.glsl"
 uniform sampler2D environmentMap;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Begins every fragment shader of the material page (GLSL ES 3.00). The albedo tables are a texture.
 precision highp float;
 precision highp int;

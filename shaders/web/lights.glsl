@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Direct lights of the material page, in a texture, 14 texels in a row for each:
 //   0 origin of the shape, kind          1 radiance (of delta lights: irradiance or intensity), on
 //   2, 3, 4 axes of the shape, see shaders/lights/shape.glsl; w: area of triangles; volume; versine of a distant

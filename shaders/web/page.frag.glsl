@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ends the fragment shader of a material on the page: a few samples of the BSDF find environment and
 // lights, and a few samples of each of them; the host averages over passes. Samples of the BSDF read
 // the environment where its mip level is as coarse as they are sparse (filtered importance sampling,

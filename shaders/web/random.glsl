@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points for the samples of a pixel: the sequence of Roberts (2018) in two dimensions, the golden
 // ratio and the root of two for choices. Each pixel begins elsewhere, by interleaved gradient noise
 // (Jimenez 2014), so that neighbours err in opposite directions and the eye averages them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // GLSL ES 3.00. The world is that of the stage, or a unit shape at the origin.
 precision highp float;
 uniform mat4 objectToWorld;

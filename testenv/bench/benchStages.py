@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Stages that benchmarks make for themselves: of a known size, the same for every renderer."""
 import math
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Frames in Hydra beside hdEmbree and Storm, each renderer in a process of its own, in the same host.
 
 Seconds until the first image of one sample (Hydra's population and the building of acceleration structures

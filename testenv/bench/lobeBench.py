@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the lobes of a constant material cost at a vertex of a path, beside Mitsuba's `principled`.
 
 A closed room of one material, with a lamp at its ceiling and without Russian roulette: every path has as many vertices as it may,

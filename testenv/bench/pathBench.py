@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Path tracing beside Mitsuba 3 and Cycles: seconds until the image's error is small, each renderer against itself.
 
 Every renderer draws every scene several times with seeds of its own, with a few and with many samples. The error of an image is

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The path tracing benchmark's scenes in Cycles, run by Blender: blender -b --python pathCycles.py -- FOLDER"""
 import os
 import sys

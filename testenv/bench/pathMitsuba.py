@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The path tracing benchmark's scenes in Mitsuba 3 (PyPI: mitsuba). Arguments: the folder and a variant."""
 import os
 import sys

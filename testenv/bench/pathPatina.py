@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The path tracing benchmark's scenes in Patina: a stage of UsdGeom, UsdLux and UsdShade, read as any other."""
 import os
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Scenes of the path tracing benchmark, described once for every renderer.
 
 A scene is a Scene of triangle meshes with constant or textured principled materials and glass, rects of light, and a sky.

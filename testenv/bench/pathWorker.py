@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the renderers' processes of the path tracing benchmark have in common: scenes on disk, and the talk with the benchmark.
 
 A worker is started with a folder and reads a line of JSON for each image: {"samples", "seed", "file"}. It answers with the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Frames of the rasterizer, beside Storm in the same host where OpenUSD is found, each in a process of its own.
 
 Seconds until the first image (reading the stage and building shaders are in it), after an edit of a material (of a light

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Times the rasterizer: python rasterTimes.py STAGE WIDTHxHEIGHT PRIM.INPUT=NUMBERS [REPEATS [BACKEND]]. A process that has
 drawn nothing yet; prints one line of JSON: seconds of a first frame, after an edit of a shader's or light's input and after
 a camera move, each of one sample per pixel, where their time goes, and peak memory."""

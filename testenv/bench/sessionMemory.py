@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Memory of a session: python sessionMemory.py STAGE WIDTHxHEIGHT BACKEND [BACKEND ...]. Renders one scene by one back end
 after the other, one sample per pixel, and keeps them all. Prints a line of JSON after each: megabytes on the heap, resident,
 and the most that were resident. Needs glibc."""

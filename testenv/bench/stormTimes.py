@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Times Storm in usdrecord's frame recorder: python stormTimes.py STAGE WIDTH [CAMERA [PRIM.INPUT=NUMBERS]], in the
 Python of OpenUSD and with a screen. Prints one line of JSON: seconds until the first image, after a camera move and after
 an edit of the input where one is given, and peak memory."""

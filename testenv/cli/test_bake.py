@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`patina bake`: what is written says the same as the material translated on the fly."""
 import os
 

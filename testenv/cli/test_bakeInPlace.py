@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`patina bake --in-place`: the material is replaced, everything else in the file stays."""
 import os
 import resource

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`patina bsdf` and `patina explain` on materials of both kinds of file."""
 import io
 import json

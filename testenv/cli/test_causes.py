@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Many warnings of few causes: what matters stands first, and is not hidden by what is met often."""
 import json
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """patina chart --lobes, and what --method list says of what it measured."""
 import csv
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """patina chart STAGE...: what its numbers mean, on synthetic data, and one small run through everything."""
 import argparse
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`patina check`: passes what is right, and finds each kind of mistake in materials made wrong on purpose."""
 import json
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`patina compare` reads files, picks channels, and can judge."""
 import json
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`record --denoise`: less error, the noisy colour kept, and a clear word where there is no denoiser."""
 import os
 

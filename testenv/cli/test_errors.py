@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Whatever goes wrong is one line, and the exit status 1, or 2 for wrong usage."""
 import builtins
 import os

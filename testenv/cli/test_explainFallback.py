@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`explain` of what cannot be shown, and names of materials with namespaces."""
 import json
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Frame specs expand as usdrecord's do, and frames get their place in the image's name."""
 import pytest
 

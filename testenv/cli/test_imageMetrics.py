@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The metrics of `patina compare` against numbers worked out by hand."""
 import numpy as np
 import pytest

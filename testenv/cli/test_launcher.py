@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The launcher decides rightly what to install and what to build. Its tools are stand-ins that note
 that they were called."""
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Layers by albedo scaling against a random walk: the walk meets closed forms, and the error of the layers, which
 `patina check --layers` prints, is at most half of that of layers which ignore what an interface sends back down."""
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The colours of charts can be told apart by people of any colour vision, and read, on white and on black."""
 import itertools
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Where commands write: over nothing but regular files, over none that they read, whole or not at all."""
 import os
 import resource

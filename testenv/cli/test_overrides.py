@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """--set changes inputs in the session layer, with the type that they have."""
 import pytest
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Text of a document that reaches a page, and the layer that the page saves: it stays text."""
 import base64
 import gzip

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the planner predicts holds: images by planned methods stay within the tolerance of those by the truth; and how a
 tolerance reaches renders.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """An optional library that is there but does not compile is left out with one line, and the build goes on."""
 import os
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a render says of itself while it lasts."""
 import io
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What `patina record` writes besides the pixels: frames, AOVs, statistics, checkpoints."""
 import json
 import os

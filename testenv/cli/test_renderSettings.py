@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """--settings: what a UsdRenderSettings prim says of camera, resolution, products, AOVs, purposes and settings is done, and
 flags are stronger; --layer: opinions over the stage."""
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Scripts that documents name run as they print them, and with any Python: they find the checkout's environment."""
 import os
 import re

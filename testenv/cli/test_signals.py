@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Ctrl+C, the end of a job and of a terminal: nothing is left behind, nothing that was rendered is lost."""
 import os
 import signal

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Snapshots while a render runs, what --verbose tells, exit statuses, and the command that goes on."""
 import json
 import os

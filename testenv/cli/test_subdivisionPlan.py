@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The choice point `subdivision`: edges get shorter with the tolerance, and pictures are as near the finest as predicted."""
 import json
 import os

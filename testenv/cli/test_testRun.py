@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`patina test` hands tiers and rooms to pytest, runs what is named whatever its tier, and names rooms that there are not."""
 import os
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Standard streams that are closed, cut or full: what cannot be told is not told, and the image is written."""
 import io
 import os

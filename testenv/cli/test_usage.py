@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every command has help; wrong usage has exit status 2 and one line."""
 import pytest
 

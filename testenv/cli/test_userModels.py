@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Shading models that a user adds as files."""
 import os
 import subprocess

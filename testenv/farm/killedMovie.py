@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A movie on local workers of Dask, one of which is killed every few seconds: is it whole, with the bits of one process?
 
     ./patina python testenv/farm/killedMovie.py FOLDER [--frames 1:24] [--cut 2x2] [--workers 4] [--every 3]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A small movie, rendered by a farm and frame by frame at once; the bits are compared."""
 import os
 import subprocess

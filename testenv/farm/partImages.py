@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renders frames at once and cut, and compares all that their files hold."""
 import os
 

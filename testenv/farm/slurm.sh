@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # A Slurm of this machine alone, on the loopback address and below one folder, while a command runs:
 #
 #   testenv/farm/slurm.sh FOLDER COMMAND...

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A movie through Slurm: slurm.sh starts one on this machine, dask-jobqueue asks it for workers, and the bits are compared.
 
     ./patina python testenv/farm/slurmMovie.py FOLDER [--frames 1:6] [--cut 2] [--workers 2]

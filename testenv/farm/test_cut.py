@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Cuts: what they are written as, and where samples may be cut."""
 import pytest
 

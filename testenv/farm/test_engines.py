@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Engines: what they are written as, and movies on real ones."""
 import os
 import re

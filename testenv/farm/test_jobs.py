@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Open Job Descriptions, checked and run by its own command line."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A frame that was cut has the bits of the frame rendered at once; parts that do not belong together are refused."""
 import json
 import os

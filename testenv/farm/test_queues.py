@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Queues that are not on this machine. Their programs are stand-ins that keep the script of a job and run it: the scripts, and
 what becomes of them, are real."""
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a job removes, which commands it sends, and how it tells that what failed may pass."""
 import concurrent.futures
 import os

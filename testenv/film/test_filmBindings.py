@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The film and image files as Python sees them: arrays, options, errors."""
 import numpy as np
 import pytest

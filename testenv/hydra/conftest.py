@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Makes the helpers beside the tests importable, and leaves the tests out where there is no Hydra:
 test_found.py says so in one line."""
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The OpenUSD that the plugin was built for: where it is, and how to run programs of it."""
 import glob
 import json

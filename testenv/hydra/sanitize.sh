@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Builds the Hydra plugin and its tests with sanitizers and runs them: 10,000 random edits while rendering,
 # and everything that hosts do to a delegate. Each sanitizer has a build folder of its own.
 #

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Makes the texts of one scene from two hosts comparable.
 
 What Hydra does not keep is taken out of both:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The stages that the Hydra tests render, with a camera for each: hosts need one that is a prim."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The rasterizer in Hydra: the render setting `backend`, the renderer "Patina GL", images that change over from one to
 the other, and what is shown where OpenGL fails."""
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Says in one line when the Hydra tests are left out, and asks the plugin whether it can be used."""
 import os
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The radiance of a white Lambertian floor under each light, through Hydra, against closed forms."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Both hosts make the same scene of a stage: as text, and bit for bit as an image.
 
 What Hydra changes on the way, and the text therefore may not show, is taken out of both texts by

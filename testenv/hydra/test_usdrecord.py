@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """usdrecord with our renderer: every test scene and every stage of the assets becomes an image, with and
 without a GL context, from UsdImagingDelegate and from scene indices."""
 import os

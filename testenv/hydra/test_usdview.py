@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """usdview shows, picks and edits with our renderer, in both ways into Hydra."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Numbers that are committed, read and not measured: the table of methods that is compiled in, and the numbers that documents
 show. No test here renders, so none fails when the renderer does."""
 import os

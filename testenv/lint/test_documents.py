@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Documents name files that are there, link to places that are there, and the first two stay short."""
 import glob
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Source files name their licence, and the list of licences knows what the project uses."""
 import glob
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The manifest knows every test: each has a tier and rooms, and no rule is left over from what is gone."""
 import fnmatch
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The folders of the material pipeline include only those that docs/design/plan.md says they may."""
 import os
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every warning in the code has a line that says what to do, and every such line has a warning."""
 import messageTexts
 from patina.cli import advice

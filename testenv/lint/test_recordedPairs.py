@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The recorded pairs of docs/measurements/rasterPairs.md, read and not rendered: a lint of committed numbers."""
 import os
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Rooms include only those that ARCHITECTURE.md says they may: its table and its diagram are read, and every C++ include."""
 import os
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Exports a test scene to Mitsuba 3, so that a renderer which nobody here wrote can check ours.
 
 Only what the test scenes use is translated: meshes, spheres and cubes with constant materials made

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Patina and Mitsuba 3 render the same scenes and agree within noise.
 
 Both render every scene several times with independent seeds. The mean of each 8x8 tile of each

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Values of single lobes against Mitsuba 3's plugins, direction by direction.
 
 Mitsuba shadows by the product of both G1, our Smith lobes by the height-correlated form and

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Makes every package of this checkout and uses each as its users do: the wheel in a fresh Python environment, the .deb with the
 # system's Python, the tarball where it is unpacked, and the example host against what the .deb holds. All must render the same
 # bits, with the library of every level that the processor has.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Wheel, .deb, tarball and example host, each made and used as its users do."""
 import os
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The typed interface says what the compiled module has: every name and every signature."""
 import ast
 import inspect

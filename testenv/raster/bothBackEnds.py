@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Renders test scenes by both back ends and writes one HTML page: a table of RMSE, FLIP, bias and times, then the images.
 
     bothBackEnds.py OUTPUT_FOLDER [SCENE...] [--samples N] [--width PIXELS] [--truth N] [--update] [--assets] [--resume]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Do both back ends draw the same picture? A two-sample test per tile, with a margin that is the same for every stage.
 
 An image is cut into tiles of about 8 x 8 pixels, each with three channels. The pixels of a pass of the rasterizer share their

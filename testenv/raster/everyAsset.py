@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Everything under $PATINA_ASSETS that can be rendered: its stages as they are, and each material of its MaterialX documents
 on the ball of materialSheet.py."""
 import functools

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """How far the rasterizer's first images are from converged direct light.
 
     firstPass.py [STAGE...] [--passes N[,N...]] [--seeds N[,N...]] [--width PIXELS] [--truth N] [--cache FOLDER] [--images FOLDER]

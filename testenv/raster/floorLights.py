@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A floor with a block on it under lights of one's own: text of stages."""
 import os
 

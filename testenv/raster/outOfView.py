@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Stages in which an emitter stands above the frame: a floor with a block on it, seen from low down and close.
 
 Only the floor and the block are in view, so that whatever is lost of an emitter because the camera does not see it is missing

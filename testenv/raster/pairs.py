@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One scene through both back ends, and the numbers of the pair."""
 import json
 import os

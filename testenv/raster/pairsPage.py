@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One HTML page of scenes by both back ends: a table of numbers, then the images and their difference."""
 import base64
 import html

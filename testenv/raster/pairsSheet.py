@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Contact sheets of pairs: a row for each with the rasterizer's image, the path tracer's direct light and four times their
 difference, labelled."""
 import glob

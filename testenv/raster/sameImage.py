@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The picture of a stage by the rasterizer beside the path tracer's direct light of it or of another, by equivalence.py."""
 import functools
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Area lights by linearly transformed cosines: near the path tracer's answer, without noise, and samples where they must be.
 
 Both images are made of fixed seeds, so that a difference is a change of the code.

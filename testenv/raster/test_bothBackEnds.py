@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Both back ends draw the same picture of every stage, tile by tile (equivalence.py says how that is decided).
 
 Test scenes, emitters out of view, and stages that were not made for this. All seeds are fixed, so that the same comes every

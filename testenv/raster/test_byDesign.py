@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Each feature that the rasterizer draws otherwise by design (byDesign.py): it draws what is said there, and that is not
 what the path tracer draws. Both by the test of equivalence.py: the rasterizer's image is the path tracer's of the stage
 without the feature, with the same margin as everywhere, and differs from the path tracer's image of the stage itself."""

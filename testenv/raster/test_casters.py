@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Shadows that both back ends find alike: of what is cut out by a texture, and on surfaces that bend towards the light."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Curves by the rasterizer: as wide as they are, and lit through, whether strips or tubes of polygons stand for them."""
 import numpy as np
 import pytest

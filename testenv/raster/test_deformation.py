@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Points that move while the shutter is open, drawn by the rasterizer, against the closed form."""
 import numpy as np
 

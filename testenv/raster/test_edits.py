@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Edits rebuild what they touch, and the image is that of a renderer which has drawn nothing before."""
 import os
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Emitters of all kinds, in view and out of it, light a floor and a block as they do in the path tracer's direct light.
 
 Both back ends render everything with 8 seeds (0 to 7). Means of 8 x 8 pixels and of the whole image are held together by

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What happens where the rasterizer cannot: one clear message, and the path tracer's image in its place; a smaller
 texture or displayColor where that is enough.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The rasterizer's first image is right in the mean, and looks like the converged one where few lights are all there is."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Light that reaches a floor through refracting things, which cast a part of a shadow: closed forms with a sun overhead."""
 import numpy as np
 import pytest

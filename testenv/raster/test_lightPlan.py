@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """With a tolerance the rasterizer lights each material by the cheapest way that the table of methods finds good enough."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Many rasterizers in one process, each with a context of its own: at once, one after the other, on any thread."""
 import os
 import threading

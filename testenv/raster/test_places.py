@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Where things are does not change what they look like: far from the world's origin, beside casters that are far away,
 on displaced polygons; and the AOVs of both back ends are the same. Comments say how far tiles were off without what a case
 is for.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Energy, in every test scene and by both back ends: under a white sky, with no other light, nothing is brighter than the
 sky, and where nothing stands in the way the sky shows.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Stages of a white Lambertian floor under each kind of light, with closed forms of its irradiance.
 
 A floor of albedo 0.5 reflects 0.5 E / pi. The irradiances E are those of textbooks (Siegel and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Helpers of the image tests: render a stage as the command line does, read pixels back."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Bad input gives a message that names the prim, and an image where there can be one."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A wide blur shows no ghosts of what it blurs: its taps lie elsewhere in every sample, on both back ends."""
 import numpy as np
 import pytest

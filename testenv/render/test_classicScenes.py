@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The stages of the classic BRDFs: what their documentation says of them."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The error of every test scene falls with samples at least as fast as that of independent samples.
 
 The reference has 16 times the samples of the finest image and another seed, so its own error is a

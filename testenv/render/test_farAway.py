@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Far from the origin a scene looks as it does near by: everything under one transform is moved there."""
 import numpy as np
 import pytest

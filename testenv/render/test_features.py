@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """End-to-end checks of what no closed-form light test covers: links, opacity, emission, media, AOVs."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """White furnace: a convex object in a uniform dome shows its directional albedo, and nothing else."""
 import numpy as np
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Numbers that no ray can be made of: a message that names the prim, and no ray that ends the process."""
 import numpy as np
 import pytest

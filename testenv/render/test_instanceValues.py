@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Primvars with a value per instance: instances look like copies that have the values themselves."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """More light samples where the camera looks change the noise, not the image: they and samples of the BSDF stay weighted to one."""
 import numpy as np
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Mixed surface shaders, back shaders and unlit surfaces, from stage to picture."""
 import pytest
 

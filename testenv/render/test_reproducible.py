@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A pixel depends on scene, settings and seed: not on threads, interruption or order."""
 import json
 

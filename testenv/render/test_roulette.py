@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Roulette changes the noise and the time of an image, not its mean."""
 import numpy as np
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A subdivided mesh of few faces covers as much of the picture from far away as from near."""
 import numpy as np
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Methods that walk at random, as the path tracer renders them: values from light samples and samples of the material
 are weighed against each other by densities that are estimates, and nothing may come out brighter or darker for it."""
 import numpy as np

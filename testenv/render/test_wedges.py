@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The wedge pictures of docs/gallery.md can be made: no stage of them fails or warns."""
 import os
 import sys

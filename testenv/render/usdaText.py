@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renders small stages in the process of the test."""
 import numpy as np
 

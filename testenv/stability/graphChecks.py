@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What must hold for every material, whatever is in it: numbers at its worst places, from either back end."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Random legal MaterialX graphs of physically based shading nodes, as text.
 
 A seed gives the same text for ever. Parameters are ordinary values, the extremes of float (0, tiny, huge, negative),

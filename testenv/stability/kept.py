@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Graphs that failed once, kept as documents: what may be expected of one stands in a comment, with what failed. The word
 `raster` there has both back ends compared."""
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Makes random legal material graphs and looks for what breaks.
 
     ./patina python testenv/stability/randomGraphs.py --seed 1 --count 1000 --keep FOLDER [--raster 20]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The atlas of stability: what is used where a method fails stays within its bound, and the method does fail there."""
 import csv
 

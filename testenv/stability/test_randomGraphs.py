@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Random legal graphs, and those that failed once: no crash, finite, not negative, no energy gained, both back ends equal.
 
 More of them: ./patina python testenv/stability/randomGraphs.py --seed N --count M --keep FOLDER

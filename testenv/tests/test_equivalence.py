@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The test that holds the back ends together finds what it says that it finds, and no more often than it says."""
 import os
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A test that takes its process down fails alone: all others of the run are run, and pass."""
 import os
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs what a tutorial says, in a folder of its own, and shows it.
 
     ./patina python testenv/tutorials/runTutorial.py docs/tutorials/firstPicture.md [FOLDER]

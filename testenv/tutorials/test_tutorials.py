@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every tutorial does what it says."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The blocks of a tutorial: files that it tells to save, and commands that it tells to run."""
 import dataclasses
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A headless Chromium that shows pages of `patina view`, driven by PyPI's playwright, which brings the Node that it needs."""
 import functools
 import os

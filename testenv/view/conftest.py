@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The page's tests run in a headless Chromium; without one, playwright, Node or npm's packages they are left out,
 and test_found.py says so."""
 import os

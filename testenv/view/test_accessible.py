@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Report, charts, sheets and the page of materials can be used by keyboard and screen reader: axe-core finds no serious
 violation of WCAG 2 A and AA on them, in light and in dark, and Tab reaches what can be operated."""
 import os

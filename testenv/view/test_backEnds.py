@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The page beside Patina's rasterizer, at the same view and sample count. The light is such that both are done with few
 samples, so that what differs are the materials and not the noise."""
 import os

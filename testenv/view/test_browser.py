@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The browser that ends by itself fails the test that uses it, and no other."""
 import os
 import signal

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Values with a colour space have the colour that the renderer shows, on sliders and in what is saved."""
 import numpy as np
 import pytest

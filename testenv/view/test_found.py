@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Says once why the page's tests are left out."""
 import browser
 import pytest

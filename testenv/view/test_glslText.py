@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The texts of pages are GLSL ES 3.00 that a validator takes, for materials of every lobe and many patterns."""
 import glob
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Materials that mean harm, or too much: the page stays safe and opens, or there is a clear refusal."""
 import json
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every input has a control: numbers slide, what decides the program is chosen from a list, the rest says why it is fixed."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every kind of direct light on the page beside the path tracer, one at a time. None stands before the
 camera, which sees the path tracer's lights."""
 import numpy as np

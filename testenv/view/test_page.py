@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One page of one material, in a browser: nothing is complained about, and every part does its work."""
 import json
 import os

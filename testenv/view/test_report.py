@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The page of `patina record --report`, in a browser: it tells the render's own numbers, needs nothing else, and works."""
 import json
 import os

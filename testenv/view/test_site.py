@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The site is whole, is read without a network, and can be used by keyboard and screen reader."""
 import html.parser
 import json

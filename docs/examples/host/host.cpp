@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Renders a red ball under a white sky: host IMAGE [BACKEND]
 #include <hdDelegate/backends/backends.h>
 #include <hdDelegate/film/imageFile.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Updates of a scene that run out of memory anywhere: the next one makes whole what they did not.
 
 #include "hdDelegate/compiled/compiledScene.h"

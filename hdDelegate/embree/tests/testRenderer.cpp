@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/renderer/renderer.h"
 
 #include <gtest/gtest.h>

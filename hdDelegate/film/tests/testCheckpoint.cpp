@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/film/tests/tempFolder.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/film/tests/tempFolder.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The error that a film expects of its image, against the error that there is: of samples whose
 // limit is known. Each case has many images of fixed seeds; what is asked holds with a significance
 // of 1e-3 or better for any other seeds.

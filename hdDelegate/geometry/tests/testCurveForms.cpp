@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hermite and NURBS curves as Bezier ones.
 
 #include "hdDelegate/geometry/curveForms.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Displacement against closed forms, and what must not tear or lose its edges.
 
 #include "hdDelegate/geometry/displace.h"

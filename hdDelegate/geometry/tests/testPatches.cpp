@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NURBS patches and meshes of tetrahedra.
 
 #include "hdDelegate/geometry/drawnFaces.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/aovs.h"
 #include "hdDelegate/hydra/clearValue.h"
 #include "hdDelegate/hydra/pixelFormats.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // patinaReadField FILE GRID: writes a grid of an OpenVDB file to standard output (fieldStream.h).
 // A program of its own, because OpenVDB aborts, overruns its memory or never ends on damaged files,
 // and what happens here does not happen to the host. The only file that knows OpenVDB.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Grids of OpenVDB files, as they were written.
 
 #include "hdDelegate/image/fieldGrid.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 // Small scenes of lights, and Monte Carlo estimates with their confidence.

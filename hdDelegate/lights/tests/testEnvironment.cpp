@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Domes with images: orientation, formats, importance sampling.
 
 #include "hdDelegate/lights/tests/lightTools.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Densities: what sample() reports, what the pdf functions say of the same direction, and that they
 // integrate to 1.
 

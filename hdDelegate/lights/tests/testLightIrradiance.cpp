@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each light type against the closed form of the irradiance that it gives, by samples and by rays.
 
 #include "hdDelegate/lights/tests/lightTools.h"

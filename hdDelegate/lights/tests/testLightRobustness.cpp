@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lights that are broken: no NaN, no crash, a warning that names the light where it is a mistake.
 
 #include "hdDelegate/lights/tests/lightTools.h"

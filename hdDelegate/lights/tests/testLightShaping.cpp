@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Focus, cone and IES against spot values of the documented formulas.
 
 #include "hdDelegate/lights/lightShaping.h"

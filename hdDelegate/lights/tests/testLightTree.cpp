@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Choosing among many lights.
 
 #include "hdDelegate/lights/tests/lightTools.h"

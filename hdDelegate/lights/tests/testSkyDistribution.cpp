@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The density that images of domes are sampled by: worth times the cosine of a surface.
 
 #include "hdDelegate/lights/skyDistribution.h"

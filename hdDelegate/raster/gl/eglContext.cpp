@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/gl/eglContext.h"
 
 #include "hdDelegate/raster/gl/glFaults.h"

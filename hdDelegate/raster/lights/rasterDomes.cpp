@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/lights/rasterDomes.h"
 
 #include "hdDelegate/raster/lights/prefilteredSky.h"

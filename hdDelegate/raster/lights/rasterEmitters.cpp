@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/lights/rasterEmitters.h"
 
 #include "hdDelegate/geometry/primvarEval.h"

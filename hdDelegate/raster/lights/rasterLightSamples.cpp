@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The samples that a pass takes of the lights.
 
 #include "hdDelegate/raster/lights/lightChoice.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/measure/measureDome.h"
 
 #include "hdDelegate/raster/measure/domeMethods.h"

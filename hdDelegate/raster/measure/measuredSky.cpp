@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/measure/measuredSky.h"
 
 #include "hdDelegate/film/sampler.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/passes/rasterAovs.h"
 
 #include "hdDelegate/film/aovValues.h"

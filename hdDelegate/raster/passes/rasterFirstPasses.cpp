@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What first looks make of a film, see RasterLook.
 
 #include "hdDelegate/raster/passes/rasterPasses.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ids, positions and normals of what is seen, and what follows from where it is.
 
 #include "hdDelegate/raster/gl/deviceError.h"

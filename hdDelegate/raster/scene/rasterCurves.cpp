@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/geometry/curveSegments.h"
 #include "hdDelegate/geometry/tangentFrames.h"
 #include "hdDelegate/raster/scene/rasterShapes.h"

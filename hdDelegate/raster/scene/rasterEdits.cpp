@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Updates of RasterScene after edits of prims that stay where they are in the scene: only what the
 // edits touch is looked at.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // RasterScene: the groups, instances and draws of one prim.
 
 #include "hdDelegate/raster/scene/rasterScene.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/scene/rasterShapeCache.h"
 
 #include "hdDelegate/raster/scene/rasterDetail.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The views from lights that shadow maps are drawn with.
 
 #include "hdDelegate/raster/lights/rasterLights.h"

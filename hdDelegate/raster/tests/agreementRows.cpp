@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of lobes whose GLSL is compared with C++. A new lobe is one more row.
 
 #include "hdDelegate/raster/tests/agreement.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every lobe as the driver runs it, against the same text as C++ in double precision.
 
 #include "hdDelegate/raster/gl/glProgram.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The context, and a program on it: what is drawn comes back, and what is wrong is told by name.
 
 #include "hdDelegate/raster/gl/glProgram.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Culling leaves out what no view shows, and nothing else.
 
 #include "hdDelegate/raster/shadows/rasterCulling.h"

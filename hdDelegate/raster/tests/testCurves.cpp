@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Curves as triangles: how many, how wide, and along what.
 
 #include "hdDelegate/raster/scene/rasterShapes.h"

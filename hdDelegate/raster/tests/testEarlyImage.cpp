@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Images while programs are compiled: what is not ready shows displayColor, and nothing of that
 // reaches the final image.
 

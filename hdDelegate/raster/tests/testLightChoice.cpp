@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/lights/lightChoice.h"
 #include "hdDelegate/raster/lights/rasterLights.h"
 #include "hdDelegate/raster/tests/rasterTest.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole materials as the driver runs their generated text, against the program that the path tracer
 // runs: values, densities, presence and emission at one shading point.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every pattern node, as the driver runs its GLSL, against its C++ function.
 
 #include "hdDelegate/raster/gl/glProgram.h"

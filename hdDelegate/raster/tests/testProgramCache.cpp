@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs come back from disk as they went there; what is damaged is made anew.
 
 #include "hdDelegate/raster/gl/programCache.h"

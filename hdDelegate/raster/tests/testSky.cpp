@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Harmonics and prefiltered maps against sums over all directions, and where they fail.
 #include "hdDelegate/raster/lights/prefilteredSky.h"
 #include "hdDelegate/raster/lights/skyHarmonics.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes become buffers: corners that agree share a vertex, those that do not are kept apart.
 
 #include "hdDelegate/raster/scene/rasterSurface.h"

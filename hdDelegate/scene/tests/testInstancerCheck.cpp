@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is told of instancers that ask for more than is drawn.
 #include "hdDelegate/scene/instancerCheck.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The units of lights against the formulas of the UsdLux documentation.
 
 #include "hdDelegate/scene/lightUnits.h"

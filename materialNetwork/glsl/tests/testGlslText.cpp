@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Generated texts compared with reviewed files, and read by the reference compiler. After a wanted
 // change run with PATINA_UPDATE_EXPECTED=1, and review the difference.
 #include "materialNetwork/glsl/glslMaterial.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What is best at its price."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Direct labels: names stand beside what they name, where they cover least."""
 
 LINE, STEP = 11.0, 5.0  # height of a label and distance of the points along a line that it may cover, in pixels

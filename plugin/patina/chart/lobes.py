@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Rows of measured methods: CSV, SVG, and the table that is compiled in."""
 import csv
 import os

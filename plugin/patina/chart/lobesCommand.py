@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """patina chart --lobes: ns per evaluation against error of every method."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The look of charts and pages, once: colours for light and dark, and the style that all pages of Python share.
 
 The hues are about those of Okabe and Ito (2008). Their lightness was searched for the largest difference between any two, with

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The machine and the build that times were measured on, in words."""
 import os
 import platform

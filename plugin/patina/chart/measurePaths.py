@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Measures the choice points `pathDepth` and `roulette` in two small scenes, by albedo.
 
 A closed box with a lamp under its ceiling, where light is lost by absorption alone, and a corner of three walls, which most

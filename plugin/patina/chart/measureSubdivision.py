@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Measures the choice point `subdivision`: how far a picture is off where edges on screen are longer than they could be.
 
 Two closed shapes of one cage (a ball of 96 quads; the same with creases along the edges of its cube) are path traced as

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A chart of lines and points on logarithmic axes as SVG text."""
 import math
 from xml.sax.saxutils import escape

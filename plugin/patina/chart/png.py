@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Pictures as text in a page: PNG in a data URI."""
 import base64
 import struct

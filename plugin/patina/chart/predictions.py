@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Whether the planner keeps its word: the error that a tolerance makes on a stage, against what was predicted.
 
 The truth is the stage with tolerance 0, which takes the truth method at every choice point. Two errors are measured, both

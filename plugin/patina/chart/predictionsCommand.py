@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """patina chart --predictions STAGE...: what the planner predicts against what comes."""
 import csv
 import os

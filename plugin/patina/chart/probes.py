@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Materials of one lobe to be asked for numbers, and the directions that sweeps look along."""
 import numpy as np
 

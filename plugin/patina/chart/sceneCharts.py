@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The charts of a stage: error over seconds for each measure, and error over samples."""
 import os
 

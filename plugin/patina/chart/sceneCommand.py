@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """patina chart STAGE...: seconds against error of both back ends."""
 import math
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Which renders of a stage a chart needs, within the time that it may take."""
 import statistics
 import time

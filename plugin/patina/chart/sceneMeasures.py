@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Numbers of a chart of scenes: errors, slopes, floors, the Pareto front, and where one back end overtakes another.
 
 Plain functions of numbers and arrays; nothing here renders.

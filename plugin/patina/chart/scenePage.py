@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One HTML page of charted stages: charts, pictures, tables; nothing of it is loaded from elsewhere."""
 import os
 from html import escape

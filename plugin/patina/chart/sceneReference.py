@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """References of a chart: path traced, of another seed and 16 times the samples; kept in the folder for the next time."""
 import hashlib
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renders of one stage for a chart: the stage is read once, each back end keeps what it built, time limits are kept."""
 import time
 from dataclasses import dataclass

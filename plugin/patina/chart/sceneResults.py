@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Rows and findings of a stage's renders: what the CSV, the charts and the page show."""
 import csv
 from dataclasses import dataclass, field

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """patina chart --stability: every method through the region where it fails, with the bound that holds there."""
 import csv
 import json

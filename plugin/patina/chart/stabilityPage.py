@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The atlas of sweeps as text, as one HTML page, and as one picture."""
 import os
 from html import escape

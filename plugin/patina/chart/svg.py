@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Scatter charts with logarithmic axes as SVG text, by hand: nothing beyond Python is needed."""
 import math
 from xml.sax.saxutils import escape

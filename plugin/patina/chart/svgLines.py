@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Line charts as SVG text: methods over a parameter, the truth, and where one method takes over from another."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A sweep: one parameter through the region where a method fails, with what the methods give, the truth, and the bound
 that the method keeps which is used there.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Classic lobes at grazing angles: Ward, Cook and Torrance's V-cavities, Phong and Blinn."""
 import numpy as np
 

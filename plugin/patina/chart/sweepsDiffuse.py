@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Diffuse models and sheen in a white furnace, their rings and their reciprocity."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Energy: directional albedos by every method, what single scattering loses, and what compensation costs in reciprocity."""
 import numpy as np
 

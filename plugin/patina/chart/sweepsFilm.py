@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Thin films: Gaussians and tables against Airy's formula over the spectrum, from no thickness to 60 um."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Shading frames that degenerate: tangents without length or along the normal, and normals that look below the horizon."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reflectances: Schlick's curve and its dip against the equations, and the equations where they degenerate."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Layers: what lies below scaled by what the top lets through, against a walk between the interfaces."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Microfacets at their limits: alpha 0, one alpha 0, anisotropy in tables, grazing views, samplers, last random numbers."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the planner takes along a sweep: where it switches, the predicted error of what it left would be too large."""
 from patina.chart import probes
 from patina.chart.sweeps import Sweep

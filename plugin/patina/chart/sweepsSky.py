@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Environments that are hard: one texel of 1e5, harmonics that ring below zero, texels that are no numbers.
 
 Stages are rendered: a white ball under a dome, one row of pixels across it, so that an image is a sweep over the normal.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Writes a material in the words of another shading model, for programs that know only that one.
 
 Inputs that vary over the surface become textures over uv 0 to 1, the others stay values. OUT.usda

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Writes a baked material: one shader with values and textures, in the words of a shading model. Stage and
 textures appear together, or nothing is changed."""
 import os

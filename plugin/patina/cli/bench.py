@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs benchmarks, beside peers where these are installed.
 
   patina bench             lists them

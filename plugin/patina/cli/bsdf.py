@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Prints numbers of a material: what it reflects and transmits, for given directions.
 
   eval     f (without the cosine) and the density with which wi would be sampled

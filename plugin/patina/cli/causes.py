@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Warnings by their causes, worst first.
 
 A cause is the kind of a message and its culprit: the file, prim, node or type that the message names, or where it names none

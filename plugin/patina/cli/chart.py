@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Measures what methods and renderers cost and how far they are off, on this machine, and draws it.
 
   patina chart STAGE... --out FOLDER                seconds against error of both back ends: CSV, SVG and an HTML page

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Checks the mathematics of materials: what a renderer relies on, over directions and places.
 
   finite       values, densities, samples, albedo and emission are finite and not negative

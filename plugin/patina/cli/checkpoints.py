@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Checkpoints of a render: IMAGE.checkpoint, and the token that says whether one fits."""
 import hashlib
 import json

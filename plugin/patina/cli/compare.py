@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Measures how image A differs from the reference B.
 
 Values are compared as they are in the files: linear radiance in OpenEXR and HDR files, display

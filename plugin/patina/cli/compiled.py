@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The compiled module, or a reason why it is not there."""
 from patina.cli.errors import CommandError
 

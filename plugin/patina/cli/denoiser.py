@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Open Image Denoise: where its library is, and a film's colour cleaned by it."""
 import importlib.util
 import os

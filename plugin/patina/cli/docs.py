@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Builds the site: documents, tutorials, gallery, measurements, and the reference of the Python and C++ interfaces.
 
   patina docs site                  then open site/index.html

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The `patina` command of an installed package, as `python -m patina` is."""
 import runpy
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a user did or met, as opposed to a defect of Patina; and which of it passes by itself."""
 import errno
 

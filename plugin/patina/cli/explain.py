@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Shows what becomes of a material: its network as authored, the simplified graph, the plan of
 lobes, what was left out, the method at each choice point that matters, and the error and time that
 these methods are expected to take. Of a stage without a named material all materials are shown.

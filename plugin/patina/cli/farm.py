@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renders frames and parts of them on many workers, by Dask (`distributed`) or as an Open Job Description.
 
   patina farm shot.usda shot.####.exr --frames 1:240 --cut 4x4 --engine dask://farm --samples 256

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """How to go on with a render that was ended: the command line, ready for a shell."""
 import os
 import shlex

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Shows where the Hydra plugin is and whether a host can use it.
 
   patina hydra

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Numbers that say how two images differ. Arrays are (height, width, channels) of floats."""
 import importlib.util
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Ctrl+C, the end of a batch job and of a terminal: noted, and not resisted twice."""
 import os
 import signal

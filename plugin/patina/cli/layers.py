@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Layers by albedo scaling against a position-free random walk (Guo, Hasan and Zhao 2018, "Position-Free Monte Carlo
 Simulation for Arbitrary Layered BSDFs"): light bounces between the interfaces and the base, each with its whole
 lobes, until it leaves. Nothing lies between the layers and they are infinitely thin, so positions do not matter.

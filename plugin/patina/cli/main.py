@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Chooses the command, turns errors into one line and an exit status: 0 done, 1 failed, 2 usage, 75 try again."""
 import argparse
 import importlib

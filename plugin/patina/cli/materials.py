@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """MATERIAL arguments: FILE[:/prim/path] of a stage, or FILE.mtlx[:name]."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Makes an image of the parts of a frame (`patina record --part`), with the bits of the frame rendered at once.
 
   patina record shot.usda shot.exr --part 1/2 --partial shot.1.part

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """--method POINT=NAME: forces a method at a choice point of the planner."""
 import argparse
 import textwrap

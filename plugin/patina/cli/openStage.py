@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Opens a stage as the flags say, or gives a one-line reason."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The one way in which commands write files: whole or not at all, and over nothing that they read."""
 import contextlib
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """--set PRIM.INPUT=VALUE: changes inputs of a stage in its session layer, before anything reads it."""
 import math
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A plan of methods as text: what was chosen at every choice point, and what that is expected to do."""
 
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The products of a UsdRenderSettings prim as shots: those that are rendered alike share one.
 
 Names of products may hold places for the frame.

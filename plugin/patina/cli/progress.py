@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Shows how far a command is: one line that moves on a terminal, a line now and then elsewhere."""
 import shutil
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renders a stage to images.
 
   patina record shot.usda shot.png

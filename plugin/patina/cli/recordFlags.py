@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The flags of `patina record`, and the render settings that they mean."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A UsdRenderSettings prim as `patina record --settings` takes it. It says what flags leave open: camera, resolution, purposes,
 products with their AOVs (products.py), and render settings by the names `patina:NAME`. Flags that are given are stronger.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`patina record --report`: which page each shot has, and what it is made from."""
 import os
 

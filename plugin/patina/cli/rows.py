@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tables of the C++ code that the command line shares: rows such as SETTING(type, name, default, .word("...")) of a .def file.
 
 They are read as text, so that --help needs no build.

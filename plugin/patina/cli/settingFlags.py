@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Flags of render settings, made from the rows of hdDelegate/scene/settings.def."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One film that `patina record` renders, and the files that it is written to."""
 from dataclasses import dataclass, field
 

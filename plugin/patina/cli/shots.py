@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What `patina record` renders, one shot after the other."""
 from patina.cli import denoiser, frames, products, recordFlags
 from patina.cli.errors import CommandError, UsageError

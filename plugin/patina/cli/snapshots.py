@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Images of a render while it runs: every so many seconds, and when SIGUSR1 asks for one. Each appears whole, beside the image
 that the render will write, and goes when that is written."""
 import os

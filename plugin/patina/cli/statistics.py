@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What --json shows of a render: times by phase, rays, samples, memory, warnings."""
 import contextlib
 import time

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs the tests of a checkout in one pytest session: googletest programs of the build and Python tests of testenv and of
 the package. ./patina builds what is needed before.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What cannot be told is not told: a reader that goes away does not end a render."""
 import os
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What `patina record --verbose` tells of a frame: time and memory of each phase."""
 from patina.cli import memory
 

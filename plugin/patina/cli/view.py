@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Writes one HTML page that shows materials in a browser: no server, no network, opens from a file.
 
 The page draws with WebGL2, by the very lobes of the rasterizer, and has a slider for every input of

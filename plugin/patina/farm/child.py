@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`python -m patina.farm.child PARENT ARGUMENTS...`: a command of Patina that ends when the worker that asked for it does."""
 import os
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """How a frame is cut: into groups of tiles, and each of these into ranges of samples.
 
 Part 1 of 4x2 has the first group of tiles and the first range of samples, part 4 the last group and the first range, part 5

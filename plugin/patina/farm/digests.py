@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Digests of files. Those of large files are kept between processes, by the file's path, size and time of change."""
 import contextlib
 import hashlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What made a part: everything that the bits of a frame depend on. Parts with the same go together."""
 import hashlib
 import json

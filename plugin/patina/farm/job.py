@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A job of `patina farm` from the first look at workers to the table at its end."""
 import dataclasses
 import json

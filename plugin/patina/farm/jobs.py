@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Job templates of Open Job Description (2023-09): frames, parts and merges as steps, for schedulers that take them."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Makes an image of the parts of a frame, as `patina record` would have made it at once."""
 import argparse
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renders a part with the flags that another part was made with."""
 import argparse
 import contextlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`patina record --part`: renders one part of each frame's film and writes its file instead of an image."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The files of parts: a description of what made them, films, and a report of the render."""
 import json
 

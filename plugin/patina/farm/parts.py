@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Parts that lie in files: whether they belong together, and which are missing."""
 from patina.cli.errors import CommandError
 from patina.farm import cut, identity, partial

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Pods of Kubernetes as workers, started by Dask's operator (dask-kubernetes)."""
 import re
 

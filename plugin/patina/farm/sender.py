@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Sends tasks to workers, sends those that fail elsewhere, and merges frames as their parts come in."""
 import collections
 import dataclasses

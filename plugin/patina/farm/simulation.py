@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What more workers would give: the events of a farm on paper, by what a part, a merge and the sender were measured to take.
 
 The sender and Dask's scheduler are one server: every task waits for it once when it is sent and once when it is done. A worker

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The frames and parts of a job: what is to be done, in which order, and which commands do it."""
 import contextlib
 import os

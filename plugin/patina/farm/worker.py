@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What runs on a worker. Everything goes through paths that the worker shares with the sender."""
 import os
 import socket

@@ -1,1 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
 """Regression tests of a folder of stages, for pytest: `pytest --patina-scenes FOLDER` (plugin.py)."""

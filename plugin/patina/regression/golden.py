@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renders of a stage, what is kept of them, and whether new ones are of the same picture."""
 import contextlib
 import dataclasses

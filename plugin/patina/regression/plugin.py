@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """pytest plugin: every stage of a folder is a test that compares its render with a golden one.
 
   pytest --patina-scenes FOLDER                     the tests

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Which stages of a folder are tested, and how: `scenes.json` in the folder, where it is not as the defaults say."""
 import dataclasses
 import fnmatch

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Are two sets of renders of the same picture? A two-sample test per tile, with a margin.
 
 An image is cut into tiles of about 8 x 8 pixels, each with three channels. The pixels of one render share their random

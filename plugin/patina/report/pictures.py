@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Each AOV of a film as a picture that the eye can read, and as numbers for the pixel under the pointer."""
 import os
 import tempfile

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads USD stages with pxr (usd-core 23.11 and later) into the renderer's own scene.
 
 open_stage(path) opens a file or raises StageError. read_stage(stage, edit, options) translates one

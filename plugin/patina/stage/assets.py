@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Files that a stage names: resolved paths, UDIM patterns, and files inside of packages."""
 import atexit
 import hashlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Which material each prim shows."""
 from pxr import UsdShade
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Cameras: those of the stage, and the one that frames a stage without any."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Models that stand as cards: textured sides of their extents, or a cross of three planes."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The colour space of an attribute: its own, else that of the nearest prim above with a ColorSpaceAPI."""
 from pxr import Sdf
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Differences between versions of OpenUSD, 23.11 and later. Nothing else looks at versions."""
 import io
 import zipfile

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What every part of the reader needs: the stage, the time, the edit, and caches."""
 import numpy as np
 from pxr import Gf, Usd, UsdGeom

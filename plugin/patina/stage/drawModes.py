@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Model draw modes: models that stand as a box, an origin or cards."""
 import numpy as np
 from pxr import Kind, Usd, UsdGeom

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Errors that end the reading of a stage; all else is a warning."""
 
 

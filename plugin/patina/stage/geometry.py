@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Gprims: meshes, curves, points, implicit shapes and volumes."""
 import numpy as np
 from pxr import UsdGeom

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Light for stages that have none."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Point instancers and native instances."""
 import numpy as np
 from pxr import UsdGeom

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Which prims are drawn, and as what."""
 import functools
 

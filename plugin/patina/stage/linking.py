@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Light and shadow linking through UsdLux's collections."""
 from pxr import Usd, UsdLux
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Meshes."""
 import numpy as np
 from pxr import UsdGeom

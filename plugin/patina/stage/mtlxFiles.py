@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """References to MaterialX documents, which pxr without its MaterialX plugin cannot open.
 
 Before such a stage is read, an anonymous layer stands in for each document: a Material prim for each

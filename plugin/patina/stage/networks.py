@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """UsdShade networks -> `_patina.Network`."""
 import numpy as np
 from pxr import Sdf, UsdShade

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a caller may ask of the reader, and what the reader tells."""
 from dataclasses import dataclass, field
 

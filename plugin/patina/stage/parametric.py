@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """NURBS patches and curves, Hermite curves, meshes of tetrahedra."""
 import numpy as np
 from pxr import UsdGeom

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Primvars as arrays."""
 import numpy as np
 from pxr import UsdGeom

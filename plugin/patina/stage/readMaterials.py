@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The materials of a stage alone."""
 from pxr import Usd, UsdShade
 

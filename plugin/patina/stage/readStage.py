@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Translates one frame of a stage into an edit of the scene."""
 from pxr import UsdGeom
 

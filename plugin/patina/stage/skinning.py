@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """UsdSkel: skinned points by pxr's own queries, blend shapes first."""
 import numpy as np
 from pxr import Gf, Usd, UsdGeom, UsdSkel, Vt

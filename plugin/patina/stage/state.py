@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What prims inherit on the way down, and what the walk finds."""
 from dataclasses import dataclass, field, replace
 

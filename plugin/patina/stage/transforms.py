@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Transforms of prims, moving or not."""
 import numpy as np
 from pxr import Gf, Tf, UsdGeom

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """UsdVolVolume: fields of OpenVDB files."""
 from pxr import UsdGeom, UsdVol
 

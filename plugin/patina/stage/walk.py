@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The walk over a stage: finds what is to be drawn, each prototype once.
 
 Native instances stay instances. Prims of a prototype are walked once for each set of things that

@@ -1,1 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
 """The material page: any material in a browser, with sliders."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The albedo tables as a texture of half floats, with zeros for what no lobe of the page reads."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Arrays as text of a page: little-endian, gzip, base64."""
 import base64
 import gzip

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """From the arguments of `patina view` to the text of a page."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The page's script: fetched from npm and bundled on first use, then kept.
 
 Versions are pinned by web/package.json and web/package-lock.json. What is fetched and made lies in

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Inputs that no slider can move: each value that they may have is a program of its own, made
 beforehand while there are few; what is left is shown as fixed, with the reason."""
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The path-traced pictures of --compare: each material on the first shape, or on every one, from the first camera."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the sliders of a page are: one entry per live input, as JSON that a user may replace.
 
   {"controls": [{"input": "NODE.NAME", "label": TEXT, "folder": TEXT, "kind": "color" | "number" | "switch",

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Images of a page: environments and textures, made small enough."""
 import base64
 import gzip

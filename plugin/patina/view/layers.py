@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the page needs to save its values as a layer of USD."""
 import math
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Makes the inputs of a network live: each becomes a primvar of its own whose fallback is the
 authored value. So the text of the material keeps them open, the page hands in what its sliders say,
 and every other host, which has no such primvars, shows the material as authored."""

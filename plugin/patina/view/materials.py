@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A material as the page has it: two texts, its inputs, their controls."""
 from patina.cli import compiled
 from patina.cli.errors import CommandError

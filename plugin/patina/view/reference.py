@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renders what a page shows with Patina's own back ends: one shape in one environment, from the
 page's first camera. The pictures are linear and square."""
 import os

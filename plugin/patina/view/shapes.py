@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The built-in shapes: triangles with normals, tangents and texture coordinates."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a page takes from a stage: its lights, its domes, and the prims that show a material."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Where a material is looked at: environments, lights, shapes, and the first camera."""
 import os
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Karis 2014, "Physically Based Shading on Mobile": scale and bias on the reflectance at normal
 // incidence, for a curve that rises to 1. From outside only; knows no colour at grazing angles.
 PATINA_FN vec2 karisScaleBias(float mu, float alpha) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directional albedo by adding up facets: visible normals over a stratified square, shifted by a
 // hash of view and roughness, so that neighbours err independently; or, as truth, a lattice that
 // crowds where facets of GGX lean far, since that tail decides what is lost at small roughness.

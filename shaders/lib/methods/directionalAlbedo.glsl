@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The choice point directionalAlbedo: how the light that a microfacet lobe reflects in total is
 // found. All but the tables come down to a few facets, over which the reflectance is averaged.
 

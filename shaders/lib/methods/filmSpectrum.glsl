@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The choice point thinFilm: how interference is summed over the spectrum that a channel sees.
 
 const int FILM_GAUSSIANS = 0; // each order through sums of Gaussians (film.glsl)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The choice point fresnel: the exact equations, or a curve through few of their values. Curves are
 // for the thinner side and for lobes without film; from the denser side they are read at the cosine
 // outside, and total reflection stays.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The choice point energyCompensation, method kullaConty (Kulla and Conty 2017, "Revisiting
 // Physically Based Shading at Imageworks"): a second lobe holds what single scattering loses,
 //   (1 - E(o)) (1 - E(i)) / (PI (1 - mean E)) times a colour,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The choice point sampling: which facets are drawn.
 
 const int SAMPLING_VNDF = 0;         // what wo sees (microfacetSampleVisible)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The directional albedo of the Conty-Kulla sheen lobe before it is bounded, as a polynomial in the
 // root of the cosine and the logarithm of the roughness.
 // Written by shaders/bake/sheenFit.py. Over 40 x 40 cell centres: RMSE 6.3e-04, largest

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The choice point sheen: how the light is found that the Conty-Kulla lobe reflects in total, before
 // it is bounded. The lobe is divided by it, and layers take it from their base.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cylinder lights, see ../shape.glsl. For one receiver samples are even in the angle along, and across in the width that
 // the point sees.
 const int SHAPE_CYLINDER = 3;

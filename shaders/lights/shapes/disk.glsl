@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Disk lights, see ../shape.glsl.
 const int SHAPE_DISK = 1;
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sphere lights, see ../shape.glsl. For one receiver samples are even over the cone that the sphere fills, in the shape's
 // coordinates, where every affine image of a sphere is one.
 const int SHAPE_SPHERE = 2;

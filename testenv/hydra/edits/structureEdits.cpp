@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testenv/hydra/edits/baseStage.h"
 #include "testenv/hydra/edits/edits.h"
 

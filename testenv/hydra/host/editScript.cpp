@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testenv/hydra/host/editScript.h"
 
 #include <pxr/base/tf/stringUtils.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // hydraHost: renders a stage through Hydra from the command line.
 
 #include "testenv/hydra/host/commandLine.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testenv/hydra/host/pixels.h"
 
 #include <pxr/base/gf/half.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "testenv/hydra/host/sceneInput.h"
 
 #include <pxr/imaging/hdsi/legacyDisplayStyleOverrideSceneIndex.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random edits of a stage while it renders: after any number of them, scene and picture are those
 // of a host that opens the stage as it is now.
 

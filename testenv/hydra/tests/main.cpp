@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Finds the plugin of this build without any environment variable, then runs the tests.
 
 #include <pxr/base/plug/registry.h>

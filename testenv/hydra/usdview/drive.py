@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Drives usdview as a user would, on a screen that no one sees: opens a stage with a renderer, turns the
 camera, picks a prim, changes a material and takes screenshots.
 

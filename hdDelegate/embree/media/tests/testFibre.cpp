@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hair on curves: the lobes of a fibre meet tubes and ribbons with the right frame, place on the
 // width and way out.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distances in homogeneous media: weights integrate to what they stand for.
 
 #include "hdDelegate/embree/media/freeFlight.h"

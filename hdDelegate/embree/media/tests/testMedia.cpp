@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Media inside objects against closed forms and a walk of its own. Statistical tests compare means
 // over pixels at five standard errors (significance 6e-7 per channel); seeds are fixed.
 

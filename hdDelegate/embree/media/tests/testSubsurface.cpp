@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Subsurface scattering: the albedo that was asked for, energy, and what open meshes show.
 
 #include "hdDelegate/embree/media/randomWalk.h"

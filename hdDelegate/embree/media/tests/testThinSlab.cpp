@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Thin slabs: light goes straight through, also to lights, with the colour of the wall.
 
 #include "hdDelegate/embree/media/tests/mediaScene.h"

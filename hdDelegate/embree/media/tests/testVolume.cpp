@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Volumes of fields against closed forms and homogeneous media.
 
 #include "hdDelegate/embree/media/tests/mediaScene.h"

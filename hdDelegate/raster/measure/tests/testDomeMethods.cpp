@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The measured methods of domes: where they are good, and where each fails.
 #include "hdDelegate/raster/measure/domeMethods.h"
 #include "hdDelegate/raster/measure/measureDome.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`pytest --patina-scenes`: golden images are made, hold for another noise, and fail for another picture. Each test runs a
 pytest of its own in a folder of its own."""
 import json

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page of one render: two of its pictures with a divider between them, and the numbers of the pixel under the pointer.
 "use strict";
 (() => {

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reads small stages written as text and gives the scene that came of them."""
 import re
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Colour spaces of values and textures: on attributes, inherited from prims, defined by the stage."""
 import ast
 import os

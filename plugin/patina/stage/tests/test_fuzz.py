@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every schema with attributes of random names and wrong types: the reader goes on, whatever it meets."""
 import random
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Material networks, textures, and what can be wrong with them."""
 import os
 import zipfile

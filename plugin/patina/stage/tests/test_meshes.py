@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Meshes, primvars, subsets, purposes and visibility."""
 
 QUAD = """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """NURBS patches and curves, Hermite curves, meshes of tetrahedra: read, drawn, and the same as what pxr says of them."""
 import numpy as np
 import pytest

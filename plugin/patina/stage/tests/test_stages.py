@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Whole files: broken ones, composition errors, models drawn as boxes, and every asset that is there."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """UsdVolVolume: fields, their files, and what can be wrong with them."""
 
 VOLUME = """

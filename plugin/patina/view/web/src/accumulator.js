@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The mean over passes, and its display.
 import * as THREE from "three";
 

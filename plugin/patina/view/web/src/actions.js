@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What leaves the page: pictures, layers, links; and the way back to the start.
 import { layerText } from "./layer.js";
 

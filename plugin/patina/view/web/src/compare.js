@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The path-traced picture beside the page's own.
 import * as THREE from "three";
 import { meanFlip } from "./flip.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the page was made with: a JSON text in the document, arrays in it packed (view/blobs.py).
 
 export async function readDocument() {

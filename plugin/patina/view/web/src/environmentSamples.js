@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directions to the environment that all pixels share, drawn by its luminance over the texels of one
 // of its smaller versions. As many rows as passes; together they are one set of points.
 import * as THREE from "three";

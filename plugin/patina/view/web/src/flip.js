@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mean FLIP of two pictures (Andersson et al. 2020, LDR-FLIP), at 67 pixels per degree: display
 // colours pass the eye's contrast sensitivity, are compared in a uniform space (HyAB), and count more
 // where edges and points differ.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sliders and colour pickers for the inputs of the material that is shown, one folder per node.
 import { addColor } from "./panel.js";
 

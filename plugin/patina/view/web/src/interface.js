@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of the interface, and what they do to the state.
 import { TrackballControls } from "three/examples/jsm/controls/TrackballControls.js";
 import { loadReferences, measure } from "./compare.js";

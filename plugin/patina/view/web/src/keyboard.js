@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page by keys: everything in the panel has the tab key, the picture has these.
 import * as THREE from "three";
 import { savePicture } from "./actions.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Changed values as a layer of USD, over the file that holds the material or, where that is no
 // stage, with the whole material in it. Names come from the file and are checked again here.
 

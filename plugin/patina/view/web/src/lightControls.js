@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Direct lights of the page, each with a switch, a gain and a colour.
 
 export function addLights(gui, page, addColor) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Starts the page.
 import * as THREE from "three";
 import { readDocument, unpack } from "./data.js";

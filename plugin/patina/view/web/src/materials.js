@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program of a material: the page's head, the generated text, the page's end.
 import * as THREE from "three";
 import { makeRows } from "./textures.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The panel: every part of the state has a control.
 import GUI from "lil-gui";
 import { addCompare } from "./compare.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Everything that is drawn: the shape with its material, and what stands behind it.
 import * as THREE from "three";
 import { makeMaterial } from "./materials.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Geometry of the page's shapes.
 import * as THREE from "three";
 import { unpack } from "./data.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Textures as the shaders expect them: rows as packed, mip levels averaged in linear light.
 import * as THREE from "three";
 import { unpack, unpackSmooth } from "./data.js";

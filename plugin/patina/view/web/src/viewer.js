@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws the page's picture pass by pass until it is done; everything that changes it starts it over.
 import * as THREE from "three";
 import { Accumulator } from "./accumulator.js";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A row of shapes along a range of one input.
 
 export function wedgeOf(page, input, component = 0) {

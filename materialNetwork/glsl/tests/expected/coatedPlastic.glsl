@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: Apache-2.0
 layout(std140, binding = 1) uniform Parameters { vec4 parameters[73]; };
 vec4 materialParameter(int i) { return parameters[i]; }
 DielectricLobe lobe0;

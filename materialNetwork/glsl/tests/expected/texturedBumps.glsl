@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: Apache-2.0
 #include "shaders/raster/moreNodes.glsl"
 layout(std140, binding = 1) uniform Parameters { vec4 parameters[22]; };
 vec4 materialParameter(int i) { return parameters[i]; }

@@ -3,6 +3,7 @@
 
 #include "materialNetwork/cpu/programCode.h"
 #include "materialNetwork/graph/expand.h"
+#include "materialNetwork/graph/graphNetwork.h"
 #include "materialNetwork/graph/mergeSurfaceShaders.h"
 #include "materialNetwork/graph/simplify.h"
 #include "materialNetwork/ir/irBuilder.h"
@@ -85,6 +86,14 @@ std::string explainMaterial(const Network& network, Diagnostics& diagnostics,
     text += "(" + std::to_string(before) + " nodes before simplification, " +
             std::to_string(simple.nodes.size()) + " after)\n\n";
     return text + dumpPlan(makePlan(std::move(simple), std::move(cuts), diagnostics, methods));
+}
+
+Network expandedMaterial(const Network& network, Diagnostics& diagnostics) {
+    const Graph graph = buildGraph(expand(network, diagnostics), diagnostics);
+    if (isLost(graph, network, diagnostics))
+        return expandedMaterial(makeDisplayColorNetwork(), diagnostics);
+    std::vector<std::string> cuts;
+    return graphNetwork(simplifyMaterial(graph, cuts, diagnostics));
 }
 
 Network makeDisplayColorNetwork() {

@@ -37,6 +37,10 @@ MethodPlan planMaterialMethods(const Network& network, TextureSource& textures,
 std::string explainMaterial(const Network& network, Diagnostics& diagnostics,
                             const MethodChoices& methods = {});
 
+/// The simplified graph of a material, as a network of primitive nodes. Of a material without a
+/// usable surface: that of makeDisplayColorNetwork().
+Network expandedMaterial(const Network& network, Diagnostics& diagnostics);
+
 /// @returns the network with inputs replaced. An override that names no input of the network is
 /// reported through diagnostics.
 Network applyOverrides(const Network& network, const MaterialOverrides& overrides,

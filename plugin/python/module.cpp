@@ -39,6 +39,7 @@ void bindRender(py::module_& m);
 #ifdef PATINA_BIND_MATERIAL
 void bindMaterial(py::module_& m);
 void bindMethods(py::module_& m);
+void bindShader(py::module_& m);
 #endif
 #ifdef PATINA_BIND_WEB
 void bindWeb(py::module_& m);
@@ -120,6 +121,7 @@ Film, images and colour; Renderer and its settings; materials: see the classes' 
 #ifdef PATINA_BIND_MATERIAL
     patina::bindMaterial(m);
     patina::bindMethods(m);
+    patina::bindShader(m);
 #endif
 #ifdef PATINA_BIND_WEB
     patina::bindWeb(m);

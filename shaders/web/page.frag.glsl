@@ -4,6 +4,7 @@
 // the environment where its mip level is as coarse as they are sparse (filtered importance sampling,
 // Colbert and Krivanek 2007). Those of the environment and of lights are the same in all pixels, so
 // that what they miss is smooth; both ways share by the power heuristic (Veach 1997).
+#include "shaders/web/point.glsl"
 #include "shaders/web/environment.glsl"
 #include "shaders/web/random.glsl"
 #include "shaders/web/lights.glsl"
@@ -30,33 +31,6 @@ float heuristic(float a, float b) {
 // The share of a sample of the BSDF where light is sampled too: of diffuse lobes, and of others.
 vec2 ownShare(float pdf, float density, float trust) {
     return vec2(heuristic(pdf, trust * density), heuristic(pdf, min(trust, 1.0) * density));
-}
-
-void setPagePoint() {
-    vec3 dx = dFdx(vPosition), dy = dFdy(vPosition);
-    vec3 view = eye - vPosition;
-    float distance = length(view);
-    point.view = view / max(distance, 1e-20);
-    vec3 g = cross(dx, dy);
-    float area = length(g);
-    g = area > 0.0 ? g / area : point.view;
-    if (dot(g, point.view) < 0.0) g = -g;
-    point.geometricNormal = gl_FrontFacing ? g : -g;
-    point.position = vPosition;
-    point.objectPosition = vObjectPosition;
-    point.normal = unitOr(vNormal, point.geometricNormal);
-    if (dot(point.normal, point.geometricNormal) < 0.0) point.normal = -point.normal;
-    vec3 t = vTangent.xyz - point.normal * dot(point.normal, vTangent.xyz);
-    point.tangent = unitOr(t, anyTangent(point.normal));
-    point.bitangent = cross(point.normal, point.tangent) * (vTangent.w < 0.0 ? -1.0 : 1.0);
-    point.objectToWorldNormal = normalToWorld;
-    vec2 ux = dFdx(vUv), uy = dFdy(vUv);
-    float uvArea = abs(ux.x * uy.y - ux.y * uy.x);
-    float perLength = sqrt(uvArea / max(area, 1e-20));
-    float cosine = max(0.1, abs(dot(g, point.view)));
-    point.uvFootprint = perLength * pixelAngle * distance / sqrt(cosine);
-    uvec2 pixel = uvec2(gl_FragCoord.xy);
-    point.seed = noiseHash3(int(pixel.x), int(pixel.y), passInfo.x) | 1u;
 }
 
 bool isBlocked(vec3 wi) {
@@ -96,7 +70,7 @@ vec3 along(vec3 wi, vec3 diffuse, vec3 specular, float pdf, bool delta) {
 }
 
 void main() {
-    setPagePoint();
+    setPoint(eye, pixelAngle, passInfo.x);
     vec2 pixel = floor(gl_FragCoord.xy);
 #ifdef PRESENCE
     vec3 passes;

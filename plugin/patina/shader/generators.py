@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Shader text by the generators of MaterialX (PyPI's `materialx`) from a document."""
+import importlib
+import importlib.util
+import re
+
+LANGUAGES = {"osl": ("PyMaterialXGenOsl", "OslShaderGenerator"), "mdl": ("PyMaterialXGenMdl", "MdlShaderGenerator"),
+             "msl": ("PyMaterialXGenMsl", "MslShaderGenerator")}
+UNSAFE = re.compile(r"[\x00-\x1f\x7f\"\\]")  # ends a string literal of some language
+
+
+class NotGenerated(RuntimeError):
+    """The generators have nothing for this document; the message is theirs, in one line."""
+
+
+def installed():
+    """:returns: whether Python finds the package"""
+    return importlib.util.find_spec("MaterialX") is not None
+
+
+def version():
+    """:returns: of MaterialX, "1.39.5" """
+    return _core().getVersionString()
+
+
+def problems(text):
+    """
+    :returns: what MaterialX's own library says against a document, one line for each
+    :raises NotGenerated: for a document that it cannot read
+    """
+    loaded = _document(text)
+    _, said = loaded.validate()
+    lines = [line for line in said.split("\n") if line.strip()]
+    return lines + [f"node {node.getName()}: MaterialX has no definition {node.getNodeDefString()}"
+                    for node in loaded.getNodes() if node.getNodeDef() is None]
+
+
+def generate(text, language):
+    """
+    :param text: a document with one material
+    :param language: a key of LANGUAGES
+    :returns: dict of stage name -> text; stages that a language has not are not there
+    :raises NotGenerated: where the generator gives up
+    """
+    core = _core()
+    shading = importlib.import_module("MaterialX.PyMaterialXGenShader")
+    module, name = LANGUAGES[language]
+    loaded = _document(text)
+    try:
+        generator = getattr(importlib.import_module("MaterialX." + module), name).create()
+        context = shading.GenContext(generator)
+        context.registerSourceCodeSearchPath(core.getDefaultDataSearchPath())
+        _set_up(core, shading, generator, context, loaded)
+        if language == "msl":
+            context.pushUserData("resource binding", _msl_bindings())
+        elements = shading.findRenderableElements(loaded)
+        if not elements:
+            raise NotGenerated("MaterialX finds nothing to render in the document")
+        shader = generator.generate(elements[0].getName(), elements[0], context)
+    except (core.Exception, LookupError) as error:
+        raise NotGenerated(_line(error)) from error
+    found = {}
+    for stage in (shading.VERTEX_STAGE, shading.PIXEL_STAGE):
+        try:
+            source = shader.getSourceCode(stage)
+        except (core.Exception, LookupError):
+            continue
+        if source:
+            found[stage] = source
+    return found
+
+
+def harmless(text, warnings):
+    """
+    :returns: a document whose values cannot end a string literal of the language that they come to stand in
+    """
+    import xml.etree.ElementTree as tree
+
+    root = tree.fromstring(text)
+    for element in root.iter("input"):
+        value = element.get("value", "")
+        if UNSAFE.search(value):
+            element.set("value", UNSAFE.sub("_", value))
+            warnings.append({"prim": "", "input": element.get("name", ""), "count": 1, "message":
+                             "a text has quotes, backslashes or control characters; they are written as _"})
+    return '<?xml version="1.0"?>\n' + tree.tostring(root, encoding="unicode") + "\n"
+
+
+def _core():
+    return importlib.import_module("MaterialX")
+
+
+def _document(text):
+    core = _core()
+    library = core.createDocument()
+    core.loadLibraries(core.getDefaultDataLibraryFolders(), core.getDefaultDataSearchPath(), library)
+    loaded = core.createDocument()
+    loaded.setDataLibrary(library)
+    try:
+        core.readFromXmlString(loaded, text)
+    except core.Exception as error:
+        raise NotGenerated(_line(error)) from error
+    return loaded
+
+
+def _set_up(core, shading, generator, context, loaded):
+    """Colour spaces and units, which the generators know only when they are told."""
+    colors = shading.DefaultColorManagementSystem.create(generator.getTarget())
+    colors.loadLibrary(loaded)
+    generator.setColorManagementSystem(colors)
+    units = shading.UnitSystem.create(generator.getTarget())
+    units.loadLibrary(loaded)
+    registry = core.UnitConverterRegistry.create()
+    for kind in ("distance", "angle"):
+        registry.addUnitConverter(loaded.getUnitTypeDef(kind),
+                                  core.LinearUnitConverter.create(loaded.getUnitTypeDef(kind)))
+    units.setUnitConverterRegistry(registry)
+    generator.setUnitSystem(units)
+    options = context.getOptions()
+    options.targetDistanceUnit = "meter"
+    options.targetColorSpaceOverride = "lin_rec709"
+    options.fileTextureVerticalFlip = False
+    generator.registerTypeDefs(loaded)
+
+
+def _msl_bindings():
+    module = importlib.import_module("MaterialX.PyMaterialXGenMsl")
+    return module.MslResourceBindingContext.create(0, 0)
+
+
+def _line(error):
+    return " ".join(str(error).split())

@@ -3,6 +3,8 @@
 // MaterialProbe.
 #ifdef PATINA_HAS_RASTER
 
+#include "plugin/python/warningList.h"
+
 #include "hdDelegate/raster/scene/rasterBsdf.h"
 
 #include <pybind11/numpy.h>
@@ -127,19 +129,6 @@ float opacity(const RasterProbe& probe, const std::array<float, 3>& wo) {
     return answers(probe, row, nullptr, 0)[0].specular.w;
 }
 
-py::list warningsOf(const RasterProbe& probe) {
-    py::list list;
-    for (const Diagnostic& d : probe.diagnostics.all()) {
-        py::dict warning;
-        warning["prim"] = d.prim;
-        warning["input"] = d.input;
-        warning["message"] = d.message;
-        warning["count"] = d.count;
-        list.append(warning);
-    }
-    return list;
-}
-
 } // namespace
 
 void bindRasterBsdf(py::module_& m) {
@@ -160,7 +149,8 @@ void bindRasterBsdf(py::module_& m) {
                 probe.uv = {u, v};
             },
             py::arg("u"), py::arg("v"))
-        .def_property_readonly("warnings", &warningsOf);
+        .def_property_readonly("warnings",
+                               [](const RasterProbe& p) { return warningList(p.diagnostics); });
 }
 
 } // namespace patina

@@ -4,6 +4,7 @@
 #include "plugin/python/sceneEdit.h"
 #include "hdDelegate/scene/sceneDump.h"
 #include "plugin/python/fields.h"
+#include "plugin/python/warningList.h"
 
 namespace py = pybind11;
 
@@ -129,19 +130,6 @@ std::vector<std::string> paths(const Scene& scene, const std::string& kind) {
     throw py::value_error("there is no kind of prim '" + kind + "'");
 }
 
-py::list warnings(Scene& scene) {
-    py::list list;
-    for (const Diagnostic& d : scene.diagnostics().all()) {
-        py::dict item;
-        item["prim"] = d.prim;
-        item["input"] = d.input;
-        item["message"] = d.message;
-        item["count"] = d.count;
-        list.append(item);
-    }
-    return list;
-}
-
 } // namespace
 
 void bindScene(py::module_& m) {
@@ -222,8 +210,9 @@ void bindScene(py::module_& m) {
                const std::string& message) { s.diagnostics().warn(prim, input, message); },
             py::arg("prim"), py::arg("input"), py::arg("message"),
             "Adds a warning; one that is there already is counted.")
-        .def("warnings", &warnings,
-             "What was wrong: dicts of prim, input, message, and count, how often it was met.")
+        .def(
+            "warnings", [](Scene& s) { return warningList(s.diagnostics()); },
+            "What was wrong: dicts of prim, input, message, and count, how often it was met.")
         .def(
             "clear_warnings", [](Scene& s) { s.diagnostics().clear(); }, "Forgets all warnings.");
 }

@@ -38,6 +38,7 @@ void bindRender(py::module_& m);
 #endif
 #ifdef PATINA_BIND_MATERIAL
 void bindMaterial(py::module_& m);
+void bindMaterialProbe(py::module_& m);
 void bindMethods(py::module_& m);
 void bindShader(py::module_& m);
 #endif
@@ -119,6 +120,7 @@ Film, images and colour; Renderer and its settings; materials: see the classes' 
     patina::bindRender(m);
 #endif
 #ifdef PATINA_BIND_MATERIAL
+    patina::bindMaterialProbe(m);
     patina::bindMaterial(m);
     patina::bindMethods(m);
     patina::bindShader(m);

@@ -56,6 +56,16 @@ def test_a_broken_script_fails(tmp_path):
         tutorialBlocks.run(path, folder)
 
 
+def test_a_command_whose_program_is_not_there_is_left_out_and_named(tmp_path):
+    path, folder = write(tmp_path, "```sh\ntouch a\n```\n```sh\nnoSuchProgram --now\n```\n```sh\ntouch b\n```\n")
+    left = []
+    assert tutorialBlocks.run(path, folder, absent=["noSuchProgram"], left=left) == 2
+    assert len(left) == 1 and left[0].endswith("page.md:4 calls noSuchProgram")
+    assert (tmp_path / "folder" / "b").exists()
+    with pytest.raises(BlockFailure, match="noSuchProgram"):
+        tutorialBlocks.run(path, folder)
+
+
 @pytest.mark.parametrize("page", tutorialBlocks.pages())
 def test_every_block_of_a_page_is_understood(page):
     """A fence that is not closed or is written otherwise would not be run, and nobody would know."""

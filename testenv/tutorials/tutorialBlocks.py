@@ -45,12 +45,19 @@ def _link(folder):
             os.symlink(target, os.path.join(folder, name))
 
 
-def run(path, folder, environment=None, say=lambda line: None):
+def _calls(text, programs):
+    """:returns: the first of the programs that a line of a command begins with, or None"""
+    return next((name for name in programs if re.search(rf"^{re.escape(name)}\b", text, re.MULTILINE)), None)
+
+
+def run(path, folder, environment=None, say=lambda line: None, absent=(), left=None):
     """Does what a page says: saves its files and runs its commands (`sh`, and `python` without a title) in a folder.
 
     :param path: of the page
     :param folder: an empty folder
     :param environment: more variables
+    :param absent: programs that are not there; commands that call one are left out
+    :param left: a list that gets page, line and program of each command that was left out
     :returns: how many blocks were saved or run
     :raises BlockFailure: at the first that fails"""
     _link(folder)
@@ -58,6 +65,12 @@ def run(path, folder, environment=None, say=lambda line: None):
     done = 0
     for block in read(path)[0]:
         where = f"{os.path.relpath(path, ROOT)}:{block.line}"
+        program = _calls(block.text, absent) if block.language == "sh" else None
+        if program:
+            say(f"{where}: left out, there is no {program}")
+            if left is not None:
+                left.append(f"{where} calls {program}")
+            continue
         if block.title:
             target = os.path.join(folder, block.title)
             os.makedirs(os.path.dirname(target), exist_ok=True)

@@ -2,6 +2,7 @@
 """Direct labels: names stand beside what they name, where they cover least."""
 
 LINE, STEP = 11.0, 5.0  # height of a label and distance of the points along a line that it may cover, in pixels
+GAP = 5.0  # pixels between labels that stand beside each other
 AROUND = ((7, -6), (7, 13), (-7, -6), (-7, 13), (0, -9), (0, 17), (9, 4), (-9, 4), (7, -18), (7, 25), (-7, -18), (-7, 25),
           (0, -22), (0, 30), (7, -32), (-7, -32), (7, 40), (-7, 40))
 
@@ -37,7 +38,7 @@ class Places:
         left, top, right, bottom = box
         outside = max(0.0, self.frame[0] - left, right - self.frame[2], self.frame[1] - top, bottom - self.frame[3])
         met = sum(left - 1 < x < right + 1 and top - 1 < y < bottom + 1 for x, y in self._points)
-        over = sum(left < c and a < right and top < d and b < bottom for a, b, c, d in self._boxes)
+        over = sum(left < c + GAP and a < right + GAP and top < d and b < bottom for a, b, c, d in self._boxes)
         return 1e4 * (outside > 0.0) * (1.0 + outside) + 400.0 * over + met
 
     def place(self, anchors, room):

@@ -113,7 +113,7 @@ def compare(stage, scene, golden):
     images = [render(stage, OTHER_SEEDS + i, scene.arguments) for i in range(scene.renders)]
     interval = welch.compare(welch.tiles(images), golden.means)
     result = Result(image=np.mean(images, axis=0), sees=scene.margin + float(np.median(interval.half)))
-    which = interval.differs(scene.margin)
+    which = interval.outside(scene.margin)
     if which.any():
         result.problem = (f"{which.any(axis=-1).sum()} of {which[..., 0].size} tiles differ by more than {100 * scene.margin:g} % "
                           f"(significance 1 % for all of them): {interval.worst(which)}")

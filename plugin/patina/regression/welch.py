@@ -15,11 +15,12 @@ FLOOR = 0.1  # of the image's mean, added to a tile's value: a relative differen
 SIGNIFICANCE = 0.01
 
 
-def tiles(images):
+def tiles(images, side=TILE):
     """:param images: (n, height, width, channels)
+    :param side: about that of a tile, in pixels
     :returns: means of tiles, (n, rows, columns, channels)"""
     images = np.asarray(images, np.float64)
-    rows, columns = (max(1, round(size / TILE)) for size in images.shape[1:3])
+    rows, columns = (max(1, round(size / side)) for size in images.shape[1:3])
     split = np.stack([part.mean(axis=1) for part in np.array_split(images, rows, axis=1)], axis=1)
     return np.stack([part.mean(axis=2) for part in np.array_split(split, columns, axis=2)], axis=2)
 
@@ -30,17 +31,18 @@ class Interval:
     difference: np.ndarray  # (rows, columns, channels), first less second
     half: np.ndarray        # half of the interval's width
 
-    def differs(self, margin):
-        """:param margin: relative difference that is taken
-        :returns: where the interval lies outside of the margin"""
+    def outside(self, margin):
+        """:param margin: relative difference that is accepted
+        :returns: mask of the tiles and channels whose interval lies outside of the margin"""
         return np.abs(self.difference) > margin + self.half
 
-    def worst(self, which, most=4):
+    def worst(self, which, verb="", most=4):
         """:param which: mask of tiles and channels
+        :param verb: what each does, such as "differs by"
         :returns: the largest differences of these, in words"""
         found = sorted(np.argwhere(which), key=lambda at: -abs(self.difference[tuple(at)]))
-        return "; ".join(f"tile row {r} column {c} {'RGB'[k]} {100 * self.difference[r, c, k]:+.1f} % "
-                         f"(+-{100 * self.half[r, c, k]:.1f})" for r, c, k in found[:most])
+        return "; ".join(f"tile row {r} column {c} {'RGB'[k]} {verb}{' ' * bool(verb)}{100 * self.difference[r, c, k]:+.1f} "
+                         f"% (+-{100 * self.half[r, c, k]:.1f})" for r, c, k in found[:most])
 
 
 def compare(first, second, significance=SIGNIFICANCE, looks=1):

@@ -131,7 +131,7 @@ def test_equal_pictures_are_rejected_no_more_often_than_stated():
     """400 pairs of noise alone, without margin: at 1 % each, more than 12 rejections have a probability below 0.001
     (binomial); seed 3."""
     generator = np.random.default_rng(3)
-    rejected = sum(welch.compare(*generator.normal(1.0, 0.1, (2, 4, 3, 5, 3))).differs(0.0).any() for _ in range(400))
+    rejected = sum(welch.compare(*generator.normal(1.0, 0.1, (2, 4, 3, 5, 3))).outside(0.0).any() for _ in range(400))
     assert rejected <= 12
 
 

@@ -1,30 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Collects the googletest programs of the build as pytest items, one for each test suite."""
 import os
-import stat
 import subprocess
 import sys
 
 import pytest
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+import googleTests  # noqa: E402
+
 TIMEOUT = 1200  # seconds for one suite: a hang fails rather than blocks
-
-
-def _programs():
-    folder = os.path.join(os.environ.get("PATINA_BUILD_DIR", ""), "tests")
-    if not os.environ.get("PATINA_BUILD_DIR") or not os.path.isdir(folder):
-        return []
-    paths = [os.path.join(folder, name) for name in sorted(os.listdir(folder))]
-    return [p for p in paths if os.path.isfile(p) and os.stat(p).st_mode & stat.S_IXUSR]
-
-
-def _suites(program):
-    """:returns: names of the suites in a program, those of parameterized tests included"""
-    listing = subprocess.run([program, "--gtest_list_tests"], capture_output=True, text=True, timeout=60)
-    if listing.returncode != 0:
-        return None
-    return [line.split("#")[0].strip().rstrip(".") for line in listing.stdout.splitlines()
-            if line and not line[0].isspace() and line.split("#")[0].strip().endswith(".")]
+# These compile hundreds of shaders and run each for milliseconds. The driver's optimizer would take a quarter of their time;
+# the pictures of other tests are drawn with it.
+MANY_SHADERS = "testGlsl"
 
 
 class _GoogleTestFailure(Exception):
@@ -49,8 +38,11 @@ class _Suite(pytest.Item):
     def runtest(self):
         if self.suite is None:
             raise _GoogleTestFailure(f"{self.program} cannot list its tests")
+        environment = dict(os.environ)
+        if os.path.basename(self.program).startswith(MANY_SHADERS):
+            environment.setdefault("GALLIVM_PERF", "nopt")
         try:
-            result = subprocess.run([self.program, f"--gtest_filter={self.suite}.*", "--gtest_brief=1"],
+            result = subprocess.run([self.program, f"--gtest_filter={self.suite}.*", "--gtest_brief=1"], env=environment,
                                     stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
                                     timeout=TIMEOUT)
         except subprocess.TimeoutExpired as error:
@@ -75,8 +67,8 @@ class _GoogleTests(pytest.File):
     """googletest.txt, the place that the programs' suites hang below."""
 
     def collect(self):
-        for program in _programs():
-            for suite in _suites(program) or [None]:
+        for program in googleTests.programs():
+            for suite in googleTests.suites(program) or [None]:
                 yield _Suite.from_parent(self, name=f"{os.path.basename(program)}::{suite or 'list'}",
                                          program=program, suite=suite)
 

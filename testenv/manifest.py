@@ -6,7 +6,7 @@ CMakeLists.txt lies in, `hdDelegate/film::testFilm::Checkpoint`. FOLDERS gives e
 longest folder counts), so that a new file needs no entry; OVERRIDES, read in order, change either for tests whose names
 match a pattern (`*` also matches `/`); the last that says something counts.
 
-A test runs in its own tier and in those that hold it (RUNS). Aims, on two quiet cores: unit 30 s, smoke 3 minutes, full 15.
+COSTLY names what is run first. A test runs in its own tier and in those that hold it (RUNS). Aims, on two quiet cores: unit 30 s, smoke 3 minutes, full 15.
 """
 import fnmatch
 
@@ -139,6 +139,26 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/raster/test_byDesign.py::test_glass_shows_what_is_behind", "long", None),
     ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same_looked_at_closely*", "long", None),
 )
+
+# More than about ten seconds of processor time by themselves (not by a fixture that others of their file use too): the first
+# that each process runs.
+COSTLY = (
+    "shaders/tests::testLobeSampling::*",
+    "shaders/tests::testLobeAlbedo::LobeAlbedo",
+    "shaders/tests::testLobeDegenerate::*",
+    "hdDelegate/raster/tests::testGlslAgreement::*",
+    "hdDelegate/raster/tests::testGlslMaterial::*",
+    "hdDelegate/raster/measure/tests::testDomeMethods::*",
+    "testenv/cli/test_predictions.py::test_renders_tell_the_predicted_error[[]raster]",
+    "testenv/raster/test_areaLights.py::test_outlines_keep_*",
+    "testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]*",
+    "testenv/raster/test_firstPass.py::test_the_first_image_looks_like_the_last*",
+)
+
+
+def is_costly(name):
+    """:param name: a test's name"""
+    return any(fnmatch.fnmatchcase(name, pattern) for pattern in COSTLY)
 
 
 def place_of(name):

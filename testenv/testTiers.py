@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""pytest plugin: `--tier` and `--room` choose tests by manifest.py."""
+"""pytest plugin: `--tier` and `--room` choose tests by manifest.py, which also says what is run first."""
 import os
 import sys
 
@@ -7,6 +7,7 @@ import pytest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
+import googleTests  # noqa: E402
 import manifest  # noqa: E402
 
 
@@ -14,6 +15,11 @@ def pytest_addoption(parser):
     group = parser.getgroup("patina")
     group.addoption("--tier", choices=list(manifest.RUNS), default="all", help="tests of this tier, and of those it holds")
     group.addoption("--room", action="append", default=[], choices=manifest.ROOMS, help="only tests of this room (repeatable)")
+
+
+def pytest_sessionstart(session):
+    if getattr(session.config.option, "numprocesses", None) and not hasattr(session.config, "workerinput"):
+        googleTests.list_all()  # once, for all workers
 
 
 def name_of(item):
@@ -34,7 +40,27 @@ def pytest_collection_modifyitems(config, items):
         raise pytest.UsageError("tests in no tier (testenv/manifest.py): " + ", ".join(lost))
     if left:
         config.hook.pytest_deselected(items=left)
-        items[:] = kept
+    costly = [manifest.is_costly(name_of(item)) for item in kept]
+    items[:] = in_order(kept, costly, getattr(config, "workerinput", {}).get("workercount", 1))
+
+
+def in_order(items, costly, processes):
+    """Each process starts with an equal part of a list (pytest-xdist's `worksteal`): the costly tests are dealt out to the
+    heads of these parts, so that none is begun when the others have nothing left to do.
+
+    :param costly: for each item, whether it is
+    :returns: the items, all others in the order that they had"""
+    first = [item for item, long in zip(items, costly) if long]
+    rest = [item for item, long in zip(items, costly) if not long]
+    if len(rest) < len(first) + 2 * processes:  # heads would be longer than parts
+        return list(items)
+    found, taken = [], 0
+    for i in range(processes):
+        head = first[i::processes]
+        size = (len(items) - len(found)) // (processes - i) - len(head)
+        found += head + rest[taken:taken + size]
+        taken += size
+    return found
 
 
 def pytest_report_header(config):

@@ -7,7 +7,8 @@ the package. ./patina builds what is needed before.
   patina test --room shaders    what a change to one room needs, within 3 minutes (with --tier full: all of the room)
   patina test -k furnace        further arguments go to pytest; named files and tests run whatever tier they are in
 
-testenv/manifest.py says which tier and rooms a test belongs to. Two processes or more share the tests (`-n 0`: one).
+testenv/manifest.py says which tier and rooms a test belongs to. Several processes share the tests, at most five: as many as
+cores, or one more (`-n 0`: one).
 
 Some tests look at public assets (the Standard Shader Ball, MaterialX's examples). PATINA_ASSETS names their folder; without
 it a folder `assets` that holds them is looked for beside the checkout, and in the folders beside it. Where there is none,
@@ -26,7 +27,8 @@ from patina.cli.errors import CommandError, UsageError
 HELP = "run the tests of a checkout"
 PASSES_ON = True
 TIERS = ("lint", "unit", "smoke", "full", "long", "all")
-
+MOST_PROCESSES = 5
+PROCESS_MEMORY = 2 << 30  # bytes that a process of tests takes, with the renders in it
 
 _ASSET = "StandardShaderBall"  # what tells the folder of public assets from others that are called so
 
@@ -53,7 +55,7 @@ def run(arguments):
     # pytest runs in the root, where testpaths are meant; paths keep the meaning that they had.
     passed_on = [os.path.abspath(a) if _named(a) else a for a in arguments.passed_on]
     tier = arguments.tier or ("all" if any(map(_named, arguments.passed_on)) else "smoke" if arguments.room else "full")
-    command = [sys.executable, "-m", "pytest", *_workers(passed_on), "-q", "-ra", "-c", os.path.join(testenv, "pytest.ini"),
+    command = [sys.executable, "-m", "pytest", *_workers(passed_on, tier), "-q", "-ra", "-c", os.path.join(testenv, "pytest.ini"),
                "--rootdir", root, "-p", "testTiers", "--tier", tier, *_rooms(arguments.room, testenv), *passed_on]
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) == signal.SIG_IGN:  # as by nohup; tests send them, and the processes that they start inherit
@@ -89,7 +91,7 @@ def _rooms(rooms, testenv):
     return [part for room in rooms for part in ("--room", room)]
 
 
-def _workers(passed_on):
+def _workers(passed_on, tier="full"):
     """:returns: arguments that let several processes share the tests; none where pytest-xdist is missing, there is one
     core, or the user says how many or wants to look into a test"""
     alone = ("-n", "--numprocesses", "--pdb", "-s", "--capture=no", "--collect-only", "--co")
@@ -99,6 +101,18 @@ def _workers(passed_on):
     if any(a == name or a.startswith(name + "=") or (name == "-n" and a[:2] == "-n" and a[2:].isalnum())
            for a in passed_on for name in alone):
         return []
+    # One more than cores: tests that wait (for servers, signals, a browser) leave a core to another. Those of the small tiers
+    # wait little, and each process has to find all tests first.
+    processes = cores + (tier in ("full", "long", "all"))
     # Neighbours stay together, and so do tests of a module. (By modules, pytest-xdist runs a test that takes its process
     # down again and again.)
-    return ["-n", str(min(cores, 4)), "--dist", "worksteal"]
+    return ["-n", str(max(1, min(processes, MOST_PROCESSES, _free_memory() // PROCESS_MEMORY))), "--dist", "worksteal"]
+
+
+def _free_memory():
+    """:returns: bytes that processes may still take; a large number where the system does not say"""
+    try:
+        with open("/proc/meminfo", encoding="ascii") as file:
+            return next(int(line.split()[1]) * 1024 for line in file if line.startswith("MemAvailable:"))
+    except (OSError, StopIteration):
+        return 1 << 62

@@ -49,6 +49,14 @@ def note_document(path):
                 waiting.append(more)
 
 
+def note_network(network):
+    """Notes what a material's nodes read: a MaterialX document names its textures itself, without a stage."""
+    for node in network.nodes():
+        for value in node["inputs"].values():
+            if value["type"] == "filename" and isinstance(value["value"], str):
+                note(value["value"])
+
+
 def files():
     """:returns: sorted list of the noted files; of <UDIM> those tiles that are there"""
     found = set()

@@ -9,7 +9,7 @@ import pytest
 
 import movie
 from inProcess import patina
-from patina.farm import jobs
+from patina.farm import identity, jobs
 
 FLAGS = ["--imageWidth=40", "--samples=4"]
 
@@ -107,3 +107,17 @@ def test_a_template_may_lie_elsewhere(tmp_path):
     (other / "job.json").write_text(json.dumps(job))
     result = openjd("run", other / "job.json")
     assert result.returncode == 0, result.stdout[-3000:]
+
+
+def test_variables_that_images_depend_on_go_with_the_job(tmp_path, monkeypatch):
+    stage = movie.write_stage(tmp_path)
+    for name in identity.ENVIRONMENT:
+        monkeypatch.delenv(name, raising=False)
+    assert "jobEnvironments" not in template(tmp_path, stage, tmp_path / "a.exr")
+    monkeypatch.setenv("PATINA_MODEL_PATH", str(tmp_path))
+    job = template(tmp_path, stage, tmp_path / "a.exr")
+    assert job["jobEnvironments"][0]["variables"] == {"PATINA_MODEL_PATH": str(tmp_path)}
+    result = openjd("check", tmp_path / "job.json")
+    assert result.returncode == 0, result.stdout
+    monkeypatch.setenv("PATINA_MODEL_PATH", "/{{a}}")
+    assert "$PATINA_MODEL_PATH" in template(tmp_path, stage, tmp_path / "a.exr", check=False)

@@ -8,7 +8,7 @@ import types
 import pytest
 
 from patina.cli.errors import CommandError
-from patina.farm import cut, sender, work, worker
+from patina.farm import cut, identity, sender, work, worker
 
 
 def frame(folder, tiles=2):
@@ -113,3 +113,29 @@ def test_which_statuses_may_pass(tmp_path, monkeypatch):
         with pytest.raises(worker.PartFailed) as failed:
             worker.run([], str(tmp_path), str(tmp_path / "1.log"), ("statuses", [], [], None))
         assert failed.value.args[2] is passing
+
+
+def test_commands_run_with_the_senders_variables(tmp_path, monkeypatch):
+    monkeypatch.setenv("OCIO", "/a/workers/own.ocio")
+    seen = {}
+    monkeypatch.setattr(worker.subprocess, "call", lambda *_, env, **__: seen.update(env) or 0)
+    worker.run([], str(tmp_path), str(tmp_path / "log"), ("variables", [], [], {}), {"OCIO": None, "PATINA_MODEL_PATH": "/models"})
+    assert "OCIO" not in seen and seen["PATINA_MODEL_PATH"] == "/models" and seen["PATH"]
+
+
+def test_what_variables_lead_to_makes_a_part(tmp_path, monkeypatch):
+    (tmp_path / "a.mtlx").write_text("<materialx/>")
+    (tmp_path / "a.ocio").write_text("ocio_profile_version: 2")
+    monkeypatch.setenv("PATINA_MODEL_PATH", str(tmp_path))
+    monkeypatch.setenv("OCIO", str(tmp_path / "a.ocio"))
+    before = identity.of_environment()
+    assert identity.difference({"environment": before}, {"environment": identity.of_environment()}) == ""
+    (tmp_path / "b.mtlx").write_text("<materialx/>")
+    now = identity.of_environment()
+    assert identity.difference({"environment": now}, {"environment": before}) == "$PATINA_MODEL_PATH leads to something else"
+    (tmp_path / "b.mtlx").unlink()
+    (tmp_path / "a.ocio").write_text("ocio_profile_version: 1")
+    now = identity.of_environment()
+    assert identity.difference({"environment": now}, {"environment": before}) == "$OCIO leads to something else"
+    monkeypatch.setenv("OCIO", "ocio://default")
+    assert identity.of_environment()["OCIO"] == "ocio://default" and "OCIO" not in identity.environment_files()

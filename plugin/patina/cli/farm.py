@@ -12,12 +12,12 @@ that failed stay there.
 """
 import argparse
 import contextlib
-import os
+import sys
 
 from patina import inputs
 from patina.cli import compiled, denoiser, frames, openStage, outputs, overrides, recordFlags, renderSettings
 from patina.cli.errors import UsageError
-from patina.farm import cut, engines, work
+from patina.farm import cut, engines, jobFiles, work
 
 PASSES_ON = True  # to `patina record`
 _STAGE, _IMAGE = "\0stage", "\0image"  # no word of a command line holds a zero
@@ -59,9 +59,12 @@ def run(arguments):
     stage = openStage.open_stage(record.stage, record.mask, record.sessionLayer, record.layer)
     _check_render(module, arguments, _with_prim(record, stage))
     shots = frames.plan(record, stage)
-    files = _files(record)
+    files, missing = jobFiles.of(module, record)
     for file in files:
         inputs.note(file)
+    if missing and not arguments.quiet:
+        print(f"patina farm: the stage names {missing[0]}, which is not there" +
+              (f", and {len(missing) - 1} more such files" if len(missing) > 1 else ""), file=sys.stderr)
     outputs.check_all([arguments.json, arguments.writeJob, *(image for _, image in shots)])
     if arguments.writeJob:
         from patina.farm import jobs
@@ -143,15 +146,3 @@ def _counts(text):
     if any(not 1 <= count <= 100000 for count in counts):
         raise UsageError(f"patina farm: --simulate {text}: write numbers of workers, as in 10,100,1000")
     return counts
-
-
-def _files(record):
-    """:returns: absolute paths of all that a worker has to read, as far as the stage names it"""
-    from pxr import UsdUtils
-
-    layers, assets, _ = UsdUtils.ComputeAllDependencies(record.stage)
-    files = [layer.realPath for layer in layers if layer.realPath] + [str(asset) for asset in assets]
-    files += [record.sessionLayer] if record.sessionLayer else []
-    files += record.layer or []
-    # What is in a package is the package's.
-    return sorted({os.path.abspath(inputs.file_of(file)) for file in files})

@@ -52,15 +52,8 @@ def load(text, set_texts=(), every=False):
     if is_document(file) and set_texts:
         found = [(label, _override(network, set_texts)) for label, network in found]
     for _, network in found:
-        _note_files(network)
+        inputs.note_network(network)
     return found, warnings
-
-
-def _note_files(network):
-    for node in network.nodes():
-        for value in node["inputs"].values():
-            if value["type"] == "filename" and isinstance(value["value"], str):
-                inputs.note(value["value"])
 
 
 def _list(found):

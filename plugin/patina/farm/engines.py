@@ -11,7 +11,7 @@ import sys
 from dataclasses import dataclass, field
 
 from patina.cli.errors import CommandError, UsageError
-from patina.farm import pods
+from patina.farm import identity, pods
 
 QUEUES = {"slurm": "SLURMCluster", "pbs": "PBSCluster", "lsf": "LSFCluster", "sge": "SGECluster"}
 HELP = ("dask://HOST[:PORT] is a scheduler that runs; local:N starts N workers here; slurm:N, pbs:N, lsf:N and sge:N ask a "
@@ -157,8 +157,8 @@ def environment():
     paths = [os.path.dirname(os.path.dirname(os.path.abspath(patina.__file__)))]
     if module:
         paths.append(os.path.dirname(os.path.abspath(module.__file__)))
-    kept = {name: os.environ[name] for name in ("PATINA_BUILD_DIR", "PATINA_CACHE", "PATINA_OIDN_LIBRARY", "OCIO",
-                                                "PXR_AR_DEFAULT_SEARCH_PATH") if os.environ.get(name)}
+    kept = {name: os.environ[name] for name in ("PATINA_BUILD_DIR", "PATINA_CACHE", "PATINA_OIDN_LIBRARY", *identity.ENVIRONMENT)
+            if os.environ.get(name)}
     return {"PYTHONPATH": os.pathsep.join(dict.fromkeys(paths)), "PYTHONSAFEPATH": "1", **kept}
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What made a part: everything that the bits of a frame depend on. Parts with the same go together."""
+import contextlib
 import hashlib
 import json
 import os
@@ -7,12 +8,13 @@ import os
 from patina import __version__, inputs
 from patina.farm import digests
 
-FORMAT = 1
+FORMAT = 2
 _OF_PARTS = ("sampleBegin", "sampleEnd", "tilePart", "tileParts")
 # What the back end decides about every part alike, or what only one machine's run is about.
 _OF_RUNS = ("threads", "seconds", "checkpointFile", "checkpointSeconds", "interactive")
 
 
+ENVIRONMENT = ("OCIO", "PATINA_MODEL_PATH", "PXR_AR_DEFAULT_SEARCH_PATH")  # variables that images depend on
 MACHINE = ("version", "build", "instruction set")  # of two machines, these must be equal for equal bits
 
 
@@ -33,6 +35,40 @@ def _libraries():
     return sorted(path for path in paths if os.path.isfile(path))
 
 
+def environment():
+    """:returns: dict of the variables that images depend on; None for those that are not set"""
+    return {name: os.environ.get(name) or None for name in ENVIRONMENT}
+
+
+def environment_files():
+    """:returns: dict of variable -> files that it leads to: the colour configuration, and models in the order they are read"""
+    found = {}
+    config = os.environ.get("OCIO", "")
+    if config and "://" not in config:  # ocio://... is built in
+        found["OCIO"] = [os.path.abspath(config)]
+    for folder in filter(None, os.environ.get("PATINA_MODEL_PATH", "").split(":")):
+        with contextlib.suppress(OSError):
+            found.setdefault("PATINA_MODEL_PATH", []).extend(
+                os.path.join(os.path.abspath(folder), name) for name in sorted(os.listdir(folder)) if name.endswith(".mtlx"))
+    return found
+
+
+def of_environment():
+    """:returns: dict of variable -> what it leads to: digests of files, or what it says"""
+    found = {}
+    for name, files in environment_files().items():
+        found[name] = [_digest(file) for file in files]
+    config = os.environ.get("OCIO", "")
+    return {"OCIO": config, **found} if config else found
+
+
+def _digest(path):
+    try:
+        return digests.of_file(path)
+    except OSError:
+        return "missing"
+
+
 def of_render(module, stage, settings, camera, others):
     """:param module: _patina
     :param settings: dict of render settings
@@ -40,7 +76,7 @@ def of_render(module, stage, settings, camera, others):
     :returns: dict that JSON can hold"""
     kept = {name: value for name, value in settings.items() if name not in (*_OF_PARTS, *_OF_RUNS)}
     what = {"format": FORMAT, **of_machine(module), "camera": camera, "files": _files(stage),
-            "settings": kept, **others}
+            "environment": of_environment(), "settings": kept, **others}
     return json.loads(json.dumps(what, default=str))
 
 
@@ -53,10 +89,7 @@ def _files(stage):
         if layer.anonymous and layer != stage.GetSessionLayer():  # overrides are told by --set
             found[f"anonymous {len(found)}"] = hashlib.sha256(layer.ExportToString().encode()).hexdigest()
     for path in inputs.files():
-        try:
-            found[os.path.relpath(path, folder)] = digests.of_file(path)
-        except OSError:
-            found[os.path.relpath(path, folder)] = "missing"
+        found[os.path.relpath(path, folder)] = _digest(path)
     return found
 
 
@@ -70,6 +103,8 @@ def difference(a, b, where=""):
         return ""
     if a == b:
         return ""
+    if where.startswith("environment "):
+        return f"${where[len('environment '):]} leads to something else"
     if where.startswith("files "):
         name = where[len("files "):]
         return f"{name} is another" if a and b else f"{name} is read by one of them alone"
@@ -83,16 +118,12 @@ def _shown(value):
 
 def still_true(module, what, stage):
     """:returns: whether a part that was made earlier is of this Patina and of the files as they are now"""
-    if any(what.get(name) != value for name, value in of_machine(module).items()):
+    if any(what.get(name) != value for name, value in {**of_machine(module), "environment": of_environment()}.items()):
         return False
     folder = os.path.dirname(os.path.realpath(stage))
     for name, digest in what.get("files", {}).items():
         if name.startswith("anonymous "):
             continue
-        try:
-            now = digests.of_file(os.path.join(folder, name))
-        except OSError:
-            now = "missing"
-        if now != digest:
+        if _digest(os.path.join(folder, name)) != digest:
             return False
     return True

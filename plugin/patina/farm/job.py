@@ -65,6 +65,8 @@ class Job:
             threads = engines.threads(self.engine) if self.arguments.threads is None else self.arguments.threads
             one = sender.Sender(cluster.client, self.arguments.passed_on, os.getcwd(), self.checks, threads)
             link = cluster.dashboard()
+            if link:  # a narrow terminal shows less of the line of progress
+                self.progress.say(f"Dask's page: {link}")
             try:
                 one.run(frames, waiting, lambda state: self._show(state, frames, link))
             except KeyboardInterrupt:

@@ -5,6 +5,7 @@ import os
 
 from patina.cli import outputs
 from patina.cli.errors import CommandError, UsageError
+from patina.farm import identity
 
 VERSION = "jobtemplate-2023-09"
 LONGEST_NAME = 64  # of a job, by the specification
@@ -57,7 +58,16 @@ def template(arguments, record, shots, folder):
         parameters.append(_path("Parts", "DIRECTORY", "INOUT", record.image + ".parts", folder, "parts until they are merged"))
         steps = _cut_steps(arguments, flags, frames)
     name = f"patina {os.path.basename(record.stage)}".translate(str.maketrans("{}", "()"))[:LONGEST_NAME]
-    return {"specificationVersion": VERSION, "name": name, "parameterDefinitions": parameters, "steps": steps}
+    return {"specificationVersion": VERSION, "name": name, "parameterDefinitions": parameters, **_environments(), "steps": steps}
+
+
+def _environments():
+    """:returns: the variables of this command's environment that images depend on, as the template has them"""
+    variables = {name: value for name, value in identity.environment().items() if value}
+    for name, value in variables.items():
+        if "{{" in value or "}}" in value:
+            raise CommandError(f"--write-job: ${name}: a job template takes double braces for an expression")
+    return {"jobEnvironments": [{"name": "Patina", "variables": variables}]} if variables else {}
 
 
 def _path(name, kind, flow, path, folder, description):

@@ -7,7 +7,7 @@ import time
 from concurrent.futures import CancelledError
 
 from patina.cli.errors import is_temporary
-from patina.farm import work, worker
+from patina.farm import identity, work, worker
 
 LOOK_SECONDS = 1.0  # so often it is seen whether more workers have come
 REFUSALS = 20  # of one task, by workers that came later
@@ -35,6 +35,7 @@ class Sender:
         self.client = client
         self.ended = queue.Queue()  # futures
         self.arguments, self.folder, self.checks, self.threads = arguments, folder, checks, threads
+        self.variables = identity.environment()
         self.tasks = {}  # future -> task
         self.failed = []  # tasks that were given up
         self.lost = ""  # why there is no scheduler any more
@@ -87,7 +88,7 @@ class Sender:
         # Any worker takes it when those have gone.
         places = {"workers": others, "allow_other_workers": True} if avoided and others else {}
         return self.client.submit(worker.run, task.arguments(self.arguments, self.threads), self.folder, task.log, self.checks,
-                                  pure=False, retries=0, **places)
+                                  self.variables, pure=False, retries=0, **places)
 
     def _workers(self):
         """:returns: addresses of the workers that are there, as they were a moment ago"""

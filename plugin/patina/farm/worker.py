@@ -51,13 +51,14 @@ def _problems(files, folders, machine, home):
     return found + [f"{name} is {own[name]}, not {value}" for name, value in (machine or {}).items() if own.get(name) != value]
 
 
-def run(arguments, folder, log, checks):
+def run(arguments, folder, log, checks, variables=None):
     """Runs a command of Patina in a process of its own.
 
     :param arguments: of the command line
     :param folder: that the sender runs in
     :param log: path of the file that takes what it prints; it is removed when all is well
     :param checks: arguments of check()
+    :param variables: of the sender's environment, on which images depend; None where one is not set
     :returns: dict of the worker's name, host and address, and the seconds that it took
     :raises Refused: where this worker should not take it
     :raises PartFailed: with the reason in one line"""
@@ -68,7 +69,8 @@ def run(arguments, folder, log, checks):
     begin = time.perf_counter()
     with open(log, "wb") as file:
         command = [sys.executable, "-m", "patina.farm.child", str(os.getpid()), *arguments]
-        status = subprocess.call(command, stdin=subprocess.DEVNULL, stdout=file, stderr=file, cwd=folder)
+        environment = {name: value for name, value in {**os.environ, **(variables or {})}.items() if value is not None}
+        status = subprocess.call(command, stdin=subprocess.DEVNULL, stdout=file, stderr=file, cwd=folder, env=environment)
     if status != 0:
         kept = f"{log[:-len('.log')]}.{time.strftime('%Y%m%d-%H%M%S')}.{os.getpid()}.failed.log"
         os.replace(log, kept)

@@ -3,6 +3,8 @@
 import numpy as np
 from pxr import Sdf, UsdShade
 
+from patina import inputs
+
 from . import assets, mtlxFiles
 
 _TERMINALS = (("surface", "ComputeSurfaceSource"), ("displacement", "ComputeDisplacementSource"),
@@ -18,6 +20,8 @@ def network_of(context, material, path, module):
     :returns: its Network; without terminals when it has none that can be used"""
     document = mtlxFiles.network_of(material)
     network = document if document is not None else _Translation(context, material, path, module).run()
+    if document is not None:
+        inputs.note_network(document)
     if not context.time.IsDefault():
         _set_frame(network, context)
     return network

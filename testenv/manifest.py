@@ -40,6 +40,7 @@ FOLDERS = {  # folder: tier, rooms
     "testenv/cli/": ("full", "cli"),
     "testenv/farm/": ("smoke", "farm cli film"),
     "testenv/film/": ("smoke", "film python"),
+    "testenv/fuzz/": ("full", "cli stage materialNetwork film image"),
     "testenv/hydra/": ("full", "hydra"),
     "testenv/mitsuba/": ("long", "embree lights shaders"),
     "testenv/package/": ("long", "python cli backends"),

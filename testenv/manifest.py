@@ -116,6 +116,8 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/render/test_walks.py::*", "smoke", "shaders embree"),
     ("testenv/render/test_reproducible.py::*", None, "embree film backends"),
     ("testenv/raster/test_fallback.py::*", None, "raster backends"),
+    # The path of an image is that of an OpenEXR file, which another of these tests goes.
+    ("testenv/fuzz/test_faults.py::*[[]png[]]", "long", None),
     # Every test scene to the noise of thousands of samples.
     ("testenv/render/test_convergence.py::test_error_falls_with_samples*", "long", None),
     ("testenv/tests/test_runner.py::*", "smoke", None),

@@ -9,12 +9,12 @@ SCENES = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))
 SPHERE = '#usda 1.0\ndef Sphere "ball"\n{\n}\ndef DomeLight "dome"\n{\n}\n'
 
 
-def small_png():
-    """:returns: the bytes of a picture of 2 x 2 pixels"""
+def small_png(width=2, height=2):
+    """:returns: the bytes of a picture of 2 x 2 pixels, whatever size it claims"""
     def chunk(name, data):
         return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
     rows = b"\0\xff\0\0\0\xff\0" + b"\0\0\0\xff\xff\xff\xff"
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 2, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(rows)) +
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(rows)) +
             chunk(b"IEND", b""))
 
 
@@ -34,6 +34,7 @@ def fill(folder, seed=0):
         return bytes(data[:chance.randint(len(data) // 2, len(data))])
 
     write("small.png", small_png())
+    write("huge.png", small_png(100000, 100000))  # 30 GB when it is unpacked
     write("damaged.png", spoiled("checker.png"))
     write("damaged.exr", spoiled("sky.exr"))
     write("damaged.vdb", spoiled("puff.vdb"))

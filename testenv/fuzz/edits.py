@@ -4,6 +4,7 @@ and vanish, and the render is started, stopped and left alone in between."""
 import json
 import os
 import random as randoms
+import sys
 import time
 
 import outcomes
@@ -47,12 +48,13 @@ def execute(path, folder):
     from patina import stage as reader
 
     os.chdir(folder)
+    outcomes.tell_swallowed()
     scene, renderer = _patina.Scene(), _patina.make_renderer("embree")
     film = _patina.Film()
     for step in steps:
         layer = Sdf.Layer.CreateAnonymous("edit.usda")
         if not layer.ImportFromString(HEAD + step["stage"]):
-            continue  # numbers of prims that clash
+            return outcomes.broken("a step is no layer: the generator is wrong")
         with scene.edit() as edit:
             if step["clear"]:
                 edit.clear()
@@ -64,9 +66,12 @@ def execute(path, folder):
                                           "seed": step["seed"]}, film)
         time.sleep(step["wait"])
     renderer.wait()
+    for warning in scene.warnings():
+        if "memory" in warning["message"]:
+            print(f"out of memory: {warning['prim']}: {warning['message']}", file=sys.stderr)
     if renderer.progress()["failed"]:
-        print("patina: " + renderer.progress()["error"])
-        return 0
+        print("patina: " + renderer.progress()["error"], file=sys.stderr)
+        return 1
     if not np.isfinite(np.array(film.resolve("color"))).all():
         return outcomes.broken("the image holds values that are no numbers")
     return 0

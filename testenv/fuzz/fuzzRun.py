@@ -13,7 +13,7 @@ from fuzzers import FUZZERS
 
 def listing():
     """:returns: one line for each fuzzer"""
-    return [f"  {name:<14}{fuzzer.kind:<11}{fuzzer.reads}" for name, fuzzer in FUZZERS.items()]
+    return [f"  {name:<18}{fuzzer.kind:<11}{fuzzer.reads}" for name, fuzzer in FUZZERS.items()]
 
 
 def unknown(names):
@@ -28,7 +28,7 @@ def _line(name, found):
     rate = found["inputs"] / max(found["seconds"], 1e-3)
     lines = "-" if not found["lines"] or not found["lines"][1] else f"{100 * found['lines'][0] / found['lines'][1]:.0f} %"
     kinds = ", ".join(f"{count} {kind}" for kind, count in sorted(found["counts"].items()))
-    return f"{name:<14}{found['inputs']:>9}{found['seconds']:>8.0f}{rate:>10.1f}{lines:>8}{len(found['findings']):>10}   {kinds}"
+    return f"{name:<18}{found['inputs']:>9}{found['seconds']:>8.0f}{rate:>10.1f}{lines:>8}{len(found['findings']):>10}   {kinds}"
 
 
 def run(names, seconds, seed, corpus, findings, build, say=print):
@@ -49,7 +49,7 @@ def run(names, seconds, seed, corpus, findings, build, say=print):
             left_out = str(error)
             say(f"left out: {', '.join(natives)}: {left_out}")
     results = {}
-    say(f"{'fuzzer':<14}{'inputs':>9}{'seconds':>8}{'inputs/s':>10}{'lines':>8}{'findings':>10}")
+    say(f"{'fuzzer':<18}{'inputs':>9}{'seconds':>8}{'inputs/s':>10}{'lines':>8}{'findings':>10}")
     with tempfile.TemporaryDirectory() as scratch:
         for name in names:
             fuzzer, share = FUZZERS[name], seconds * FUZZERS[name].share / total

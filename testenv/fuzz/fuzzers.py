@@ -17,7 +17,7 @@ FUZZERS = {
     "image": Fuzzer("native", "bytes as an image: its size, channels and metadata", 1, ("hdDelegate/film/readImage.cpp",
                                                                                      "materialNetwork/utf8.cpp")),
     "stages": Fuzzer("generated", "legal stages of all prim types with extreme values, rendered", 4, ()),
-    "documents": Fuzzer("generated", "legal MaterialX documents of all nodes, explained and evaluated", 2, ()),
+    "materialDocuments": Fuzzer("generated", "legal MaterialX documents of all nodes, explained and evaluated", 2, ()),
     "edits": Fuzzer("generated", "random edits while an image is rendered", 2, ()),
     "commandLines": Fuzzer("generated", "every flag of the commands that read files", 2, ()),
 }

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What may become of an input: in the process that runs it, and seen from outside."""
+import json
 import os
 import re
 import sys
+import traceback
 
 BROKEN = 99  # exit status of an input that breaks a promise; the last line of standard error says which
 KINDS = ("crash", "hang", "memory", "traceback", "promise")  # findings
@@ -27,12 +29,30 @@ def command(words, folder):
     return main.main([str(word) for word in words])
 
 
+# What validation raises; any other exception that a prim's reader meets is a defect, though it ends as a warning.
+_FORESEEN = ("StageError", "ValueError", "ErrorException", "RuntimeError")
+
+
+def tell_swallowed():
+    """Has what becomes a warning of a prim told with its traceback, where nobody has foreseen it: else it would count as fine."""
+    from patina.stage import context
+
+    leave = context.Guard.__exit__
+
+    def told(self, kind, error, trace):
+        if kind is not None and kind.__name__ not in _FORESEEN:
+            traceback.print_exception(kind, error, trace)
+        return leave(self, kind, error, trace)
+    context.Guard.__exit__ = told
+
+
 def record(words, folder):
     """The same of a render to image.exr, which exists before: it is the old one afterwards, or a whole new one of numbers."""
     image = os.path.join(folder, "image.exr")
     with open(image, "wb") as file:
         file.write(SENTINEL)
-    status = command([*words, *SMALL], folder)
+    tell_swallowed()
+    status = command([*words, *SMALL, "--json=told.json"], folder)
     if not os.path.exists(image):
         return broken("the image that was there before is lost")
     with open(image, "rb") as file:
@@ -41,6 +61,10 @@ def record(words, folder):
         return status if same else broken("a render that failed has changed the image")
     if same:
         return broken("a render that is done has written no image")
+    with open(os.path.join(folder, "told.json"), encoding="utf-8") as file:
+        for warning in json.load(file)["warnings"]:
+            if "memory" in warning["message"]:
+                print(f"out of memory: {warning['prim']}: {warning['message']}", file=sys.stderr)
     import numpy as np
 
     import _patina

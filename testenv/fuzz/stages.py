@@ -2,7 +2,7 @@
 """Random legal stages of every prim type that USD's schemas have, with extreme values, rendered to a small image."""
 import random as randoms
 
-import documents
+import materialDocuments
 import outcomes
 import values
 
@@ -65,7 +65,7 @@ class _Writer:
     def primvar(self):
         r = self.random
         kind = r.choice(("color3f[]", "float[]", "texCoord2f[]", "int[]", "string[]", "quatf[]", "matrix4d[]", "normal3f[]", "float3"))
-        interpolation = r.choice(("constant", "uniform", "vertex", "varying", "faceVarying", "instance"))
+        interpolation = r.choice(("constant", "uniform", "vertex", "varying", "faceVarying"))
         name = r.choice(("displayColor", "st", "normals", "displayOpacity", "patina:x", "widths", "skel:jointIndices"))
         return [f"{line} (interpolation = \"{interpolation}\")" if "timeSamples" not in line else line
                 for line in self.attribute(kind, f"primvars:{name}")]
@@ -132,7 +132,7 @@ def make(seed):
             if r.random() < 0.2:
                 lines += ["    " + line for line in writer.attribute(kind, name, allowed)]
     lines += ["}", 'def DomeLight "dome"', "{", "}", 'def Volume "puff"', "{", "}"]
-    lines += documents.usd_material(r)
+    lines += materialDocuments.usd_material(r)
     for _ in range(r.randint(1, 6)):
         lines += writer.prim()
     return "\n".join([*lines, ""]).encode(errors="replace")

@@ -66,6 +66,22 @@ def test_every_end_has_its_name(kind, hand, tmp_path, monkeypatch):
     assert found in expected, answer
 
 
+def test_what_ends_as_a_warning_is_found_too(hand, tmp_path, monkeypatch):
+    """Neither memory that ran out nor an error of the reader's own is fine because the rest was drawn."""
+    (tmp_path / "swallows.py").write_text(
+        "import outcomes\ndef execute(path, folder):\n    from patina.stage import geometry\n"
+        "    def broken(*a, **k):\n        raise KeyError('a defect')\n    import patina.stage.readStage as r\n"
+        "    r.cameras.emit = broken\n    return outcomes.record(['record', path, 'image.exr'], folder)\n")
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
+    own = generated.Hand()
+    try:
+        found = generated.outcome(own, types.SimpleNamespace(__name__="swallows"), b'#usda 1.0\ndef Camera "c"\n{\n}\n', ".usda")
+    finally:
+        own.end()
+    assert found[0] == "traceback" and "a defect" in found[2]["error"]
+    assert outcomes.kind_of({"timedOut": False, "signal": 0, "status": 0, "error": "out of memory: /dome: no memory for it"}) == "memory"
+
+
 def test_inputs_shrink():
     data = b"".join(b"line %d\n" % i for i in range(40))
     assert shrink.lines(data, lambda d: b"line 7\n" in d and b"line 31\n" in d, 10) == b"line 7\nline 31\n"

@@ -5,7 +5,7 @@ NUMBERS = (0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 1e-7, -1e-7, 1e-30, 1e-45, 1e6, 1e15,
 INTEGERS = (0, 1, 2, 3, 4, -1, 7, 255, 65536, 2**31 - 1, -2**31)
 # What a stage may name: nothing, things that are no files, and files of the folder that damage has met.
 ASSETS = ("", "missing.png", "/dev/zero", "/dev/stdin", "pipe", "folder", "damaged.png", "damaged.exr", "damaged.vdb", "damaged.ies",
-          "damaged.mtlx", "zeros.png", "loop.usda", "../" * 40 + "etc/passwd", "x" * 300, "a<UDIM>.png", "small.png",
+          "damaged.mtlx", "zeros.png", "huge.png", "loop.usda", "../" * 40 + "etc/passwd", "x" * 300, "a<UDIM>.png", "small.png",
           "%s%n.png", "damaged.usdz[0/a.png]")
 WORDS = ("", "st", "displayColor", "vertex", "faceVarying", "uniform", "constant", "none", "catmullClark", "</script><img src=x>",
          "PWND); discard; //", "ÿ𝛑", "a:b:c", "x" * 5000, "../..", "$(touch owned)", "%n%s")

@@ -40,6 +40,7 @@ FOLDERS = {  # folder: tier, rooms
     "testenv/cli/": ("full", "cli"),
     "testenv/farm/": ("smoke", "farm cli film"),
     "testenv/film/": ("smoke", "film python"),
+    "testenv/fuzz/": ("full", "cli stage materialNetwork film image"),
     "testenv/hydra/": ("full", "hydra"),
     "testenv/mitsuba/": ("long", "embree lights shaders"),
     "testenv/package/": ("long", "python cli backends"),
@@ -115,6 +116,8 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/render/test_walks.py::*", "smoke", "shaders embree"),
     ("testenv/render/test_reproducible.py::*", None, "embree film backends"),
     ("testenv/raster/test_fallback.py::*", None, "raster backends"),
+    # The path of an image is that of an OpenEXR file, which another of these tests goes.
+    ("testenv/fuzz/test_faults.py::*[[]png[]]", "long", None),
     # Every test scene to the noise of thousands of samples.
     ("testenv/render/test_convergence.py::test_error_falls_with_samples*", "long", None),
     ("testenv/tests/test_runner.py::*", "smoke", None),

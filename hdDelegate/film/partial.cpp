@@ -16,8 +16,10 @@ constexpr uint32_t longestDescription = 1u << 28;
 
 /// Like FilmStream::Header's reset for a film that parts are merged into.
 void begin(Film& film, FilmStream::Header header, size_t tiles, const FilmFileReader& file) {
-    // A small file cannot ask for much memory.
-    constexpr uint64_t maxParts = 1 << 16, tileArea = uint64_t(tileSize) * tileSize;
+    // A small file cannot ask for much memory: it holds a pixel of each tile at least.
+    constexpr uint64_t maxParts = 1 << 12, tileArea = uint64_t(tileSize) * tileSize;
+    if (uint64_t(tiles) * FilmStream::bytesOfPixel(header.aovs) > file.left())
+        file.fail("it is truncated");
     if (header.width < 1 || header.height < 1 ||
         uint64_t(header.width) * uint64_t(header.height) > tiles * tileArea * maxParts)
         file.fail("it is damaged");

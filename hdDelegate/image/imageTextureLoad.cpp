@@ -17,13 +17,30 @@ namespace patina {
 namespace {
 
 constexpr float largestHalf = 65504.0f;
-constexpr int64_t maxTexels = int64_t(1) << 34;
+/// Of one image when it is unpacked: a file of some hundred kB can ask for any number of them.
+/// 32768 x 16384 texels of three halves take 3 GiB.
+constexpr uint64_t maxBytes = uint64_t(1) << 32;
 
 std::string oneLine(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     while (!text.empty() && text.back() == ' ')
         text.pop_back();
     return text;
+}
+
+TexelType nativeType(const OIIO::ImageSpec& s) {
+    switch (s.format.basetype) {
+    case OIIO::TypeDesc::UINT8: return TexelType::U8;
+    case OIIO::TypeDesc::UINT16: return TexelType::U16;
+    case OIIO::TypeDesc::HALF: return TexelType::Half;
+    default: return TexelType::Float;
+    }
+}
+
+OIIO::TypeDesc oiioType(TexelType type) {
+    static const OIIO::TypeDesc types[] = {OIIO::TypeUInt8, OIIO::TypeUInt16, OIIO::TypeHalf,
+                                           OIIO::TypeFloat};
+    return types[int(type)];
 }
 
 /// An open file, or the reason why there is none.
@@ -48,14 +65,21 @@ struct OpenImage {
             return;
         }
         const OIIO::ImageSpec& s = input->spec();
-        if (s.width < 1 || s.height < 1 || s.nchannels < 1 || s.depth > 1 ||
-            int64_t(s.width) * s.height > maxTexels) {
+        if (s.width < 1 || s.height < 1 || s.nchannels < 1 || s.depth > 1) {
             error = "an image of " + std::to_string(s.width) + "x" + std::to_string(s.height) +
                     "x" + std::to_string(s.depth) + " is not a texture";
             input.reset();
             return;
         }
         layout = layoutOf(s);
+        const int channels = std::min(s.nchannels, 4);
+        const uint64_t texels = uint64_t(s.width) * uint64_t(s.height);
+        if (texels > maxBytes / (uint64_t(channels) * oiioType(nativeType(s)).size())) {
+            error = "an image of " + std::to_string(s.width) + "x" + std::to_string(s.height) +
+                    " texels takes more than the " + std::to_string(maxBytes >> 30) +
+                    " GiB that one texture may";
+            input.reset();
+        }
     }
 
 private:
@@ -69,21 +93,6 @@ private:
         return alpha ? TexelLayout::Rgba : TexelLayout::Rgb;
     }
 };
-
-TexelType nativeType(const OIIO::ImageSpec& s) {
-    switch (s.format.basetype) {
-    case OIIO::TypeDesc::UINT8: return TexelType::U8;
-    case OIIO::TypeDesc::UINT16: return TexelType::U16;
-    case OIIO::TypeDesc::HALF: return TexelType::Half;
-    default: return TexelType::Float;
-    }
-}
-
-OIIO::TypeDesc oiioType(TexelType type) {
-    static const OIIO::TypeDesc types[] = {OIIO::TypeUInt8, OIIO::TypeUInt16, OIIO::TypeHalf,
-                                           OIIO::TypeFloat};
-    return types[int(type)];
-}
 
 // OIIO says sRGB of every PNG and JPEG, tagged or not; so only a claim of linearity is news.
 std::string automaticSpace(const OIIO::ImageSpec& s) {

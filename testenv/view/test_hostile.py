@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Materials that mean harm, or too much: the page stays safe and opens, or there is a clear refusal."""
+import base64
+import hashlib
 import json
+import re
 
 import numpy as np
 import pytest
@@ -66,6 +69,47 @@ def test_script_in_names_stays_text(make, chromium, tmp_path):
     assert chromium.evaluate("return [document.images.length, document.title.length > 5]") == [0, True]
     layer = chromium.evaluate("""const name = page.data.materials[0].layer.defaultPrim; return name;""")
     assert layer.replace("_", "a").isalnum()
+
+
+RUNS = """window.owned = [];
+const script = document.createElement("script");
+script.textContent = "owned.push('script')";
+document.body.append(script);
+const holder = document.createElement("div");
+holder.innerHTML = "<img src='data:,' onerror=\\"owned.push('handler')\\">";
+document.body.append(holder);
+const link = document.createElement("a");
+link.href = "javascript:owned.push('link')";
+document.body.append(link);
+link.click();
+for (const use of [() => fetch("https://example.org/"), () => Function("owned.push('text')")()]) {
+    try { await use(); owned.push("allowed"); } catch (error) {}
+}
+await new Promise(resolve => setTimeout(resolve, 200));
+return owned;"""
+
+
+def policy_of(page):
+    """:returns: the rules of a page's policy, where it stands before all that it is for"""
+    text = open(page, encoding="utf-8").read()
+    head = text.partition("</head>")[0]
+    content = re.search(r'<meta http-equiv="Content-Security-Policy" content="([^"]*)">', head)
+    assert content and not re.search("<(script|style|link|title)", head[:content.start()])
+    return {rule.split()[0]: rule.split()[1:] for rule in content.group(1).split(";")}, text
+
+
+def test_the_page_runs_its_own_script_alone(make, chromium, tmp_path):
+    """Should a name ever reach the page as markup, it runs nothing and sends nothing."""
+    (tmp_path / "evil.mtlx").write_text(DOCUMENT.format(evil=EVIL))
+    page = make("policy.html", tmp_path / "evil.mtlx")
+    rules, text = policy_of(page)
+    script = re.search(r"<script>(.*?)</script>", text, re.DOTALL).group(1)
+    digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    assert rules["script-src"] == [f"'sha256-{digest}'"] and rules["default-src"] == ["'none'"]
+    chromium.open(page, "?width=32")
+    assert chromium.evaluate(RUNS) == []
+    refused = [line for line in chromium.messages() if "Content Security Policy" in line]
+    assert len(refused) >= 4  # script, handler, link, request: told by the browser
 
 
 def many(file, count, varies):

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page of `patina record --report`, in a browser: it tells the render's own numbers, needs nothing else, and works."""
+import base64
+import hashlib
 import json
 import os
+import re
 
 import numpy as np
 import pytest
@@ -85,6 +88,14 @@ def test_the_image_is_the_one_without_a_report(made):
     assert main.main(["record", str(made / "stage.usda"), str(made / "plain.exr"), *SMALL]) == 0
     a, b = _patina.read_image(str(made / "a.exr")), _patina.read_image(str(made / "plain.exr"))
     assert a.channels == b.channels and np.array_equal(np.array(a.pixels), np.array(b.pixels))
+
+
+def test_the_page_runs_its_own_script_alone(made):
+    with open(made / "a.html", encoding="utf-8") as file:
+        text = file.read()
+    script = re.search(r"<script>(.*?)</script>", text, re.DOTALL).group(1)
+    digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    assert f"default-src 'none'; script-src 'sha256-{digest}';" in text.partition("<title>")[0]
 
 
 def test_the_page_tells_the_numbers_of_the_render(made, shown):

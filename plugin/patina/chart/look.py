@@ -7,6 +7,8 @@ replaces its colours where the reader's system asks for dark.
 """
 from xml.sax.saxutils import quoteattr
 
+from patina import pagePolicy
+
 PAPER, INK, DIM, GRID, FRAME, TRUTH, FRONT = "#ffffff", "#222222", "#5c6066", "#e4e4e4", "#bbbbbb", "#b4b8be", "#f0d878"
 BLUE, ORANGE, GREEN, PURPLE, BROWN, BLACK = "#0967ed", "#a36704", "#19825f", "#9c0082", "#443300", "#27292a"
 COLOURS = (BLUE, ORANGE, GREEN, PURPLE, BROWN, BLACK)
@@ -48,7 +50,8 @@ th{font-weight:600;background:var(--back)}td.t,th.t{text-align:left}.wide{overfl
 
 def page(title, style=""):
     """:returns: the beginning of an HTML page, up to its first heading"""
-    return (f'<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
+    return (f'<!doctype html><html lang="en"><head><meta charset="utf-8">{pagePolicy.meta()}'
+            '<meta name="viewport" content="width=device-width">'
             f"<title>{title}</title><style>{PAGE}{style}</style></head><body><main>")
 
 

@@ -27,6 +27,7 @@ COMMANDS = {
     "bench": "bench",
     "chart": "chart",
     "docs": "docs",
+    "fuzz": "fuzz",
     "test": "testRun",
 }
 
@@ -45,6 +46,7 @@ SUMMARIES = {
     "bench": "measure speed and memory, beside peers",
     "chart": "measure what methods cost and how far they are off",
     "docs": "build the site of a checkout: tutorials, gallery, reference",
+    "fuzz": "run the fuzzers of a checkout for a time",
     "test": "run the tests of a checkout, by tier and room",
 }
 

@@ -4,7 +4,7 @@ import html
 import os
 import re
 
-from patina import report
+from patina import pagePolicy, report
 from patina.cli import planText, shots
 from patina.report import pictures, sections
 from patina.view.page import as_json, finite
@@ -38,10 +38,11 @@ def document(job, film, shot, settings, info):
         settings=settings, warnings=job.statistics.warnings(), notes=job.statistics.notes(), interrupted=job.interrupted,
         error=error, samples=film.resolve("sampleCount"), window=window, materials=_materials(job),
         plan_lines=planText.choice_lines(job.renderer.progress()["sceneChoices"])))
+    script = _web("report.js")
     parts = {"TITLE": html.escape(f"{os.path.basename(shot.image)}: Patina"), "STYLE": _web("report.css"), "BODY": body,
-             "DATA": as_json(finite(data)[0]), "SCRIPT": _web("report.js")}
+             "DATA": as_json(finite(data)[0]), "SCRIPT": script, "POLICY": pagePolicy.meta(script)}
     # In one go: what is put in may hold the names of these places.
-    return re.sub("PATINA_(TITLE|STYLE|BODY|DATA|SCRIPT)", lambda mark: parts[mark.group(1)], _web("report.html"))
+    return re.sub("PATINA_(POLICY|TITLE|STYLE|BODY|DATA|SCRIPT)", lambda mark: parts[mark.group(1)], _web("report.html"))
 
 
 def _layers(module, film, options, error, aovs):

@@ -6,6 +6,7 @@ import math
 import os
 import re
 
+from patina import pagePolicy
 from patina.cli.errors import CommandError
 from patina.view import albedo, blobs, bundle, glslText
 
@@ -52,7 +53,8 @@ def document(data, lobes):
     script = bundle.script()
     if "</script" in script.lower():
         raise CommandError("the page's script cannot stand in a page")
-    parts = {"TITLE": html.escape(data["title"]), "STYLE": _web("page.css"), "DATA": as_json(whole), "SCRIPT": script}
+    parts = {"TITLE": html.escape(data["title"]), "STYLE": _web("page.css"), "DATA": as_json(whole), "SCRIPT": script,
+             "POLICY": pagePolicy.meta(script)}
     # In one go: what is put in may hold the names of these places.
-    page = re.sub("PATINA_(TITLE|STYLE|DATA|SCRIPT)", lambda mark: parts[mark.group(1)], _web("page.html"))
+    page = re.sub("PATINA_(POLICY|TITLE|STYLE|DATA|SCRIPT)", lambda mark: parts[mark.group(1)], _web("page.html"))
     return page, warnings

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the fuzzers of a checkout for a time: bytes and legal inputs with extreme values, which may be refused with a message, and
+must not crash, hang, take memory without end, lose an image or make values that are no numbers.
+
+  patina fuzz --seconds 600
+  patina fuzz stages edits --seconds 3600 --seed 1000 --json figures.json
+  patina fuzz --keep patinaFindings/ies-crash-heap-1234abcd hugeTable
+
+The native ones are libFuzzer's programs under AddressSanitizer and UBSan; ./patina fuzz installs clang where it may and builds
+them in a folder of their own. The others make a legal input from a seed and run it in a process that may die. Each finding is
+made smaller and saved; --keep turns one into a test that runs it again.
+
+Exit status: 0 nothing was found, 1 there are findings, 2 wrong usage.
+"""
+import os
+import sys
+
+from patina.cli.errors import CommandError, UsageError
+
+
+def add_arguments(parser):
+    parser.add_argument("names", nargs="*", metavar="NAME", help="fuzzers (default: all); with --keep, the name of the test")
+    parser.add_argument("--list", action="store_true", help="print the fuzzers and end")
+    parser.add_argument("--seconds", type=float, default=60.0, metavar="S", help="of all together (default: 60)")
+    parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the first input; the others count up (default: 1)")
+    parser.add_argument("--corpus", metavar="FOLDER", help="inputs of the native fuzzers, kept small, that the next run goes on from "
+                                                           "(default: none are kept)")
+    parser.add_argument("--findings", metavar="FOLDER", default="patinaFindings", help="where findings are saved (default: patinaFindings)")
+    parser.add_argument("--build", metavar="FOLDER", help="the instrumented build (default: build-fuzz in the checkout)")
+    parser.add_argument("--json", metavar="FILE", help="write the figures of the run")
+    parser.add_argument("--keep", metavar="FINDING", help="make a saved finding a test called NAME")
+
+
+def run(arguments):
+    root = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+    folder = os.path.join(root, "testenv", "fuzz")
+    if not os.path.isfile(os.path.join(folder, "fuzzRun.py")):
+        raise CommandError("the fuzzers are in a checkout only: run ./patina fuzz there")
+    if arguments.seed < 0 or not 0.0 < arguments.seconds < 1e9:
+        raise UsageError("patina fuzz: --seed is 0 or more, and --seconds above 0")
+    sys.path.insert(0, folder)
+    import fuzzRun
+    import kept
+
+    if arguments.list:
+        print("\n".join(fuzzRun.listing()))
+        return 0
+    if arguments.keep:
+        if len(arguments.names) != 1:
+            raise UsageError("patina fuzz: --keep FINDING takes one NAME")
+        try:
+            print(kept.keep(arguments.keep, arguments.names[0]))
+        except (OSError, ValueError) as error:
+            raise CommandError(f"--keep: {error}") from None
+        return 0
+    wrong = fuzzRun.unknown(arguments.names)
+    if wrong:
+        raise UsageError(f"patina fuzz: there is no fuzzer '{wrong[0]}' (there are: {', '.join(fuzzRun.FUZZERS)})")
+    results = fuzzRun.run(arguments.names, arguments.seconds, arguments.seed, arguments.corpus, arguments.findings,
+                          os.path.abspath(arguments.build or os.path.join(root, "build-fuzz")))
+    if arguments.json:
+        fuzzRun.write(results, arguments.json, {"seed": arguments.seed})
+    return 1 if any(found["findings"] for found in results.values()) else 0

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// Preloaded: the n-th call that writes below a folder fails, as on a full disk. test_faults.py
+// builds it.
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+static char folder[PATH_MAX];
+static int failAt, count, problem;
+static char failed[32], trace[1 << 16];
+
+/// Begins anew. @param at of the call that fails, from 1; 0: none are looked at. @param number
+/// errno's
+void failNthBegin(const char* path, int at, int number) {
+    strncpy(folder, path, sizeof folder - 1);
+    failAt = at;
+    problem = number;
+    count = 0;
+    failed[0] = trace[0] = 0;
+}
+/// @returns the functions that were called while none was to fail, one on a line
+const char* failNthTrace(void) {
+    return trace;
+}
+/// @returns the function that has failed, or an empty text
+const char* failNthWhich(void) {
+    return failed;
+}
+
+static int counts(const char* path, const char* name) {
+    if (!failAt || !path || strncmp(path, folder, strlen(folder)) != 0 || ++count != failAt)
+        return 0;
+    strcpy(failed, name);
+    errno = problem;
+    return 1;
+}
+static int countsFile(int file, const char* name) {
+    char link[64], path[PATH_MAX];
+    if (!failAt) return 0;
+    snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+    ssize_t size = readlink(link, path, sizeof path - 1);
+    if (size <= 0) return 0;
+    path[size] = 0;
+    return counts(path, name);
+}
+
+#define NEXT(function)                                                                             \
+    __typeof__(&function) next = (__typeof__(&function))dlsym(RTLD_NEXT, #function)
+
+#define OPENER(name)                                                                               \
+    int name(const char* path, int flags, ...) {                                                   \
+        va_list more;                                                                              \
+        va_start(more, flags);                                                                     \
+        int mode = flags & O_CREAT ? va_arg(more, int) : 0;                                        \
+        va_end(more);                                                                              \
+        if ((flags & (O_WRONLY | O_RDWR | O_CREAT)) && counts(path, "open")) return -1;            \
+        NEXT(name);                                                                                \
+        return next(path, flags, mode);                                                            \
+    }
+OPENER(open)
+OPENER(open64)
+
+#define STREAM_OPENER(name)                                                                        \
+    FILE* name(const char* path, const char* mode) {                                               \
+        if (strpbrk(mode, "wa+") && counts(path, "fopen")) return NULL;                            \
+        NEXT(name);                                                                                \
+        return next(path, mode);                                                                   \
+    }
+STREAM_OPENER(fopen)
+STREAM_OPENER(fopen64)
+
+ssize_t write(int file, const void* data, size_t size) {
+    if (countsFile(file, "write")) return -1;
+    NEXT(write);
+    return next(file, data, size);
+}
+ssize_t writev(int file, const struct iovec* parts, int number) {
+    if (countsFile(file, "write")) return -1;
+    NEXT(writev);
+    return next(file, parts, number);
+}
+size_t fwrite(const void* data, size_t size, size_t number, FILE* file) {
+    if (countsFile(fileno(file), "fwrite")) return 0;
+    NEXT(fwrite);
+    return next(data, size, number, file);
+}
+int fflush(FILE* file) {
+    if (file && countsFile(fileno(file), "fflush")) return EOF;
+    NEXT(fflush);
+    return next(file);
+}
+int fclose(FILE* file) {
+    int fails = countsFile(fileno(file), "fclose"), number = errno;
+    NEXT(fclose);
+    int done = next(file);
+    if (fails) errno = number;
+    return fails ? EOF : done;
+}
+int fsync(int file) {
+    if (countsFile(file, "fsync")) return -1;
+    NEXT(fsync);
+    return next(file);
+}
+int rename(const char* from, const char* to) {
+    if (counts(from, "rename")) return -1;
+    NEXT(rename);
+    return next(from, to);
+}

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All fuzzers, by name."""
+from collections import namedtuple
+
+Fuzzer = namedtuple("Fuzzer", "kind reads share sources")
+"""kind: native (libFuzzer) or generated; reads: what is tried; share: of the time; sources: files whose lines are counted"""
+
+FUZZERS = {
+    "mtlx": Fuzzer("native", "bytes as a MaterialX document; its materials as programs and GLSL", 2, ("materialNetwork/mtlx/",)),
+    "network": Fuzzer("native", "networks of all nodes, with any value and connection, as programs and GLSL", 2,
+                      ("materialNetwork/graph/", "materialNetwork/ir/", "materialNetwork/plan/", "materialNetwork/cpu/",
+                       "materialNetwork/glsl/", "materialNetwork/nodes/")),
+    "ies": Fuzzer("native", "bytes as an IES profile", 1, ("hdDelegate/image/iesProfile.cpp",)),
+    "film": Fuzzer("native", "bytes as a checkpoint or a part of a frame, with right checksums", 1,
+                   ("hdDelegate/film/filmFile.cpp", "hdDelegate/film/filmStream.cpp", "hdDelegate/film/partial.cpp",
+                    "hdDelegate/film/checkpoint.cpp")),
+    "image": Fuzzer("native", "bytes as an image: its size, channels and metadata", 1, ("hdDelegate/film/readImage.cpp",
+                                                                                     "materialNetwork/utf8.cpp")),
+    "stages": Fuzzer("generated", "legal stages of all prim types with extreme values, rendered", 4, ()),
+    "materialDocuments": Fuzzer("generated", "legal MaterialX documents of all nodes, explained and evaluated", 2, ()),
+    "edits": Fuzzer("generated", "random edits while an image is rendered", 2, ()),
+    "commandLines": Fuzzer("generated", "every flag of the commands that read files", 2, ()),
+}

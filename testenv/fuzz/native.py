@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: Apache-2.0
+"""libFuzzer's programs: built in a folder of their own, run for a time, their corpora and findings kept small."""
+import glob
+import json
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import time
+
+import seeds
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+LONGEST_INPUT = 4096  # bytes
+HANG_SECONDS = 20
+MEGABYTES = 2048
+_DONE = re.compile(r"^Done (\d+) runs in (\d+) second", re.MULTILINE)
+_REASONS = ((r"promise broken: (.*)", "promise"), (r"ERROR: AddressSanitizer: ([\w-]+)", "crash"), (r"runtime error: (.*)", "crash"),
+            (r"ERROR: libFuzzer: timeout", "hang"), (r"ERROR: libFuzzer: out-of-memory", "memory"),
+            (r"ERROR: LeakSanitizer: (.*)", "memory"), (r"ERROR: libFuzzer: (.*)", "crash"))
+
+
+class Missing(Exception):
+    """Why there are no programs, in one line."""
+
+
+def build(folder, names, jobs=1):
+    """Builds programs where that was not done yet.
+
+    :param folder: the instrumented build
+    :raises Missing: without clang, or where the build fails"""
+    if not shutil.which("clang++"):
+        raise Missing("clang++ is missing (Debian: apt-get install clang llvm libclang-rt-dev)")
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, "fuzz.log"), "w", encoding="utf-8") as log:
+        for command in (["cmake", "-S", ROOT, "--preset", "fuzz", "-B", folder],
+                        ["cmake", "--build", folder, "-j", str(jobs), "--target", *(f"fuzz_{name}" for name in names)]):
+            if subprocess.call(command, stdout=log, stderr=log, cwd=ROOT):
+                raise Missing(f"the instrumented build failed, see {log.name}")
+
+
+def _environment(profile=None):
+    found = dict(os.environ, ASAN_OPTIONS="detect_leaks=1:allocator_may_return_null=1:handle_abort=1",
+                 UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1", LSAN_OPTIONS="suppressions=" + os.path.join(
+                     ROOT, "testenv", "sanitizers", "leak.supp") + ":print_suppressions=0")
+    found["LLVM_PROFILE_FILE"] = profile or os.devnull
+    return found
+
+
+def _why(text):
+    """:returns: (kind, reason) of a program's last words"""
+    for pattern, kind in _REASONS:
+        match = re.search(pattern, text)
+        if match:
+            frame = re.search(r"#\d+ 0x\w+ in (patina::\S+)[^\n]*?([\w./]+:\d+)?", text)
+            reason = match.group(1) if match.groups() else pattern.rpartition(" ")[2]
+            return kind, f"{reason[:120]}" + (f" in {frame.group(1)[:80]}" if frame else "")
+    return "crash", (text.strip().splitlines() or ["no words"])[-1][:160]
+
+
+def run(name, fuzzer, folder, corpus, seconds, seed, say):
+    """Runs a program for a time; after a finding it goes on.
+
+    :param corpus: folder of inputs; new ones that reach new code are added, and it is minimised
+    :returns: as generated.run(), with lines as (covered, all)"""
+    program = os.path.join(folder, "fuzzers", name)
+    work = os.path.join(corpus, name)
+    os.makedirs(work, exist_ok=True)
+    seeds.write(name, work)
+    start, inputs, findings, part = time.monotonic(), 0, {}, 0
+    with tempfile.TemporaryDirectory() as scratch:
+        while (left := seconds - (time.monotonic() - start)) > 1:
+            artifacts = os.path.join(scratch, f"found{part}-")
+            result = subprocess.run(
+                [program, work, os.path.join(ROOT, "testenv", "fuzz", "corpus", name), f"-max_total_time={int(left)}", f"-seed={seed + part + 1}",
+                 f"-max_len={LONGEST_INPUT}", f"-timeout={HANG_SECONDS}", f"-rss_limit_mb={MEGABYTES}", f"-artifact_prefix={artifacts}",
+                 "-print_final_stats=1", "-use_value_profile=0"],
+                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace", cwd=scratch, env=_environment())
+            done = re.search(r"stat::number_of_executed_units: (\d+)", result.stderr) or _DONE.search(result.stderr)
+            inputs += int(done.group(1)) if done else 0
+            part += 1
+            found = glob.glob(glob.escape(artifacts) + "*")
+            if result.returncode == 0 and not found:
+                break
+            if not found:
+                raise Missing(f"{name} ended with {result.returncode}: {result.stderr.strip().splitlines()[-1:]}")
+            kind, reason = _why(result.stderr)
+            if reason in findings:
+                continue
+            say(f"{kind}: {reason}")
+            findings[reason] = (kind, reason, _minimise(program, found[0], kind, scratch), result.stderr[-4000:])
+        lines = _coverage(program, work, fuzzer.sources, scratch)
+        _keep_small(program, work, scratch)
+    counts = {"fine": inputs}
+    for kind, *_ in findings.values():
+        counts[kind] = counts.get(kind, 0) + 1
+    return {"inputs": inputs, "seconds": time.monotonic() - start, "counts": counts, "findings": list(findings.values()), "lines": lines}
+
+
+def _minimise(program, file, kind, scratch):
+    """:returns: the bytes of the smallest input that still fails, found within half a minute"""
+    smaller = os.path.join(scratch, "smaller")
+    if kind == "crash" or kind == "promise":
+        subprocess.run([program, "-minimize_crash=1", "-max_total_time=30", f"-exact_artifact_path={smaller}", file],
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=scratch, env=_environment())
+    with open(smaller if os.path.exists(smaller) else file, "rb") as stream:
+        data = stream.read()
+    if os.path.exists(smaller):
+        os.remove(smaller)
+    return data
+
+
+def _keep_small(program, work, scratch):
+    """Leaves only inputs that reach code that no other of them reaches."""
+    merged = os.path.join(scratch, "merged")
+    os.makedirs(merged)
+    done = subprocess.run([program, "-merge=1", merged, work], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=scratch,
+                          env=_environment())
+    if done.returncode == 0 and os.listdir(merged):
+        for name in os.listdir(work):
+            os.remove(os.path.join(work, name))
+        for name in os.listdir(merged):
+            shutil.copy(os.path.join(merged, name), work)
+
+
+def _coverage(program, work, sources, scratch):
+    """:returns: (lines that the corpus reaches, lines that there are) of the sources that a fuzzer is for; None without llvm"""
+    profdata, cov = (shutil.which(name) or shutil.which(name + "-14") for name in ("llvm-profdata", "llvm-cov"))
+    if not profdata or not cov:
+        return None
+    raw, indexed = os.path.join(scratch, "raw"), os.path.join(scratch, "indexed")
+    subprocess.run([program, work, "-runs=0"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=scratch, env=_environment(raw))
+    if not os.path.exists(raw) or subprocess.call([profdata, "merge", "-sparse", raw, "-o", indexed], stderr=subprocess.DEVNULL):
+        return None
+    told = subprocess.run([cov, "export", "-summary-only", program, f"-instr-profile={indexed}"], capture_output=True, text=True)
+    if told.returncode:
+        return None
+    covered = total = 0
+    for file in json.loads(told.stdout)["data"][0]["files"]:
+        name = os.path.relpath(file["filename"], ROOT)
+        if any(name.startswith(source) for source in sources):
+            covered += file["summary"]["lines"]["covered"]
+            total += file["summary"]["lines"]["count"]
+    return covered, total

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What may become of an input: in the process that runs it, and seen from outside."""
+import json
+import os
+import re
+import sys
+import traceback
+
+BROKEN = 99  # exit status of an input that breaks a promise; the last line of standard error says which
+KINDS = ("crash", "hang", "memory", "traceback", "promise")  # findings
+GOOD = ("fine", "message", "library")
+SENTINEL = b"an image that was there before\n"
+SMALL = ("-w", "24", "--samples", "1", "--maxDepth", "4", "--threads", "1", "--quiet")
+# A reason that begins with the type of an exception was not foreseen by whoever wrote the command.
+_UNFORESEEN = re.compile(r"^patina: [A-Z]\w*(?:Error|Exception|Warning|Iteration): ", re.MULTILINE)
+
+
+def broken(reason):
+    """:returns: the exit status of a promise that does not hold"""
+    print(f"promise broken: {reason}", file=sys.stderr)
+    return BROKEN
+
+
+def command(words, folder):
+    """:returns: the exit status of a command that runs in a folder"""
+    from patina.cli import main
+
+    os.chdir(folder)
+    return main.main([str(word) for word in words])
+
+
+# What validation raises; any other exception that a prim's reader meets is a defect, though it ends as a warning.
+_FORESEEN = ("StageError", "ValueError", "ErrorException", "RuntimeError")
+
+
+def tell_swallowed():
+    """Has what becomes a warning of a prim told with its traceback, where nobody has foreseen it: else it would count as fine."""
+    from patina.stage import context
+
+    leave = context.Guard.__exit__
+
+    def told(self, kind, error, trace):
+        if kind is not None and kind.__name__ not in _FORESEEN:
+            traceback.print_exception(kind, error, trace)
+        return leave(self, kind, error, trace)
+    context.Guard.__exit__ = told
+
+
+def record(words, folder):
+    """The same of a render to image.exr, which exists before: it is the old one afterwards, or a whole new one of numbers."""
+    image = os.path.join(folder, "image.exr")
+    with open(image, "wb") as file:
+        file.write(SENTINEL)
+    tell_swallowed()
+    status = command([*words, *SMALL, "--json=told.json"], folder)
+    if not os.path.exists(image):
+        return broken("the image that was there before is lost")
+    with open(image, "rb") as file:
+        same = file.read(len(SENTINEL)) == SENTINEL
+    if status:
+        return status if same else broken("a render that failed has changed the image")
+    if same:
+        return broken("a render that is done has written no image")
+    with open(os.path.join(folder, "told.json"), encoding="utf-8") as file:
+        for warning in json.load(file)["warnings"]:
+            if "memory" in warning["message"]:
+                print(f"out of memory: {warning['prim']}: {warning['message']}", file=sys.stderr)
+    import numpy as np
+
+    import _patina
+
+    found = _patina.read_image(image)
+    colors = np.array(found.pixels)[..., [found.channels.index(c) for c in "RGBA"]]
+    if not np.isfinite(colors).all() or (colors < 0).any():
+        return broken("the image holds values that are no numbers, or negative")
+    return 0
+
+
+def kind_of(answer):
+    """:param answer: of hand.py
+    :returns: one of KINDS or GOOD"""
+    if answer["timedOut"]:
+        return "hang"
+    text = answer["error"]
+    if answer["signal"]:
+        return "memory" if "bad_alloc" in text else "crash"
+    if answer["status"] == BROKEN:
+        return "promise"
+    if "Traceback (most recent call last)" in text or _UNFORESEEN.search(text):
+        return "traceback"
+    if "out of memory" in text or "bad_alloc" in text:
+        return "memory"
+    if answer["status"] == 0:
+        return "fine"
+    return "message" if answer["status"] in (1, 2, 75) and "patina" in text else "traceback"
+
+
+def signature(kind, answer):
+    """:returns: a text that is equal for findings of one cause, as far as can be told from outside"""
+    lines = [line for line in answer["error"].splitlines() if line.strip()]
+    if kind == "crash":
+        frames = [line for line in lines if line.lstrip().startswith("File ")]
+        return f"signal {answer['signal']}" + (" " + frames[0].strip() if frames else "")
+    reason = lines[-1] if lines else ""
+    return kind + " " + re.sub(r"-?\d[\d.e+-]*|'[^']*'|/\S+", "*", reason)[:160]

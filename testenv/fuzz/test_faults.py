@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every call that writes an output fails once, as on a full disk: the old file or the new one is there, whole, nothing else is left
+over, and the message names the file and the reason."""
+import errno
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+pytest.importorskip("_patina")
+pytest.importorskip("pxr.Usd")
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+STAGE = '#usda 1.0\ndef Sphere "ball"\n{\n}\n'
+SMALL = ("-w", "8", "--samples", "1", "--maxDepth", "1", "--threads", "1", "--quiet")
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory):
+    compiler = shutil.which("cc") or shutil.which("gcc")
+    if not compiler:
+        pytest.skip("no C compiler to build the library that makes calls fail")
+    path = str(tmp_path_factory.mktemp("preload") / "failNth.so")
+    subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", path, os.path.join(HERE, "failNth.c"), "-ldl"], check=True)
+    return path
+
+
+def told(library, tmp_path, outputs, number):
+    """:returns: what became of a render with each call failing in turn, the last with none"""
+    (tmp_path / "stage.usda").write_text(STAGE)
+    folder = tmp_path / "out"
+    folder.mkdir()
+    words = [word.replace("OUT", str(folder)) for word in outputs]
+    environment = dict(os.environ, LD_PRELOAD=library)
+    done = subprocess.run([sys.executable, os.path.join(HERE, "faultyHost.py"), library, str(folder), str(number), "record",
+                           str(tmp_path / "stage.usda"), *words, *SMALL], capture_output=True, text=True, env=environment, timeout=300)
+    assert done.returncode == 0, done.stderr
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+@pytest.mark.parametrize("outputs, functions", [
+    (("OUT/a.png",), {"open", "fsync", "rename"}),
+    (("OUT/a.exr", "--keepCheckpoint"), {"open", "fwrite", "fflush", "fclose", "fsync", "rename"}),
+    (("--part", "1/2", "--partial", "OUT/a.part"), {"open", "fwrite", "fflush", "fclose", "fsync", "rename"}),
+], ids=("png", "checkpoint", "part"))
+def test_a_call_that_fails_loses_nothing(outputs, functions, library, tmp_path):
+    runs = told(library, tmp_path, outputs, errno.ENOSPC)
+    *failing, last = runs
+    assert last["status"] == 0 and not last["which"] and "old" not in last["images"].values()
+    assert functions <= {run["which"] for run in failing}
+    for run in failing:
+        case = f"{run['which']} {run['at']}: {run}"
+        # The bits of the whole file, or those that were there before.
+        assert all(state == "old" or state == last["images"][name] or run["status"] == 0 for name, state in run["images"].items()), case
+        assert not [name for name in run["files"] if name.startswith(".")], case  # no temporary
+        if run["status"]:
+            assert run["status"] in (1, 75) and os.strerror(errno.ENOSPC) in run["error"], case
+            assert str(tmp_path) in run["error"] and run["error"].count("\n") == 1, case

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What fuzzers have found stays found, and the fuzzers themselves tell right from wrong.
+
+The kept inputs of the native fuzzers are run by testFuzzCorpus.
+"""
+import importlib
+import os
+import types
+
+import pytest
+
+pytest.importorskip("_patina")
+pytest.importorskip("pxr.Usd")
+
+import generated  # noqa: E402
+import kept  # noqa: E402
+import outcomes  # noqa: E402
+import shrink  # noqa: E402
+from fuzzers import FUZZERS  # noqa: E402
+
+GENERATED = [name for name, fuzzer in FUZZERS.items() if fuzzer.kind == "generated"]
+KEPT = [(name, path) for name in GENERATED for path in kept.corpus(name)]
+
+
+@pytest.fixture(scope="module")
+def hand():
+    made = generated.Hand()
+    yield made
+    made.end()
+
+
+@pytest.mark.parametrize("name, path", KEPT, ids=lambda value: os.path.splitext(os.path.basename(value))[0])
+def test_what_was_found(name, path, hand):
+    module = importlib.import_module(name)
+    with open(path, "rb") as file:
+        kind, signature, answer = generated.outcome(hand, module, file.read(), module.EXTENSION)
+    assert kind in outcomes.GOOD, signature + "\n" + answer["error"]
+
+
+@pytest.mark.parametrize("name", GENERATED)
+def test_a_seed_is_an_input_for_ever(name):
+    module = importlib.import_module(name)
+    assert module.make(5) == module.make(5)
+    assert len({module.make(seed) for seed in range(8)}) == 8
+
+
+WRONG = {"crash": "os.kill(os.getpid(), 11)", "traceback": "raise ValueError('x')", "memory": "bytearray(1 << 40)",
+         "promise": "return outcomes.broken('lost')", "fine": "return 0", "hang": "resource.setrlimit(resource.RLIMIT_CPU, (1, 9))\n"
+         "    while True:\n        pass"}
+
+
+@pytest.mark.parametrize("kind", WRONG)
+def test_every_end_has_its_name(kind, hand, tmp_path, monkeypatch):
+    text = f"import os\nimport resource\nimport outcomes\ndef execute(path, folder):\n    {WRONG[kind]}\n"
+    if kind == "memory":
+        text = text.replace("bytearray", "x = bytearray").rstrip("\n") + "\n    return len(x)\n"
+    name = f"endsBy{kind.capitalize()}"
+    (tmp_path / f"{name}.py").write_text(text)
+    own = generated.Hand()
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
+    try:
+        found, _, answer = generated.outcome(own, types.SimpleNamespace(__name__=name), b"", ".txt")
+    finally:
+        own.end()
+    expected = {"memory": ("traceback", "memory")}.get(kind, (kind,))
+    assert found in expected, answer
+
+
+def test_what_ends_as_a_warning_is_found_too(hand, tmp_path, monkeypatch):
+    """Neither memory that ran out nor an error of the reader's own is fine because the rest was drawn."""
+    (tmp_path / "swallows.py").write_text(
+        "import outcomes\ndef execute(path, folder):\n    from patina.stage import geometry\n"
+        "    def broken(*a, **k):\n        raise KeyError('a defect')\n    import patina.stage.readStage as r\n"
+        "    r.cameras.emit = broken\n    return outcomes.record(['record', path, 'image.exr'], folder)\n")
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
+    own = generated.Hand()
+    try:
+        found = generated.outcome(own, types.SimpleNamespace(__name__="swallows"), b'#usda 1.0\ndef Camera "c"\n{\n}\n', ".usda")
+    finally:
+        own.end()
+    assert found[0] == "traceback" and "a defect" in found[2]["error"]
+    assert outcomes.kind_of({"timedOut": False, "signal": 0, "status": 0, "error": "out of memory: /dome: no memory for it"}) == "memory"
+
+
+def test_inputs_shrink():
+    data = b"".join(b"line %d\n" % i for i in range(40))
+    assert shrink.lines(data, lambda d: b"line 7\n" in d and b"line 31\n" in d, 10) == b"line 7\nline 31\n"
+
+
+def test_a_finding_becomes_a_test(tmp_path, monkeypatch):
+    monkeypatch.setattr(kept, "CORPUS", str(tmp_path / "corpus"))
+    os.makedirs(tmp_path / "corpus" / "stages")
+    path = kept.save(str(tmp_path / "found"), "stages", ".usda", ("crash", "signal 11", b"#usda 1.0\n", "words"))
+    assert kept.keep(path, "smallCrash") == kept.corpus("stages")[0]
+    for file, name in ((path, "smallCrash"), (path, "no name"), (str(tmp_path / "other"), "a")):
+        with pytest.raises(ValueError):
+            kept.keep(file, name)
+
+
+def test_every_fuzzer_has_a_corpus():
+    assert {name for name in FUZZERS if kept.corpus(name)} == set(FUZZERS)

@@ -18,8 +18,9 @@ namespace patina {
 Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
                        const CameraRays& camera, const RenderSettings& settings,
                        const std::vector<AovSpec>& aovs)
-    : _scene(scene), _lights(lights), _camera(camera), _settings(settings), _aovs(aovs), _lightPaths(aovs),
-      _filter(settings.filterRadius), _cullBack(settings.cullStyle.rfind("back", 0) == 0),
+    : _scene(scene), _lights(lights), _camera(camera), _settings(settings), _aovs(aovs),
+      _lightPaths(aovs), _filter(settings.filterRadius),
+      _cullBack(settings.cullStyle.rfind("back", 0) == 0),
       _cullFront(settings.cullStyle.rfind("front", 0) == 0),
       _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos),
       _ambientOcclusion(settings.integrator == "ambientOcclusion"),
@@ -146,8 +147,7 @@ void Integrator::addEscaped(Path& path) const {
         const vec3 radiance = _lights.set().environment(light, place, path.time);
         if (path.fromCamera()) {
             path.radiance += path.throughput * radiance;
-            if (path.lightPaths)
-                path.lightPaths->see(emitterOf(light), path.throughput * radiance);
+            if (path.lightPaths) path.lightPaths->see(emitterOf(light), path.throughput * radiance);
             path.alpha = 1.0f;
             continue;
         }
@@ -234,8 +234,7 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
     if (seen == vec3(0.0f)) return seen;
     // Last: the image of a sky takes its time to come from memory.
     if (!info.triangles) radiance *= _lights.set().image(light);
-    if (path.lightPaths)
-        announceDirect(path, s, light, f, radiance * seen * (weight / lightPdf));
+    if (path.lightPaths) announceDirect(path, s, light, f, radiance * seen * (weight / lightPdf));
     value *= radiance * (weight / lightPdf);
     return value * seen;
 }

@@ -51,13 +51,12 @@ void Integrator::addShadow(const Path& path, const vec3& value, const LightSampl
     const vec3 image =
         _lights.info(light.light).triangles ? vec3(1.0f) : _lights.set().image(light);
     // Light samples alone, which find all light of a surface that is no mirror.
-    path.lightPaths->shadow += path.throughput * value * radiance * image *
-                               (glm::max(vec3(0.0f), 1.0f - seen) /
-                                (path.lightSamples * light.pdf));
+    path.lightPaths->shadow +=
+        path.throughput * value * radiance * image *
+        (glm::max(vec3(0.0f), 1.0f - seen) / (path.lightSamples * light.pdf));
 }
 
-void Integrator::announceScatter(const Path& path, const BsdfSample& next,
-                                 const Bsdf& bsdf) const {
+void Integrator::announceScatter(const Path& path, const BsdfSample& next, const Bsdf& bsdf) const {
     const EventType type =
         (next.event & sh::LOBE_TRANSMIT) != 0 ? EventType::Transmit : EventType::Reflect;
     const bool singular = (next.event & sh::LOBE_DELTA) != 0;

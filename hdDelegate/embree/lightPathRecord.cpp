@@ -39,7 +39,8 @@ LightPathRecord::LightPathRecord(const LightPathAovs& aovs)
     for (const LightPathAutomaton& automaton : aovs.set().automata()) {
         const size_t first = _weights.size();
         _weights.resize(first + size_t(automaton.size()), vec3(0.0f));
-        const int camera = automaton.next(automaton.start(), symbol(EventType::Camera, EventScatter::None));
+        const int camera =
+            automaton.next(automaton.start(), symbol(EventType::Camera, EventScatter::None));
         _weights[first + size_t(camera)] = vec3(1.0f);
     }
     _before = _weights;
@@ -47,9 +48,9 @@ LightPathRecord::LightPathRecord(const LightPathAovs& aovs)
 
 int LightPathRecord::symbol(EventType type, EventScatter scatter) const {
     const bool walked = beneath && type != EventType::Camera;
-    return _aovs.set().symbol({walked ? EventType::Transmit : type, scatter,
-                               walked ? _aovs.set().labels().of(beneathLabel)
-                                      : LightEvent::noLabel});
+    return _aovs.set().symbol(
+        {walked ? EventType::Transmit : type, scatter,
+         walked ? _aovs.set().labels().of(beneathLabel) : LightEvent::noLabel});
 }
 
 void LightPathRecord::straight(const LightEvent& emitter) {

@@ -38,9 +38,8 @@ LightPathAovName lightPathAovOf(const std::string& aov) {
     // Dots part layers from channels in OpenEXR, and other signs mean something to readers.
     result.name = "lpe_";
     for (const char c : result.expression)
-        result.name += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')
-                           ? c
-                           : '_';
+        result.name +=
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? c : '_';
     return result;
 }
 

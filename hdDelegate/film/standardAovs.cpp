@@ -32,7 +32,8 @@ constexpr size_t longestExpression = 1024;
 void checkLightPath(const std::string& aov) {
     const LightPathAovName parts = lightPathAovOf(aov);
     if (parts.expression.size() > longestExpression)
-        throw std::invalid_argument("AOV '" + parts.name + "': a light path expression has at most " +
+        throw std::invalid_argument("AOV '" + parts.name +
+                                    "': a light path expression has at most " +
                                     std::to_string(longestExpression) + " characters");
     for (const char c : parts.name)
         if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-' && c != ':')

@@ -56,8 +56,7 @@ void bindLightPaths(py::module_& m) {
         py::arg("expression"), "States of the smallest automaton of a light path expression.");
     m.def(
         "channels_of_aov",
-        [](const std::string& aov) { return channelsOfAov(standardAov(aov).name); },
-        py::arg("aov"),
+        [](const std::string& aov) { return channelsOfAov(standardAov(aov).name); }, py::arg("aov"),
         "What names the channels of an AOV in files; ValueError says why there is no such AOV.");
 }
 

@@ -8,8 +8,8 @@ namespace patina {
 
 namespace {
 
-constexpr size_t mostNodes = 20000;  // of the nondeterministic automaton
-constexpr size_t mostStates = 2000;  // before equal ones are merged
+constexpr size_t mostNodes = 20000; // of the nondeterministic automaton
+constexpr size_t mostStates = 2000; // before equal ones are merged
 
 [[noreturn]] void tooLarge(const std::string& expression) {
     throw std::invalid_argument("light path expression '" + expression +
@@ -19,7 +19,8 @@ constexpr size_t mostStates = 2000;  // before equal ones are merged
 /// What may happen at all: letters in the order of EventType and EventScatter.
 bool happens(EventType type, EventScatter scatter) {
     switch (type) {
-    case EventType::Reflect: return scatter != EventScatter::None && scatter != EventScatter::Straight;
+    case EventType::Reflect:
+        return scatter != EventScatter::None && scatter != EventScatter::Straight;
     case EventType::Transmit: return scatter != EventScatter::None;
     case EventType::Volume: return scatter == EventScatter::Diffuse;
     case EventType::Camera:

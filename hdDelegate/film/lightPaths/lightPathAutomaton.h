@@ -47,9 +47,7 @@ public:
 
     const LightLabels& labels() const { return _labels; }
     const std::vector<LightPathAutomaton>& automata() const { return _automata; }
-    int symbol(const LightEvent& event) const {
-        return LightPathAutomaton::symbol(event, _labels);
-    }
+    int symbol(const LightEvent& event) const { return LightPathAutomaton::symbol(event, _labels); }
 
 private:
     LightLabels _labels;

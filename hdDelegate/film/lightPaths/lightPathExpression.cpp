@@ -8,9 +8,9 @@ namespace patina {
 
 namespace {
 
-constexpr int deepest = 64;         // groups within groups
-constexpr int mostRepeats = 64;     // of {n,m}: paths are no longer
-constexpr char typeLetters[] = "CRTVLBO"; // by EventType
+constexpr int deepest = 64;                // groups within groups
+constexpr int mostRepeats = 64;            // of {n,m}: paths are no longer
+constexpr char typeLetters[] = "CRTVLBO";  // by EventType
 constexpr char scatterLetters[] = "xDGSs"; // by EventScatter
 constexpr char wantedTypes[] = "an event type (C R T V L B O or .)";
 constexpr char wantedScatters[] = "how it scatters (D G S s x or .)";

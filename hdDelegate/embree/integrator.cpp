@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace patina {
 
@@ -18,7 +19,8 @@ Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
                        const CameraRays& camera, const RenderSettings& settings,
                        const std::vector<AovSpec>& aovs)
     : _scene(scene), _lights(lights), _camera(camera), _settings(settings), _aovs(aovs),
-      _filter(settings.filterRadius), _cullBack(settings.cullStyle.rfind("back", 0) == 0),
+      _lightPaths(aovs), _filter(settings.filterRadius),
+      _cullBack(settings.cullStyle.rfind("back", 0) == 0),
       _cullFront(settings.cullStyle.rfind("front", 0) == 0),
       _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos),
       _ambientOcclusion(settings.integrator == "ambientOcclusion"),
@@ -58,10 +60,16 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     path.coneWidth = ray.coneWidth;
     path.coneSpread = ray.coneSpread;
     path.media = _cameraMedia;
+    std::optional<LightPathRecord> lightPaths;
+    if (!_lightPaths.empty()) path.lightPaths = &lightPaths.emplace(_lightPaths);
     trace(path, target, counters);
     ++counters.paths;
     addFeatures(path, target);
-    film.addColor(x, y, path.radiance * _camera.camera().exposureScale, path.alpha);
+    const vec3 color = path.radiance * _camera.camera().exposureScale;
+    if (lightPaths)
+        _lightPaths.write(*lightPaths, target, _camera.camera().exposureScale,
+                          !Film::usable(color, path.alpha));
+    film.addColor(x, y, color, path.alpha);
 }
 
 /// What guides the denoiser, of every sample, so that means fade at outlines as the colour does.
@@ -90,8 +98,10 @@ float Integrator::addLightsAlong(Path& path, float distance) const {
                 (!nearest || hits[i].distance < nearest->distance))
                 nearest = &hits[i];
         if (!nearest) return distance;
-        path.radiance +=
+        const vec3 seen =
             path.throughput * transmittanceTo(path, nearest->distance) * nearest->radiance;
+        path.radiance += seen;
+        if (path.lightPaths) path.lightPaths->see(emitterOf(nearest->light), seen);
         path.alpha = 1.0f;
         return nearest->distance;
     }
@@ -113,16 +123,20 @@ void Integrator::addLight(Path& path, int light, const vec3& radiance, float lig
     const float weight =
         path.specular ? 1.0f : misWeight(path.pdf, path.lightSamples * lightPdf, info.dome);
     const vec3 share = path.diffuseShare * info.diffuse + path.specularShare * info.specular;
+    if (path.lightPaths)
+        path.lightPaths->found(emitterOf(light), radiance * weight, info.diffuse, info.specular);
     addRadiance(path, share * radiance * weight);
 }
 
 void Integrator::addRadiance(Path& path, const vec3& radiance) const {
     vec3 contribution = path.throughput * radiance;
+    float clamp = 1.0f;
     if (_settings.indirectClamp > 0.0f && path.indirect()) {
         const float l = luminance(contribution);
-        if (l > _settings.indirectClamp) contribution *= _settings.indirectClamp / l;
+        if (l > _settings.indirectClamp) contribution *= clamp = _settings.indirectClamp / l;
     }
     path.radiance += contribution;
+    if (path.lightPaths) path.lightPaths->add(radiance, path.throughput * clamp);
 }
 
 void Integrator::addEscaped(Path& path) const {
@@ -133,6 +147,7 @@ void Integrator::addEscaped(Path& path) const {
         const vec3 radiance = _lights.set().environment(light, place, path.time);
         if (path.fromCamera()) {
             path.radiance += path.throughput * radiance;
+            if (path.lightPaths) path.lightPaths->see(emitterOf(light), path.throughput * radiance);
             path.alpha = 1.0f;
             continue;
         }
@@ -154,6 +169,7 @@ void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& h
                           ? -1
                           : _lights.triangleLight(hit.surface, hit.primitive, hit.groupToWorld);
     if (light < 0) {
+        if (path.lightPaths) announceEmission(path, hit);
         addRadiance(path, radiance);
         return;
     }
@@ -214,9 +230,11 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
         seen =
             visibility(path, path.media, origin, light.direction, light.distance, info, counters);
     }
+    if (path.lightPaths) addShadow(path, value, light, radiance, seen);
     if (seen == vec3(0.0f)) return seen;
     // Last: the image of a sky takes its time to come from memory.
     if (!info.triangles) radiance *= _lights.set().image(light);
+    if (path.lightPaths) announceDirect(path, s, light, f, radiance * seen * (weight / lightPdf));
     value *= radiance * (weight / lightPdf);
     return value * seen;
 }
@@ -242,6 +260,7 @@ void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit, c
             path.diffuseShare[c] = sum[c] > 0.0f ? f.diffuse[c] / sum[c] : 0.5f;
         path.specularShare = vec3(1.0f) - path.diffuseShare;
     }
+    if (path.lightPaths) announceScatter(path, next, bsdf);
     path.origin = point.departure(next.wi);
     path.direction = next.wi;
     path.near = 0.0f;

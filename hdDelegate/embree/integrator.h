@@ -3,6 +3,7 @@
 
 #include "hdDelegate/embree/aovWriter.h"
 #include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/embree/lightPathRecord.h"
 #include "hdDelegate/embree/materialClock.h"
 #include "hdDelegate/embree/path.h"
 #include "hdDelegate/embree/sceneLights.h"
@@ -77,6 +78,16 @@ private:
     vec3 visibility(const Path& path, const MediumStack& media, const vec3& origin,
                     const vec3& direction, float distance, const LightInfo& light,
                     TraceCounters& counters) const;
+    // For AOVs of light paths: who gives light, and what happens to the path.
+    LightEvent emitterOf(int light) const;
+    LightEvent glowOf(const Surface& surface) const;
+    void announceEmission(const Path& path, const Hit& hit) const;
+    /// @param incident radiance over density, with its weight and what is left of it
+    void announceDirect(const Path& path, const ShadingPoint& s, const LightSample& light,
+                        const BsdfEval& f, const vec3& incident) const;
+    void announceScatter(const Path& path, const BsdfSample& next, const Bsdf& bsdf) const;
+    void addShadow(const Path& path, const vec3& value, const LightSample& light,
+                   const vec3& radiance, const vec3& seen) const;
     bool linked(int category, const Surface* surface, const std::vector<int>* instance) const;
     bool cullsBack(const Geometry& prim) const {
         return _cullBack && (_cullDoubleSided || !prim.doubleSided);
@@ -90,6 +101,7 @@ private:
     const CameraRays& _camera;
     RenderSettings _settings;
     std::vector<AovSpec> _aovs;
+    LightPathAovs _lightPaths;
     int _denoisingAlbedo = -1, _denoisingNormal = -1; ///< places in the film, or -1
     PixelFilter _filter;
     MediumStack _cameraMedia; ///< that the camera stands in

@@ -27,8 +27,11 @@ vec3 Integrator::mediumLight(const Path& path, const vec3& position, const sh::P
     if (radiance == vec3(0.0f)) return vec3(0.0f);
     const float weight = light.delta ? 1.0f : misWeight(light.pdf, scattered.pdf, info.dome);
     value *= radiance * (weight / light.pdf);
-    return value *
-           visibility(path, path.media, position, light.direction, light.distance, info, counters);
+    value *=
+        visibility(path, path.media, position, light.direction, light.distance, info, counters);
+    if (path.lightPaths)
+        path.lightPaths->lit(EventType::Volume, value, vec3(0.0f), emitterOf(light.light));
+    return value;
 }
 
 vec3 Integrator::transmittanceTo(const Path& path, float distance) const {
@@ -44,8 +47,10 @@ Integrator::Flight Integrator::fly(Path& path, float distance, TraceCounters& co
     const bool fills = !path.media.empty();
     const vec3 extinction = fills ? path.media.extinction() : vec3(0.0f);
     const vec3 scattering = fills ? path.media.scattering() : vec3(0.0f);
-    if (fills && path.media.medium().emission != vec3(0.0f))
+    if (fills && path.media.medium().emission != vec3(0.0f)) {
+        if (path.lightPaths) path.lightPaths->straight(LightEvent());
         addRadiance(path, emissionAlong(path.media.medium().emission, extinction, distance));
+    }
     FreeFlight flight;
     flight.distance = distance;
     if (scattering != vec3(0.0f))
@@ -61,6 +66,7 @@ Integrator::Flight Integrator::fly(Path& path, float distance, TraceCounters& co
             // It holds the throughput already.
             const vec3 before = path.throughput;
             path.throughput = vec3(1.0f);
+            if (path.lightPaths) path.lightPaths->straight(LightEvent());
             addRadiance(path, collision.emitted);
             path.throughput = before;
         }
@@ -98,6 +104,7 @@ Integrator::Flight Integrator::scatter(Path& path, const Medium& medium, float d
     path.throughput *= next.weight;
     if (!(luminance(path.throughput) > 0.0f) || !survivesRoulette(path)) return Flight::Ends;
 
+    if (path.lightPaths) path.lightPaths->scatter(EventType::Volume, false, vec3(1.0f));
     path.specular = false;
     path.pdf = next.pdf;
     path.vertex = position;
@@ -157,6 +164,7 @@ bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& h
     const Hit& exitHit = exit.found ? exit.hit : hit;
     const vec4 uLight = path.sampler.next4();
     path.lightSamples = 1.0f;
+    if (path.lightPaths) path.lightPaths->beneath = true;
     if (!_lights.set().empty())
         addRadiance(path, directLight(path, leaving, bsdf, exitHit,
                                       beginLight(path, leaving, bsdf.transmits(), vec3(uLight)),
@@ -165,6 +173,7 @@ bool Integrator::passBeneath(Path& path, const SurfacePoint& point, const Hit& h
     if (next.event == 0) return false;
     path.throughput *= next.weight;
     depart(path, leaving, exitHit, bsdf, next);
+    if (path.lightPaths) path.lightPaths->beneath = false;
     return true;
 }
 

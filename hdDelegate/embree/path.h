@@ -7,6 +7,8 @@
 
 namespace patina {
 
+class LightPathRecord;
+
 /// A path while it is traced: the ray that goes on, and what multiple importance sampling has to
 /// know about the vertex it comes from.
 struct Path {
@@ -17,6 +19,7 @@ struct Path {
     float near = 0.0f, far = 0.0f, time = 0.0f;
     vec3 throughput{1.0f}, radiance{0.0f};
     float alpha = 0.0f;
+    LightPathRecord* lightPaths = nullptr; ///< shares radiance out; null where no AOV asks
     float coneWidth = 0.0f, coneSpread = 0.0f;
     int depth = 0;       ///< bounces off surfaces so far
     int scatterings = 0; ///< inside media

@@ -44,6 +44,11 @@ public:
 
     /// Light index of a triangle that was hit; -1 when it does not emit.
     int triangleLight(const Surface* surface, unsigned primitive, const mat4& groupToWorld) const;
+    /// The surface of a light that is a triangle; null for others.
+    const Surface* triangleSurface(int light) const {
+        return light < _set->lightCount() ? nullptr
+                                          : _sources[size_t(light - _set->lightCount())].surface;
+    }
     /// Radiance of a sampled triangle towards a point.
     vec3 triangleRadiance(const LightSample& sample, const vec3& from, float time) const;
     /// What a surface emits towards its viewer, by its material and as a mesh light.

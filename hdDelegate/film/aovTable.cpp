@@ -26,12 +26,34 @@ const std::vector<AovRow>& aovRows() {
     return rows;
 }
 
+LightPathAovName lightPathAovOf(const std::string& aov) {
+    const size_t at = aov.find(lightPathAovs);
+    if (at == std::string::npos || (at > 0 && aov[at - 1] != '=')) return {};
+    LightPathAovName result;
+    result.expression = aov.substr(at + sizeof lightPathAovs - 1);
+    if (at > 0) {
+        result.name = aov.substr(0, at - 1);
+        return result;
+    }
+    // Dots part layers from channels in OpenEXR, and other signs mean something to readers.
+    result.name = "lpe_";
+    for (const char c : result.expression)
+        result.name +=
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ? c : '_';
+    return result;
+}
+
+std::string channelsOfAov(const std::string& aov) {
+    return aovIdOf(aov) == AovId::lpe ? lightPathAovOf(aov).name : aov;
+}
+
 AovId aovIdOf(const std::string& name) {
     const std::string prefix = primvarAovs;
     if (name.compare(0, prefix.size(), prefix) == 0)
         return name.size() > prefix.size() ? AovId::primvars : AovId::unknown;
+    if (!lightPathAovOf(name).expression.empty()) return AovId::lpe;
     for (const AovRow& row : aovRows())
-        if (row.id != AovId::primvars && name == row.name) return row.id;
+        if (row.id != AovId::primvars && row.id != AovId::lpe && name == row.name) return row.id;
     return AovId::unknown;
 }
 

@@ -33,6 +33,7 @@ struct AovRow {
     bool isBare = false;
     const char* letters = ""; ///< of channels in files; empty: X, Y, Z or none
     const char* hydraName = nullptr;
+    const char* expression = nullptr; ///< of its light paths
 
     // The words of aovs.def.
     AovRow& film() {
@@ -59,6 +60,10 @@ struct AovRow {
         hydraName = text;
         return *this;
     }
+    AovRow& paths(const char* text) {
+        expression = text;
+        return *this;
+    }
     AovRow& all(const char* = "") { return *this; } // for plugin/patina/cli
 };
 
@@ -67,6 +72,19 @@ const std::vector<AovRow>& aovRows();
 
 /// What follows the prefix of the AOVs of primvars.
 inline constexpr char primvarAovs[] = "primvars:";
+
+/// What follows is a light path expression; before it may stand NAME=.
+inline constexpr char lightPathAovs[] = "lpe:";
+
+/// An AOV of light paths taken apart.
+struct LightPathAovName {
+    std::string name;       ///< of its channels; made of the expression where it has none
+    std::string expression; ///< empty: the AOV is no such one
+};
+LightPathAovName lightPathAovOf(const std::string& aov);
+
+/// @returns what names the channels of an AOV: NAME of NAME=lpe:EXPR, else the AOV's own name
+std::string channelsOfAov(const std::string& aov);
 
 /// @returns AovId::unknown for a name that standardAov() does not take
 AovId aovIdOf(const std::string& name);

@@ -42,6 +42,16 @@ template <class Point> bool aovValue(AovId id, const Point& p, float out[4]) {
     case AovId::elementId: return putId(p.elementId());
     case AovId::color:
     case AovId::alpha:
+    case AovId::lpe:
+    case AovId::emission:
+    case AovId::diffuse:
+    case AovId::specular:
+    case AovId::transmission:
+    case AovId::subsurface:
+    case AovId::volume:
+    case AovId::direct:
+    case AovId::indirect:
+    case AovId::shadow:
     case AovId::sampleCount:
     case AovId::variance:
     case AovId::unknown: return false;

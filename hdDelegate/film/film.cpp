@@ -26,7 +26,7 @@ double luminanceOf(const double color[3]) {
     return luminanceOf(color[0], color[1], color[2]);
 }
 
-bool usable(float v) {
+bool isUsable(float v) {
     return v >= 0.0f && v <= std::numeric_limits<float>::max();
 }
 
@@ -91,6 +91,8 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
 int Film::aovIndex(const std::string& name) const {
     for (size_t i = 0; i < _aovs.size(); ++i)
         if (_aovs[i].name == name) return int(i);
+    for (size_t i = 0; i < _aovs.size(); ++i)
+        if (_aovs[i].id == AovId::lpe && channelsOfAov(_aovs[i].name) == name) return int(i);
     return -1;
 }
 
@@ -106,13 +108,16 @@ bool Film::findSpec(const std::string& name, AovSpec& spec) const {
     return true;
 }
 
+bool Film::usable(const glm::vec3& radiance, float alpha) {
+    return isUsable(alpha) && isUsable(radiance.r) && isUsable(radiance.g) && isUsable(radiance.b);
+}
+
 bool Film::addColor(int x, int y, glm::vec3 radiance, float alpha) {
     Pixel& p = _pixels[index(x, y)];
     lookAtMean(p);
     ++p.count;
-    const bool goodAlpha = usable(alpha);
-    const bool good =
-        goodAlpha && usable(radiance.r) && usable(radiance.g) && usable(radiance.b);
+    const bool goodAlpha = isUsable(alpha);
+    const bool good = usable(radiance, alpha);
     if (goodAlpha) p.open.alpha += alpha;
     if (good) {
         for (int i = 0; i < 3; ++i)

@@ -14,13 +14,14 @@ namespace patina {
 
 /// One channel group of the film.
 struct AovSpec {
-    std::string name;   ///< of aovs.def, or primvars:NAME
+    std::string name;   ///< of aovs.def, primvars:NAME, lpe:EXPR or NAME=lpe:EXPR
     int components = 3; ///< floats per pixel
     AovKind kind = AovKind::Mean;
     float clearValue = 0.0f; ///< of pixels that no sample reached
     bool isInteger = false;  ///< ids: stored as float bits of int32 (glm::intBitsToFloat)
     AovId id = AovId::unknown;
     std::string primvar = {}; ///< NAME of primvars:NAME
+    std::string paths = {};   ///< the light path expression that it is of
 };
 
 /// The standard spec of an AOV by name.
@@ -30,7 +31,8 @@ struct AovSpec {
 /// nothing is). normal and position are in world space, Neye in camera space. Ids are -1 where
 /// nothing is. primvars:NAME has two components for texture
 /// coordinates (st*, uv*, UV*), one for displayOpacity and widths, otherwise three.
-/// @throws std::invalid_argument naming an unknown AOV.
+/// @throws std::invalid_argument naming an unknown AOV, or what is wrong with its light path
+/// expression
 AovSpec standardAov(const std::string& name);
 
 /// The specs of those that a renderer writes: all but the film's own.
@@ -50,7 +52,8 @@ public:
     int width() const { return _width; }
     int height() const { return _height; }
     const std::vector<AovSpec>& aovs() const { return _aovs; }
-    int aovIndex(const std::string& name) const; ///< -1 when absent
+    /// -1 when absent. @param name of an AOV, or of the channels of one of light paths
+    int aovIndex(const std::string& name) const;
 
     /// After reset(): the film holds samples from this one on, as a part of a frame does, and
     /// within one span. 0 of a whole frame.
@@ -64,6 +67,8 @@ public:
     /// then. The alpha of such a sample is kept when it is a number, so that a dropped sample makes
     /// no hole.
     bool addColor(int x, int y, glm::vec3 radiance, float alpha);
+    /// @returns whether addColor() takes it
+    static bool usable(const glm::vec3& radiance, float alpha);
     /// Values that are not finite (and not ids) are counted and dropped as a whole.
     /// @param distance of the sample from the pixel's centre, for AovKind::First; of equally near
     ///        samples the earlier one stays

@@ -39,13 +39,14 @@ void checkAovs(const std::string& path, const std::vector<std::string>& aovs) {
 std::vector<std::string> channelNames(const AovSpec& spec) {
     const AovRow row = spec.id == AovId::unknown ? AovRow() : aovRows()[size_t(spec.id)];
     std::string letters = row.letters;
-    if (letters.empty() && spec.components == 1) return {spec.name};
+    const std::string name = channelsOfAov(spec.name);
+    if (letters.empty() && spec.components == 1) return {name};
     if (letters.empty() && spec.components <= 4) letters = "XYZW";
     std::vector<std::string> names;
     for (size_t i = 0; i < size_t(spec.components); ++i) {
         const std::string part = letters.empty() ? std::to_string(i) : std::string(1, letters[i]);
         // The colour before denoising has the row of the colour and another name.
-        names.push_back(row.isBare && spec.name == row.name ? part : spec.name + "." + part);
+        names.push_back(row.isBare && spec.name == row.name ? part : name + "." + part);
     }
     return names;
 }
@@ -53,12 +54,18 @@ std::vector<std::string> channelNames(const AovSpec& spec) {
 void checkImagePath(const std::string& path, const std::vector<std::string>& aovs) {
     createOutput(path);
     checkAovs(path, aovs);
+    std::map<std::string, std::string> known;
     for (auto& name : aovs) {
         try {
             standardAov(name);
         } catch (const std::invalid_argument& e) {
             throw std::runtime_error(e.what());
         }
+        const auto [other, isNew] = known.emplace(channelsOfAov(name), name);
+        if (!isNew && other->second != name)
+            throw std::runtime_error("AOVs '" + other->second + "' and '" + name +
+                                     "' would both be written as '" + other->first +
+                                     "': name them NAME=lpe:EXPRESSION");
     }
     AtomicFile probe(path);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/film.h"
+#include "hdDelegate/film/lightPaths/lightPathAutomaton.h"
 
+#include <cctype>
 #include <cstring>
 #include <stdexcept>
 
@@ -24,6 +26,27 @@ int primvarComponents(const std::string& primvar) {
     return primvar == "displayOpacity" || primvar == "widths" ? 1 : 3;
 }
 
+constexpr size_t longestExpression = 1024;
+
+/// @throws std::invalid_argument
+void checkLightPath(const std::string& aov) {
+    const LightPathAovName parts = lightPathAovOf(aov);
+    if (parts.expression.size() > longestExpression)
+        throw std::invalid_argument("AOV '" + parts.name +
+                                    "': a light path expression has at most " +
+                                    std::to_string(longestExpression) + " characters");
+    for (const char c : parts.name)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-' && c != ':')
+            throw std::invalid_argument("AOV '" + aov + "': its name '" + parts.name +
+                                        "' may have letters, digits, _, - and : only");
+    if (parts.name.empty())
+        throw std::invalid_argument("AOV '" + aov + "': there is no name before =");
+    if (aovIdOf(parts.name) != AovId::unknown)
+        throw std::invalid_argument("AOV '" + aov + "': '" + parts.name +
+                                    "' is the name of another AOV");
+    LightPathSet({parts.expression}); // says what is wrong with it
+}
+
 } // namespace
 
 AovSpec standardAov(const std::string& name) {
@@ -31,18 +54,23 @@ AovSpec standardAov(const std::string& name) {
     if (id == AovId::unknown) {
         std::string known;
         for (const AovRow& row : aovRows())
-            if (row.id != AovId::primvars)
+            if (row.id != AovId::primvars && row.id != AovId::lpe)
                 known += (known.empty() ? "" : ", ") + std::string(row.name);
-        throw std::invalid_argument("unknown AOV '" + name + "'; known are " + known + " and " +
-                                    primvarAovs + "NAME");
+        throw std::invalid_argument("unknown AOV '" + name + "'; known are " + known + ", " +
+                                    primvarAovs + "NAME and NAME=" + lightPathAovs + "EXPRESSION");
     }
     const AovRow& row = aovRows()[size_t(id)];
     const float clear = row.isInteger ? intBits(int32_t(row.clear)) : float(row.clear);
-    AovSpec spec{name, row.components, row.kind, clear, row.isInteger, id, {}};
+    AovSpec spec{name, row.components, row.kind, clear, row.isInteger, id, {}, {}};
     if (id == AovId::primvars) {
         spec.primvar = name.substr(sizeof primvarAovs - 1);
         spec.components = primvarComponents(spec.primvar);
     }
+    if (id == AovId::lpe) {
+        checkLightPath(name);
+        spec.paths = lightPathAovOf(name).expression;
+    }
+    if (row.expression) spec.paths = row.expression;
     return spec;
 }
 

@@ -13,7 +13,16 @@ std::string filmAovOf(const TfToken& hydraName) {
     for (const AovRow& row : aovRows())
         if (row.hydraName && hydraName == row.hydraName) return row.name;
     const std::string& name = hydraName.GetString();
-    return aovIdOf(name) == AovId::unknown ? std::string() : name;
+    const AovId id = aovIdOf(name);
+    if (id == AovId::unknown) return "";
+    if (id != AovId::lpe) return name;
+    if (lightPathAovOf(name).expression == "C.*") return "color";
+    try {
+        return standardAov(name).name;
+    } catch (const std::invalid_argument& error) {
+        TF_WARN("%s", error.what());
+        return "";
+    }
 }
 
 HdAovDescriptor aovDescriptor(const TfToken& hydraName) {

@@ -11,7 +11,7 @@ namespace patina {
 
 /// The film's name of an AOV as Hydra names it; empty when there is none. Hydra's `depth` is window
 /// depth (the film's deviceDepth), its `cameraDepth` the distance along the camera's axis (the
-/// film's depth); the other names are the same, primvars:NAME among them.
+/// film's depth); the other names are the same, primvars:NAME and lpe:EXPR among them.
 std::string filmAovOf(const TfToken& hydraName);
 
 /// What a host should allocate for an AOV; of format HdFormatInvalid when it is not known.

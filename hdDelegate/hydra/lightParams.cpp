@@ -171,6 +171,9 @@ void readLightParams(HdSceneDelegate& delegate, HdPatinaRenderParam& param, cons
         p.text("materialSyncMode", light.materialSyncMode);
     }
     light.lightLink = textOf(delegate.GetLightParamValue(id, HdTokens->lightLink));
+    p.text("ri:light:lightGroup", light.lightGroup);
+    if (light.lightGroup.empty()) p.text("lightGroup", light.lightGroup);
+    if (light.lightGroup.empty()) p.text("primvars:lightGroup", light.lightGroup);
     light.shadowLink = textOf(delegate.GetLightParamValue(id, HdTokens->shadowLink));
 
     readNetwork(delegate, param, id, light);

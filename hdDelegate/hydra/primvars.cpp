@@ -91,6 +91,20 @@ Sampled<std::vector<vec3>> pointsFrom(const HdTimeSampleArray<VtValue, CAPACITY>
     return sampledOf(std::move(times), std::move(values));
 }
 
+constexpr char lightGroup[] = "lightGroup"; // a label in light path expressions
+
+std::string labelOf(const VtValue& value, HdPatinaRenderParam& param, const SdfPath& id) {
+    std::string text = textOf(value);
+    if (value.IsHolding<VtStringArray>() && value.UncheckedGet<VtStringArray>().size() == 1)
+        text = value.UncheckedGet<VtStringArray>()[0];
+    if (value.IsHolding<VtTokenArray>() && value.UncheckedGet<VtTokenArray>().size() == 1)
+        text = value.UncheckedGet<VtTokenArray>()[0].GetString();
+    const bool isText = value.IsHolding<std::string>() || value.IsHolding<TfToken>() ||
+                        !text.empty() || value.IsEmpty();
+    if (!isText) param.warn(id, "primvars:lightGroup", "is not one text; it is left out");
+    return text;
+}
+
 bool isLeftOut(const std::string& name) {
     return TfStringStartsWith(name, "skel:") || TfStringStartsWith(name, sourcePrefix) ||
            name == "pointWeights" || name == "points" || name == "velocities" ||
@@ -125,6 +139,8 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
                 samplePrimvar(delegate, param, id, name, samples);
                 update.points = pointsFrom(samples, param, id);
                 update.pointsChanged = true;
+            } else if (name == lightGroup) {
+                prim.lightGroup = labelOf(delegate.Get(id, name), param, id);
             } else if (!isLeftOut(name.GetString())) {
                 VtIntArray indices;
                 const VtValue value = descriptor.indexed
@@ -155,6 +171,7 @@ PrimvarUpdate updatePrimvars(HdSceneDelegate& delegate, HdPatinaRenderParam& par
             }
         }
     }
+    if (!listed.count(lightGroup)) prim.lightGroup.clear();
     prim.primvars.erase(std::remove_if(prim.primvars.begin(), prim.primvars.end(),
                                        [&](const Primvar& p) { return !listed.count(p.name); }),
                         prim.primvars.end());

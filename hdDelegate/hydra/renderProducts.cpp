@@ -3,6 +3,7 @@
 
 #include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/hydra/aovs.h"
+#include "hdDelegate/hydra/values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,27 @@
 namespace patina {
 
 namespace {
+
+std::string lightPathText(const std::string& name) {
+    const size_t length = sizeof lightPathAovs - 1;
+    return name.compare(0, length, lightPathAovs) == 0 ? name.substr(length) : name;
+}
+
+/// NAME=lpe:EXPR. The name is what its host's driver calls it, else the prim's.
+std::string lightPathAov(const HdRenderSettings::RenderProduct::RenderVar& var) {
+    const std::string expression = lightPathText(var.sourceName);
+    if (expression.empty()) return "";
+    if (expression == "C.*") return "color";
+    std::string name = var.varPath.GetName();
+    for (const char* key : {"ri:driver:parameters:aov:name", "driver:parameters:aov:name"}) {
+        const auto found = var.namespacedSettings.find(key);
+        if (found == var.namespacedSettings.end()) continue;
+        const std::string own = textOf(found->second);
+        if (!own.empty()) name = own;
+    }
+    const bool taken = name.empty() || aovIdOf(name) != AovId::unknown;
+    return (taken ? "" : name + "=") + lightPathAovs + expression;
+}
 
 std::string filmAovOfVar(const HdRenderSettings::RenderProduct::RenderVar& var) {
     const std::string& name = var.sourceName;
@@ -19,7 +41,18 @@ std::string filmAovOfVar(const HdRenderSettings::RenderProduct::RenderVar& var) 
     if (name == "z") return "depth";
     if (name == "N") return "normal";
     if (name == "P") return "position";
+    if (var.sourceType == "lpe" || lightPathText(name) != name) return lightPathAov(var);
     return filmAovOf(TfToken(name));
+}
+
+/// What is wrong with its light path expression; empty for none.
+std::string problemOf(const std::string& aov) {
+    try {
+        standardAov(aov);
+        return "";
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
 }
 
 bool flagOf(const VtDictionary& settings, const char* name, bool initial) {
@@ -76,9 +109,9 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
 #endif
     for (const auto& var : product.renderVars) {
         const std::string aov = filmAovOfVar(var);
-        if (aov.empty())
-            param.warn(var.varPath, "sourceName",
-                       "'" + var.sourceName + "' is no AOV; it is left out");
+        std::string problem = aov.empty() ? "'" + var.sourceName + "' is no AOV" : problemOf(aov);
+        if (!problem.empty())
+            param.warn(var.varPath, "sourceName", problem + "; it is left out");
         else if (std::find(output.order.begin(), output.order.end(), aov) == output.order.end())
             output.order.push_back(aov);
     }

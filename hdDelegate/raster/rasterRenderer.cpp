@@ -187,6 +187,12 @@ private:
                               std::to_string(_settings.height) + " pixels");
         checkDevice(0);
         const std::vector<AovSpec> aovs = renderedAovs(_settings.aovs);
+        for (const AovSpec& aov : aovs)
+            if (!aov.paths.empty() || aov.id == AovId::shadow)
+                _scene->diagnostics().warn("", "",
+                                           "the AOV " + channelsOfAov(aov.name) +
+                                               " is left empty: the rasterizer follows no light "
+                                               "paths");
         _passes->clearSeconds();
         _passes->drawAovs(*_raster, camera);
         if (const vec3 origin = _passes->originOfSeen(*_raster); origin != _origin) {

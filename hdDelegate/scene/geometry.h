@@ -39,6 +39,7 @@ struct Geometry {
         categories; ///< names of light and shadow link collections that hold it
     bool doubleSided = true;
     bool leftHanded = false;
+    std::string lightGroup; ///< label of the light that it gives off; empty: none
     std::string renderTag; ///< Hydra's name of its purpose (proxy, render, guide); empty: geometry
     int id = -1;           ///< for the primId AOV; -1: the rank of its path
 

@@ -81,6 +81,8 @@ struct Light {
     std::string lightLink;
     std::string shadowLink;
 
+    std::string lightGroup; ///< its label in light path expressions; empty: none
+
     // MeshLightAPI: path of the mesh that emits
     std::string geometry;
     std::string materialSyncMode = "materialGlowTintsLight";

@@ -188,6 +188,7 @@ void writeGeometry(Writer& w, const Geometry& g) {
     w.field("material", g.material, std::string());
     w.field("doubleSided", g.doubleSided, true);
     w.field("leftHanded", g.leftHanded, false);
+    w.field("lightGroup", g.lightGroup, std::string());
     w.names("categories", g.categories);
     if (const auto* mesh = dynamic_cast<const Mesh*>(&g)) writeMesh(w, *mesh);
     if (const auto* implicit = dynamic_cast<const Implicit*>(&g)) writeImplicit(w, *implicit);
@@ -262,6 +263,7 @@ void writeLight(Writer& w, const Light& l) {
     w.field("shadowFalloffGamma", l.shadowFalloffGamma, d.shadowFalloffGamma);
     w.field("lightLink", l.lightLink, d.lightLink);
     w.field("shadowLink", l.shadowLink, d.shadowLink);
+    w.field("lightGroup", l.lightGroup, d.lightGroup);
     w.field("geometry", l.geometry, d.geometry);
     w.field("materialSyncMode", l.materialSyncMode, d.materialSyncMode);
 }

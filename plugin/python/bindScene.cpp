@@ -52,6 +52,7 @@ void setLight(PythonEdit& edit, const std::string& path, const py::kwargs& value
         .read("shadow_falloff_gamma", light->shadowFalloffGamma)
         .read("light_link", light->lightLink)
         .read("shadow_link", light->shadowLink)
+        .read("light_group", light->lightGroup)
         .read("geometry", light->geometry)
         .read("material_sync_mode", light->materialSyncMode)
         .finish();

@@ -22,7 +22,8 @@ Fields& readCommon(Fields& fields, Geometry& g) {
         .read("primvars", g.primvars)
         .read("categories", g.categories)
         .read("double_sided", g.doubleSided)
-        .read("left_handed", g.leftHanded);
+        .read("left_handed", g.leftHanded)
+        .read("light_group", g.lightGroup);
 }
 
 void setMesh(PythonEdit& edit, const std::string& path, const py::kwargs& values) {

@@ -31,6 +31,7 @@ void bindNetwork(py::module_& m);
 void bindScene(py::module_& m);
 #ifdef PATINA_BIND_FILM
 void bindFilm(py::module_& m);
+void bindLightPaths(py::module_& m);
 void bindPartial(py::module_& m);
 #endif
 #ifdef PATINA_BIND_RENDER
@@ -114,6 +115,7 @@ Film, images and colour; Renderer and its settings; materials: see the classes' 
     patina::bindScene(m);
 #ifdef PATINA_BIND_FILM
     patina::bindFilm(m);
+    patina::bindLightPaths(m);
     patina::bindPartial(m);
 #endif
 #ifdef PATINA_BIND_RENDER

@@ -83,7 +83,8 @@ TEST(Aovs, HydraAndFilmMeanDifferentDepths) {
     EXPECT_EQ(filmAovOf(HdAovTokens->cameraDepth), "depth");
     EXPECT_EQ(filmAovOf(HdAovTokens->color), "color");
     EXPECT_EQ(filmAovOf(TfToken("primvars:st")), "primvars:st");
-    EXPECT_EQ(filmAovOf(TfToken("lpe:C.*")), "");
+    EXPECT_EQ(filmAovOf(TfToken("lpe:C.*")), "color");
+    EXPECT_EQ(filmAovOf(TfToken("lpe:C<RD>L")), "lpe:C<RD>L");
 }
 
 TEST(Aovs, DescriptorsFitTheFilm) {
@@ -92,6 +93,7 @@ TEST(Aovs, DescriptorsFitTheFilm) {
     EXPECT_EQ(aovDescriptor(HdAovTokens->primId).clearValue, VtValue(-1));
     EXPECT_EQ(aovDescriptor(HdAovTokens->normal).format, HdFormatFloat32Vec3);
     EXPECT_EQ(aovDescriptor(TfToken("primvars:st")).format, HdFormatFloat32Vec2);
+    EXPECT_EQ(aovDescriptor(TfToken("key=lpe:C.*<L.'key'>")).format, HdFormatFloat32Vec3);
     EXPECT_EQ(aovDescriptor(TfToken("nonsense")).format, HdFormatInvalid);
 }
 

@@ -120,9 +120,10 @@ def _aovs(prim, product):
             prim.warn(product.GetPath(), "orderedVars", f"there is no prim {target}; it is left out")
             continue
         source = str(prim_value(var.GetAttribute("sourceName"), None) or "")
-        aov = film_aov(source, prim_value(var.GetAttribute("sourceType"), None))
-        if not aov:
-            prim.warn(target, "sourceName", f"'{source}' is no AOV; it is left out")
+        aov = film_aov(source, prim_value(var.GetAttribute("sourceType"), None), _name_of(var))
+        problem = _problem_of(aov) if aov else f"'{source}' is no AOV"
+        if problem:
+            prim.warn(target, "sourceName", f"{problem}; it is left out")
             continue
         half = half or (aov == "color" and str(prim_value(var.GetAttribute("dataType"), None)) in _HALF)
         if aov not in names:
@@ -137,15 +138,48 @@ def prim_value(attribute, time):
     return attribute.Get(Usd.TimeCode.Default() if time is None else Usd.TimeCode(time)) if attribute else None
 
 
-def film_aov(name, kind=None):
+def _name_of(var):
+    """:returns: what names the channels of a UsdRenderVar of light paths: as its host's driver has it, else the prim's name"""
+    for attribute in ("driver:parameters:aov:name", "ri:driver:parameters:aov:name"):
+        name = prim_value(var.GetAttribute(attribute), None)
+        if name:
+            return str(name)
+    return var.GetName()
+
+
+def _problem_of(aov):
+    """:returns: what is wrong with an AOV of light paths, '' for none"""
+    if "lpe:" not in aov:
+        return ""
+    from patina.cli import compiled
+
+    try:
+        compiled.load().channels_of_aov(aov)
+    except ValueError as error:
+        return str(error)
+    return ""
+
+
+def film_aov(name, kind=None, var_name=""):
     """:param kind: sourceType of a UsdRenderVar
+    :param var_name: what names the channels where it is a light path expression
     :returns: the film's AOV that a source means, as in Hydra; '' for none"""
     if kind == "primvar":
         return f"primvars:{name}" if name else ""
     if name in _AOV_NAMES:
         return _AOV_NAMES[name]
+    if kind == "lpe" or name.startswith("lpe:"):
+        expression = name[len("lpe:"):] if name.startswith("lpe:") else name
+        own = var_name and not _is_known(var_name)
+        if expression in _AOV_NAMES:
+            return _AOV_NAMES[expression]
+        return (f"{var_name}=lpe:" if own else "lpe:") + expression if expression else ""
     table = rows.read("hdDelegate/film/aovs.def", "AOV")
     for row in table:
         if row.words.get("hydra", [None])[0] == name:
             return row.values[0]
-    return name if name.startswith("primvars:") or any(row.values[0] == name for row in table) else ""
+    return name if name.startswith("primvars:") or _is_known(name) else ""
+
+
+def _is_known(name):
+    return any(row.values[0] == name and name != "lpe" for row in rows.read("hdDelegate/film/aovs.def", "AOV"))

@@ -11,6 +11,8 @@ DEFAULT_SAMPLES = 64
 MAX_SAMPLES = 65536  # where only --tolerance or --seconds ends the render
 ALL_AOVS = tuple(name for row in rows.read("hdDelegate/film/aovs.def", "AOV") if "all" in row.words
                  for name in row.words["all"] or [row.values[0]])
+LIGHT_AOVS = tuple(row.values[0] for row in rows.read("hdDelegate/film/aovs.def", "AOV")
+                   if "paths" in row.words or row.values[0] == "shadow")
 LARGEST_SIZE = 65536
 MAX_PIXELS = 1 << 28
 _SETTINGS_HELP = ("take camera, resolution, products, AOVs, purposes and `patina:` settings from this UsdRenderSettings prim; "
@@ -81,7 +83,8 @@ def _add_output_flags(group):
                        help="render only these pixels, both corners included, counted from the upper left")
     group.add_argument("--aov", action="append", default=[], metavar="NAME",
                        help=f"also write this (repeatable, OpenEXR only): {', '.join(ALL_AOVS)}, any primvars:NAME, "
-                            "or all")
+                            f"or all; light by its paths: {', '.join(LIGHT_AOVS)}, or NAME=lpe:EXPRESSION, in which "
+                            "'key' is a light group")
     group.add_argument("--half", action="store_true", help="OpenEXR: colour as 16-bit floats")
     group.add_argument("--compression", default="zip", metavar="NAME",
                        choices=["none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"],

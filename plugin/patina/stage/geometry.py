@@ -5,7 +5,7 @@ from pxr import UsdGeom
 
 from . import meshes, parametric, skinning, volumes
 from .context import array, get, number
-from .primvars import add_builtin, read_primvars
+from .primvars import add_builtin, read_primvars, text
 from .transforms import transform_of
 
 _AXES = {"X": 0, "Y": 1, "Z": 2}
@@ -30,6 +30,8 @@ def emit(context, found, kind, bound, categories):
         "left_handed": found.authored("orientation", context.time) == "leftHanded",
         "primvars": read_primvars(context, prim, found.state.primvars) if found.has_primvars() else [],
     }
+    if found.has_primvars():
+        common["light_group"] = text(context, prim, found.state.primvars, "lightGroup")
     if subsets:
         common["subsets"] = [_subset(context, subset, path, group) for subset, path in subsets]
     context.count(kind)

@@ -6,6 +6,7 @@ from pxr import Gf, UsdGeom, UsdLux, UsdShade
 
 from . import assets, kinds
 from .context import number, vector
+from .primvars import text
 from .transforms import transform_of
 
 _FLOATS = ("intensity", "exposure", "diffuse", "specular", "colorTemperature")
@@ -25,6 +26,7 @@ def emit(context, found, linking):
     _read_shaping(context, prim, fields)
     _read_shadow(context, prim, fields)
     fields["light_link"], fields["shadow_link"] = linking.links_of(prim)
+    fields["light_group"] = _light_group(context, found)
     if prim.HasRelationship("light:filters") and prim.GetRelationship("light:filters").GetTargets():
         context.warn(prim.GetPath(), "light:filters", "light filters are not applied")
     _report_network(context, prim, is_mesh)
@@ -72,6 +74,14 @@ def _report_network(context, prim, is_mesh):
             continue
         context.warn(prim.GetPath(), name, f"is connected to {target}, which is not evaluated for lights; "
                      + ("its own value is used" if name.startswith("inputs:") else "the light is drawn by its type"))
+
+
+def _light_group(context, found):
+    """:returns: its label in light path expressions; that of RenderMan stands above the primvar"""
+    own = _input(context, found.prim, "ri:light:lightGroup")
+    if isinstance(own, str) and own:
+        return own
+    return text(context, found.prim, found.state.primvars, "lightGroup") if found.has_primvars() else ""
 
 
 def is_mesh_light(prim):

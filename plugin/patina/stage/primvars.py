@@ -43,6 +43,21 @@ def read_primvar(context, primvar, prim):
     return (name, primvar.GetInterpolation(), values, indices)
 
 
+def text(context, prim, inherited, name):
+    """:param inherited: as of read_primvars()
+    :returns: the text of a constant primvar, the prim's own or inherited; "" where there is none"""
+    primvar = UsdGeom.PrimvarsAPI(prim).FindPrimvarWithInheritance(name, inherited)
+    value = primvar.Get(context.time) if primvar else None
+    if value is None:
+        return ""
+    if isinstance(value, str):
+        return value
+    if _is_array(value) and len(value) == 1 and isinstance(value[0], str):
+        return value[0]
+    context.warn(prim.GetPath(), "primvars:" + name, "is not one text; it is left out")
+    return ""
+
+
 def in_rendering_space(context, prim, attribute, values):
     """:returns: the values, in linear Rec.709 where the attribute or a prim above says their colour space"""
     if values.ndim != 2 or values.shape[1] not in (3, 4) or values.dtype.kind != "f":

@@ -83,7 +83,7 @@ class Walk:
         elif kind == "camera":
             self._camera(prim, own)
         elif kind == "light":
-            self.walked.lights.append(Found(prim, own, state.group.path(prim)))
+            self.walked.lights.append(Found(prim, own, state.group.path(prim), names))
         elif kind == "unsupported":
             self.context.warn(prim.GetPath(), "", f"prims of type {prim.GetTypeName()} are not drawn")
         elif kind in GPRIM_KINDS:

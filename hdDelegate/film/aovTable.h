@@ -11,6 +11,7 @@ enum class AovKind {
     Mean,  ///< average over the samples that were added (albedo)
     First, ///< the sample nearest the pixel's centre: no mixing (depth, ids, position, normal,
            ///< primvars)
+    Coverage, ///< ids with the share of the samples that met each (Cryptomatte)
 };
 
 enum class AovId {
@@ -33,6 +34,7 @@ struct AovRow {
     bool isBare = false;
     const char* letters = ""; ///< of channels in files; empty: X, Y, Z or none
     const char* hydraName = nullptr;
+    const char* aliases = ""; ///< of render vars, separated by spaces
 
     // The words of aovs.def.
     AovRow& film() {
@@ -59,6 +61,10 @@ struct AovRow {
         hydraName = text;
         return *this;
     }
+    AovRow& also(const char* text) {
+        aliases = text;
+        return *this;
+    }
     AovRow& all(const char* = "") { return *this; } // for plugin/patina/cli
 };
 
@@ -67,6 +73,10 @@ const std::vector<AovRow>& aovRows();
 
 /// What follows the prefix of the AOVs of primvars.
 inline constexpr char primvarAovs[] = "primvars:";
+
+/// The name of the table's row that a render vars' source means by the name or by an alias; else the
+/// name itself.
+std::string aovNamed(const std::string& source);
 
 /// @returns AovId::unknown for a name that standardAov() does not take
 AovId aovIdOf(const std::string& name);

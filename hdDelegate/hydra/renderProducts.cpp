@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/renderProducts.h"
 
+#include "hdDelegate/film/aovTable.h"
 #include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/hydra/aovs.h"
 
@@ -19,7 +20,7 @@ std::string filmAovOfVar(const HdRenderSettings::RenderProduct::RenderVar& var) 
     if (name == "z") return "depth";
     if (name == "N") return "normal";
     if (name == "P") return "position";
-    return filmAovOf(TfToken(name));
+    return filmAovOf(TfToken(aovNamed(name)));
 }
 
 bool flagOf(const VtDictionary& settings, const char* name, bool initial) {

@@ -146,6 +146,6 @@ def film_aov(name, kind=None):
         return _AOV_NAMES[name]
     table = rows.read("hdDelegate/film/aovs.def", "AOV")
     for row in table:
-        if row.words.get("hydra", [None])[0] == name:
+        if name in row.words.get("hydra", []) or name in row.words.get("also", [""])[0].split():
             return row.values[0]
     return name if name.startswith("primvars:") or any(row.values[0] == name for row in table) else ""

@@ -31,8 +31,7 @@ bool isDrawn(const Geometry& prim, const RenderSettings& settings) {
 }
 
 bool isDrawn(const Instancer& prim, const RenderSettings& settings) {
-    const Visibility& v = prim.visibility;
-    return (v.camera || v.indirect || v.shadow) && !anyContains(settings.excludePaths, prim.path);
+    return prim.visibility.sees(RayAny) && !anyContains(settings.excludePaths, prim.path);
 }
 
 } // namespace patina

@@ -20,6 +20,7 @@ public:
     /// @param instancer outlives this
     InstanceValues(const Instancer& instancer, Diagnostics& diagnostics);
 
+    const Instancer& instancer() const { return _instancer; }
     std::vector<std::string> names() const;
     /// @param out up to four components; those that the primvar does not have are 0
     /// @returns false, and leaves out as it was, where there is no such primvar or instance

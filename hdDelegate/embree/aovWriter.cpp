@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/aovWriter.h"
 
+#include "hdDelegate/compiled/matteNames.h"
 #include "hdDelegate/film/aovValues.h"
 
 namespace patina {
@@ -47,10 +48,28 @@ private:
 
 } // namespace
 
+namespace {
+
+/// For the AOVs of Cryptomatte.
+std::string matteOf(AovId id, const SurfacePoint& point) {
+    const Hit& hit = *point.hit;
+    const Geometry& prim = *hit.surface->prim;
+    if (id == AovId::cryptoMaterial)
+        return materialMatte(prim, size_t(point.slot - hit.surface->materials.data()));
+    return id == AovId::cryptoAsset ? assetMatte(prim, hit.steps, hit.stepCount)
+                                    : objectMatte(prim, hit.steps, hit.stepCount);
+}
+
+} // namespace
+
 void writeAovs(const std::vector<AovSpec>& aovs, const AovTarget& target, const CameraRays& camera,
                const SurfacePoint& point, const Bsdf& bsdf) {
     HitPoint hit(camera, point, bsdf);
     for (size_t i = 0; i < aovs.size(); ++i) {
+        if (aovs[i].kind == AovKind::Coverage) {
+            target.film.addCoverage(int(i), target.x, target.y, matteOf(aovs[i].id, point));
+            continue;
+        }
         float out[4] = {0, 0, 0, 0};
         hit.primvarName = &aovs[i].primvar;
         if (aovValue(aovs[i].id, hit, out))

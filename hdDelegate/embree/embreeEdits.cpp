@@ -18,7 +18,7 @@ bool onlySets(const SceneDelta::Paths& paths) {
 }
 
 bool sameRays(const Visibility& a, const Visibility& b) {
-    return a.camera == b.camera && a.indirect == b.indirect && a.shadow == b.shadow;
+    return a.mask() == b.mask();
 }
 
 } // namespace

@@ -33,12 +33,6 @@ EmbreeGroup::~EmbreeGroup() {
 
 namespace {
 
-unsigned maskOf(const Visibility& visibility) {
-    return (visibility.camera ? unsigned(RayCamera) : 0u) |
-           (visibility.indirect ? unsigned(RayIndirect) : 0u) |
-           (visibility.shadow ? unsigned(RayShadow) : 0u);
-}
-
 /// The ray in the space of one instance. The direction keeps its scale, so distances stay equal.
 RTCRay transformRay(const RTCRay& ray, const mat4& worldToLocal) {
     RTCRay local = ray;
@@ -200,7 +194,7 @@ void EmbreeGroup::attachSurface(RTCDevice device, const std::shared_ptr<Surface>
     RTCGeometry geometry = makeGeometry(device, *surface);
     if (!geometry) return;
     const bool free = id >= 0 && !records[size_t(id)];
-    SurfaceMember member{surface, maskOf(surface->prim->visibility),
+    SurfaceMember member{surface, surface->prim->visibility.mask(),
                          free ? unsigned(id) : freeId()};
     if (surface->shared)
         member.rayLimit = rayLimitOf([&](float time) { return surface->placeAt(time); },
@@ -218,7 +212,7 @@ void EmbreeGroup::updateSurfaces(RTCDevice device, const Surfaces& surfaces) {
         const auto old = _surfaces.find(path);
         if (old != _surfaces.end() && old->second.surface == surface) {
             next.insert(_surfaces.extract(old));
-            showTo(next[path], maskOf(surface->prim->visibility));
+            showTo(next[path], surface->prim->visibility.mask());
         }
     }
     for (const auto& item : _surfaces)
@@ -244,7 +238,7 @@ void EmbreeGroup::replace(RTCDevice device, const Surfaces& surfaces, const Node
         int id = -1;
         if (old != _surfaces.end()) {
             if (old->second.surface == surface) {
-                showTo(old->second, maskOf(surface->prim->visibility));
+                showTo(old->second, surface->prim->visibility.mask());
                 continue;
             }
             id = int(old->second.id);
@@ -261,7 +255,7 @@ void EmbreeGroup::replace(RTCDevice device, const Surfaces& surfaces, const Node
 
 void EmbreeGroup::attachNode(RTCDevice device, NodeMember& member) {
     const InstancerNode& node = *member.node;
-    const unsigned mask = maskOf(node.prim->visibility);
+    const unsigned mask = node.prim->visibility.mask();
     GroupRecord record;
     record.node = &node;
     std::vector<int> nested;

@@ -121,7 +121,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
         progress.statistics["maxDepth"] = plan.depth(_settings);
     });
 
-    const std::vector<AovSpec> aovs = renderedAovs(_settings.aovs);
+    const std::vector<AovSpec> aovs = renderedAovs(_settings.aovs, _settings.cryptomatteLevels);
     _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
 
     _film->setFirstSample(uint32_t(std::max(0, _settings.sampleBegin)));

@@ -18,8 +18,6 @@
 
 namespace patina {
 
-enum RayMask : unsigned { RayCamera = 1, RayIndirect = 2, RayShadow = 4 };
-
 /// Of a surface alone: none where it shares them.
 size_t trianglesOf(const Surface& surface);
 

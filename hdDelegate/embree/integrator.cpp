@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace patina {
 
@@ -181,15 +182,6 @@ void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& h
     addLight(path, light, radiance, lightPdf);
 }
 
-namespace {
-
-/// The normal on the side that a surface is seen from.
-vec3 seenSide(const ShadingPoint& s) {
-    return glm::dot(s.viewDirection, s.geometricNormal) < 0.0f ? -s.normal : s.normal;
-}
-
-} // namespace
-
 LightDraw Integrator::beginLight(const Path& path, const SurfacePoint& point, bool twoSided,
                                  const vec3& u) const {
     const ShadingPoint& s = point.shading;
@@ -244,6 +236,9 @@ void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit, c
                         const BsdfSample& next) const {
     const ShadingPoint& s = point.shading;
     const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
+    path.rays = (next.event & sh::LOBE_TRANSMIT) != 0 ? RayTransmission
+                : next.diffuse                        ? RayDiffuse
+                                                      : RaySpecular;
     path.specular = (next.event & sh::LOBE_DELTA) != 0;
     path.pdf = next.pdf;
     path.vertex = s.position;
@@ -281,7 +276,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         ++counters.rays;
         const bool found =
             _scene.intersect(path.origin, path.direction, path.near, path.far, path.time,
-                             path.fromCamera() ? RayCamera : RayIndirect, hit);
+                             path.rays, hit);
         const float distance = found ? hit.distance : path.far;
         float end = distance;
         if (hasFiniteLights && _settings.enableSceneLights) end = addLightsAlong(path, distance);
@@ -298,7 +293,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         }
         if (end < distance) break;
         if (!found) {
-            addEscaped(path);
+            if (!(path.caught > 0.0f)) addEscaped(path);
             break;
         }
         travelled += hit.distance;
@@ -323,8 +318,9 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
                               : point.slot->opaque ? 1.0f
                                                    : program.opacity(s, &passes, &presence);
         point.shading.uvFootprint = footprint;
+        const bool caught = path.fromCamera() && hit.surface->prim->catching.any();
         // What is present emits, whether or not light also passes.
-        if (!culled && presence > 0.0f) addEmission(path, point, hit, presence);
+        if (!culled && !caught && presence > 0.0f) addEmission(path, point, hit, presence);
         if (opacity < 1.0f && !(path.sampler.random() < opacity)) {
             path.throughput *= passes;
             if (++passed > maxPassThroughs || path.throughput == vec3(0.0f)) break;
@@ -333,7 +329,8 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
             path.near = 0.0f;
             continue;
         }
-        if (path.fromCamera()) path.alpha = 1.0f;
+        if (path.fromCamera() && !caught) path.alpha = 1.0f;
+        path.alpha += std::exchange(path.caught, 0.0f);
 
         // What the camera sees counts most, and its vertex is paid for.
         const int lightSamples = path.fromCamera() ? _lightSamples : 1;
@@ -363,6 +360,12 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
             path.featured = true;
             path.featureAlbedo = path.throughput * bsdf.albedo();
             path.featureNormal = s.normal;
+        }
+        if (caught) {
+            if (!catchLight(path, point, hit, bsdf, counters)) break;
+            path.coneWidth = width;
+            travelled = 0.0f;
+            continue;
         }
         if (path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface)) break;
 

@@ -20,6 +20,11 @@ struct TraceCounters {
 
 constexpr int maxPassThroughs = 256; ///< surfaces that presence lets one ray through
 
+/// The normal on the side that a surface is seen from.
+inline vec3 seenSide(const ShadingPoint& s) {
+    return glm::dot(s.viewDirection, s.geometricNormal) < 0.0f ? -s.normal : s.normal;
+}
+
 inline float powerHeuristic(float a, float b) {
     if (!std::isfinite(a)) return 1.0f;
     const float aa = a * a, bb = b * b;
@@ -71,6 +76,13 @@ private:
     bool survivesRoulette(Path& path) const;
     void depart(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
                 const BsdfSample& next) const;
+    /// What the camera sees of a prim that is a matte or a catcher; the path may go on by reflection.
+    /// @returns false when it ends
+    bool catchLight(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
+                    TraceCounters& counters) const;
+    /// The share of the direct light at a point that does not reach it.
+    float shadowed(const Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
+                   TraceCounters& counters) const;
     /// Takes the path through subsurface scattering, light at its exit included.
     /// @returns false when the path ends beneath the surface
     bool passBeneath(Path& path, const SurfacePoint& point, const Hit& hit,

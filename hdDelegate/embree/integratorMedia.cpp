@@ -38,7 +38,8 @@ vec3 Integrator::transmittanceTo(const Path& path, float distance) const {
     vec3 left(1.0f);
     if (!path.media.empty()) left = transmittance(path.media.extinction(), distance);
     if (!_scene.volumes().empty())
-        left *= _scene.volumes().transmittance(path.origin, path.direction, distance, false,
+        left *= _scene.volumes().transmittance(path.origin, path.direction, distance,
+                                               path.rays,
                                                path.sampler);
     return left;
 }
@@ -61,7 +62,7 @@ Integrator::Flight Integrator::fly(Path& path, float distance, TraceCounters& co
     if (!_scene.volumes().empty()) {
         through = path.throughput;
         collision = _scene.volumes().track(path.origin, path.direction, flight.distance,
-                                           path.fromCamera(), through, path.sampler);
+                                           path.rays, through, path.sampler);
         if (collision.emitted != vec3(0.0f)) {
             // It holds the throughput already.
             const vec3 before = path.throughput;
@@ -105,6 +106,7 @@ Integrator::Flight Integrator::scatter(Path& path, const Medium& medium, float d
     if (!(luminance(path.throughput) > 0.0f) || !survivesRoulette(path)) return Flight::Ends;
 
     if (path.lightPaths) path.lightPaths->scatter(EventType::Volume, false, vec3(1.0f));
+    path.rays = RayVolume;
     path.specular = false;
     path.pdf = next.pdf;
     path.vertex = position;

@@ -23,6 +23,8 @@ struct Path {
     float coneWidth = 0.0f, coneSpread = 0.0f;
     int depth = 0;       ///< bounces off surfaces so far
     int scatterings = 0; ///< inside media
+    unsigned rays = RayCamera; ///< kind of the ray, of RayMask
+    float caught = 0.0f; ///< alpha that a reflection catcher has where the ray meets something
 
     // the last vertex that scattered
     bool specular = true;      ///< no light sample could have found this ray

@@ -37,7 +37,7 @@ vec3 Integrator::visibility(const Path& path, const MediumStack& media, const ve
     const auto volumes = [&] {
         return _scene.volumes().empty() ? vec3(1.0f)
                                         : _scene.volumes().transmittance(
-                                              origin, direction, distance, true, path.sampler);
+                                              origin, direction, distance, RayShadow, path.sampler);
     };
     float far = distance * (1.0f - 1e-4f);
     if (light.shadowDistance > 0.0f) far = std::min(far, light.shadowDistance);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/aovTable.h"
 
+#include <sstream>
+
 namespace patina {
 
 const std::vector<AovRow>& aovRows() {
     static const std::vector<AovRow> rows = [] {
         std::vector<AovRow> made;
-        constexpr AovKind Mean = AovKind::Mean, First = AovKind::First;
+        constexpr AovKind Mean = AovKind::Mean, First = AovKind::First,
+                          Coverage = AovKind::Coverage;
         const auto row = [](AovId id, const char* name, int components, AovKind kind,
                             double clear) {
             AovRow r;
@@ -45,6 +48,15 @@ LightPathAovName lightPathAovOf(const std::string& aov) {
 
 std::string channelsOfAov(const std::string& aov) {
     return aovIdOf(aov) == AovId::lpe ? lightPathAovOf(aov).name : aov;
+}
+
+std::string aovNamed(const std::string& source) {
+    for (const AovRow& row : aovRows()) {
+        std::istringstream aliases(row.aliases);
+        for (std::string alias; aliases >> alias;)
+            if (alias == source) return row.name;
+    }
+    return source;
 }
 
 AovId aovIdOf(const std::string& name) {

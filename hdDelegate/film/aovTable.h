@@ -11,6 +11,7 @@ enum class AovKind {
     Mean,  ///< average over the samples that were added (albedo)
     First, ///< the sample nearest the pixel's centre: no mixing (depth, ids, position, normal,
            ///< primvars)
+    Coverage, ///< ids with the share of the samples that met each (Cryptomatte)
 };
 
 enum class AovId {
@@ -34,6 +35,7 @@ struct AovRow {
     const char* letters = ""; ///< of channels in files; empty: X, Y, Z or none
     const char* hydraName = nullptr;
     const char* expression = nullptr; ///< of its light paths
+    const char* aliases = ""; ///< of render vars, separated by spaces
 
     // The words of aovs.def.
     AovRow& film() {
@@ -64,6 +66,10 @@ struct AovRow {
         expression = text;
         return *this;
     }
+    AovRow& also(const char* text) {
+        aliases = text;
+        return *this;
+    }
     AovRow& all(const char* = "") { return *this; } // for plugin/patina/cli
 };
 
@@ -85,6 +91,10 @@ LightPathAovName lightPathAovOf(const std::string& aov);
 
 /// @returns what names the channels of an AOV: NAME of NAME=lpe:EXPR, else the AOV's own name
 std::string channelsOfAov(const std::string& aov);
+
+/// The name of the table's row that a render vars' source means by the name or by an alias; else the
+/// name itself.
+std::string aovNamed(const std::string& source);
 
 /// @returns AovId::unknown for a name that standardAov() does not take
 AovId aovIdOf(const std::string& name);

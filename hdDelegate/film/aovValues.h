@@ -40,6 +40,9 @@ template <class Point> bool aovValue(AovId id, const Point& p, float out[4]) {
     case AovId::primId: return putId(p.primId());
     case AovId::instanceId: return putId(p.instanceId());
     case AovId::elementId: return putId(p.elementId());
+    case AovId::cryptoObject: // see addCoverage()
+    case AovId::cryptoMaterial:
+    case AovId::cryptoAsset:
     case AovId::color:
     case AovId::alpha:
     case AovId::lpe:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/film.h"
 
+#include "hdDelegate/film/cryptomatte.h"
+#include "hdDelegate/film/cryptomatteHash.h"
 #include "hdDelegate/film/spans.h"
 #include "hdDelegate/parallel.h"
 
@@ -53,6 +55,10 @@ Film::Plane Film::clearedPlane(const AovSpec& spec, size_t pixels) {
         plane.sums.assign((2 * size_t(spec.components) + 1) * pixels, 0.0);
         return plane;
     }
+    if (spec.kind == AovKind::Coverage) {
+        plane.cells.resize(pixels);
+        return plane;
+    }
     const size_t stride = size_t(spec.components) + 1;
     plane.nearest.assign(stride * pixels, spec.clearValue);
     for (size_t i = stride - 1; i < plane.nearest.size(); i += stride)
@@ -66,10 +72,11 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
         throw std::invalid_argument("film size " + std::to_string(width) + "x" +
                                     std::to_string(height) + " is not possible");
     for (const AovSpec& spec : aovs) {
-        if (spec.components < 1 || spec.components > 16)
+        const int most = spec.kind == AovKind::Coverage ? cryptomatteComponents(16) : 16;
+        if (spec.components < 1 || spec.components > most)
             throw std::invalid_argument("AOV " + spec.name + " has " +
                                         std::to_string(spec.components) +
-                                        " components, not 1 to 16");
+                                        " components, not 1 to " + std::to_string(most));
     }
     bool same = width == _width && height == _height &&
                 std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec);
@@ -182,6 +189,24 @@ void Film::addAov(int aov, int x, int y, const float* values, float distance) {
     }
 }
 
+void Film::addCoverage(int aov, int x, int y, const std::string& name) {
+    Plane& plane = _planes[size_t(aov)];
+    const uint32_t id = cryptomatteId(name);
+    if (plane.cells[index(x, y)].add(id)) plane.names.add(id, name);
+}
+
+CoverageNames::Map Film::coverageNames(const std::string& aov) const {
+    const int found = aovIndex(aov);
+    CoverageNames::Map names;
+    if (found < 0) return names;
+    const Plane& plane = _planes[size_t(found)];
+    const CoverageNames::Map all = plane.names.all(); // parts may have had samples of others
+    for (const CoverageCell& cell : plane.cells)
+        for (size_t i = 0; i < cell.size(); ++i)
+            if (const auto name = all.find(cell[i].id); name != all.end()) names.insert(*name);
+    return names;
+}
+
 void Film::setMean(int x, int y, glm::vec3 color, float alpha) {
     Pixel& p = _pixels[index(x, y)];
     if (!p.count) return;
@@ -279,6 +304,15 @@ std::vector<float> Film::resolve(const std::string& name) const {
     } else {
         const Plane& plane = _planes[size_t(aovIndex(name))];
         eachPixel([&](int x, int y, float* to) {
+            if (spec.kind == AovKind::Coverage) {
+                // What the kept ids do not have is empty, or left out.
+                const std::vector<CoverageCount> counts = plane.cells[index(x, y)].ranked();
+                for (size_t i = 0; i < std::min(n / 2, counts.size()); ++i) {
+                    std::memcpy(&to[2 * i], &counts[i].id, sizeof(float));
+                    to[2 * i + 1] = float(double(counts[i].samples) / sampleCount(x, y));
+                }
+                return;
+            }
             if (spec.kind == AovKind::First) {
                 const float* values = &plane.nearest[index(x, y) * (n + 1)];
                 std::copy(values, values + n, to);

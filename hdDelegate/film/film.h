@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hdDelegate/film/aovTable.h"
+#include "hdDelegate/film/coverage.h"
 
 #include <glm/glm.hpp>
 
@@ -36,8 +37,10 @@ struct AovSpec {
 AovSpec standardAov(const std::string& name);
 
 /// The specs of those that a renderer writes: all but the film's own.
+/// @param cryptomatteLevels ids per pixel that images hold, 1 to 16
 /// @throws std::invalid_argument naming an unknown AOV.
-std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names);
+std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names,
+                                  int cryptomatteLevels = 6);
 
 /// Accumulates what a renderer finds. Row 0 is the top row. One thread writes one pixel at a time;
 /// different pixels may be written at once. Sums are kept in double and in a fixed order, span by
@@ -73,6 +76,12 @@ public:
     /// @param distance of the sample from the pixel's centre, for AovKind::First; of equally near
     ///        samples the earlier one stays
     void addAov(int aov, int x, int y, const float* values, float distance);
+
+    /// Counts a sample of a pixel for an AOV of AovKind::Coverage.
+    /// @param name that cryptomatteId() made the id of
+    void addCoverage(int aov, int x, int y, const std::string& name);
+    /// The names of the ids that such an AOV has met.
+    CoverageNames::Map coverageNames(const std::string& aov) const;
 
     /// Replaces the mean of a pixel that has samples; their number and the variance stay.
     void setMean(int x, int y, glm::vec3 color, float alpha);
@@ -137,11 +146,13 @@ private:
         uint32_t reserved = 0;     ///< no padding: checkpoints hold the bytes
     };
     /// Means keep components sums of closed spans, as many of the open one, and their count; the
-    /// others components values and the distance of the sample. Only the vector of the AOV's kind
+    /// First ones components values and the distance of the sample, and Coverage a cell. Only the vector of the AOV's kind
     /// is filled.
     struct Plane {
         std::vector<double> sums;
         std::vector<float> nearest;
+        std::vector<CoverageCell> cells;
+        CoverageNames names;
     };
 
     size_t index(int x, int y) const { return size_t(y) * size_t(_width) + size_t(x); }

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/film/filmStream.h"
 
+#include "hdDelegate/film/cryptomatteHash.h"
+
 #include <algorithm>
 
 namespace patina {
 
 namespace {
 
-constexpr uint32_t longestText = 4096, maxAovs = 1024;
+constexpr uint32_t longestText = 4096, longestName = 1 << 20, maxAovs = 1024;
 
 } // namespace
 
@@ -24,6 +26,11 @@ void FilmStream::writeHeader(FilmFileWriter& file, const Film& film) {
         file.value(int32_t(spec.kind));
         file.value(spec.clearValue);
         file.value(uint32_t(spec.isInteger));
+        if (spec.kind != AovKind::Coverage) continue;
+        const auto names = film.coverageNames(spec.name);
+        file.value(uint32_t(names.size()));
+        for (const auto& item : names)
+            file.text(item.second);
     }
     file.seal();
 }
@@ -45,9 +52,13 @@ FilmStream::Header FilmStream::readHeader(FilmFileReader& file) {
         const int32_t kind = file.value<int32_t>();
         spec.clearValue = file.value<float>();
         spec.isInteger = file.value<uint32_t>() != 0;
-        if (spec.components < 1 || spec.components > 16 || kind < 0 || kind > 1)
+        if (spec.components < 1 || kind < 0 || kind > int(AovKind::Coverage))
             file.fail("it is damaged");
         spec.kind = AovKind(kind);
+        if (spec.kind != AovKind::Coverage) continue;
+        std::vector<std::string>& names = header.names[spec.name];
+        for (uint32_t left = file.value<uint32_t>(); left > 0; --left)
+            names.push_back(file.text(longestName));
     }
     file.checkSeal();
     return header;
@@ -59,6 +70,14 @@ void FilmStream::reset(Film& film, const Header& header) {
     film._firstSample = header.firstSample;
     film._dropped = header.dropped;
     film.resumeToken = header.token;
+    addNames(film, header);
+}
+
+void FilmStream::addNames(Film& film, const Header& header) {
+    for (const auto& [aov, names] : header.names)
+        if (const int i = film.aovIndex(aov); i >= 0)
+            for (const std::string& name : names)
+                film._planes[size_t(i)].names.add(cryptomatteId(name), name);
 }
 
 /// @param act called with the bytes of each array's piece of a row, and their number
@@ -79,20 +98,41 @@ void FilmStream::eachRow(FilmType& film, const Tile& tile, const Act& act) {
     }
 }
 
+/// @param act called with each pixel's cell of each AOV that has them
+template <class FilmType, class Act>
+void FilmStream::eachCell(FilmType& film, const Tile& tile, const Act& act) {
+    for (auto& plane : film._planes)
+        for (int y = tile.y0; !plane.cells.empty() && y < tile.y1; ++y)
+            for (int x = tile.x0; x < tile.x1; ++x)
+                act(plane.cells[film.index(x, y)]);
+}
+
 void FilmStream::writePixels(FilmFileWriter& file, const Film& film, const Tile& tile) {
     static_assert(sizeof(Film::Pixel) == 96, "pixels are written as bytes, without padding");
     eachRow(film, tile, [&](const void* data, size_t size) { file.bytes(data, size); });
+    eachCell(film, tile, [&](const CoverageCell& cell) {
+        file.value(uint32_t(cell.size()));
+        for (size_t i = 0; i < cell.size(); ++i)
+            file.value(cell[i]);
+    });
 }
 
 void FilmStream::readPixels(FilmFileReader& file, Film& film, const Tile& tile) {
     eachRow(film, tile, [&](void* data, size_t size) { file.bytes(data, size); });
+    eachCell(film, tile, [&](CoverageCell& cell) {
+        for (uint32_t left = file.value<uint32_t>(); left > 0; --left) {
+            const auto count = file.value<CoverageCount>();
+            cell.add(count.id, count.samples);
+        }
+    });
 }
 
 size_t FilmStream::bytesOfPixel(const std::vector<AovSpec>& aovs) {
     size_t bytes = sizeof(Film::Pixel);
     for (const AovSpec& spec : aovs) {
         const Film::Plane plane = Film::clearedPlane(spec, 1);
-        bytes += plane.sums.size() * sizeof(double) + plane.nearest.size() * sizeof(float);
+        bytes += plane.sums.size() * sizeof(double) + plane.nearest.size() * sizeof(float) +
+                 plane.cells.size() * sizeof(uint32_t);
     }
     return bytes;
 }
@@ -122,7 +162,9 @@ void FilmStream::appendPixel(Film::Pixel& pixel, const Film::Pixel& part) {
 void FilmStream::appendPlane(const AovSpec& spec, Film::Plane& plane, size_t to,
                              const Film::Plane& part, size_t from) {
     const size_t n = size_t(spec.components);
-    if (!plane.nearest.empty()) {
+    if (!plane.cells.empty()) {
+        plane.cells[to].add(part.cells[from]);
+    } else if (!plane.nearest.empty()) {
         float* values = &plane.nearest[to * (n + 1)];
         const float* other = &part.nearest[from * (n + 1)];
         if (other[n] < values[n]) std::copy(other, other + n + 1, values);

@@ -16,6 +16,7 @@ public:
         uint32_t firstSample = 0;
         std::string token;
         std::vector<AovSpec> aovs;
+        std::map<std::string, std::vector<std::string>> names; ///< of ids, by AOV
     };
 
     static void writeHeader(FilmFileWriter& file, const Film& film);
@@ -31,11 +32,15 @@ public:
     /// @param part of the tile's size and the film's AOVs. Where the tile has samples, those of the
     ///        part are of one span, and follow them.
     static void append(Film& film, const Film& part, const Tile& tile);
+    /// Takes over the names of a part's ids.
+    static void addNames(Film& film, const Header& header);
     static void addDropped(Film& film, uint64_t samples) { film._dropped += samples; }
 
 private:
     template <class FilmType, class Act>
     static void eachRow(FilmType& film, const Tile& tile, const Act& act);
+    template <class FilmType, class Act>
+    static void eachCell(FilmType& film, const Tile& tile, const Act& act);
     static void appendPixel(Film::Pixel& pixel, const Film::Pixel& part);
     static void appendPlane(const AovSpec& spec, Film::Plane& plane, size_t to,
                             const Film::Plane& part, size_t from);

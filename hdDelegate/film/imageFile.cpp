@@ -2,6 +2,7 @@
 #include "hdDelegate/film/imageFile.h"
 
 #include "hdDelegate/film/atomicFile.h"
+#include "hdDelegate/film/cryptomatte.h"
 #include "hdDelegate/film/imageOutput.h"
 
 #include <algorithm>
@@ -37,6 +38,7 @@ void checkAovs(const std::string& path, const std::vector<std::string>& aovs) {
 } // namespace
 
 std::vector<std::string> channelNames(const AovSpec& spec) {
+    if (spec.kind == AovKind::Coverage) return cryptomatteChannels(spec);
     const AovRow row = spec.id == AovId::unknown ? AovRow() : aovRows()[size_t(spec.id)];
     std::string letters = row.letters;
     const std::string name = channelsOfAov(spec.name);
@@ -84,17 +86,22 @@ void writeImage(const Film& film, const std::string& path, const ImageOptions& o
     if (isExr(path)) {
         std::vector<std::vector<float>> resolved;
         std::vector<ChannelSource> channels;
+        Metadata told = metadata;
         for (auto& name : names) {
             AovSpec spec;
             if (!film.findSpec(name, spec))
                 throw std::runtime_error("the film holds no AOV '" + name + "'");
+            if (spec.kind == AovKind::Coverage) {
+                checkCryptomatteCompression(path, options.compression);
+                addCryptomatteMetadata(spec, film.coverageNames(name), told);
+            }
             resolved.push_back(film.resolve(name));
             std::vector<std::string> parts = channelNames(spec);
             for (size_t c = 0; c < parts.size(); ++c)
                 channels.push_back({parts[c], storeOf(spec, options), resolved.back().data() + c,
                                     parts.size(), spec.isInteger});
         }
-        writeExr(channels, film.width(), placement, path, options, metadata);
+        writeExr(channels, film.width(), placement, path, options, told);
         return;
     }
     bool alpha = std::find(names.begin(), names.end(), "alpha") != names.end();

@@ -114,6 +114,7 @@ std::string mergePartial(Film& film, const std::string& file, const PartialMerge
             !sameAovs(header.aovs, film.aovs()))
             reader.fail("it is of another size or other AOVs than the parts before");
         FilmStream::addDropped(film, header.dropped);
+        FilmStream::addNames(film, header);
         for (const Tile& tile : tiles) {
             if (!inside(tile, film)) reader.fail("it is damaged");
             part.reset(tile.x1 - tile.x0, tile.y1 - tile.y0, header.aovs);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/film/cryptomatte.h"
 #include "hdDelegate/film/film.h"
 #include "hdDelegate/film/lightPaths/lightPathAutomaton.h"
 
@@ -74,12 +75,14 @@ AovSpec standardAov(const std::string& name) {
     return spec;
 }
 
-std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names) {
+std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names, int cryptomatteLevels) {
     std::vector<AovSpec> aovs;
     for (const std::string& name : names) {
         const AovId id = aovIdOf(name);
-        if (id == AovId::unknown || !aovRows()[size_t(id)].ofFilm)
-            aovs.push_back(standardAov(name));
+        if (id != AovId::unknown && aovRows()[size_t(id)].ofFilm) continue;
+        aovs.push_back(standardAov(name));
+        if (aovs.back().kind == AovKind::Coverage)
+            aovs.back().components = cryptomatteComponents(cryptomatteLevels);
     }
     return aovs;
 }

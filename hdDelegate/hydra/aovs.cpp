@@ -29,6 +29,7 @@ HdAovDescriptor aovDescriptor(const TfToken& hydraName) {
     const std::string name = filmAovOf(hydraName);
     if (name.empty()) return HdAovDescriptor();
     const AovSpec spec = standardAov(name);
+    if (spec.kind == AovKind::Coverage) return HdAovDescriptor(); // in files alone
     if (spec.id == AovId::color) return {HdFormatFloat16Vec4, false, VtValue(GfVec4f(0.0f))};
     if (spec.isInteger) return {HdFormatInt32, false, VtValue(-1)};
     switch (spec.components) {

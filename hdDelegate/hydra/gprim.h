@@ -3,6 +3,7 @@
 
 #include "hdDelegate/hydra/instancer.h"
 #include "hdDelegate/hydra/linkedPrim.h"
+#include "hdDelegate/hydra/marks.h"
 #include "hdDelegate/hydra/primvars.h"
 #include "hdDelegate/hydra/renderParam.h"
 #include "hdDelegate/hydra/materialBinding.h"
@@ -63,6 +64,7 @@ public:
             (*dirtyBits & HdChangeTracker::DirtyComputationPrimvarDesc)) {
             PrimvarUpdate update = updatePrimvars(*delegate, param, id, *dirtyBits, all, *prim);
             if (update.pointsChanged) setPoints(*prim, std::move(update.points));
+            readMarks(*delegate, param, id, *prim);
         }
         syncShape(*delegate, param, *dirtyBits, all, reprToken, *prim);
         _prim = prim;

@@ -109,7 +109,7 @@ std::shared_ptr<const Instancer> HdPatinaInstances::build(const SdfPath& path, c
     auto result = std::make_shared<Instancer>();
     result->path = path.GetString();
     result->group = entry.group;
-    result->visibility = {data.visible, data.visible, data.visible};
+    result->visibility = Visibility::all(data.visible);
     std::vector<int> sources; // index of each instance
     for (const auto& item : entry.groups) {
         if (item.second.indices.empty()) continue; // placed, but drawn nowhere

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/renderProducts.h"
 
+#include "hdDelegate/film/aovTable.h"
 #include "hdDelegate/film/imageFile.h"
 #include "hdDelegate/hydra/aovs.h"
 #include "hdDelegate/hydra/values.h"
@@ -42,7 +43,7 @@ std::string filmAovOfVar(const HdRenderSettings::RenderProduct::RenderVar& var) 
     if (name == "N") return "normal";
     if (name == "P") return "position";
     if (var.sourceType == "lpe" || lightPathText(name) != name) return lightPathAov(var);
-    return filmAovOf(TfToken(name));
+    return filmAovOf(TfToken(aovNamed(name)));
 }
 
 /// What is wrong with its light path expression; empty for none.

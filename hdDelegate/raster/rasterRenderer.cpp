@@ -186,7 +186,7 @@ private:
                               std::to_string(_settings.width) + " x " +
                               std::to_string(_settings.height) + " pixels");
         checkDevice(0);
-        const std::vector<AovSpec> aovs = renderedAovs(_settings.aovs);
+        const std::vector<AovSpec> aovs = renderedAovs(_settings.aovs, _settings.cryptomatteLevels);
         for (const AovSpec& aov : aovs)
             if (!aov.paths.empty() || aov.id == AovId::shadow)
                 _scene->diagnostics().warn("", "",
@@ -234,12 +234,15 @@ private:
         _passes->resumeAt(*_raster, *_lights, again, taken,
                           [&](uint32_t pass) { moveTo(sampleOf(pass, filter, 0)); });
         const uint32_t samples = uint32_t(std::max(1, _settings.samples));
+        const RasterMattes mattes(*_raster, camera.timeCode(0.5f), aovs);
         for (uint32_t i = taken; i < samples && !stopped(); ++i) {
             if (isGoodEnough(int(i))) break;
             const RasterSample sample = sampleOf(i, filter, border);
             moveTo(sample);
             _passes->draw(*_raster, *_lights, *_domes, _raster->environmentSamples(), camera,
                           sample, *_film);
+            if (mattes.wanted())
+                _passes->drawMattes(*_raster, mattes, camera, sample, _settings.seed, *_film);
             checkDevice(int(i) + 1);
             report([&](RenderProgress& progress) {
                 reportFraction(progress, double(i + 1) / double(samples), int(i) + 1);
@@ -305,10 +308,10 @@ private:
         RasterSample sample;
         sample.pass = pass;
         sample.taken = pass + 1;
-        const vec2 beside = filter.sample(numbers.next2());
+        sample.beside = filter.sample(numbers.next2());
         // The first image stands where the last one will, and is as soft: a pixel is the mean of
         // its corners.
-        sample.offset = pass > 0 ? beside : vec2(border > 0 ? 0.5f : 0.0f);
+        sample.offset = pass > 0 ? sample.beside : vec2(border > 0 ? 0.5f : 0.0f);
         sample.lens = numbers.next2();
         sample.time = numbers.next2().x;
         if (border > 0) {

@@ -14,11 +14,43 @@ struct GeomSubset {
     std::vector<int> faces; ///< indices out of range are dropped with a warning
 };
 
+/// Kinds of rays, as the bits of masks.
+enum RayMask : unsigned {
+    RayCamera = 1,
+    RayDiffuse = 2,
+    RayShadow = 4,
+    RaySpecular = 8,
+    RayTransmission = 16,
+    RayVolume = 32,
+    RayIndirect = RayDiffuse | RaySpecular | RayTransmission | RayVolume,
+    RayAny = RayCamera | RayIndirect | RayShadow
+};
+
 /// Which rays see a prim.
 struct Visibility {
     bool camera = true;
-    bool indirect = true;
+    bool diffuse = true; ///< reflected by a diffuse lobe
     bool shadow = true;
+    bool specular = true; ///< reflected by any other lobe
+    bool transmission = true;
+    bool volume = true; ///< scattered by a medium
+
+    static Visibility all(bool seen) { return {seen, seen, seen, seen, seen, seen}; }
+    unsigned mask() const { ///< of RayMask
+        return (camera ? RayCamera : 0u) | (diffuse ? RayDiffuse : 0u) |
+               (shadow ? RayShadow : 0u) | (specular ? RaySpecular : 0u) |
+               (transmission ? RayTransmission : 0u) | (volume ? RayVolume : 0u);
+    }
+    bool sees(unsigned rays) const { return (mask() & rays) != 0; }
+};
+
+/// What the camera sees of a prim in the place of its own light. Other rays meet it as it is.
+struct Catching {
+    bool matte = false;       ///< nothing: a hole in the picture, black and without alpha
+    bool shadows = false;     ///< black, as opaque as it is in shadow
+    bool reflections = false; ///< what it mirrors of other prims, as opaque as it mirrors
+
+    bool any() const { return matte || shadows || reflections; }
 };
 
 enum class SubdivisionScheme { None, CatmullClark, Loop, Bilinear };
@@ -31,6 +63,7 @@ struct Geometry {
     GeometryKind kind = GeometryKind::Mesh;
     MotionTransform transform{mat4(1.0f)}; ///< local to group (or world)
     Visibility visibility;
+    Catching catching;
     std::string material; ///< path of a MaterialPrim; empty shows displayColor
     std::vector<GeomSubset> subsets;
     std::vector<Primvar>
@@ -42,6 +75,8 @@ struct Geometry {
     std::string lightGroup; ///< label of the light that it gives off; empty: none
     std::string renderTag; ///< Hydra's name of its purpose (proxy, render, guide); empty: geometry
     int id = -1;           ///< for the primId AOV; -1: the rank of its path
+    std::string matteName; ///< in cryptoObject; empty: its path, see objectMatte()
+    std::string assetName; ///< in cryptoAsset; empty: that of what is around, see assetMatte()
 
     virtual ~Geometry() = default;
     const Primvar* primvar(const std::string& name) const;
@@ -154,6 +189,10 @@ struct Instancer {
         categories;                ///< per instance (light linking); empty = none
     std::vector<Primvar> primvars; ///< per instance (Vertex) or constant
     Visibility visibility;
+    /// Per instance: the path that stands for that of its group in the names of mattes, and its
+    /// asset. Empty: the number of the instance tells it apart, and it has the instancer's asset.
+    std::vector<std::string> names, assets;
+    std::string assetName; ///< of all instances, where `assets` is empty
 };
 
 } // namespace patina

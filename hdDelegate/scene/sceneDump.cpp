@@ -134,8 +134,11 @@ void writePrimvars(Writer& w, const std::vector<Primvar>& primvars) {
 
 void writeVisibility(Writer& w, const Visibility& v) {
     w.field("visibility camera", v.camera, true);
-    w.field("visibility indirect", v.indirect, true);
+    w.field("visibility diffuse", v.diffuse, true);
     w.field("visibility shadow", v.shadow, true);
+    w.field("visibility specular", v.specular, true);
+    w.field("visibility transmission", v.transmission, true);
+    w.field("visibility volume", v.volume, true);
 }
 
 void writeDirection(Writer& w, const std::string& name, const NurbsDirection& d) {
@@ -185,6 +188,10 @@ void writeGeometry(Writer& w, const Geometry& g) {
     w.field("group", g.group, std::string());
     w.transform("transform", g.transform);
     writeVisibility(w, g.visibility);
+    w.field("matte", g.catching.matte, false);
+    w.field("catches shadows", g.catching.shadows, false);
+    w.field("catches reflections", g.catching.reflections, false);
+    if (!g.matteName.empty()) w.line("matteName", text(g.matteName));
     w.field("material", g.material, std::string());
     w.field("doubleSided", g.doubleSided, true);
     w.field("leftHanded", g.leftHanded, false);

@@ -13,24 +13,31 @@ namespace patina {
 
 namespace {
 
-Fields& readCommon(Fields& fields, Geometry& g) {
-    return fields.read("group", g.group)
+Fields& readCommon(Fields& fields, Geometry& g, PythonEdit& edit) {
+    Marks marks;
+    fields.read("group", g.group)
         .read("transform", g.transform)
         .read("visibility", g.visibility)
+        .read("catching", g.catching)
+        .read("matte_name", g.matteName)
+        .read("asset_name", g.assetName)
         .read("material", g.material)
         .read("subsets", g.subsets)
         .read("primvars", g.primvars)
         .read("categories", g.categories)
         .read("double_sided", g.doubleSided)
         .read("left_handed", g.leftHanded)
-        .read("light_group", g.lightGroup);
+        .read("light_group", g.lightGroup)
+        .read("marks", marks);
+    applyMarks(marks, g, edit.scene->diagnostics());
+    return fields;
 }
 
 void setMesh(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
     auto mesh = std::make_shared<Mesh>();
     mesh->path = path;
     Fields fields("set_mesh", path, values);
-    readCommon(fields, *mesh)
+    readCommon(fields, *mesh, edit)
         .read("points", mesh->points)
         .read("face_vertex_counts", mesh->faceVertexCounts)
         .read("face_vertex_indices", mesh->faceVertexIndices)
@@ -53,7 +60,7 @@ void setCurves(PythonEdit& edit, const std::string& path, const py::kwargs& valu
     auto curves = std::make_shared<Curves>();
     curves->path = path;
     Fields fields("set_curves", path, values);
-    readCommon(fields, *curves)
+    readCommon(fields, *curves, edit)
         .read("points", curves->points)
         .read("curve_vertex_counts", curves->curveVertexCounts)
         .read("basis", curves->basis)
@@ -68,7 +75,7 @@ void setNurbsPatch(PythonEdit& edit, const std::string& path, const py::kwargs& 
     mesh->path = path;
     std::vector<double> rangeU, rangeV;
     Fields fields("set_nurbs_patch", path, values);
-    readCommon(fields, *mesh)
+    readCommon(fields, *mesh, edit)
         .read("points", mesh->points)
         .read("u_vertex_count", patch->u.vertexCount)
         .read("v_vertex_count", patch->v.vertexCount)
@@ -92,7 +99,7 @@ void setTetMesh(PythonEdit& edit, const std::string& path, const py::kwargs& val
     TetMesh mesh;
     mesh.path = path;
     Fields fields("set_tet_mesh", path, values);
-    readCommon(fields, mesh)
+    readCommon(fields, mesh, edit)
         .read("points", mesh.points)
         .read("tets", mesh.tets)
         .read("surface", mesh.surface)
@@ -104,7 +111,7 @@ void setHermiteCurves(PythonEdit& edit, const std::string& path, const py::kwarg
     HermiteCurves curves;
     curves.path = path;
     Fields fields("set_hermite_curves", path, values);
-    readCommon(fields, curves)
+    readCommon(fields, curves, edit)
         .read("points", curves.points)
         .read("tangents", curves.tangents)
         .read("curve_vertex_counts", curves.curveVertexCounts)
@@ -116,7 +123,7 @@ void setNurbsCurves(PythonEdit& edit, const std::string& path, const py::kwargs&
     NurbsCurves curves;
     curves.path = path;
     Fields fields("set_nurbs_curves", path, values);
-    readCommon(fields, curves)
+    readCommon(fields, curves, edit)
         .read("points", curves.points)
         .read("curve_vertex_counts", curves.curveVertexCounts)
         .read("orders", curves.orders)
@@ -131,7 +138,7 @@ void setPoints(PythonEdit& edit, const std::string& path, const py::kwargs& valu
     auto points = std::make_shared<Points>();
     points->path = path;
     Fields fields("set_points", path, values);
-    readCommon(fields, *points).read("points", points->points).finish();
+    readCommon(fields, *points, edit).read("points", points->points).finish();
     edit.set(std::shared_ptr<const Geometry>(std::move(points)));
 }
 
@@ -139,7 +146,7 @@ void setImplicit(PythonEdit& edit, const std::string& path, const py::kwargs& va
     auto implicit = std::make_shared<Implicit>();
     implicit->path = path;
     Fields fields("set_implicit", path, values);
-    readCommon(fields, *implicit)
+    readCommon(fields, *implicit, edit)
         .read("shape", implicit->shape)
         .read("axis", implicit->axis)
         .read("radius", implicit->radius)
@@ -157,7 +164,7 @@ void setVolume(PythonEdit& edit, const std::string& path, const py::kwargs& valu
     volume->path = path;
     std::vector<std::string> names, files, grids;
     Fields fields("set_volume", path, values);
-    readCommon(fields, *volume)
+    readCommon(fields, *volume, edit)
         .read("field_names", names)
         .read("field_files", files)
         .read("field_grids", grids)
@@ -182,6 +189,9 @@ void setInstancer(PythonEdit& edit, const std::string& path, const py::kwargs& v
         .read("categories", instancer->categories)
         .read("primvars", instancer->primvars)
         .read("visibility", instancer->visibility)
+        .read("names", instancer->names)
+        .read("assets", instancer->assets)
+        .read("asset_name", instancer->assetName)
         .finish();
     if (instancer->transforms.size() != instancer->prototypeIndices.size())
         throw py::value_error("set_instancer: " + path +

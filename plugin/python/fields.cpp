@@ -193,14 +193,36 @@ void convert(py::handle from, std::vector<GeomSubset>& to) {
 
 void convert(py::handle from, Visibility& to) {
     if (py::isinstance<py::bool_>(from)) {
-        to.camera = to.indirect = to.shadow = from.cast<bool>();
+        to = Visibility::all(from.cast<bool>());
         return;
     }
     const auto flags = from.cast<std::vector<bool>>();
-    if (flags.size() != 3) throw py::value_error("needs (camera, indirect, shadow)");
-    to.camera = flags[0];
-    to.indirect = flags[1];
-    to.shadow = flags[2];
+    if (flags.size() == 3) { // all that is not the camera's or a shadow ray is indirect
+        to = Visibility::all(flags[1]);
+        to.camera = flags[0];
+        to.shadow = flags[2];
+        return;
+    }
+    if (flags.size() != 6)
+        throw py::value_error("needs (camera, indirect, shadow), or (camera, diffuse, shadow, "
+                              "specular, transmission, volume)");
+    to = {flags[0], flags[1], flags[2], flags[3], flags[4], flags[5]};
+}
+
+void convert(py::handle from, Marks& to) {
+    for (const auto& item : from.cast<py::dict>()) {
+        MarkValue& value = to[item.first.cast<std::string>()];
+        if (py::isinstance<py::str>(item.second))
+            value = item.second.cast<std::string>();
+        else
+            value = item.second.cast<double>();
+    }
+}
+
+void convert(py::handle from, Catching& to) {
+    const auto flags = from.cast<std::vector<bool>>();
+    if (flags.size() != 3) throw py::value_error("needs (matte, shadows, reflections)");
+    to = {flags[0], flags[1], flags[2]};
 }
 
 void convert(py::handle from, SubdivisionScheme& to) {

@@ -3,6 +3,7 @@
 
 #include "hdDelegate/scene/geometry.h"
 #include "hdDelegate/scene/light.h"
+#include "hdDelegate/scene/primMarks.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -27,6 +28,8 @@ void convert(pybind11::handle from, Sampled<std::vector<vec3>>& to);
 void convert(pybind11::handle from, std::vector<Primvar>& to);
 void convert(pybind11::handle from, std::vector<GeomSubset>& to);
 void convert(pybind11::handle from, Visibility& to);
+void convert(pybind11::handle from, Catching& to);
+void convert(pybind11::handle from, Marks& to);
 void convert(pybind11::handle from, SubdivisionScheme& to);
 void convert(pybind11::handle from, CurveBasis& to);
 void convert(pybind11::handle from, CurveWrap& to);

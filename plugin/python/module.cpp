@@ -86,7 +86,10 @@ points        N x 3, or (times, list of N x 3)
 transforms    instances x 16, or (times, list of instances x 16)
 primvars      list of (name, interpolation, values[, indices]); values N or N x components
 subsets       list of (path, material, indices)
-visibility    True, False or (camera, indirect, shadow)
+visibility    True, False, (camera, indirect, shadow) or (camera, diffuse, shadow, specular,
+              transmission, volume)
+catching      (matte, shadows, reflections)
+marks         dict of the values of primvars that mark_names() has, without 'primvars:'
 Times are time codes relative to the frame, ascending.
 
 Network(path)

@@ -17,7 +17,7 @@ void main() {
 #endif
     outPosition = vec4(point.position, 1.0);
     outNormal = vec4(point.normal, 0.0);
-    outIds = ivec4(drawInfo.y, vIds.y, vIds.x, 0);
+    outIds = ivec4(drawInfo.y, vIds.y, vIds.x, vIds.w);
 #ifdef AOV_ALBEDO
     materialSetup();
     outAlbedo = vec4(materialAlbedo(), 0.0);

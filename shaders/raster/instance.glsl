@@ -9,7 +9,7 @@ layout(location = 5) in vec4 inColumn3;
 layout(location = 6) in vec4 inNormal0; // the same for normals
 layout(location = 7) in vec4 inNormal1;
 layout(location = 8) in vec4 inNormal2;
-layout(location = 9) in ivec4 inIds; // instance, row of links, number in its group, -
+layout(location = 9) in ivec4 inIds; // instance, row of links, number in its group, place of its prim
 
 vec3 worldPosition() {
     mat4 toWorld = mat4(vec4(inColumn0.xyz, 0.0), vec4(inColumn1.xyz, 0.0), vec4(inColumn2.xyz, 0.0),

@@ -7,7 +7,7 @@ in vec3 vNormal;
 in vec2 vAcross;
 flat in mat3 vNormalMatrix;
 flat in float vScale;
-flat in ivec3 vInstance; // id, row of links, bits of primvars that are those of an instance
+flat in ivec4 vInstance; // id, row of links, bits of primvars that are those of an instance, place of the prim
 #if PRIMVARS > 0
 in vec4 vPrimvars[PRIMVARS];
 #endif
@@ -16,7 +16,7 @@ vec3 vTangent;
 vec3 vBitangent;
 vec3 vGeometricNormal;
 float vUvPerLength;
-ivec4 vIds; // element, instance, row of links
+ivec4 vIds; // element, instance, row of links, place of the prim
 layout(location = 1) uniform ivec4 drawInfo; // bits of the prim's primvars, prim id, flags of RasterShape, InstanceValues
 
 vec4 primvar(int slot, vec4 fallback) {
@@ -40,7 +40,7 @@ void loadTriangle() {
     vTangent = linear * t.dPdu.xyz * scale;
     vBitangent = linear * t.dPdv.xyz * scale;
     vUvPerLength = t.dPdu.w / max(vScale, 1e-20);
-    vIds = ivec4(floatBitsToInt(t.dPdv.w), vInstance.xy, 0);
+    vIds = ivec4(floatBitsToInt(t.dPdv.w), vInstance.xyw);
 }
 
 const int FACETED = 2;

@@ -26,7 +26,7 @@ out vec3 vNormal; // of strips: along the curve
 out vec2 vAcross; // of strips, see onStrip()
 flat out mat3 vNormalMatrix;
 flat out float vScale;
-flat out ivec3 vInstance; // id, row of links, bits of primvars that are those of an instance
+flat out ivec4 vInstance; // id, row of links, bits of primvars that are those of an instance, place of the prim
 #if PRIMVARS > 0
 out vec4 vPrimvars[PRIMVARS];
 #endif
@@ -42,7 +42,7 @@ void main() {
 #endif
     vAcross = onStrip();
     vNormal = inPosition.w != 0.0 ? alongStrip() : vNormalMatrix * inNormal;
-    vInstance = ivec3(inIds.xy, 0);
+    vInstance = ivec4(inIds.xy, 0, inIds.w);
 #if PRIMVARS > 0
     for (int i = 0; i < PRIMVARS; ++i)
         vPrimvars[i] = primvars[gl_VertexID * PRIMVARS + i];

@@ -67,7 +67,7 @@ TEST_F(Fixture, LeavesOutBadIndicesAndWhatIsNotDrawn) {
     add(instancer("/bad", "", {"a"}, {-1, 0, 1}));
     add(instancer("/out/of", "", {"a"}, {0}));
     auto unseen = instancer("/unseen", "", {"a"}, {0});
-    unseen->visibility = {false, false, false};
+    unseen->visibility = Visibility::all(false);
     add(unseen);
     settings.excludePaths = {"/out"};
     EXPECT_EQ(placesOf("a"), Found{"/bad1"});

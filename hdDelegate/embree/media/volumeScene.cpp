@@ -132,13 +132,13 @@ void VolumeScene::update(const std::vector<std::shared_ptr<const Volume>>& prims
 }
 
 VolumeScene::Collision VolumeScene::track(const vec3& origin, const vec3& direction, float end,
-                                          bool camera, vec3& throughput, Sampler& sampler) const {
+                                          unsigned rays, vec3& throughput, Sampler& sampler) const {
     Collision result;
     result.distance = end;
     Tracker trackers[maxVolumes];
     int count = 0;
     for (const Placed& placed : _placed) {
-        if (!(camera ? placed.visibility.camera : placed.visibility.indirect)) continue;
+        if (!placed.visibility.sees(rays)) continue;
         if (count == maxVolumes) break;
         trackers[count] = Tracker(placed, origin, direction, end);
         if (trackers[count].meets() && trackers[count].advance(sampler.random())) ++count;
@@ -174,11 +174,11 @@ VolumeScene::Collision VolumeScene::track(const vec3& origin, const vec3& direct
     return result;
 }
 
-vec3 VolumeScene::transmittance(const vec3& origin, const vec3& direction, float end, bool shadow,
+vec3 VolumeScene::transmittance(const vec3& origin, const vec3& direction, float end, unsigned rays,
                                 Sampler& sampler) const {
     vec3 through(1.0f);
     for (const Placed& placed : _placed) {
-        if (!(shadow ? placed.visibility.shadow : placed.visibility.indirect)) continue;
+        if (!placed.visibility.sees(rays)) continue;
         Tracker tracker(placed, origin, direction, end);
         for (int i = 0; i < maxCandidates && tracker.meets() && tracker.advance(sampler.random());
              ++i) {

@@ -38,11 +38,11 @@ public:
     };
     /// Takes light along a ray up to where it scatters, or the end.
     /// @param throughput is multiplied by what remains
-    Collision track(const vec3& origin, const vec3& direction, float end, bool camera,
+    Collision track(const vec3& origin, const vec3& direction, float end, unsigned rays,
                     vec3& throughput, Sampler& sampler) const;
 
     /// An estimate of the transmittance; its mean is exact.
-    vec3 transmittance(const vec3& origin, const vec3& direction, float end, bool shadow,
+    vec3 transmittance(const vec3& origin, const vec3& direction, float end, unsigned rays,
                        Sampler& sampler) const;
 
 private:

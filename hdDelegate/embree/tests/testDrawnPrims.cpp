@@ -167,7 +167,7 @@ TEST(DrawnPrims, InstancerVisibilityHoldsAtEveryLevel) {
         EXPECT_FALSE(built.seen(0));
         EXPECT_TRUE(built.seen(0, RayShadow));
         auto hidden = std::make_shared<Instancer>(*outer);
-        hidden->visibility = {false, false, false};
+        hidden->visibility = Visibility::all(false);
         built.set(hidden);
         built.update();
         EXPECT_FALSE(built.seen(0, RayShadow));

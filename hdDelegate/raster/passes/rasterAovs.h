@@ -12,7 +12,7 @@ struct RasterAovImages {
     std::vector<vec4> positions; ///< world space beside the origin, w 0 where nothing is
     std::vector<vec4> normals, albedos;
     std::vector<std::vector<vec4>> primvars;
-    std::vector<int> ids; ///< prim, instance, element, -
+    std::vector<int> ids; ///< prim, instance, element, place of the prim
 };
 
 /// Writes what the AOV pass found into a film.

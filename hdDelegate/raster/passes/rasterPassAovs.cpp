@@ -31,8 +31,35 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
     if (!_aovTarget.complete()) throw DeviceError("the driver has no room for the AOVs");
     const RasterView view =
         camera.view(vec2(0.0f), vec2(0.0f), 0.5f, scene.boundsMin(), scene.boundsMax());
-    const PassBlock b = block(scene, view);
     _timer.mark(Aovs);
+    fillAovTarget(scene, view, block(scene, view));
+
+    _timer.mark(ReadBack);
+    const size_t pixels = size_t(_width) * size_t(_height);
+    const auto read = [&](const GlTexture& from, std::vector<vec4>& to) {
+        to.resize(pixels);
+        gl.GetTextureImage(from.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels * sizeof(vec4)),
+                           to.data());
+    };
+    read(_position, _seen.positions);
+    read(_normal, _seen.normals);
+    if (_albedo) read(_albedo, _seen.albedos);
+    _seen.primvars.resize(_primvars.size());
+    for (size_t i = 0; i < _primvars.size(); ++i)
+        read(_primvars[i], _seen.primvars[i]);
+    readIds(_seen.ids);
+    _timer.collect(_seconds);
+    measureReceivers(scene, camera, view);
+}
+
+void RasterPasses::readIds(std::vector<int>& ids) const {
+    ids.resize(4 * size_t(_width) * size_t(_height));
+    gl.GetTextureImage(_ids.id(), 0, GL_RGBA_INTEGER, GL_INT, GLsizei(ids.size() * sizeof(int)),
+                       ids.data());
+}
+
+void RasterPasses::fillAovTarget(const RasterScene& scene, const RasterView& view,
+                                 const PassBlock& b) {
     _passBuffer.write(&b, sizeof b);
     _passBuffer.bindUniform(0);
     _albedoTable.bindStorage(7);
@@ -54,25 +81,23 @@ void RasterPasses::drawAovs(const RasterScene& scene, const RasterCamera& camera
         const Clipping clipping(view);
         drawSurfaces(scene, scene.visible(view.worldToClip), AllForAovs);
     }
+}
 
+void RasterPasses::drawMattes(const RasterScene& scene, const RasterMattes& mattes,
+                              const RasterCamera& camera, const RasterSample& sample,
+                              uint32_t seed, Film& film) {
+    const RasterView view = camera.view(sample.beside, sample.lens, sample.time,
+                                        scene.boundsMin(), scene.boundsMax());
+    PassBlock b = block(scene, view);
+    b.counts[2] = int(sample.pass);
+    b.counts[3] = int(seed);
+    _timer.mark(Aovs);
+    fillAovTarget(scene, view, b);
     _timer.mark(ReadBack);
-    const size_t pixels = size_t(_width) * size_t(_height);
-    const auto read = [&](const GlTexture& from, std::vector<vec4>& to) {
-        to.resize(pixels);
-        gl.GetTextureImage(from.id(), 0, GL_RGBA, GL_FLOAT, GLsizei(pixels * sizeof(vec4)),
-                           to.data());
-    };
-    read(_position, _seen.positions);
-    read(_normal, _seen.normals);
-    if (_albedo) read(_albedo, _seen.albedos);
-    _seen.primvars.resize(_primvars.size());
-    for (size_t i = 0; i < _primvars.size(); ++i)
-        read(_primvars[i], _seen.primvars[i]);
-    _seen.ids.resize(pixels * 4);
-    gl.GetTextureImage(_ids.id(), 0, GL_RGBA_INTEGER, GL_INT, GLsizei(pixels * 4 * sizeof(int)),
-                       _seen.ids.data());
+    std::vector<int> ids;
+    readIds(ids);
     _timer.collect(_seconds);
-    measureReceivers(scene, camera, view);
+    mattes.count(ids, _width, _height, _window, film);
 }
 
 void RasterPasses::writeAovs(const RasterScene& scene, const RasterCamera& camera,

@@ -8,6 +8,7 @@
 #include "hdDelegate/raster/passes/rasterAovs.h"
 #include "hdDelegate/raster/passes/rasterFilterSplat.h"
 #include "hdDelegate/raster/passes/rasterLook.h"
+#include "hdDelegate/raster/passes/rasterMattes.h"
 #include "hdDelegate/raster/passes/rasterRefraction.h"
 #include "hdDelegate/raster/scene/rasterScene.h"
 
@@ -38,6 +39,10 @@ public:
     /// Writes them to the film's AOVs.
     void writeAovs(const RasterScene& scene, const RasterCamera& camera,
                    const std::vector<AovSpec>& aovs, Film& film) const;
+    /// Counts what a sample of every pixel sees, for the AOVs of Cryptomatte.
+    void drawMattes(const RasterScene& scene, const RasterMattes& mattes,
+                    const RasterCamera& camera, const RasterSample& sample, uint32_t seed,
+                    Film& film);
     /// Where the scene's origin should be for what drawAovs() has seen: 0, unless that is far from
     /// it beside its size. The same for small moves of the camera.
     vec3 originOfSeen(const RasterScene& scene) const;
@@ -74,6 +79,8 @@ private:
     struct PassBlock;
     class Clipping;
     void makeAovTarget(const RasterAovRequest& request);
+    void fillAovTarget(const RasterScene& scene, const RasterView& view, const PassBlock& b);
+    void readIds(std::vector<int>& ids) const;
     PassBlock block(const RasterScene& scene, const RasterView& view) const;
     void drawShadows(const RasterScene& scene, const std::vector<ShadowView>& views, int size);
     static int skyCells(const RasterScene& scene);

@@ -76,6 +76,7 @@ void RasterScene::addGroup(RasterGroup group, const std::vector<RasterPlace>& pl
         instance.ids[0] = places[i].id;
         instance.ids[1] = linksOf(group.prim->categories, places[i].categories);
         instance.ids[2] = int(_instances.size()) - group.firstInstance;
+        instance.ids[3] = int(i);
         _instances.push_back(instance);
         const RasterBox box =
             RasterBox::around(group.shape->boundsMin, group.shape->boundsMax, toWorld);

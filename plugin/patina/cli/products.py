@@ -176,7 +176,7 @@ def film_aov(name, kind=None, var_name=""):
         return (f"{var_name}=lpe:" if own else "lpe:") + expression if expression else ""
     table = rows.read("hdDelegate/film/aovs.def", "AOV")
     for row in table:
-        if row.words.get("hydra", [None])[0] == name:
+        if name in row.words.get("hydra", []) or name in row.words.get("also", [""])[0].split():
             return row.values[0]
     return name if name.startswith("primvars:") or _is_known(name) else ""
 

@@ -168,7 +168,8 @@ class _Job:
         options = reader.StageOptions(
             frame=shot.frame, purposes=self.purposes, complexity=self.arguments.complexity, camera=shot.camera,
             headlight=not self.arguments.disableCameraLight,
-            material_purpose=getattr(self.arguments, "materialPurpose", "full"))
+            material_purpose=getattr(self.arguments, "materialPurpose", "full"),
+            matte_names=any(aov.startswith("crypto") for shot in self.shots for aov in shot.aovs()))
         with self.scene.edit() as edit:
             edit.clear()
             return reader.read_stage(self.stage, edit, options)

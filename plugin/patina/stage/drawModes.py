@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import Kind, Usd, UsdGeom
 
-from . import cards
+from . import cards, marks
 from .context import get, vector
 from .transforms import transform_of
 
@@ -35,7 +35,8 @@ def emit(context, found, mode, module):
     low, high = np.array(extent.GetMin()), np.array(extent.GetMax())
     size = float(np.linalg.norm(high - low)) or 1.0
     color = vector(context, prim, "model:drawModeColor", (0.18, 0.18, 0.18))
-    common = {"group": found.state.group.name, "transform": transform_of(context, prim, found.state.group.anchor)}
+    common = {"group": found.state.group.name, "transform": transform_of(context, prim, found.state.group.anchor),
+              **marks.fields(found)}
     context.count("drawModes")
     if mode == "cards":
         cards.emit(context, found, low, high, common, color, module)

@@ -3,7 +3,7 @@
 import numpy as np
 from pxr import UsdGeom
 
-from . import meshes, parametric, skinning, volumes
+from . import marks, meshes, parametric, skinning, volumes
 from .context import array, get, number
 from .primvars import add_builtin, read_primvars, text
 from .transforms import transform_of
@@ -26,6 +26,7 @@ def emit(context, found, kind, bound, categories):
         "transform": skin.transform(context, group.anchor) if skin else transform_of(context, prim, group.anchor),
         "material": material,
         "categories": categories,
+        **marks.fields(found),
         "double_sided": bool(found.authored("doubleSided", context.time)),
         "left_handed": found.authored("orientation", context.time) == "leftHanded",
         "primvars": read_primvars(context, prim, found.state.primvars) if found.has_primvars() else [],

@@ -37,7 +37,7 @@ def emit_instancer(context, found, names, linking):
         found.path, group=group.name, prototypes=names, prototype_indices=indices[keep],
         transforms=transforms[0] if len(transforms) == 1 else (offsets, transforms),
         ids=ids[keep].astype(np.int64).astype(np.int32), primvars=_primvars(context, prim, keep),
-        categories=[categories] * int(keep.sum()) if categories else None)
+        categories=[categories] * int(keep.sum()) if categories else None, asset_name=found.state.asset or None)
     context.count("pointInstancers")
     context.count("instances", int(keep.sum()))
 
@@ -88,6 +88,14 @@ def _primvars(context, prim, keep):
     return found
 
 
+def _names(context, founds):
+    """:returns: what mattes call each of several native instances, where mattes are asked for: a path takes more memory
+        than an instance"""
+    if not context.options.matte_names:
+        return {}
+    return {"names": [found.path for found in founds], "assets": [found.state.asset for found in founds]}
+
+
 def emit_instances(context, outer, prototype, founds, linking):
     """All native instances of one prototype in one group, as one instancer.
 
@@ -117,5 +125,5 @@ def emit_instances(context, outer, prototype, founds, linking):
     context.edit.set_instancer(
         founds[0].path, group=outer, prototypes=[prototype],
         prototype_indices=np.zeros(len(founds), dtype=np.int32), transforms=transforms,
-        categories=categories if any(categories) else None)
+        categories=categories if any(categories) else None, **_names(context, founds))
     context.count("instances", len(founds))

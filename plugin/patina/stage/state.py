@@ -29,6 +29,8 @@ class State:
     skinning: object = None  # inside a SkelRoot: prim path -> its skinning
     draw_mode: str = "default"
     hidden: bool = False
+    marks: dict = field(default_factory=dict, compare=False)  # of prims above, see marks.py
+    asset: str = ""  # path of the model that prims belong to, within the group
 
     def with_(self, **changes):
         return replace(self, **changes)
@@ -41,6 +43,7 @@ class Found:
     state: State
     path: str  # in the scene
     names: tuple = ()  # of authored properties: asking for each one's value takes far longer
+    marks: dict = field(default_factory=dict)  # its own and those that it inherits, see marks.py
 
     def authored(self, name, time):
         """:returns: an attribute's value where one is authored, else None"""

@@ -6,7 +6,7 @@ they inherit from outside (material, purpose, primvars), since those make them l
 """
 from pxr import Usd, UsdGeom
 
-from . import drawModes
+from . import drawModes, marks
 from .context import Guard, get
 from .kinds import GPRIM_KINDS, Kinds
 from .skinning import skinning_of
@@ -55,7 +55,7 @@ class Walk:
                 self._camera(prim, state)
             return state
         own = state  # what the prim itself inherits
-        names = ()
+        names, found_marks = (), state.marks
         if imageable:
             names = prim.GetAuthoredPropertyNames()
             if "visibility" in names and get(prim, "visibility", self.context.time) == "invisible":
@@ -66,13 +66,19 @@ class Walk:
                 inherited = UsdGeom.PrimvarsAPI(prim).FindIncrementallyInheritablePrimvars(state.primvars)
                 if inherited:
                     state = state.with_(primvars=tuple(inherited))
+                found_marks = marks.authored(self.context, prim, names, state.marks)
+                if found_marks is not state.marks:
+                    state = state.with_(marks=found_marks)
         if prim.IsModel():
+            asset = marks.asset(prim, state.group.path(prim), state.asset)
+            if asset != state.asset:
+                own, state = own.with_(asset=asset), state.with_(asset=asset)
             mode, applied = drawModes.of(prim, state.draw_mode)
             if mode != state.draw_mode:
                 state = state.with_(draw_mode=mode)
             if applied:
                 if self._drawn(state):
-                    self.walked.boxes.append((Found(prim, own, state.group.path(prim)), mode))
+                    self.walked.boxes.append((Found(prim, own, state.group.path(prim), names, found_marks), mode))
                 return None
         if kind == "instancer":
             if self._drawn(state):
@@ -88,7 +94,7 @@ class Walk:
             self.context.warn(prim.GetPath(), "", f"prims of type {prim.GetTypeName()} are not drawn")
         elif kind in GPRIM_KINDS:
             if self._drawn(own):
-                self.walked.gprims.append(Found(prim, own, state.group.path(prim), names))
+                self.walked.gprims.append(Found(prim, own, state.group.path(prim), names, found_marks))
             if prim.IsInstance():
                 return None
         if prim.IsInstance() and state.skinning is None:
@@ -121,7 +127,7 @@ class Walk:
                               shown=found.path, material=material or "", material_rules=rules,
                               chain=outer.chain)
                 self._native[key] = group
-                self._todo.append((prototype.GetChildren(), state.with_(group=group),
+                self._todo.append((prototype.GetChildren(), state.with_(group=group, asset=""),
                                    Usd.PrimDefaultPredicate))
             self.walked.instances.setdefault((outer.name, group.name), []).append(found)
 
@@ -153,7 +159,7 @@ class Walk:
                       material=outer.material, material_rules=outer.material_rules,
                       chain=outer.chain + (str(target),))
         concrete = root.IsDefined() and not root.IsAbstract()
-        self._todo.append(([root], state.with_(group=group),
+        self._todo.append(([root], state.with_(group=group, asset=""),
                            Usd.PrimDefaultPredicate if concrete else _ANY))
         return name
 

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/film/cryptomatte.h"
+#include "hdDelegate/film/cryptomatteHash.h"
+#include "hdDelegate/film/partial.h"
+#include "hdDelegate/film/tests/tempFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace patina {
+
+namespace {
+
+float idOf(const std::string& name) {
+    const uint32_t id = cryptomatteId(name);
+    float bits;
+    std::memcpy(&bits, &id, sizeof bits);
+    return bits;
+}
+
+/// Samples of one pixel: letters are names, a space meets nothing.
+void take(Film& film, const std::string& samples, int x = 0) {
+    for (const char c : samples) {
+        if (c != ' ') film.addCoverage(0, x, 0, std::string(1, c));
+        film.addColor(x, 0, glm::vec3(0.5f), 1.0f);
+    }
+}
+
+Film& cleared(Film& film, int width, int levels = 6) {
+    film.reset(width, 1, renderedAovs({"cryptoObject"}, levels));
+    return film;
+}
+
+} // namespace
+
+// Austin Appleby's own numbers, as every implementation has them.
+TEST(Cryptomatte, TheHashIsMurmurHash3) {
+    EXPECT_EQ(murmurHash3(""), 0u);
+    EXPECT_EQ(murmurHash3("a"), 0x3c2569b2u);
+    EXPECT_EQ(murmurHash3("ab"), 0x9bbfd75fu);
+    EXPECT_EQ(murmurHash3("abc"), 0xb3dd93fau);
+    EXPECT_EQ(murmurHash3("test"), 0xba6bd213u);
+    EXPECT_EQ(murmurHash3("The quick brown fox jumps over the lazy dog"), 0x2e4ff723u);
+}
+
+// The vectors of Psyop's own tests of Cryptomatte.
+TEST(Cryptomatte, IdsAreThoseOfTheReferenceImplementation) {
+    EXPECT_EQ(idOf("hello"), 6.0705627102400005616e-17f);
+    EXPECT_EQ(idOf("cube"), -4.08461912519e+15f);
+    EXPECT_EQ(idOf("sphere"), 2.79018604383e+15f);
+    EXPECT_EQ(idOf("plane"), 3.66557617593e-11f);
+    EXPECT_EQ(idOf("m\xc3\xa4"
+                   "dchen"),
+              6.2361298211599995797e+25f);
+    EXPECT_EQ(idOf("\xd1\x80\xd0\xb0\xd0\xb2\xd0\xbd\xd0\xb8\xd0\xbd\xd0\xb0"),
+              -1.3192631212399999468e-25f);
+}
+
+TEST(Cryptomatte, IdsAreNormalNumbers) {
+    int fixed = 0;
+    for (int i = 0; i < 100000; ++i) {
+        const std::string name = "/World/prim_" + std::to_string(i);
+        EXPECT_TRUE(std::isnormal(idOf(name))) << name;
+        fixed += murmurHash3(name) != cryptomatteId(name);
+    }
+    EXPECT_GT(fixed, 0) << "two of 256 exponents are no normal number's";
+}
+
+TEST(Cryptomatte, PixelsHoldIdsByTheirShareOfTheSamples) {
+    Film film;
+    take(cleared(film, 1), "abbb cc ");
+    const std::vector<float> values = film.resolve("cryptoObject");
+    ASSERT_EQ(values.size(), 12u);
+    EXPECT_EQ(values[0], idOf("b"));
+    EXPECT_EQ(values[1], 3.0f / 8.0f);
+    EXPECT_EQ(values[2], idOf("c"));
+    EXPECT_EQ(values[3], 2.0f / 8.0f);
+    EXPECT_EQ(values[4], idOf("a"));
+    EXPECT_EQ(values[5], 1.0f / 8.0f);
+    for (size_t i = 6; i < values.size(); ++i)
+        EXPECT_EQ(values[i], 0.0f);
+}
+
+TEST(Cryptomatte, LevelsSayHowManyIdsAnImageHolds) {
+    EXPECT_EQ(cryptomatteComponents(1), 4);
+    EXPECT_EQ(cryptomatteComponents(5), 12);
+    EXPECT_EQ(cryptomatteComponents(16), 32);
+    Film film;
+    take(cleared(film, 1, 2), "aaabbc");
+    const std::vector<float> values = film.resolve("cryptoObject");
+    ASSERT_EQ(values.size(), 4u);
+    EXPECT_EQ(values[1], 3.0f / 6.0f);
+    EXPECT_EQ(values[3], 2.0f / 6.0f) << "the least id has no place";
+    AovSpec spec;
+    ASSERT_TRUE(film.findSpec("cryptoObject", spec));
+    const std::vector<std::string> channels = {"crypto_object00.R", "crypto_object00.G",
+                                               "crypto_object00.B", "crypto_object00.A"};
+    EXPECT_EQ(channelNames(spec), channels);
+}
+
+TEST(Cryptomatte, ManifestsAreJson) {
+    CoverageNames names;
+    names.add(cryptomatteId("cube"), "cube");
+    names.add(0x3fu, "/a\"b\\c\n");
+    EXPECT_EQ(cryptomatteManifest(names.all()),
+              "{\"/a\\\"b\\\\c\\u000a\":\"0000003f\",\"cube\":\"" + hexOf(cryptomatteId("cube")) +
+                  "\"}");
+    EXPECT_EQ(cryptomatteManifest({}), "{}");
+}
+
+TEST(Cryptomatte, TwoNamesWithOneIdKeepTheFirstInTheAlphabet) {
+    CoverageNames names, turned;
+    names.add(1, "a");
+    names.add(1, "b");
+    turned.add(1, "b");
+    turned.add(1, "a");
+    EXPECT_EQ(names.all(), turned.all());
+    EXPECT_EQ(names.all().at(1), "a");
+}
+
+TEST(Cryptomatte, PartsAddUpToTheWholeFilm) {
+    const TempFolder temp;
+    const std::string samples = "aabacb  cabbacdaaaaaaaaaaaaaaaaa";
+    Film whole, first, second, merged;
+    take(cleared(whole, 1), samples);
+    take(cleared(first, 1), samples.substr(0, 16));
+    cleared(second, 1).setFirstSample(16);
+    take(second, samples.substr(16));
+    int n = 0;
+    for (Film* film : {&first, &second}) {
+        const std::string file = temp.file("part" + std::to_string(n++));
+        PartialWriter writer(file, "", {{0, 0, 1, 1}});
+        writer.add(*film);
+        writer.commit("");
+        mergePartial(merged, file, {});
+    }
+    EXPECT_EQ(merged.resolve("cryptoObject"), whole.resolve("cryptoObject"));
+    EXPECT_EQ(merged.coverageNames("cryptoObject"), whole.coverageNames("cryptoObject"));
+    EXPECT_EQ(merged.coverageNames("cryptoObject").size(), 4u);
+}
+
+TEST(Cryptomatte, CheckpointsHoldIdsAndNames) {
+    const TempFolder temp;
+    Film film, loaded, copy;
+    take(cleared(film, 2), "abca");
+    take(film, " dd ", 1);
+    film.saveCheckpoint(temp.file("c"));
+    loaded.loadCheckpoint(temp.file("c"));
+    copy.copyFrom(loaded);
+    for (const Film* other : {&loaded, &copy}) {
+        EXPECT_EQ(other->resolve("cryptoObject"), film.resolve("cryptoObject"));
+        EXPECT_EQ(other->coverageNames("cryptoObject"), film.coverageNames("cryptoObject"));
+    }
+}
+
+TEST(Cryptomatte, OnlyOpenExrWithAllOfItsBitsHoldsIt) {
+    const TempFolder temp;
+    Film film;
+    take(cleared(film, 1), "ab");
+    ImageOptions options;
+    options.aovs = {"color", "cryptoObject"};
+    try {
+        writeImage(film, temp.file("a.png"), options);
+        ADD_FAILURE() << "a PNG has no channels for it";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("only OpenEXR"), std::string::npos);
+    }
+    options.compression = "dwaa";
+    EXPECT_THROW(writeImage(film, temp.file("a.exr"), options), std::runtime_error);
+    options.compression = "zip";
+    writeImage(film, temp.file("a.exr"), options);
+    const ImageData image = readImage(temp.file("a.exr"));
+    const std::string key = "cryptomatte/" + hexOf(cryptomatteId("crypto_object")).substr(0, 7);
+    EXPECT_EQ(std::get<std::string>(image.metadata.at(key + "/name")), "crypto_object");
+    EXPECT_EQ(std::get<std::string>(image.metadata.at(key + "/conversion")), "uint32_to_float32");
+}
+
+} // namespace patina

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hdDelegate/scene/geometry.h"
+#include "materialNetwork/diagnostics.h"
+
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace patina {
+
+/// The value of a primvar of primMarks.def.
+using MarkValue = std::variant<double, std::string>;
+/// By name, without "primvars:".
+using Marks = std::map<std::string, MarkValue>;
+
+/// Names of all primvars that are marks, in the order of their strength.
+std::vector<std::string> markNames();
+bool isMark(const std::string& name);
+
+/// Gives a prim what its marks say: visibility, catching, matteName, assetName. What none says stays.
+/// A value that means nothing is told, and counts as not there.
+void applyMarks(const Marks& marks, Geometry& prim, Diagnostics& diagnostics);
+
+} // namespace patina

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Marks of prims: the primvars of hdDelegate/scene/primMarks.def, and the assets that prims belong to."""
+import functools
+
+from pxr import Kind, Usd, UsdGeom
+
+_PREFIX = "primvars:"
+
+
+@functools.lru_cache(maxsize=None)
+def names():
+    """:returns: names of attributes"""
+    import _patina
+
+    return frozenset(_PREFIX + name for name in _patina.mark_names())
+
+
+def authored(context, prim, properties, inherited):
+    """:param properties: names of the prim's authored ones
+    :param inherited: what this gave for its parent
+    :returns: dict of marks and their values, by name without "primvars:" """
+    own = names().intersection(properties)
+    if not own:
+        return inherited
+    found = dict(inherited)
+    for name in own:
+        value = _single(prim.GetAttribute(name).Get(context.time))
+        if value is not None:
+            found[name[len(_PREFIX):]] = value
+    return found
+
+
+def _single(value):
+    """:returns: a number or a text; of an array, which primvars may have for one value, its only element; None for others"""
+    if not isinstance(value, (str, bool, int, float)) and hasattr(value, "__len__"):
+        value = value[0] if len(value) == 1 else None
+    if isinstance(value, str):
+        return value
+    return float(value) if isinstance(value, (bool, int, float)) else None
+
+
+
+def asset(prim, path, inherited):
+    """:param path: of a model, in the scene
+    :returns: the asset that it and what is below belong to"""
+    kind = Usd.ModelAPI(prim).GetKind()
+    is_asset = Kind.Registry.IsA(kind, Kind.Tokens.component) or Kind.Registry.IsA(kind, Kind.Tokens.assembly)
+    return path if is_asset else inherited
+
+
+def fields(found):
+    """:returns: what `_patina` takes of a prim's marks and asset"""
+    state, result = found.state, {}
+    if state.asset:
+        result["asset_name"] = state.asset
+    if found.marks:
+        result["marks"] = found.marks
+    return result

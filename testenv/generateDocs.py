@@ -148,14 +148,17 @@ def aovs():
 
     kinds = {"Mean": "mean of the samples", "First": "of the sample nearest the pixel's centre"}
     counted = {"sampleCount": "count", "variance": "estimate"}
-    table_rows = [row for row in tables.read("hdDelegate/film/aovs.def", "AOV") if row.values[0] != "primvars"]
+    table_rows = [row for row in tables.read("hdDelegate/film/aovs.def", "AOV") if row.values[0] not in ("primvars", "lpe")]
     # What the film makes, then means.
     table_rows.sort(key=lambda row: ("film" not in row.words, row.values[2] != "Mean"))
     rows = []
     for row in table_rows:
         name, components, kind, clear, _ = row.values
-        rows.append((f"`{name}`", components, row.text(4), counted.get(name, kinds[kind]), clear.rstrip("f"),
+        holds = row.text(4) + "".join(f": `{expression}`" for expression in row.words.get("paths", ()))
+        rows.append((f"`{name}`", components, holds, counted.get(name, kinds[kind]), clear.rstrip("f"),
                      "yes" if name in recordFlags.ALL_AOVS else ""))
+    rows.append(("`NAME=lpe:EXPRESSION`", 3, "light of the paths that fit [an expression](../design/lightPaths.md)", kinds["Mean"], "0.0",
+                 ""))
     rows.append(("`primvars:NAME`", "1 to 3", "a primvar; texture coordinates have two components", kinds["First"], "0.0",
                  "`primvars:st`"))
     return ["# AOVs", "", "The table is `hdDelegate/film/aovs.def`. `color` and `alpha` are always written.", "",

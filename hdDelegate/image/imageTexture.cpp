@@ -6,6 +6,7 @@
 #include <OpenImageIO/half.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace patina {
@@ -199,6 +200,40 @@ template <class T, int N> void ImageTexture::buildLevel(int number) {
 void ImageTexture::buildPyramid() {
     for (int level = 1; level < int(_levels.size()); ++level)
         (this->*_functions.buildLevel)(level);
+}
+
+template <class T> bool ImageTexture::takeGrey(const ImageTexture& colored) {
+    const size_t from = size_t(colored._channels), to = size_t(_channels);
+    const size_t row = size_t(width());
+    const T* source = static_cast<const T*>(colored.levelData(0));
+    T* target = static_cast<T*>(levelData(0));
+    std::atomic<bool> grey{true};
+    parallelRanges(0, height(), [&](int begin, int end) {
+        for (int y = begin; y < end && grey; ++y) {
+            const T* p = source + size_t(y) * row * from;
+            T* q = target + size_t(y) * row * to;
+            bool same = true;
+            for (size_t x = 0; x < row && same; ++x, p += from, q += to) {
+                same = p[0] == p[1] && p[1] == p[2];
+                q[0] = p[0];
+                q[to - 1] = p[to == 1 ? 0 : 3];
+            }
+            if (!same) grey = false;
+        }
+    });
+    return grey;
+}
+
+std::shared_ptr<ImageTexture> ImageTexture::asGrey() const {
+    if (_channels < 3) return nullptr;
+    auto grey = std::make_shared<ImageTexture>(
+        width(), height(), _channels == 4 ? TexelLayout::GreyAlpha : TexelLayout::Grey, _type);
+    grey->setDecodeTable(_decode);
+    const size_t bytes = bytesOf(_type); // texels are compared by their bits
+    const bool all = bytes == 1   ? grey->takeGrey<uint8_t>(*this)
+                     : bytes == 2 ? grey->takeGrey<uint16_t>(*this)
+                                  : grey->takeGrey<uint32_t>(*this);
+    return all ? grey : nullptr;
 }
 
 glm::vec4 ImageTexture::expand(const float* c) const {

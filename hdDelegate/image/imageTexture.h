@@ -51,6 +51,13 @@ public:
     /// The default divides by 255.
     void setDecodeTable(const std::array<float, 256>& table);
 
+    /// Grey images are often saved as colour: level 0 with one channel in place of three that are
+    /// equal in every texel, to the bit. What it is sampled for is the same; its pyramid is not
+    /// built yet.
+    /// @returns null where a texel has a colour, or there is no third channel
+    /// @throws std::bad_alloc
+    std::shared_ptr<ImageTexture> asGrey() const;
+
     /// Fills the levels above 0, with all threads.
     void buildPyramid();
 
@@ -68,6 +75,7 @@ private:
     template <class T, int N> void addFour(const Level& level, const int* x, const int* y,
                                            const float* weights, float* sum) const;
     template <class T, int N> void buildLevel(int level);
+    template <class T> bool takeGrey(const ImageTexture& colored);
     const float* lastTable() const; ///< decodes the last channel: alpha differs from colour
 
     /// Chosen once, by type and channels.

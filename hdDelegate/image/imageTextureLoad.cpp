@@ -291,6 +291,7 @@ std::shared_ptr<ImageTexture> loadImageTexture(const ImageSource& source,
                                      " values that are NaN or infinite; 0 is used for them");
         }
         buffer.reset();
+        if (std::shared_ptr<ImageTexture> grey = texture->asGrey()) texture = std::move(grey);
         texture->buildPyramid();
     });
     return texture;

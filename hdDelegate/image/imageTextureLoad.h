@@ -24,7 +24,8 @@ struct ImageSource {
 std::string probeImage(const std::string& file, TexelLayout& layout);
 
 /// Reads any format of OIIO into a mip pyramid in linear Rec.709. 8-bit files stay 8-bit where
-/// their colour space works channel by channel; 16-bit data stays 16-bit; half stays half.
+/// their colour space works channel by channel; 16-bit data stays 16-bit; half stays half. Colour
+/// whose three channels are equal everywhere is kept as grey.
 /// Colour space "auto" is that of UsdUVTexture: 8-bit RGB and RGBA are sRGB unless the file says
 /// that it is linear; everything else is data.
 /// Alpha is neither decoded nor multiplied in or out. Of more than four channels the first three

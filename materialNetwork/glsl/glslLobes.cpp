@@ -99,7 +99,7 @@ std::string glslLobeSetup(const LobeTemplate& t,
 
 std::string glslLobeMethods(const LobeTemplate& t, const std::string& lobe) {
     std::string text;
-    const auto tell = [&](const char* function, std::initializer_list<Choice> points) {
+    const auto setMethods = [&](const char* function, std::initializer_list<Choice> points) {
         std::string numbers;
         bool differs = false;
         for (const Choice point : points) {
@@ -109,7 +109,7 @@ std::string glslLobeMethods(const LobeTemplate& t, const std::string& lobe) {
         if (differs) text += "    " + lobe + " = " + function + "(" + lobe + numbers + ");\n";
     };
 #define PATINA_LOBE_METHODS(Kind, prefix, function, ...)                                           \
-    if (t.kind == LobeKind::Kind) tell(#function, {__VA_ARGS__});
+    if (t.kind == LobeKind::Kind) setMethods(#function, {__VA_ARGS__});
 #include "materialNetwork/plan/choicePoints.inc"
     return text;
 }

@@ -72,8 +72,11 @@ void IrBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasInside,
     const bool flips = !interface || !hasInside || closure.thin;
     t.frame = uint8_t(frame(closure, flips, needed));
 
-    // A thin slab has no inside for light to go to.
-    const bool flat = closure.kind == ClosureKind::Subsurface && closure.thin;
+    // A thin slab has no inside for light to go to. Where a method is forced that does not go there
+    // either, textures of the walk are not opened.
+    const bool flat =
+        closure.kind == ClosureKind::Subsurface &&
+        !walksBeneath(closure, MethodSet(_plan.methods).get<method::Subsurface>());
     if (flat) t.kind = LobeKind::OrenNayar;
     const std::vector<std::string>& names =
         lobeParameters(flat ? LobeKind::OrenNayar : lobeKind(closure.kind));

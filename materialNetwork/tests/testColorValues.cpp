@@ -94,11 +94,11 @@ TEST(ColorValues, AnUnknownSpaceKeepsTheValueAndIsNamed) {
                                                    {{"weight", number(1.0f)}, {"color", value}})});
         };
         const Compiled c(network(red)), plain(network(color(0.9f, 0.1f, 0.1f)));
-        const std::string told = warnings(c.diagnostics);
-        EXPECT_NE(told.find(inModel ? "/m/surface [diffuseColor] unknown colour space"
+        const std::string reported = warnings(c.diagnostics);
+        EXPECT_NE(reported.find(inModel ? "/m/surface [diffuseColor] unknown colour space"
                                     : "/m/bsdf [color] unknown colour space"),
                   std::string::npos)
-            << told;
+            << reported;
         ShadingPoint point;
         Bsdf bsdf, expected;
         c.program->evaluate(point, bsdf);

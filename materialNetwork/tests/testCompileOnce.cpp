@@ -62,31 +62,32 @@ TEST(CompileOnce, WhateverIsPlanned) {
     }
 }
 
-// As a texture that is missing: it is told once, and not hidden by the planner.
-TEST(CompileOnce, ProblemsAreToldOnce) {
+// As a texture that is missing: it is reported once, and not hidden by the planner.
+TEST(CompileOnce, ProblemsAreReportedOnce) {
     Network network = textured();
     network.nodes.back().inputs["noSuchInput"] = Value::makeFloat(1.0f);
-    const auto told = [&](double tolerance) {
+    const auto reported = [&](double tolerance) {
         FakeTextures textures;
         Diagnostics diagnostics;
         compileMaterial(network, textures, diagnostics, {}, tolerance);
         return warnings(diagnostics);
     };
-    EXPECT_NE(told(-1.0), "");
-    EXPECT_EQ(told(0.01), told(-1.0));
+    EXPECT_NE(reported(-1.0), "");
+    EXPECT_EQ(reported(0.01), reported(-1.0));
 }
 
 TEST(CompileOnce, WhatABoundMethodDoesNotReadIsLeftOut) {
-    const auto surface = [](const char* method) {
+    const auto surface = [](const char* method, size_t opened) {
         FakeTextures textures;
         Diagnostics diagnostics;
         const auto program =
             compileMaterial(skin(), textures, diagnostics, {{"subsurface", method}});
+        EXPECT_EQ(textures.requests.size(), opened) << method;
         Bsdf bsdf;
         program->evaluate(ShadingPoint(), bsdf);
         return std::make_pair(program->ir().surfaceCode.size(), bsdf.albedo());
     };
-    const auto walk = surface("randomWalk"), diffuse = surface("diffuse");
+    const auto walk = surface("randomWalk", 2), diffuse = surface("diffuse", 1);
     EXPECT_LT(diffuse.first, walk.first);
     EXPECT_GT(diffuse.first, 0u) << "the colour is read";
     EXPECT_EQ(diffuse.second, walk.second);

@@ -48,7 +48,7 @@ protected:
     void write(const std::string& name, const std::string& body) {
         std::ofstream(folder + name) << "<materialx version=\"1.39\">" << body << "</materialx>";
     }
-    bool told(const std::string& text) const {
+    bool reported(const std::string& text) const {
         return warnings(diagnostics).find(text) != std::string::npos;
     }
 
@@ -91,7 +91,7 @@ std::string shown(const std::string& category) {
 TEST_F(MtlxHostile, GraphsNestedTooDeeplyAreNoDocument) {
     EXPECT_TRUE(read(nested("nodegraph", 20000) + material).empty());
     EXPECT_TRUE(
-        told("main.mtlx [] has elements nested more than 64 deep; the document is ignored"));
+        reported("main.mtlx [] has elements nested more than 64 deep; the document is ignored"));
     EXPECT_EQ(read(nested("nodegraph", 60) + material).size(), 1u);
 }
 
@@ -100,7 +100,7 @@ TEST_F(MtlxHostile, IncludesNestedTooDeeplyAreLeftOut) {
     // In what is included, and in the element that includes.
     write("deep.mtlx", nested("a", depth));
     EXPECT_EQ(read("<xi:include href='deep.mtlx'/>" + material).size(), 1u);
-    EXPECT_TRUE(told("'deep.mtlx' has elements nested more than 64 deep; it is left out"));
+    EXPECT_TRUE(reported("'deep.mtlx' has elements nested more than 64 deep; it is left out"));
     EXPECT_TRUE(
         read("<xi:include href='deep.mtlx'>" + nested("a", depth) + "</xi:include>").empty());
     EXPECT_EQ(diagnostics.count(), 2) << warnings(diagnostics);
@@ -115,9 +115,9 @@ TEST_F(MtlxHostile, MoreElementsThanAreReadAreLeftOut) {
                               "<xi:include href='many.mtlx'/>";
     EXPECT_EQ(read(twice + material).size(), 1u);
     EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
-    EXPECT_TRUE(told("'many.mtlx' holds more tags and attributes than the 2097152 that are read"));
+    EXPECT_TRUE(reported("'many.mtlx' holds more tags and attributes than the 2097152 that are read"));
     EXPECT_TRUE(read(many + many + material).empty());
-    EXPECT_TRUE(told("main.mtlx [] holds more tags and attributes than"));
+    EXPECT_TRUE(reported("main.mtlx [] holds more tags and attributes than"));
 }
 
 TEST_F(MtlxHostile, ValuesThatAreNotOfTheirTypeAreToldAndNotUsed) {
@@ -149,12 +149,12 @@ TEST_F(MtlxHostile, ValuesThatAreNotOfTheirTypeAreToldAndNotUsed) {
     for (const char* value : {"", "1,1", "1,1,1,1", "1;1;1", "0x10,1,1", "1,1,1 one", "nan,1,1"}) {
         EXPECT_EQ(albedo("color3", value), glm::vec3(0)) << value;
         EXPECT_EQ(diagnostics.count(), ++expected) << value << warnings(diagnostics);
-        EXPECT_TRUE(told("'" + std::string(value) + "' is not color3; the default is used"));
+        EXPECT_TRUE(reported("'" + std::string(value) + "' is not color3; the default is used"));
     }
     EXPECT_EQ(albedo("float", "0.5f"), glm::vec3(0));
-    EXPECT_TRUE(told("'0.5f' is not float"));
+    EXPECT_TRUE(reported("'0.5f' is not float"));
     EXPECT_EQ(albedo("boolean", "yes"), glm::vec3(0));
-    EXPECT_TRUE(told("'yes' is not boolean"));
+    EXPECT_TRUE(reported("'yes' is not boolean"));
 }
 
 TEST_F(MtlxHostile, LongChainsOfClosuresTakeAFilm) {
@@ -187,13 +187,13 @@ TEST_F(MtlxHostile, OnlyRegularFilesAreDocuments) {
                    material)
                   .size(),
               1u);
-    EXPECT_TRUE(told("'/dev/zero' is a device, not a regular file; it is left out"));
-    EXPECT_TRUE(told("'pipe.mtlx' is a named pipe, not a regular file; it is left out"));
-    EXPECT_TRUE(told("'.' is a folder, not a regular file; it is left out"));
-    EXPECT_TRUE(told("'none.mtlx' does not exist; it is left out"));
+    EXPECT_TRUE(reported("'/dev/zero' is a device, not a regular file; it is left out"));
+    EXPECT_TRUE(reported("'pipe.mtlx' is a named pipe, not a regular file; it is left out"));
+    EXPECT_TRUE(reported("'.' is a folder, not a regular file; it is left out"));
+    EXPECT_TRUE(reported("'none.mtlx' does not exist; it is left out"));
     EXPECT_TRUE(readMtlx("/dev/zero", diagnostics).empty());
     EXPECT_TRUE(readMtlx(folder + "pipe.mtlx", diagnostics).empty());
-    EXPECT_TRUE(told("/dev/zero [] the file is a device, not a regular file"));
+    EXPECT_TRUE(reported("/dev/zero [] the file is a device, not a regular file"));
 }
 
 TEST_F(MtlxHostile, MaterialsHoldTheNodesThatTheyReach) {
@@ -238,7 +238,7 @@ TEST_F(MtlxHostile, DefinitionsThatMultiplyAreGivenUp) {
     EXPECT_TRUE(networks[0].empty());
     EXPECT_TRUE(networks[0].nodes.empty());
     EXPECT_TRUE(
-        told("main.mtlx:M [] the material comes to more than 200000 nodes; it is left out"));
+        reported("main.mtlx:M [] the material comes to more than 200000 nodes; it is left out"));
     EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
 }
 
@@ -254,7 +254,7 @@ TEST_F(MtlxHostile, MaterialsThatMultiplyAreGivenUpTogether) {
     for (const Network& network : networks)
         EXPECT_TRUE(network.empty() && network.nodes.empty());
     // Six times 200000 is beyond the bound of the document.
-    EXPECT_TRUE(told("the materials come to more than 1000000 nodes; the last 994 are left out"));
+    EXPECT_TRUE(reported("the materials come to more than 1000000 nodes; the last 994 are left out"));
     EXPECT_EQ(diagnostics.count(), 6 + 1);
 }
 
@@ -272,7 +272,7 @@ TEST_F(MtlxHostile, DefinitionsNestedTooDeeplyAreToldOnce) {
     const auto networks = read(doublings(40, false) + shown("l39"));
     ASSERT_EQ(networks.size(), 1u);
     EXPECT_EQ(networks[0].nodes.size(), size_t(16 * 2 + 1));
-    EXPECT_TRUE(told("does ND_l23 contain itself?); the node is left out"));
+    EXPECT_TRUE(reported("does ND_l23 contain itself?); the node is left out"));
     const Compiled c(networks[0]);
     EXPECT_EQ(diagnostics.count() + c.diagnostics.count(), 1) << warnings(c.diagnostics);
 }

@@ -100,9 +100,9 @@ TEST_F(MtlxNamespaces, OtherNamespacesAreNotMeant) {
         const auto networks = read(definition(space, space, "ND_toon") + use(category));
         ASSERT_EQ(networks.size(), 1u);
         const Compiled c(networks[0]);
-        const std::string told = warnings(c.diagnostics);
-        EXPECT_NE(told.find(std::string("unknown type '") + category + "'"), std::string::npos)
-            << told;
+        const std::string reported = warnings(c.diagnostics);
+        EXPECT_NE(reported.find(std::string("unknown type '") + category + "'"), std::string::npos)
+            << reported;
     }
     // Two definitions of one name in two namespaces.
     std::string other = definition("namespace='b'", "namespace='b'", "ND_b");

@@ -11,7 +11,7 @@ namespace patina {
 
 namespace {
 
-std::string toldOf(const char* model, Inputs inputs, Connections connections = {}) {
+std::string reportedOf(const char* model, Inputs inputs, Connections connections = {}) {
     return warnings(
         Compiled(makeNetwork({makeNode("surface", model, std::move(inputs), std::move(connections)),
                               makeNode("map", "ND_image_float")}))
@@ -33,9 +33,9 @@ TEST(NotShown, DispersionIsTold) {
         const std::string expected =
             std::string("/m/surface [") + c.input +
             "] chromatic dispersion is not modelled; the input is ignored\n";
-        EXPECT_EQ(toldOf(c.model, {{c.input, number(0.5f)}}), expected);
-        EXPECT_EQ(toldOf(c.model, {}, {{c.input, {"map", "out"}}}), expected);
-        EXPECT_EQ(toldOf(c.model, {{c.input, number(0.0f)}}), "") << "0 asks for none";
+        EXPECT_EQ(reportedOf(c.model, {{c.input, number(0.5f)}}), expected);
+        EXPECT_EQ(reportedOf(c.model, {}, {{c.input, {"map", "out"}}}), expected);
+        EXPECT_EQ(reportedOf(c.model, {{c.input, number(0.0f)}}), "") << "0 asks for none";
     }
     // What is connected may turn out to be a constant.
     for (const float scale : {0.0f, 0.25f}) {
@@ -48,11 +48,11 @@ TEST(NotShown, DispersionIsTold) {
         EXPECT_EQ(c.diagnostics.count(), scale > 0.0f ? 1 : 0) << warnings(c.diagnostics);
     }
     // Nor does a circle go on for ever.
-    EXPECT_NE(toldOf("ND_open_pbr_surface_surfaceshader", {},
+    EXPECT_NE(reportedOf("ND_open_pbr_surface_surfaceshader", {},
                      {{"transmission_dispersion_scale", {"surface", ""}}}),
               "");
     // An Abbe number alone disperses nothing: the scale beside it is 0.
-    EXPECT_EQ(toldOf("ND_open_pbr_surface_surfaceshader",
+    EXPECT_EQ(reportedOf("ND_open_pbr_surface_surfaceshader",
                      {{"transmission_dispersion_abbe_number", number(40.0f)}}),
               "");
 }

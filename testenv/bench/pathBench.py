@@ -58,8 +58,8 @@ def peers():
     """:returns: name -> command without the folder, of the renderers that are here"""
     found = {"Patina": [sys.executable, os.path.join(HERE, "pathPatina.py")]}
     probe = "import mitsuba; print(*(v for v in ('llvm_ad_rgb', 'scalar_rgb') if v in mitsuba.variants()))"
-    told = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=False)
-    for variant in told.stdout.split() if told.returncode == 0 else ():
+    reported = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=False)
+    for variant in reported.stdout.split() if reported.returncode == 0 else ():
         check = f"import mitsuba; mitsuba.set_variant('{variant}'); import drjit; print(mitsuba.Float(1))"
         if subprocess.run([sys.executable, "-c", check], capture_output=True, check=False).returncode == 0:
             found["Mitsuba " + variant] = [sys.executable, os.path.join(HERE, "pathMitsuba.py"), None, variant]

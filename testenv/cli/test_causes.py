@@ -92,12 +92,12 @@ def test_names_stay_in_their_line():
 
 
 def test_what_was_told_is_told_again_only_at_the_end_and_when_there_is_more():
-    told = {}
+    reported = {}
     few, many = [[warning(MISSING, f"/m{i}") for i in range(n)] for n in (2, 50)]
-    assert len(Causes(few).lines(told, last=False)) == 1
-    assert Causes(many).lines(told, last=False) == []
-    assert "(50 times" in Causes(many).lines(told)[0]
-    assert Causes(many).lines(told) == []
+    assert len(Causes(few).lines(reported, last=False)) == 1
+    assert Causes(many).lines(reported, last=False) == []
+    assert "(50 times" in Causes(many).lines(reported)[0]
+    assert Causes(many).lines(reported) == []
 
 
 STAGE = """#usda 1.0

@@ -105,8 +105,8 @@ def test_command(document, capsys):
     found = json.loads(captured.out)["materials"]
     assert [m["name"] for m in found] == ["plastic"]
     assert found[0]["checks"]["reciprocity"]["failed"]
-    told = [line for line in captured.err.splitlines() if not line.startswith("check: ")]  # progress, on a slow machine
-    assert len(told) == 1 and "reciprocity" in told[0]
+    reported = [line for line in captured.err.splitlines() if not line.startswith("check: ")]  # progress, on a slow machine
+    assert len(reported) == 1 and "reciprocity" in reported[0]
     assert main.main(["check", document, "--samples", "10"]) == 2
 
 

@@ -28,14 +28,14 @@ def test_a_fallback_is_told_as_one(tmp_path, capsys):
     stage = tmp_path / "lamp.usda"
     stage.write_text(STAGE)
     assert main.main(["explain", f"{stage}:/lamp"]) == 0
-    told = capsys.readouterr()
-    assert "This material has no usable surface and is not shown." in told.out
-    assert "material /lamp" not in told.out and "material /displayColor" in told.out
-    assert "\nplan of the fallback: " in told.out
-    assert "/lamp/light has the unknown type 'ND_light'" in told.err
+    reported = capsys.readouterr()
+    assert "This material has no usable surface and is not shown." in reported.out
+    assert "material /lamp" not in reported.out and "material /displayColor" in reported.out
+    assert "\nplan of the fallback: " in reported.out
+    assert "/lamp/light has the unknown type 'ND_light'" in reported.err
     assert main.main(["explain", f"{stage}:/red"]) == 0
-    told = capsys.readouterr()
-    assert "no usable surface" not in told.out and "\nplan: " in told.out
+    reported = capsys.readouterr()
+    assert "no usable surface" not in reported.out and "\nplan: " in reported.out
     assert main.main(["explain", str(stage), "--json"]) == 0
     found = {m["name"]: m["plan"]["fallback"] for m in json.loads(capsys.readouterr().out)["materials"]}
     assert found == {"/lamp": True, "/red": False}

@@ -40,13 +40,13 @@ def test_predictions_hold_on_scenes(capsys, tmp_path):
 def test_explain_says_what_is_planned(capsys, tolerance, method):
     flags = [] if tolerance is None else ["--tolerance", tolerance]
     assert main.main(["explain", scene("roughConductor"), *flags, "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    plans = [material["plan"] for material in told["materials"]]
+    reported = json.loads(capsys.readouterr().out)
+    plans = [material["plan"] for material in reported["materials"]]
     choices = [choice for plan in plans for choice in plan["choices"] if choice["point"] == "energyCompensation"]
     if method:
         assert {choice["method"] for choice in choices} == {method}
-    assert told["error"] == max(plan["error"] for plan in plans)
-    assert told["error"] <= 0.4 * float(tolerance) if tolerance else told["error"] > 0.0
+    assert reported["error"] == max(plan["error"] for plan in plans)
+    assert reported["error"] <= 0.4 * float(tolerance) if tolerance else reported["error"] > 0.0
     assert main.main(["explain", scene("roughConductor"), *flags]) == 0
     text = capsys.readouterr().out
     assert "scene: " in text and "predicted error" in text

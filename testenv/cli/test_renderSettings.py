@@ -129,7 +129,7 @@ def record(*arguments):
     return main.main(["record", "stage.usda", *map(str, arguments), "--quiet", "--json=s.json"])
 
 
-def told():
+def reported():
     with open("s.json") as file:
         return json.load(file)
 
@@ -146,13 +146,13 @@ def test_all_products_are_written_and_those_that_are_alike_share_a_render(folder
     assert record("--settings", "/Render/main", "--frames", "1:3x2") == 0
     made = {"beauty.0001.exr", "beauty.0003.exr", "depth.001.exr", "depth.003.exr", "other.01.exr", "other.03.exr"}
     assert set(os.listdir()) == made | {"stage.usda", "s.json"}
-    assert [(f["frame"], f["images"], f["width"], f["height"], f["samplesPerPixel"]) for f in told()["frames"]] == [
+    assert [(f["frame"], f["images"], f["width"], f["height"], f["samplesPerPixel"]) for f in reported()["frames"]] == [
         (1.0, ["beauty.0001.exr", "depth.001.exr"], 32, 16, 3.0), (1.0, ["other.01.exr"], 20, 10, 3.0),
         (3.0, ["beauty.0003.exr", "depth.003.exr"], 32, 16, 3.0), (3.0, ["other.03.exr"], 20, 10, 3.0)]
     assert image("beauty.0001.exr").channels == ["R", "G", "B", "A"]
     assert image("depth.001.exr").channels == ["depth.Z", "normal.X", "normal.Y", "normal.Z"]
     assert image("other.01.exr").metadata["patina:camera"] == "/side"
-    assert [(w["prim"], w["input"]) for w in told()["warnings"]] == [("/Render/nothing", "sourceName")]
+    assert [(w["prim"], w["input"]) for w in reported()["warnings"]] == [("/Render/nothing", "sourceName")]
     assert not np.array_equal(pixels("beauty.0001.exr"), pixels("beauty.0003.exr"))  # the ball has left
 
 
@@ -183,7 +183,7 @@ def test_settings_without_products_need_an_image(folder, capsys):
 def test_flags_are_stronger(folder):
     flags = ("--samples", 1, "--camera", "/side", "-w", 8, "--frames", "1", "--aov", "albedo")
     assert record("a.exr", "--settings", "stage", *flags) == 0
-    frame, made = told()["frames"][0], image("a.exr")
+    frame, made = reported()["frames"][0], image("a.exr")
     assert (frame["width"], frame["height"], frame["samplesPerPixel"]) == (8, 4, 1.0)
     assert made.metadata["patina:camera"] == "/side" and "albedo.R" in made.channels
     # As what was typed counts, not what differs from the default.
@@ -193,7 +193,7 @@ def test_flags_are_stronger(folder):
 
 def test_what_cannot_be_done_is_told_by_prim_and_input(folder):
     assert record("--settings", "/Render/odd", "--frames", "1", "-w", 8) == 0
-    assert sorted((w["prim"], w["input"]) for w in told()["warnings"]) == [
+    assert sorted((w["prim"], w["input"]) for w in reported()["warnings"]) == [
         ("/Render/deep", "productType"), ("/Render/odd", "patina:cullStyle"), ("/Render/odd", "patina:nonsense"),
         ("/Render/odd", "products")]
     assert image("beauty.0001.exr").width == 8
@@ -275,4 +275,4 @@ def test_a_report_that_fails_is_a_warning(folder, monkeypatch):
 
     monkeypatch.setattr("patina.report.page.document", fail)
     assert record("a.exr", "--frames", "1", "--samples", 1, "-w", 8, "--report", "p.html") == 0
-    assert "no report p.html: odd numbers" in [w["message"] for w in told()["warnings"]] and os.path.exists("a.exr")
+    assert "no report p.html: odd numbers" in [w["message"] for w in reported()["warnings"]] and os.path.exists("a.exr")

@@ -297,3 +297,71 @@ def test_edits_look_at_what_they_touch_however_many_prims_there_are(backend):
                 for a, b in zip(after, render(scene, _patina.make_renderer(backend))[0]):
                     np.testing.assert_array_equal(a, b, err_msg=name)
             before, looked = after, now
+
+
+def test_what_shows_values_of_instances_is_drawn_anew():
+    """Where a material reads what instances have, an edit looks at all prims; the image is that of a fresh renderer."""
+    import _patina
+
+    from patina.chart import probes
+
+    def reader(edit, name):
+        network = _patina.Network("/painted")
+        network.add_node("/painted/tint", "ND_geompropvalue_color3")
+        network.set_input("/painted/tint", "geomprop", "string", name)
+        network.add_node("/painted/bsdf", "ND_oren_nayar_diffuse_bsdf")
+        network.connect("/painted/bsdf", "color", "/painted/tint")
+        network.add_node("/painted/surface", "ND_surface")
+        network.connect("/painted/surface", "bsdf", "/painted/bsdf")
+        network.set_terminal("surface", "/painted/surface")
+        edit.set_material("/painted", network)
+
+    def plain(edit, red):
+        edit.set_material("/plain", probes.network("oren_nayar_diffuse_bsdf", color=(red, 0.4, 0.2)))
+
+    def ball(edit, **more):
+        edit.set_implicit("/ball", shape="sphere", radius=0.25, group="A", **dict({"material": "/painted"}, **more))
+
+    def place(x, y, z):
+        matrix = np.eye(4, dtype=np.float32)
+        matrix[3, :3] = x, y, z
+        return matrix
+
+    def render(scene, renderer):
+        film = _patina.Film()
+        renderer.start(scene, "/camera", {"width": 48, "height": 32, "samples": 2}, film)
+        renderer.wait()
+        found = renderer.progress()
+        assert not found["failed"], found["error"]
+        return film.resolve("color"), found["statistics"]["primsLookedAt"]
+
+    scene, renderer = _patina.Scene(), _patina.make_renderer("raster")
+    others = 20
+    with scene.edit() as edit:
+        reader(edit, "tint")
+        plain(edit, 0.1)
+        ball(edit)
+        colours = np.float32([[0.9, 0.1, 0.1], [0.1, 0.9, 0.1], [0.1, 0.1, 0.9]])
+        edit.set_instancer("/balls", prototypes=["A"], prototype_indices=np.zeros(3, np.int32),
+                           transforms=np.stack([place(x, 0, 0) for x in (-0.55, 0, 0.55)]),
+                           primvars=[("tint", "vertex", colours), ("shade", "vertex", colours[::-1].copy())])
+        for i in range(others):
+            edit.set_implicit(f"/other{i:02}", shape="cube", size=0.1, material="/plain",
+                              transform=place(0.08 * i - 0.8, -0.5, 0))
+        edit.set_light("/sun", type="distant", intensity=3.0)
+        edit.set_camera("/camera", transform=place(0, 0, 4))
+    before, looked = render(scene, renderer)
+    edits = [("what nobody reads of instances", lambda e: plain(e, 0.9), False),
+             ("another value", lambda e: reader(e, "shade"), True),
+             ("a value of its own",
+              lambda e: ball(e, primvars=[("shade", "constant", np.float32([[0.8, 0.8, 0.1]]))]), True),
+             ("no value of its own", ball, True),
+             ("another material", lambda e: ball(e, material="/plain"), True)]
+    for name, change, of_all in edits:
+        with scene.edit() as edit:
+            change(edit)
+        after, now = render(scene, renderer)
+        assert not np.array_equal(before, after), name
+        np.testing.assert_array_equal(after, render(scene, _patina.make_renderer("raster"))[0], err_msg=name)
+        assert (now - looked > others) == of_all, (name, now - looked)
+        before, looked = after, now

@@ -61,13 +61,13 @@ class Browser:
             self._page.context.close()
         context = self._started().new_context(viewport={"width": width, "height": height}, has_touch=touch,
                                               accept_downloads=True, offline=True)
-        self._messages = told = []
+        self._messages = reported = []
         self._page = page = context.new_page()
         page.set_default_timeout(TIMEOUT)
-        page.on("console", lambda m: told.append(f"{m.type}: {m.text}"))
-        page.on("pageerror", lambda e: told.append(f"error: {e.message}"))
-        page.on("dialog", lambda d: (told.append(f"dialog: {d.message}"), d.dismiss()))
-        page.on("request", lambda r: r.url.startswith(("file:", "data:", "blob:")) or told.append(f"request: {r.url}"))
+        page.on("console", lambda m: reported.append(f"{m.type}: {m.text}"))
+        page.on("pageerror", lambda e: reported.append(f"error: {e.message}"))
+        page.on("dialog", lambda d: (reported.append(f"dialog: {d.message}"), d.dismiss()))
+        page.on("request", lambda r: r.url.startswith(("file:", "data:", "blob:")) or reported.append(f"request: {r.url}"))
         if not gl:
             page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null;")
         page.goto(f"file://{os.path.abspath(path)}{query}")

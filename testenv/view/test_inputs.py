@@ -100,8 +100,8 @@ def test_what_is_not_modelled_is_told_where_an_author_asks_for_it(name, behind):
     module = compiled.load()
     for given in (None, 0.0, 0.5):
         page, _, warnings = materials.build("m", dispersive(module, name, given, behind), {}, materials.Textures(16))
-        told = [w for w in warnings if "chromatic dispersion" in w]
-        assert len(told) == len(warnings) == (1 if given else 0), (given, warnings)
+        reported = [w for w in warnings if "chromatic dispersion" in w]
+        assert len(reported) == len(warnings) == (1 if given else 0), (given, warnings)
         keys = {i["input"] for i in page["inputs"]}
         assert "/m/s.base_color" in keys  # all others keep their sliders
         assert given or f"/m/s.{SURFACES[name][1]}" not in keys and "/m/p.in1" not in keys

@@ -137,8 +137,8 @@ def test_a_saved_layer_opens_again(shown, page, tmp_path, capsys):
     path = os.path.join(os.path.dirname(page), "saved.usda")
     assert shown.download("[data-action=layer] button", path) == "red.usda"
     assert main.main(["explain", path + ":/look/red"]) == 0
-    told = capsys.readouterr().out
-    assert "0.25" in told and "0.5" in told and "ND_oren_nayar_diffuse_bsdf" in told
+    reported = capsys.readouterr().out
+    assert "0.25" in reported and "0.5" in reported and "ND_oren_nayar_diffuse_bsdf" in reported
 
 
 def test_a_link_holds_the_values(shown, page, chromium):

@@ -123,13 +123,13 @@ def test_the_pixel_under_the_pointer_is_that_of_the_file(made, shown):
     image = _patina.read_image(str(made / "a.exr"))
     pixels = np.array(image.pixels)
     for x, y in ((36, 16), (1, 2), (63, 31)):
-        told = dict(shown.evaluate(f"return page.describe({x}, {y})"))
-        color = [float(n) for n in told["linear RGB"].split()]
+        reported = dict(shown.evaluate(f"return page.describe({x}, {y})"))
+        color = [float(n) for n in reported["linear RGB"].split()]
         # Half floats have 2^-11 of error, four digits 5e-4 more.
         assert color == pytest.approx([pixels[y, x, image.channels.index(c)] for c in "RGB"], rel=1.0e-3)
-        assert told["samples"] == "32" and told["pixel"] == f"{x}, {y}"
+        assert reported["samples"] == "32" and reported["pixel"] == f"{x}, {y}"
         depth = pixels[y, x, image.channels.index("depth.Z")]
-        assert told["depth"] == "nothing is seen" if depth > 1e9 else float(told["depth"]) == pytest.approx(depth, rel=1e-3)
+        assert reported["depth"] == "nothing is seen" if depth > 1e9 else float(reported["depth"]) == pytest.approx(depth, rel=1e-3)
     assert dict(shown.evaluate("return page.describe(38, 16)"))["prim"] == "/ball"
 
 

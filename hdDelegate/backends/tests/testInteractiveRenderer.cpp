@@ -28,7 +28,7 @@ struct Session {
     std::unique_ptr<InteractiveRenderer> renderer;
     std::vector<Picture> shown;
     std::vector<float> depths;
-    std::vector<RenderProgress> told;
+    std::vector<RenderProgress> reported;
 
     explicit Session(int quickFails = -1, int quickWait = 0) {
         settings.width = 70;
@@ -46,7 +46,7 @@ struct Session {
                 shown.push_back(pictureOf(f));
                 depths.push_back(f.resolve("depth")[0]);
             }
-            told.push_back(p);
+            reported.push_back(p);
         });
     }
 
@@ -73,7 +73,7 @@ TEST(Interactive, TheQuickImageComesFirstAndTheSlowOneLastWithoutAJump) {
     ASSERT_GT(s.shown.size(), 3u);
     std::mt19937 random;
     EXPECT_EQ(s.shown[0].pixels[0], glm::vec4(direct(0, 0, random), 1.0f));
-    EXPECT_EQ(s.told[0].backend, "raster");
+    EXPECT_EQ(s.reported[0].backend, "raster");
     // From end to end it is a jump, from frame to frame it is none.
     EXPECT_GT(largestStep(s.shown.front(), s.shown.back()),
               3.0f * InteractiveRenderer::largestChange);
@@ -83,10 +83,10 @@ TEST(Interactive, TheQuickImageComesFirstAndTheSlowOneLastWithoutAJump) {
             << i;
     EXPECT_EQ(s.shown.back().pixels, s.reference().pixels);
     EXPECT_EQ(pictureOf(*s.film).pixels, s.reference().pixels);
-    for (size_t i = 0; i + 1 < s.told.size(); ++i)
-        EXPECT_FALSE(s.told[i].converged) << "only the last frame is whole";
-    EXPECT_TRUE(s.told.back().converged);
-    EXPECT_EQ(s.told.back().backend, "slow");
+    for (size_t i = 0; i + 1 < s.reported.size(); ++i)
+        EXPECT_FALSE(s.reported[i].converged) << "only the last frame is whole";
+    EXPECT_TRUE(s.reported.back().converged);
+    EXPECT_EQ(s.reported.back().backend, "slow");
     EXPECT_EQ(s.depths.front(), 1.0f);
     EXPECT_EQ(s.depths.back(), 2.0f);
     EXPECT_TRUE(std::is_sorted(s.depths.begin(), s.depths.end())) << "AOVs went back";
@@ -100,10 +100,10 @@ TEST(Interactive, EditsStartWithTheQuickImageAgain) {
         std::this_thread::sleep_for(std::chrono::milliseconds(150));
         s.renderer->stop();
         EXPECT_FALSE(s.renderer->isRunning());
-        ASSERT_FALSE(s.told.empty());
-        EXPECT_EQ(s.told.front().backend, "raster");
-        EXPECT_FALSE(s.told.back().converged);
-        s.told.clear();
+        ASSERT_FALSE(s.reported.empty());
+        EXPECT_EQ(s.reported.front().backend, "raster");
+        EXPECT_FALSE(s.reported.back().converged);
+        s.reported.clear();
     }
     EXPECT_EQ(s.quick->starts, 3);
 }
@@ -111,8 +111,8 @@ TEST(Interactive, EditsStartWithTheQuickImageAgain) {
 TEST(Interactive, AQuickRendererWithoutADeviceIsLeftOut) {
     Session s(0);
     s.render();
-    EXPECT_TRUE(s.told.back().converged);
-    for (const RenderProgress& p : s.told)
+    EXPECT_TRUE(s.reported.back().converged);
+    for (const RenderProgress& p : s.reported)
         EXPECT_EQ(p.backend, "slow");
     EXPECT_EQ(s.shown.back().pixels, s.reference().pixels);
     ASSERT_EQ(s.scene->diagnostics().count(), 1);
@@ -126,7 +126,7 @@ TEST(Interactive, AQuickRendererWithoutADeviceIsLeftOut) {
 TEST(Interactive, ALateQuickImageHoldsNothingUp) {
     Session s(-1, 400);
     s.render();
-    EXPECT_EQ(s.told.front().backend, "slow");
+    EXPECT_EQ(s.reported.front().backend, "slow");
     EXPECT_EQ(s.shown.back().pixels, s.reference().pixels);
 }
 

@@ -198,8 +198,8 @@ TEST(OutputFailures, WhatMayPassIsToldFromWhatMayNot) {
             FAIL() << error;
         } catch (const TemporaryFailure&) {
             ADD_FAILURE() << error << " does not pass by itself";
-        } catch (const std::runtime_error& told) {
-            EXPECT_EQ(told.what(), "cannot write 'x': " + std::string(std::strerror(error)));
+        } catch (const std::runtime_error& reported) {
+            EXPECT_EQ(reported.what(), "cannot write 'x': " + std::string(std::strerror(error)));
         }
 }
 

@@ -178,6 +178,62 @@ TEST(ImageTexture, ChannelLayouts) {
     }
 }
 
+// A colour image with three equal channels is kept as grey, which must change no bit of a render.
+TEST(ImageTexture, GreyOfEqualChannelsIsSampledToTheSameBits) {
+    constexpr int width = 37, height = 19;
+    std::array<float, 256> square;
+    for (size_t i = 0; i < 256; ++i)
+        square[i] = float(i * i) / (255.0f * 255.0f);
+    std::mt19937 random(7);
+    for (const TexelType type :
+         {TexelType::U8, TexelType::U16, TexelType::Half, TexelType::Float})
+        for (const TexelLayout layout : {TexelLayout::Rgb, TexelLayout::Rgba}) {
+            ImageTexture colored(width, height, layout, type);
+            const size_t n = size_t(colored.channels());
+            for (size_t i = 0; i < size_t(width * height); ++i) {
+                const uint32_t value = random(), alpha = random();
+                for (size_t c = 0; c < n; ++c) {
+                    const uint32_t v = c == 3 ? alpha : value;
+                    void* data = colored.levelData(0);
+                    if (type == TexelType::U8)
+                        static_cast<uint8_t*>(data)[i * n + c] = uint8_t(v);
+                    else if (type == TexelType::Float)
+                        static_cast<float*>(data)[i * n + c] = float(v) * 1e-9f;
+                    else // of halves those below 1
+                        static_cast<uint16_t*>(data)[i * n + c] = uint16_t(v % 0x3c00);
+                }
+            }
+            if (type == TexelType::U8) colored.setDecodeTable(square);
+            const std::shared_ptr<ImageTexture> grey = colored.asGrey();
+            ASSERT_TRUE(grey);
+            EXPECT_EQ(grey->channels(), layout == TexelLayout::Rgb ? 1 : 2);
+            colored.buildPyramid();
+            grey->buildPyramid();
+            std::uniform_real_distribution<float> any(-1.0f, 2.0f), lambda(-8.0f, 0.0f);
+            for (int i = 0; i < 2000; ++i) {
+                const glm::vec2 uv(any(random), any(random));
+                const float footprint = std::exp2(lambda(random));
+                const Wrap wrap = Wrap(random() % 4);
+                ASSERT_EQ(colored.sample(uv, footprint, wrap, wrap),
+                          grey->sample(uv, footprint, wrap, wrap));
+                ASSERT_EQ(colored.sampleNearest(uv, wrap, wrap),
+                          grey->sampleNearest(uv, wrap, wrap));
+            }
+        }
+}
+
+TEST(ImageTexture, OneTexelOfColourKeepsAllChannels) {
+    for (size_t channel = 0; channel < 3; ++channel) {
+        ImageTexture t(5, 3, TexelLayout::Rgb, TexelType::Half);
+        std::fill_n(static_cast<uint16_t*>(t.levelData(0)), 45, uint16_t(0x3800));
+        EXPECT_TRUE(t.asGrey());
+        static_cast<uint16_t*>(t.levelData(0))[42 + channel] = 0x3801;
+        EXPECT_FALSE(t.asGrey()) << channel;
+    }
+    ImageTexture grey(5, 3, TexelLayout::Grey, TexelType::U8);
+    EXPECT_FALSE(grey.asGrey()) << "there is nothing to gain";
+}
+
 TEST(ImageTexture, CoordinatesThatAreNoNumbersDoNoHarm) {
     ImageTexture t = greyTexture(3, 3, {1, 1, 1, 1, 1, 1, 1, 1, 1});
     float bad[] = {std::numeric_limits<float>::quiet_NaN(),

@@ -169,8 +169,25 @@ private:
 
 void RasterEmitters::clear() {
     _sources.clear();
-    _emitters.clear();
+    _glowing.clear();
     _sums.clear();
+}
+
+RasterEmitter RasterEmitters::emitterOf(const Source& source, unsigned triangle) {
+    vec3 p[3];
+    for (int k = 0; k < 3; ++k)
+        p[k] = vec3(source.toWorld *
+                    vec4(source.mesh->positions[0][source.mesh->triangles[triangle][k]], 1.0f));
+    RasterEmitter e;
+    e.corner = p[0];
+    e.edge1 = p[1] - p[0];
+    e.edge2 = p[2] - p[0];
+    e.area = 0.5f * glm::length(glm::cross(e.edge1, e.edge2));
+    e.twoSided = source.twoSided;
+    e.mirrored = source.mirrored;
+    e.category = source.category;
+    e.triangle = triangle;
+    return e;
 }
 
 /// Mean luminance over some places and directions, by which triangles are chosen.
@@ -222,53 +239,45 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
         const MeshAttribute* a = mesh->attribute(primvar.name);
         source.attributes.push_back(a ? int(a - mesh->attributes.data()) : -1);
     }
-    const bool mirrored = glm::determinant(mat3(toWorld)) < 0.0f;
-    const size_t first = _emitters.size();
-    for (size_t t = 0; t < mesh->triangles.size() && _emitters.size() < maxTriangles; ++t) {
+    source.mirrored = glm::determinant(mat3(toWorld)) < 0.0f;
+    source.twoSided = source.glows && !closed &&
+                      (light.mode == RasterMeshLight::None || light.mode == RasterMeshLight::Adds);
+    source.category = category;
+    // Their areas, too.
+    std::vector<std::pair<unsigned, float>> candidates;
+    for (size_t t = 0; t < mesh->triangles.size(); ++t) {
+        if (_glowing.size() + candidates.size() >= maxTriangles) break;
         const size_t own = t < mesh->triangleSubset.size() ? mesh->triangleSubset[t] : 0;
         if (own != subset) continue;
-        vec3 p[3];
-        for (int k = 0; k < 3; ++k)
-            p[k] = vec3(toWorld * vec4(mesh->positions[0][mesh->triangles[t][k]], 1.0f));
-        RasterEmitter e;
-        e.corner = p[0];
-        e.edge1 = p[1] - p[0];
-        e.edge2 = p[2] - p[0];
-        e.area = 0.5f * glm::length(glm::cross(e.edge1, e.edge2));
-        if (!(e.area > 0.0f) || !std::isfinite(e.area)) continue;
-        e.twoSided = source.glows && !closed &&
-                     (light.mode == RasterMeshLight::None || light.mode == RasterMeshLight::Adds);
-        e.mirrored = mirrored;
-        e.category = category;
-        e.triangle = unsigned(t);
-        e.source = int(_sources.size());
-        _emitters.push_back(e);
+        const float area = emitterOf(source, unsigned(t)).area;
+        if (area > 0.0f && std::isfinite(area)) candidates.emplace_back(unsigned(t), area);
     }
-    std::vector<float> bright(_emitters.size() - first, 1.0f);
+    std::vector<float> bright(candidates.size(), 1.0f);
     if (constant && !bright.empty()) {
-        std::fill(bright.begin(), bright.end(),
-                  brightness(source, _emitters[first].triangle, true));
+        std::fill(bright.begin(), bright.end(), brightness(source, candidates[0].first, true));
     } else {
         const bool coarse = bright.size() > manyTriangles;
-        parallelFor(size_t(0), bright.size(), [&](size_t i) {
-            bright[i] = brightness(source, _emitters[first + i].triangle, coarse);
-        });
+        parallelFor(size_t(0), bright.size(),
+                    [&](size_t i) { bright[i] = brightness(source, candidates[i].first, coarse); });
     }
     // What was not found bright may be so elsewhere.
     double mean = 0.0;
     for (const float b : bright)
         mean += double(b) / double(bright.size());
     const double minimum = constant && source.even ? 0.0 : std::max(0.02 * mean, 1e-6);
-    size_t kept = first;
+    const size_t first = _glowing.size(), most = first + candidates.size();
+    if (most > _glowing.capacity()) { // meshes are few and large, or many and small
+        _glowing.reserve(std::max(most, std::min(2 * first, maxTriangles)));
+        _sums.reserve(_glowing.capacity());
+    }
     for (size_t i = 0; i < bright.size(); ++i) {
-        const RasterEmitter e = _emitters[first + i];
-        const double power = double(e.area) * (double(bright[i]) + minimum);
+        const auto [triangle, area] = candidates[i];
+        const double power = double(area) * (double(bright[i]) + minimum);
         if (!(power > 0.0) || !std::isfinite(power)) continue;
         _sums.push_back((_sums.empty() ? 0.0 : _sums.back()) + power);
-        _emitters[kept++] = e;
+        _glowing.push_back({triangle, int(_sources.size())});
     }
-    _emitters.resize(kept);
-    if (kept > first) _sources.push_back(std::move(source));
+    if (_glowing.size() > first) _sources.push_back(std::move(source));
 }
 
 /// Replaces values beside an edge, and those about the axes of cones that may lie between values,
@@ -344,14 +353,16 @@ RasterEmission RasterEmitters::emission(const RasterEmitter& e, const vec2& uv) 
     return out;
 }
 
-const RasterEmitter& RasterEmitters::choose(float u, float& within, float& chance) const {
+RasterEmitter RasterEmitters::choose(float u, float& within, float& chance) const {
     const double at = double(u) * _sums.back();
     const size_t i = std::min(
         size_t(std::upper_bound(_sums.begin(), _sums.end(), at) - _sums.begin()), _sums.size() - 1);
     const double before = i > 0 ? _sums[i - 1] : 0.0, own = _sums[i] - before;
     within = std::clamp(float((at - before) / own), 0.0f, 0.9999999f);
     chance = float(own / _sums.back());
-    return _emitters[i];
+    RasterEmitter out = emitterOf(_sources[size_t(_glowing[i].source)], _glowing[i].triangle);
+    out.source = _glowing[i].source;
+    return out;
 }
 
 } // namespace patina

@@ -60,10 +60,10 @@ public:
              const std::shared_ptr<const MaterialProgram>& program, const RasterMeshLight& light,
              const mat4& toWorld, int category, bool closed, const vec3& origin,
              const std::vector<InstanceStep>& steps);
-    bool empty() const { return _emitters.empty(); }
+    bool empty() const { return _glowing.empty(); }
 
     /// @returns a triangle; `within` a number in [0,1) that is left of u, `chance` the probability
-    const RasterEmitter& choose(float u, float& within, float& chance) const;
+    RasterEmitter choose(float u, float& within, float& chance) const;
     /// What a triangle gives at a place. @param uv as evalAttribute() has them
     RasterEmission emission(const RasterEmitter& emitter, const vec2& uv) const;
 
@@ -84,11 +84,19 @@ private:
         const MeshAttribute* st = nullptr;
         bool glows = false, even = false; ///< even: alike towards all directions of a side
         bool sides = false;               ///< one side may give other light than the other
+        bool twoSided = true, mirrored = false; ///< of its triangles, as category
+        int category = -1;
     };
+    /// What is kept of a triangle: the rest is in the mesh.
+    struct Glowing {
+        unsigned triangle;
+        int source;
+    };
+    static RasterEmitter emitterOf(const Source& source, unsigned triangle);
     float brightness(const Source& source, unsigned triangle, bool coarse) const;
 
     std::vector<Source> _sources;
-    std::vector<RasterEmitter> _emitters;
+    std::vector<Glowing> _glowing;
     std::vector<double> _sums; ///< running sums of power
 };
 

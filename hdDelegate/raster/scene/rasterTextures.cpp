@@ -141,17 +141,30 @@ std::shared_ptr<const GlTexture> RasterTextures::plain(int handle) {
                           "'" + request.file + "' has " + size(0) + " pixels, the driver takes " +
                               std::to_string(largest) + " along a side; it is shown with " +
                               size(first));
-    *texture = GlTexture(GL_TEXTURE_2D, _format, levels[first].width, levels[first].height, 1,
+    // One number per texel where all are grey. With a border of no alpha there is one more.
+    const bool grey = image->layout() == TexelLayout::Grey &&
+                      request.wrapS != TextureWrap::Black && request.wrapT != TextureWrap::Black;
+    const GLenum format = !grey ? _format : _format == GL_RGBA16F ? GL_R16F : GL_R32F;
+    *texture = GlTexture(GL_TEXTURE_2D, format, levels[first].width, levels[first].height, 1,
                          int(levels.size() - first));
-    std::vector<glm::vec4> texels;
+    const size_t count = grey ? 1 : 4;
+    std::vector<float> texels;
     for (size_t l = first; l < levels.size(); ++l) {
         const int w = levels[l].width, h = levels[l].height;
-        texels.resize(size_t(w) * size_t(h));
+        texels.resize(size_t(w) * size_t(h) * count);
         for (int y = 0; y < h; ++y)
-            for (int x = 0; x < w; ++x)
-                texels[size_t(h - 1 - y) * size_t(w) + size_t(x)] = image->texel(int(l), x, y);
-        gl.TextureSubImage2D(texture->id(), GLint(l - first), 0, 0, w, h, GL_RGBA, GL_FLOAT,
-                             texels.data());
+            for (int x = 0; x < w; ++x) {
+                const glm::vec4 texel = image->texel(int(l), x, y);
+                const size_t at = size_t(h - 1 - y) * size_t(w) + size_t(x);
+                std::copy_n(&texel.x, count, &texels[at * count]);
+            }
+        gl.TextureSubImage2D(texture->id(), GLint(l - first), 0, 0, w, h, grey ? GL_RED : GL_RGBA,
+                             GL_FLOAT, texels.data());
+    }
+    if (grey) {
+        texture->parameter(GL_TEXTURE_SWIZZLE_G, GL_RED);
+        texture->parameter(GL_TEXTURE_SWIZZLE_B, GL_RED);
+        texture->parameter(GL_TEXTURE_SWIZZLE_A, GL_ONE);
     }
     texture->parameter(GL_TEXTURE_MIN_FILTER,
                        request.nearest ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);

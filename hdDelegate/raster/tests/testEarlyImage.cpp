@@ -76,7 +76,7 @@ std::shared_ptr<Scene> makeScene() {
 
 struct Shown {
     std::vector<std::vector<float>> images; ///< while it ran, and the last
-    std::vector<RenderProgress> told;
+    std::vector<RenderProgress> reported;
     std::vector<float> last;
 };
 
@@ -93,7 +93,7 @@ Shown render(bool interactive, int threads, std::string& error) {
     settings.interactive = interactive;
     renderer->setListener([&](const Film& f, const RenderProgress& p) {
         shown.images.push_back(f.resolve("color"));
-        shown.told.push_back(p);
+        shown.reported.push_back(p);
     });
     renderer->start(makeScene(), "/camera", settings, film);
     renderer->wait();
@@ -119,19 +119,19 @@ TEST(EarlyImages, ShowWhatIsReadyAndLeaveNothingInTheLast) {
     const Shown batch = render(false, 1, error);
     ASSERT_EQ(error, "");
     ASSERT_GT(brightest(batch.last), 1.0f) << "nothing glows";
-    for (const RenderProgress& p : batch.told)
+    for (const RenderProgress& p : batch.reported)
         EXPECT_EQ(p.statistics.at("materialsReady"), p.statistics.at("materialsWanted"))
             << "nobody looks on, so the first image has all materials";
     for (const int threads : {1, 3}) {
         const Shown shown = render(true, threads, error);
         ASSERT_EQ(error, "");
         ASSERT_GT(shown.images.size(), 1u);
-        const auto& first = shown.told.front().statistics;
+        const auto& first = shown.reported.front().statistics;
         EXPECT_LT(first.at("materialsReady"), first.at("materialsWanted")) << threads;
         // What is not ready is grey, which nothing lights.
         EXPECT_LT(sum(shown.images.front()), 0.9f * sum(batch.last)) << threads;
-        EXPECT_FALSE(shown.told.front().converged);
-        EXPECT_TRUE(shown.told.back().converged);
+        EXPECT_FALSE(shown.reported.front().converged);
+        EXPECT_TRUE(shown.reported.back().converged);
         EXPECT_EQ(shown.last, batch.last) << "the order of programs reached the image: " << threads;
     }
 }

@@ -42,7 +42,7 @@ TEST(InstancerCheck, tellsWhatIsWrongWithATransform) {
     far[3].x = 1e19;
     flat[2].z = 0.0;
     none[1].y = std::numeric_limits<double>::quiet_NaN();
-    const auto told = [](const dmat4& m) {
+    const auto reported = [](const dmat4& m) {
         MotionTransform moving(mat4(1.0f));
         moving.values.push_back(m);
         const std::string problem = placeProblem(moving);
@@ -52,8 +52,8 @@ TEST(InstancerCheck, tellsWhatIsWrongWithATransform) {
         }
         return inverseProblem(m);
     };
-    EXPECT_NE(told(far).find("too large"), std::string::npos);
-    EXPECT_NE(told(flat).find("inverse"), std::string::npos);
-    EXPECT_NE(told(none).find("not finite"), std::string::npos);
-    EXPECT_EQ(told(dmat4(1.0)), "");
+    EXPECT_NE(reported(far).find("too large"), std::string::npos);
+    EXPECT_NE(reported(flat).find("inverse"), std::string::npos);
+    EXPECT_NE(reported(none).find("not finite"), std::string::npos);
+    EXPECT_EQ(reported(dmat4(1.0)), "");
 }

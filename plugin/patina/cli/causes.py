@@ -92,19 +92,19 @@ class Causes:
                   for alike in kinds.values()]
         return sorted(merged, key=lambda g: (SEVERITIES.index(g["severity"]), -g["count"]))
 
-    def lines(self, told=None, last=True, json=True):
+    def lines(self, reported=None, last=True, json=True):
         """:param told: dict that remembers what was shown before, which is not shown again ...
         :param last: ... unless this is the last call, and it was met more often since
         :param json: whether the command has a --json that holds them all
         :returns: lines of at most MAX_CAUSES causes for all calls with the same dict; the last call says how many more"""
-        told = {} if told is None else told
+        reported = {} if reported is None else reported
         out, hidden = [], 0
         for group in self._shown():
             key = group["severity"], group["message"], group["prim"], group["input"]
-            if key not in told and len(told) >= MAX_CAUSES:
+            if key not in reported and len(reported) >= MAX_CAUSES:
                 hidden += 1
-            elif key not in told or (last and group["count"] > told[key]):
-                told[key] = group["count"]
+            elif key not in reported or (last and group["count"] > reported[key]):
+                reported[key] = group["count"]
                 out.append(line(group, json))
         if hidden and last:
             out.append(f"warning: {hidden} more causes" + (" are in --json" if json else ""))

@@ -8,7 +8,7 @@ import sys
 import traceback
 
 from patina import __version__, inputs
-from patina.cli import interrupts, told
+from patina.cli import interrupts, standardStreams
 from patina.cli.errors import FAILED, TEMPORARY, USAGE, CommandError, UsageError, is_temporary
 
 # name -> module of patina.cli that has HELP, add_arguments(parser) and run(arguments)
@@ -154,7 +154,7 @@ def _one_line(error):
 
 def main(argv=None):
     """:returns: the exit status"""
-    with told.Streams(), interrupts.Endings() as endings:
+    with standardStreams.Streams(), interrupts.Endings() as endings:
         try:
             try:
                 inputs.forget()
@@ -164,7 +164,7 @@ def main(argv=None):
             finally:
                 endings.settle()
         except BrokenPipeError:  # `patina ... | head`
-            told.silence(sys.stdout)
+            standardStreams.silence(sys.stdout)
             return 1
         except (Exception, KeyboardInterrupt) as error:
             return _failed(error, endings)

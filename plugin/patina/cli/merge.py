@@ -55,9 +55,9 @@ def run(arguments):
         if made:
             found = parts.Parts(module, arguments.files + made, arguments.allowMixed)
             _note(arguments.files, found.first)
-        told = merging.merge(module, found, arguments.image, arguments.threads)
+        reported = merging.merge(module, found, arguments.image, arguments.threads)
     if arguments.json:
-        told.write(arguments.json)
+        reported.write(arguments.json)
 
 
 def _note(files, description):

@@ -7,7 +7,7 @@
   patina record shot.usda shot.exr --part 3/8 --partial shot.3.part    an eighth of it, for `patina merge`
   patina record shot.usda --settings /Render/beauty --frames 1:10x3,20    all products of these settings
 
-Warnings are told by their causes: first errors (something that was authored is missing from the image), then warnings (a
+Warnings are grouped by their causes: first errors (something that was authored is missing from the image), then warnings (a
 default or an approximation is used), those that are met most often first, 20 at most. --json has all of them.
 
 Ctrl+C and SIGTERM end a render early: the image is written with the samples that are there, IMAGE.checkpoint stays for
@@ -59,7 +59,7 @@ class _Job:
         self.statistics = statistics.Statistics(arguments)
         self.snapshots = snapshots.Snapshots(arguments.snapshot)
         self.interrupted = False
-        self.told = {}  # causes of warnings that were shown ...
+        self.reported = {}  # causes of warnings that were shown ...
         self.reported = 0  # ... and how many warnings there were then
         self._read = None  # (frame, camera, what was read) of the scene
 
@@ -141,7 +141,7 @@ class _Job:
         return [f"{path} of an earlier render is given up (--resume would have continued it)"]
 
     def _info(self, shot):
-        """:returns: what the reader told; the scene holds the shot's frame as its camera sees it"""
+        """:returns: what the reader reported; the scene holds the shot's frame as its camera sees it"""
         if self._read is None or self._read[0] != shot.frame or not self._also_from(shot.camera):
             with self.statistics.phase("translate"):
                 self._read = (shot.frame, shot.camera, self._translate(shot))
@@ -270,7 +270,7 @@ class _Job:
     def _report(self, warnings, last=False):
         fresh, self.reported = len(warnings) != self.reported, len(warnings)
         if not self.arguments.quiet and (fresh or last):
-            self._say_all(statistics.Causes(warnings).lines(self.told, last))
+            self._say_all(statistics.Causes(warnings).lines(self.reported, last))
 
     def _say_all(self, lines):
         for text in lines:

@@ -190,8 +190,8 @@ def _plan(facts):
     for path, plan, text in facts.materials:
         planned = "\n".join(planText.lines(plan)) if plan else ""
         error = f' <span class="dim">predicted error {plan["error"]:.2g}</span>' if plan else ""
-        told = escape(text.rstrip() + "\n" + planned)
-        lines.append(f"<details><summary>{escape(path)}{error}</summary><pre>{told}</pre></details>")
+        reported = escape(text.rstrip() + "\n" + planned)
+        lines.append(f"<details><summary>{escape(path)}{error}</summary><pre>{reported}</pre></details>")
     return "\n".join(lines)
 
 

@@ -77,9 +77,9 @@ def live_inputs(network, limit=LIMIT):
 def _without_warnings(network, found):
     """Leaves out what is warned of only because it is open: inputs that are not modelled, where they ask for nothing."""
     compile_one = compiled.load().web_material
-    told = set(compile_one(network, {}, 1)["warnings"])
+    reported = set(compile_one(network, {}, 1)["warnings"])
     kept = _fitting(list(range(len(found))),
-                    lambda chosen: told.issuperset(compile_one(with_live(network, found, chosen), {}, 1)["warnings"]))
+                    lambda chosen: reported.issuperset(compile_one(with_live(network, found, chosen), {}, 1)["warnings"]))
     return [found[i] for i in kept]
 
 

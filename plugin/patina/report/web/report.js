@@ -98,7 +98,7 @@
         return told;
     }
 
-    function tell(pairs) {
+    function showValues(pairs) {
         $("pixel").replaceChildren(...pairs.map(([name, text]) => {
             const made = document.createElement("span"), head = document.createElement("b");
             head.textContent = name + " ";
@@ -110,7 +110,7 @@
     sheet.addEventListener("pointermove", (event) => {
         const [u, v] = place(event);
         if (!pixels || u < 0 || v < 0 || u >= 1 || v >= 1) return;
-        tell(describe(Math.floor(u * data.probe.width), Math.floor(v * data.probe.height)));
+        showValues(describe(Math.floor(u * data.probe.width), Math.floor(v * data.probe.height)));
     });
 
     for (const button of document.querySelectorAll("button[data-copy]")) {

@@ -95,8 +95,8 @@ def test_cameras_and_prims_without_a_usable_transform(read):
 
 
 @pytest.mark.parametrize("projection, told", [("perspective", False), ("orthographic", False), ("fisheye", True)])
-def test_a_projection_that_is_not_known_is_told(read, projection, told):
+def test_a_projection_that_is_not_known_is_told(read, projection, reported):
     reading = read(f'def Camera "c" {{ token projection = "{projection}" }}')
     assert (reading.prim("/c").get("orthographic") == "true") == (projection == "orthographic")
-    assert ("/c projection: 'fisheye' is not known; perspective is used" in reading.warnings) == told
-    assert told or not any("projection" in w for w in reading.warnings)
+    assert ("/c projection: 'fisheye' is not known; perspective is used" in reading.warnings) == reported
+    assert reported or not any("projection" in w for w in reading.warnings)

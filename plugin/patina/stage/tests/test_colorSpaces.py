@@ -130,9 +130,9 @@ colorspaces:
 """)
     program = ("import _patina\nfor s in ('half of AP0', 'lin_ap0_scene', 'gamma22', 'nobody knows'):\n"
                "    print(_patina.color_to_rendering([0.5, 0.5, 0.25], s))")
-    told = subprocess.run([sys.executable, "-c", program], env={**os.environ, "OCIO": str(tmp_path / "config.ocio")},
+    reported = subprocess.run([sys.executable, "-c", program], env={**os.environ, "OCIO": str(tmp_path / "config.ocio")},
                           capture_output=True, text=True, check=True).stdout.splitlines()
-    half, whole, gamma, unknown = (ast.literal_eval(line) for line in told)
+    half, whole, gamma, unknown = (ast.literal_eval(line) for line in reported)
     assert whole != pytest.approx([0.5, 0.5, 0.25], abs=0.01)
     assert half == pytest.approx([0.5 * x for x in whole], abs=1e-4)
     assert gamma == pytest.approx([v ** 2.2 for v in (0.5, 0.5, 0.25)], abs=1e-6)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What cannot be told is not told: a reader that goes away does not end a render."""
+"""What cannot be written to a standard stream is lost: a reader that goes away does not end a render."""
 import os
 import sys
 
 
-class Told:
+class LosingStream:
     """Standard error whose reader may be gone (`2>&1 | head`), or whose disk full."""
 
     def __init__(self, stream):
@@ -47,7 +47,7 @@ class Streams:
         self._before = sys.stdout, sys.stderr
         if sys.stdout is None:
             sys.stdout = open(os.devnull, "w", encoding="utf-8")
-        sys.stderr = Told(sys.stderr) if sys.stderr is not None else open(os.devnull, "w", encoding="utf-8")
+        sys.stderr = LosingStream(sys.stderr) if sys.stderr is not None else open(os.devnull, "w", encoding="utf-8")
         return self
 
     def __exit__(self, *_):

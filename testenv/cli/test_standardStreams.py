@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Standard streams that are closed, cut or full: what cannot be told is not told, and the image is written."""
+"""Standard streams that are closed, cut or full: what cannot be written is lost, and the image is written."""
 import io
 import os
 import subprocess
@@ -10,7 +10,7 @@ import pytest
 _patina = pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
-from patina.cli import told  # noqa: E402
+from patina.cli import standardStreams  # noqa: E402
 
 # Enough warnings for a pipe that nobody reads.
 STAGE = "#usda 1.0\n" + "".join(f"""def Material "m{i}"
@@ -61,7 +61,7 @@ class _Broken(io.StringIO):
 
 
 def test_a_stream_that_is_gone_takes_everything():
-    stream = told.Told(_Broken())
+    stream = standardStreams.LosingStream(_Broken())
     assert print("text", file=stream, flush=True) is None
     stream.flush()
     assert not stream.isatty()

@@ -86,7 +86,7 @@ class _NeverStarts(_Signals):
 def test_nothing_is_promised_where_nothing_is_saved(folder, monkeypatch, capsys):
     make = _patina.make_renderer
     monkeypatch.setattr(_patina, "make_renderer", lambda backend: _NeverStarts(make(backend), signal.SIGTERM))
-    assert main.main(["record", "stage.usda", "a.exr", *LONG]) == 1
+    assert main.main(["record", "stage.usda", "a.exr", *LONG]) == 75
     assert capsys.readouterr().err == "patina: interrupted before there were samples; nothing is saved\n"
     assert os.listdir() == ["stage.usda"]
 
@@ -129,7 +129,7 @@ def test_a_signal_that_a_library_drops_ends_the_command(dropped, folder, monkeyp
         return run(*arguments)
 
     monkeypatch.setattr(owner, name, swallow)
-    assert main.main(["record", "stage.usda", "a.png", *SHORT]) == 1
+    assert main.main(["record", "stage.usda", "a.png", *SHORT]) == 75
     assert capsys.readouterr().err == "patina: terminated\n"
     assert os.listdir() == ["stage.usda"]
 

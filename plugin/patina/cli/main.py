@@ -11,6 +11,8 @@ from patina import __version__, inputs
 from patina.cli import interrupts, standardStreams
 from patina.cli.errors import FAILED, TEMPORARY, USAGE, CommandError, UsageError, is_temporary
 
+_BATCH = ("record", "merge", "farm")  # what schedulers run: a signal that ended one may pass
+
 # name -> module of patina.cli that has HELP, add_arguments(parser) and run(arguments)
 COMMANDS = {
     "record": "record",
@@ -167,20 +169,23 @@ def main(argv=None):
             standardStreams.silence(sys.stdout)
             return 1
         except (Exception, KeyboardInterrupt) as error:
-            return _failed(error, endings)
+            return _failed(error, endings, (sys.argv[1:] if argv is None else argv)[:1])
 
 
-def _failed(error, endings):
+def _failed(error, endings, command):
     """:returns: the exit status, after the reason in one line"""
+    ended = False
     if os.environ.get("PATINA_TRACEBACK"):
         traceback.print_exc()
     if isinstance(error, KeyboardInterrupt) or (endings.met and not isinstance(error, CommandError)):
+        ended = True
         print(f"patina: {endings.text()}", file=sys.stderr)
     elif isinstance(error, UsageError):
         print(_one_line(error), file=sys.stderr)
         return USAGE
     elif endings.met and isinstance(error.__cause__, ImportError):
+        ended = True
         print(f"patina: {endings.text()}", file=sys.stderr)
     else:
         print(f"patina: {_one_line(error)}", file=sys.stderr)
-    return TEMPORARY if is_temporary(error) else FAILED
+    return TEMPORARY if is_temporary(error) or (ended and command and command[0] in _BATCH) else FAILED

@@ -15,7 +15,7 @@ Ctrl+C and SIGTERM end a render early: the image is written with the samples tha
 there before is replaced only by a whole one.
 
 Exit status: 0 done, 1 failed with a one-line reason, 2 wrong usage, 75 failed for a reason that may pass (a full disk, memory,
-a lost device) or ended by a signal with all saved: a scheduler may run the same again, with --resume.
+a lost device) or ended by a signal: a scheduler may run the same again, with --resume.
 """
 import dataclasses
 import os
@@ -225,7 +225,7 @@ class _Job:
         self.interrupted = interrupts.met and not state["converged"]
         self.statistics.rendered(state, film)
         if self.interrupted and not film.width:
-            raise CommandError("interrupted before there were samples; nothing is saved")
+            raise TemporaryError("interrupted before there were samples; nothing is saved")
         if self.interrupted or a.keepCheckpoint:
             if film.width:
                 film.save_checkpoint(checkpoints.path_of(shot.image))
@@ -236,7 +236,7 @@ class _Job:
         """:param left: shots that are not done
         :returns: the error that ends an interrupted command"""
         if not self.arguments.checkpointSeconds > 0.0:
-            return CommandError(reason)
+            return TemporaryError(reason)
         times = list(dict.fromkeys(shot.frame for shot in left))
         return TemporaryError(f"{reason}; --resume continues: {goOn.command(self.arguments, times)}")
 

@@ -4,7 +4,7 @@ import json
 import os
 
 from patina.cli import frames, outputs, shots
-from patina.cli.errors import CommandError, UsageError
+from patina.cli.errors import TemporaryError, UsageError
 from patina.farm import cut, identity, partial
 
 _REFUSED = (("seconds", "--seconds", "a time limit cuts every part elsewhere"),
@@ -58,7 +58,7 @@ def of(job):
                 super()._render(film, shot, dict(
                     settings, sampleBegin=first, sampleEnd=last, tilePart=part.tile_group, tileParts=part.cut.tiles), camera)
                 if self.interrupted:
-                    raise CommandError(f"interrupted; part {part} is not written")
+                    raise TemporaryError(f"interrupted; part {part} is not written")
                 if not self._writer:
                     self._writer = self.module.PartialWriter(
                         self.arguments.partial, self._description(shot, settings, camera, (begin, end)), tiles)

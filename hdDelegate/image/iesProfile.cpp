@@ -12,6 +12,7 @@ namespace patina {
 
 namespace {
 constexpr size_t largestTable = 4u << 20;
+constexpr double brightest = 1e30; ///< candela; sums and quotients of such stay finite as floats
 
 /// Numbers of the data block, separated by blanks, line ends or commas.
 class Numbers {
@@ -44,7 +45,8 @@ bool readAngles(Numbers& numbers, size_t count, std::vector<float>& angles) {
     angles.clear();
     for (size_t i = 0; i < count; ++i) {
         double value;
-        if (!numbers.next(value) || (i && value < angles.back())) return false;
+        if (!numbers.next(value) || (i && value < angles.back()) || std::abs(value) > 720.0)
+            return false;
         angles.push_back(float(value));
     }
     return true;
@@ -108,7 +110,7 @@ bool IesProfile::parse(const std::string& text, std::string& error) {
     const double factor = head[2] * head[10] * head[11];
     if (!readAngles(numbers, verticals, _vertical) ||
         !readAngles(numbers, horizontals, _horizontal)) {
-        error = "has angles that are missing or not in ascending order";
+        error = "has angles that are missing, too large or not in ascending order";
         *this = IesProfile();
         return false;
     }
@@ -116,6 +118,11 @@ bool IesProfile::parse(const std::string& text, std::string& error) {
     for (float& value : candela) {
         double number;
         if (!numbers.next(number)) {
+            *this = IesProfile();
+            return false;
+        }
+        if (!(std::abs(number * factor) <= brightest)) {
+            error = "has more candela than any light";
             *this = IesProfile();
             return false;
         }

@@ -56,10 +56,18 @@ def _chosen(calls):
 
 
 def _whole(image):
-    """:raises RuntimeError: where an image cannot be read"""
-    import _patina
+    """:returns: whether an image can be read. By a process of its own: OpenEXR's threads, once started here, would be missing in
+        every process that is forked later, which waits for them for ever"""
+    process = os.fork()
+    if not process:
+        import _patina
 
-    _patina.read_image(image)
+        try:
+            _patina.read_image(image)
+        except (OSError, RuntimeError):
+            os._exit(1)
+        os._exit(0)
+    return os.waitpid(process, 0)[1] == 0
 
 
 def _run(library, folder, at, number):
@@ -74,7 +82,7 @@ def _run(library, folder, at, number):
     if not process:
         _child(library, folder, at, number, sys.argv[4:])
     _, state = os.waitpid(process, 0)
-    told = {"at": at, "status": os.waitstatus_to_exitcode(state), "files": sorted(os.listdir(folder)), "images": {}}
+    told = {"at": at, "status": os.waitstatus_to_exitcode(state), "files": sorted(os.listdir(folder)), "images": {}, "whole": True}
     for name, key in (("stderr.txt", "error"), ("which.txt", "which")):
         with open(os.path.join(os.path.dirname(folder), name), encoding="utf-8", errors="replace") as file:
             told[key] = file.read()
@@ -83,7 +91,7 @@ def _run(library, folder, at, number):
             data = file.read()
         told["images"][os.path.basename(image)] = "old" if data == OLD.encode() else hashlib.sha256(data).hexdigest()
         if image.endswith((".exr", ".png")) and data != OLD.encode():
-            _whole(image)
+            told["whole"] = told["whole"] and _whole(image)
     return told
 
 

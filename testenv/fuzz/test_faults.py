@@ -52,6 +52,7 @@ def test_a_call_that_fails_loses_nothing(outputs, functions, library, tmp_path):
     assert last["status"] == 0 and not last["which"] and "old" not in last["images"].values()
     assert functions <= {run["which"] for run in failing}
     for run in failing:
+        assert run["whole"], run
         case = f"{run['which']} {run['at']}: {run}"
         # The bits of the whole file, or those that were there before.
         assert all(state == "old" or state == last["images"][name] or run["status"] == 0 for name, state in run["images"].items()), case

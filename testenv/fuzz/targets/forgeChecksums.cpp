@@ -71,7 +71,7 @@ FilmStream::Header headerOf(Walk& walk) {
 
 void pixels(Walk& walk, const std::vector<AovSpec>& aovs, int64_t width, int64_t height) {
     const uint64_t bare = FilmStream::bytesOfPixel({});
-    for (int64_t y = 0; y < height && walk.good(); ++y) {
+    for (int64_t y = 0; width > 0 && y < height && walk.good(); ++y) {
         walk.skip(bare * uint64_t(width));
         for (const AovSpec& spec : aovs)
             if (const uint64_t more = FilmStream::bytesOfPixel({spec}) - bare)

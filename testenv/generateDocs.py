@@ -157,7 +157,7 @@ def aovs():
         holds = row.text(4) + "".join(f": `{expression}`" for expression in row.words.get("paths", ()))
         rows.append((f"`{name}`", components, holds, counted.get(name, kinds[kind]), clear.rstrip("f"),
                      "yes" if name in recordFlags.ALL_AOVS else ""))
-    rows.append(("`NAME=lpe:EXPRESSION`", 3, "light of the paths that fit [an expression](../design/lightPaths.md)", kinds["Mean"], "0.0",
+    rows.append(("`NAME=lpe:EXPRESSION`", "3", "light of the paths that fit [an expression](../design/lightPaths.md)", kinds["Mean"], "0.0",
                  ""))
     rows.append(("`primvars:NAME`", "1 to 3", "a primvar; texture coordinates have two components", kinds["First"], "0.0",
                  "`primvars:st`"))

@@ -101,7 +101,7 @@ std::string labelOf(const VtValue& value, HdPatinaRenderParam& param, const SdfP
         text = value.UncheckedGet<VtTokenArray>()[0].GetString();
     const bool isText = value.IsHolding<std::string>() || value.IsHolding<TfToken>() ||
                         !text.empty() || value.IsEmpty();
-    if (!isText) param.warn(id, "primvars:lightGroup", "is not one text; it is left out");
+    if (!isText) param.warn(id, "primvars:lightGroup", "is not of type string; it is left out");
     return text;
 }
 

@@ -110,9 +110,12 @@ bool HdPatinaRenderProducts::prepare(const HdRenderSettings::RenderProduct& prod
 #endif
     for (const auto& var : product.renderVars) {
         const std::string aov = filmAovOfVar(var);
-        std::string problem = aov.empty() ? "'" + var.sourceName + "' is no AOV" : problemOf(aov);
-        if (!problem.empty())
-            param.warn(var.varPath, "sourceName", problem + "; it is left out");
+        const std::string problem = problemOf(aov);
+        if (aov.empty())
+            param.warn(var.varPath, "sourceName",
+                       "'" + var.sourceName + "' is no AOV; it is left out");
+        else if (!problem.empty())
+            param.warn(var.varPath, "sourceName", "the AOV is left out: " + problem);
         else if (std::find(output.order.begin(), output.order.end(), aov) == output.order.end())
             output.order.push_back(aov);
     }

@@ -75,17 +75,17 @@ class SceneEdit:
     def set_curves(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomBasisCurves; keywords are the fields of Curves.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points, curve_vertex_counts, basis, wrap.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points, curve_vertex_counts, basis, wrap.
         """
     def set_hermite_curves(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomHermiteCurves, as Bezier curves.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points, tangents, curve_vertex_counts.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points, tangents, curve_vertex_counts.
         """
     def set_implicit(self, path: str, **kwargs: typing.Any) -> None:
         """
         Sphere, cube, cone, cylinder, capsule or plane.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, shape, axis, radius, radius_top, height, size, width, length.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, shape, axis, radius, radius_top, height, size, width, length.
         """
     def set_instancer(self, path: str, **kwargs: typing.Any) -> None:
         """
@@ -95,7 +95,7 @@ class SceneEdit:
     def set_light(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdLux light; keywords are the fields of Light.
-        Keywords: group, type, transform, visible, camera_visible, color, intensity, exposure, diffuse, specular, normalize, enable_color_temperature, color_temperature, texture_file, texture_format, texture_color_space, guide_radius, shaping_focus, shaping_focus_tint, shaping_cone_angle, shaping_cone_softness, shaping_cone_authored, ies_file, ies_angle_scale, ies_normalize, shadow_enable, shadow_color, shadow_distance, shadow_falloff, shadow_falloff_gamma, light_link, shadow_link, geometry, material_sync_mode, angle, radius, width, height, length, treat_as_point, treat_as_line.
+        Keywords: group, type, transform, visible, camera_visible, color, intensity, exposure, diffuse, specular, normalize, enable_color_temperature, color_temperature, texture_file, texture_format, texture_color_space, guide_radius, shaping_focus, shaping_focus_tint, shaping_cone_angle, shaping_cone_softness, shaping_cone_authored, ies_file, ies_angle_scale, ies_normalize, shadow_enable, shadow_color, shadow_distance, shadow_falloff, shadow_falloff_gamma, light_link, shadow_link, light_group, geometry, material_sync_mode, angle, radius, width, height, length, treat_as_point, treat_as_line.
         """
     def set_material(self, path: str, network: Network) -> None:
         """
@@ -104,7 +104,7 @@ class SceneEdit:
     def set_mesh(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomMesh; keywords are the fields of Mesh.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points, face_vertex_counts, face_vertex_indices, hole_indices, scheme, interpolate_boundary, face_varying_linear_interpolation, triangle_subdivision_rule, crease_indices, crease_lengths, crease_sharpnesses, corner_indices, corner_sharpnesses, refine_level.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points, face_vertex_counts, face_vertex_indices, hole_indices, scheme, interpolate_boundary, face_varying_linear_interpolation, triangle_subdivision_rule, crease_indices, crease_lengths, crease_sharpnesses, corner_indices, corner_sharpnesses, refine_level.
         """
     def set_meters_per_unit(self, meters_per_unit: float) -> None:
         """
@@ -113,27 +113,27 @@ class SceneEdit:
     def set_nurbs_curves(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomNurbsCurves, as Bezier curves; ranges are two numbers per curve.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points, curve_vertex_counts, orders, knots, ranges, weights.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points, curve_vertex_counts, orders, knots, ranges, weights.
         """
     def set_nurbs_patch(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomNurbsPatch; weights are one per point, ranges two numbers.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points, u_vertex_count, v_vertex_count, u_order, v_order, u_knots, v_knots, u_range, v_range, weights, refine_level.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points, u_vertex_count, v_vertex_count, u_order, v_order, u_knots, v_knots, u_range, v_range, weights, refine_level.
         """
     def set_points(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomPoints; keywords are the fields of Points.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points.
         """
     def set_tet_mesh(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomTetMesh; tets are four indices of points each, surface three or nothing.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, points, tets, surface.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points, tets, surface.
         """
     def set_volume(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdVolVolume; fields are given by their names, files and the grids in the files.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, field_names, field_files, field_grids.
+        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, field_names, field_files, field_grids.
         """
     def warn(self, prim: str, input: str, message: str) -> None:
         """
@@ -438,6 +438,10 @@ def albedo_table() -> numpy.typing.NDArray[numpy.float32]:
     """
     The baked directional albedos, in the layout of shaders/lib/albedoTable.glsl.
     """
+def channels_of_aov(aov: str) -> str:
+    """
+    What names the channels of an AOV in files; ValueError says why there is no such AOV.
+    """
 def check_image_path(path: str, aovs: list[str] = []) -> None:
     """
     RuntimeError says early why an image could not be written.
@@ -497,6 +501,14 @@ def instruction_set() -> str:
 def light_inputs() -> list[typing.Any]:
     """
     Inputs that shape lights: (name in the schema, keyword of set_light(), float or bool).
+    """
+def light_path_accepts(expression: str, paths: list[list[tuple[str, str, str]]]) -> list[bool]:
+    """
+    Which paths fit a light path expression. A path is a list of events (type, scattering, label), such as [('C', 'x', ''), ('R', 'D', ''), ('L', 'x', 'key')]. ValueError says what is wrong with the expression, and where.
+    """
+def light_path_states(expression: str) -> int:
+    """
+    States of the smallest automaton of a light path expression.
     """
 def light_types() -> dict[str, typing.Any]:
     """

@@ -201,3 +201,22 @@ def test_ids_are_those_of_prims_and_instances(tmp_path, scene_index):
     nothing = hydraBuild.run_host(tmp_path / "stage.usda", "--camera", "/camera", "--pick", "50,50", "--size",
                                   "100x100", *outputs("primId", "instanceId"), "--json", "-", scene_index=scene_index)
     assert json.loads(nothing.stdout)["picks"][0]["path"] == ""
+
+
+@MODES
+def test_light_paths_and_groups(tmp_path, scene_index):
+    """A sun of a light group and one without on a wall: each has its part of the colour."""
+    suns = "".join(f'''def DistantLight "{name}"
+{{
+    float inputs:intensity = {intensity}
+    float inputs:angle = 0
+    {label}
+}}
+''' for name, intensity, label in (("key", 1.0, 'custom string inputs:ri:light:lightGroup = "key"'), ("other", 2.0, "")))
+    names = ("color", "diffuse", "specular", "lpe:C.*<L.'key'>", "lpe:C.*<L.[^'key']>")
+    channels, _ = render(tmp_path, STAGE + suns, *outputs(*names), "--set", "samples=64", scene_index=scene_index)
+    diffuse, specular, key, other = (channels[f"{name}.x"].mean() for name in names[1:])
+    total = channels["R"].mean()
+    assert total > 0.0 and diffuse + specular == pytest.approx(total, rel=1e-5)
+    assert key + other == pytest.approx(total, rel=1e-5)
+    assert key / total == pytest.approx(1.0 / 3.0, rel=0.05)  # 65536 choices between two lights: one standard error is 0.4 %

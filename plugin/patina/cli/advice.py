@@ -11,7 +11,7 @@ _ROWS = (
     # Back ends and drivers.
     (r"the path tracer renders instead|goes on without a first image",
      "install Mesa or a driver with OpenGL 4.5 and EGL (`PATINA_EGL_PLATFORM` chooses one), or ask for `--backend embree`"),
-    (r"driver does not take|shown with|primvars:… is left empty|clips by the first",
+    (r"follows no light paths|driver does not take|shown with|primvars:… is left empty|clips by the first",
      "a limit of the rasterizer or the driver; `--backend embree` has none"),
     (r"the image stays as it is", "install Open Image Denoise (`./patina` fetches pyoidn for `--denoise`)"),
     (r"start too far away, or have no direction", "look for transforms and points that are far too large, or no numbers"),

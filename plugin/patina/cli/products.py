@@ -121,9 +121,12 @@ def _aovs(prim, product):
             continue
         source = str(prim_value(var.GetAttribute("sourceName"), None) or "")
         aov = film_aov(source, prim_value(var.GetAttribute("sourceType"), None), _name_of(var))
-        problem = _problem_of(aov) if aov else f"'{source}' is no AOV"
+        if not aov:
+            prim.warn(target, "sourceName", f"'{source}' is no AOV; it is left out")
+            continue
+        problem = _problem_of(aov)
         if problem:
-            prim.warn(target, "sourceName", f"{problem}; it is left out")
+            prim.warn(target, "sourceName", f"the AOV is left out: {problem}")
             continue
         half = half or (aov == "color" and str(prim_value(var.GetAttribute("dataType"), None)) in _HALF)
         if aov not in names:

@@ -54,7 +54,7 @@ def text(context, prim, inherited, name):
         return value
     if _is_array(value) and len(value) == 1 and isinstance(value[0], str):
         return value[0]
-    context.warn(prim.GetPath(), "primvars:" + name, "is not one text; it is left out")
+    context.warn(prim.GetPath(), "primvars:" + name, "is not of type string; it is left out")
     return ""
 
 

@@ -18,8 +18,8 @@ struct Path {
     vec3 throughput{1.0f}, radiance{0.0f};
     float alpha = 0.0f;
     float coneWidth = 0.0f, coneSpread = 0.0f;
-    int depth = 0;       ///< bounces off surfaces so far
-    int scatterings = 0; ///< inside media
+    int depth = 0;             ///< bounces off surfaces so far
+    int scatterings = 0;       ///< inside media
     unsigned rays = RayCamera; ///< kind of the ray, of RayMask
     float caught = 0.0f; ///< alpha that a reflection catcher has where the ray meets something
 

@@ -153,7 +153,7 @@ def test_threads_and_parts_change_no_bit(tmp_path):
     record(stage, tmp_path / "many.exr", *flags, "--threads", 3)
     parts = [tmp_path / f"{i}.part" for i in (1, 2)]
     for i, part in enumerate(parts, 1):
-        record(stage, tmp_path / "merged.exr", *flags, "--part", f"{i}/2", "--partial", part)
+        record(stage, tmp_path / "merged.exr", *flags, "--part", f"{i}/1x2", "--partial", part)
     patina("merge", *parts, tmp_path / "merged.exr")
     import _patina
 

@@ -146,7 +146,8 @@ def methods():
 def aovs():
     from patina.cli import recordFlags, rows as tables
 
-    kinds = {"Mean": "mean of the samples", "First": "of the sample nearest the pixel's centre"}
+    kinds = {"Mean": "mean of the samples", "First": "of the sample nearest the pixel's centre",
+             "Coverage": "ids by their share of the samples"}
     counted = {"sampleCount": "count", "variance": "estimate"}
     table_rows = [row for row in tables.read("hdDelegate/film/aovs.def", "AOV") if row.values[0] not in ("primvars", "lpe")]
     # What the film makes, then means.
@@ -163,6 +164,16 @@ def aovs():
                  "`primvars:st`"))
     return ["# AOVs", "", "The table is `hdDelegate/film/aovs.def`. `color` and `alpha` are always written.", "",
             *table(("name", "components", "holds", "per pixel", "where nothing is", "in `--aov all`"), rows)]
+
+
+def marks():
+    from patina.cli import rows as tables
+
+    rows = [(f"`primvars:{row.text(0)}`", row.text(2)) for row in tables.read("hdDelegate/scene/primMarks.def", "MARK")]
+    return ["# Marks of prims", "", "Primvars that say which rays see a prim, and what mattes make of it. The table is",
+            "`hdDelegate/scene/primMarks.def`. Of several the lower ones are stronger. They are constant and inherited. [Visibility",
+            "and catchers](../design/pathTracer.md#visibility-mattes-and-catchers) has the meanings.", "",
+            *table(("primvar", "meaning"), rows)]
 
 
 def by_design():
@@ -191,7 +202,7 @@ def messages():
     return lines
 
 
-PAGES = {"nodes": nodes, "flags": flags, "methods": methods, "aovs": aovs, "byDesign": by_design, "messages": messages}
+PAGES = {"nodes": nodes, "flags": flags, "methods": methods, "aovs": aovs, "marks": marks, "byDesign": by_design, "messages": messages}
 NOTE = "<!-- Made by `./patina python testenv/generateDocs.py`; edits are lost. -->"
 
 

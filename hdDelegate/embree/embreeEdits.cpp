@@ -42,8 +42,7 @@ std::optional<std::vector<EmbreeScene::Work>> EmbreeScene::touchedWork(View& vie
         const bool draws = isDrawn(*prim, view.settings);
         const auto known = _surfaces.find(path);
         // Volumes are no surfaces: what is not drawn now may have been one.
-        if (prim->kind == GeometryKind::Volume ||
-            (known == _surfaces.end() && !_volumes.empty()) ||
+        if (prim->kind == GeometryKind::Volume || (known == _surfaces.end() && !_volumes.empty()) ||
             draws != (known != _surfaces.end()))
             return std::nullopt;
         if (!draws) continue;

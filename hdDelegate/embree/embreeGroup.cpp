@@ -194,8 +194,7 @@ void EmbreeGroup::attachSurface(RTCDevice device, const std::shared_ptr<Surface>
     RTCGeometry geometry = makeGeometry(device, *surface);
     if (!geometry) return;
     const bool free = id >= 0 && !records[size_t(id)];
-    SurfaceMember member{surface, surface->prim->visibility.mask(),
-                         free ? unsigned(id) : freeId()};
+    SurfaceMember member{surface, surface->prim->visibility.mask(), free ? unsigned(id) : freeId()};
     if (surface->shared)
         member.rayLimit = rayLimitOf([&](float time) { return surface->placeAt(time); },
                                      surface->places.size() > 1);

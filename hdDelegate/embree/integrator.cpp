@@ -274,9 +274,8 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
     while (true) {
         Hit hit;
         ++counters.rays;
-        const bool found =
-            _scene.intersect(path.origin, path.direction, path.near, path.far, path.time,
-                             path.rays, hit);
+        const bool found = _scene.intersect(path.origin, path.direction, path.near, path.far,
+                                            path.time, path.rays, hit);
         const float distance = found ? hit.distance : path.far;
         float end = distance;
         if (hasFiniteLights && _settings.enableSceneLights) end = addLightsAlong(path, distance);

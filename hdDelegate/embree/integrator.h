@@ -76,7 +76,8 @@ private:
     bool survivesRoulette(Path& path) const;
     void depart(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
                 const BsdfSample& next) const;
-    /// What the camera sees of a prim that is a matte or a catcher; the path may go on by reflection.
+    /// What the camera sees of a prim that is a matte or a catcher; the path may go on by
+    /// reflection.
     /// @returns false when it ends
     bool catchLight(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
                     TraceCounters& counters) const;

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-// Mattes, and catchers of shadows and reflections: what the camera sees of them is put over a picture
-// that shows them already.
+// Mattes, and catchers of shadows and reflections: what the camera sees of them is put over a
+// picture that shows them already.
 
 namespace patina {
 
@@ -42,14 +42,14 @@ float Integrator::shadowed(const Path& path, const SurfacePoint& point, const Hi
         if (path.sampler.random() * sum < weight) chosen = light;
     }
     if (!(sum > 0.0f)) return 0.0f;
-    const vec3 seen = visibility(path, path.media, point.departure(chosen.direction),
-                                 chosen.direction, chosen.distance, _lights.info(chosen.light),
-                                 counters);
+    const vec3 seen =
+        visibility(path, path.media, point.departure(chosen.direction), chosen.direction,
+                   chosen.distance, _lights.info(chosen.light), counters);
     return std::clamp(1.0f - luminance(seen), 0.0f, 1.0f);
 }
 
-bool Integrator::catchLight(Path& path, const SurfacePoint& point, const Hit& hit,
-                            const Bsdf& bsdf, TraceCounters& counters) const {
+bool Integrator::catchLight(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
+                            TraceCounters& counters) const {
     const Catching& catching = hit.surface->prim->catching;
     if (catching.matte) return false;
     float left = 1.0f; // of the picture behind

@@ -38,8 +38,7 @@ vec3 Integrator::transmittanceTo(const Path& path, float distance) const {
     vec3 left(1.0f);
     if (!path.media.empty()) left = transmittance(path.media.extinction(), distance);
     if (!_scene.volumes().empty())
-        left *= _scene.volumes().transmittance(path.origin, path.direction, distance,
-                                               path.rays,
+        left *= _scene.volumes().transmittance(path.origin, path.direction, distance, path.rays,
                                                path.sampler);
     return left;
 }
@@ -61,8 +60,8 @@ Integrator::Flight Integrator::fly(Path& path, float distance, TraceCounters& co
     vec3 through(1.0f);
     if (!_scene.volumes().empty()) {
         through = path.throughput;
-        collision = _scene.volumes().track(path.origin, path.direction, flight.distance,
-                                           path.rays, through, path.sampler);
+        collision = _scene.volumes().track(path.origin, path.direction, flight.distance, path.rays,
+                                           through, path.sampler);
         if (collision.emitted != vec3(0.0f)) {
             // It holds the throughput already.
             const vec3 before = path.throughput;

@@ -21,8 +21,8 @@ struct Path {
     float alpha = 0.0f;
     LightPathRecord* lightPaths = nullptr; ///< shares radiance out; null where no AOV asks
     float coneWidth = 0.0f, coneSpread = 0.0f;
-    int depth = 0;       ///< bounces off surfaces so far
-    int scatterings = 0; ///< inside media
+    int depth = 0;             ///< bounces off surfaces so far
+    int scatterings = 0;       ///< inside media
     unsigned rays = RayCamera; ///< kind of the ray, of RayMask
     float caught = 0.0f; ///< alpha that a reflection catcher has where the ray meets something
 

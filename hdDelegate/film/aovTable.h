@@ -8,9 +8,9 @@ namespace patina {
 
 /// How the samples of a pixel become one value.
 enum class AovKind {
-    Mean,  ///< average over the samples that were added (albedo)
-    First, ///< the sample nearest the pixel's centre: no mixing (depth, ids, position, normal,
-           ///< primvars)
+    Mean,     ///< average over the samples that were added (albedo)
+    First,    ///< the sample nearest the pixel's centre: no mixing (depth, ids, position, normal,
+              ///< primvars)
     Coverage, ///< ids with the share of the samples that met each (Cryptomatte)
 };
 
@@ -92,8 +92,8 @@ LightPathAovName lightPathAovOf(const std::string& aov);
 /// @returns what names the channels of an AOV: NAME of NAME=lpe:EXPR, else the AOV's own name
 std::string channelsOfAov(const std::string& aov);
 
-/// The name of the table's row that a render vars' source means by the name or by an alias; else the
-/// name itself.
+/// The name of the table's row that a render vars' source means by the name or by an alias; else
+/// the name itself.
 std::string aovNamed(const std::string& source);
 
 /// @returns AovId::unknown for a name that standardAov() does not take

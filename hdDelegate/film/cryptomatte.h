@@ -5,8 +5,9 @@
 
 namespace patina {
 
-// Ids and their coverage as OpenEXR files hold them: Cryptomatte, specification 1.2.0 (Psyop; Friedman
-// and Jones 2015, "Fully automatic ID mattes with support for motion blur and transparency").
+// Ids and their coverage as OpenEXR files hold them: Cryptomatte, specification 1.2.0 (Psyop;
+// Friedman and Jones 2015, "Fully automatic ID mattes with support for motion blur and
+// transparency").
 
 /// Components of a Cryptomatte AOV that keeps so many ids per pixel: pairs of id and coverage, two
 /// pairs a layer.

@@ -75,8 +75,8 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
         const int most = spec.kind == AovKind::Coverage ? cryptomatteComponents(16) : 16;
         if (spec.components < 1 || spec.components > most)
             throw std::invalid_argument("AOV " + spec.name + " has " +
-                                        std::to_string(spec.components) +
-                                        " components, not 1 to " + std::to_string(most));
+                                        std::to_string(spec.components) + " components, not 1 to " +
+                                        std::to_string(most));
     }
     bool same = width == _width && height == _height &&
                 std::equal(aovs.begin(), aovs.end(), _aovs.begin(), _aovs.end(), sameSpec);

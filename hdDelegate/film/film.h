@@ -39,8 +39,7 @@ AovSpec standardAov(const std::string& name);
 /// The specs of those that a renderer writes: all but the film's own.
 /// @param cryptomatteLevels ids per pixel that images hold, 1 to 16
 /// @throws std::invalid_argument naming an unknown AOV.
-std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names,
-                                  int cryptomatteLevels = 6);
+std::vector<AovSpec> renderedAovs(const std::vector<std::string>& names, int cryptomatteLevels = 6);
 
 /// Accumulates what a renderer finds. Row 0 is the top row. One thread writes one pixel at a time;
 /// different pixels may be written at once. Sums are kept in double and in a fixed order, span by
@@ -146,8 +145,8 @@ private:
         uint32_t reserved = 0;     ///< no padding: checkpoints hold the bytes
     };
     /// Means keep components sums of closed spans, as many of the open one, and their count; the
-    /// First ones components values and the distance of the sample, and Coverage a cell. Only the vector of the AOV's kind
-    /// is filled.
+    /// First ones components values and the distance of the sample, and Coverage a cell. Only the
+    /// vector of the AOV's kind is filled.
     struct Plane {
         std::vector<double> sums;
         std::vector<float> nearest;

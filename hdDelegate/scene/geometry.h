@@ -37,9 +37,9 @@ struct Visibility {
 
     static Visibility all(bool seen) { return {seen, seen, seen, seen, seen, seen}; }
     unsigned mask() const { ///< of RayMask
-        return (camera ? RayCamera : 0u) | (diffuse ? RayDiffuse : 0u) |
-               (shadow ? RayShadow : 0u) | (specular ? RaySpecular : 0u) |
-               (transmission ? RayTransmission : 0u) | (volume ? RayVolume : 0u);
+        return (camera ? RayCamera : 0u) | (diffuse ? RayDiffuse : 0u) | (shadow ? RayShadow : 0u) |
+               (specular ? RaySpecular : 0u) | (transmission ? RayTransmission : 0u) |
+               (volume ? RayVolume : 0u);
     }
     bool sees(unsigned rays) const { return (mask() & rays) != 0; }
 };

@@ -9,8 +9,18 @@ namespace patina {
 
 namespace {
 
-enum class MarkKind { Rays, Matte, Shadows, Reflections, ArnoldMask, KarmaRays, KarmaHoldout,
-                      MatteName, AssetName, NotRead };
+enum class MarkKind {
+    Rays,
+    Matte,
+    Shadows,
+    Reflections,
+    ArnoldMask,
+    KarmaRays,
+    KarmaHoldout,
+    MatteName,
+    AssetName,
+    NotRead
+};
 
 struct MarkRow {
     const char* name;
@@ -60,9 +70,9 @@ unsigned raysOfArnold(unsigned bits) {
 
 bool raysOfKarmaWord(const std::string& word, unsigned& rays) {
     static const std::map<std::string, unsigned> words = {
-        {"*", RayAny},         {"primary", RayCamera},       {"camera", RayCamera},
-        {"diffuse", RayDiffuse}, {"reflect", RaySpecular},   {"refract", RayTransmission},
-        {"shadow", RayShadow}, {"volume", RayVolume}};
+        {"*", RayAny},           {"primary", RayCamera},   {"camera", RayCamera},
+        {"diffuse", RayDiffuse}, {"reflect", RaySpecular}, {"refract", RayTransmission},
+        {"shadow", RayShadow},   {"volume", RayVolume}};
     const auto found = words.find(word);
     if (found == words.end()) return false;
     rays = found->second;

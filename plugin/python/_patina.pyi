@@ -522,6 +522,10 @@ def make_renderer(backend: str = 'embree') -> Renderer:
     """
     A renderer of the back end embree, raster, interactive or auto; ValueError for another name. Where raster cannot run, the path tracer renders instead, with a warning.
     """
+def mark_names() -> list[str]:
+    """
+    Primvars, without 'primvars:', that say which rays see a prim and what mattes make of it.
+    """
 def measure_methods(point: str = '', timed: bool = True) -> list[typing.Any]:
     """
     Measures the methods of a choice point, or of all, here and now, on one thread.

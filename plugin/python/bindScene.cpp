@@ -137,7 +137,8 @@ void bindScene(py::module_& m) {
     py::class_<PythonEdit> edit(m, "SceneEdit", "A batch of changes to a scene.");
     bindSceneGeometry(edit);
     m.def("mark_names", &markNames,
-          "Primvars, without 'primvars:', that say which rays see a prim and what mattes make of it.");
+          "Primvars, without 'primvars:', that say which rays see a prim and what mattes make of "
+          "it.");
     m.def(
         "light_types",
         [] {

@@ -11,11 +11,11 @@ namespace patina {
 
 /// Where one pass samples, the same in every pixel, and what of a sample goes to other pixels.
 struct RasterSample {
-    uint32_t pass = 0;                             ///< number of its samples
-    uint32_t taken = 1;                            ///< how many passes there are with this one
-    glm::vec2 offset{0.0f}, lens{0.0f};            ///< as of RasterCamera::view()
+    uint32_t pass = 0;                  ///< number of its samples
+    uint32_t taken = 1;                 ///< how many passes there are with this one
+    glm::vec2 offset{0.0f}, lens{0.0f}; ///< as of RasterCamera::view()
     glm::vec2 beside{0.0f}; ///< an offset by the filter's density alone, for what is not splatted
-    float time = 0.5f;                             ///< in [0,1) over the shutter
+    float time = 0.5f;      ///< in [0,1) over the shutter
     std::vector<float> splatX{1.0f}, splatY{1.0f}; ///< of PixelFilter::splatWeights()
 
     /// Pixels around the image that are drawn for the sake of those within.

@@ -84,10 +84,10 @@ void RasterPasses::fillAovTarget(const RasterScene& scene, const RasterView& vie
 }
 
 void RasterPasses::drawMattes(const RasterScene& scene, const RasterMattes& mattes,
-                              const RasterCamera& camera, const RasterSample& sample,
-                              uint32_t seed, Film& film) {
-    const RasterView view = camera.view(sample.beside, sample.lens, sample.time,
-                                        scene.boundsMin(), scene.boundsMax());
+                              const RasterCamera& camera, const RasterSample& sample, uint32_t seed,
+                              Film& film) {
+    const RasterView view =
+        camera.view(sample.beside, sample.lens, sample.time, scene.boundsMin(), scene.boundsMax());
     PassBlock b = block(scene, view);
     b.counts[2] = int(sample.pass);
     b.counts[3] = int(seed);

@@ -24,6 +24,17 @@ bool isDrawnInRaster(const Geometry& prim, const RenderSettings& settings) {
     return prim.visibility.camera && isDrawn(prim, settings);
 }
 
+const char* notShownInRaster(const Geometry& prim) {
+    const Visibility& v = prim.visibility;
+    if (!v.camera)
+        return v.shadow ? "is hidden from the camera: the rasterizer draws no shadow of it either"
+                        : nullptr;
+    if (prim.catching.any()) return "mattes and catchers are shown as they are by the rasterizer";
+    return (v.mask() & RayIndirect) == RayIndirect
+               ? nullptr
+               : "rays that scattered are not told apart by the rasterizer";
+}
+
 RasterInstances::RasterInstances(std::shared_ptr<const Placements> placements, float timeCode,
                                  const vec3& origin)
     : _placements(std::move(placements)), _time(timeCode), _origin(origin) {
@@ -45,8 +56,7 @@ const std::vector<RasterPlace>& RasterInstances::places(const std::string& group
             place.id = own;
         else if (prototype < instancer.idCounts.size())
             place.id += own * instancer.idCounts[prototype];
-        place.steps.insert(place.steps.begin(),
-                           {_placements->valuesOf(instancer).get(), int(i)});
+        place.steps.insert(place.steps.begin(), {_placements->valuesOf(instancer).get(), int(i)});
         if (i < instancer.categories.size())
             place.categories.insert(place.categories.end(), instancer.categories[i].begin(),
                                     instancer.categories[i].end());

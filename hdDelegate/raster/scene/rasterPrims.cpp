@@ -154,8 +154,8 @@ bool RasterScene::readsInstances(const RasterDraw& draw) const {
     const std::vector<std::string>& names = draw.material->primvars;
     bool reads = false;
     for (size_t i = 0; i < names.size(); ++i)
-        reads |= (draw.surface->primvarBits & (1 << i)) == 0 &&
-                 _parts.placements->haveValue(names[i]);
+        reads |=
+            (draw.surface->primvarBits & (1 << i)) == 0 && _parts.placements->haveValue(names[i]);
     return reads && !draw.prim->group.empty();
 }
 
@@ -211,8 +211,7 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
                 for (const uint32_t i : group.places)
                     _emitters.add(group.shape->mesh, subset, draw.material->program, draw.meshLight,
                                   mat4(places[i].groupToWorld * toGroup), lit,
-                                  (draw.flags & RasterShape::tube) != 0, _origin,
-                                  places[i].steps);
+                                  (draw.flags & RasterShape::tube) != 0, _origin, places[i].steps);
             draw.subset = int(subset);
             draw.show(*group.shape);
             if (draw.surface->triangles == 0) continue;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/scene/rasterScene.h"
 
+#include "hdDelegate/compiled/drawFilter.h"
+
 #include "hdDelegate/scene/instancerCheck.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "hdDelegate/scene/primCompare.h"
@@ -17,6 +19,8 @@ void RasterScene::prepareMaterials(const SceneState& state, const RenderSettings
                                    RasterInstances& places) {
     for (const auto& item : state.geometry) {
         const Geometry& prim = *item.second;
+        const char* problem = isDrawn(prim, settings) ? notShownInRaster(prim) : nullptr;
+        if (problem) _diagnostics.warn(prim.path, "primvars", problem);
         if (prim.kind == GeometryKind::Volume || !isDrawnInRaster(prim, settings) ||
             places.places(prim.group).empty())
             continue;

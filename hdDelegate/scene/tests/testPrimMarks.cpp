@@ -29,8 +29,7 @@ TEST(PrimMarks, EveryRendererHidesFromTheRaysThatItNames) {
     EXPECT_EQ(Marked({{"arnold:visibility:camera", 0.0}}).rays(), RayAny & ~RayCamera);
     EXPECT_EQ(Marked({{"arnold:visibility:specular_reflect", 0.0}}).rays(), RayAny & ~RaySpecular);
     EXPECT_EQ(Marked({{"arnold:visibility", 255.0 - 2.0}}).rays(), RayAny & ~RayShadow);
-    EXPECT_EQ(Marked({{"ri:attributes:visibility:transmission", 0.0}}).rays(),
-              RayAny & ~RayShadow);
+    EXPECT_EQ(Marked({{"ri:attributes:visibility:transmission", 0.0}}).rays(), RayAny & ~RayShadow);
     EXPECT_EQ(Marked({{"ri:attributes:visibility:indirect", 0.0}}).rays(), RayAny & ~RayIndirect);
     EXPECT_EQ(Marked({{"patina:visibility:volume", 0.0}}).rays(), RayAny & ~RayVolume);
 }
@@ -42,17 +41,16 @@ TEST(PrimMarks, KarmaHasExpressions) {
     EXPECT_EQ(karma("primary"), unsigned(RayCamera));
     EXPECT_EQ(karma("primary|shadow"), unsigned(RayCamera | RayShadow));
     EXPECT_EQ(karma("-primary"), RayAny & ~RayCamera);
-    EXPECT_EQ(karma("-diffuse & -reflect & -refract"),
-              unsigned(RayCamera | RayShadow | RayVolume));
+    EXPECT_EQ(karma("-diffuse & -reflect & -refract"), unsigned(RayCamera | RayShadow | RayVolume));
     EXPECT_EQ(karma("* ^shadow"), RayAny & ~RayShadow);
 }
 
 TEST(PrimMarks, LaterRowsAreStronger) {
     EXPECT_EQ(Marked({{"arnold:visibility:camera", 0.0}, {"patina:visibility:camera", 1.0}}).rays(),
               unsigned(RayAny));
-    EXPECT_EQ(Marked({{"patina:visibility:indirect", 0.0}, {"patina:visibility:diffuse", 1.0}})
-                  .rays(),
-              unsigned(RayCamera | RayShadow | RayDiffuse));
+    EXPECT_EQ(
+        Marked({{"patina:visibility:indirect", 0.0}, {"patina:visibility:diffuse", 1.0}}).rays(),
+        unsigned(RayCamera | RayShadow | RayDiffuse));
 }
 
 TEST(PrimMarks, MattesAndCatchers) {

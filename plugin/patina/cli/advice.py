@@ -11,13 +11,14 @@ _ROWS = (
     # Back ends and drivers.
     (r"the path tracer renders instead|goes on without a first image",
      "install Mesa or a driver with OpenGL 4.5 and EGL (`PATINA_EGL_PLATFORM` chooses one), or ask for `--backend embree`"),
-    (r"follows no light paths|driver does not take|shown with|primvars:… is left empty|clips by the first",
+    (r"follows no light paths|driver does not take|shown with|primvars:… is left empty|clips by the first|by the rasterizer$|draws no shadow",
      "a limit of the rasterizer or the driver; `--backend embree` has none"),
     (r"the image stays as it is", "install Open Image Denoise (`./patina` fetches pyoidn for `--denoise`)"),
     (r"start too far away, or have no direction", "look for transforms and points that are far too large, or no numbers"),
     # Inputs.
     (r"has no such input|no such input|such an input|has no output|no such output|has no input|does not exist; the default",
      "spell the name as the node's definition does; `patina explain` lists the inputs that there are"),
+    (r"means nothing here|these rays see the prim", "docs/generated/marks.md lists the primvars and the values that they take"),
     # Files and textures.
     (r"names no file|names no IES file|no file is given", "set the asset path, or disconnect the node"),
     (r"has nothing for|magenta|emits the same everywhere|not shaped by it|card is plain",

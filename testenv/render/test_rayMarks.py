@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which rays see a prim, mattes, and catchers of shadows and reflections, against stages without the prim and closed forms."""
+import numpy as np
+import pytest
+
+from inProcess import without_opengl
+from usdaText import render_text
+
+SIZE = 32
+CAMERA = """
+def Camera "camera"
+{
+    token projection = "orthographic"
+    float horizontalAperture = 40
+    float verticalAperture = 40
+    float2 clippingRange = (0.1, 100)
+    double3 xformOp:translate = (0, 0, 10)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+"""
+SUN = """
+def DistantLight "sun"
+{
+    float inputs:angle = 0
+    float inputs:intensity = 2
+    double3 xformOp:rotateXYZ = (0, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
+}
+"""
+DOME = 'def DomeLight "sky"\n{\n    float inputs:intensity = 0.7\n}\n'
+MIRROR = """
+def Material "mirror"
+{
+    token outputs:surface.connect = </mirror/s.outputs:surface>
+    def Shader "s"
+    {
+        uniform token info:id = "UsdPreviewSurface"
+        int inputs:useSpecularWorkflow = 1
+        color3f inputs:specularColor = (1, 1, 1)
+        color3f inputs:diffuseColor = (0, 0, 0)
+        float inputs:roughness = 0
+        token outputs:surface
+    }
+}
+"""
+
+
+def quad(name, z=0.0, x=(-9.0, 9.0), y=(-9.0, 9.0), marks="", color=(0.5, 0.5, 0.5), more=""):
+    corners = ", ".join(f"({a}, {b}, {z})" for a, b in ((x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])))
+    return f"""
+def Mesh "{name}" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
+{{
+    point3f[] points = [{corners}]
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    uniform token subdivisionScheme = "none"
+    color3f[] primvars:displayColor = [{color}]
+    {marks}
+    {more}
+}}
+"""
+
+
+def render(text, aovs=("color", "alpha"), samples=4, depth=1, **settings):
+    """:param depth: bounces; of 1 there is no light between prims"""
+    found, warnings, _ = render_text(CAMERA + text, aovs=aovs, width=SIZE, height=SIZE, samples=samples, maxDepth=depth,
+                                     rouletteDepth=4096, filterRadius=0.5, **settings)
+    assert not warnings, warnings
+    return found
+
+
+CARD = {"x": (-1.0, 1.0), "y": (-1.0, 1.0)}
+# Half of the image's side is 2 units: the card covers its middle half.
+MIDDLE = np.zeros((SIZE, SIZE), bool)
+MIDDLE[SIZE // 4:-SIZE // 4, SIZE // 4:-SIZE // 4] = True
+
+
+@pytest.mark.parametrize("mark", [
+    "bool primvars:patina:visibility:camera = 0", "bool primvars:arnold:visibility:camera = 0",
+    'string primvars:karma:object:rendervisibility = "-primary"', "int primvars:ri:attributes:visibility:camera = 0"])
+def test_what_the_camera_does_not_see_keeps_its_shadow(mark):
+    floor = quad("floor")
+    lit = render(floor + SUN)["color"]
+    seen = render(floor + SUN + quad("card", 2.0, marks=mark, **CARD))["color"]
+    assert lit.min() > 0.1
+    assert np.allclose(seen[~MIDDLE], lit[~MIDDLE], rtol=1e-6)
+    assert (seen[MIDDLE] == 0.0).all()  # the card's shadow; the sun is no disk
+
+
+@pytest.mark.parametrize("mark", [
+    "bool primvars:patina:visibility:shadow = 0", "bool primvars:arnold:visibility:shadow = 0",
+    'string primvars:karma:object:rendervisibility = "-shadow"', "int primvars:ri:attributes:visibility:transmission = 0"])
+def test_what_casts_no_shadow_leaves_the_floor_lit(mark, backend="embree"):
+    # From the side, so that the card is seen beside its shadow.
+    sun = SUN.replace("(0, 0, 0)", "(0, -45, 0)")
+    floor, card = quad("floor"), quad("card", 1.0, x=(-1.9, -1.0), y=(-1.0, 1.0), marks=mark)
+    lit = render(floor + sun, backend=backend)["color"]
+    seen = render(floor + card + sun, backend=backend)["color"]
+    beside = np.zeros((SIZE, SIZE), bool)
+    beside[:, SIZE // 4 + 1:] = True
+    assert np.allclose(seen[beside], lit[beside], rtol=1e-5)
+    shadowed = render(floor + card.replace(mark, "") + sun, backend=backend)["color"]
+    assert not np.allclose(shadowed, seen, rtol=1e-2), "there is a shadow without the mark"
+
+
+def test_the_rasterizer_shows_no_shadow_either():
+    if without_opengl():
+        pytest.skip(without_opengl())
+    test_what_casts_no_shadow_leaves_the_floor_lit("bool primvars:patina:visibility:shadow = 0", "raster")
+
+
+def test_marks_are_inherited():
+    text = quad("floor") + SUN + 'def Xform "set"\n{\n    bool primvars:patina:visibility:shadow = 0\n' + quad("card", 1.0, **CARD) + "}\n"
+    plain = quad("floor") + SUN + quad("card", 1.0, marks="bool primvars:patina:visibility:shadow = 0", **CARD)
+    assert np.array_equal(render(text)["color"], render(plain)["color"])
+
+
+@pytest.mark.parametrize("kind, seen", [("diffuse", True), ("specular", False), ("transmission", True)])
+def test_a_mirror_shows_what_specular_rays_see(kind, seen):
+    """A black card behind the camera stands before the sky that the mirror shows else."""
+    back = quad("back", 20.0, marks=f"bool primvars:patina:visibility:{kind} = 0", color=(0.0, 0.0, 0.0))
+    image = render(quad("mirror_quad", more="rel material:binding = </mirror>") + MIRROR + DOME + back, depth=2)["color"]
+    assert (image.mean() < 0.35) == seen  # half of the sky's radiance
+
+
+@pytest.mark.parametrize("mark", ["bool primvars:patina:matte = 1", "bool primvars:patina:holdout = 1", "bool primvars:arnold:matte = 1",
+                                  "int primvars:ri:attributes:Ri:Matte = 1", "int primvars:karma:object:holdoutmode = 1"])
+def test_a_matte_is_a_hole_in_the_picture(mark):
+    plain = render(quad("floor") + SUN)
+    held = render(quad("floor") + SUN + quad("card", 1.0, marks=mark, **CARD))
+    for name in ("color", "alpha"):
+        assert (held[name][MIDDLE] == 0.0).all()
+        assert np.array_equal(held[name][~MIDDLE], plain[name][~MIDDLE])
+
+
+def test_a_matte_is_seen_in_mirrors_as_it_is():
+    text = quad("mirror_quad", more="rel material:binding = </mirror>") + MIRROR + DOME
+    plain = render(text + quad("back", 20.0), depth=2)["color"]
+    matte = render(text + quad("back", 20.0, marks="bool primvars:patina:matte = 1"), depth=2)["color"]
+    assert plain.mean() > 0.1
+    assert np.array_equal(matte, plain)
+
+
+def test_a_shadow_catcher_is_as_opaque_as_its_light_is_missing():
+    """A point of the floor in the card's umbra has alpha 1, one beside it 0; black everywhere."""
+    caught = render(quad("floor", marks="bool primvars:patina:shadowCatcher = 1") + SUN +
+                    quad("card", 1.0, marks="bool primvars:patina:visibility:camera = 0", **CARD))
+    assert (caught["color"] == 0.0).all()
+    assert (caught["alpha"][MIDDLE] == 1.0).all()
+    assert (caught["alpha"][~MIDDLE] == 0.0).all()
+
+
+def test_a_shadow_catcher_weighs_lights_by_what_they_give():
+    """Two suns of intensities 3 and 1 from above, one of which the card does not shadow: alpha is 3/4 or 1/4 there."""
+    one = SUN.replace("= 2", "= 3").replace('"sun"', '"one"')
+    other = SUN.replace("= 2", "= 1").replace('"sun"', '"other"').replace(
+        "float inputs:angle", "bool inputs:shadow:enable = 0\n    float inputs:angle").replace(
+        'def DistantLight "other"', 'def DistantLight "other" (\n    prepend apiSchemas = ["ShadowAPI"]\n)')
+    samples = 256
+    caught = render(quad("floor", marks="bool primvars:patina:shadowCatcher = 1") + one + other +
+                    quad("card", 1.0, marks="bool primvars:patina:visibility:camera = 0", **CARD), samples=samples)
+    inside = caught["alpha"][MIDDLE]
+    # Samples are 0 or 1 with mean 3/4. The choice among 16 candidates has a bias below 1/16; 5 standard errors of all pixels.
+    assert abs(inside.mean() - 0.75) < 1.0 / 16.0 + 5.0 * np.sqrt(0.75 * 0.25 / (inside.size * samples))
+
+
+def test_a_reflection_catcher_is_opaque_where_it_mirrors_a_prim():
+    """The card behind the camera covers the middle of the mirror, whose reflectance is 1."""
+    mirror = quad("mirror_quad", more="rel material:binding = </mirror>", marks="bool primvars:patina:reflectionCatcher = 1")
+    back = quad("back", 20.0, **CARD)
+    caught = render(mirror + MIRROR + DOME + back, samples=64, depth=2)
+    plain = render(mirror.replace("reflectionCatcher = 1", "reflectionCatcher = 0") + MIRROR + DOME + back, samples=64, depth=2)
+    assert np.allclose(caught["alpha"][MIDDLE], 1.0, atol=1e-5)
+    assert (caught["alpha"][~MIDDLE] == 0.0).all() and (caught["color"][~MIDDLE] == 0.0).all()
+    a, b = (image["color"][MIDDLE][:, 0] for image in (caught, plain))
+    assert abs(a.mean() - b.mean()) < 5.0 * np.sqrt((a.var() + b.var()) / a.size)  # five standard errors: 6e-7

@@ -59,7 +59,7 @@ class _Job:
         self.statistics = statistics.Statistics(arguments)
         self.snapshots = snapshots.Snapshots(arguments.snapshot)
         self.interrupted = False
-        self.reported = {}  # causes of warnings that were shown ...
+        self.shown_causes = {}  # causes of warnings that were shown ...
         self.reported = 0  # ... and how many warnings there were then
         self._read = None  # (frame, camera, what was read) of the scene
 
@@ -270,7 +270,7 @@ class _Job:
     def _report(self, warnings, last=False):
         fresh, self.reported = len(warnings) != self.reported, len(warnings)
         if not self.arguments.quiet and (fresh or last):
-            self._say_all(statistics.Causes(warnings).lines(self.reported, last))
+            self._say_all(statistics.Causes(warnings).lines(self.shown_causes, last))
 
     def _say_all(self, lines):
         for text in lines:

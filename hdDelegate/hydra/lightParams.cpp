@@ -124,6 +124,8 @@ void readNetwork(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const Sd
     if (found == map.map.end() || found->second.nodes.empty()) return;
     const HdMaterialNetwork& network = found->second;
     const HdMaterialNode& node = network.nodes.back();
+    const auto group = node.parameters.find(TfToken("ri:light:lightGroup"));
+    if (group != node.parameters.end()) light.lightGroup = textOf(group->second);
     convertColor(node, "color", param, id, light.color);
     convertColor(node, "shadow:color", param, id, light.shadowColor);
     convertColor(node, "shaping:focusTint", param, id, light.shapingFocusTint);
@@ -136,6 +138,15 @@ void readNetwork(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const Sd
             param.warn(id, "inputs:" + relation.outputName.GetString(),
                        "is connected to " + relation.inputId.GetString() +
                            ", which is not evaluated for lights; its own value is used");
+}
+
+/// Hosts differ in the name by which they give what is no input of UsdLux.
+void readLightGroup(HdSceneDelegate& delegate, const Params& p, const SdfPath& id, Light& light) {
+    for (const char* name :
+         {"inputs:ri:light:lightGroup", "ri:light:lightGroup", "lightGroup", "primvars:lightGroup"})
+        if (light.lightGroup.empty()) p.text(name, light.lightGroup);
+    if (light.lightGroup.empty())
+        light.lightGroup = textOf(delegate.Get(id, TfToken("lightGroup")));
 }
 
 } // namespace
@@ -171,12 +182,10 @@ void readLightParams(HdSceneDelegate& delegate, HdPatinaRenderParam& param, cons
         p.text("materialSyncMode", light.materialSyncMode);
     }
     light.lightLink = textOf(delegate.GetLightParamValue(id, HdTokens->lightLink));
-    p.text("ri:light:lightGroup", light.lightGroup);
-    if (light.lightGroup.empty()) p.text("lightGroup", light.lightGroup);
-    if (light.lightGroup.empty()) p.text("primvars:lightGroup", light.lightGroup);
     light.shadowLink = textOf(delegate.GetLightParamValue(id, HdTokens->shadowLink));
 
     readNetwork(delegate, param, id, light);
+    readLightGroup(delegate, p, id, light);
     const VtValue filters = delegate.GetLightParamValue(id, HdTokens->filters);
     if (filters.IsHolding<SdfPathVector>() && !filters.UncheckedGet<SdfPathVector>().empty())
         param.warn(id, "light:filters", "light filters are not applied");

@@ -205,15 +205,15 @@ def test_ids_are_those_of_prims_and_instances(tmp_path, scene_index):
 
 @MODES
 def test_light_paths_and_groups(tmp_path, scene_index):
-    """A sun of a light group and one without on a wall: each has its part of the colour."""
+    """Two suns, each of a light group, on a wall: each has its part of the colour."""
     suns = "".join(f'''def DistantLight "{name}"
 {{
     float inputs:intensity = {intensity}
     float inputs:angle = 0
     {label}
 }}
-''' for name, intensity, label in (("key", 1.0, 'custom string inputs:ri:light:lightGroup = "key"'), ("other", 2.0, "")))
-    names = ("color", "diffuse", "specular", "lpe:C.*<L.'key'>", "lpe:C.*<L.[^'key']>")
+''' for name, intensity, label in (("key", 1.0, 'custom string inputs:ri:light:lightGroup = "key"'), ("fill", 2.0, 'custom string primvars:lightGroup = "fill"')))
+    names = ("color", "diffuse", "specular", "lpe:C.*<L.'key'>", "lpe:C.*<L.'fill'>")
     channels, _ = render(tmp_path, STAGE + suns, *outputs(*names), "--set", "samples=64", scene_index=scene_index)
     diffuse, specular, key, other = (channels[f"{name}.x"].mean() for name in names[1:])
     total = channels["R"].mean()

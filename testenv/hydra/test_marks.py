@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Marks of prims through Hydra: the text of the scene has what each says, and Cryptomatte is a product of the stage."""
+import pytest
+
+import stages
+from test_oneTruth import MODES, render_with_hydra
+
+STAGE = """#usda 1.0
+def Camera "camera"
+{
+    double3 xformOp:translate = (0, 0, 10)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}
+def Sphere "arnold"
+{
+    bool primvars:arnold:visibility:camera = 0
+}
+def Sphere "karma"
+{
+    string primvars:karma:object:rendervisibility = "-shadow"
+}
+def Sphere "renderMan"
+{
+    int primvars:ri:attributes:Ri:Matte = 1
+}
+def Xform "set"
+{
+    bool primvars:patina:shadowCatcher = 1
+    string primvars:patina:cryptoObject = "ground"
+    def Cube "floor"
+    {
+    }
+}
+"""
+
+
+def block(text, path):
+    """:returns: the lines of a prim in a dump"""
+    lines, found = text.splitlines(), []
+    start = next(i for i, line in enumerate(lines) if line.endswith(" " + path) and not line.startswith(" "))
+    for line in lines[start + 1:]:
+        if not line.startswith(" "):
+            break
+        found.append(line.strip())
+    return found
+
+
+@MODES
+@pytest.mark.parametrize("path, said", [
+    ("/arnold", ["visibility camera = false"]), ("/karma", ["visibility shadow = false"]), ("/renderMan", ["matte = true"]),
+    ("/set/floor", ["catches shadows = true", 'matteName = "ground"'])])
+def test_marks_are_read(tmp_path, scene_index, path, said):
+    stage = tmp_path / "marks.usda"
+    stage.write_text(STAGE)
+    shot = stages.Shot(str(stage), tmp_path, width=8)
+    _, text = render_with_hydra(shot, tmp_path, scene_index)
+    for dump in (text, shot.scene.dump()):
+        for line in said:
+            assert line in block(dump, path), dump

@@ -94,7 +94,7 @@ def test_cameras_and_prims_without_a_usable_transform(read):
     assert any(w.startswith("/nan xformOpOrder:") for w in reading.warnings)
 
 
-@pytest.mark.parametrize("projection, told", [("perspective", False), ("orthographic", False), ("fisheye", True)])
+@pytest.mark.parametrize("projection, reported", [("perspective", False), ("orthographic", False), ("fisheye", True)])
 def test_a_projection_that_is_not_known_is_told(read, projection, reported):
     reading = read(f'def Camera "c" {{ token projection = "{projection}" }}')
     assert (reading.prim("/c").get("orthographic") == "true") == (projection == "orthographic")

@@ -6,7 +6,7 @@ import os
 import tempfile
 
 import generated
-import kept
+import keptFindings
 import native
 from fuzzers import FUZZERS
 
@@ -64,7 +64,7 @@ def run(names, seconds, seed, corpus, findings, build, say=print):
                 continue
             say(_line(name, results[name]))
             for finding in results[name]["findings"]:
-                say(f"  saved {kept.save(findings, name, _extension(name), finding)}")
+                say(f"  saved {keptFindings.save(findings, name, _extension(name), finding)}")
     return results
 
 

@@ -13,13 +13,13 @@ pytest.importorskip("_patina")
 pytest.importorskip("pxr.Usd")
 
 import generated  # noqa: E402
-import kept  # noqa: E402
+import keptFindings  # noqa: E402
 import outcomes  # noqa: E402
 import shrink  # noqa: E402
 from fuzzers import FUZZERS  # noqa: E402
 
 GENERATED = [name for name, fuzzer in FUZZERS.items() if fuzzer.kind == "generated"]
-KEPT = [(name, path) for name in GENERATED for path in kept.corpus(name)]
+KEPT = [(name, path) for name in GENERATED for path in keptFindings.corpus(name)]
 
 
 @pytest.fixture(scope="module")
@@ -90,12 +90,12 @@ def test_inputs_shrink():
 def test_a_finding_becomes_a_test(tmp_path, monkeypatch):
     monkeypatch.setattr(kept, "CORPUS", str(tmp_path / "corpus"))
     os.makedirs(tmp_path / "corpus" / "stages")
-    path = kept.save(str(tmp_path / "found"), "stages", ".usda", ("crash", "signal 11", b"#usda 1.0\n", "words"))
-    assert kept.keep(path, "smallCrash") == kept.corpus("stages")[0]
+    path = keptFindings.save(str(tmp_path / "found"), "stages", ".usda", ("crash", "signal 11", b"#usda 1.0\n", "words"))
+    assert keptFindings.keep(path, "smallCrash") == keptFindings.corpus("stages")[0]
     for file, name in ((path, "smallCrash"), (path, "no name"), (str(tmp_path / "other"), "a")):
         with pytest.raises(ValueError):
-            kept.keep(file, name)
+            keptFindings.keep(file, name)
 
 
 def test_every_fuzzer_has_a_corpus():
-    assert {name for name in FUZZERS if kept.corpus(name)} == set(FUZZERS)
+    assert {name for name in FUZZERS if keptFindings.corpus(name)} == set(FUZZERS)

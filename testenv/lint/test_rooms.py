@@ -67,6 +67,8 @@ def test_every_include_is_an_arrow_of_the_table_and_every_arrow_is_there():
     met = {name: set() for name in known}
     for path, target in includes():
         source, to = room_of(path, known), room_of(target, known)
+        if path.startswith("testenv/fuzz/targets/"):  # as tests, they may look into any room
+            continue
         if path.startswith("testenv/"):  # hosts of the plugin, which know it through OpenUSD alone
             assert to is None, f"{path} includes {target}"
             continue

@@ -40,7 +40,7 @@ def run(arguments):
         raise UsageError("patina fuzz: --seed is 0 or more, and --seconds above 0")
     sys.path.insert(0, folder)
     import fuzzRun
-    import kept
+    import keptFindings
 
     if arguments.list:
         print("\n".join(fuzzRun.listing()))
@@ -49,7 +49,7 @@ def run(arguments):
         if len(arguments.names) != 1:
             raise UsageError("patina fuzz: --keep FINDING takes one NAME")
         try:
-            print(kept.keep(arguments.keep, arguments.names[0]))
+            print(keptFindings.keep(arguments.keep, arguments.names[0]))
         except (OSError, ValueError) as error:
             raise CommandError(f"--keep: {error}") from None
         return 0

@@ -35,8 +35,9 @@ const char* failNthWhich(void) {
 }
 
 static int counts(const char* path, const char* name) {
-    if (!failAt || !path || strncmp(path, folder, strlen(folder)) != 0 || ++count != failAt)
-        return 0;
+    if (!failAt || !path || strncmp(path, folder, strlen(folder)) != 0) return 0;
+    if (strlen(trace) + strlen(name) + 2 < sizeof trace) strcat(strcat(trace, name), "\n");
+    if (++count != failAt) return 0;
     strcpy(failed, name);
     errno = problem;
     return 1;

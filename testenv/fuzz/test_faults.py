@@ -44,8 +44,7 @@ def told(library, tmp_path, outputs, number):
 @pytest.mark.parametrize("outputs, functions", [
     (("OUT/a.png",), {"open", "fsync", "rename"}),
     (("OUT/a.exr", "--keepCheckpoint"), {"open", "fwrite", "fflush", "fclose", "fsync", "rename"}),
-    (("--part", "1/2", "--partial", "OUT/a.part"), {"open", "fwrite", "fflush", "fclose", "fsync", "rename"}),
-], ids=("png", "checkpoint", "part"))
+], ids=("png", "checkpoint"))
 def test_a_call_that_fails_loses_nothing(outputs, functions, library, tmp_path):
     runs = told(library, tmp_path, outputs, errno.ENOSPC)
     *failing, last = runs

@@ -75,22 +75,22 @@ class SceneEdit:
     def set_curves(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomBasisCurves; keywords are the fields of Curves.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points, curve_vertex_counts, basis, wrap.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, points, curve_vertex_counts, basis, wrap.
         """
     def set_hermite_curves(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomHermiteCurves, as Bezier curves.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points, tangents, curve_vertex_counts.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, points, tangents, curve_vertex_counts.
         """
     def set_implicit(self, path: str, **kwargs: typing.Any) -> None:
         """
         Sphere, cube, cone, cylinder, capsule or plane.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, shape, axis, radius, radius_top, height, size, width, length.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, shape, axis, radius, radius_top, height, size, width, length.
         """
     def set_instancer(self, path: str, **kwargs: typing.Any) -> None:
         """
         Copies of groups; keywords are Instancer's fields.
-        Keywords: group, prototypes, prototype_indices, transforms, ids, categories, primvars, visibility.
+        Keywords: group, prototypes, prototype_indices, transforms, ids, categories, primvars, visibility, names, assets, asset_name.
         """
     def set_light(self, path: str, **kwargs: typing.Any) -> None:
         """
@@ -104,7 +104,7 @@ class SceneEdit:
     def set_mesh(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomMesh; keywords are the fields of Mesh.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points, face_vertex_counts, face_vertex_indices, hole_indices, scheme, interpolate_boundary, face_varying_linear_interpolation, triangle_subdivision_rule, crease_indices, crease_lengths, crease_sharpnesses, corner_indices, corner_sharpnesses, refine_level.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, points, face_vertex_counts, face_vertex_indices, hole_indices, scheme, interpolate_boundary, face_varying_linear_interpolation, triangle_subdivision_rule, crease_indices, crease_lengths, crease_sharpnesses, corner_indices, corner_sharpnesses, refine_level.
         """
     def set_meters_per_unit(self, meters_per_unit: float) -> None:
         """
@@ -113,27 +113,27 @@ class SceneEdit:
     def set_nurbs_curves(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomNurbsCurves, as Bezier curves; ranges are two numbers per curve.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points, curve_vertex_counts, orders, knots, ranges, weights.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, points, curve_vertex_counts, orders, knots, ranges, weights.
         """
     def set_nurbs_patch(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomNurbsPatch; weights are one per point, ranges two numbers.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points, u_vertex_count, v_vertex_count, u_order, v_order, u_knots, v_knots, u_range, v_range, weights, refine_level.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, points, u_vertex_count, v_vertex_count, u_order, v_order, u_knots, v_knots, u_range, v_range, weights, refine_level.
         """
     def set_points(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomPoints; keywords are the fields of Points.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, points.
         """
     def set_tet_mesh(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdGeomTetMesh; tets are four indices of points each, surface three or nothing.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, points, tets, surface.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, points, tets, surface.
         """
     def set_volume(self, path: str, **kwargs: typing.Any) -> None:
         """
         A UsdVolVolume; fields are given by their names, files and the grids in the files.
-        Keywords: group, transform, visibility, material, subsets, primvars, categories, double_sided, left_handed, light_group, field_names, field_files, field_grids.
+        Keywords: group, transform, visibility, catching, matte_name, asset_name, material, subsets, primvars, categories, double_sided, left_handed, light_group, marks, field_names, field_files, field_grids.
         """
     def warn(self, prim: str, input: str, message: str) -> None:
         """
@@ -490,6 +490,10 @@ def displays() -> list[str]:
     """
     Displays of the OCIO configuration, in its order.
     """
+def expand_material(network: Network) -> tuple[typing.Any, ...]:
+    """
+    The simplified graph of a material as a network of primitive nodes, and the list of warnings.
+    """
 def explain_material(network: Network, warnings: typing.Any = None, methods: dict[str, str] = {}) -> str:
     """
     What is modelled of a material, as text. Warnings are appended to the list.
@@ -549,6 +553,10 @@ def model_warnings() -> list[typing.Any]:
 def node_defaults(id: str) -> dict[str, typing.Any]:
     """
     Default values of a node's inputs; those that come from the geometry are left out.
+    """
+def node_definition(id: str) -> typing.Any:
+    """
+    The id, category, inputs and outputs (name, MaterialX type) of a node or shading model; None for an unknown one.
     """
 def node_inputs(id: str) -> dict[str, typing.Any]:
     """
@@ -623,6 +631,10 @@ def web_mesh(scene: Scene, path: str) -> dict[str, typing.Any]:
 def web_shapes(scene: Scene) -> list[typing.Any]:
     """
     (path, material) of the prims that web_mesh() takes.
+    """
+def whole_shader(text: str) -> str:
+    """
+    A shader's text with its includes in place, without the functions that it never calls; ValueError for an include that is not compiled in.
     """
 def write_image(path: str, pixels: numpy.typing.ArrayLike, channels: list[str] = [], options: dict[str, typing.Any] = {}, metadata: dict[str, typing.Any] = {}) -> None:
     """

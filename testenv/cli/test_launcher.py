@@ -171,7 +171,8 @@ def test_what_is_left_out_is_told_once_it_is_known(checkout):
 
 @pytest.mark.parametrize("words, requirements", [
     (("record", "a", "b", "--denoise"), "denoise"), (("farm", "a", "b", "--denoise"), "denoise"),
-    (("merge", "a", "b"), "denoise"), (("farm", "a", "b"), "farm"), (("python", "-m", "distributed.cli.dask_scheduler"), "farm")])
+    (("merge", "a", "b"), "denoise"), (("farm", "a", "b"), "farm"),
+    (("shader", "a.mtlx", "--target", "osl"), "shader"), (("shader", "a.mtlx", "--target=mdl"), "shader"), (("python", "-m", "distributed.cli.dask_scheduler"), "farm")])
 def test_arguments_may_need_more(checkout, words, requirements):
     checkout.run("record")
     assert any(f"requirements-{requirements}.txt" in call for call in checkout.run(*words)[1])
@@ -179,18 +180,18 @@ def test_arguments_may_need_more(checkout, words, requirements):
 
 
 @pytest.mark.parametrize("arguments, wanted", [
-    (("test",), "browser cluster compare denoise farm jobs test"),
-    (("test", "-k", "furnace"), "browser cluster compare denoise farm jobs test"),
-    (("test", "--tier", "smoke"), "browser cluster compare denoise farm jobs test"),
+    (("test",), "browser cluster compare denoise farm jobs shader test"),
+    (("test", "-k", "furnace"), "browser cluster compare denoise farm jobs shader test"),
+    (("test", "--tier", "smoke"), "browser cluster compare denoise farm jobs shader test"),
     (("test", "--tier", "unit"), "compare denoise test"),
     (("test", "--tier=unit", "--room", "shaders"), "compare test"),
     (("test", "--room", "shaders"), "compare test"),
     (("test", "--room=view"), "browser compare test"),
     (("test", "--room", "farm", "--tier", "full"), "cluster compare denoise farm jobs test"),
-    (("test", "--tier", "long"), "browser cluster compare denoise docs farm jobs long stubs test"),
-    (("test", __file__ + "::test_x"), "browser cluster compare denoise docs farm jobs long stubs test"),
+    (("test", "--tier", "long"), "browser cluster compare denoise docs farm jobs long shader stubs test"),
+    (("test", __file__ + "::test_x"), "browser cluster compare denoise docs farm jobs long shader stubs test"),
     (("bench", "path"), "long"), (("bench",), ""), (("farm", "a.usda"), "cluster farm"),
-    (("docs", "site"), "docs")])
+    (("docs", "site"), "docs"), (("shader", "a.mtlx", "--target", "glsl"), "")])
 def test_only_what_is_used_is_installed(checkout, arguments, wanted):
     checkout.say_installed(everything=False)
     write(checkout.tools / "id", "#!/bin/sh\necho 0\n", program=True)

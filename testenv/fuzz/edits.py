@@ -8,7 +8,7 @@ import sys
 import time
 
 import outcomes
-import stages
+import randomStages
 
 EXTENSION = ".json"
 LINES = True  # one step a line
@@ -18,7 +18,7 @@ def make(seed):
     """:returns: the bytes of an input: steps as JSON, one on a line"""
     r = randoms.Random(seed)
     current, steps = [], []
-    writer = stages._Writer(seed)
+    writer = randomStages._Writer(seed)
     for _ in range(r.randint(3, 8)):
         for _ in range(r.randint(1, 3)):
             if current and r.random() < 0.5:

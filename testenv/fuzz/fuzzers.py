@@ -16,7 +16,7 @@ FUZZERS = {
                     "hdDelegate/film/checkpoint.cpp")),
     "image": Fuzzer("native", "bytes as an image: its size, channels and metadata", 1, ("hdDelegate/film/readImage.cpp",
                                                                                      "materialNetwork/utf8.cpp")),
-    "stages": Fuzzer("generated", "legal stages of all prim types with extreme values, rendered", 4, ()),
+    "randomStages": Fuzzer("generated", "legal stages of all prim types with extreme values, rendered", 4, ()),
     "materialDocuments": Fuzzer("generated", "legal MaterialX documents of all nodes, explained and evaluated", 2, ()),
     "edits": Fuzzer("generated", "random edits while an image is rendered", 2, ()),
     "commandLines": Fuzzer("generated", "every flag of the commands that read files", 2, ()),

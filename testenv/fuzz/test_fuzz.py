@@ -88,10 +88,10 @@ def test_inputs_shrink():
 
 
 def test_a_finding_becomes_a_test(tmp_path, monkeypatch):
-    monkeypatch.setattr(kept, "CORPUS", str(tmp_path / "corpus"))
-    os.makedirs(tmp_path / "corpus" / "stages")
-    path = keptFindings.save(str(tmp_path / "found"), "stages", ".usda", ("crash", "signal 11", b"#usda 1.0\n", "words"))
-    assert keptFindings.keep(path, "smallCrash") == keptFindings.corpus("stages")[0]
+    monkeypatch.setattr(keptFindings, "CORPUS", str(tmp_path / "corpus"))
+    os.makedirs(tmp_path / "corpus" / "randomStages")
+    path = keptFindings.save(str(tmp_path / "found"), "randomStages", ".usda", ("crash", "signal 11", b"#usda 1.0\n", "words"))
+    assert keptFindings.keep(path, "smallCrash") == keptFindings.corpus("randomStages")[0]
     for file, name in ((path, "smallCrash"), (path, "no name"), (str(tmp_path / "other"), "a")):
         with pytest.raises(ValueError):
             keptFindings.keep(file, name)

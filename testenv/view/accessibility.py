@@ -23,7 +23,7 @@ def axe_script():
 
 def violations(browser, axe):
     """:returns: serious ones: rule, what it says, and the first elements"""
-    browser._page.add_script_tag(content=axe)
+    browser._page.evaluate(axe + "\n;0")  # a script tag would be refused by the policy of the page
     found = browser._page.evaluate("axe.run(document, {runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa']})")
     assert found["passes"], "axe-core looked at nothing"
     return [f"{v['id']}: {v['help']}: {[n['html'][:160] for n in v['nodes'][:3]]}" for v in found["violations"]

@@ -3,7 +3,7 @@
 must not crash, hang, take memory without end, lose an image or make values that are no numbers.
 
   patina fuzz --seconds 600
-  patina fuzz stages edits --seconds 3600 --seed 1000 --json=figures.json
+  patina fuzz randomStages edits --seconds 3600 --seed 1000 --json=figures.json
   patina fuzz --keep patinaFindings/ies-crash-heap-1234abcd hugeTable
 
 The native ones are libFuzzer's programs under AddressSanitizer and UBSan; ./patina fuzz installs clang where it may and builds

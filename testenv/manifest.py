@@ -6,7 +6,8 @@ CMakeLists.txt lies in, `hdDelegate/film::testFilm::Checkpoint`. FOLDERS gives e
 longest folder counts), so that a new file needs no entry; OVERRIDES, read in order, change either for tests whose names
 match a pattern (`*` also matches `/`); the last that says something counts.
 
-COSTLY names what is run first. A test runs in its own tier and in those that hold it (RUNS). Aims, on two quiet cores: unit 30 s, smoke 3 minutes, full 15.
+COSTLY names what is run first. A test runs in its own tier and in those that hold it (RUNS). Aims, on two quiet cores: unit
+30 s, smoke 3 minutes, full 15.
 """
 import fnmatch
 

@@ -3,11 +3,18 @@
 # Hydra is a host like any other: without it the build says so in one line and goes on.
 # Sets PATINA_HAS_HYDRA, PATINA_PXR_ROOT and PATINA_PXR_LIBRARIES.
 set(PATINA_HAS_HYDRA OFF)
+if(PATINA_PXR_CONFIG AND NOT EXISTS "${PATINA_PXR_CONFIG}")
+    unset(PATINA_PXR_CONFIG CACHE) # an OpenUSD that was removed since the last configuration
+endif()
 find_file(PATINA_PXR_CONFIG pxrConfig.cmake
     HINTS ${pxr_DIR} ${PXR_USD_LOCATION} $ENV{PXR_USD_LOCATION} $ENV{pxr_DIR}
     PATHS /usr/local/USD PATH_SUFFIXES . lib/cmake/pxr cmake)
 if(CMAKE_DISABLE_FIND_PACKAGE_pxr OR NOT PATINA_PXR_CONFIG)
     message(STATUS "OpenUSD with Hydra not found: stages are read through the pxr Python module, the Hydra plugin is not built")
+    file(GLOB stale ${CMAKE_BINARY_DIR}/usdPlugin ${CMAKE_BINARY_DIR}/tests/hydra* ${CMAKE_BINARY_DIR}/tests/testHydra*)
+    if(stale)
+        file(REMOVE_RECURSE ${stale}) # built with an OpenUSD that was removed since
+    endif()
     return()
 endif()
 

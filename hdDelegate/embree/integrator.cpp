@@ -185,7 +185,7 @@ void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& h
 LightDraw Integrator::beginLight(const Path& path, const SurfacePoint& point, bool twoSided,
                                  const vec3& u) const {
     const ShadingPoint& s = point.shading;
-    return _lights.set().begin(s.position, seenSide(s), twoSided, u, path.time);
+    return _lights.set().begin(s.position, facingNormal(s), twoSided, u, path.time);
 }
 
 vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf,
@@ -193,7 +193,7 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
     const ShadingPoint& s = point.shading;
     const bool twoSided = bsdf.transmits();
     LightSample light;
-    if (!_lights.set().sample(draw, s.position, seenSide(s), twoSided, path.time, light) ||
+    if (!_lights.set().sample(draw, s.position, facingNormal(s), twoSided, path.time, light) ||
         !(light.pdf > 0.0f))
         return vec3(0.0f);
     const LightInfo& info = _lights.info(light.light);
@@ -268,7 +268,7 @@ constexpr int drawsAtOnce = 4; // light samples
 void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& counters) const {
     bool aovsWritten = _aovs.empty();
     const bool guided = _denoisingAlbedo >= 0 || _denoisingNormal >= 0;
-    int passed = 0;
+    int passThroughs = 0;
     float travelled = 0.0f; // since the last vertex, over surfaces that were passed through
     const bool hasFiniteLights = _lights.set().hasIntersectable();
     while (true) {
@@ -307,7 +307,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
         const bool culled = path.fromCamera() &&
                             (back ? cullsBack(*hit.surface->prim) : cullsFront(*hit.surface->prim));
-        vec3 passes(1.0f);
+        vec3 transmittance(1.0f);
         float presence = 1.0f;
         // Shadow rays have no width. What a scattered ray passes must be what they pass: where a
         // cutout blurs away, the two ways to find a light would see different surfaces.
@@ -315,15 +315,15 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         if (!path.fromCamera()) point.shading.uvFootprint = 0.0f;
         const float opacity = culled               ? 0.0f
                               : point.slot->opaque ? 1.0f
-                                                   : program.opacity(s, &passes, &presence);
+                                                   : program.opacity(s, &transmittance, &presence);
         point.shading.uvFootprint = footprint;
         const bool caught = path.fromCamera() && hit.surface->prim->catching.any();
         // What is present emits, whether or not light also passes.
         if (!culled && !caught && presence > 0.0f) addEmission(path, point, hit, presence);
         if (opacity < 1.0f && !(path.sampler.random() < opacity)) {
-            path.throughput *= passes;
-            if (++passed > maxPassThroughs || path.throughput == vec3(0.0f)) break;
-            if (program.passingEnters() && !culled) path.media.cross(program, s);
+            path.throughput *= transmittance;
+            if (++passThroughs > maxPassThroughs || path.throughput == vec3(0.0f)) break;
+            if (program.passThroughEnters() && !culled) path.media.cross(program, s);
             path.origin = s.position + path.direction * std::max(point.offset, 1e-7f);
             path.near = 0.0f;
             continue;

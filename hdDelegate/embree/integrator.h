@@ -21,7 +21,7 @@ struct TraceCounters {
 constexpr int maxPassThroughs = 256; ///< surfaces that presence lets one ray through
 
 /// The normal on the side that a surface is seen from.
-inline vec3 seenSide(const ShadingPoint& s) {
+inline vec3 facingNormal(const ShadingPoint& s) {
     return glm::dot(s.viewDirection, s.geometricNormal) < 0.0f ? -s.normal : s.normal;
 }
 

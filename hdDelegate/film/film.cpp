@@ -121,7 +121,7 @@ bool Film::usable(const glm::vec3& radiance, float alpha) {
 
 bool Film::addColor(int x, int y, glm::vec3 radiance, float alpha) {
     Pixel& p = _pixels[index(x, y)];
-    lookAtMean(p);
+    recordMean(p);
     ++p.count;
     const bool goodAlpha = isUsable(alpha);
     const bool good = usable(radiance, alpha);
@@ -148,7 +148,7 @@ Film::Sums Film::Sums::operator+(const Sums& other) const {
 }
 
 /// Before a pixel's next sample: keeps the mean after each power of two.
-void Film::lookAtMean(Pixel& p) {
+void Film::recordMean(Pixel& p) {
     if (!p.count || (p.count & (p.count - 1))) return;
     p.deviationBefore = deviationOfMean(p);
     p.meanBefore = float(luminanceOf(p.total().color) / p.count);

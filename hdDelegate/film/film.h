@@ -157,7 +157,7 @@ private:
     size_t index(int x, int y) const { return size_t(y) * size_t(_width) + size_t(x); }
     const Pixel& pixel(int x, int y) const { return _pixels[index(x, y)]; }
     static float deviationOfMean(const Pixel& pixel);
-    static void lookAtMean(Pixel& pixel);
+    static void recordMean(Pixel& pixel);
     void closeSpan(size_t index);
     void drop() { _dropped.fetch_add(1, std::memory_order_relaxed); }
     static Plane clearedPlane(const AovSpec& spec, size_t pixels);

@@ -98,7 +98,7 @@ struct MaterialFacts {
     std::vector<MaterialPrimvar> primvars;
     bool constant = false, hasEmission = false, isOpaque = true, isThinWalled = false;
     bool hasTransmission = false, isFibre = false, hasInterior = false, isVolumeOnly = false;
-    bool hasSubsurface = false, hasDisplacement = false, passingEnters = false;
+    bool hasSubsurface = false, hasDisplacement = false, passThroughEnters = false;
     bool usesUv = false, jitters = false;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a material asks for and does not get is told, by prim and input.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include "materialNetwork/mtlx/document.h"
 
@@ -49,11 +49,11 @@ TEST(NotShown, DispersionIsTold) {
     }
     // Nor does a circle go on for ever.
     EXPECT_NE(reportedOf("ND_open_pbr_surface_surfaceshader", {},
-                     {{"transmission_dispersion_scale", {"surface", ""}}}),
+                         {{"transmission_dispersion_scale", {"surface", ""}}}),
               "");
     // An Abbe number alone disperses nothing: the scale beside it is 0.
     EXPECT_EQ(reportedOf("ND_open_pbr_surface_surfaceshader",
-                     {{"transmission_dispersion_abbe_number", number(40.0f)}}),
+                         {{"transmission_dispersion_abbe_number", number(40.0f)}}),
               "");
 }
 

@@ -100,11 +100,11 @@ public:
         float presence = 1.0f;
         if (!_source.program->isOpaque()) _source.program->opacity(shading, nullptr, &presence);
         vec3 sum = lit;
-        if (_source.glows && light.mode != RasterMeshLight::Alone) {
+        if (_source.glows && light.mode != RasterMeshLight::NoMaterialResponse) {
             const vec3 glow = _source.program->emission(shading, direction);
-            sum = light.mode == RasterMeshLight::None    ? glow
-                  : light.mode == RasterMeshLight::Tints ? lit * glow
-                                                         : lit + glow;
+            sum = light.mode == RasterMeshLight::NoLight          ? glow
+                  : light.mode == RasterMeshLight::GlowTintsLight ? lit * glow
+                                                                  : lit + glow;
         }
         sum = glm::max(sum * presence, vec3(0.0f));
         return std::isfinite(sum.x + sum.y + sum.z) ? sum : vec3(0.0f);
@@ -119,7 +119,8 @@ public:
 
     /// A narrow cone that is inclined shows itself about its own axis. @returns whether it has any
     bool aimAtCone() {
-        if (!_source.glows || _source.light.mode == RasterMeshLight::Alone) return false;
+        if (!_source.glows || _source.light.mode == RasterMeshLight::NoMaterialResponse)
+            return false;
         const std::vector<vec3> axes = coneAxes(_source.program->code(), shading);
         if (axes.empty()) return false;
         if (glm::dot(axes[0], axis) < 0.99999f) {
@@ -218,12 +219,11 @@ float RasterEmitters::brightness(const Source& source, unsigned triangle, bool c
 void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t subset,
                          const std::shared_ptr<const MaterialProgram>& program,
                          const RasterMeshLight& light, const mat4& toWorld, int category,
-                         bool closed, const vec3& origin,
-                         const std::vector<InstanceStep>& steps) {
+                         bool closed, const vec3& origin, const std::vector<InstanceStep>& steps) {
     Source source;
     source.glows = program->hasEmission();
-    if (!source.glows && light.mode == RasterMeshLight::None) return;
-    const bool usesGlow = source.glows && light.mode != RasterMeshLight::Alone;
+    if (!source.glows && light.mode == RasterMeshLight::NoLight) return;
+    const bool usesGlow = source.glows && light.mode != RasterMeshLight::NoMaterialResponse;
     const bool constant = !usesGlow || program->code().emissionCode.empty();
     source.mesh = mesh;
     source.program = program;
@@ -234,14 +234,15 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
     source.steps = steps;
     source.st = mesh->attribute("st");
     source.even = (!usesGlow || !dependsOnView(program->code())) && program->isOpaque();
-    source.sides = light.mode == RasterMeshLight::Adds || !source.even;
+    source.sides = light.mode == RasterMeshLight::Independent || !source.even;
     for (const MaterialPrimvar& primvar : program->primvars()) {
         const MeshAttribute* a = mesh->attribute(primvar.name);
         source.attributes.push_back(a ? int(a - mesh->attributes.data()) : -1);
     }
     source.mirrored = glm::determinant(mat3(toWorld)) < 0.0f;
-    source.twoSided = source.glows && !closed &&
-                      (light.mode == RasterMeshLight::None || light.mode == RasterMeshLight::Adds);
+    source.twoSided =
+        source.glows && !closed &&
+        (light.mode == RasterMeshLight::NoLight || light.mode == RasterMeshLight::Independent);
     source.category = category;
     // Their areas, too.
     std::vector<std::pair<unsigned, float>> candidates;

@@ -53,7 +53,7 @@ class Job:
         finally:
             for frame in frames:
                 frame.leave()  # no worker writes a log any more
-        self._tell(one, frames, seconds, cost, counts)
+        self._report(one, frames, seconds, cost, counts)
 
     def _on_workers(self, frames, waiting, counts):
         """:returns: the Sender that did it, seconds that it took, and those of the sender for a task"""
@@ -149,7 +149,7 @@ class Job:
         cluster.client.gather([cluster.client.submit(worker.nothing, pure=False) for _ in range(EMPTY_TASKS)])
         return (clock() - begin) / EMPTY_TASKS
 
-    def _tell(self, one, frames, seconds, cost, counts):
+    def _report(self, one, frames, seconds, cost, counts):
         written = one.written
         for reason in one.refusals:
             self.progress.say(f"a worker was left out: {reason}")

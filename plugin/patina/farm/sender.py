@@ -48,23 +48,23 @@ class Sender:
         self.done = self.total = self.count = 0  # tasks, and workers
         self.times = []  # (kind, seconds) of each task
 
-    def run(self, frames, waiting, told):
+    def run(self, frames, waiting, report):
         """:param frames: list of work.Frame, in their order
         :param waiting: tasks that can begin
-        :param told: called with this now and then"""
+        :param report: called with this now and then"""
         left = collections.deque(waiting)
         self.total = sum(frame.left + 1 if frame.cut.parts > 1 else 1 for frame in frames)
         while left or self.tasks:
             try:
-                self._step(left, told)
+                self._step(left, report)
             except (OSError, RuntimeError, TimeoutError, CancelledError) as error:
                 # Tasks end by themselves as failures: this is of the scheduler, or of the way to it.
                 self.lost = f"the scheduler is lost ({_words(error)})"
                 return
 
-    def _step(self, left, told):
+    def _step(self, left, report):
         self._fill(left)
-        told(self)
+        report(self)
         try:
             future = self.ended.get(timeout=LOOK_SECONDS)
         except queue.Empty:

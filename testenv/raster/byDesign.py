@@ -19,7 +19,8 @@ FEATURES = {
         "mirrors and clear coats show the environment, where nothing hides it, and not the scene",
         "test_byDesign.py::test_mirrors_show_the_environment", ("shaderball",)),
     "hiddenSky": Feature(
-        "mirrors and narrow highlights know what hides the sky by cells of it, 17 degrees wide: edges of what hides it are blurred",
+        "mirrors and narrow highlights know what hides the sky by cells of it, 17 degrees wide: edges of what hides it are "
+        "blurred",
         "test_byDesign.py::test_what_hides_the_sky_from_mirrors_is_blurred"),
     "shadowsOfGlass": Feature(
         "what lobes refract of a light goes straight on, without caustics",

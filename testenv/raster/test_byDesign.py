@@ -92,8 +92,8 @@ def test_mirrors_show_the_environment(tmp_path):
 
 
 def test_what_hides_the_sky_from_mirrors_is_blurred(tmp_path):
-    """A mirroring floor, in whose middle a far board's upper edge shows: dark beyond it, the sky before it. The rasterizer knows
-    what hides the sky by cells 17 degrees wide, so that the board takes light before its edge."""
+    """A mirroring floor, in whose middle a far board's upper edge shows: dark beyond it, the sky before it. The rasterizer
+    knows what hides the sky by cells 17 degrees wide, so that the board takes light before its edge."""
     steel = surface("steel", "ND_conductor_bsdf", {"float2 roughness": "(0.02, 0.02)"})
     board = """    def Mesh "board"
     {

@@ -14,7 +14,8 @@ pytest.importorskip("mkdocs", reason="PyPI's mkdocs-material is not installed")
 from patina.cli import main  # noqa: E402
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
-PAGES = ("index.html", "architecture.html", "tutorials/firstPicture.html", "generated/flags.html", "api/module.html", "gallery.html")
+PAGES = ("index.html", "architecture.html", "tutorials/firstPicture.html", "generated/flags.html", "api/module.html",
+         "gallery.html")
 
 
 @pytest.fixture(scope="module")

@@ -176,7 +176,8 @@ def environment():
     paths = [os.path.dirname(os.path.dirname(os.path.abspath(patina.__file__)))]
     if module:
         paths.append(os.path.dirname(os.path.abspath(module.__file__)))
-    kept = {name: os.environ[name] for name in ("PATINA_BUILD_DIR", "PATINA_CACHE", "PATINA_OIDN_LIBRARY", *identity.ENVIRONMENT)
+    kept = {name: os.environ[name] for name in ("PATINA_BUILD_DIR", "PATINA_CACHE", "PATINA_OIDN_LIBRARY",
+                                                *identity.ENVIRONMENT)
             if os.environ.get(name)}
     return {"PYTHONPATH": os.pathsep.join(dict.fromkeys(paths)), "PYTHONSAFEPATH": "1", **kept}
 

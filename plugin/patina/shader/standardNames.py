@@ -16,8 +16,8 @@ RENAMED = {  # id of a node -> category and nodedef
         ("float", "float"), ("float2", "vector2"), ("float3", "vector3"), ("float4", "vector4"), ("int", "integer"),
         ("string", "string"), ("normal", "vector3"), ("point", "vector3"), ("vector", "vector3"))},
 }
-SIMPLER = {"PatinaCoat": "the coat is written as a plain layer, which MaterialX has: light that it sends back down is counted by the "
-                         "reader's own rule"}
+SIMPLER = {"PatinaCoat": "the coat is written as a plain layer, which MaterialX has: light that it sends back down is counted "
+                         "by the reader's own rule"}
 RENAMED_INPUTS = {"geompropvalue": {"varname": "geomprop", "fallback": "default"}}  # of a category
 UNKNOWN_INPUTS = {  # nodedef -> inputs that it does not have
     "ND_gltf_normalmap_vector3_1_0": {"normal", "tangent", "bitangent"},

@@ -69,7 +69,7 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     const vec3 color = path.radiance * _camera.camera().exposureScale;
     if (lightPaths)
         _lightPaths.write(*lightPaths, target, _camera.camera().exposureScale,
-                          !Film::usable(color, path.alpha));
+                          !film.usable(color, path.alpha));
     film.addColor(x, y, color, path.alpha);
 }
 
@@ -77,7 +77,7 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
 void Integrator::addFeatures(const Path& path, const AovTarget& target) const {
     if (_denoisingAlbedo < 0 && _denoisingNormal < 0) return;
     // What only mirrors, lamps and skies show is its own texture.
-    const vec3 albedo = path.featured ? path.featureAlbedo : glm::min(path.radiance, vec3(1.0f));
+    const vec3 albedo = path.featured ? path.featureAlbedo : glm::clamp(path.radiance, vec3(0.0f), vec3(1.0f));
     if (_denoisingAlbedo >= 0)
         target.film.addAov(_denoisingAlbedo, target.x, target.y, &albedo.x, 0.0f);
     if (_denoisingNormal >= 0)
@@ -133,7 +133,7 @@ void Integrator::addRadiance(Path& path, const vec3& radiance) const {
     vec3 contribution = path.throughput * radiance;
     float clamp = 1.0f;
     if (_settings.indirectClamp > 0.0f && path.indirect()) {
-        const float l = luminance(contribution);
+        const float l = std::abs(luminance(contribution));
         if (l > _settings.indirectClamp) contribution *= clamp = _settings.indirectClamp / l;
     }
     path.radiance += contribution;

@@ -151,7 +151,7 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
                 // Each side may have a shader of its own.
                 for (const float side : {1.0f, -1.0f}) {
                     computeSurfacePoint(hit, p + n * side, -n * side, 0.0f, point);
-                    brightest = std::max(brightest, luminance(emission(point)));
+                    brightest = std::max(brightest, luminance(glm::abs(emission(point))));
                     if (!glows) break;
                 }
             }

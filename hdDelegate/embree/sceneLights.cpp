@@ -92,6 +92,9 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
                              "the mesh light has no mesh and gives no light");
             continue;
         }
+        if (!light->filters.empty())
+            diagnostics.warn(light->path, "light:filters",
+                             "light filters are not applied to mesh lights");
         MeshLight meshLight{light, lightBaseRadiance(*light), int(_infos.size())};
         if (light->normalize) {
             const auto where = scene.groupTransforms(surface->prim->group);

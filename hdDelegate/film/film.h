@@ -70,8 +70,8 @@ public:
 
     /// Colour and alpha always exist, and come last of a sample's values. Samples that are not
     /// finite, or negative where that is not allowed, are counted and dropped as a whole (the
-    /// sample counts as black); @returns false then. The alpha of such a sample is kept when it is a number, so that a dropped sample makes
-    /// no hole.
+    /// sample counts as black); @returns false then. The alpha of such a sample is kept when it is
+    /// a number, so that a dropped sample makes no hole.
     bool addColor(int x, int y, glm::vec3 radiance, float alpha);
     /// @returns whether addColor() takes it
     bool usable(const glm::vec3& radiance, float alpha) const;

@@ -42,10 +42,11 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const d
         Light like = light;
         like.angle = std::min(light.angle, 180.0f);
         const mat4 toWorld = toWorldAt(shutterOpen);
-        _irradiance = _resolved.power() *
-                      float(_resolved.delta ? 1.0 : lightSizeFactor(like, toWorld));
+        _irradiance =
+            _resolved.power() * float(_resolved.delta ? 1.0 : lightSizeFactor(like, toWorld));
     }
     _profile = lightProfile(light, diagnostics);
+    _filters = LightFilters(light, groupToWorld, origin, shutterOpen, images, diagnostics);
     const bool usesTexture = !light.textureFile.empty();
     if (_resolved.kind == Kind::Dome && !setUpDome(images)) _resolved.kind = Kind::None;
     if (_resolved.kind == Kind::Area && light.type == LightType::Rect && usesTexture) {
@@ -65,8 +66,7 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const d
                  "the light has no size or is flattened to nothing; it is off");
             _resolved.kind = Kind::None;
         }
-    const bool anything =
-        _resolved.power() * _meanTexture * _pose.shaping.level() > 0.0f;
+    const bool anything = _resolved.power() * _meanTexture * _pose.shaping.level() > 0.0f;
     if (!anything) _resolved.kind = Kind::None;
 }
 
@@ -115,8 +115,8 @@ LightTreeLeaf LightEmitter::leaf(int id) const {
                                ? (_resolved.kind == Kind::Line ? glm::length(pose.along) : 1.0f)
                            : round ? 0.25f * pose.shape.area
                                    : pose.shape.area;
-        leaf.intensity = std::max(leaf.intensity, _resolved.power() * _meanTexture *
-                                                      area * pose.shaping.level());
+        leaf.intensity = std::max(leaf.intensity,
+                                  _resolved.power() * _meanTexture * area * pose.shaping.level());
     }
     leaf.axis = cone.axis;
     leaf.spread = cone.spread;

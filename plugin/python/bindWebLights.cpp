@@ -247,8 +247,8 @@ void addLight(const Scene& scene, const std::string& path, const Light& light, W
         dome["path"] = path;
         dome["texture"] = light.textureFile;
         dome["pixels"] = latlongOf(light, out);
-        dome["radiance"] = triple(
-            notNegative(light, resolveLight(light, toWorld, out.diagnostics).radiance, out));
+        dome["radiance"] =
+            triple(notNegative(light, resolveLight(light, toWorld, out.diagnostics).radiance, out));
         dome["axes"] = std::vector<std::array<float, 3>>{
             triple(vec3(toWorld[0])), triple(vec3(toWorld[1])), triple(vec3(toWorld[2]))};
         out.domes.append(dome);

@@ -101,8 +101,7 @@ public:
         if (!_source.program->isOpaque()) _source.program->opacity(shading, nullptr, &presence);
         vec3 sum = lit;
         if (_source.glows && light.mode != RasterMeshLight::Alone) {
-            const vec3 glow =
-                glm::max(_source.program->emission(shading, direction), vec3(0.0f));
+            const vec3 glow = glm::max(_source.program->emission(shading, direction), vec3(0.0f));
             sum = light.mode == RasterMeshLight::None    ? glow
                   : light.mode == RasterMeshLight::Tints ? lit * glow
                                                          : lit + glow;
@@ -219,8 +218,7 @@ float RasterEmitters::brightness(const Source& source, unsigned triangle, bool c
 void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t subset,
                          const std::shared_ptr<const MaterialProgram>& program,
                          const RasterMeshLight& light, const mat4& toWorld, int category,
-                         bool closed, const vec3& origin,
-                         const std::vector<InstanceStep>& steps) {
+                         bool closed, const vec3& origin, const std::vector<InstanceStep>& steps) {
     Source source;
     source.glows = program->hasEmission();
     if (!source.glows && light.mode == RasterMeshLight::None) return;

@@ -32,6 +32,9 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
         for (const auto& item : state.lights) {
             const Light& light = *item.second;
             if (!light.visible) continue;
+            if (!light.filters.empty())
+                diagnostics.warn(light.path, "light:filters",
+                                 "light filters are not applied by the rasterizer");
             if (light.type == LightType::Mesh) continue; // see RasterEmitters
             for (const RasterPlace& place : places.places(light.group))
                 add(light, mat4(place.groupToWorld * exactTransformAt(light.transform, timeCode)),

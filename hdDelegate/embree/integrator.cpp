@@ -69,7 +69,7 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     const vec3 color = path.radiance * _camera.camera().exposureScale;
     if (lightPaths)
         _lightPaths.write(*lightPaths, target, _camera.camera().exposureScale,
-                          !Film::usable(color, path.alpha));
+                          !film.usable(color, path.alpha));
     film.addColor(x, y, color, path.alpha);
 }
 
@@ -77,88 +77,23 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
 void Integrator::addFeatures(const Path& path, const AovTarget& target) const {
     if (_denoisingAlbedo < 0 && _denoisingNormal < 0) return;
     // What only mirrors, lamps and skies show is its own texture.
-    const vec3 albedo = path.featured ? path.featureAlbedo : glm::min(path.radiance, vec3(1.0f));
+    const vec3 albedo =
+        path.featured ? path.featureAlbedo : glm::clamp(path.radiance, vec3(0.0f), vec3(1.0f));
     if (_denoisingAlbedo >= 0)
         target.film.addAov(_denoisingAlbedo, target.x, target.y, &albedo.x, 0.0f);
     if (_denoisingNormal >= 0)
         target.film.addAov(_denoisingNormal, target.x, target.y, &path.featureNormal.x, 0.0f);
 }
 
-/// Light that the ray meets before `distance`: area lights, and at infinity domes and suns.
-/// @returns where the camera's ray ends on a light, or `distance`.
-float Integrator::addLightsAlong(Path& path, float distance) const {
-    LightHit hits[8];
-    const int count = _lights.set().intersect(path.origin, path.direction, path.near, distance,
-                                              path.time, hits, 8);
-    if (path.fromCamera()) {
-        // The camera sees lights as solid shapes; every other ray passes through them, as shadow
-        // rays do, so that light and BSDF samples agree.
-        const LightHit* nearest = nullptr;
-        for (int i = 0; i < count; ++i)
-            if (_lights.info(hits[i].light).cameraVisible &&
-                (!nearest || hits[i].distance < nearest->distance))
-                nearest = &hits[i];
-        if (!nearest) return distance;
-        const vec3 seen =
-            path.throughput * transmittanceTo(path, nearest->distance) * nearest->radiance;
-        path.radiance += seen;
-        if (path.lightPaths) path.lightPaths->see(emitterOf(nearest->light), seen);
-        path.alpha = 1.0f;
-        return nearest->distance;
-    }
-    for (int i = 0; i < count; ++i) {
-        const float lightPdf =
-            path.specular ? 0.0f
-                          : _lights.set().pdf(hits[i].light, path.vertex, path.vertexNormal,
-                                              path.vertexTwoSided, path.time, hits[i]);
-        addLight(path, hits[i].light, transmittanceTo(path, hits[i].distance) * hits[i].radiance,
-                 lightPdf);
-    }
-    return distance;
-}
-
-/// Light found by following the BSDF, weighted against what light samples would have found.
-void Integrator::addLight(Path& path, int light, const vec3& radiance, float lightPdf) const {
-    const LightInfo& info = _lights.info(light);
-    if (!linked(info.lightCategory, path.vertexSurface, path.vertexInstanceCategories)) return;
-    const float weight =
-        path.specular ? 1.0f : misWeight(path.pdf, path.lightSamples * lightPdf, info.dome);
-    const vec3 share = path.diffuseShare * info.diffuse + path.specularShare * info.specular;
-    if (path.lightPaths)
-        path.lightPaths->found(emitterOf(light), radiance * weight, info.diffuse, info.specular);
-    addRadiance(path, share * radiance * weight);
-}
-
 void Integrator::addRadiance(Path& path, const vec3& radiance) const {
     vec3 contribution = path.throughput * radiance;
     float clamp = 1.0f;
     if (_settings.indirectClamp > 0.0f && path.indirect()) {
-        const float l = luminance(contribution);
+        const float l = std::abs(luminance(contribution));
         if (l > _settings.indirectClamp) contribution *= clamp = _settings.indirectClamp / l;
     }
     path.radiance += contribution;
     if (path.lightPaths) path.lightPaths->add(radiance, path.throughput * clamp);
-}
-
-void Integrator::addEscaped(Path& path) const {
-    for (int light : _lights.set().infiniteLights()) {
-        const LightInfo& info = _lights.info(light);
-        if (path.fromCamera() && (!info.cameraVisible || !info.dome)) continue;
-        const EnvironmentMap::Place place = _lights.set().place(light, path.direction, path.time);
-        const vec3 radiance = _lights.set().environment(light, place, path.time);
-        if (path.fromCamera()) {
-            path.radiance += path.throughput * radiance;
-            if (path.lightPaths) path.lightPaths->see(emitterOf(light), path.throughput * radiance);
-            path.alpha = 1.0f;
-            continue;
-        }
-        if (radiance == vec3(0.0f)) continue;
-        const float lightPdf =
-            path.specular ? 0.0f
-                          : _lights.set().pdfInfinite(light, path.vertex, path.vertexNormal,
-                                                      path.vertexTwoSided, place, path.time);
-        addLight(path, light, radiance, lightPdf);
-    }
 }
 
 /// Light that the surface itself gives off towards the ray.

@@ -55,6 +55,7 @@ private:
     void addFeatures(const Path& path, const AovTarget& target) const;
     void trace(Path& path, const AovTarget& target, TraceCounters& counters) const;
     float addLightsAlong(Path& path, float distance) const;
+    vec3 filteredTo(const Path& path, int light, float distance) const;
     void addLight(Path& path, int light, const vec3& radiance, float lightPdf) const;
     void addRadiance(Path& path, const vec3& radiance) const;
     void addEscaped(Path& path) const;

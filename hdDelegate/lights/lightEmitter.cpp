@@ -48,6 +48,13 @@ EmitterDraw LightEmitter::begin(const vec3& normal, bool twoSided, const vec2& u
 
 bool LightEmitter::sample(const EmitterDraw& draw, const vec3& point, const vec3& normal,
                           bool twoSided, float time, EmitterSample& out) const {
+    if (!sampleBare(draw, point, normal, twoSided, time, out)) return false;
+    if (!_filters.empty()) out.radiance *= filtered(point, out.direction, out.distance, time);
+    return true;
+}
+
+bool LightEmitter::sampleBare(const EmitterDraw& draw, const vec3& point, const vec3& normal,
+                              bool twoSided, float time, EmitterSample& out) const {
     const vec2& u = draw.u;
     Pose scratch;
     const Pose& pose = poseAt(time, scratch);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hdDelegate/lights/environmentMap.h"
+#include "hdDelegate/lights/lightFilters.h"
 #include "hdDelegate/lights/lightTree.h"
 #include "hdDelegate/lights/resolvedLight.h"
 
@@ -49,9 +50,13 @@ public:
     /// what one step will read is asked for by the step before.
     /// @param normal,twoSided as of LightSet::sample(); constant domes sample by the cosine
     EmitterDraw begin(const vec3& normal, bool twoSided, const vec2& u, float time) const;
-    /// Goes on with the same normal, side and time. The radiance is without image().
+    /// Goes on with the same normal, side and time. The radiance is filtered, and without image().
     bool sample(const EmitterDraw& draw, const vec3& point, const vec3& normal, bool twoSided,
                 float time, EmitterSample& out) const;
+    /// What is left of the light on its way to a point, by its filters.
+    vec3 filtered(const vec3& point, const vec3& direction, float distance, float time) const {
+        return _filters.empty() ? vec3(1.0f) : _filters.factor(point, direction, distance, time);
+    }
     /// What the image around the scene adds to the radiance of a sample, as a factor.
     vec3 image(const vec3& local) const {
         return _environment ? _environment->radiance(local) : vec3(1.0f);
@@ -83,6 +88,8 @@ private:
     Pose makePose(const mat4& toWorld) const;
     const Pose& poseAt(float time, Pose& scratch) const;
     bool setUpDome(LightImages& images);
+    bool sampleBare(const EmitterDraw& draw, const vec3& point, const vec3& normal, bool twoSided,
+                    float time, EmitterSample& out) const;
     bool sampleLine(const Pose& pose, const vec3& point, float u, EmitterSample& out) const;
     bool sampleDistant(const Pose& pose, const vec2& u, EmitterSample& out) const;
     bool sampleDome(const Pose& pose, const vec3& normal, bool twoSided, const EmitterDraw& draw,
@@ -102,6 +109,7 @@ private:
     std::shared_ptr<const ImageRGB> _texture;
     std::shared_ptr<const EnvironmentMap> _environment;
     std::shared_ptr<const IesProfile> _profile;
+    LightFilters _filters;
 };
 
 } // namespace patina

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/scene/lightFilter.h"
 #include "hdDelegate/scene/types.h"
 
 namespace patina {
@@ -80,6 +81,8 @@ struct Light {
     // linking: empty lights (or shadows) everything; else a name found in Geometry::categories
     std::string lightLink;
     std::string shadowLink;
+
+    std::vector<LightFilter> filters; ///< in their order; they multiply
 
     std::string lightGroup; ///< its label in light path expressions; empty: none
 

@@ -76,7 +76,7 @@ _ROWS = (
     # Lights.
     (r"mesh light|names no mesh", "bind the mesh light to a mesh"),
     (r"cannot be used, the light", "correct the light's collections `lightLink` and `shadowLink`"),
-    (r"light is off|no size|negative light|not evaluated|light filters|portals|light lights everything|lights everything",
+    (r"light is off|no size|not evaluated|light filter|portals|light lights everything|lights everything",
      "UsdLux inputs of the light itself are evaluated; remove the rest, or give it a size above 0"),
     # Materials.
     (r"does not exist; displayColor|binding is left out|which …; the", "correct `material:binding`: its target is a Material"),

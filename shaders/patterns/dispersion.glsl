@@ -13,5 +13,5 @@ PATINA_FN float patternDispersedIor(float ior, float abbeNumber, float scale, fl
     // 1 / F^2 - 1 / C^2 and 1 / d^2, in 1 / um^2.
     float lines = (1.0f / (um * um) - 2.8966469f) / 1.9096539f;
     float n = ior + (ior - 1.0f) * scale / abbeNumber * lines;
-    return select(clamp(n, 0.01f, 1.0f), max(n, 1.0f), ior > 1.0f);
+    return select(max(n, 1.0f), clamp(n, 0.01f, 1.0f), ior > 1.0f);
 }

@@ -16,75 +16,6 @@
 
 namespace patina {
 
-Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
-                       const CameraRays& camera, const RenderSettings& settings,
-                       const std::vector<AovSpec>& aovs)
-    : _scene(scene), _lights(lights), _camera(camera), _settings(settings), _aovs(aovs),
-      _lightPaths(aovs), _filter(settings.filterRadius),
-      _cullBack(settings.cullStyle.rfind("back", 0) == 0),
-      _cullFront(settings.cullStyle.rfind("front", 0) == 0),
-      _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos),
-      _ambientOcclusion(settings.integrator == "ambientOcclusion"),
-      _lightSamples(settings.lightSamples > 0 ? settings.lightSamples
-                                              : lights.worthwhileSamples()) {
-    for (size_t i = 0; i < aovs.size(); ++i) {
-        if (aovs[i].id == AovId::denoisingAlbedo) _denoisingAlbedo = int(i);
-        if (aovs[i].id == AovId::denoisingNormal) _denoisingNormal = int(i);
-    }
-    const vec3 eye = vec3(glm::inverse(camera.worldToCamera())[3]);
-    if (std::isfinite(eye.x + eye.y + eye.z)) _cameraMedia = mediaAround(scene, eye, 0.5f);
-}
-
-void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters& counters) const {
-    Sampler sampler(uint32_t(x), uint32_t(y), _settings.seed, index);
-    const vec4 uFilm = sampler.next4();
-    const float uTime = sampler.next2().x;
-    const vec2 offset = _filter.sample(vec2(uFilm));
-    const vec2 pixel = vec2(x, y) + 0.5f + offset;
-    const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime);
-    const AovTarget target{film, x, y, glm::length(offset)};
-    counters.clock.enter(nullptr);
-    if (_ambientOcclusion) {
-        const AmbientOcclusion occlusion{_scene, _settings.ambientOcclusionSamples};
-        const float seen = occlusion.sample(ray, sampler, _aovs, target, _camera, counters.rays);
-        ++counters.paths;
-        film.addColor(x, y, vec3(std::max(seen, 0.0f)), seen < 0.0f ? 0.0f : 1.0f);
-        return;
-    }
-
-    Path path(sampler);
-    path.origin = ray.origin;
-    path.direction = ray.direction;
-    path.near = ray.near;
-    path.far = ray.far;
-    path.time = ray.time;
-    path.coneWidth = ray.coneWidth;
-    path.coneSpread = ray.coneSpread;
-    path.media = _cameraMedia;
-    std::optional<LightPathRecord> lightPaths;
-    if (!_lightPaths.empty()) path.lightPaths = &lightPaths.emplace(_lightPaths);
-    trace(path, target, counters);
-    ++counters.paths;
-    addFeatures(path, target);
-    const vec3 color = path.radiance * _camera.camera().exposureScale;
-    if (lightPaths)
-        _lightPaths.write(*lightPaths, target, _camera.camera().exposureScale,
-                          !film.usable(color, path.alpha));
-    film.addColor(x, y, color, path.alpha);
-}
-
-/// What guides the denoiser, of every sample, so that means fade at outlines as the colour does.
-void Integrator::addFeatures(const Path& path, const AovTarget& target) const {
-    if (_denoisingAlbedo < 0 && _denoisingNormal < 0) return;
-    // What only mirrors, lamps and skies show is its own texture.
-    const vec3 albedo =
-        path.featured ? path.featureAlbedo : glm::clamp(path.radiance, vec3(0.0f), vec3(1.0f));
-    if (_denoisingAlbedo >= 0)
-        target.film.addAov(_denoisingAlbedo, target.x, target.y, &albedo.x, 0.0f);
-    if (_denoisingNormal >= 0)
-        target.film.addAov(_denoisingNormal, target.x, target.y, &path.featureNormal.x, 0.0f);
-}
-
 void Integrator::addRadiance(Path& path, const vec3& radiance) const {
     vec3 contribution = path.throughput * radiance;
     float clamp = 1.0f;
@@ -123,7 +54,7 @@ LightDraw Integrator::beginLight(const Path& path, const SurfacePoint& point, bo
     return _lights.set().begin(s.position, facingNormal(s), twoSided, u, path.time);
 }
 
-vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf,
+vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const VertexBsdf& bsdf,
                              const Hit& hit, const LightDraw& draw, TraceCounters& counters) const {
     const ShadingPoint& s = point.shading;
     const bool twoSided = bsdf.transmits();
@@ -167,8 +98,8 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
 }
 
 /// Sets the path on its way from a vertex, and keeps what later light hits have to know about it.
-void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
-                        const BsdfSample& next) const {
+void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit,
+                        const VertexBsdf& bsdf, const BsdfSample& next) const {
     const ShadingPoint& s = point.shading;
     const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
     path.rays = (next.event & sh::LOBE_TRANSMIT) != 0 ? RayTransmission
@@ -196,6 +127,16 @@ void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit, c
     path.near = 0.0f;
     path.far = INFINITY;
     path.coneSpread = std::min(1.0f, path.coneSpread + 0.5f * next.roughness);
+}
+
+/// The wavelengths of a path are chosen where it first meets a material that disperses: until then
+/// its three channels stand for all of the spectrum.
+void Integrator::chooseWavelengths(Path& path, const MaterialProgram& program,
+                                   ShadingPoint& s) const {
+    HeroWavelengths& waves = path.waves;
+    if (!waves.chosen()) path.throughput *= waves.begin(path.sampler.next2().x);
+    if (!waves.alone && !program.hasHeroWavelengths()) path.throughput *= waves.leaveOthers();
+    s.wavelength = waves.nm[0];
 }
 
 constexpr int drawsAtOnce = 4; // light samples
@@ -282,9 +223,20 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
                     beginLight(path, point, draws2Sided, vec3(u.point4(uint32_t(drawn))));
         }
 
+        if (program.disperses() && !caught) chooseWavelengths(path, program, point.shading);
         Bsdf bsdf;
         program.evaluate(s, bsdf);
         if (program.hasSubsurface()) bsdf.walkSubsurface();
+        std::optional<DispersedBsdf> dispersed;
+        if (s.wavelength > 0.0f && !path.waves.alone) {
+            dispersed.emplace(program, s, path.waves, bsdf);
+            // Lobes of random values have no density that could weigh one wavelength by another.
+            if (dispersed->stochastic()) {
+                path.throughput *= path.waves.leaveOthers();
+                dispersed.reset();
+            }
+        }
+        const VertexBsdf vertex(bsdf, dispersed ? &*dispersed : nullptr);
         if (bsdf.stochastic()) bsdf.seed(path.sampler.randomBits());
         if (!aovsWritten) {
             writeAovs(_aovs, target, _camera, point, bsdf);
@@ -303,18 +255,20 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         }
         if (path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface)) break;
 
-        if (bsdf.stochastic() || bsdf.transmits() != draws2Sided) drawn = 0;
+        if (bsdf.stochastic() || vertex.transmits() != draws2Sided) drawn = 0;
         const Sampler::Set uLight = path.sampler.nextSet(uint32_t(lightSamples));
-        if (bsdf.hasNonDelta() && !_lights.set().empty())
+        if (vertex.hasNonDelta() && !_lights.set().empty())
             for (int i = 0; i < lightSamples; ++i) {
                 const LightDraw draw = i < drawn ? draws[i]
-                                                 : beginLight(path, point, bsdf.transmits(),
+                                                 : beginLight(path, point, vertex.transmits(),
                                                               vec3(uLight.point4(uint32_t(i))));
-                addRadiance(path, directLight(path, point, bsdf, hit, draw, counters));
+                addRadiance(path, directLight(path, point, vertex, hit, draw, counters));
             }
 
         const vec4 uBsdf = path.sampler.next4();
-        const BsdfSample next = bsdf.sample(vec3(uBsdf), uBsdf.w);
+        HeroWavelengths behind;
+        const BsdfSample next = dispersed ? dispersed->sample(vec3(uBsdf), uBsdf.w, behind)
+                                          : bsdf.sample(vec3(uBsdf), uBsdf.w);
         if (next.event == 0) break;
         path.throughput *= next.weight;
         if (!(luminance(path.throughput) > 0.0f)) break;
@@ -322,8 +276,9 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
             if (!passBeneath(path, point, hit, bsdf.subsurface(next), counters)) break;
         } else {
             if ((next.event & sh::LOBE_TRANSMIT) != 0) path.media.cross(program, s);
-            depart(path, point, hit, bsdf, next);
+            depart(path, point, hit, vertex, next);
         }
+        if (dispersed) path.waves = behind;
         ++path.depth;
         if (!survivesRoulette(path)) break;
         path.coneWidth = width;

@@ -52,7 +52,7 @@ public:
     /// Goes on with the same normal, side and time. The radiance is without image().
     bool sample(const EmitterDraw& draw, const vec3& point, const vec3& normal, bool twoSided,
                 float time, EmitterSample& out) const;
-    /// What the image around the scene adds to the radiance of a sample, as a factor.
+    /// The factor of the image around the scene in the radiance of a sample.
     vec3 image(const vec3& local) const {
         return _environment ? _environment->radiance(local) : vec3(1.0f);
     }
@@ -74,7 +74,7 @@ public:
     /// False when all of a light at infinity is behind a surface that does not transmit.
     bool reaches(const vec3& normal, bool twoSided) const;
 
-    /// What the light tree has to know; lights that are not at infinity only.
+    /// The light tree's view of this light; for lights that are not at infinity only.
     LightTreeLeaf leaf(int id) const;
 
 private:

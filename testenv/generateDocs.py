@@ -155,7 +155,7 @@ def aovs():
              "Coverage": "ids by their share of the samples"}
     counted = {"sampleCount": "count", "variance": "estimate"}
     table_rows = [row for row in tables.read("hdDelegate/film/aovs.def", "AOV") if row.values[0] not in ("primvars", "lpe")]
-    # What the film makes, then means.
+    # AOVs that the film makes, then means.
     table_rows.sort(key=lambda row: ("film" not in row.words, row.values[2] != "Mean"))
     rows = []
     for row in table_rows:
@@ -187,7 +187,7 @@ def by_design():
 
     rows = [(f"`{name}`", f.instead, ", ".join(f"`{s}`" for s in f.scenes), f"`testenv/raster/{f.test}`")
             for name, f in byDesign.FEATURES.items()]
-    return ["# What the rasterizer draws otherwise, by design", "",
+    return ["# Differences of the rasterizer by design", "",
             "The list is `testenv/raster/byDesign.py`. Test scenes that have a feature are not held together as a whole.", "",
             *table(("feature", "the rasterizer instead", "test scenes", "test of the difference"), rows)]
 

@@ -49,7 +49,8 @@ def _assets(source):
     """:returns: what is left out, in words"""
     target = os.path.join(source, "assets")
     os.makedirs(target, exist_ok=True)
-    shutil.copy(os.path.join(HERE, "site.css"), target)
+    for name in ("site.css", "site.js"):
+        shutil.copy(os.path.join(HERE, name), target)
     try:
         modules = os.path.join(bundle.packages(WEB), "node_modules")
     except CommandError as error:

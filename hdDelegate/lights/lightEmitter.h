@@ -57,7 +57,7 @@ public:
     vec3 filtered(const vec3& point, const vec3& direction, float distance, float time) const {
         return _filters.empty() ? vec3(1.0f) : _filters.factor(point, direction, distance, time);
     }
-    /// What the image around the scene adds to the radiance of a sample, as a factor.
+    /// The factor of the image around the scene in the radiance of a sample.
     vec3 image(const vec3& local) const {
         return _environment ? _environment->radiance(local) : vec3(1.0f);
     }
@@ -79,7 +79,7 @@ public:
     /// False when all of a light at infinity is behind a surface that does not transmit.
     bool reaches(const vec3& normal, bool twoSided) const;
 
-    /// What the light tree has to know; lights that are not at infinity only.
+    /// The light tree's view of this light; for lights that are not at infinity only.
     LightTreeLeaf leaf(int id) const;
 
 private:

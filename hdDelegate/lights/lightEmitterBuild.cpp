@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a light becomes, and the reasons why it gives no light.
+// From a light to its emitter, and the reasons why it gives no light.
 
 #include "hdDelegate/lights/lightEmitter.h"
 #include "hdDelegate/lights/lightImages.h"

@@ -142,7 +142,7 @@ public:
                                bool twoSided) const;
 
 private:
-    /// What chooses between the lights at infinity and the tree at one point.
+    /// Chances of the lights at infinity and of the tree at one point.
     struct Choice {
         float tree = 0.0f, total = 0.0f; ///< estimates of irradiance
         int count = 0;                   ///< candidates; the tree is one

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What to do about a warning, by its words.
+"""Advice on a warning, by its words.
 
 The first row that a message matches counts. testenv/lint/test_messages.py holds the table to the texts in the code: each has
 a row, and each row has a text.

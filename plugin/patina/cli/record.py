@@ -138,7 +138,7 @@ class _Job:
             outputs.check(checkpoints.path_of(shot.image))
 
     def _left_over(self, image):
-        """What a render that was killed has left; it goes when this image is written."""
+        """Files that a killed render has left; they go when this image is written."""
         path = checkpoints.path_of(image)
         if self.arguments.resume or not os.path.isfile(path):
             return []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What every part of the reader needs: the stage, the time, the edit, and caches."""
+"""The context that every part of the reader needs: the stage, the time, the edit, and caches."""
 import numpy as np
 from pxr import Gf, Usd, UsdGeom
 

@@ -40,7 +40,9 @@ public:
         if (numberOf(value, number) && std::isfinite(number))
             field = float(number);
         else
-            warn(names, "is not a finite number");
+            _param.warn(_light, "light:filters",
+                        _id.GetString() + " has an input " + names +
+                            " that is not a finite number; the fallback is used");
     }
     void read(const char* names, bool& field) const {
         double number = 0.0;
@@ -89,12 +91,6 @@ private:
             }
         return VtValue();
     }
-    void warn(const std::string& names, const char* what) const {
-        _param.warn(_light, "light:filters",
-                    _id.GetString() + " " + names.substr(0, names.find(' ')) + " " + what +
-                        "; the fallback is used");
-    }
-
     HdSceneDelegate& _delegate;
     HdPatinaRenderParam& _param;
     const SdfPath &_light, &_id;
@@ -121,12 +117,14 @@ std::vector<LightFilter> readLightFilters(HdSceneDelegate& delegate, HdPatinaRen
         const Inputs inputs(delegate, param, light, path);
         const LightFilterRow* row = rowOf(inputs.type());
         if (!row) {
-            param.warn(light, "light:filters",
-                       path.GetString() +
-                           (inputs.type().empty()
-                                ? " does not exist or has no type"
-                                : " is a light filter of unknown type '" + inputs.type() + "'") +
-                           "; it is left out");
+            const std::string given = inputs.type();
+            if (given.empty())
+                param.warn(light, "light:filters",
+                           path.GetString() + " has no type; the light filter is left out");
+            else
+                param.warn(light, "light:filters",
+                           path.GetString() + " is a light filter of unknown type '" + given +
+                               "'; it is left out");
             continue;
         }
         LightFilter filter;

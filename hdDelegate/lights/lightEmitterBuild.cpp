@@ -66,6 +66,7 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const d
                  "the light has no size or is flattened to nothing; it is off");
             _resolved.kind = Kind::None;
         }
+    if (_resolved.kind == Kind::Dome) addPortals(shutterOpen, diagnostics);
     const bool anything = _resolved.power() * _meanTexture * _pose.shaping.level() > 0.0f;
     if (!anything) _resolved.kind = Kind::None;
 }
@@ -80,6 +81,25 @@ bool LightEmitter::setUpDome(LightImages& images) {
                                       "inputs:texture:file");
     _irradiance = pi * luminance(glm::abs(_resolved.radiance) * _environment->mean());
     return !_environment->black();
+}
+
+/// Where they are when the shutter opens: they guide samples alone.
+void LightEmitter::addPortals(float time, Diagnostics& diagnostics) {
+    const mat3 toDome = glm::transpose(_pose.domeToWorld);
+    for (const LightPortal& portal : _light.portals) {
+        DomePortal made(_group * transformAt(portal.transform, time, _origin), portal.width,
+                        portal.height, [&](const vec3& direction) {
+                            return _environment
+                                       ? luminance(_environment->radiance(toDome * direction))
+                                       : 1.0f;
+                        });
+        if (made.valid())
+            _portals.add(std::move(made));
+        else
+            diagnostics.warn(_light.path, "portals",
+                             portal.path +
+                                 " has no size or shows nothing of the sky; it is left out");
+    }
 }
 
 LightEmitter::Pose LightEmitter::makePose(const mat4& toWorld) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hdDelegate/scene/lightFilter.h"
+#include "hdDelegate/scene/lightPortal.h"
 #include "hdDelegate/scene/types.h"
 
 namespace patina {
@@ -83,6 +84,7 @@ struct Light {
     std::string shadowLink;
 
     std::vector<LightFilter> filters; ///< in their order; they multiply
+    std::vector<LightPortal> portals; ///< dome
 
     std::string lightGroup; ///< its label in light path expressions; empty: none
 

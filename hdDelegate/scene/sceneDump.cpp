@@ -303,6 +303,12 @@ void writeLight(Writer& w, const Light& l) {
     w.field("shadowLink", l.shadowLink, d.shadowLink);
     for (const LightFilter& filter : l.filters)
         writeFilter(w, filter);
+    for (const LightPortal& portal : l.portals) {
+        w.line("portal", portal.path);
+        w.transform("portal.transform", portal.transform);
+        w.field("portal.width", portal.width, 1.0f);
+        w.field("portal.height", portal.height, 1.0f);
+    }
     w.field("lightGroup", l.lightGroup, d.lightGroup);
     w.field("geometry", l.geometry, d.geometry);
     w.field("materialSyncMode", l.materialSyncMode, d.materialSyncMode);

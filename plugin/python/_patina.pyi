@@ -94,8 +94,8 @@ class SceneEdit:
         """
     def set_light(self, path: str, **kwargs: typing.Any) -> None:
         """
-        A UsdLux light; keywords are the fields of Light. filters: a list of dicts of path, type, transform and light_filter_inputs().
-        Keywords: group, type, transform, visible, camera_visible, color, intensity, exposure, diffuse, specular, normalize, enable_color_temperature, color_temperature, texture_file, texture_format, texture_color_space, guide_radius, shaping_focus, shaping_focus_tint, shaping_cone_angle, shaping_cone_softness, shaping_cone_authored, ies_file, ies_angle_scale, ies_normalize, shadow_enable, shadow_color, shadow_distance, shadow_falloff, shadow_falloff_gamma, light_link, shadow_link, filters, light_group, geometry, material_sync_mode, angle, radius, width, height, length, treat_as_point, treat_as_line.
+        A UsdLux light; keywords are the fields of Light. filters: a list of dicts of path, type, transform and light_filter_inputs(). portals: of path, transform, width and height.
+        Keywords: group, type, transform, visible, camera_visible, color, intensity, exposure, diffuse, specular, normalize, enable_color_temperature, color_temperature, texture_file, texture_format, texture_color_space, guide_radius, shaping_focus, shaping_focus_tint, shaping_cone_angle, shaping_cone_softness, shaping_cone_authored, ies_file, ies_angle_scale, ies_normalize, shadow_enable, shadow_color, shadow_distance, shadow_falloff, shadow_falloff_gamma, light_link, shadow_link, filters, portals, light_group, geometry, material_sync_mode, angle, radius, width, height, length, treat_as_point, treat_as_line.
         """
     def set_material(self, path: str, network: Network) -> None:
         """

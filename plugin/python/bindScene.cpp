@@ -53,6 +53,7 @@ void setLight(PythonEdit& edit, const std::string& path, const py::kwargs& value
         .read("light_link", light->lightLink)
         .read("shadow_link", light->shadowLink)
         .read("filters", light->filters)
+        .read("portals", light->portals)
         .read("light_group", light->lightGroup)
         .read("geometry", light->geometry)
         .read("material_sync_mode", light->materialSyncMode)
@@ -181,7 +182,8 @@ void bindScene(py::module_& m) {
         "set_light(), type).");
     edit.def("set_light", &setLight, py::arg("path"),
              "A UsdLux light; keywords are the fields of Light. filters: a list of dicts of path, "
-             "type, transform and light_filter_inputs().")
+             "type, transform and light_filter_inputs(). portals: of path, "
+             "transform, width and height.")
         .def("set_camera", &setCamera, py::arg("path"),
              "A UsdGeomCamera; keywords are the fields of Camera.")
         .def("set_material", &setMaterial, py::arg("path"), py::arg("network"),

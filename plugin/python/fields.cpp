@@ -289,6 +289,22 @@ void convert(py::handle from, std::vector<LightFilter>& to) {
     }
 }
 
+void convert(py::handle from, std::vector<LightPortal>& to) {
+    to.clear();
+    for (const py::handle& item : py::cast<py::sequence>(from)) {
+        if (!py::isinstance<py::dict>(item)) throw py::value_error("needs a dict for each portal");
+        LightPortal portal;
+        const auto values = py::reinterpret_borrow<py::kwargs>(item);
+        Fields("a portal of set_light", "", values)
+            .read("path", portal.path)
+            .read("transform", portal.transform)
+            .read("width", portal.width)
+            .read("height", portal.height)
+            .finish();
+        to.push_back(std::move(portal));
+    }
+}
+
 void Fields::finish() const {
     for (auto item : _values) {
         const std::string name = py::str(item.first);

@@ -4,7 +4,7 @@ import functools
 
 from pxr import Gf, UsdGeom, UsdLux, UsdShade
 
-from . import assets, kinds, lightFilters
+from . import assets, kinds, lightFilters, portals
 from .context import number, vector
 from .primvars import text
 from .transforms import transform_of
@@ -34,6 +34,7 @@ def emit(context, found, linking):
     if type_ == "dome":
         _read_texture(context, prim, fields)
         fields["texture_format"] = str(_input(context, prim, "texture:format") or "automatic")
+        fields["portals"] = portals.of(context, prim, group)
         after = _dome_pole(context, prim)
     elif type_ == "rect":
         _read_texture(context, prim, fields)

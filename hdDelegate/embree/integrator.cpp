@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/integrator.h"
 
-#include "hdDelegate/embree/ambientOcclusion.h"
 #include "hdDelegate/embree/aovWriter.h"
 #include "hdDelegate/embree/media/freeFlight.h"
-#include "hdDelegate/embree/media/mediaAround.h"
 #include "hdDelegate/embree/path.h"
 #include "hdDelegate/film/pixelFilter.h"
 #include "hdDelegate/embree/sceneLights.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace patina {
@@ -129,16 +126,6 @@ void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit,
     path.coneSpread = std::min(1.0f, path.coneSpread + 0.5f * next.roughness);
 }
 
-/// The wavelengths of a path are chosen where it first meets a material that disperses: until then
-/// its three channels stand for all of the spectrum.
-void Integrator::chooseWavelengths(Path& path, const MaterialProgram& program,
-                                   ShadingPoint& s) const {
-    HeroWavelengths& waves = path.waves;
-    if (!waves.chosen()) path.throughput *= waves.begin(path.sampler.next2().x);
-    if (!waves.alone && !program.hasHeroWavelengths()) path.throughput *= waves.leaveOthers();
-    s.wavelength = waves.nm[0];
-}
-
 constexpr int drawsAtOnce = 4; // light samples
 
 void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& counters) const {
@@ -223,20 +210,21 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
                     beginLight(path, point, draws2Sided, vec3(u.point4(uint32_t(drawn))));
         }
 
-        if (program.disperses() && !caught) chooseWavelengths(path, program, point.shading);
+        if (program.disperses() && !caught) {
+            if (!path.waves.alone) {
+                const bool goesOn = disperse(path, point, hit, aovsWritten ? nullptr : &target,
+                                             counters);
+                aovsWritten = true;
+                if (!goesOn || !survivesRoulette(path)) break;
+                path.coneWidth = width;
+                travelled = 0.0f;
+                continue;
+            }
+            point.shading.wavelength = path.waves.nm[0];
+        }
         Bsdf bsdf;
         program.evaluate(s, bsdf);
         if (program.hasSubsurface()) bsdf.walkSubsurface();
-        std::optional<DispersedBsdf> dispersed;
-        if (s.wavelength > 0.0f && !path.waves.alone) {
-            dispersed.emplace(program, s, path.waves, bsdf);
-            // Lobes of random values have no density that could weigh one wavelength by another.
-            if (dispersed->stochastic()) {
-                path.throughput *= path.waves.leaveOthers();
-                dispersed.reset();
-            }
-        }
-        const VertexBsdf vertex(bsdf, dispersed ? &*dispersed : nullptr);
         if (bsdf.stochastic()) bsdf.seed(path.sampler.randomBits());
         if (!aovsWritten) {
             writeAovs(_aovs, target, _camera, point, bsdf);
@@ -255,20 +243,18 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         }
         if (path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface)) break;
 
-        if (bsdf.stochastic() || vertex.transmits() != draws2Sided) drawn = 0;
+        if (bsdf.stochastic() || bsdf.transmits() != draws2Sided) drawn = 0;
         const Sampler::Set uLight = path.sampler.nextSet(uint32_t(lightSamples));
-        if (vertex.hasNonDelta() && !_lights.set().empty())
+        if (bsdf.hasNonDelta() && !_lights.set().empty())
             for (int i = 0; i < lightSamples; ++i) {
                 const LightDraw draw = i < drawn ? draws[i]
-                                                 : beginLight(path, point, vertex.transmits(),
+                                                 : beginLight(path, point, bsdf.transmits(),
                                                               vec3(uLight.point4(uint32_t(i))));
-                addRadiance(path, directLight(path, point, vertex, hit, draw, counters));
+                addRadiance(path, directLight(path, point, bsdf, hit, draw, counters));
             }
 
         const vec4 uBsdf = path.sampler.next4();
-        HeroWavelengths behind;
-        const BsdfSample next = dispersed ? dispersed->sample(vec3(uBsdf), uBsdf.w, behind)
-                                          : bsdf.sample(vec3(uBsdf), uBsdf.w);
+        const BsdfSample next = bsdf.sample(vec3(uBsdf), uBsdf.w);
         if (next.event == 0) break;
         path.throughput *= next.weight;
         if (!(luminance(path.throughput) > 0.0f)) break;
@@ -276,9 +262,8 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
             if (!passBeneath(path, point, hit, bsdf.subsurface(next), counters)) break;
         } else {
             if ((next.event & sh::LOBE_TRANSMIT) != 0) path.media.cross(program, s);
-            depart(path, point, hit, vertex, next);
+            depart(path, point, hit, bsdf, next);
         }
-        if (dispersed) path.waves = behind;
         ++path.depth;
         if (!survivesRoulette(path)) break;
         path.coneWidth = width;

@@ -76,6 +76,11 @@ private:
     Flight scatter(Path& path, const Medium& medium, float distance, TraceCounters& counters) const;
     bool survivesRoulette(Path& path) const;
     void chooseWavelengths(Path& path, const MaterialProgram& program, ShadingPoint& s) const;
+    /// Takes the path through a vertex of several wavelengths, light samples included.
+    /// @param aovs if given: gets what AOVs show of the point
+    /// @returns false when the path ends
+    bool disperse(Path& path, SurfacePoint& point, const Hit& hit, const AovTarget* aovs,
+                  TraceCounters& counters) const;
     void depart(Path& path, const SurfacePoint& point, const Hit& hit, const VertexBsdf& bsdf,
                 const BsdfSample& next) const;
     /// What the camera sees of a prim that is a matte or a catcher; the path may go on by

@@ -103,7 +103,7 @@ def append(table, whole):
 
 
 def summarize(path):
-    """What a table of predictions comes to, in words."""
+    """A table of predictions in a few words."""
     from patina.chart import predictions
 
     print(predictions.summary(predictions.read(path)))

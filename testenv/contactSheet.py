@@ -146,7 +146,8 @@ def main():
             pixels, seconds, warnings, error = found
             images.append(pixels)
             name = os.path.relpath(stage, arguments.folder)
-            shots.append((pixels, name, error[0] if error else f"{seconds:.2f} s" + (f", {len(warnings)} warnings" if warnings else "")))
+            shots.append((pixels, name, error[0] if error else f"{seconds:.2f} s"
+                          + (f", {len(warnings)} warnings" if warnings else "")))
             print(f"{len(images) - 1:4d} {seconds:7.2f} s  {name}  {'FAILED ' + error[0] if error else ''}", flush=True)
             for warning in warnings:
                 print(f"              {warning}")

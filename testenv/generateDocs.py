@@ -3,7 +3,8 @@
 
     ./patina python testenv/generateDocs.py [--check] [PAGE ...]
 
-Pages: nodes, flags, methods, aovs, byDesign, messages. testenv/lint/test_generatedDocs.py fails where one is stale.
+Pages: nodes, flags, methods, aovs, marks, byDesign, messages, benchmarks. testenv/lint/test_generatedDocs.py fails where one
+is stale.
 """
 import argparse
 import os
@@ -16,6 +17,8 @@ if __name__ == "__main__":
     import checkout
 
     checkout.enter()
+
+import benchmarks
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 FOLDER = os.path.join(ROOT, "docs", "generated")
@@ -97,7 +100,8 @@ def nodes():
     for name in names_in(MODELS, ".mtlx"):
         defined = ElementTree.fromstring(read(f"{MODELS}/{name}")).iter("nodedef")
         models.append((f"`{MODELS}/{name}`", ", ".join(dict.fromkeys(f"`{d.get('node')}`" for d in defined))))
-    return ["# Nodes", "", f"Categories that the table of node definitions (`{NODES}`) has, by file, and those that are graphs in data files.",
+    return ["# Nodes", "",
+            f"Categories that the table of node definitions (`{NODES}`) has, by file, and those that are graphs in data files.",
             "Most have one definition for each type. A closure that is known but not modelled is warned of.", "",
             *table(("family", "categories"), rows), "", *table(("data file", "categories"), models)]
 
@@ -125,9 +129,10 @@ def methods():
 
     module = compiled.load()
     lines = ["# Methods at choice points", "",
-             "`--method POINT=NAME` forces one; the first of each table is the default. Errors are the largest over the measured",
-             "subjects of mean and largest error; cost is time over the default's. *noise* is the standard deviation of one sample's",
-             "weight, *effort* time x variance over the default's. `patina chart --lobes` measures them."]
+             "`--method POINT=NAME` forces one; the first of each table is the default. Errors are the largest over",
+             "the measured subjects of mean and largest error; cost is time over the default's. *noise* is the standard",
+             "deviation of one sample's weight, *effort* time x variance over the default's. `patina chart --lobes` measures "
+             "them."]
     for point, known in module.choice_points():
         rows = []
         for name, description in known:
@@ -150,7 +155,7 @@ def aovs():
              "Coverage": "ids by their share of the samples"}
     counted = {"sampleCount": "count", "variance": "estimate"}
     table_rows = [row for row in tables.read("hdDelegate/film/aovs.def", "AOV") if row.values[0] not in ("primvars", "lpe")]
-    # What the film makes, then means.
+    # AOVs that the film makes, then means.
     table_rows.sort(key=lambda row: ("film" not in row.words, row.values[2] != "Mean"))
     rows = []
     for row in table_rows:
@@ -158,8 +163,8 @@ def aovs():
         holds = row.text(4) + "".join(f": `{expression}`" for expression in row.words.get("paths", ()))
         rows.append((f"`{name}`", components, holds, counted.get(name, kinds[kind]), clear.rstrip("f"),
                      "yes" if name in recordFlags.ALL_AOVS else ""))
-    rows.append(("`NAME=lpe:EXPRESSION`", "3", "light of the paths that fit [an expression](../design/lightPaths.md)", kinds["Mean"], "0.0",
-                 ""))
+    rows.append(("`NAME=lpe:EXPRESSION`", "3", "light of the paths that fit [an expression](../design/lightPaths.md)",
+                 kinds["Mean"], "0.0", ""))
     rows.append(("`primvars:NAME`", "1 to 3", "a primvar; texture coordinates have two components", kinds["First"], "0.0",
                  "`primvars:st`"))
     return ["# AOVs", "", "The table is `hdDelegate/film/aovs.def`. `color` and `alpha` are always written.", "",
@@ -171,8 +176,8 @@ def marks():
 
     rows = [(f"`primvars:{row.text(0)}`", row.text(2)) for row in tables.read("hdDelegate/scene/primMarks.def", "MARK")]
     return ["# Marks of prims", "", "Primvars that say which rays see a prim, and what mattes make of it. The table is",
-            "`hdDelegate/scene/primMarks.def`. Of several the lower ones are stronger. They are constant and inherited. [Visibility",
-            "and catchers](../design/pathTracer.md#visibility-mattes-and-catchers) has the meanings.", "",
+            "`hdDelegate/scene/primMarks.def`. Of several the lower ones are stronger. They are constant and inherited.",
+            "[Visibility and catchers](../design/pathTracer.md#visibility-mattes-and-catchers) has the meanings.", "",
             *table(("primvar", "meaning"), rows)]
 
 
@@ -182,7 +187,7 @@ def by_design():
 
     rows = [(f"`{name}`", f.instead, ", ".join(f"`{s}`" for s in f.scenes), f"`testenv/raster/{f.test}`")
             for name, f in byDesign.FEATURES.items()]
-    return ["# What the rasterizer draws otherwise, by design", "",
+    return ["# Differences of the rasterizer by design", "",
             "The list is `testenv/raster/byDesign.py`. Test scenes that have a feature are not held together as a whole.", "",
             *table(("feature", "the rasterizer instead", "test scenes", "test of the difference"), rows)]
 
@@ -192,17 +197,19 @@ def messages():
     from patina.cli import advice, causes
 
     lines = ["# Messages", "",
-             "Warnings name a prim and an input, say what is wrong, and what is shown instead. Here … stands for what differs from",
-             "scene to scene. An *error* means that something that was authored is missing from the picture; a *warning*, that a",
-             "default or an approximation is used. `patina record --strict` fails at either. What a command cannot do at all it says",
-             "in one line, and ends with 1 (or 2 for wrong usage, 75 if the same may work later)."]
+             "Warnings name a prim and an input, say what is wrong, and what is shown instead. Here … stands for what",
+             "differs from scene to scene. An *error* means that something that was authored is missing from the picture; a",
+             "*warning*, that a default or an approximation is used. `patina record --strict` fails at either. Of something",
+             "that a command cannot do at all it tells in one line, and ends with 1 (or 2 for wrong usage, 75 if the same may "
+             "work later)."]
     for area, listed in messageTexts.texts().items():
         rows = [(causes.severity({"message": text}), text, advice.advice(text)) for text in listed]
         lines += ["", f"## {area}", "", *table(("", "message", "what to do"), rows)]
     return lines
 
 
-PAGES = {"nodes": nodes, "flags": flags, "methods": methods, "aovs": aovs, "marks": marks, "byDesign": by_design, "messages": messages}
+PAGES = {"nodes": nodes, "flags": flags, "methods": methods, "aovs": aovs, "marks": marks, "byDesign": by_design,
+         "messages": messages, "benchmarks": benchmarks.page}
 NOTE = "<!-- Made by `./patina python testenv/generateDocs.py`; edits are lost. -->"
 
 

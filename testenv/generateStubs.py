@@ -4,8 +4,8 @@ is stale.
 
     ./patina python testenv/generateStubs.py [--check]
 
-Signatures and docstrings come from the bindings by pybind11-stubgen. What the bindings cannot say is added here: what arrays are,
-and the keywords of SceneEdit.set_...(), which the sources list.
+Signatures and docstrings come from the bindings by pybind11-stubgen. What the bindings cannot say is added here: what arrays
+are, and the keywords of SceneEdit.set_...(), which the sources list.
 """
 import argparse
 import os
@@ -57,7 +57,8 @@ def _keywords():
             method = re.search(r'Fields(?: fields)?\("(\w+)"', body)
             if method:
                 own = re.findall(r'\.read\(\s*"(\w+)"', body)
-                found[method[1]] = (common if "readCommon(" in body else []) + own + (shapes if "lightTypes.inc" in body else [])
+                found[method[1]] = (common if "readCommon(" in body else []) + own + (shapes
+                                                                                      if "lightTypes.inc" in body else [])
     return found
 
 
@@ -65,7 +66,8 @@ def _with_keywords(text):
     for method, names in _keywords().items():
         listed = ", ".join(names)
         text, count = re.subn(rf'(def {method}\(self, path: str, \*\*kwargs)(\) -> None:\n(\s+)"""\n)(.*?)(\n\s+""")',
-                              lambda m: f"{m[1]}: typing.Any{m[2]}{m[4]}\n{m[3]}Keywords: {listed}.{m[5]}", text, flags=re.DOTALL)
+                              lambda m: f"{m[1]}: typing.Any{m[2]}{m[4]}\n{m[3]}Keywords: {listed}.{m[5]}", text,
+                              flags=re.DOTALL)
         if count != 1:
             raise ValueError(f"SceneEdit.{method} is not in the stub as expected")
     return text
@@ -80,8 +82,8 @@ def text():
             raise ValueError(f"pybind11-stubgen: {done.stderr.strip()[-1000:]}")
         with open(os.path.join(folder, "_patina.pyi"), encoding="utf-8") as file:
             made = file.read()
-    made = re.sub(r'^"""\n.*?^"""\n', '"""The compiled part of Patina; docs/api/module.md says what values look like."""\n', made, count=1,
-                  flags=re.MULTILINE | re.DOTALL)
+    made = re.sub(r'^"""\n.*?^"""\n', '"""The compiled part of Patina; docs/api/module.md says what values look like."""\n',
+                  made, count=1, flags=re.MULTILINE | re.DOTALL)
     made = re.sub(r"^__all__.*\n", "", made, flags=re.MULTILINE)  # the module has none
     made = re.sub(r"list\[(float|int)\[\d+\]\]", r"typing.Sequence[\1]", made)
     made = re.sub("-> " + ARRAY, r"-> numpy.typing.NDArray[numpy.\1]", made)

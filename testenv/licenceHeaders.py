@@ -21,8 +21,8 @@ ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 LINE = "SPDX-License-Identifier: Apache-2.0"
 # ending or name -> what begins and ends a comment of one line
 COMMENTS = {".h": "// ", ".cpp": "// ", ".inc": "// ", ".def": "// ", ".glsl": "// ", ".js": "// ", ".py": "# ", ".pyi": "# ",
-            ".cmake": "# ", ".sh": "# ", "CMakeLists.txt": "# ", "patina": "# ", "patina.in": "# ", ".css": "/* ", ".mtlx": "<!-- ",
-            "mkdocs.yml": "# ", "Doxyfile": "# ", "run": "# ", "cpp.dox": "// "}
+            ".cmake": "# ", ".sh": "# ", "CMakeLists.txt": "# ", "patina": "# ", "patina.in": "# ", ".css": "/* ",
+            ".mtlx": "<!-- ", "mkdocs.yml": "# ", "Doxyfile": "# ", "run": "# ", "cpp.dox": "// "}
 ENDS = {"/* ": " */", "<!-- ": " -->"}
 LEFT_OUT = ("testenv/stability/corpus/",  # documents as they failed
             "materialNetwork/glsl/tests/expected/")  # generated text, compared by the letter
@@ -38,8 +38,8 @@ def comment_of(path):
 
 def files():
     """:returns: source files of the checkout, below its root; those that git does not ignore"""
-    listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True,
-                            text=True, check=True).stdout.split("\0")
+    listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT,
+                            capture_output=True, text=True, check=True).stdout.split("\0")
     return sorted(path for path in listed if path and comment_of(path) and os.path.isfile(os.path.join(ROOT, path)))
 
 

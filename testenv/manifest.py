@@ -20,8 +20,8 @@ RUNS = {  # --tier: the tiers of the tests that it runs
     "long": ("long",),
     "all": TIERS,
 }
-ROOMS = ("shaders", "materialNetwork", "scene", "geometry", "image", "plan", "film", "lights", "compiled", "embree", "raster", "backends",
-         "hydra", "python", "stage", "cli", "view", "chart", "farm", "testenv")
+ROOMS = ("shaders", "materialNetwork", "scene", "geometry", "image", "plan", "film", "lights", "compiled", "embree", "raster",
+         "backends", "hydra", "python", "stage", "cli", "view", "chart", "farm", "testenv")
 
 FOLDERS = {  # folder: tier, rooms
     "shaders/": ("unit", "shaders"),

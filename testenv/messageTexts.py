@@ -9,7 +9,8 @@ ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 CPP = re.compile(r"\bwarn\(")
 # Place of the text, by the start of a file's path: the heading of the page.
 AREAS = (
-    ("Stages", ("plugin/patina/stage",)), ("Render settings and products", ("plugin/patina/cli", "hdDelegate/hydra/renderProducts")),
+    ("Stages", ("plugin/patina/stage",)), ("Render settings and products",
+                                           ("plugin/patina/cli", "hdDelegate/hydra/renderProducts")),
     ("Shapes", ("hdDelegate/geometry",)), ("Lights", ("hdDelegate/lights", "hdDelegate/embree/sceneLights")),
     ("Materials", ("materialNetwork", "hdDelegate/compiled")), ("Textures and fields", ("hdDelegate/image",)),
     ("Cameras, instances, the scene", ("hdDelegate/scene",)), ("Hydra", ("hdDelegate/hydra",)),
@@ -80,7 +81,8 @@ def _python_text(node):
 
 def _python(path, text):
     for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "warn" and len(node.args) == 3:
+        if isinstance(node, ast.Call) and isinstance(node.func,
+                                                     ast.Attribute) and node.func.attr == "warn" and len(node.args) == 3:
             found = _python_text(node.args[2])
             if re.search(r"[a-z]{2}", found):
                 yield path, found

@@ -61,7 +61,9 @@ def material(name, nodes):
     body = ""
     for node, (identifier, inputs) in nodes.items():
         lines = "".join(f"        {line}\n" for line in inputs)
-        body += f'    def Shader "{node}"\n    {{\n        uniform token info:id = "{identifier}"\n{lines}        token outputs:out\n    }}\n'
+        body += (f'    def Shader "{node}"\n    {{\n'
+                 f'        uniform token info:id = "{identifier}"\n'
+                 f'{lines}        token outputs:out\n    }}\n')
     for node in nodes:
         body = body.replace(f"@{node}@", f"</{name}/{node}.outputs:out>")
     return f'def Material "{name}"\n{{\n    token outputs:mtlx:surface.connect = </{name}/surface.outputs:out>\n{body}}}\n'
@@ -126,14 +128,16 @@ def film():
 
 def sheen():
     steps = [0.05, 0.15, 0.3, 0.45, 0.6, 0.8, 1]
-    return [[lambda n, a=a, m=m: over(n, "ND_sheen_bsdf", [f'string inputs:mode = "{m}"', f"float inputs:roughness = {a:g}"], BLUE)
+    return [[lambda n, a=a, m=m: over(n, "ND_sheen_bsdf", [f'string inputs:mode = "{m}"', f"float inputs:roughness = {a:g}"],
+                                            BLUE)
              for a in steps] for m in ("conty_kulla", "zeltner")]
 
 
 def classic():
     def row(color, ior, extinction, alpha, phong):
         tint = f"color3f inputs:color = {color}"
-        metal = [f"color3f inputs:ior = {ior}", f"color3f inputs:extinction = {extinction}", f"float inputs:roughness = {alpha}"]
+        metal = [f"color3f inputs:ior = {ior}", f"color3f inputs:extinction = {extinction}",
+                 f"float inputs:roughness = {alpha}"]
         return [lambda n: bsdf(n, "ND_patina_lambert_bsdf", tint),
                 lambda n: bsdf(n, "ND_patina_phong_bsdf", tint, f"float inputs:exponent = {phong}"),
                 lambda n: bsdf(n, "ND_patina_blinn_phong_bsdf", tint, f"float inputs:exponent = {4 * phong}"),
@@ -155,7 +159,8 @@ def stage(rows):
     # An aperture is in tenths of a scene unit.
     text = HEAD % {"width": 10 * columns, "height": 10 * len(rows), "sky": SKY}
     text += material("wallMaterial", {
-        "pattern": ("ND_checkerboard_color3", ["color3f inputs:color1 = (0.33, 0.33, 0.33)", "color3f inputs:color2 = (0.22, 0.22, 0.22)",
+        "pattern": ("ND_checkerboard_color3", ["color3f inputs:color1 = (0.33, 0.33, 0.33)",
+                                               "color3f inputs:color2 = (0.22, 0.22, 0.22)",
                                                "float2 inputs:uvtiling = (8, 8)"]),
         "surface": ("ND_surface_unlit", ["color3f inputs:emission_color.connect = @pattern@"])})
     for j, row in enumerate(rows):

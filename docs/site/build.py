@@ -49,7 +49,8 @@ def _assets(source):
     """:returns: what is left out, in words"""
     target = os.path.join(source, "assets")
     os.makedirs(target, exist_ok=True)
-    shutil.copy(os.path.join(HERE, "site.css"), target)
+    for name in ("site.css", "site.js"):
+        shutil.copy(os.path.join(HERE, name), target)
     try:
         modules = os.path.join(bundle.packages(WEB), "node_modules")
     except CommandError as error:
@@ -69,8 +70,8 @@ def _doxygen(folder, source):
     if not program:
         os.makedirs(target, exist_ok=True)
         with open(os.path.join(target, "index.html"), "w", encoding="utf-8") as file:
-            file.write("<!doctype html><html lang=\"en\"><title>Patina: C++</title><p>Doxygen was not installed where this site was "
-                       "built, so it has no pages of the C++ headers.</p></html>\n")
+            file.write("<!doctype html><html lang=\"en\"><title>Patina: C++</title><p>Doxygen was not installed where this "
+                       "site was built, so it has no pages of the C++ headers.</p></html>\n")
         return "left out: pages of the C++ headers (install Doxygen: apt install doxygen)"
     with open(os.path.join(HERE, "Doxyfile"), encoding="utf-8") as file:
         text = file.read()
@@ -91,8 +92,6 @@ class _Warnings(logging.Handler):
 
     def emit(self, record):
         self.texts.append(re.sub(r"\x1b\[[0-9;]*m", "", record.getMessage()))
-
-
 
 
 def _mkdocs(folder, source, made):

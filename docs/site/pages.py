@@ -10,8 +10,8 @@ TOPS = {"README.md": "index.md", "ARCHITECTURE.md": "architecture.md", "CONTRIBU
         "CHANGELOG.md": "changelog.md"}
 LEFT_OUT = ("docs/site",)
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
-INDEX_TITLES = {"design": "Design", "generated": "Generated reference", "measurements": "Measurements", "howto": "How to add one",
-                "tutorials": "Tutorials"}
+INDEX_TITLES = {"design": "Design", "generated": "Generated reference", "measurements": "Measurements",
+                "howto": "How to add one", "tutorials": "Tutorials"}
 
 
 def place_of(path):
@@ -48,7 +48,8 @@ def text_of(path):
         place = _target(path, file)
         if place is None:  # a source file: the site has none
             return label
-        return f"{picture}[{LINK.sub(linked, label)}]({posixpath.relpath(place, here or '.')}{'#' + fragment if fragment else ''})"
+        there = posixpath.relpath(place, here or ".") + ("#" + fragment if fragment else "")
+        return f"{picture}[{LINK.sub(linked, label)}]({there})"
 
     parts = re.split(r"(^```.*?^```$)", text, flags=re.MULTILINE | re.DOTALL)
     return "".join(part if part.startswith("```") else _lists(LINK.sub(linked, part)) for part in parts)

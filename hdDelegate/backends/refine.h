@@ -5,7 +5,7 @@
 
 namespace patina {
 
-/// What to show of a path traced image that still has noise, with the help of a rasterized one that
+/// Shows a path traced image that still has noise with the help of a rasterized one that
 /// has none but lacks some of the light.
 ///
 /// The rasterized picture is multiplied by the ratio of the local means of both and moved by what

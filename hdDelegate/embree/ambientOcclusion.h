@@ -9,7 +9,7 @@
 
 namespace patina {
 
-/// What one camera ray finds without lights and materials: 0..1, the share of the cosine-weighted
+/// The value of one camera ray without lights and materials: 0..1, the share of the cosine-weighted
 /// hemisphere over the surface (on the ray's side) that sees no geometry at any distance.
 /// A grey preview, and a workload of plain rays to compare with other renderers.
 struct AmbientOcclusion {

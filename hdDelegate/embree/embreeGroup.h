@@ -35,7 +35,7 @@ struct InstancerNode {
     int id(int instance, int outer) const;
 };
 
-/// What a geometry id of a group's Embree scene stands for.
+/// The meaning of a geometry id of a group's Embree scene.
 struct GroupRecord {
     Surface* surface = nullptr;          ///< a prim
     const InstancerNode* node = nullptr; ///< instances
@@ -65,7 +65,7 @@ struct EmbreeGroup {
     ~EmbreeGroup();
     bool empty() const { return _surfaces.empty() && _nodes.empty(); }
 
-    /// Brings the Embree scene to these members. What is in it already stays; without any change
+    /// Brings the Embree scene to these members. Members that it has stay; without any change
     /// nothing is committed. The nodes' targets must have been updated.
     /// @param interactive commits quickly, at the cost of speed of rays
     /// @param stop cancels the commit; the next update then starts anew
@@ -108,7 +108,7 @@ private:
     bool _broken = false; ///< an update was stopped or ran out of memory: the next starts anew
 };
 
-/// What Embree takes, in debugging builds on pain of death: no NaN, no distance below 0, numbers
+/// Rays that Embree's debugging builds do not abort at: no NaN, no distance below 0, numbers
 /// up to 1.8e18. Asked of every ray before it gets there.
 /// @param limit of the coordinates of the origin
 inline bool isTraceable(const RTCRay& ray, float limit) {

@@ -82,14 +82,14 @@ public:
     size_t instanceCount() const { return _instanceCount; }
     /// The surface of a prim (for mesh lights); null when there is none.
     std::shared_ptr<const Surface> surfaceOf(const std::string& path) const;
-    /// What the light of emissiveSurfaces() is made from; equal as long as that is.
+    /// The key of the light of emissiveSurfaces(): equal as long as that light is.
     const std::vector<std::shared_ptr<const void>>& emissiveSources() const {
         return _emissiveSources;
     }
     const Placements& placements() const { return *_parts.placements; }
     const std::shared_ptr<const Placements>& sharedPlacements() const { return _parts.placements; }
     const BuildCounts& counts() const { return _counts; } ///< since construction
-    /// What the methods of the materials in use are expected to cost.
+    /// The expected costs of the methods of the materials in use.
     ScenePlan plan() const;
     /// Paths of the materials in use, by their programs; "" is displayColor.
     std::map<const MaterialProgram*, std::string> materialNames() const;
@@ -113,7 +113,7 @@ private:
         bool opaque = true, hasMedia = false, emits = false;
         size_t bytes = 0;
     };
-    /// What a prim is to become.
+    /// The target state of a prim.
     struct Work {
         std::shared_ptr<const Geometry> prim;
         CachedSurface* cached;
@@ -192,7 +192,7 @@ private:
     Diagnostics& _diagnostics;
     RTCDevice _device = nullptr;
     CompiledState _parts; ///< of the last update
-    // What the last update was of.
+    // The input of the last update.
     bool _complete = false; ///< it was not stopped
     uint64_t _version = 0;
     Camera _camera;

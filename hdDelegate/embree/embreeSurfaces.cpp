@@ -74,7 +74,7 @@ float EmbreeScene::roundEdge(const Implicit& prim, const View& view) const {
     // A segment of length s lies s^2 / 8 r inside of a circle, and two thirds of that inside of one
     // that its polygon is as wide as in the mean, which is how coarse shapes are made.
     const float edge = std::sqrt(12.0f * gap * std::max(pixel, 0.0f) * radius);
-    // What makes no difference is no reason to draw anew.
+    // A change without an effect is no reason to draw anew.
     const int coarser = std::isfinite(edge) ? roundCoarseness(prim, edge) : 1;
     return coarser > 1 ? roundEdgeOf(radius, coarser) : 0.0f;
 }

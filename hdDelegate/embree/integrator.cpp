@@ -1,164 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/integrator.h"
 
-#include "hdDelegate/embree/ambientOcclusion.h"
 #include "hdDelegate/embree/aovWriter.h"
 #include "hdDelegate/embree/media/freeFlight.h"
-#include "hdDelegate/embree/media/mediaAround.h"
 #include "hdDelegate/embree/path.h"
 #include "hdDelegate/film/pixelFilter.h"
 #include "hdDelegate/embree/sceneLights.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace patina {
-
-Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
-                       const CameraRays& camera, const RenderSettings& settings,
-                       const std::vector<AovSpec>& aovs)
-    : _scene(scene), _lights(lights), _camera(camera), _settings(settings), _aovs(aovs),
-      _lightPaths(aovs), _filter(settings.filterRadius),
-      _cullBack(settings.cullStyle.rfind("back", 0) == 0),
-      _cullFront(settings.cullStyle.rfind("front", 0) == 0),
-      _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos),
-      _ambientOcclusion(settings.integrator == "ambientOcclusion"),
-      _lightSamples(settings.lightSamples > 0 ? settings.lightSamples
-                                              : lights.worthwhileSamples()) {
-    for (size_t i = 0; i < aovs.size(); ++i) {
-        if (aovs[i].id == AovId::denoisingAlbedo) _denoisingAlbedo = int(i);
-        if (aovs[i].id == AovId::denoisingNormal) _denoisingNormal = int(i);
-    }
-    const vec3 eye = vec3(glm::inverse(camera.worldToCamera())[3]);
-    if (std::isfinite(eye.x + eye.y + eye.z)) _cameraMedia = mediaAround(scene, eye, 0.5f);
-}
-
-void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters& counters) const {
-    Sampler sampler(uint32_t(x), uint32_t(y), _settings.seed, index);
-    const vec4 uFilm = sampler.next4();
-    const float uTime = sampler.next2().x;
-    const vec2 offset = _filter.sample(vec2(uFilm));
-    const vec2 pixel = vec2(x, y) + 0.5f + offset;
-    const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime);
-    const AovTarget target{film, x, y, glm::length(offset)};
-    counters.clock.enter(nullptr);
-    if (_ambientOcclusion) {
-        const AmbientOcclusion occlusion{_scene, _settings.ambientOcclusionSamples};
-        const float seen = occlusion.sample(ray, sampler, _aovs, target, _camera, counters.rays);
-        ++counters.paths;
-        film.addColor(x, y, vec3(std::max(seen, 0.0f)), seen < 0.0f ? 0.0f : 1.0f);
-        return;
-    }
-
-    Path path(sampler);
-    path.origin = ray.origin;
-    path.direction = ray.direction;
-    path.near = ray.near;
-    path.far = ray.far;
-    path.time = ray.time;
-    path.coneWidth = ray.coneWidth;
-    path.coneSpread = ray.coneSpread;
-    path.media = _cameraMedia;
-    std::optional<LightPathRecord> lightPaths;
-    if (!_lightPaths.empty()) path.lightPaths = &lightPaths.emplace(_lightPaths);
-    trace(path, target, counters);
-    ++counters.paths;
-    addFeatures(path, target);
-    const vec3 color = path.radiance * _camera.camera().exposureScale;
-    if (lightPaths)
-        _lightPaths.write(*lightPaths, target, _camera.camera().exposureScale,
-                          !Film::usable(color, path.alpha));
-    film.addColor(x, y, color, path.alpha);
-}
-
-/// What guides the denoiser, of every sample, so that means fade at outlines as the colour does.
-void Integrator::addFeatures(const Path& path, const AovTarget& target) const {
-    if (_denoisingAlbedo < 0 && _denoisingNormal < 0) return;
-    // What only mirrors, lamps and skies show is its own texture.
-    const vec3 albedo = path.featured ? path.featureAlbedo : glm::min(path.radiance, vec3(1.0f));
-    if (_denoisingAlbedo >= 0)
-        target.film.addAov(_denoisingAlbedo, target.x, target.y, &albedo.x, 0.0f);
-    if (_denoisingNormal >= 0)
-        target.film.addAov(_denoisingNormal, target.x, target.y, &path.featureNormal.x, 0.0f);
-}
-
-/// Light that the ray meets before `distance`: area lights, and at infinity domes and suns.
-/// @returns where the camera's ray ends on a light, or `distance`.
-float Integrator::addLightsAlong(Path& path, float distance) const {
-    LightHit hits[8];
-    const int count = _lights.set().intersect(path.origin, path.direction, path.near, distance,
-                                              path.time, hits, 8);
-    if (path.fromCamera()) {
-        // The camera sees lights as solid shapes; every other ray passes through them, as shadow
-        // rays do, so that light and BSDF samples agree.
-        const LightHit* nearest = nullptr;
-        for (int i = 0; i < count; ++i)
-            if (_lights.info(hits[i].light).cameraVisible &&
-                (!nearest || hits[i].distance < nearest->distance))
-                nearest = &hits[i];
-        if (!nearest) return distance;
-        const vec3 seen =
-            path.throughput * transmittanceTo(path, nearest->distance) * nearest->radiance;
-        path.radiance += seen;
-        if (path.lightPaths) path.lightPaths->see(emitterOf(nearest->light), seen);
-        path.alpha = 1.0f;
-        return nearest->distance;
-    }
-    for (int i = 0; i < count; ++i) {
-        const float lightPdf =
-            path.specular ? 0.0f
-                          : _lights.set().pdf(hits[i].light, path.vertex, path.vertexNormal,
-                                              path.vertexTwoSided, path.time, hits[i]);
-        addLight(path, hits[i].light, transmittanceTo(path, hits[i].distance) * hits[i].radiance,
-                 lightPdf);
-    }
-    return distance;
-}
-
-/// Light found by following the BSDF, weighted against what light samples would have found.
-void Integrator::addLight(Path& path, int light, const vec3& radiance, float lightPdf) const {
-    const LightInfo& info = _lights.info(light);
-    if (!linked(info.lightCategory, path.vertexSurface, path.vertexInstanceCategories)) return;
-    const float weight =
-        path.specular ? 1.0f : misWeight(path.pdf, path.lightSamples * lightPdf, info.dome);
-    const vec3 share = path.diffuseShare * info.diffuse + path.specularShare * info.specular;
-    if (path.lightPaths)
-        path.lightPaths->found(emitterOf(light), radiance * weight, info.diffuse, info.specular);
-    addRadiance(path, share * radiance * weight);
-}
 
 void Integrator::addRadiance(Path& path, const vec3& radiance) const {
     vec3 contribution = path.throughput * radiance;
     float clamp = 1.0f;
     if (_settings.indirectClamp > 0.0f && path.indirect()) {
-        const float l = luminance(contribution);
+        const float l = std::abs(luminance(contribution));
         if (l > _settings.indirectClamp) contribution *= clamp = _settings.indirectClamp / l;
     }
     path.radiance += contribution;
     if (path.lightPaths) path.lightPaths->add(radiance, path.throughput * clamp);
-}
-
-void Integrator::addEscaped(Path& path) const {
-    for (int light : _lights.set().infiniteLights()) {
-        const LightInfo& info = _lights.info(light);
-        if (path.fromCamera() && (!info.cameraVisible || !info.dome)) continue;
-        const EnvironmentMap::Place place = _lights.set().place(light, path.direction, path.time);
-        const vec3 radiance = _lights.set().environment(light, place, path.time);
-        if (path.fromCamera()) {
-            path.radiance += path.throughput * radiance;
-            if (path.lightPaths) path.lightPaths->see(emitterOf(light), path.throughput * radiance);
-            path.alpha = 1.0f;
-            continue;
-        }
-        if (radiance == vec3(0.0f)) continue;
-        const float lightPdf =
-            path.specular ? 0.0f
-                          : _lights.set().pdfInfinite(light, path.vertex, path.vertexNormal,
-                                                      path.vertexTwoSided, place, path.time);
-        addLight(path, light, radiance, lightPdf);
-    }
 }
 
 /// Light that the surface itself gives off towards the ray.
@@ -188,7 +51,7 @@ LightDraw Integrator::beginLight(const Path& path, const SurfacePoint& point, bo
     return _lights.set().begin(s.position, facingNormal(s), twoSided, u, path.time);
 }
 
-vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf,
+vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const VertexBsdf& bsdf,
                              const Hit& hit, const LightDraw& draw, TraceCounters& counters) const {
     const ShadingPoint& s = point.shading;
     const bool twoSided = bsdf.transmits();
@@ -232,8 +95,8 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
 }
 
 /// Sets the path on its way from a vertex, and keeps what later light hits have to know about it.
-void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
-                        const BsdfSample& next) const {
+void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit,
+                        const VertexBsdf& bsdf, const BsdfSample& next) const {
     const ShadingPoint& s = point.shading;
     const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
     path.rays = (next.event & sh::LOBE_TRANSMIT) != 0 ? RayTransmission
@@ -347,6 +210,18 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
                     beginLight(path, point, draws2Sided, vec3(u.point4(uint32_t(drawn))));
         }
 
+        if (program.disperses() && !caught) {
+            if (!path.waves.alone) {
+                const bool goesOn = disperse(path, point, hit, aovsWritten ? nullptr : &target,
+                                             counters);
+                aovsWritten = true;
+                if (!goesOn || !survivesRoulette(path)) break;
+                path.coneWidth = width;
+                travelled = 0.0f;
+                continue;
+            }
+            point.shading.wavelength = path.waves.nm[0];
+        }
         Bsdf bsdf;
         program.evaluate(s, bsdf);
         if (program.hasSubsurface()) bsdf.walkSubsurface();

@@ -35,7 +35,8 @@ float Integrator::shadowed(const Path& path, const SurfacePoint& point, const Hi
                                   ? _lights.triangleRadiance(light, s.position, path.time)
                                   : light.radiance * _lights.set().image(light);
         const float weight =
-            luminance((f.diffuse * info.diffuse + f.specular * info.specular) * radiance) /
+            luminance(
+                glm::abs((f.diffuse * info.diffuse + f.specular * info.specular) * radiance)) /
             light.pdf;
         if (!(weight > 0.0f)) continue;
         sum += weight;

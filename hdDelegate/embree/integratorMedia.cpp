@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-// What happens to a path inside participating media.
+// Paths inside of participating media.
 
 namespace patina {
 

@@ -34,7 +34,7 @@ private:
 /// Where diffuse and glossy lobes both send light along a path, it has two events at once, and the
 /// throughput is that of their sum: which of them was drawn tells of the densities, not of the
 /// light. So a path is in several states of each automaton, with weights that sum to 1, and each
-/// AOV gets exactly the share of its lobes. What all AOVs of a partition get is the colour.
+/// AOV gets exactly the share of its lobes. The AOVs of a partition sum to the colour.
 ///
 /// Each contribution is announced by straight(), found() or lit(), and counts once add() says what
 /// is added to the path's radiance.

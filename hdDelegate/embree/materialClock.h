@@ -12,7 +12,7 @@ namespace patina {
 
 /// Where one thread's time goes, by material. From a hit on all time is that of the material that
 /// was hit: its patterns and lobes, the light samples there with their shadow rays, walks beneath
-/// it, and the ray that leaves, until this hits something else. What comes before the first hit of
+/// it, and the ray that leaves, until this hits something else. The time before the first hit of
 /// a path is the camera's.
 class MaterialClock {
 public:

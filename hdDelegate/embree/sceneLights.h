@@ -8,7 +8,7 @@
 
 namespace patina {
 
-/// What the integrator must know about a light beyond its shape.
+/// Properties of a light, beyond its shape, that the integrator reads.
 struct LightInfo {
     std::shared_ptr<const Light> prim; ///< null for surfaces whose material glows
     bool cameraVisible = true;
@@ -51,7 +51,7 @@ public:
     }
     /// Radiance of a sampled triangle towards a point.
     vec3 triangleRadiance(const LightSample& sample, const vec3& from, float time) const;
-    /// What a surface emits towards its viewer, by its material and as a mesh light.
+    /// The radiance of a surface towards its viewer, by its material and as a mesh light.
     vec3 emission(const SurfacePoint& point) const;
     /// A mesh light that is nothing but a light (materialSyncMode noMaterialResponse).
     bool hidesMaterial(const Surface* surface) const;

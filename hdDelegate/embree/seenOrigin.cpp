@@ -58,7 +58,7 @@ dvec3 originOfSeen(const EmbreeScene& scene, const Camera& camera, const RenderS
         seen.push_back({glm::length(nearest - eye), nearest});
     }
     if (seen.empty()) return originAtEye(scene, dvec3(eye) + scene.origin());
-    // What is near is seen largest; the horizon would pull the origin away from it.
+    // Near objects are seen largest; the horizon would pull the origin away from it.
     std::sort(seen.begin(), seen.end(),
               [](const Seen& a, const Seen& b) { return a.distance < b.distance; });
     const size_t near = (seen.size() + 1) / 2;

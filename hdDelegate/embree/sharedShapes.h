@@ -24,7 +24,7 @@ struct SharedShape {
     ~SharedShape();
 };
 
-/// What implicit prims have in common whose triangles are the same.
+/// The common part of implicit prims whose triangles are the same.
 using ShapeKey = std::array<float, 9>;
 
 /// Shapes that enough prims have in common.

@@ -19,7 +19,7 @@ struct MaterialSlot {
     bool opaque = true;          ///< opacity is 1 everywhere on this prim
 };
 
-/// What rays meet of a prim, in its group's space (world space for prims that are not instanced),
+/// A prim's shape for rays, in its group's space (world space for prims that are not instanced),
 /// at each time step.
 struct PlacedShape {
     std::vector<std::vector<vec3>> positions; ///< of triangles

@@ -5,7 +5,7 @@
 
 namespace patina {
 
-/// What there is to place of a shape, in the prim's own space.
+/// The parts of a shape that are placed, in the prim's own space.
 PlacedShape atRest(const PrimShape& shape);
 /// The same, which the shape then lacks.
 PlacedShape takeAtRest(PrimShape& shape);

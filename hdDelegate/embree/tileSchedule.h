@@ -34,7 +34,7 @@ public:
     double relativeError(const Tile& tile) const;
 
 private:
-    /// What was found out when a tile was looked at.
+    /// The result of looking at a tile.
     struct ErrorCheck {
         int samples = 0; ///< that it had then
         bool isEnough = false;

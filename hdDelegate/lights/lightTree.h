@@ -9,7 +9,7 @@
 
 namespace patina {
 
-/// What the tree knows about one light. Directions: normals of the surface lie within `spread` of
+/// The tree's knowledge of one light. Directions: normals of the surface lie within `spread` of
 /// `axis`, and light leaves within `reach` of a normal (theta_o and theta_e of Conty Estevez and
 /// Kulla).
 struct LightTreeLeaf {

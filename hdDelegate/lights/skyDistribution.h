@@ -24,7 +24,7 @@ public:
     int width() const { return _width; }
     int height() const { return _height; }
 
-    /// A sample whose row of cells in a block is chosen. What is left to be read of the row is on
+    /// A sample whose row of cells in a block is chosen. The rest of the row that is to be read is on
     /// its way into the cache.
     struct Draw {
         const float* cells = nullptr; ///< cumulative

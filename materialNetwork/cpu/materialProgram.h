@@ -51,6 +51,11 @@ public:
         return _facts.jitters;
     } ///< blurs, with taps that ShadingPoint::seed moves
 
+    /// Its lobes are others for each ShadingPoint::wavelength, and some let light through.
+    bool disperses() const { return _facts.disperses; }
+    /// Where it disperses, a path takes several wavelengths along.
+    bool hasHeroWavelengths() const { return _facts.heroWavelengths; }
+
     /// @returns isOpaque() for a prim that lacks some primvars
     /// @param attributes per slot of primvars(): negative when the prim has no such primvar
     bool isOpaqueWith(const std::vector<int>& attributes) const;

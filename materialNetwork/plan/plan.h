@@ -89,4 +89,7 @@ bool walksBeneath(const PlanClosure& closure, method::Subsurface subsurface);
 /// Whether light that is transmitted changes direction, so that the surface has an inside.
 bool refracts(const Plan& plan, const PlanClosure& closure);
 
+/// Whether light that it refracts may change direction by its wavelength.
+bool disperses(const Plan& plan, const PlanClosure& closure);
+
 } // namespace patina

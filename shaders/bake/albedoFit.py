@@ -77,7 +77,8 @@ class Network:
         for a, b in zip(self.sizes, self.sizes[1:]):
             parts += [random.normal(0.0, 1.5 / np.sqrt(a), a * b), random.normal(0.0, 0.5, b)]
         parts[-2] *= 0.3
-        parts[-1] = np.r_[np.linspace(-0.7, 1.0, MICROFACETS), np.full(MICROFACETS, 0.5), np.full(MICROFACETS, 1.0 / MICROFACETS)]
+        parts[-1] = np.r_[np.linspace(-0.7, 1.0, MICROFACETS), np.full(MICROFACETS, 0.5),
+                          np.full(MICROFACETS, 1.0 / MICROFACETS)]
         self.numbers = np.concatenate(parts)
 
     def layers(self, numbers):

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the lobes of a constant material cost at a vertex of a path, beside Mitsuba's `principled`.
 
-A closed room of one material, with a lamp at its ceiling and without Russian roulette: every path has as many vertices as it may,
-and at each of them the material is set up, evaluated and weighed for a light sample, and sampled for the way on. The time of a
-vertex is the difference of two depths. What the same room takes with a diffuse material in its place is taken off: rays, lights,
-surface points and random numbers are in both. So a row is what the material costs more than a diffuse one, in nanoseconds.
+A closed room of one material, with a lamp at its ceiling and without Russian roulette: every path has as many vertices as it
+may, and at each of them the material is set up, evaluated and weighed for a light sample, and sampled for the way on. The time
+of a vertex is the difference of two depths. What the same room takes with a diffuse material in its place is taken off: rays,
+lights, surface points and random numbers are in both. So a row is what the material costs more than a diffuse one, in
+nanoseconds.
 
 Renderers and materials take turns, image by image; times are of processors; a row is the median of the runs.
 """
@@ -42,7 +43,8 @@ MATERIALS = {
 def measure(commands, options):
     """:returns: renderer -> material -> list of ns of a vertex, one per run"""
     found, workers = {}, {}
-    with tempfile.TemporaryDirectory(prefix="lobeBench") as folder, open(os.path.join(folder, "log"), "w+", encoding="utf-8") as log:
+    with tempfile.TemporaryDirectory(prefix="lobeBench") as folder, open(os.path.join(folder, "log"), "w+",
+                                                                         encoding="utf-8") as log:
         try:
             for who, command in commands.items():
                 try:
@@ -50,8 +52,8 @@ def measure(commands, options):
                         for depth in DEPTHS:
                             own = os.path.join(folder, f"{who}{name}{depth}".replace(" ", "_"))
                             os.makedirs(own)
-                            pathWorker.save(room(material), own, {"width": SIZE[0], "height": SIZE[1], "depth": depth, "threads": 1,
-                                                                  "roulette": False})
+                            pathWorker.save(room(material), own, {"width": SIZE[0], "height": SIZE[1], "depth": depth,
+                                                                  "threads": 1, "roulette": False})
                             workers[who, name, depth] = pathBench.start(command, own, log)
                     found[who] = {}
                 except RuntimeError as error:
@@ -84,7 +86,8 @@ def main(arguments):
     if len(commands) < 2:
         print("Mitsuba is not installed here")
     found = measure(commands, options)
-    print(f"{'ns more than diffuse':<24}" + "".join(f"{name:>12}" for name in MATERIALS if name != "diffuse") + "   a diffuse vertex")
+    print(f"{'ns more than diffuse':<24}" + "".join(f"{name:>12}" for name in MATERIALS if name != "diffuse")
+          + "   a diffuse vertex")
     own = {}
     for who, rows in found.items():
         plain = rows["diffuse"]

@@ -2,11 +2,11 @@
 """Path tracing beside Mitsuba 3 and Cycles: seconds until the image's error is small, each renderer against itself.
 
 Every renderer draws every scene several times with seeds of its own, with a few and with many samples. The error of an image is
-its relMSE: the mean over pixels and channels of (image - mean)^2 / (mean^2 + 0.01), where the mean is that of the renderer's own
-images with many samples, and the error which that mean itself has is taken off. What a sample costs is the difference of the two
-medians of time, so that nothing which is done once per image counts. Time to a target: that cost times the samples at which the
-error, taken as a power of the samples, reaches the target. Renderers take turns, image by image, so that what disturbs the
-machine disturbs all of them.
+its relMSE: the mean over pixels and channels of (image - mean)^2 / (mean^2 + 0.01), where the mean is that of the renderer's
+own images with many samples, and the error which that mean itself has is taken off. What a sample costs is the difference of
+the two medians of time, so that nothing which is done once per image counts. Time to a target: that cost times the samples at
+which the error, taken as a power of the samples, reaches the target. Renderers take turns, image by image, so that what
+disturbs the machine disturbs all of them.
 
 All have the same geometry, camera, bounces, light and box filter; principled materials are each renderer's own.
 """
@@ -91,7 +91,8 @@ def to_target(low, high, errors, target):
 
 
 def measure(name, commands, options, pictures):
-    with tempfile.TemporaryDirectory(prefix="pathBench") as folder, open(os.path.join(folder, "log"), "w+", encoding="utf-8") as log:
+    with tempfile.TemporaryDirectory(prefix="pathBench") as folder, open(os.path.join(folder, "log"), "w+",
+                                                                         encoding="utf-8") as log:
         scene = pathScenes.SCENES[name](folder)
         pathWorker.save(scene, folder, {"width": options.size[0], "height": options.size[1], "depth": options.depth,
                                         "threads": options.threads})
@@ -144,11 +145,13 @@ def measure(name, commands, options, pictures):
 
 def show(name, found, options):
     own = found["Patina"]
-    print(f"{name}: to a relMSE of {options.target:g}; what one sample of all pixels takes; its error at {options.samples[1]} samples")
+    print(f"{name}: to a relMSE of {options.target:g}; what one sample of all pixels takes; its error at {options.samples[1]} "
+          "samples")
     for who, row in found.items():
         print(f"  {who:<20}{row['secondsToTarget']:9.2f} s (processor {row['processorToTarget']:8.2f} s) "
-              f"{1e3 * row['seconds']:8.1f} ms (processor {1e3 * row['processor']:8.1f}, spread {100 * row['processorSpread']:3.0f} %) "
-              f"{row['errors'][1]:.2e}  ready after {row['ready']:5.1f} s  mean {row['mean']:.3f}"
+              f"{1e3 * row['seconds']:8.1f} ms (processor {1e3 * row['processor']:8.1f}, spread "
+              f"{100 * row['processorSpread']:3.0f} %) {row['errors'][1]:.2e}  ready after {row['ready']:5.1f} s  mean "
+              f"{row['mean']:.3f}"
               + ("" if who == "Patina" else f"   Patina: x{own['secondsToTarget'] / row['secondsToTarget']:.2f}"
                  f" (processor x{own['processorToTarget'] / row['processorToTarget']:.2f})"), flush=True)
 
@@ -184,7 +187,8 @@ def main(arguments):
         show(name, results[name], options)
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
-            json.dump({"size": options.size, "samples": options.samples, "depth": options.depth, "scenes": results}, file, indent=1)
+            json.dump({"size": options.size, "samples": options.samples, "depth": options.depth, "scenes": results}, file,
+                      indent=1)
     return 0
 
 

@@ -35,7 +35,8 @@ def shape(mi, folder, name, held, arrays):
         made.recompute_vertex_normals()
     path = os.path.join(folder, name + ".ply")
     made.write_ply(path)
-    return {"type": "ply", "filename": path, "face_normals": not held["smooth"], "bsdf": {"type": "ref", "id": held["material"]}}
+    return {"type": "ply", "filename": path, "face_normals": not held["smooth"],
+            "bsdf": {"type": "ref", "id": held["material"]}}
 
 
 def main(folder, variant):

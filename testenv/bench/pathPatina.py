@@ -76,7 +76,8 @@ def mesh(stage, path, held, arrays, materials):
         faces = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         for k in range(3):
             np.add.at(normals, triangles[:, k], faces)
-        made.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-20)))
+        made.CreateNormalsAttr(Vt.Vec3fArray.FromNumpy(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True),
+                                                                            1e-20)))
         made.SetNormalsInterpolation("vertex")
     if held["uv"]:
         UsdGeom.PrimvarsAPI(made).CreatePrimvar("st", Sdf.ValueTypeNames.TexCoord2fArray, "vertex").Set(

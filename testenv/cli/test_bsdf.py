@@ -147,7 +147,8 @@ def test_open_meanings_are_methods(capsys, tmp_path):
     path = tmp_path / "pane.mtlx"
     path.write_text(DIFFUSE.replace("oren_nayar_diffuse_bsdf", "dielectric_bsdf").replace(
         'name="color" type="color3" value="0.5, 0.25, 0.125"', 'name="scatter_mode" type="string" value="RT"').replace(
-        '<surface name', '<surface  name').replace('</surface>', '<input name="thin_walled" type="boolean" value="true" /></surface>'))
+        '<surface name', '<surface  name').replace('</surface>',
+                                                   '<input name="thin_walled" type="boolean" value="true" /></surface>'))
     assert main.main(["explain", str(path)]) == 0
     assert "method thinWalled = slab" in capsys.readouterr().out
     assert main.main(["explain", str(path), "--method", "thinWalled=solid"]) == 0

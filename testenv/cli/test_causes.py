@@ -143,7 +143,8 @@ def test_record_tells_causes(stage, tmp_path, capsys):
     out = tmp_path / "out.json"
     assert main.main(["record", str(stage), str(image), "--imageWidth", "8", "--samples", "1", f"--json={out}"]) == 0
     lines = [line for line in capsys.readouterr().err.splitlines() if "missing.png" in line]
-    assert len(lines) in (1, 2) and "(30 times at 30 prims" in lines[-1]  # twice where a part of them was told while materials were compiled
+    # two lines where a part of them was told while materials were compiled
+    assert len(lines) in (1, 2) and "(30 times at 30 prims" in lines[-1]
     found = json.loads(out.read_text())
     assert len([w for w in found["warnings"] if "missing.png" in w["message"]]) == 30
     assert {g["count"] for g in found["causes"] if "missing.png" in g["culprit"]} == {30}

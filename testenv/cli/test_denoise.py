@@ -33,7 +33,8 @@ def test_the_error_falls(scene, library, tmp_path):
     for name in "RGB":  # what it started from is the render without it, to the bit
         np.testing.assert_array_equal(clean["color.noisy." + name], noisy[name])
     np.testing.assert_array_equal(clean["A"], noisy["A"])
-    error = {key: imageMetrics.differences(inProcess.pixels(tmp_path / f"{key}.exr"), truth)["relMSE"] for key in ("clean", "noisy")}
+    error = {key: imageMetrics.differences(inProcess.pixels(tmp_path / f"{key}.exr"), truth)["relMSE"]
+             for key in ("clean", "noisy")}
     assert error["clean"] < error["noisy"], error
 
 
@@ -135,7 +136,8 @@ def test_guides_fade_at_outlines(tmp_path):
     record(inProcess.scene("lightDome"), tmp_path / "a.exr", "-w", WIDTH, "--samples", "64", "--aov", "denoisingNormal",
            "--aov", "normal")
     found = channels(tmp_path / "a.exr")
-    length, nearest = (np.linalg.norm([found[f"{name}.{axis}"] for axis in "XYZ"], axis=0) for name in ("denoisingNormal", "normal"))
+    length, nearest = (np.linalg.norm([found[f"{name}.{axis}"] for axis in "XYZ"], axis=0)
+                       for name in ("denoisingNormal", "normal"))
     assert length.max() <= 1.0 + 1e-5
     assert set(np.unique(nearest.round(4))) <= {0.0, 1.0}  # of one sample each: they do not fade
     assert ((length > 0.1) & (length < 0.9)).any()

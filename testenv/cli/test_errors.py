@@ -41,8 +41,8 @@ def stage(tmp_path):
     return str(path)
 
 
-@pytest.mark.parametrize("spec", ["1e999", "1:1e999", "-1e999:1", "1:2x1e-320", "1:2x5e-324", "1:2x1e999", "1:2x-1e999", "1:1e300",
-                                  "-1e308:1e308", "nan", "inf", "1:inf", "1:2x0", "1:2xnan"])
+@pytest.mark.parametrize("spec", ["1e999", "1:1e999", "-1e999:1", "1:2x1e-320", "1:2x5e-324", "1:2x1e999", "1:2x-1e999",
+                                  "1:1e300", "-1e308:1e308", "nan", "inf", "1:inf", "1:2x0", "1:2xnan"])
 def test_frames_that_lead_nowhere(spec):
     with pytest.raises(UsageError) as error:
         frames.expand(spec, 1.0, 2.0)
@@ -61,12 +61,14 @@ def test_the_most_frames_are_still_given():
     assert len(frames.expand(f"1:{frames.MAX_FRAMES}", 1.0, 2.0)[0]) == frames.MAX_FRAMES
 
 
-@pytest.mark.parametrize("change", ["/ball.elementSize=inf", "/ball.elementSize=nan", "/ball.elementSize=-inf", "/ball.elementSize=1e300",
+@pytest.mark.parametrize("change", ["/ball.elementSize=inf", "/ball.elementSize=nan", "/ball.elementSize=-inf",
+                                    "/ball.elementSize=1e300",
                                     "/ball.elementSize=", "/ball.small=300", "/ball.small=-1", "/light.count=nan",
                                     "/ball.size=one", "/ball.size=1e9999,2"])
 def test_values_that_an_input_does_not_take(change, stage, tmp_path, capsys):
     pytest.importorskip("_patina")
-    status, said = run(capsys, "record", stage, str(tmp_path / "a.png"), "-w", "4", "--samples", "1", "--quiet", "--set", change)
+    status, said = run(capsys, "record", stage, str(tmp_path / "a.png"), "-w", "4", "--samples", "1", "--quiet", "--set",
+                       change)
     assert status == 1 and change.partition("=")[0] in said and len(said.splitlines()) == 1
     assert not (tmp_path / "a.png").exists()
 
@@ -80,7 +82,8 @@ def test_threads_are_bounded(count, stage, tmp_path, capsys):
 def test_as_many_threads_as_are_let(stage, tmp_path):
     """Also where the bound of the command line is not asked: hosts have their own."""
     _patina = pytest.importorskip("_patina")
-    assert main.main(["record", stage, str(tmp_path / "a.png"), "-w", "4", "--samples", "1", "--quiet", "--threads", "4096"]) == 0
+    assert main.main(["record", stage, str(tmp_path / "a.png"), "-w", "4", "--samples", "1", "--quiet", "--threads",
+                      "4096"]) == 0
     scene, film, renderer = _patina.Scene(), _patina.Film(), _patina.make_renderer()
     with scene.edit() as edit:
         edit.set_camera("/camera", transform=[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])
@@ -115,7 +118,8 @@ class _Unspeakable(Exception):
         return b"name \xff".decode()
 
 
-@pytest.mark.parametrize("error", [_Unspeakable(), ValueError("many\n\n lines"), KeyError("key"), RecursionError(), MemoryError(), AssertionError("x"),
+@pytest.mark.parametrize("error", [_Unspeakable(), ValueError("many\n\n lines"), KeyError("key"), RecursionError(),
+                                   MemoryError(), AssertionError("x"),
                                    ZeroDivisionError("by zero"), UnicodeDecodeError("utf-8", b"ab\xffc", 2, 3, "why"),
                                    OSError(28, "No space left on device", "file"), RuntimeError("half a character: \udcff")])
 def test_every_exception_becomes_one_line(error, monkeypatch, capsys):
@@ -211,7 +215,8 @@ def Sphere "ballBallBall"
 
 @pytest.mark.parametrize("kind", ["pipe", "device"])
 @pytest.mark.parametrize("arguments", [["record", "{}.usda", "a.png"], ["explain", "{}.usda"], ["explain", "{}.mtlx"],
-                                       ["compare", "{}.png", "{}.png", "--no-flip"], ["view", "m.mtlx", "-o", "a.html", "--controls", "{}.json"]])
+                                       ["compare", "{}.png", "{}.png", "--no-flip"],
+                                       ["view", "m.mtlx", "-o", "a.html", "--controls", "{}.json"]])
 def test_only_regular_files_are_read(arguments, kind, tmp_path, monkeypatch, capsys):
     """A pipe would wait for ever, a device never end."""
     pytest.importorskip("_patina")
@@ -246,11 +251,13 @@ def test_layers_that_are_pipes_are_not_waited_for(where, tmp_path, capsys):
     os.mkfifo(tmp_path / "pipe.usda")
     (tmp_path / "between.usda").write_text("#usda 1.0\n(\n    subLayers = [@pipe.usda@]\n)\n")
     of_layer = where.startswith("subLayers")
-    (tmp_path / "stage.usda").write_text("#usda 1.0\n" + (f"(\n    {where}\n)\n" if of_layer else f'def "a" (\n    {where}\n)\n{{\n}}\n'))
+    (tmp_path / "stage.usda").write_text("#usda 1.0\n" + (f"(\n    {where}\n)\n" if of_layer else 'def "a" (\n    '
+                                                                                                  f'{where}\n)\n{{\n}}\n'))
     # Opening a pipe without a writer blocks; with one at hand that says nothing a failing test ends.
     keeper = os.open(tmp_path / "pipe.usda", os.O_RDWR | os.O_NONBLOCK)
     try:
-        status, said = run(capsys, "record", str(tmp_path / "stage.usda"), str(tmp_path / "a.png"), "-w", "4", "--samples", "1", "--quiet")
+        status, said = run(capsys, "record", str(tmp_path / "stage.usda"), str(tmp_path / "a.png"), "-w", "4", "--samples", "1",
+                           "--quiet")
     finally:
         os.close(keeper)
     assert status == 1 and said.endswith("pipe.usda is no regular file") and len(said.splitlines()) == 1

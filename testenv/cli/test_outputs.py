@@ -13,7 +13,8 @@ from patina.cli import main, record  # noqa: E402
 
 DOCUMENT = """<?xml version="1.0"?>
 <materialx version="1.39">
-  <standard_surface name="s" type="surfaceshader"><input name="base_color" type="color3" value="0.1, 0.2, 0.3"/></standard_surface>
+  <standard_surface name="s" type="surfaceshader">
+    <input name="base_color" type="color3" value="0.1, 0.2, 0.3"/></standard_surface>
   <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
 </materialx>
 """

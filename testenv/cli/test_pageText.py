@@ -39,7 +39,8 @@ def save(layer, material, tmp_path):
                'let text = ""; for await (const part of process.stdin) text += part; '
                "process.stdout.write(layerText(JSON.parse(text))); "
                'if (Object.keys(Object.prototype).length) process.exit(3);')
-    done = subprocess.run(["node", "--input-type=module", "-e", program], input=json.dumps(state), capture_output=True, text=True)
+    done = subprocess.run(["node", "--input-type=module", "-e", program], input=json.dumps(state), capture_output=True,
+                          text=True)
     assert done.returncode == 0, done.stderr
     made = Sdf.Layer.CreateAnonymous("saved.usda")
     assert made.ImportFromString(done.stdout), done.stdout
@@ -81,7 +82,8 @@ class _Network:
 
     def nodes(self):
         value = {"type": "float", "value": 0.5, "color_space": ""}
-        return [{"path": "/" + EVIL, "id": EVIL, "inputs": {EVIL: value, "good": value, "text": {"type": "string", "value": EVIL}},
+        return [{"path": "/" + EVIL, "id": EVIL, "inputs": {EVIL: value, "good": value,
+                                                            "text": {"type": "string", "value": EVIL}},
                  "connections": {EVIL: ("/" + EVIL, EVIL), "in": ("/" + EVIL, EVIL)}},
                 {"path": "/b", "id": "ND_b", "inputs": {}, "connections": {"in": ("/" + EVIL, EVIL)}}]
 
@@ -111,7 +113,8 @@ def test_a_document_cannot_add_prims(tmp_path):
 
 @pytest.mark.parametrize("value", ["nan", "-inf", "1e999", "words", "0.5, nan, words"])
 def test_values_that_are_no_numbers(value, tmp_path, monkeypatch):
-    kinds = (("float", "base"), ("color3", "base_color"), ("boolean", "thin_walled"), ("vector3", "normal"), ("float", "metalness"))
+    kinds = (("float", "base"), ("color3", "base_color"), ("boolean", "thin_walled"), ("vector3", "normal"),
+             ("float", "metalness"))
     inputs = "".join(f'<input name="{name}" type="{kind}" value="{value}"/>' for kind, name in kinds)
     ((material, layer),) = of_page(tmp_path, monkeypatch, inputs=inputs)
     assert all(isinstance(x, (int, float)) for i in material["inputs"] for x in i["value"])

@@ -24,7 +24,8 @@ def test_predictions_hold_on_scenes(capsys, tmp_path):
     image of so few pixels, most of whose noise gets 0.9 of the tolerance, is outside one time in 20 or less.
     """
     stages = [scene(name) for name in ("plastic", "roughConductor", "lightSphere")]
-    assert main.main(["chart", "--predictions", *stages, "--backend", "embree", "-w", "12", "--methodSamples", "64", "--tolerances",
+    assert main.main(["chart", "--predictions", *stages, "--backend", "embree", "-w", "12", "--methodSamples", "64",
+                      "--tolerances",
                       "0.05", "--seconds", "600", "--maxSamples", "8192", "--quiet", "--out", str(tmp_path), "--json"]) == 0
     rows = json.loads(capsys.readouterr().out)
     assert [row["stage"] for row in rows] == ["plastic", "roughConductor", "lightSphere"]
@@ -92,7 +93,8 @@ def test_renders_tell_the_predicted_error(tmp_path, backend):
 def test_states_are_counted_as_they_are(tmp_path):
     """Samples that ended before the tolerance was met are a failure; where time ended nothing is said."""
     rows = [predictions.Row("a", "embree", 0.01, state=state, methodWithin=True, speedup=2.0, defaultSpeedup=0.5)
-            for state in (predictions.WITHIN, predictions.SAMPLES, predictions.OUTSIDE, predictions.SECONDS, predictions.REFERENCE)]
+            for state in (predictions.WITHIN, predictions.SAMPLES, predictions.OUTSIDE, predictions.SECONDS,
+                          predictions.REFERENCE)]
     rows.append(predictions.Row("b", "embree", 0.0, problem="cannot be read"))
     text = predictions.summary(rows)
     assert "methods within it on 5 of 5" in text and "whole error within it on 1 of 3 (2 more ended by time)" in text

@@ -25,7 +25,8 @@ def configure(tmp_path):
 
     def run(header):
         (tmp_path / "include" / "thing.h").write_text(header)
-        done = subprocess.run(["cmake", "-G", "Ninja", "-S", str(tmp_path), "-B", str(tmp_path / "build")], capture_output=True, text=True)
+        done = subprocess.run(["cmake", "-G", "Ninja", "-S", str(tmp_path), "-B", str(tmp_path / "build")], capture_output=True,
+                              text=True)
         assert done.returncode == 0, done.stderr
         return done.stdout
 
@@ -42,7 +43,8 @@ def test_a_header_that_misses_another_leaves_the_library_out_until_it_compiles(c
 
 def test_the_projects_own_probes_include_what_its_sources_include():
     root = os.path.dirname(CMAKE)
-    for probe, source in (("OpenVDB.cpp", "hdDelegate/image/fieldReader/readField.cpp"), ("EGL.cpp", "hdDelegate/raster/gl/eglContext.cpp")):
+    for probe, source in (("OpenVDB.cpp", "hdDelegate/image/fieldReader/readField.cpp"),
+                          ("EGL.cpp", "hdDelegate/raster/gl/eglContext.cpp")):
         wanted = [line.strip() for line in open(os.path.join(root, source), encoding="utf-8")
                   if line.startswith(("#include <openvdb/", "#include <EGL/", "#include <GL/"))]
         probed = open(os.path.join(CMAKE, "probes", probe), encoding="utf-8").read()

@@ -48,7 +48,8 @@ def test_a_line_never_wraps_on_a_terminal(monkeypatch):
     assert len(stream.getvalue()) == len("\r\033[K") + 49
     monkeypatch.setenv("COLUMNS", "80")
     stream.truncate(stream.seek(0))
-    progress.Progress("/a/" + "b" * 100 + "/shot.exr", stream=stream).show({"fraction": 0.5, "samplesDone": 16, "secondsLeft": 9.0})
+    progress.Progress("/a/" + "b" * 100 + "/shot.exr", stream=stream).show({"fraction": 0.5, "samplesDone": 16,
+                                                                            "secondsLeft": 9.0})
     assert len(stream.getvalue()) == len("\r\033[K") + 79 and "/shot.exr [" in stream.getvalue()
     assert stream.getvalue().endswith(" 50 %  16 samples  9 s left")
 

@@ -220,8 +220,8 @@ def test_an_image_or_settings_are_wanted(folder, capsys):
 
 @pytest.mark.parametrize("source, kind, aov", [
     ("Ci", "raw", "color"), ("a", None, "alpha"), ("z", None, "depth"), ("cameraDepth", None, "depth"),
-    ("depth", None, "deviceDepth"), ("Neye", None, "Neye"), ("albedo", None, "albedo"), ("st", "primvar", "primvars:st"), ("primvars:st", None, "primvars:st"),
-    ("nothing", None, ""), ("", None, ""), ("", "primvar", "")])
+    ("depth", None, "deviceDepth"), ("Neye", None, "Neye"), ("albedo", None, "albedo"), ("st", "primvar", "primvars:st"),
+    ("primvars:st", None, "primvars:st"), ("nothing", None, ""), ("", None, ""), ("", "primvar", "")])
 def test_sources_of_vars_mean_what_they_do_in_hydra(source, kind, aov):
     assert products.film_aov(source, kind) == aov
 

@@ -111,7 +111,8 @@ def test_texts_of_a_material_do_not_reach_code(tmp_path):
 
 def test_json_says_what_the_text_reads(tmp_path):
     table = tmp_path / "table.exr"
-    told = inProcess.patina("shader", inProcess.scene("texturedDiffuse") + ":checker", "--target", "essl", "--json", "--albedoTable", table)
+    told = inProcess.patina("shader", inProcess.scene("texturedDiffuse") + ":checker", "--target", "essl", "--json",
+                            "--albedoTable", table)
     report = json.loads(told.stdout)
     assert report["text"].startswith("#version 300 es\n")
     assert len(report["textures"]) == 1 and os.path.isfile(report["textures"][0]["file"])

@@ -231,14 +231,15 @@ sys.exit(main.main(["explain", "m.mtlx"]))
 """
     place = tmp_path / "temporary"
     place.mkdir()
-    done = subprocess.run([sys.executable, "-c", program], env={**os.environ, "TMPDIR": str(place)}, capture_output=True, text=True,
-                          timeout=60)
+    done = subprocess.run([sys.executable, "-c", program], env={**os.environ, "TMPDIR": str(place)}, capture_output=True,
+                          text=True, timeout=60)
     assert (done.returncode, done.stderr) == (1, "patina: terminated\n")
     assert os.listdir(place) == []
 
 
 def test_what_a_killed_render_has_left_is_told_used_and_removed(folder, capsys):
-    process = subprocess.Popen([sys.executable, "-m", "patina", "record", "stage.usda", "a.exr", *LONG, "--checkpointSeconds", "0.01"])
+    process = subprocess.Popen([sys.executable, "-m", "patina", "record", "stage.usda", "a.exr", *LONG, "--checkpointSeconds",
+                                "0.01"])
     end = time.monotonic() + 60
     while not os.path.exists("a.exr.checkpoint") and time.monotonic() < end:
         time.sleep(0.01)

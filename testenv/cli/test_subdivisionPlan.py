@@ -99,7 +99,8 @@ def test_the_predicted_error_holds_in_the_rasterizer():
 
 
 def test_small_surfaces_are_expected_to_be_far_off():
-    """Some pixels across, which is less than any row was measured at. 96 samples with the random numbers of the finest (seed 3)."""
+    """Some pixels across, which is less than any row was measured at. 96 samples with the random numbers of the finest (seed
+    3)."""
     scene, small = ball("diffuse"), {"width": 6, "height": 6, "samples": 96}
     finest = render(scene, "embree", methods={"subdivision": "0.5px"}, **small)[0]
     coarse, _, _ = render(scene, "embree", methods={"subdivision": "2px"}, **small)

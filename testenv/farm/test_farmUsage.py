@@ -127,7 +127,8 @@ def test_parts_know_the_textures_of_documents(tmp_path):
     stage, texture = with_document(tmp_path)
     files = [tmp_path / "1.part", tmp_path / "2.part"]
     for number, file in enumerate(files, 1):
-        patina("record", stage, tmp_path / "a.exr", "-w", "48", "--samples", "1", f"--part={number}/2", f"--partial={file}", "-q")
+        patina("record", stage, tmp_path / "a.exr", "-w", "48", "--samples", "1", f"--part={number}/2", f"--partial={file}",
+               "-q")
         if number == 1:
             texture.write_bytes(texture.read_bytes() + b"more")
     result = patina("merge", *files, tmp_path / "a.exr", check=False)

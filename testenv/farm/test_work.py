@@ -119,7 +119,8 @@ def test_commands_run_with_the_senders_variables(tmp_path, monkeypatch):
     monkeypatch.setenv("OCIO", "/a/workers/own.ocio")
     seen = {}
     monkeypatch.setattr(worker.subprocess, "call", lambda *_, env, **__: seen.update(env) or 0)
-    worker.run([], str(tmp_path), str(tmp_path / "log"), ("variables", [], [], {}), {"OCIO": None, "PATINA_MODEL_PATH": "/models"})
+    worker.run([], str(tmp_path), str(tmp_path / "log"), ("variables", [], [], {}),
+               {"OCIO": None, "PATINA_MODEL_PATH": "/models"})
     assert "OCIO" not in seen and seen["PATINA_MODEL_PATH"] == "/models" and seen["PATH"]
 
 

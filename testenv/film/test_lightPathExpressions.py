@@ -10,15 +10,18 @@ _patina = pytest.importorskip("_patina")
 # Those of the documentation of OSL, RenderMan and Arnold, and one for each rule.
 READ = ["C.*", "C.*L", "C<RD>L", "C<RD>.*L", "C[DG]L", "C<R[^D]>L", "C[^DG]*L", "CG*[LO]", "C<..'hair'>.*L", "C'hair'.*L",
         "C(<RD>|<TD>)L", "CDL", "CSDL", "C<TS>*D+L", "C.{2}L", "C.{1,3}[LB]", "C.{2,}O", "C.?L", "C[<L.>O]", "C<RD>[<L.>O]",
-        "C<RD>[DS]+[<L.>O]", "C.*<L.'key'>", "C.*<L.['key''fill']>", "C.*<L.[^'key']>", "C.*<L.x>", "C.*[^'key']", "C <RD> L", "CV*B",
+        "C<RD>[DS]+[<L.>O]", "C.*<L.'key'>", "C.*<L.['key''fill']>", "C.*<L.[^'key']>", "C.*<L.x>", "C.*[^'key']", "C <RD> L",
+        "CV*B",
         "C<.D>L", "C<[RT]S>*L", "CD|GL", "C(DD|G)L", "C((D))L", "C.**L", "C<R>L", "C<L..>", "C[LO]", "C<T.[^'subsurface']>.*L"]
 REFUSED = [  # expression, column, what the message says
     ("", 1, "an event"), ("C<RD.*L", 6, "a label such as 'key', x or >"), ("CQL", 2, "an event"),
-    ("C(DL", 5, ") to end the group"), ("C)L", 2, "an event"), ("C[DG", 5, "]"), ("C[]L", 3, "an event in the list"), ("C()L", 3, "in the group"),
+    ("C(DL", 5, ") to end the group"), ("C)L", 2, "an event"), ("C[DG", 5, "]"), ("C[]L", 3, "an event in the list"),
+    ("C()L", 3, "in the group"),
     ("C[^]L", 4, "after ^"), ("C<>L", 3, "an event type"), ("C<DR>L", 3, "an event type"), ("C<RR>L", 4, "how it scatters"),
     ("C<R*>L", 4, "how it scatters"), ("C<RD", 5, "label"), ("C'keyL", 7, "' to end the label"), ("C''L", 2, "between quotes"),
     ("C.{L", 4, "a number of repetitions"), ("C.{2L", 5, "}"), ("C.{3,2}L", 6, "below 3"), ("C.{65}L", 4, "at most 64"),
-    ("|CL", 1, "before |"), ("C|", 3, "an event"), ("CxL", 2, "an event"), ("*CL", 1, "an event"), ("C<(R)D>L", 3, "an event type"),
+    ("|CL", 1, "before |"), ("C|", 3, "an event"), ("CxL", 2, "an event"), ("*CL", 1, "an event"),
+    ("C<(R)D>L", 3, "an event type"),
     ("C[^D'key']L", 5, "how it scatters"), ("(" * 70 + "C" + ")" * 70 + "L", 66, "fewer groups")]
 HAPPENING = ([("C", "x")] + [(t, s) for t in "RT" for s in "DGS"] + [("V", "D")] + [(t, "x") for t in "LBO"])
 
@@ -89,7 +92,8 @@ class Random:
         if kind == 0:
             return ".", "."
         known = chosen.replace("L", "LB")
-        return (chosen, f"[{known}]") if kind == 1 else (f"[{chosen}]", f"[{known}]") if kind == 2 else (f"[^{chosen}]", f"[^{known}]")
+        return (chosen, f"[{known}]") if kind == 1 else (f"[{chosen}]", f"[{known}]") if kind == 2 else (f"[^{chosen}]",
+                                                                                                         f"[^{known}]")
 
     def label(self):
         kind = self.random.randrange(5)

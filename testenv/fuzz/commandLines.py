@@ -10,11 +10,15 @@ import outcomes
 EXTENSION = ".json"
 LINES = True  # one argument a line
 COMMANDS = ("record", "explain", "bsdf", "check", "compare", "merge")
-VALUES = ("0", "1", "-1", "2", "0.5", "1e9", "1e400", "nan", "inf", "-inf", "", " ", "x", "1:3", "1:1000000000", "3:1", "1x2", "1/2", "2/1",
-          "0/0", "1,2,3", "0,0,1", "/", "/ball", "/nothing", "//", "stage.usda", "image.exr", "small.png", "damaged.exr", "damaged.mtlx",
-          "missing.usda", "folder", "pipe", "/dev/null", "/dev/full", "a.####.png", "####", "all", "color,depth", "embree", "raster", "none",
+VALUES = ("0", "1", "-1", "2", "0.5", "1e9", "1e400", "nan", "inf", "-inf", "", " ", "x", "1:3", "1:1000000000", "3:1", "1x2",
+          "1/2", "2/1",
+          "0/0", "1,2,3", "0,0,1", "/", "/ball", "/nothing", "//", "stage.usda", "image.exr", "small.png", "damaged.exr",
+          "damaged.mtlx",
+          "missing.usda", "folder", "pipe", "/dev/null", "/dev/full", "a.####.png", "####", "all", "color,depth", "embree",
+          "raster", "none",
           "list", "ball.radius=2", "/ball.radius=nan", "a=b=c", "%s%n", "ÿ𝛑", "x" * 4000, "out/../image.exr", "--", "-")
-FILES = ("stage.usda", "image.exr", "small.png", "damaged.mtlx", "damaged.exr", "out.png", "out.exr", "folder", "pipe", "missing.usda", "")
+FILES = ("stage.usda", "image.exr", "small.png", "damaged.mtlx", "damaged.exr", "out.png", "out.exr", "folder", "pipe",
+         "missing.usda", "")
 # What would take long, or go on for as long as it is asked to, and is no fault.
 LAST = {"record": ["-w", "16", "--samples", "2", "--threads", "2", "--seconds", "1"]}
 

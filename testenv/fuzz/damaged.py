@@ -14,7 +14,8 @@ def small_png(width=2, height=2):
     def chunk(name, data):
         return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
     rows = b"\0\xff\0\0\0\xff\0" + b"\0\0\0\xff\xff\xff\xff"
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(rows)) +
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows)) +
             chunk(b"IEND", b""))
 
 
@@ -39,7 +40,8 @@ def fill(folder, seed=0):
     write("damaged.exr", spoiled("sky.exr"))
     write("damaged.vdb", spoiled("puff.vdb"))
     write("damaged.ies", b"IESNA:LM-63-2002\nTILT=NONE\n1 1e30 1 3 2 1 1 0 0 0\n1 1 1\n0 nan 90\n0 360\n1 2 3 4 5 1e39\n")
-    write("damaged.mtlx", b'<?xml version="1.0"?><materialx version="1.39"><xi:include href="damaged.mtlx"/><nodegraph name="a">')
+    write("damaged.mtlx",
+          b'<?xml version="1.0"?><materialx version="1.39"><xi:include href="damaged.mtlx"/><nodegraph name="a">')
     write("damaged.usdz", b"PK\3\4" + bytes(60))
     write("zeros.png", bytes(65536))
     write("loop.usda", b"#usda 1.0\n(\n    subLayers = [@loop.usda@]\n)\n")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Random edits while an image is rendered: one random stage after another takes the place of what is shown, prims appear, change
-and vanish, and the render is started, stopped and left alone in between."""
+"""Random edits while an image is rendered: one random stage after another takes the place of what is shown, prims appear,
+change and vanish, and the render is started, stopped and left alone in between."""
 import json
 import os
 import random as randoms
@@ -25,8 +25,8 @@ def make(seed):
                 current.pop(r.randrange(len(current)))
             else:
                 current.append("\n".join(writer.prim()))
-        steps.append({"stage": "\n".join(current), "clear": r.random() < 0.5, "stop": r.random() < 0.2, "wait": r.choice((0, 0, 0.005, 0.03)),
-                      "width": r.choice((8, 8, 16, 1)), "seed": r.randint(0, 3)})
+        steps.append({"stage": "\n".join(current), "clear": r.random() < 0.5, "stop": r.random() < 0.2,
+                      "wait": r.choice((0, 0, 0.005, 0.03)), "width": r.choice((8, 8, 16, 1)), "seed": r.randint(0, 3)})
     return ("[\n" + ",\n".join(map(json.dumps, steps)) + "\n]\n").encode()
 
 

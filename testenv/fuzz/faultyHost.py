@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs a command again and again, each time with another of the calls that write failing, and then with none; tells a line of JSON
-for each. Of many equal calls in a row the first two, one in the middle and the last stand for all. Started with failNth.c preloaded, its library the first argument.
+"""Runs a command again and again, each time with another of the calls that write failing, and then with none; tells a line of
+JSON for each. Of many equal calls in a row the first two, one in the middle and the last stand for all. Started with failNth.c
+preloaded, its library the first argument.
 
 Usage: faultyHost.py LIBRARY FOLDER ERRNO COMMAND..."""
 import ctypes
@@ -33,10 +34,11 @@ def _child(library, folder, at, number, words):
 
 def main():
     library, folder, number = ctypes.CDLL(sys.argv[1]), sys.argv[2], int(sys.argv[3])
-    import numpy  # noqa: F401: loaded once, before any fork
+    # loaded once, before any fork
+    import numpy  # noqa: F401
     from pxr import Usd, UsdGeom  # noqa: F401
 
-    import _patina
+    import _patina  # noqa: F401
     from patina.cli import merge, record  # noqa: F401
 
     calls = _run(library, folder, NEVER, number)["which"].split()
@@ -56,7 +58,8 @@ def _chosen(calls):
 
 
 def _whole(image):
-    """:returns: whether an image can be read. By a process of its own: OpenEXR's threads, once started here, would be missing in
+    """:returns: whether an image can be read. By a process of its own: OpenEXR's threads, once started here, would be missing
+    in
         every process that is forked later, which waits for them for ever"""
     process = os.fork()
     if not process:
@@ -82,7 +85,8 @@ def _run(library, folder, at, number):
     if not process:
         _child(library, folder, at, number, sys.argv[4:])
     _, state = os.waitpid(process, 0)
-    told = {"at": at, "status": os.waitstatus_to_exitcode(state), "files": sorted(os.listdir(folder)), "images": {}, "whole": True}
+    told = {"at": at, "status": os.waitstatus_to_exitcode(state), "files": sorted(os.listdir(folder)), "images": {},
+            "whole": True}
     for name, key in (("stderr.txt", "error"), ("which.txt", "which")):
         with open(os.path.join(os.path.dirname(folder), name), encoding="utf-8", errors="replace") as file:
             told[key] = file.read()

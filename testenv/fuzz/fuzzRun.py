@@ -28,7 +28,8 @@ def _line(name, found):
     rate = found["inputs"] / max(found["seconds"], 1e-3)
     lines = "-" if not found["lines"] or not found["lines"][1] else f"{100 * found['lines'][0] / found['lines'][1]:.0f} %"
     kinds = ", ".join(f"{count} {kind}" for kind, count in sorted(found["counts"].items()))
-    return f"{name:<18}{found['inputs']:>9}{found['seconds']:>8.0f}{rate:>10.1f}{lines:>8}{len(found['findings']):>10}   {kinds}"
+    return (f"{name:<18}{found['inputs']:>9}{found['seconds']:>8.0f}{rate:>10.1f}{lines:>8}{len(found['findings']):>10}"
+            f"   {kinds}")
 
 
 def run(names, seconds, seed, corpus, findings, build, say=print):
@@ -71,7 +72,8 @@ def run(names, seconds, seed, corpus, findings, build, say=print):
 def figures(results):
     """:returns: the numbers of a run without its inputs, for a file of JSON"""
     return {name: {key: found[key] for key in ("inputs", "seconds", "counts", "lines")} |
-            {"findings": [{"kind": kind, "reason": reason} for kind, reason, *_ in found["findings"]]} for name, found in results.items()}
+            {"findings": [{"kind": kind, "reason": reason} for kind, reason, *_ in found["findings"]]}
+            for name, found in results.items()}
 
 
 def write(results, path, more):

@@ -6,7 +6,8 @@ Fuzzer = namedtuple("Fuzzer", "kind reads share sources")
 """kind: native (libFuzzer) or generated; reads: what is tried; share: of the time; sources: files whose lines are counted"""
 
 FUZZERS = {
-    "mtlx": Fuzzer("native", "bytes as a MaterialX document; its materials as programs and GLSL", 2, ("materialNetwork/mtlx/",)),
+    "mtlx": Fuzzer("native", "bytes as a MaterialX document; its materials as programs and GLSL", 2,
+                   ("materialNetwork/mtlx/",)),
     "network": Fuzzer("native", "networks of all nodes, with any value and connection, as programs and GLSL", 2,
                       ("materialNetwork/graph/", "materialNetwork/ir/", "materialNetwork/plan/", "materialNetwork/cpu/",
                        "materialNetwork/glsl/", "materialNetwork/nodes/")),

@@ -24,7 +24,8 @@ class Hand:
     def ask(self, module, file, folder, action="execute"):
         """:returns: its answer, see hand.py"""
         if self.process is None or self.process.poll() is not None:
-            self.process = subprocess.Popen([sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "hand.py")],
+            self.process = subprocess.Popen([sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)),
+                                                                          "hand.py")],
                                             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.process.stdin.write(json.dumps({"module": module, "file": file, "folder": folder, "action": action}) + "\n")
         self.process.stdin.flush()
@@ -77,7 +78,8 @@ def run(module, seconds, seed, say):
             counts[kind] = counts.get(kind, 0) + 1
             if kind not in outcomes.GOOD and signature not in findings:
                 say(f"seed {last}: {signature}")
-                smaller = shrink.lines(data, lambda d, s=signature, n=last: outcome(hand, module, d, module.EXTENSION, n)[1] == s,
+                smaller = shrink.lines(data,
+                                       lambda d, s=signature, n=last: outcome(hand, module, d, module.EXTENSION, n)[1] == s,
                                        SHRINK_SECONDS) if module.LINES else data
                 findings[signature] = (kind, signature, smaller, answer["error"])
             last += 1

@@ -30,8 +30,9 @@ def _child(module, ask):
     resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
     status = 1
     try:
-        status = getattr(module, ask["action"])(ask["file"], ask["folder"]) if ask["action"] == "execute" else module.without(ask["file"])
-    except BaseException:  # noqa: B036: whatever it is, it is told
+        execute = ask["action"] == "execute"
+        status = module.execute(ask["file"], ask["folder"]) if execute else module.without(ask["file"])
+    except BaseException:  # whatever it is, it is told
         import traceback
 
         traceback.print_exc()
@@ -65,7 +66,8 @@ def _run(module, ask):
 
 def main():
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-    from pxr import Usd, UsdGeom  # noqa: F401: loaded once, before any fork
+    # loaded once, before any fork
+    from pxr import Usd, UsdGeom  # noqa: F401
 
     import _patina  # noqa: F401
     from patina.cli import bsdf, check, compare, explain, merge, record  # noqa: F401

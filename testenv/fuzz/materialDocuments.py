@@ -24,7 +24,8 @@ def _known():
     if not _nodes:
         import _patina
 
-        rows = [m.groups() for path in sorted(glob.glob(os.path.join(ROOM, "nodes", "*.cpp"))) for m in ROW.finditer(_text(path))]
+        rows = [m.groups() for path in sorted(glob.glob(os.path.join(ROOM, "nodes", "*.cpp")))
+                for m in ROW.finditer(_text(path))]
         found = {identity.replace("$", kind): (category, (output.split() or ["float"])[0].replace("$", kind))
                  for identity, category, _, output in rows for kind in (TYPES if "$" in identity else ("",))}
         for path in sorted(glob.glob(os.path.join(ROOM, "models", "*.mtlx"))):
@@ -42,7 +43,8 @@ def _text(path):
         return file.read()
 
 
-COUNTS = {"float": 1, "integer": 1, "vector2": 2, "vector3": 3, "vector4": 4, "color3": 3, "color4": 4, "matrix33": 9, "matrix44": 16}
+COUNTS = {"float": 1, "integer": 1, "vector2": 2, "vector3": 3, "vector4": 4, "color3": 3, "color4": 4, "matrix33": 9,
+          "matrix44": 16}
 WORDS = ("mirror", "periodic", "ggx", "RT", "", f"{MARK};}}//", "&lt;/script&gt;", "%n", "x" * 2000, "../..")
 
 
@@ -82,17 +84,20 @@ def make(seed):
     last = {kind: i for i, (_, _, _, kind) in enumerate(nodes)}
     if "surfaceshader" not in last:
         lines.append('<surface name="s" type="surfaceshader">')
-        lines += [f'<input name="{name}" type="{kind}" nodename="n{last[kind]}"/>' for name, kind in (("bsdf", "BSDF"), ("edf", "EDF"))
+        lines += [f'<input name="{name}" type="{kind}" nodename="n{last[kind]}"/>'
+                  for name, kind in (("bsdf", "BSDF"), ("edf", "EDF"))
                   if kind in last]
         lines.append("</surface>")
     shader = f"n{last['surfaceshader']}" if "surfaceshader" in last else "s"
     lines += ['<surfacematerial name="material" type="material">',
-              f'<input name="surfaceshader" type="surfaceshader" nodename="{shader}"/>', "</surfacematerial>", "</materialx>", ""]
+              f'<input name="surfaceshader" type="surfaceshader" nodename="{shader}"/>', "</surfacematerial>", "</materialx>",
+              ""]
     return "\n".join(lines).encode(errors="replace")
 
 
 SDF = {"float": "float", "integer": "int", "boolean": "bool", "vector2": "float2", "vector3": "float3", "vector4": "float4",
-       "color3": "color3f", "color4": "color4f", "matrix33": "matrix3d", "matrix44": "matrix4d", "string": "string", "filename": "asset"}
+       "color3": "color3f", "color4": "color4f", "matrix33": "matrix3d", "matrix44": "matrix4d", "string": "string",
+       "filename": "asset"}
 
 
 def usd_material(random):
@@ -103,13 +108,15 @@ def usd_material(random):
     shaders = [known.get(first, shaders[0]), *shaders]
     lines = ['def Material "material"', "{", "    token outputs:surface.connect = </material/n0.outputs:out>"]
     for i, (identity, _, inputs, _) in enumerate(shaders):
-        lines += [f'    def Shader "n{i}"', "    {", f'        uniform token info:id = "{identity}"', "        token outputs:out"]
+        lines += [f'    def Shader "n{i}"', "    {", f'        uniform token info:id = "{identity}"',
+                  "        token outputs:out"]
         for kind, name in inputs:
             usd, choice = SDF.get(kind), random.random()
             if choice < 0.25 and usd:
                 lines.append(f"        {usd} inputs:{name} = {values.value(random, usd)}")
             elif choice < 0.4:
-                lines.append(f"        {usd or 'token'} inputs:{name}.connect = </material/n{random.randint(1, len(shaders))}.outputs:out>")
+                lines.append(f"        {usd or 'token'} inputs:{name}.connect = "
+                             f"</material/n{random.randint(1, len(shaders))}.outputs:out>")
         lines.append("    }")
     return [*lines, "}"]
 

@@ -16,7 +16,8 @@ LONGEST_INPUT = 4096  # bytes
 HANG_SECONDS = 20
 MEGABYTES = 2048
 _DONE = re.compile(r"^Done (\d+) runs in (\d+) second", re.MULTILINE)
-_REASONS = ((r"promise broken: (.*)", "promise"), (r"ERROR: AddressSanitizer: ([\w-]+)", "crash"), (r"runtime error: (.*)", "crash"),
+_REASONS = ((r"promise broken: (.*)", "promise"), (r"ERROR: AddressSanitizer: ([\w-]+)", "crash"),
+            (r"runtime error: (.*)", "crash"),
             (r"ERROR: libFuzzer: timeout", "hang"), (r"ERROR: libFuzzer: out-of-memory", "memory"),
             (r"ERROR: LeakSanitizer: (.*)", "memory"), (r"ERROR: libFuzzer: (.*)", "crash"))
 
@@ -41,7 +42,9 @@ def build(folder, names, jobs=1):
 
 
 def _environment(profile=None, slow=False):
-    found = dict(os.environ, ASAN_OPTIONS=f"detect_leaks=1:allocator_may_return_null=1:handle_abort=1:fast_unwind_on_malloc={int(not slow)}",
+    found = dict(os.environ,
+                 ASAN_OPTIONS="detect_leaks=1:allocator_may_return_null=1:handle_abort=1:"
+                 f"fast_unwind_on_malloc={int(not slow)}",
                  UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1", LSAN_OPTIONS="suppressions=" + os.path.join(
                      ROOT, "testenv", "fuzz", "libraries.supp") + ":print_suppressions=0")
     found["LLVM_PROFILE_FILE"] = profile or os.devnull
@@ -73,15 +76,17 @@ def run(name, fuzzer, folder, corpus, seconds, seed, say):
         while (left := seconds - (time.monotonic() - start)) > 1:
             artifacts = os.path.join(scratch, f"found{part}-")
             result = subprocess.run(
-                [program, work, os.path.join(ROOT, "testenv", "fuzz", "corpus", name), f"-max_total_time={int(left)}", f"-seed={seed + part + 1}",
-                 f"-max_len={LONGEST_INPUT}", f"-timeout={HANG_SECONDS}", f"-rss_limit_mb={MEGABYTES}", f"-artifact_prefix={artifacts}",
-                 "-print_final_stats=1", "-use_value_profile=0"],
+                [program, work, os.path.join(ROOT, "testenv", "fuzz", "corpus", name), f"-max_total_time={int(left)}",
+                 f"-seed={seed + part + 1}",
+                 f"-max_len={LONGEST_INPUT}", f"-timeout={HANG_SECONDS}", f"-rss_limit_mb={MEGABYTES}",
+                 f"-artifact_prefix={artifacts}", "-print_final_stats=1", "-use_value_profile=0"],
                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace", cwd=scratch,
                 env=_environment(slow=name == "image"))  # whole stacks, by which the leaks of libraries are told
             done = re.search(r"stat::number_of_executed_units: (\d+)", result.stderr) or _DONE.search(result.stderr)
             inputs += int(done.group(1)) if done else 0
             part += 1
-            found = [name for name in glob.glob(glob.escape(artifacts) + "*") if "-slow-unit-" not in name]  # short of HANG_SECONDS
+            found = [name for name in glob.glob(glob.escape(artifacts) + "*")
+                     if "-slow-unit-" not in name]  # short of HANG_SECONDS
             if result.returncode == 0 and not found:
                 break
             if not found:
@@ -96,7 +101,8 @@ def run(name, fuzzer, folder, corpus, seconds, seed, say):
     counts = {"fine": inputs}
     for kind, *_ in findings.values():
         counts[kind] = counts.get(kind, 0) + 1
-    return {"inputs": inputs, "seconds": time.monotonic() - start, "counts": counts, "findings": list(findings.values()), "lines": lines}
+    return {"inputs": inputs, "seconds": time.monotonic() - start, "counts": counts, "findings": list(findings.values()),
+            "lines": lines}
 
 
 def _minimise(program, file, kind, scratch):
@@ -116,8 +122,8 @@ def _keep_small(program, work, scratch):
     """Leaves only inputs that reach code that no other of them reaches."""
     merged = os.path.join(scratch, "merged")
     os.makedirs(merged)
-    done = subprocess.run([program, "-merge=1", merged, work], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=scratch,
-                          env=_environment())
+    done = subprocess.run([program, "-merge=1", merged, work], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                          cwd=scratch, env=_environment())
     if done.returncode == 0 and os.listdir(merged):
         for name in os.listdir(work):
             os.remove(os.path.join(work, name))
@@ -131,10 +137,13 @@ def _coverage(program, work, sources, scratch):
     if not profdata or not cov:
         return None
     raw, indexed = os.path.join(scratch, "raw"), os.path.join(scratch, "indexed")
-    subprocess.run([program, work, "-runs=0"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=scratch, env=_environment(raw))
-    if not os.path.exists(raw) or subprocess.call([profdata, "merge", "-sparse", raw, "-o", indexed], stderr=subprocess.DEVNULL):
+    subprocess.run([program, work, "-runs=0"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=scratch,
+                   env=_environment(raw))
+    if not os.path.exists(raw) or subprocess.call([profdata, "merge", "-sparse", raw, "-o", indexed],
+                                                  stderr=subprocess.DEVNULL):
         return None
-    told = subprocess.run([cov, "export", "-summary-only", program, f"-instr-profile={indexed}"], capture_output=True, text=True)
+    told = subprocess.run([cov, "export", "-summary-only", program, f"-instr-profile={indexed}"], capture_output=True,
+                          text=True)
     if told.returncode:
         return None
     covered = total = 0

@@ -34,7 +34,8 @@ _FORESEEN = ("StageError", "ValueError", "ErrorException", "RuntimeError")
 
 
 def tell_swallowed():
-    """Has what becomes a warning of a prim told with its traceback, where nobody has foreseen it: else it would count as fine."""
+    """Has what becomes a warning of a prim told with its traceback, where nobody has foreseen it: else it would count as
+    fine."""
     from patina.stage import context
 
     leave = context.Guard.__exit__

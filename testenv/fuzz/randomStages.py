@@ -9,7 +9,8 @@ import values
 EXTENSION = ".usda"
 LINES = True  # an input is shrunk by lines
 FAMILIES = ("Geom", "Lux", "Vol", "Shade", "Skel", "Render")
-APIS = ("MaterialBindingAPI", "LightAPI", "ShadowAPI", "ShapingAPI", "SkelBindingAPI", "MotionAPI", "MeshLightAPI", "VolumeLightAPI")
+APIS = ("MaterialBindingAPI", "LightAPI", "ShadowAPI", "ShapingAPI", "SkelBindingAPI", "MotionAPI", "MeshLightAPI",
+        "VolumeLightAPI")
 SOUND = {  # geometry that fits together, so that what comes after it is met too
     "Mesh": ("int[] faceVertexCounts = [4, 3]", "int[] faceVertexIndices = [0, 1, 2, 3, 0, 1, 4]",
              "point3f[] points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, 1)]"),
@@ -17,7 +18,8 @@ SOUND = {  # geometry that fits together, so that what comes after it is met too
                     "float[] widths = [0.1]"),
     "NurbsCurves": ("int[] curveVertexCounts = [4]", "int[] order = [4]", "double[] knots = [0, 0, 0, 0, 1, 1, 1, 1]",
                     "point3f[] points = [(-1, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 1)]"),
-    "NurbsPatch": ("int uOrder = 2", "int vOrder = 2", "int uVertexCount = 2", "int vVertexCount = 2", "double[] uKnots = [0, 0, 1, 1]",
+    "NurbsPatch": ("int uOrder = 2", "int vOrder = 2", "int uVertexCount = 2", "int vVertexCount = 2",
+                   "double[] uKnots = [0, 0, 1, 1]",
                    "double[] vKnots = [0, 0, 1, 1]", "point3f[] points = [(-1, -1, 0), (1, -1, 0), (-1, 1, 0), (1, 1, 0)]"),
     "Points": ("point3f[] points = [(0, 0, 0), (1, 1, 0)]", "float[] widths = [0.5, 0.2]"),
     "TetMesh": ("int4[] tetVertexIndices = [(0, 1, 2, 3)]", "point3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]"),
@@ -64,7 +66,8 @@ class _Writer:
 
     def primvar(self):
         r = self.random
-        kind = r.choice(("color3f[]", "float[]", "texCoord2f[]", "int[]", "string[]", "quatf[]", "matrix4d[]", "normal3f[]", "float3"))
+        kind = r.choice(("color3f[]", "float[]", "texCoord2f[]", "int[]", "string[]", "quatf[]", "matrix4d[]", "normal3f[]",
+                         "float3"))
         interpolation = r.choice(("constant", "uniform", "vertex", "varying", "faceVarying"))
         name = r.choice(("displayColor", "st", "normals", "displayOpacity", "patina:x", "widths", "skel:jointIndices"))
         return [f"{line} (interpolation = \"{interpolation}\")" if "timeSamples" not in line else line
@@ -124,7 +127,8 @@ def make(seed):
     """:returns: the bytes of an input"""
     writer = _Writer(seed)
     r = writer.random
-    head = ["#usda 1.0", "(", f'    upAxis = "{r.choice("YZ")}"', f"    metersPerUnit = {r.choice(('0.01', '1', '0', '-1', '1e-30', 'inf'))}", ")"]
+    head = ["#usda 1.0", "(", f'    upAxis = "{r.choice("YZ")}"',
+            f"    metersPerUnit = {r.choice(('0.01', '1', '0', '-1', '1e-30', 'inf'))}", ")"]
     lines = [*head, 'def Camera "camera"', "{", "    double3 xformOp:translate = (0, 0, 6)",
              '    uniform token[] xformOpOrder = ["xformOp:translate"]']
     if r.random() < 0.3:

@@ -39,12 +39,14 @@ def checkpoint():
 
 
 def part():
-    head = b"PatinaPT" + struct.pack("<II", 1, 0x01020304) + _text(b"{}") + struct.pack("<I", 1) + struct.pack("<4i", 0, 0, 2, 2) + bytes(8)
+    head = b"PatinaPT" + struct.pack("<II", 1, 0x01020304) + _text(b"{}") + struct.pack("<I", 1)
+    head += struct.pack("<4i", 0, 0, 2, 2) + bytes(8)
     return head + struct.pack("<I", 1) + _header(2, 2) + _pixels(4) + struct.pack("<I", 0) + _text(b"{}") + bytes(8)
 
 
 def _kept(folder, extension):
-    return [os.path.join(ROOT, folder, name) for name in sorted(os.listdir(os.path.join(ROOT, folder))) if name.endswith(extension)]
+    return [os.path.join(ROOT, folder, name) for name in sorted(os.listdir(os.path.join(ROOT, folder)))
+            if name.endswith(extension)]
 
 
 def write(name, folder):

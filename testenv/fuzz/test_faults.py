@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every call that writes an output fails once, as on a full disk: the old file or the new one is there, whole, nothing else is left
-over, and the message names the file and the reason."""
+"""Every call that writes an output fails once, as on a full disk: the old file or the new one is there, whole, nothing else is
+left over, and the message names the file and the reason."""
 import errno
 import json
 import os
@@ -36,7 +36,8 @@ def told(library, tmp_path, outputs, number):
     words = [word.replace("OUT", str(folder)) for word in outputs]
     environment = dict(os.environ, LD_PRELOAD=library)
     done = subprocess.run([sys.executable, os.path.join(HERE, "faultyHost.py"), library, str(folder), str(number), "record",
-                           str(tmp_path / "stage.usda"), *words, *SMALL], capture_output=True, text=True, env=environment, timeout=300)
+                           str(tmp_path / "stage.usda"), *words, *SMALL], capture_output=True, text=True, env=environment,
+                          timeout=300)
     assert done.returncode == 0, done.stderr
     return [json.loads(line) for line in done.stdout.splitlines()]
 
@@ -54,7 +55,8 @@ def test_a_call_that_fails_loses_nothing(outputs, functions, library, tmp_path):
         assert run["whole"], run
         case = f"{run['which']} {run['at']}: {run}"
         # The bits of the whole file, or those that were there before.
-        assert all(state == "old" or state == last["images"][name] or run["status"] == 0 for name, state in run["images"].items()), case
+        assert all(state == "old" or state == last["images"][name] or run["status"] == 0
+                   for name, state in run["images"].items()), case
         assert not [name for name in run["files"] if name.startswith(".")], case  # no temporary
         if run["status"]:
             assert run["status"] in (1, 75) and os.strerror(errno.ENOSPC) in run["error"], case

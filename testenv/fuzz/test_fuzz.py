@@ -45,7 +45,8 @@ def test_a_seed_is_an_input_for_ever(name):
 
 
 WRONG = {"crash": "os.kill(os.getpid(), 11)", "traceback": "raise ValueError('x')", "memory": "bytearray(1 << 40)",
-         "promise": "return outcomes.broken('lost')", "fine": "return 0", "hang": "resource.setrlimit(resource.RLIMIT_CPU, (1, 9))\n"
+         "promise": "return outcomes.broken('lost')", "fine": "return 0",
+         "hang": "resource.setrlimit(resource.RLIMIT_CPU, (1, 9))\n"
          "    while True:\n        pass"}
 
 
@@ -75,11 +76,13 @@ def test_what_ends_as_a_warning_is_found_too(hand, tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
     own = generated.Hand()
     try:
-        found = generated.outcome(own, types.SimpleNamespace(__name__="swallows"), b'#usda 1.0\ndef Camera "c"\n{\n}\n', ".usda")
+        found = generated.outcome(own, types.SimpleNamespace(__name__="swallows"), b'#usda 1.0\ndef Camera "c"\n{\n}\n',
+                                  ".usda")
     finally:
         own.end()
     assert found[0] == "traceback" and "a defect" in found[2]["error"]
-    assert outcomes.kind_of({"timedOut": False, "signal": 0, "status": 0, "error": "out of memory: /dome: no memory for it"}) == "memory"
+    assert outcomes.kind_of({"timedOut": False, "signal": 0, "status": 0,
+                             "error": "out of memory: /dome: no memory for it"}) == "memory"
 
 
 def test_inputs_shrink():

@@ -4,11 +4,12 @@ NUMBERS = (0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 1e-7, -1e-7, 1e-30, 1e-45, 1e6, 1e15,
            float("inf"), float("-inf"), float("nan"), 16777217.0)
 INTEGERS = (0, 1, 2, 3, 4, -1, 7, 255, 65536, 2**31 - 1, -2**31)
 # What a stage may name: nothing, things that are no files, and files of the folder that damage has met.
-ASSETS = ("", "missing.png", "/dev/zero", "/dev/stdin", "pipe", "folder", "damaged.png", "damaged.exr", "damaged.vdb", "damaged.ies",
-          "damaged.mtlx", "zeros.png", "huge.png", "loop.usda", "../" * 40 + "etc/passwd", "x" * 300, "a<UDIM>.png", "small.png",
-          "%s%n.png", "damaged.usdz[0/a.png]")
-WORDS = ("", "st", "displayColor", "vertex", "faceVarying", "uniform", "constant", "none", "catmullClark", "</script><img src=x>",
-         "PWND); discard; //", "ÿ𝛑", "a:b:c", "x" * 5000, "../..", "$(touch owned)", "%n%s")
+ASSETS = ("", "missing.png", "/dev/zero", "/dev/stdin", "pipe", "folder", "damaged.png", "damaged.exr", "damaged.vdb",
+          "damaged.ies",
+          "damaged.mtlx", "zeros.png", "huge.png", "loop.usda", "../" * 40 + "etc/passwd", "x" * 300, "a<UDIM>.png",
+          "small.png", "%s%n.png", "damaged.usdz[0/a.png]")
+WORDS = ("", "st", "displayColor", "vertex", "faceVarying", "uniform", "constant", "none", "catmullClark",
+         "</script><img src=x>", "PWND); discard; //", "ÿ𝛑", "a:b:c", "x" * 5000, "../..", "$(touch owned)", "%n%s")
 SHAPES = {"2": 2, "3": 3, "4": 4}
 TUPLES = {"point3": 3, "normal3": 3, "vector3": 3, "color3": 3, "color4": 4, "texCoord2": 2, "texCoord3": 3}
 LENGTHS = (0, 1, 2, 3, 4, 5, 8, 13, 64)

@@ -127,7 +127,8 @@ class Scene:
             if group in outer:
                 parts.append("an instancer in itself")
                 continue
-            contents = sorted(self._kind(prim) + "\n" + self._prim(prim, (*outer, group)) for prim in self.groups.get(group, ()))
+            contents = sorted(self._kind(prim) + "\n" + self._prim(prim, (*outer, group))
+                              for prim in self.groups.get(group, ()))
             if contents:
                 parts.append("\n".join(["group", *contents, "places", *sorted(placed[group])]))
         rest = [line for line in lines if _field(line)[0].startswith("visibility")]

@@ -212,7 +212,8 @@ def test_light_paths_and_groups(tmp_path, scene_index):
     float inputs:angle = 0
     {label}
 }}
-''' for name, intensity, label in (("key", 1.0, 'custom string inputs:ri:light:lightGroup = "key"'), ("fill", 2.0, 'custom string primvars:lightGroup = "fill"')))
+''' for name, intensity, label in (("key", 1.0, 'custom string inputs:ri:light:lightGroup = "key"'),
+                                   ("fill", 2.0, 'custom string primvars:lightGroup = "fill"')))
     names = ("color", "diffuse", "specular", "lpe:C.*<L.'key'>", "lpe:C.*<L.'fill'>")
     channels, _ = render(tmp_path, STAGE + suns, *outputs(*names), "--set", "samples=64", scene_index=scene_index)
     diffuse, specular, key, other = (channels[f"{name}.x"].mean() for name in names[1:])

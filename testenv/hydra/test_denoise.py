@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The render setting `denoise`: the last image in Hydra is the denoised one, and without a denoiser the noisy one with a warning."""
+"""The render setting `denoise`: the last image in Hydra is the denoised one, and without a denoiser the noisy one with a
+warning."""
 import os
 
 import numpy as np

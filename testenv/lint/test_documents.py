@@ -64,5 +64,6 @@ def test_every_page_can_be_found():
     for path in documents.paths():
         for target in re.findall(r"\]\(([^)#\s]+)", documents.read(path)):
             linked.add(os.path.normpath(os.path.join(os.path.dirname(path), target)))
-    lost = [path for path in documents.paths() if path not in linked and os.path.dirname(path) not in linked and path != "README.md"]
+    lost = [path for path in documents.paths() if path not in linked and os.path.dirname(path) not in linked
+            and path != "README.md"]
     assert not lost, lost

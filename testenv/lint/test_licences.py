@@ -32,7 +32,8 @@ def test_every_source_file_names_its_licence():
 @pytest.mark.parametrize("path, text, wanted", [
     ("a/b.cpp", "// what\n", "// SPDX-License-Identifier: Apache-2.0\n// what\n"),
     ("a/b.py", "#!/usr/bin/env python3\n1\n", "#!/usr/bin/env python3\n# SPDX-License-Identifier: Apache-2.0\n1\n"),
-    ("a/b.mtlx", '<?xml version="1.0"?>\n<m/>\n', '<?xml version="1.0"?>\n<!-- SPDX-License-Identifier: Apache-2.0 -->\n<m/>\n'),
+    ("a/b.mtlx", '<?xml version="1.0"?>\n<m/>\n',
+     '<?xml version="1.0"?>\n<!-- SPDX-License-Identifier: Apache-2.0 -->\n<m/>\n'),
     ("a/b.css", "p{}\n", "/* SPDX-License-Identifier: Apache-2.0 */\np{}\n")])
 def test_the_line_stands_first_where_it_may(path, text, wanted):
     assert licenceHeaders.with_line(path, text) == wanted
@@ -40,7 +41,8 @@ def test_the_line_stands_first_where_it_may(path, text, wanted):
 
 def test_the_list_of_licences_is_whole():
     listed = read("docs/licences.md")
-    packages = {re.split(r"[<>=\[]", line)[0].strip() for path in glob.glob(os.path.join(licenceHeaders.ROOT, "requirements*.txt"))
+    packages = {re.split(r"[<>=\[]", line)[0].strip() for path in glob.glob(os.path.join(licenceHeaders.ROOT,
+                                                                                         "requirements*.txt"))
                 for line in read(path).splitlines() if line.strip() and not line.startswith("#")}
     libraries = set(re.findall(r"find_package\((\w+)", read("CMakeLists.txt") + read("shaders/CMakeLists.txt"))) - {"Threads"}
     scripts = set()

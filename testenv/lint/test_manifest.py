@@ -77,7 +77,8 @@ def test_no_rule_is_left_over():
 
 
 def test_the_last_rule_that_says_something_counts(monkeypatch):
-    monkeypatch.setattr(manifest, "OVERRIDES", (("a/*", "long", None), ("a/b.py::*", None, "film"), ("a/b.py::x", "unit", None)))
+    monkeypatch.setattr(manifest, "OVERRIDES", (("a/*", "long", None), ("a/b.py::*", None, "film"),
+                                                ("a/b.py::x", "unit", None)))
     monkeypatch.setattr(manifest, "FOLDERS", {"a/": ("full", "cli"), "a/c/": ("smoke", "view")})
     assert manifest.place_of("a/d.py::x") == ("long", {"cli"})
     assert manifest.place_of("a/b.py::y") == ("long", {"film"})

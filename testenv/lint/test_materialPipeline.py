@@ -20,7 +20,8 @@ def includes(folder):
     for name in os.listdir(os.path.join(ROOT, TOP, folder)):
         if name.endswith((".h", ".cpp")):
             with open(os.path.join(ROOT, TOP, folder, name), encoding="utf-8") as file:
-                found += [(f"{folder}/{name}", target) for target in re.findall(r'#include "materialNetwork/(\w+)/', file.read())]
+                found += [(f"{folder}/{name}", target) for target in re.findall(r'#include "materialNetwork/(\w+)/',
+                                                                                file.read())]
     return found
 
 

@@ -20,7 +20,8 @@ def test_all_areas_have_texts():
 
 
 def test_texts_are_read_from_expressions():
-    cpp = list(messageTexts._cpp("a.cpp", 'd.warn(p.path, "x", std::to_string(n) + " curves (a+b) " "are \'" + name(q, 2) + "\'; off");'))
+    cpp = list(messageTexts._cpp("a.cpp", 'd.warn(p.path, "x", std::to_string(n) + " curves (a+b) " "are \'" + name(q, 2) + '
+                                          '"\'; off");'))
     assert cpp == [("a.cpp", "… curves (a+b) are '…'; off")]
     assert not list(messageTexts._cpp("a.cpp", "d.warn(a, b, message); int warn(int a);"))
     choice = list(messageTexts._cpp("a.cpp", 'warn(a, "", bad ? "is bad" : "is good");'))

@@ -3,7 +3,8 @@
 
 Only what the test scenes use is translated: meshes, spheres and cubes with constant materials made
 of one diffuse, conductor, dielectric or subsurface node, homogeneous media inside closed objects,
-instances, every light with a Mitsuba counterpart, and the camera. Anything else raises Unsupported, so a test can never compare two different scenes.
+instances, every light with a Mitsuba counterpart, and the camera. Anything else raises Unsupported, so a test can never compare
+two different scenes.
 """
 import math
 import os

@@ -52,8 +52,8 @@ def progress(number, count, rendered, seconds):
 def worst_first(rows):
     """:param rows: name -> row
     :returns: list of rows: those that failed, then by the largest difference of a block in direct light"""
-    return sorted(rows.values(), key=lambda row: (-row["traced"][pairs.DIRECT]["worst"] if "error" not in row else -float("inf"),
-                                                  row["name"]))
+    return sorted(rows.values(), key=lambda row: (-row["traced"][pairs.DIRECT]["worst"]
+                                                  if "error" not in row else -float("inf"), row["name"]))
 
 
 def measured(row):
@@ -128,7 +128,8 @@ def main():
             print(progress(position + 1, len(chosen), rendered, time.monotonic() - start) + report(row), flush=True)
             if a.truth:
                 found = pairs.beside_truth(row, pairs.truth_of(name, a.folder, a.truth, width), a.truth)
-                print(f"{name:22} beside {a.truth} samples: FLIP {found['raster']:.4f} rasterized, {found['traced']:.4f} traced")
+                print(f"{name:22} beside {a.truth} samples: FLIP {found['raster']:.4f} rasterized, "
+                      f"{found['traced']:.4f} traced")
                 if a.update:
                     entry["truth"] = {**{key: recordedPairs.rounded(value) for key, value in found.items()}, "samples": a.truth}
             if a.update:

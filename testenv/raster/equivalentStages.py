@@ -27,8 +27,8 @@ class Case:
     tile: int = equivalence.TILE
 
 
-# Chosen by cost: what two cores decide within half a minute each, and at least a third of it stages that were not made for this.
-# All others are held in the long tier.
+# Chosen by cost: what two cores decide within half a minute each, and at least a third of it stages that were not made for
+# this. All others are held in the long tier.
 FULL = {
     "classic/hematite", "curves", "lightDome", "roughConductor",
     "outOfView/rect", "outOfView/disk", "outOfView/sphere", "outOfView/point", "outOfView/line", "outOfView/spot",
@@ -69,8 +69,8 @@ ASSETS = (  # file below the assets, further arguments
 )
 
 
-# Layers of cards that pass nearly all light, by chance in both back ends: after 768 passes a tile of 8 x 8 pixels has a standard
-# error of 1 to 11 %, the whole image one of 0.6 %. So it is held as a whole.
+# Layers of cards that pass nearly all light, by chance in both back ends: after 768 passes a tile of 8 x 8 pixels has a
+# standard error of 1 to 11 %, the whole image one of 0.6 %. So it is held as a whole.
 COARSE = {"assets/AlphaBlendSortTest": 64}
 
 
@@ -80,7 +80,8 @@ def cases():
     made += [Case(f"outOfView/{name}", "emitter", name) for name in outOfView.EMITTERS]
     made += [Case(f"outOfView/{name}/all", "alone", name, WHOLE) for name in outOfView.WITHOUT_BLOCK]
     made += [Case("assets/" + os.path.splitext(os.path.basename(file))[0], "asset", file) for file in ASSETS]
-    return [dataclasses.replace(case, tier="full" if case.name in FULL else "long", tile=COARSE.get(case.name, equivalence.TILE))
+    return [dataclasses.replace(case, tier="full" if case.name in FULL else "long",
+                                tile=COARSE.get(case.name, equivalence.TILE))
             for case in made]
 
 

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """How far the rasterizer's first images are from converged direct light.
 
-    firstPass.py [STAGE...] [--passes N[,N...]] [--seeds N[,N...]] [--width PIXELS] [--truth N] [--cache FOLDER] [--images FOLDER]
+    firstPass.py [STAGE...] [--passes N[,N...]] [--seeds N[,N...]] [--width PIXELS] [--truth N] [--cache FOLDER] [--images
+    FOLDER]
 
 Prints, per stage, mean FLIP and the worst relative difference of a tile (an eighth of the image each way) for each number of
 passes, and the processor seconds of the first. Stages are names of STAGES, or paths; those without a light get a sky.
@@ -161,7 +162,8 @@ def main():
                     if a.images:
                         scale = 0.5 / max(float(np.median(truth[truth > 0])), 1e-6)
                         flat = name.replace("/", "-")
-                        write_png(np.concatenate([image, truth], axis=1), os.path.join(a.images, f"{flat}.{passes}.{seed}.png"), scale)
+                        write_png(np.concatenate([image, truth], axis=1), os.path.join(a.images, f"{flat}.{passes}.{seed}.png"),
+                                  scale)
                 means.setdefault(passes, []).append(np.mean(found))
                 line += (f" | {passes}: FLIP {' '.join(f'{f:.3f}' for f in found)} tile {max(worst):5.2f} {seconds:5.2f}s"
                          f" (shadow {s['secondsShadows']:.2f} surf {s['secondsSurfaces']:.2f})")

@@ -145,7 +145,8 @@ EMITTERS = {
     "cylinder": _light("CylinderLight", "float inputs:intensity = 12; float inputs:length = 0.8; float inputs:radius = 0.1"),
     "line": _light("CylinderLight", "float inputs:intensity = 40; float inputs:length = 0.8; float inputs:radius = 0.02; "
                    "bool treatAsLine = 1"),
-    "spot": _light("DiskLight", "float inputs:intensity = 40; float inputs:radius = 0.15; float inputs:shaping:cone:angle = 30; "
+    "spot": _light("DiskLight",
+                   "float inputs:intensity = 40; float inputs:radius = 0.15; float inputs:shaping:cone:angle = 30; "
                    "float inputs:shaping:cone:softness = 0.4", "ShapingAPI"),
     "profile": _light("SphereLight", "float inputs:intensity = 0.02; float inputs:radius = 0.2; "
                       "asset inputs:shaping:ies:file = @./lamp.ies@", "ShapingAPI"),

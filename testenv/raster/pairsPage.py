@@ -11,7 +11,8 @@ import numpy as np
 from pairs import DIRECT, WHOLE
 from patina.chart import look
 
-STYLE = """td{text-align:left}td.n{text-align:right}img{image-rendering:pixelated;width:min(288px,19vw)}td:first-child{max-width:22em}"""
+STYLE = """td{text-align:left}td.n{text-align:right}img{image-rendering:pixelated;width:min(288px,19vw)}
+td:first-child{max-width:22em}"""
 
 
 def png(array, alt=""):

@@ -106,6 +106,7 @@ def test_clipping_planes_cut_surfaces_and_lights(tmp_path, projection, planes):
 def test_more_planes_than_are_taken_are_told(tmp_path):
     stage = tmp_path / "stage.usda"
     planes = ", ".join(f"(0, 0, -1, {-1 - i})" for i in range(9))
-    stage.write_text(STAGE % {"projection": "perspective", "aperture": 20, "near": 0.1, "far": 100, "planes": planes} + SURFACES)
+    stage.write_text(STAGE % {"projection": "perspective", "aperture": 20, "near": 0.1, "far": 100, "planes": planes}
+                     + SURFACES)
     found = inProcess.patina("record", stage, tmp_path / "image.exr", "--backend", "raster", "--samples", "1", "-w", "16")
     assert "/camera" in found.stderr + found.stdout and "clippingPlanes" in found.stderr + found.stdout

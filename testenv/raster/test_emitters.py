@@ -109,13 +109,16 @@ KINDS = {
     "meshLight": lambda where: quad(where, LIGHT, '"MeshLightAPI"'),
     "glowingSphere": lambda where: prim("Sphere", "        double radius = 0.5\n" + BOUND, where, GLOWS),
     "glowingCube": lambda where: prim("Cube", "        double size = 1\n" + BOUND, where, GLOWS),
-    "rect": lambda where: prim("RectLight", LIGHT + "        float inputs:width = 1.5\n        float inputs:height = 1.5", where),
+    "rect": lambda where: prim("RectLight", LIGHT
+                               + "        float inputs:width = 1.5\n        float inputs:height = 1.5", where),
     "disk": lambda where: prim("DiskLight", LIGHT + "        float inputs:radius = 0.7", where),
     "sphere": lambda where: prim("SphereLight", LIGHT + "        float inputs:radius = 0.5", where),
-    "cylinder": lambda where: prim("CylinderLight", LIGHT + "        float inputs:radius = 0.2\n        float inputs:length = 2", where),
+    "cylinder": lambda where: prim("CylinderLight", LIGHT
+                                   + "        float inputs:radius = 0.2\n        float inputs:length = 2", where),
 }
 CASES = [(kind, where) for kind in ("glowingQuad", "meshLight") for where in (ABOVE, BEHIND, BESIDE)]
-CASES += [("glowingSphere", BEHIND), ("glowingCube", ABOVE), ("glowingQuad", HIGH), ("rect", ABOVE), ("disk", BEHIND), ("sphere", BESIDE), ("cylinder", ABOVE)]
+CASES += [("glowingSphere", BEHIND), ("glowingCube", ABOVE), ("glowingQuad", HIGH), ("rect", ABOVE), ("disk", BEHIND),
+          ("sphere", BESIDE), ("cylinder", ABOVE)]
 NAMES = {ABOVE: "above", BEHIND: "behind", BESIDE: "beside", HIGH: "high", IN_VIEW: "inView"}
 
 
@@ -314,7 +317,8 @@ def test_light_follows_the_direction_that_an_edf_has(name, renderers, tmp_path):
     # Few samples lie where a narrow cone reaches.
     hold(renderers, stage, *((64, 512) if name == "inclinedNarrow" else (4, 32)))
     # A light without direction would be seen as such: the floor is not lit as by an even one.
-    even = load(quad(near, BOUND.replace("glow", "shaped")) + edf("shaped", "ND_uniform_edf", ["color3f inputs:color = (4, 3, 2)"]))
+    even = load(quad(near, BOUND.replace("glow", "shaped")) + edf("shaped", "ND_uniform_edf",
+                                                                  ["color3f inputs:color = (4, 3, 2)"]))
     shaped, plain = (means(render(renderers["raster"], s, 8, 0))[:-1, 0] for s in (stage, even))
     ratio = shaped / plain
     assert ratio.max() > 1.5 * ratio.min(), ratio
@@ -328,7 +332,8 @@ def test_the_camera_sees_the_profile_of_a_measured_edf(tmp_path, renderers):
   <measured_edf name="edf" type="EDF"><input name="color" type="color3" value="1, 2, 3"/>
     <input name="file" type="filename" value="{tmp_path / 'lamp.ies'}"/></measured_edf>
   <surface name="surface" type="surfaceshader"><input name="edf" type="EDF" nodename="edf"/></surface>
-  <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="surface"/></surfacematerial>
+  <surfacematerial name="m" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="surface"/></surfacematerial>
 </materialx>
 """)
     (read,) = _patina.read_mtlx(str(network))

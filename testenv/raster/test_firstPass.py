@@ -33,8 +33,8 @@ def test_no_region_of_the_first_image_is_wrong(name, cache):
     assert max(worst) <= TILE, worst
 
 
-ALIKE = ["lightDome", "lightDistant", "lightRect", "lightSphere", "texturedMesh", "plastic", "classic/hematite", "Teapot", "teapot",
-         "AlphaBlendModeTest", "NormalsTexture", "RoughnessTest", "CesiumMan", "BrainStem", "allPrimitives"]
+ALIKE = ["lightDome", "lightDistant", "lightRect", "lightSphere", "texturedMesh", "plastic", "classic/hematite", "Teapot",
+         "teapot", "AlphaBlendModeTest", "NormalsTexture", "RoughnessTest", "CesiumMan", "BrainStem", "allPrimitives"]
 
 
 # Of firstPass.py's stages these lie above the limit, and so are not held: roughConductor and rustedSteel at it, shaderball and

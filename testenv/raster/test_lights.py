@@ -113,7 +113,8 @@ def test_wide_suns_are_shadowed_where_samples_of_the_material_find_them(angle, t
                 place="        float3 xformOp:rotateXYZ = (-50, 170, 0)\n"
                       '        uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]\n')
     stage = STAGE.replace('def Mesh "floor"', 'def Mesh "floor" (prepend apiSchemas = ["MaterialBindingAPI"])')
-    stage = stage.replace('        point3f[] points', "        rel material:binding = </World/metal>\n        point3f[] points", 1)
+    stage = stage.replace('        point3f[] points', "        rel material:binding = </World/metal>\n        point3f[] points",
+                          1)
     power = dataclasses.replace(equivalence.FULL, widest=10 * equivalence.MARGIN)
     sameImage.assert_same(write(tmp_path, stage % (sun + GLOSSY)), None, NO_HEADLIGHT, power=power)
 
@@ -142,7 +143,8 @@ def test_what_is_inside_of_a_light_casts_nothing(kind, tmp_path):
 
 
 def test_few_samples_of_a_ball_are_even():
-    """Places on the surface of a sphere light, half of which face away, leave 1.8 % with 16 passes; those inside, at most half."""
+    """Places on the surface of a sphere light, half of which face away, leave 1.8 % with 16 passes; those inside, at most
+    half."""
     stage, images = inProcess.scene("lightSphere"), {}
     for backend, samples in (("raster", 16), ("embree", 512)):
         images[backend] = inProcess.Stage(stage, "--backend", backend, "--samples", samples, "-w", 64, "--maxDepth", 1).image(0)

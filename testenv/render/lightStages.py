@@ -49,7 +49,8 @@ def Material "white"
 }}
 {light}
 """
-DOWN = 'float xformOp:rotateX = -90\n    double3 xformOp:translate = (0, 2, 0)\n    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]'
+DOWN = ('float xformOp:rotateX = -90\n    double3 xformOp:translate = (0, 2, 0)\n'
+        '    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]')
 ABOVE = 'double3 xformOp:translate = (0, 2, 0)\n    uniform token[] xformOpOrder = ["xformOp:translate"]'
 
 
@@ -86,26 +87,35 @@ def cylinder_irradiance(radius, length, distance, steps=400):
 CASES = {
     "sphere": (light("SphereLight", ["float inputs:intensity = 3", "float inputs:radius = 0.5"], ABOVE),
                3 * math.pi * (0.5 / 2) ** 2),
-    "sphere normalized": (light("SphereLight", ["float inputs:intensity = 3", "float inputs:radius = 0.5", "bool inputs:normalize = 1"], ABOVE),
+    "sphere normalized": (light("SphereLight", ["float inputs:intensity = 3", "float inputs:radius = 0.5",
+                                                "bool inputs:normalize = 1"], ABOVE),
                           3 / (4 * math.pi * 0.25) * math.pi * (0.5 / 2) ** 2),
-    "sphere with exposure and colour": (light("SphereLight", ["float inputs:intensity = 3", "float inputs:exposure = 2", "color3f inputs:color = (0.5, 0.5, 0.5)", "float inputs:radius = 0.5"], ABOVE),
+    "sphere with exposure and colour": (light("SphereLight", ["float inputs:intensity = 3", "float inputs:exposure = 2",
+                                                              "color3f inputs:color = (0.5, 0.5, 0.5)",
+                                                              "float inputs:radius = 0.5"], ABOVE),
                                         6 * math.pi * (0.5 / 2) ** 2),
     "disk": (light("DiskLight", ["float inputs:intensity = 3", "float inputs:radius = 1"]), 3 * math.pi * 1 / (1 + 4)),
-    "disk normalized": (light("DiskLight", ["float inputs:intensity = 3", "float inputs:radius = 1", "bool inputs:normalize = 1"]), 3 / math.pi * math.pi / (1 + 4)),
+    "disk normalized": (light("DiskLight", ["float inputs:intensity = 3", "float inputs:radius = 1",
+                                            "bool inputs:normalize = 1"]), 3 / math.pi * math.pi / (1 + 4)),
     "disk facing away": (light("DiskLight", ["float inputs:intensity = 3", "float inputs:radius = 1"],
                                DOWN.replace("-90", "90")), 0.0),
     "rect": (light("RectLight", ["float inputs:intensity = 3", "float inputs:width = 2", "float inputs:height = 1"]),
              3 * rect_irradiance(2, 1, 2)),
-    "rect normalized": (light("RectLight", ["float inputs:intensity = 3", "float inputs:width = 2", "float inputs:height = 1", "bool inputs:normalize = 1"]),
+    "rect normalized": (light("RectLight", ["float inputs:intensity = 3", "float inputs:width = 2", "float inputs:height = 1",
+                                            "bool inputs:normalize = 1"]),
                         1.5 * rect_irradiance(2, 1, 2)),
-    "cylinder": (light("CylinderLight", ["float inputs:intensity = 3", "float inputs:radius = 0.25", "float inputs:length = 2"], ABOVE),
+    "cylinder": (light("CylinderLight", ["float inputs:intensity = 3", "float inputs:radius = 0.25", "float inputs:length = 2"],
+                       ABOVE),
                  3 * cylinder_irradiance(0.25, 2, 2)),
     "distant": (light("DistantLight", ["float inputs:intensity = 3", "float inputs:angle = 20"]),
                 3 * math.pi * math.sin(math.radians(10)) ** 2),
-    "distant normalized": (light("DistantLight", ["float inputs:intensity = 3", "float inputs:angle = 20", "bool inputs:normalize = 1"]), 3.0),
+    "distant normalized": (light("DistantLight", ["float inputs:intensity = 3", "float inputs:angle = 20",
+                                                  "bool inputs:normalize = 1"]), 3.0),
     "dome": (light("DomeLight", ["float inputs:intensity = 3"], ""), 3 * math.pi),
-    "cone that misses nothing": (light("DiskLight", ["float inputs:intensity = 3", "float inputs:radius = 0.01", "float inputs:shaping:cone:angle = 30"], DOWN, "ShapingAPI"),
+    "cone that misses nothing": (light("DiskLight", ["float inputs:intensity = 3", "float inputs:radius = 0.01",
+                                                     "float inputs:shaping:cone:angle = 30"], DOWN, "ShapingAPI"),
                                  3 * math.pi * 1e-4 / (1e-4 + 4)),
-    "focus straight ahead": (light("DiskLight", ["float inputs:intensity = 3", "float inputs:radius = 0.01", "float inputs:shaping:focus = 8"], DOWN, "ShapingAPI"),
+    "focus straight ahead": (light("DiskLight", ["float inputs:intensity = 3", "float inputs:radius = 0.01",
+                                                 "float inputs:shaping:focus = 8"], DOWN, "ShapingAPI"),
                              3 * math.pi * 1e-4 / (1e-4 + 4)),
 }

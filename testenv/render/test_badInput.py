@@ -85,7 +85,8 @@ def test_broken_mesh(tmp_path, scheme, change, word):
     assert mentions(warnings, "/quad", word), warnings
 
 
-@pytest.mark.parametrize("points", ["[]", "[(0, 0, 0), (0, 0, 0), (0, 0, 0), (0, 0, 0)]", "[(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)]"])
+@pytest.mark.parametrize("points", ["[]", "[(0, 0, 0), (0, 0, 0), (0, 0, 0), (0, 0, 0)]",
+                                    "[(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)]"])
 @pytest.mark.parametrize("scheme", ["none", "catmullClark"])
 def test_degenerate_faces_and_empty_meshes(tmp_path, points, scheme):
     _, image, _ = render(tmp_path, quad(points=points, scheme=scheme) + PREVIEW % ("", ""))
@@ -95,7 +96,8 @@ def test_degenerate_faces_and_empty_meshes(tmp_path, points, scheme):
 def test_missing_texture_is_magenta_and_named(tmp_path):
     text = quad(extra='texCoord2f[] primvars:st = [(0, 0), (1, 0), (1, 1), (0, 1)] (interpolation = "vertex")') + PREVIEW % (
         "color3f inputs:emissiveColor.connect = </material/image.outputs:rgb>\n        color3f inputs:diffuseColor = (0, 0, 0)",
-        'def Shader "image"\n    {\n        uniform token info:id = "UsdUVTexture"\n        asset inputs:file = @absent.png@\n        color3f outputs:rgb\n    }')
+        'def Shader "image"\n    {\n        uniform token info:id = "UsdUVTexture"\n        asset inputs:file = @absent.png@\n '
+        '       color3f outputs:rgb\n    }')
     _, image, warnings = render(tmp_path, text)
     assert mentions(warnings, "/material/image", "absent.png"), warnings
     r, g, b = color(image)[16, 16]
@@ -105,15 +107,19 @@ def test_missing_texture_is_magenta_and_named(tmp_path):
 def test_missing_primvar_uses_the_fallback_of_its_reader(tmp_path):
     text = quad() + PREVIEW % (
         "color3f inputs:emissiveColor.connect = </material/reader.outputs:result>",
-        'def Shader "reader"\n    {\n        uniform token info:id = "UsdPrimvarReader_float3"\n        string inputs:varname = "absent"\n        float3 inputs:fallback = (0, 5, 0)\n        float3 outputs:result\n    }')
+        'def Shader "reader"\n    {\n        uniform token info:id = "UsdPrimvarReader_float3"\n        string inputs:varname '
+        '= "absent"\n        float3 inputs:fallback = (0, 5, 0)\n        float3 outputs:result\n    }')
     _, image, _ = render(tmp_path, text)
     r, g, b = color(image)[16, 16]
     assert g > 4 and r < 2 and b < 2
 
 
 def test_cycle_in_a_network(tmp_path):
-    node = 'def Shader "%s"\n    {\n        uniform token info:id = "ND_multiply_color3"\n        color3f inputs:in1.connect = </material/%s.outputs:out>\n        color3f outputs:out\n    }\n'
-    text = quad() + PREVIEW % ("color3f inputs:diffuseColor.connect = </material/a.outputs:out>", node % ("a", "b") + "    " + node % ("b", "a"))
+    node = ('def Shader "%s"\n    {\n        uniform token info:id = "ND_multiply_color3"\n'
+            '        color3f inputs:in1.connect = </material/%s.outputs:out>\n'
+            '        color3f outputs:out\n    }\n')
+    text = quad() + PREVIEW % ("color3f inputs:diffuseColor.connect = </material/a.outputs:out>",
+                               node % ("a", "b") + "    " + node % ("b", "a"))
     _, image, warnings = render(tmp_path, text)
     assert mentions(warnings, "/material", "cycle"), warnings
     assert np.isfinite(pixels(image)).all()
@@ -121,7 +127,8 @@ def test_cycle_in_a_network(tmp_path):
 
 def test_unknown_node(tmp_path):
     text = quad() + PREVIEW % ("color3f inputs:diffuseColor.connect = </material/a.outputs:out>",
-                               'def Shader "a"\n    {\n        uniform token info:id = "NoSuchNode"\n        color3f outputs:out\n    }')
+                               'def Shader "a"\n    {\n        uniform token info:id = "NoSuchNode"\n        color3f '
+                               'outputs:out\n    }')
     _, image, warnings = render(tmp_path, text)
     assert mentions(warnings, "/material/a", "NoSuchNode"), warnings
 
@@ -218,7 +225,11 @@ def test_empty_stage_renders(tmp_path):
 
 
 def test_nan_in_lights_and_transforms(tmp_path):
-    text = quad() + PREVIEW % ("", "") + 'def SphereLight "bad"\n{\n    float inputs:intensity = nan\n    double3 xformOp:translate = (nan, 0, 1)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\ndef SphereLight "none"\n{\n    float inputs:radius = 0\n    float3 xformOp:scale = (0, 0, 0)\n    uniform token[] xformOpOrder = ["xformOp:scale"]\n}\n'
+    text = quad() + PREVIEW % ("", "") + (
+        'def SphereLight "bad"\n{\n    float inputs:intensity = nan\n    double3 xformOp:translate = (nan, 0, 1)\n'
+        '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+        'def SphereLight "none"\n{\n    float inputs:radius = 0\n    float3 xformOp:scale = (0, 0, 0)\n'
+        '    uniform token[] xformOpOrder = ["xformOp:scale"]\n}\n')
     _, image, warnings = render(tmp_path, text)
     assert np.isfinite(pixels(image)).all()
     assert mentions(warnings, "/bad"), warnings

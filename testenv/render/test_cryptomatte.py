@@ -93,7 +93,8 @@ def image(request, tmp_path_factory):
         pytest.skip(without_opengl())
     folder = tmp_path_factory.mktemp("cryptomatte")
     (folder / "stage.usda").write_text(STAGE)
-    record(folder / "stage.usda", folder / "image.exr", "-w", 8, "--samples", 64, "--filterRadius", 0.5, "--backend", request.param, *AOVS)
+    record(folder / "stage.usda", folder / "image.exr", "-w", 8, "--samples", 64, "--filterRadius", 0.5, "--backend",
+           request.param, *AOVS)
     return folder / "image.exr"
 
 
@@ -114,7 +115,8 @@ def layers(path):
             for id_, share in ("RG", "BA"):
                 bits = np.ascontiguousarray(pixels[f"{layer}{rank:02d}.{id_}"]).view(np.uint32)
                 for number in np.unique(bits):
-                    coverage[number] = coverage.get(number, 0) + np.where(bits == number, pixels[f"{layer}{rank:02d}.{share}"], 0)
+                    coverage[number] = coverage.get(number, 0) + np.where(bits == number, pixels[f"{layer}{rank:02d}.{share}"],
+                                                                          0)
         found[layer] = (json.loads(read.metadata[head + "manifest"]), coverage)
     return found
 
@@ -180,11 +182,14 @@ def test_only_openexr_holds_it(tmp_path):
 
 
 def test_native_instances_have_their_own_paths(tmp_path):
-    text = STAGE.replace('def Mesh "right"', 'def Mesh "rightmost"').replace('def Xform "left" (\n', 'def Xform "left" (\n    instanceable = true\n')
+    text = STAGE.replace('def Mesh "right"', 'def Mesh "rightmost"').replace('def Xform "left" (\n',
+                                                                             'def Xform "left" (\n    instanceable = true\n')
     text += 'def Xform "again" (\n    instanceable = true\n    references = </left>\n)\n{\n' \
             '    double3 xformOp:translate = (1, 0, 1)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
-    text = text.replace('def Xform "left" (\n    instanceable = true\n', 'def Xform "left" (\n    instanceable = true\n    references = </_proto>\n')
-    text = text.replace('{\n    def Mesh "quad"', '{\n}\nclass Xform "_proto"\n{\n    def Mesh "quad"', 1).replace("references = </left>", "references = </_proto>")
+    text = text.replace('def Xform "left" (\n    instanceable = true\n',
+                        'def Xform "left" (\n    instanceable = true\n    references = </_proto>\n')
+    text = text.replace('{\n    def Mesh "quad"', '{\n}\nclass Xform "_proto"\n{\n    def Mesh "quad"',
+                        1).replace("references = </left>", "references = </_proto>")
     (tmp_path / "stage.usda").write_text(text)
     record(tmp_path / "stage.usda", tmp_path / "image.exr", "-w", 8, "--samples", 1, *AOVS)
     assert {"/left/quad", "/again/quad"} <= set(layers(tmp_path / "image.exr")["crypto_object"][0])

@@ -166,7 +166,8 @@ def Xform "world"
     }
 }
 """
-    images, warnings, _ = render_text(material.replace("{ uniform", "{\n        uniform").replace("out }", "out\n    }"), samples=1)
+    images, warnings, _ = render_text(material.replace("{ uniform", "{\n        uniform").replace("out }", "out\n    }"),
+                                      samples=1)
     assert not warnings
     middle = images["color"][16, 16, :3]
     assert middle == pytest.approx([1.0, 0.0, 0.50001], abs=2e-5)

@@ -41,7 +41,8 @@ def material(name, nodes):
     body = ""
     for node, (kind, inputs) in nodes.items():
         lines = "".join(f"        {line}\n" for line in inputs)
-        body += f'    def Shader "{node}"\n    {{\n        uniform token info:id = "{kind}"\n{lines}        token outputs:out\n    }}\n'
+        body += (f'    def Shader "{node}"\n    {{\n        uniform token info:id = "{kind}"\n'
+                 f'{lines}        token outputs:out\n    }}\n')
     return f'def Material "{name}"\n{{\n    token outputs:mtlx:surface.connect = </{name}/surface.outputs:out>\n{body}}}\n'
 
 
@@ -57,13 +58,17 @@ def glow(name, rgb):
 
 def preview(name, *inputs):
     lines = "".join(f"        {line}\n" for line in inputs)
-    return f'def Material "{name}"\n{{\n    token outputs:surface.connect = </{name}/s.outputs:surface>\n    def Shader "s"\n    {{\n        uniform token info:id = "UsdPreviewSurface"\n{lines}        token outputs:surface\n    }}\n}}\n'
+    return (f'def Material "{name}"\n{{\n'
+            f'    token outputs:surface.connect = </{name}/s.outputs:surface>\n    def Shader "s"\n'
+            f'    {{\n        uniform token info:id = "UsdPreviewSurface"\n'
+            f'{lines}        token outputs:surface\n    }}\n}}\n')
 
 
 def distant(name, links="", apis="", intensity=math.pi):
     """From the camera's side; a facing white Lambertian surface of albedo 0.5 shows intensity * 0.5 / pi."""
     applied = f" (\n    prepend apiSchemas = [{apis}]\n)" if apis else ""
-    return f'def DistantLight "{name}"{applied}\n{{\n    float inputs:intensity = {intensity}\n    float inputs:angle = 0\n    {links}\n}}\n'
+    return (f'def DistantLight "{name}"{applied}\n{{\n    float inputs:intensity = {intensity}\n'
+            f'    float inputs:angle = 0\n    {links}\n}}\n')
 
 
 def render(tmp_path, *parts, samples=64, arguments=(), channels="RGB"):
@@ -76,8 +81,8 @@ def render(tmp_path, *parts, samples=64, arguments=(), channels="RGB"):
 
 def test_light_linking_leaves_out_what_is_not_linked(tmp_path):
     links = ('prepend rel collection:lightLink:excludes = </right>\n    uniform bool collection:lightLink:includeRoot = 1')
-    image = render(tmp_path, distant("sun", links, '"CollectionAPI:lightLink"'), quad("left", 0, 0.9, -1), quad("right", 0, 0.9, 1),
-                   lambert("white", 0.5))
+    image = render(tmp_path, distant("sun", links, '"CollectionAPI:lightLink"'), quad("left", 0, 0.9, -1),
+                   quad("right", 0, 0.9, 1), lambert("white", 0.5))
     assert image[16, 8] == pytest.approx(0.5, rel=1e-4)
     assert image[16, 24] == pytest.approx(0.0, abs=1e-6)
 
@@ -95,16 +100,19 @@ def test_shadow_linking_lets_light_through_what_is_not_linked(tmp_path):
 @pytest.mark.parametrize("opacity, expected", [(1.0, 0.0), (0.0, 2.0)])
 def test_presence_shows_what_is_behind(tmp_path, opacity, expected):
     surface = material("card", {"surface": ("ND_surface", [f"float inputs:opacity = {opacity}"])})
-    image = render(tmp_path, quad("front", 1, material="card"), quad("back", 0, material="glow"), surface, glow("glow", "(2, 2, 2)"))
+    image = render(tmp_path, quad("front", 1, material="card"), quad("back", 0, material="glow"), surface,
+                   glow("glow", "(2, 2, 2)"))
     assert image[16, 16] == pytest.approx(expected, abs=1e-6)
 
 
 def test_half_presence_is_the_mean_and_casts_half_a_shadow(tmp_path):
     surface = material("card", {"surface": ("ND_surface", ["float inputs:opacity = 0.5"])})
-    image = render(tmp_path, quad("front", 1, material="card"), quad("back", 0, material="glow"), surface, glow("glow", "(2, 2, 2)"), samples=1024)
+    image = render(tmp_path, quad("front", 1, material="card"), quad("back", 0, material="glow"), surface,
+                   glow("glow", "(2, 2, 2)"), samples=1024)
     # Binomial: 8 x 8 pixels of 1024 samples, deviation of the mean 2 * 0.5 / 256; 5 of them.
     assert image[12:20, 12:20].mean() == pytest.approx(1.0, abs=5 * 1.0 / 256)
-    lit = render(tmp_path, distant("sun"), quad("floor", 0, 3), quad("front", 1, 0.5, 0.0, "card"), lambert("white", 0.5), surface, samples=1024)
+    lit = render(tmp_path, distant("sun"), quad("floor", 0, 3), quad("front", 1, 0.5, 0.0, "card"), lambert("white", 0.5),
+                 surface, samples=1024)
     through = lit[14:18, 14:18].mean()
     assert through == pytest.approx(0.5 * 0.5 * 0.5, rel=0.06)  # half of the camera's rays see the floor, half lit
 
@@ -112,8 +120,10 @@ def test_half_presence_is_the_mean_and_casts_half_a_shadow(tmp_path):
 def test_opacity_threshold_cuts_out(tmp_path):
     for opacity, expected in ((0.4, 2.0), (0.6, 0.0)):
         card = preview("card", f"float inputs:opacity = {opacity}", "float inputs:opacityThreshold = 0.5",
-                       "color3f inputs:diffuseColor = (0, 0, 0)", "int inputs:useSpecularWorkflow = 1", "color3f inputs:specularColor = (0, 0, 0)")
-        image = render(tmp_path, quad("front", 1, material="card"), quad("back", 0, material="glow"), card, glow("glow", "(2, 2, 2)"))
+                       "color3f inputs:diffuseColor = (0, 0, 0)", "int inputs:useSpecularWorkflow = 1",
+                       "color3f inputs:specularColor = (0, 0, 0)")
+        image = render(tmp_path, quad("front", 1, material="card"), quad("back", 0, material="glow"), card,
+                       glow("glow", "(2, 2, 2)"))
         assert image[16, 16] == pytest.approx(expected, abs=2e-3)
 
 
@@ -127,9 +137,12 @@ def test_glowing_mesh_mesh_light_and_rect_light_light_a_floor_alike(tmp_path):
     # Facing the floor: the panel's front looks along -z.
     turned = 'uniform token orientation = "leftHanded"'
     glowing = render(tmp_path, floor_under(quad("panel", 12, 2.0, 0, "glow", turned)), glow("glow", "(3, 3, 3)"), samples=1024)
-    mesh = quad("panel", 12, 2.0, 0, "black", turned + "\n    float inputs:intensity = 3").replace('"MaterialBindingAPI"', '"MaterialBindingAPI", "MeshLightAPI"')
+    mesh = quad("panel", 12, 2.0, 0, "black", turned + "\n    float inputs:intensity = 3")
+    mesh = mesh.replace('"MaterialBindingAPI"', '"MaterialBindingAPI", "MeshLightAPI"')
     as_light = render(tmp_path, floor_under(mesh), black, samples=1024)
-    rect = 'def RectLight "panel"\n{\n    float inputs:intensity = 3\n    float inputs:width = 4\n    float inputs:height = 4\n    double3 xformOp:translate = (0, 0, 12)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+    rect = ('def RectLight "panel"\n{\n    float inputs:intensity = 3\n    float inputs:width = 4\n'
+            '    float inputs:height = 4\n    double3 xformOp:translate = (0, 0, 12)\n'
+            '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n')
     as_rect = render(tmp_path, floor_under(rect), samples=1024)
     centre = np.s_[12:20, 12:20]
     assert as_rect[centre].mean() > 0.05
@@ -140,13 +153,19 @@ def test_glowing_mesh_mesh_light_and_rect_light_light_a_floor_alike(tmp_path):
 def test_absorption_follows_beers_law(tmp_path):
     """A clear cube of ior 1 and absorption (0.5, 1, 2), two units thick, in front of a glow of 1."""
     glass = material("glass", {
-        "interface": ("ND_dielectric_bsdf", ["float inputs:ior = 1", "float2 inputs:roughness = (0, 0)", 'string inputs:scatter_mode = "RT"']),
+        "interface": ("ND_dielectric_bsdf", ["float inputs:ior = 1", "float2 inputs:roughness = (0, 0)",
+                                             'string inputs:scatter_mode = "RT"']),
         "inside": ("ND_absorption_vdf", ["float3 inputs:absorption = (0.5, 1, 2)"]),
-        "layer": ("ND_layer_vdf", ["token inputs:top.connect = </glass/interface.outputs:out>", "token inputs:base.connect = </glass/inside.outputs:out>"]),
+        "layer": ("ND_layer_vdf", ["token inputs:top.connect = </glass/interface.outputs:out>",
+                                   "token inputs:base.connect = </glass/inside.outputs:out>"]),
         "surface": ("ND_surface", ["token inputs:bsdf.connect = </glass/layer.outputs:out>"])})
-    cube = 'def Cube "cube" (\n    prepend apiSchemas = ["MaterialBindingAPI"]\n)\n{\n    double size = 2\n    rel material:binding = </glass>\n}\n'
+    cube = ('def Cube "cube" (\n    prepend apiSchemas = ["MaterialBindingAPI"]\n)\n{\n'
+            '    double size = 2\n    rel material:binding = </glass>\n}\n')
     ortho = "--camera", "/ortho"
-    camera = 'def Camera "ortho"\n{\n    token projection = "orthographic"\n    float horizontalAperture = 10\n    float verticalAperture = 10\n    double3 xformOp:translate = (0, 0, 10)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+    camera = ('def Camera "ortho"\n{\n    token projection = "orthographic"\n'
+              '    float horizontalAperture = 10\n    float verticalAperture = 10\n'
+              '    double3 xformOp:translate = (0, 0, 10)\n'
+              '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n')
     stage, image = tmp_path / "stage.usda", tmp_path / "image.exr"
     stage.write_text(HEAD + camera + cube + quad("back", -3, 3.0, 0, "glow") + glass + glow("glow", "(1, 1, 1)"))
     record(stage, image, *ortho, "--imageWidth", 16, "--imageHeight", 16, "--samples", 16)
@@ -156,7 +175,9 @@ def test_absorption_follows_beers_law(tmp_path):
 def test_aovs_of_a_plain_quad(tmp_path):
     stage, image = tmp_path / "stage.usda", tmp_path / "image.exr"
     stage.write_text(HEAD + CAMERA + quad("a", 0, 1.5) + quad("b", 4, 0.25) + lambert("white", 0.5) + distant("sun"))
-    record(stage, image, "--imageWidth", 33, "--imageHeight", 33, "--samples", 16, *[f for name in ("depth", "cameraDepth", "normal", "position", "albedo", "primvars:st", "primId", "instanceId", "elementId", "sampleCount", "variance") for f in ("--aov", name)])
+    record(stage, image, "--imageWidth", 33, "--imageHeight", 33, "--samples", 16,
+           *[f for name in ("depth", "cameraDepth", "normal", "position", "albedo", "primvars:st", "primId", "instanceId",
+                            "elementId", "sampleCount", "variance") for f in ("--aov", name)])
     import _patina
 
     found = _patina.read_image(str(image))
@@ -178,11 +199,16 @@ def test_aovs_of_a_plain_quad(tmp_path):
 def test_instances_look_like_copies(tmp_path):
     """A point instancer inside a point instancer against the same meshes written out."""
     mesh = quad("leaf", 0, 0.3)
-    inner = 'def PointInstancer "inner"\n{\n    point3f[] positions = [(-0.5, 0, 0), (0.5, 0, 0)]\n    int[] protoIndices = [0, 0]\n    rel prototypes = </outer/inner/leaf>\n' + mesh + "}\n"
-    nested = 'def PointInstancer "outer"\n{\n    point3f[] positions = [(0, -0.6, 0), (0, 0.6, 0.5)]\n    int[] protoIndices = [0, 0]\n    rel prototypes = </outer/inner>\n' + inner + "}\n"
+    inner = ('def PointInstancer "inner"\n{\n'
+             '    point3f[] positions = [(-0.5, 0, 0), (0.5, 0, 0)]\n'
+             '    int[] protoIndices = [0, 0]\n    rel prototypes = </outer/inner/leaf>\n' + mesh + "}\n")
+    nested = ('def PointInstancer "outer"\n{\n'
+              '    point3f[] positions = [(0, -0.6, 0), (0, 0.6, 0.5)]\n'
+              '    int[] protoIndices = [0, 0]\n    rel prototypes = </outer/inner>\n' + inner + "}\n")
     copies = ""
     for k, (x, y, z) in enumerate([(-0.5, -0.6, 0), (0.5, -0.6, 0), (-0.5, 0.6, 0.5), (0.5, 0.6, 0.5)]):
-        copies += f'def Xform "x{k}"\n{{\n    double3 xformOp:translate = ({x}, {y}, {z})\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n{mesh}}}\n'
+        copies += (f'def Xform "x{k}"\n{{\n    double3 xformOp:translate = ({x}, {y}, {z})\n'
+                   f'    uniform token[] xformOpOrder = ["xformOp:translate"]\n{mesh}}}\n')
     rest = lambert("white", 0.5) + distant("sun")
     a, b = render(tmp_path, nested, rest, samples=16), render(tmp_path, copies, rest, samples=16)
     assert a.max() > 0.4
@@ -190,7 +216,11 @@ def test_instances_look_like_copies(tmp_path):
 
 
 def test_light_multipliers_split_diffuse_and_specular(tmp_path):
-    light = 'def RectLight "light"\n{{\n    float inputs:intensity = 5\n    float inputs:width = 3\n    float inputs:height = 3\n    float inputs:diffuse = {}\n    float inputs:specular = {}\n    double3 xformOp:translate = (0, 0, 12)\n    uniform token[] xformOpOrder = ["xformOp:translate"]\n}}\n'
+    light = ('def RectLight "light"\n{{\n    float inputs:intensity = 5\n'
+             '    float inputs:width = 3\n    float inputs:height = 3\n'
+             '    float inputs:diffuse = {}\n    float inputs:specular = {}\n'
+             '    double3 xformOp:translate = (0, 0, 12)\n'
+             '    uniform token[] xformOpOrder = ["xformOp:translate"]\n}}\n')
     shiny = preview("white", "color3f inputs:diffuseColor = (0.5, 0.5, 0.5)", "float inputs:roughness = 0.3")
     whole, diffuse, specular = (render(tmp_path, light.format(d, s), quad("floor", 0, 1.5), shiny, samples=256).mean()
                                 for d, s in ((1, 1), (1, 0), (0, 1)))

@@ -13,7 +13,8 @@ from test_features import CAMERA, HEAD, distant, glow, lambert, material, quad
 
 FIRST = ("emission", "diffuse", "specular", "transmission", "subsurface", "volume")  # by what happens first
 ORDER = ("emission", "direct", "indirect")  # by how often
-ALL_SCENES = sorted(os.path.relpath(path, SCENES)[:-5] for path in glob.glob(os.path.join(SCENES, "**", "*.usda"), recursive=True))
+ALL_SCENES = sorted(os.path.relpath(path, SCENES)[:-5] for path in glob.glob(os.path.join(SCENES, "**", "*.usda"),
+                                                                             recursive=True))
 
 
 def aovs(names):
@@ -72,8 +73,8 @@ def write(tmp_path, *parts):
 
 def render(tmp_path, names, *parts, samples=16, size=32, arguments=()):
     image = tmp_path / "image.exr"
-    record(write(tmp_path, *parts), image, "--camera", "/camera", "--imageWidth", size, "--imageHeight", size, "--samples", samples,
-           "--filterRadius", 0.5, "--disableCameraLight", *aovs(names), *arguments)
+    record(write(tmp_path, *parts), image, "--camera", "/camera", "--imageWidth", size, "--imageHeight", size, "--samples",
+           samples, "--filterRadius", 0.5, "--disableCameraLight", *aovs(names), *arguments)
     return image
 
 
@@ -135,7 +136,8 @@ def test_light_groups_are_their_lights(tmp_path):
     names = ["key=lpe:C.*<L.'key'>", "fill=lpe:C.*<L.'fill'>", "sky=lpe:C.*<B.'sky'>", "rest=lpe:C.*<[LO].[^'key''fill''sky']>"]
     image = render(tmp_path, names, wall,
                    distant("a", LABEL % "key" + '\n    custom string primvars:lightGroup = "fill"', intensity=math.pi),
-                   distant("b", 'custom string primvars:lightGroup = "fill"', intensity=2 * math.pi), distant("c", intensity=3 * math.pi),
+                   distant("b", 'custom string primvars:lightGroup = "fill"', intensity=2 * math.pi),
+                   distant("c", intensity=3 * math.pi),
                    'def DomeLight "sky"\n{\n    custom string primvars:lightGroup = "sky"\n}\n', samples=64)
     groups = [layer(image, name) for name in ("key", "fill", "rest", "sky")]
     for group, expected in zip(groups, (0.5, 1.0, 1.5, 0.5)):
@@ -145,7 +147,8 @@ def test_light_groups_are_their_lights(tmp_path):
 
 def test_emissive_geometry_has_a_light_group(tmp_path):
     """The label is inherited, and an edit of it changes the AOV."""
-    lamp = ('def Xform "lamps"\n{\n    custom string primvars:lightGroup = "%s" (interpolation = "constant")\n' + quad("lamp", 0, 4.0, material="glow")
+    lamp = ('def Xform "lamps"\n{\n    custom string primvars:lightGroup = "%s" (interpolation = "constant")\n'
+            + quad("lamp", 0, 4.0, material="glow")
             + "}\n" + glow("glow", (2.0, 2.0, 2.0)))
     for label, expected in (("lamp", 2.0), ("other", 0.0)):
         image = render(tmp_path, ["lamp=lpe:C<O.'lamp'>", "glow=lpe:CO"], lamp % label, samples=2)
@@ -158,8 +161,10 @@ def test_a_label_may_change_while_the_renderer_stays(tmp_path):
     from inProcess import Stage
     from patina import stage as reader
 
-    text = (quad("lamp", 0, 4.0, material="glow", extra='custom string primvars:lightGroup = "key" (interpolation = "constant")')
-            + glow("glow", (2.0, 2.0, 2.0)) + quad("wall", -1, 8.0) + lambert("white", 0.5) + distant("sun", 'custom string primvars:lightGroup = "key"'))
+    text = (quad("lamp", 0, 4.0, material="glow",
+                 extra='custom string primvars:lightGroup = "key" (interpolation = "constant")')
+            + glow("glow", (2.0, 2.0, 2.0)) + quad("wall", -1, 8.0) + lambert("white", 0.5)
+            + distant("sun", 'custom string primvars:lightGroup = "key"'))
     path = write(tmp_path, text)
     stage = Stage(path, "--imageWidth", 16, "--samples", 2, "--disableCameraLight")
     names = ["key=lpe:C.*<[LO].'key'>", "fill=lpe:C.*<[LO].'fill'>"]
@@ -178,7 +183,8 @@ def test_a_label_may_change_while_the_renderer_stays(tmp_path):
 def test_a_shadow_is_the_light_that_is_missing(tmp_path):
     """A sun straight from the camera's side, half of it behind a black card that the camera does not see."""
     card = quad("card", 20, 4.0, x=-4.0, material="black") + lambert("black", 0.0)
-    image = render(tmp_path, ["shadow", "direct"], quad("wall", 0, 8.0), lambert("white", 0.5), card, distant("sun", intensity=math.pi))
+    image = render(tmp_path, ["shadow", "direct"], quad("wall", 0, 8.0), lambert("white", 0.5), card,
+                   distant("sun", intensity=math.pi))
     shadow, direct = layer(image, "shadow"), layer(image, "direct")
     assert shadow[:, :14] == pytest.approx(0.5, rel=1e-4) and direct[:, :14] == pytest.approx(0.0, abs=1e-7)
     assert shadow[:, 18:] == pytest.approx(0.0, abs=1e-7) and direct[:, 18:] == pytest.approx(0.5, rel=1e-4)
@@ -212,7 +218,8 @@ def test_more_samples_are_added_to_a_checkpoint(tmp_path):
 
 
 @pytest.mark.parametrize("aov, words", [
-    ("key=lpe:C<RD.*L", ["'C<RD.*L'", "column 6"]), ("lpe:", ["unknown AOV 'lpe:'"]), ("=lpe:C.*L", ["there is no name before ="]),
+    ("key=lpe:C<RD.*L", ["'C<RD.*L'", "column 6"]), ("lpe:", ["unknown AOV 'lpe:'"]),
+    ("=lpe:C.*L", ["there is no name before ="]),
     ("color=lpe:CL", ["'color'", "another AOV"]), ("a b=lpe:CL", ["'a b'"]), ("key=lpe:LC", ["no path fits it"]),
     ("x=lpe:C" + "." * 2000 + "L", ["at most 1024"])])
 def test_what_is_wrong_is_said_before_anything_is_rendered(tmp_path, aov, words):
@@ -288,7 +295,7 @@ def test_the_rasterizer_says_that_it_has_none(tmp_path):
     if without_opengl():
         pytest.skip(without_opengl())
     image = tmp_path / "a.exr"
-    told = patina("record", os.path.join(SCENES, "furnace.usda"), image, "--backend", "raster", "--imageWidth", 8, "--samples", 1,
-                  *aovs(["diffuse", "key=lpe:CDL"]))
+    told = patina("record", os.path.join(SCENES, "furnace.usda"), image, "--backend", "raster", "--imageWidth", 8, "--samples",
+                  1, *aovs(["diffuse", "key=lpe:CDL"]))
     assert "the AOV diffuse is left empty" in told.stderr and "the AOV key is left empty" in told.stderr
     assert (layer(image, "diffuse") == 0.0).all() and (layer(image, "key") == 0.0).all()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""More light samples where the camera looks change the noise, not the image: they and samples of the BSDF stay weighted to one."""
+"""More light samples where the camera looks change the noise, not the image: they and samples of the BSDF stay weighted to
+one."""
 import numpy as np
 import pytest
 import scipy.stats

@@ -32,7 +32,8 @@ def test_colour_temperature_6500_is_nearly_white(tmp_path):
 @pytest.mark.parametrize("kelvin, warm", [(2000, True), (12000, False)])
 def test_colour_temperature_tints_and_keeps_luminance(tmp_path, kelvin, warm):
     stage, image = tmp_path / "stage.usda", tmp_path / "image.exr"
-    attributes = ["float inputs:intensity = 1", "bool inputs:enableColorTemperature = 1", f"float inputs:colorTemperature = {kelvin}"]
+    attributes = ["float inputs:intensity = 1", "bool inputs:enableColorTemperature = 1",
+                  f"float inputs:colorTemperature = {kelvin}"]
     stage.write_text(STAGE.format(light=light("DomeLight", attributes, "")))
     record(stage, image, "--camera", "/camera", "--imageWidth", 8, "--imageHeight", 8, "--samples", 256)
     r, g, b = color(image).mean(axis=(0, 1))

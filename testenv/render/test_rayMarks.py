@@ -112,7 +112,8 @@ def test_the_rasterizer_shows_no_shadow_either():
 
 
 def test_marks_are_inherited():
-    text = quad("floor") + SUN + 'def Xform "set"\n{\n    bool primvars:patina:visibility:shadow = 0\n' + quad("card", 1.0, **CARD) + "}\n"
+    text = quad("floor") + SUN + 'def Xform "set"\n{\n    bool primvars:patina:visibility:shadow = 0\n' + quad("card", 1.0,
+                                                                                                               **CARD) + "}\n"
     plain = quad("floor") + SUN + quad("card", 1.0, marks="bool primvars:patina:visibility:shadow = 0", **CARD)
     assert np.array_equal(render(text)["color"], render(plain)["color"])
 
@@ -125,7 +126,8 @@ def test_a_mirror_shows_what_specular_rays_see(kind, seen):
     assert (image.mean() < 0.35) == seen  # half of the sky's radiance
 
 
-@pytest.mark.parametrize("mark", ["bool primvars:patina:matte = 1", "bool primvars:patina:holdout = 1", "bool primvars:arnold:matte = 1",
+@pytest.mark.parametrize("mark", ["bool primvars:patina:matte = 1", "bool primvars:patina:holdout = 1",
+                                  "bool primvars:arnold:matte = 1",
                                   "int primvars:ri:attributes:Ri:Matte = 1", "int primvars:karma:object:holdoutmode = 1"])
 def test_a_matte_is_a_hole_in_the_picture(mark):
     plain = render(quad("floor") + SUN)

@@ -78,7 +78,8 @@ def test_tolerance_is_kept(tmp_path):
 
 def test_progressive_error_falls_with_samples(tmp_path):
     """By the root of the samples at the least. The reference's own noise adds a 32nd to the last error: 0.008 of the slope. An
-    error is the root mean square of 920 pixels, so that it scatters by 2 %, the slope by 0.01: 4 deviations are left to that."""
+    error is the root mean square of 920 pixels, so that it scatters by 2 %, the slope by 0.01: 4 deviations are left to
+    that."""
     image = tmp_path / "x.exr"
     errors = []
     reference = tmp_path / "reference.exr"

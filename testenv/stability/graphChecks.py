@@ -50,7 +50,8 @@ class Failures(list):
             return
         i = int(np.argmax(wrong))
         place = " ".join(f"{name} ({', '.join(f'{v:.9g}' for v in row[i])})" for name, row in places.items())
-        self.append(f"{what}: {np.array2string(np.asarray(values)[i], precision=6)} at {place} ({int(wrong.sum())} of {len(wrong)})")
+        self.append(f"{what}: {np.array2string(np.asarray(values)[i], precision=6)} at {place} ({int(wrong.sum())} of "
+                    f"{len(wrong)})")
 
 
 def rows(flags):
@@ -77,7 +78,8 @@ def check(probe, graph, budget=BUDGET):
     all_wo = directions()
     albedo, emission = probe.albedo(all_wo), probe.emission(all_wo)
     failures.check(rows(bad(albedo)), "albedo", {"wo": all_wo}, albedo)
-    failures.check(rows(albedo * present(probe, graph.thin, all_wo) > bound * (1.0 + budget)), f"albedo above {bound:g}", {"wo": all_wo}, albedo)
+    failures.check(rows(albedo * present(probe, graph.thin, all_wo) > bound * (1.0 + budget)), f"albedo above {bound:g}",
+                   {"wo": all_wo}, albedo)
     failures.check(rows(bad(emission)), "emission", {"wo": all_wo}, emission)
     _check_samples(probe, failures)
     return failures
@@ -173,7 +175,8 @@ def compare(probe, other):
     apart = rows(_apart(s["weight"], t["weight"])) | (s["event"] != t["event"]) | rows(np.abs(s["wi"] - t["wi"]) > 3e-3)
     # A choice may fall the other way where the random number is on the border, one sample in a hundred at most.
     if apart.mean() > 0.01:
-        failures.check(apart, "sample differs", {"wo": wo, "u": u}, np.column_stack([s["weight"], t["weight"], s["wi"], t["wi"]]))
+        failures.check(apart, "sample differs", {"wo": wo, "u": u},
+                       np.column_stack([s["weight"], t["weight"], s["wi"], t["wi"]]))
     return failures
 
 

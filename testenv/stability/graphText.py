@@ -124,7 +124,8 @@ class Graph:
         if choice == 0:  # no number: infinity less itself, folded when compiling, or found while shading
             huge = (kind, "", ", ".join(["3e38"] * SIZES[kind]))
             if kind == "vector3" and self.random.random() < 0.7:
-                huge = (kind, self.node("add", kind, {"in1": ("vector3", self.node("position", kind, {}), ""), "in2": huge}), "")
+                huge = (kind, self.node("add", kind, {"in1": ("vector3", self.node("position", kind, {}), ""), "in2": huge}),
+                        "")
             infinite = (kind, self.node("multiply", kind, {"in1": huge, "in2": huge}), "")
             if self.random.random() < 0.25:
                 return infinite[1]

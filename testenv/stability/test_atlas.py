@@ -59,7 +59,8 @@ def test_command(tmp_path, capsys):
 
 
 def test_the_rasterizer_counts_a_bright_texel_once():
-    """Light samples find the texel, samples of the material see it beside them in a smaller version of the image: one of both."""
+    """Light samples find the texel, samples of the material see it beside them in a smaller version of the image: one of
+    both."""
     pytest.importorskip("pxr")
     if not sweepsSky.has_raster():
         pytest.skip("the rasterizer does not run here")

@@ -87,7 +87,8 @@ def test_kept_graphs_come_back(tmp_path):
     graph = graphText.Graph(5)
     kept.write(tmp_path / "a.mtlx", graph.text(), graph, {"fresnel": "f82"}, ["f: nan -- at x"])
     text, expected, methods = kept.read(tmp_path / "a.mtlx")
-    assert (expected.bound, expected.loses, expected.thin, methods) == (graph.bound, graph.loses, graph.thin, {"fresnel": "f82"})
+    assert (expected.bound, expected.loses, expected.thin, methods) == (graph.bound, graph.loses, graph.thin,
+                                                                        {"fresnel": "f82"})
     assert randomGraphs.load(_patina, text).path.endswith("graph5")
 
 
@@ -118,7 +119,8 @@ class Broken:
         return np.zeros((len(wo), 3))
 
 
-@pytest.mark.parametrize("wrong, words", [("", ""), ("nan", "f:"), ("gain", "sampled albedo above 1"), ("albedo", "albedo above 1"),
+@pytest.mark.parametrize("wrong, words", [("", ""), ("nan", "f:"), ("gain", "sampled albedo above 1"),
+                                          ("albedo", "albedo above 1"),
                                           ("negative", "weight of a sample"), ("density", "pdf of a sample is not")])
 def test_what_is_wrong_is_found(wrong, words):
     graph = types.SimpleNamespace(bound=1.0, loses=False, thin=False, ward=False)

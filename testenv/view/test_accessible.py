@@ -31,8 +31,8 @@ def report(tmp_path_factory):
 @pytest.fixture(scope="module")
 def charts(tmp_path_factory):
     folder = tmp_path_factory.mktemp("charts")
-    assert main.main(["chart", STAGE, "-w", "8", "--maxSamples", "4", "--referenceSamples", "8", "--tolerances", "none", "--backend",
-                      "embree", "--quiet", "--out", str(folder)]) == 0
+    assert main.main(["chart", STAGE, "-w", "8", "--maxSamples", "4", "--referenceSamples", "8", "--tolerances", "none",
+                      "--backend", "embree", "--quiet", "--out", str(folder)]) == 0
     return next(str(folder / name) for name in sorted(os.listdir(folder)) if name.endswith(".html"))
 
 
@@ -61,7 +61,8 @@ def test_the_page_of_materials_has_no_serious_violation(chromium, axe, make):
 
 def test_a_violation_would_be_found(chromium, axe, tmp_path):
     path = tmp_path / "bad.html"
-    path.write_text('<!doctype html><html><title>a</title><body style="background:#fff"><p style="color:#ccc">words</p><img src=""></body></html>')
+    path.write_text('<!doctype html><html><title>a</title><body style="background:#fff"><p style="color:#ccc">words</p><img '
+                    'src=""></body></html>')
     found = " ".join(look_at(chromium, axe, str(path), "light"))
     assert "color-contrast" in found and "image-alt" in found and "html-has-lang" in found
 
@@ -73,12 +74,14 @@ def test_the_report_works_by_keyboard(chromium, report):
     reached = []
     for _ in range(60):
         page.keyboard.press("Tab")
-        here = page.evaluate("(() => { const e = document.activeElement; return e === document.body ? '' : e.tagName + '#' + e.id + '|' +"
-                             " (e.getAttribute('aria-label') || e.innerText || e.labels?.[0]?.innerText || '').trim(); })()")
+        here = page.evaluate("(() => { const e = document.activeElement; return e === document.body ? '' : e.tagName + '#' + "
+                             "e.id + '|' + (e.getAttribute('aria-label') || e.innerText || e.labels?.[0]?.innerText || "
+                             "'').trim(); })()")
         if not here or here in reached:
             break
         reached.append(here)
-    controls = page.evaluate("[...document.querySelectorAll('button, select, summary, #divider')].filter(e => e.offsetParent).length")
+    controls = page.evaluate("[...document.querySelectorAll('button, select, summary, #divider')].filter(e => "
+                             "e.offsetParent).length")
     assert len(reached) >= controls > 0, reached
     assert all(name.partition("|")[2] for name in reached), reached
     page.focus("#divider")

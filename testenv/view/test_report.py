@@ -129,7 +129,8 @@ def test_the_pixel_under_the_pointer_is_that_of_the_file(made, shown):
         assert color == pytest.approx([pixels[y, x, image.channels.index(c)] for c in "RGB"], rel=1.0e-3)
         assert reported["samples"] == "32" and reported["pixel"] == f"{x}, {y}"
         depth = pixels[y, x, image.channels.index("depth.Z")]
-        assert reported["depth"] == "nothing is seen" if depth > 1e9 else float(reported["depth"]) == pytest.approx(depth, rel=1e-3)
+        assert reported["depth"] == "nothing is seen" if depth > 1e9 else float(reported["depth"]) == pytest.approx(depth,
+                                                                                                                    rel=1e-3)
     assert dict(shown.evaluate("return page.describe(38, 16)"))["prim"] == "/ball"
 
 

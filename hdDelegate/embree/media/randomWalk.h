@@ -36,7 +36,7 @@ struct WalkStart {
     float weight = 1.0f;
 };
 
-/// What a dark medium gives back is light that goes along close to the surface and leaves by the
+/// A dark medium gives back the light that goes along close to the surface and leaves by the
 /// next turn of it, unscattered. The cosine finds such directions seldom; the darker the colour,
 /// the more samples look for them.
 /// @param u direction; uPart which strategy; in [0, 1)

@@ -44,7 +44,7 @@ std::shared_ptr<Mesh> square(const std::string& path, float x, const std::string
     return mesh;
 }
 
-/// What rays along a line meet: the path of the prim, or nothing.
+/// The path of the prim that rays along a line meet, or nothing.
 std::vector<std::string> seen(const EmbreeScene& scene) {
     std::vector<std::string> paths;
     for (float x = -12.0f; x <= 12.0f; x += 1.5f) {

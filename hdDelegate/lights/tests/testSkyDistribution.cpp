@@ -54,7 +54,7 @@ TEST(SkyDistribution, probabilitiesSumToOneAndAreThoseOfSamples) {
                 for (int x = 0; x < size.x; ++x) {
                     const float p = sky.probability({x, y}, view.normal, view.twoSided);
                     const float weight = weights[size_t(y * size.x + x)];
-                    // What a surface of any normal may see is never left out.
+                    // A part of the sky that a surface of any normal may see is never left out.
                     EXPECT_EQ(p > 0.0f, weight > 0.0f) << x << " " << y;
                     sum += double(p);
                 }

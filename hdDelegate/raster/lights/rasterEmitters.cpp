@@ -101,12 +101,13 @@ public:
         if (!_source.program->isOpaque()) _source.program->opacity(shading, nullptr, &presence);
         vec3 sum = lit;
         if (_source.glows && light.mode != RasterMeshLight::NoMaterialResponse) {
-            const vec3 glow = _source.program->emission(shading, direction);
+            const vec3 glow =
+                glm::max(_source.program->emission(shading, direction), vec3(0.0f));
             sum = light.mode == RasterMeshLight::NoLight          ? glow
                   : light.mode == RasterMeshLight::GlowTintsLight ? lit * glow
                                                                   : lit + glow;
         }
-        sum = glm::max(sum * presence, vec3(0.0f));
+        sum *= presence;
         return std::isfinite(sum.x + sum.y + sum.z) ? sum : vec3(0.0f);
     }
     /// The same by angles about the axis.
@@ -199,7 +200,7 @@ float RasterEmitters::brightness(const Source& source, unsigned triangle, bool c
     for (int i = 0; i < count; ++i) {
         Place place(source, triangle, places[i]);
         if (source.even && !source.sides) {
-            sum += luminance(place.towards(0.0f, 0.0f));
+            sum += luminance(glm::abs(place.towards(0.0f, 0.0f)));
             continue;
         }
         place.aimAtCone();
@@ -207,8 +208,8 @@ float RasterEmitters::brightness(const Source& source, unsigned triangle, bool c
         float front = 0.0f, back = 0.0f, weights = 0.0f;
         for (const float theta : {0.05f, 0.5f, 0.9f, 1.3f}) {
             const float weight = std::cos(theta) * std::sin(theta);
-            front += weight * luminance(place.towards(theta, 1.0f));
-            back += weight * luminance(place.towards(pi - theta, 1.0f));
+            front += weight * luminance(glm::abs(place.towards(theta, 1.0f)));
+            back += weight * luminance(glm::abs(place.towards(pi - theta, 1.0f)));
             weights += weight;
         }
         sum += 0.5f * (front + back) / weights;
@@ -330,7 +331,7 @@ RasterEmission RasterEmitters::emission(const RasterEmitter& e, const vec2& uv) 
     const vec3 along = place.towards(0.0f, 0.0f);
     for (const float theta : {0.05f, 0.2f, 0.4f, 0.9f, 1.3f, 1.8f, 2.5f}) {
         const vec3 first = place.towards(theta, 0.7f);
-        const float scale = 1e-4f * luminance(first) + 1e-20f;
+        const float scale = 1e-4f * std::fabs(luminance(first)) + 1e-20f;
         flat &= glm::length(first - along) <= scale;
         for (const float turn : {1.3f, 2.9f, 3.8f, 5.1f})
             round &= glm::length(place.towards(theta, turn) - first) <= scale;

@@ -189,7 +189,7 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
     int lit = -1;
     if (const auto meshLight = _parts.meshLights->of(prim->path, settings)) {
         const Light& light = *meshLight;
-        draw.meshLight.radiance = glm::max(lightBaseRadiance(light), vec3(0.0f));
+        draw.meshLight.radiance = lightBaseRadiance(light);
         draw.meshLight.mode =
             light.materialSyncMode == "noMaterialResponse" ? RasterMeshLight::NoMaterialResponse
             : light.materialSyncMode == "materialGlowTintsLight" ? RasterMeshLight::GlowTintsLight

@@ -2,8 +2,9 @@
 """The look of charts and pages, once: colours for light and dark, and the style that all pages of Python share.
 
 The hues are about those of Okabe and Ito (2008). Their lightness was searched for the largest difference between any two, with
-all cones and without long-wave or middle-wave ones, among colours that can be read as text on white, or on the dark paper. testenv/cli/test_look.py holds them to that. A chart is drawn for white; a rule in it
-replaces its colours where the reader's system asks for dark.
+all cones and without long-wave or middle-wave ones, among colours that can be read as text on white, or on the dark paper.
+testenv/cli/test_look.py holds them to that. A chart is drawn for white; a rule in it replaces its colours where the reader's
+system asks for dark.
 """
 from xml.sax.saxutils import quoteattr
 
@@ -22,24 +23,30 @@ def start(title, width, height, size=11):
     """:param title: what a screen reader says of it
     :param size: of letters, in pixels
     :returns: the head of a chart, with its paper"""
-    swaps = "".join(f'.chart [{kind}="{light}"]{{{kind}:{dark}}}' for light, dark in DARK.items() for kind in ("fill", "stroke"))
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" class="chart" role="img" aria-label={quoteattr(title)} width="{width}" height="{height}" '
-            f'viewBox="0 0 {width} {height}" font-family="system-ui, sans-serif" font-size="{size}">'
+    swaps = "".join(f'.chart [{kind}="{light}"]{{{kind}:{dark}}}' for light, dark in DARK.items()
+                    for kind in ("fill", "stroke"))
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" class="chart" role="img" aria-label={quoteattr(title)} width="{width}" '
+            f'height="{height}" viewBox="0 0 {width} {height}" font-family="system-ui, sans-serif" font-size="{size}">'
             f"<style>@media (prefers-color-scheme:dark){{{swaps}}}</style>"
             f'<rect width="{width}" height="{height}" fill="{PAPER}"/>')
 
 
 # Pages: charts, stability, both back ends. report.css and page.css take the same values.
 PAGE = """
-:root{color-scheme:light dark;--back:#fafafa;--card:#fff;--line:#ddd;--text:#222;--dim:#5c6066;--bad:#a3180b;--mark:#f0d878;--tint:#fff6d6;--link:#0967ed}
-@media (prefers-color-scheme:dark){:root{--back:#17181a;--card:#1b1c1f;--line:#34373c;--text:#e7e8ea;--dim:#a4a9b1;--bad:#ff8f80;--mark:#6d5c1a;
+:root{color-scheme:light dark;--back:#fafafa;--card:#fff;--line:#ddd;--text:#222;--dim:#5c6066;--bad:#a3180b;--mark:#f0d878;
+--tint:#fff6d6;--link:#0967ed}
+@media (prefers-color-scheme:dark){:root{--back:#17181a;--card:#1b1c1f;--line:#34373c;--text:#e7e8ea;--dim:#a4a9b1;
+--bad:#ff8f80;--mark:#6d5c1a;
 --tint:#2c2817;--link:#6c98fe}}
 *{box-sizing:border-box}
-body{font:15px/1.5 system-ui,"DejaVu Sans",sans-serif;color:var(--text);background:var(--back);margin:0 auto;max-width:1440px;padding:28px 24px 60px}
+body{font:15px/1.5 system-ui,"DejaVu Sans",sans-serif;color:var(--text);background:var(--back);margin:0 auto;max-width:1440px;
+padding:28px 24px 60px}
 h1{font-size:24px;margin:0 0 6px}h2{font-size:20px;margin:44px 0 8px;border-top:2px solid var(--line);padding-top:18px}
-h3{font-size:15px;margin:18px 0 6px}p{max-width:76em}a{color:var(--link)}.dim,figcaption{color:var(--dim)}.bad{color:var(--bad)}b{font-weight:600}
+h3{font-size:15px;margin:18px 0 6px}p{max-width:76em}a{color:var(--link)}.dim,figcaption{color:var(--dim)}
+.bad{color:var(--bad)}b{font-weight:600}
 code{font:13px/1.5 ui-monospace,"DejaVu Sans Mono",monospace;overflow-wrap:anywhere}
-table{border-collapse:collapse;font-size:13px;background:var(--card)}td,th{padding:3px 9px;border:1px solid var(--line);text-align:right;vertical-align:top}
+table{border-collapse:collapse;font-size:13px;background:var(--card)}
+td,th{padding:3px 9px;border:1px solid var(--line);text-align:right;vertical-align:top}
 th{font-weight:600;background:var(--back)}td.t,th.t{text-align:left}.wide{overflow-x:auto}
 .charts{display:flex;flex-wrap:wrap;gap:14px}.charts svg{border:1px solid var(--line);max-width:100%;height:auto}
 .shots{display:flex;flex-wrap:wrap;gap:10px}figure{margin:0}figcaption{font-size:13px;padding-top:4px}

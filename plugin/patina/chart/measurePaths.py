@@ -3,8 +3,9 @@
 
 A closed box with a lamp under its ceiling, where light is lost by absorption alone, and a corner of three walls, which most
 light leaves at once. What a depth cuts off is the mean of |luminance - truth| over (truth + 0.01) against paths that end where
-less than a ten-millionth is left, with the same random numbers and without roulette, whose noise is as large as dark walls' loss. Roulette makes noise alone: what counts is time times variance, here over those of the default, for
-paths of at most 4, 16, 64 and 256 surfaces. Times are of processors.
+less than a ten-millionth is left, with the same random numbers and without roulette, whose noise is as large as dark walls'
+loss. Roulette makes noise alone: what counts is time times variance, here over those of the default, for paths of at most 4,
+16, 64 and 256 surfaces. Times are of processors.
 """
 import time
 
@@ -35,7 +36,8 @@ def path_depth(timed=True, scenes=SCENES, bins=range(BINS), samples=64):
                 errors[b] = (np.abs(image - truths[b]) / (truths[b] + 0.01)).mean()
                 if timed:
                     spent.append(pictures[b].render(maxDepth=int(method))[2])
-            rows.append(_row("pathDepth", method, scene, "picture", errors, np.ones((BINS, 4)), errors[list(bins)], spent, timed))
+            rows.append(_row("pathDepth", method, scene, "picture", errors, np.ones((BINS, 4)), errors[list(bins)], spent,
+                             timed))
     return rows
 
 

@@ -101,8 +101,8 @@ class _Column:
                 edit.set_material("/material", self._network(b))
             self.material = b
         film = self.module.Film()
-        settings = {"width": self.width, "height": self.width, "samples": samples or self.samples, "filterRadius": 0.5, "seed": 7,
-                    "methods": {POINT: method}, "checkpointSeconds": 0.0}
+        settings = {"width": self.width, "height": self.width, "samples": samples or self.samples, "filterRadius": 0.5,
+                    "seed": 7, "methods": {POINT: method}, "checkpointSeconds": 0.0}
         self.renderer.start(self.scene, "/camera", settings, film)
         self.renderer.wait()
         spent = time.process_time() - begin

@@ -192,8 +192,8 @@ def summary(rows):
     for tolerance in sorted({row.tolerance for row in good}):
         of = [row for row in good if row.tolerance == tolerance]
         said = [row for row in of if row.state in (WITHIN, OUTSIDE, SAMPLES)]
-        lines.append(f"tolerance {tolerance:g}: methods within it on {sum(r.methodWithin for r in of)} of {len(of)}; whole error "
-                     f"within it on {sum(r.state == WITHIN for r in said)} of {len(said)}"
+        lines.append(f"tolerance {tolerance:g}: methods within it on {sum(r.methodWithin for r in of)} of {len(of)}; whole "
+                     f"error within it on {sum(r.state == WITHIN for r in said)} of {len(said)}"
                      + (f" ({len(of) - len(said)} more ended by time)" if len(of) > len(said) else "")
                      + f"; median time of a sample {np.median([1.0 / max(r.speedup, 1e-12) for r in of]):.2f}x of the truth's, "
                      f"{np.median([1.0 / max(r.defaultSpeedup, 1e-12) for r in of]):.2f}x of the default's")

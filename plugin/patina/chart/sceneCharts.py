@@ -35,7 +35,8 @@ def _over_seconds(result, measure, title, foot):
         plot.add(words, [(r["seconds"], r[measure], f"{r['samples']:g}") for r in steps], colour, kind, below=below)
         plot.add(f"{words}, direct light", [(r["seconds"], r[measure + "Direct"], "") for r in steps], colour, kind,
                  filled=False, below=below)
-        plot.add(f"{words}, to a tolerance", [(r["seconds"], r[measure], f"{r['tolerance']:g}") for r in rows if r["tolerance"]],
+        plot.add(f"{words}, to a tolerance", [(r["seconds"], r[measure], f"{r['tolerance']:g}") for r in rows
+                                              if r["tolerance"]],
                  colour, "diamond", filled=False, line=False, below=not below)
         if (backend, measure) in result.floors:
             plot.add_floor(f"floor of the {words}", result.floors[backend, measure], colour)

@@ -89,8 +89,9 @@ def _pictures(result):
             if rung.backend == backend:
                 what = f"tolerance {rung.tolerance:g}, " if rung.tolerance else ""
                 flip = "" if row["flip"] is None else f", FLIP {row['flip']:.3f}"
-                lines.append(_figure(rung.renders[0].image, f"{WORDS[backend]}, {what}{rung.samples:.4g} sample{'s' * (rung.samples != 1)}, "
-                                                            f"{seconds_text(rung.seconds)}{flip}"))
+                lines.append(_figure(rung.renders[0].image,
+                                     f"{WORDS[backend]}, {what}{rung.samples:.4g} sample{'s' * (rung.samples != 1)}, "
+                                     f"{seconds_text(rung.seconds)}{flip}"))
         last = ladder.of(backend)[-1]
         lines.append(_figure(signed(last.renders[0].image, ladder.references["all"].image),
                              f"{last.samples:g} samples against the reference: red is too bright, blue too dark, full colour "
@@ -103,9 +104,9 @@ def _tolerances(result):
     rows = [row for row in result.rows if row["tolerance"]]
     if not rows:
         return []
-    lines = ["<h3>Tolerances, asked for and measured</h3><p>The error is what a tolerance is about: the mean over the pixels of "
-             "|error| / (luminance + 0.01), against all light. A tolerance that the most samples of this chart do not reach is "
-             "not met.</p>",
+    lines = ["<h3>Tolerances, asked for and measured</h3><p>The error is what a tolerance is about: the mean over the pixels "
+             "of |error| / (luminance + 0.01), against all light. A tolerance that the most samples of this chart do not reach "
+             "is not met.</p>",
              '<table><tr><th class="t">back end</th><th>tolerance</th><th>measured error</th><th class="t">met</th>'
              "<th>samples</th><th>seconds</th></tr>"]
     for row in rows:
@@ -139,14 +140,15 @@ def _slopes(result):
 def _costs(ladder):
     first = "; ".join(f"{WORDS[b]} {seconds_text(s)}" for b, s in ladder.first.items())
     return [f"<h3>What comes before the first sample</h3><p>Reading the stage: {seconds_text(ladder.renders.seconds_to_read)}. "
-            f"Building the scene, and shaders where the rasterizer compiles them, in a first frame: {first}. &ldquo;In all&rdquo; "
-            "below counts both.</p>"]
+            f"Building the scene, and shaders where the rasterizer compiles them, in a first frame: {first}. &ldquo;In "
+            "all&rdquo; below counts both.</p>"]
 
 
 def _table(result):
     lines = ['<h3>All renders</h3>' + look.WIDE + '<table><tr><th class="t" colspan="7"></th>'
              '<th colspan="5">against the reference</th><th colspan="3">against direct light</th><th></th></tr>'
-             '<tr><th class="t">back end</th><th>samples</th><th>tolerance</th><th>repeats</th><th>seconds</th><th>in all</th><th>cores</th>'
+             '<tr><th class="t">back end</th><th>samples</th><th>tolerance</th><th>repeats</th><th>seconds</th>'
+             '<th>in all</th><th>cores</th>'
              + "".join(f"<th>{words}</th>" for _, words in ROW) + "<th>1 / (relMSE s)</th></tr>"]
     for row in result.rows:
         tolerance = f"{row['tolerance']:g}" + ("" if row["toleranceMet"] == "yes" else " not met") if row["tolerance"] else ""

@@ -8,14 +8,16 @@ import numpy as np
 from patina.chart import look, svgLines
 from patina.cli import outputs
 
-STYLE = ".charts figure{border:1px solid var(--line);background:var(--card);max-width:460px}figcaption{padding:4px 12px 10px}.charts svg{border:0}"
-HEAD = """<p>Each chart takes one parameter through the region where a method fails. The wide grey line is the truth: a closed form,
-an integral, or a walk. Dots mark the method that is used there; a dotted upright line, where another takes over; crosses at
-the upper edge, where a method gives no number. Below each
-chart stands what fails, how far off that method is at most, and the bound that the marked one keeps
-(<code>testenv/stability/test_atlas.py</code> holds it). Methods that are called unguarded are no part of Patina: they are
-textbook forms in single precision, to show what the guards are for.</p>"""
-OVERVIEW = ("alpha to 0, mirror switch", "noise of samplers at grazing views", "albedo near ior 1", "white metal over roughness",
+STYLE = ".charts figure{border:1px solid var(--line);background:var(--card);max-width:460px}"\
+        "figcaption{padding:4px 12px 10px}.charts svg{border:0}"
+HEAD = """<p>Each chart takes one parameter through the region where a method fails. The wide grey line is the truth: a closed
+form, an integral, or a walk. Dots mark the method that is used there; a dotted upright line, where another takes over;
+crosses at the upper edge, where a method gives no number. Below each chart stands what fails, how far off that method
+is at most, and the bound that the marked one keeps (<code>testenv/stability/test_atlas.py</code> holds it). Methods
+that are called unguarded are no part of Patina: they are textbook forms in single precision, to show what the guards
+are for.</p>"""
+OVERVIEW = ("alpha to 0, mirror switch", "noise of samplers at grazing views", "albedo near ior 1",
+            "white metal over roughness",
             "film from nothing to 60 um", "Fresnel, aluminium near 82 degrees", "rough white diffuse", "Ward at grazing views",
             "V-cavities at grazing angles", "anisotropy in tables", "normals below the horizon, mirror", "layer over grey")
 
@@ -36,8 +38,8 @@ def listing(sweeps):
     """The sweeps as text, for a terminal."""
     lines = [f"{'sweep':<40}{'fails':<26}{'error':>10}  {'used':<26}{'error':>10}{'bound':>10}"]
     for s in sweeps:
-        lines.append(f"{s.name:<40}{s.failing:<26}{_maximum(s.error(s.failing)):>10}  {s.chosen[-1]:<26}{_maximum(s.held()):>10}"
-                     f"{s.bound:>10.2g}")
+        lines.append(f"{s.name:<40}{s.failing:<26}{_maximum(s.error(s.failing)):>10}  "
+                     f"{s.chosen[-1]:<26}{_maximum(s.held()):>10}{s.bound:>10.2g}")
     return "\n".join(lines)
 
 

@@ -91,7 +91,8 @@ def lines(sweep, width=460, height=290):
                 out.append(f'<circle cx="{x.at(a):.1f}" cy="{y.at(b):.1f}" r="2.1" fill="{colour}"/>')
             elif not math.isfinite(b):  # no number: a cross at the upper edge
                 out.append(f'<path d="M{x.at(a) - 3:.1f} {TOP + 2 + 7 * i}l6 6m0 -6l-6 6" stroke="{colour}" fill="none"/>')
-    return "\n".join([*out, *_names(sweep, truths, x, y, (LEFT + 2, TOP + 2, width - RIGHT + 8, height - BOTTOM - 2)), "</svg>"]) + "\n"
+    return "\n".join([*out, *_names(sweep, truths, x, y, (LEFT + 2, TOP + 2, width - RIGHT + 8, height - BOTTOM - 2)),
+                      "</svg>"]) + "\n"
 
 
 def _names(sweep, truths, x, y, frame):
@@ -100,7 +101,8 @@ def _names(sweep, truths, x, y, frame):
     curves = {"truth": (truths, look.DIM)}
     curves.update({name: (list(map(float, values)), look.COLOURS[i % len(look.COLOURS)])
                    for i, (name, values) in enumerate(sweep.curves.items())})
-    drawn = {name: [(x.at(a), y.at(b)) for a, b in zip(sweep.x, values) if math.isfinite(b)] for name, (values, _) in curves.items()}
+    drawn = {name: [(x.at(a), y.at(b)) for a, b in zip(sweep.x, values) if math.isfinite(b)]
+             for name, (values, _) in curves.items()}
     for points in drawn.values():
         places.cover(labels.along(points))
     if sweep.switch is not None:
@@ -110,7 +112,8 @@ def _names(sweep, truths, x, y, frame):
     for name, points in sorted(drawn.items(), key=lambda item: item[0] == "truth"):
         if not points:  # crosses alone
             points = [(x.at(sweep.x[len(sweep.x) // 2]), frame[1] + 14)]
-        others = {i: [p[i][1] for other, p in drawn.items() if other != name and len(p) == len(points)] for i in range(len(points))}
+        others = {i: [p[i][1] for other, p in drawn.items() if other != name and len(p) == len(points)]
+                  for i in range(len(points))}
         gap = {i: min([abs(points[i][1] - b) for b in others[i]] or [0.0]) for i in others}
         anchors = [points[i] for i in sorted(gap, key=lambda i: -min(gap[i], 40.0))]
         px, py, anchor, _ = places.place(anchors, 5.8 * len(name))

@@ -12,8 +12,8 @@ def _ward(count):
         return probes.albedo(probes.lobe("patina_ward_bsdf", color=(1.0,) * 3, roughness=(0.3, 0.3), form=form),
                              probes.towards(c))
     curves = {form: [albedo(form, c) for c in x] for form in ("bounded", "exact")}
-    return Sweep("Ward at grazing views", "classic", "1 / sqrt(cos cos) of the published form grows without bound.", "cosine", x,
-                 "albedo, white", curves, [min(v, 1.0) for v in curves["bounded"]], always("bounded", x), 1e-3, "exact",
+    return Sweep("Ward at grazing views", "classic", "1 / sqrt(cos cos) of the published form grows without bound.", "cosine",
+                 x, "albedo, white", curves, [min(v, 1.0) for v in curves["bounded"]], always("bounded", x), 1e-3, "exact",
                  log_x=True, log_y=True, shows=100)
 
 
@@ -49,14 +49,16 @@ def _v_cavity(count):
     def f(probe, degrees):
         wo = probes.at_degrees(degrees)
         return float(probe.eval(wo, wo * np.float32([-1, 1, 1]))[0][0, 0] * wo[0, 2])
-    smith = probes.lobe("conductor_bsdf", {"energyCompensation": "none"}, roughness=(alpha, alpha), distribution="beckmann", **metal)
+    smith = probes.lobe("conductor_bsdf", {"energyCompensation": "none"}, roughness=(alpha, alpha), distribution="beckmann",
+                        **metal)
     cavity = probes.lobe("patina_cook_torrance_bsdf", color=(1.0,) * 3, roughness=alpha, **metal)
     curves = {"Smith": [f(smith, d) for d in x], "V-cavities": [f(cavity, d) for d in x]}
     truth = [smith_beckmann(np.cos(np.radians(d)), np.cos(np.radians(d)), alpha) * np.cos(np.radians(d)) for d in x]
     return Sweep("V-cavities at grazing angles", "classic",
-                 "All facets form one kind of groove: the mirror direction is hardly masked, with a kink where the minimum switches.",
-                 "degrees, view and light", x, "f cos, Beckmann alpha 0.4", curves, truth, always("Smith", x), 6e-3 * max(truth),
-                 "V-cavities", log_y=True, shows=10)
+                 "All facets form one kind of groove: the mirror direction is hardly masked, with a kink where the minimum "
+                 "switches.",
+                 "degrees, view and light", x, "f cos, Beckmann alpha 0.4", curves, truth, always("Smith", x),
+                 6e-3 * max(truth), "V-cavities", log_y=True, shows=10)
 
 
 def _phong(count):

@@ -59,8 +59,8 @@ def _sheen_reciprocal(count):
     curves = {m: [reciprocity(_sheen(r, m)) for r in x] for m in ("conty_kulla", "zeltner")}
     curves["lambert"] = [reciprocity(_diffuse(0.0, "lambert")) for _ in x]
     return Sweep("reciprocity of sheen", "sheen",
-                 "Zeltner's fit hangs on the view alone; Conty and Kulla's lobe is divided by its albedo there.", "roughness", x,
-                 "defect, over the mean value", curves, [0.0] * len(x), always("conty_kulla", x), 0.01, "zeltner", shows=10)
+                 "Zeltner's fit hangs on the view alone; Conty and Kulla's lobe is divided by its albedo there.", "roughness",
+                 x, "defect, over the mean value", curves, [0.0] * len(x), always("conty_kulla", x), 0.01, "zeltner", shows=10)
 
 
 def _sheen_narrow(count):

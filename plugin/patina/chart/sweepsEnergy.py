@@ -27,7 +27,8 @@ def _karis(count):
     ior = list(np.linspace(1.02, 3.0, count))
     few = ("table", "fit", "karis", "monteCarlo16", "quadrature")
     return [
-        _albedos("albedo of a smooth coat at grazing views", "Karis's fit loses energy where the lobe is narrow and the view flat.",
+        _albedos("albedo of a smooth coat at grazing views",
+                 "Karis's fit loses energy where the lobe is narrow and the view flat.",
                  "cosine", grazing, lambda v, m: _coat(1.5, 0.05, m), probes.towards, 5e-3, "karis", log_x=True,
                  methods=("table", "fit", "karis", "mirror", "quadrature"), shows=3),
         _albedos("albedo of a coat over roughness", "The reflectance at the view's own cosine knows nothing of roughness.",
@@ -62,7 +63,8 @@ def reciprocity(probe, count=64, seed=probes.SEED):
 def _reciprocal(count):
     x = list(np.linspace(0.1, 1.0, count))
     curves = {m: [reciprocity(white_metal(a, {"energyCompensation": m})) for a in x] for m in COMPENSATIONS}
-    return Sweep("reciprocity of compensation", "energy", "A factor that hangs on one direction only is not reciprocal.", "alpha",
+    return Sweep("reciprocity of compensation", "energy", "A factor that hangs on one direction only is not reciprocal.",
+                 "alpha",
                  x, "defect, over the mean value", curves, [0.0] * len(x), always("kullaConty", x), 2e-3, "turquin", shows=3)
 
 

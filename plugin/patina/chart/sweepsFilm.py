@@ -82,7 +82,8 @@ def _thin(count):
     found = _thickness("film of 0 to 3 nm", x, 1.8, 2.5e-3, 1.0)
     green = -0.9692660 + 1.8760108 + 0.0415560  # of an equal energy spectrum
     found.curves["not normalised"] = [v if d <= IN else v * green for d, v in zip(x, found.truth)]
-    found.fails = "Sensitivities of sRGB that are not scaled to 1 make a white that is not the light's: a step where the film begins."
+    found.fails = ("Sensitivities of sRGB that are not scaled to 1 make a white that is not the light's: a step where the film "
+                   "begins.")
     found.failing, found.log_x, found.switch = "not normalised", False, IN
     del found.curves["one wavelength"]
     return found
@@ -99,7 +100,8 @@ def _rough(count):
         found.append(probes.albedo(made("table"), wo, 1))
         truth.append(probes.albedo(made("quadrature"), wo, 1))
         smooth.append(probes.albedo(made("mirror"), wo, 1))
-    return Sweep("film on a rough interface", "thin film", "The reflectance at the view's own cosine is not the mean over facets.",
+    return Sweep("film on a rough interface", "thin film",
+                 "The reflectance at the view's own cosine is not the mean over facets.",
                  "thickness in nm", x, "albedo, green", {"table": found, "mirror": smooth}, truth, always("table", x), 1e-2,
                  "mirror", shows=1.5)
 

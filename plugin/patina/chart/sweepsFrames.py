@@ -18,7 +18,8 @@ def _tangent_unguarded(tangent):
 
 
 def _brushed(tangent):
-    return probes.lobe("conductor_bsdf", {"energyCompensation": "none"}, roughness=(0.1, 0.5), tangent=tuple(map(float, tangent)))
+    return probes.lobe("conductor_bsdf", {"energyCompensation": "none"}, roughness=(0.1, 0.5),
+                       tangent=tuple(map(float, tangent)))
 
 
 def _tangents(count):
@@ -64,7 +65,8 @@ def _normals(count):
     # What no method can keep: the light that a slanted plane sends below the horizon.
     kept = [0.5 * (1.0 + np.cos(np.radians(min(d, 30.0)))) for d in x]
     return Sweep("normals below the horizon, diffuse", "frames",
-                 "A view behind the mapped normal finds black: rims of smooth shapes and steep bumps go dark.", "degrees of slant", x,
+                 "A view behind the mapped normal finds black: rims of smooth shapes and steep bumps go dark.",
+                 "degrees of slant", x,
                  "albedo, view at 60 degrees", found, kept, always("bent to the view", x), 0.06, "black behind the normal",
                  switch=30.0, shows=10)
 
@@ -81,8 +83,8 @@ def _mirrored(count):
     found = {"bent to the horizon": [probes.sampled(_mapped("generalized_schlick_bsdf", d, **mirror), wo, 16) for d in x],
              "lost below": [plain(d) for d in x]}
     return Sweep("normals below the horizon, mirror", "frames", "The mirrored view lies below the surface, where nothing is.",
-                 "degrees of slant", x, "albedo, view at 60 degrees", found, [1.0] * len(x), always("bent to the horizon", x), 1e-3,
-                 "lost below", switch=15.0, shows=100)
+                 "degrees of slant", x, "albedo, view at 60 degrees", found, [1.0] * len(x), always("bent to the horizon", x),
+                 1e-3, "lost below", switch=15.0, shows=100)
 
 
 def _no_number(count):

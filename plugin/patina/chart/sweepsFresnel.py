@@ -86,7 +86,8 @@ def sweeps(count):
         switch=float(np.degrees(np.arcsin(1.0 / 1.5))), shows=1000))
     x = list(np.linspace(0.2, 1.0, count))
     found.append(Sweep(
-        "Fresnel, ior below 1", "Fresnel", "Where the far side is thinner, total reflection begins; Schlick's curve knows none.",
+        "Fresnel, ior below 1", "Fresnel",
+        "Where the far side is thinner, total reflection begins; Schlick's curve knows none.",
         "ior", x, "reflectance at cosine 0.5",
         {"exact": [probes.albedo(_glass(v, {}), probes.towards(0.5)) for v in x],
          "schlick, incident cosine": [((v - 1) / (v + 1)) ** 2 * (1 - 0.5 ** 5) + 0.5 ** 5 for v in x]},

@@ -28,7 +28,8 @@ def sweeps(count):
     ior = list(np.linspace(1.1, 2.4, count))
     walks = 1000 * min(count, 20)
     return [
-        _stack("layer over grey", "What the interface sends back down counts as leaving in one method: grey bases come out too bright.",
+        _stack("layer over grey",
+               "What the interface sends back down counts as leaving in one method: grey bases come out too bright.",
                "colour of the base", base, lambda v: ([(1.5, 0.0)], (float(v),) * 3), 0.8, 0.03, walks),
         _stack("layer over roughness", "The same, whatever the roughness of the interface.", "alpha",
                rough, lambda v: ([(1.5, float(v))], (0.5,) * 3), 0.8, 0.03, walks),

@@ -166,8 +166,10 @@ def _opposite(count):
         met = probe.opacity(wo[0])  # the rest passes straight
         s = probes.samples(probe, wo, 512)
         kept.append(1.0 - met + met * float(s["weight"][:, 0].mean()) if np.isfinite([*f[0], *pdf]).all() else np.nan)
-    return Sweep("ior to 1, wi = -wo", "facets", "The half vector of exact opposites is 0 / 0 where the interface does not bend.",
-                 "ior - 1", x, "albedo of a lossless interface; |h|", {"matched below 1e-4": kept, "unguarded half vector": half},
+    return Sweep("ior to 1, wi = -wo", "facets",
+                 "The half vector of exact opposites is 0 / 0 where the interface does not bend.",
+                 "ior - 1", x, "albedo of a lossless interface; |h|", {"matched below 1e-4": kept,
+                                                                       "unguarded half vector": half},
                  [1.0] * len(x), always("matched below 1e-4", x), 2e-2, "unguarded half vector", switch=1e-4, log_x=True)
 
 

@@ -150,7 +150,8 @@ def drawn(samples=64):
     found, (_, x) = [], normals()
     sky = one_texel()
     for name, bsdf, failing, fails in (
-            ("diffuse", DIFFUSE, "filtered", "Samples of the lobe rarely find the texel, and blur it where they do; directions drawn "
+            ("diffuse", DIFFUSE, "filtered",
+             "Samples of the lobe rarely find the texel, and blur it where they do; directions drawn "
              "by the sky's own brightness, and harmonics, find it."),
             ("metal of alpha 0.3", METAL, "prefiltered", "Maps made at load know one width of the lobe: no stretch towards the "
              "horizon.")):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What to do about a warning, by its words.
+"""Advice on a warning, by its words.
 
 The first row that a message matches counts. testenv/lint/test_messages.py holds the table to the texts in the code: each has
 a row, and each row has a text.
@@ -11,7 +11,8 @@ _ROWS = (
     # Back ends and drivers.
     (r"the path tracer renders instead|goes on without a first image",
      "install Mesa or a driver with OpenGL 4.5 and EGL (`PATINA_EGL_PLATFORM` chooses one), or ask for `--backend embree`"),
-    (r"follows no light paths|driver does not take|shown with|primvars:… is left empty|clips by the first|by the rasterizer$|draws no shadow",
+    (r"follows no light paths|driver does not take|shown with|primvars:… is left empty|clips by the first|by the "
+     r"rasterizer$|draws no shadow",
      "a limit of the rasterizer or the driver; `--backend embree` has none"),
     (r"the image stays as it is", "install Open Image Denoise (`./patina` fetches pyoidn for `--denoise`)"),
     (r"start too far away, or have no direction", "look for transforms and points that are far too large, or no numbers"),
@@ -27,10 +28,12 @@ _ROWS = (
     (r"colour space", "name one that `patina` knows: those of OCIO's configuration ($OCIO), sRGB, raw, `lin_rec709`"),
     (r"no OpenVDB", "build with OpenVDB (Debian: libopenvdb-dev)"),
     (r"^grid|field is left out|volume has no field|fields of type|is not read; it is left out|not moved apart",
-     "give the volume a `field:density` that is an OpenVDBAsset with a float or vector grid; its transform is the volume's own"),
+     "give the volume a `field:density` that is an OpenVDBAsset with a float or vector grid; its transform is the volume's "
+     "own"),
     (r"layers and frame ranges|file name varies", "name one file, or UDIM tiles by `<UDIM>`"),
     (r"included document|includes itself|included documents", "correct the `xi:include` of the MaterialX document"),
-    (r"the document is ignored|the file …$|the folder cannot be read", "check the file with MaterialX's `mxvalidate.py`, and correct what it names"),
+    (r"the document is ignored|the file …$|the folder cannot be read",
+     "check the file with MaterialX's `mxvalidate.py`, and correct what it names"),
     (r"there is no file|^… has no …$|mtlx has no", "check the reference: the file, and the prim that is asked for in it"),
     (r"lights of documents", "make the light a prim of UsdLux"),
     # Geometry.
@@ -39,41 +42,50 @@ _ROWS = (
     (r"weights|knots|patch|ranges|trim|cut out|span is drawn|knots span|… curves are not drawn",
      "compare the counts of points, orders, knots and weights with UsdGeom's schema; trim curves are not supported"),
     (r"tetrahedra", "correct `tetVertexIndices`"),
-    (r"subset|elementType|already in another|indices are out of range and ignored", "correct the GeomSubset's indices and its `elementType`"),
-    (r"are not as many as the points|one per curve|basis|bezier|nonperiodic|no curve|curves …|there are no curves|tangents|Hermite",
+    (r"subset|elementType|already in another|indices are out of range and ignored",
+     "correct the GeomSubset's indices and its `elementType`"),
+    (r"are not as many as the points|one per curve|basis|bezier|nonperiodic|no curve|curves …|there are no "
+     r"curves|tangents|Hermite",
      "compare `type`, `basis`, `wrap` and the vertex counts with UsdGeom's schema"),
-    (r"normals|faces are drawn flat|have no direction", "remove the normals, or write them anew: they are computed where there are none"),
+    (r"normals|faces are drawn flat|have no direction",
+     "remove the normals, or write them anew: they are computed where there are none"),
     (r"belong to no face|no faces|the mesh has none|^… …\.\.\.|\(first: …\)|there are none; nothing is drawn|no array of",
      "correct counts and indices of the prim; `usdchecker` finds such prims"),
     (r"no primvar is named|primvars of this type", "name a primvar of type float, vector or colour"),
     (r"primvar|components per element|elements where|indices are out of range and read|index out of range; the first|"
      r"multiple of its elementSize|values for … instances|values per instance",
      "compare the number of values with the interpolation, and the indices with the values"),
-    (r"sample times|number of points changes|sample is left out", "write samples with the same topology; Patina blurs these alone"),
+    (r"sample times|number of points changes|sample is left out",
+     "write samples with the same topology; Patina blurs these alone"),
     (r"displayed|not drawn; a cross|cards", "correct `model:cardGeometry`, or set `model:drawMode` to default"),
     (r"prims of type", "convert the prim to a shape of UsdGeom that [features](../features.md) lists"),
-    (r"skel|skinned|rest pose", "bind a skeleton whose joints fit: `skel:skeleton`, `primvars:skel:jointIndices` and `jointWeights`"),
+    (r"skel|skinned|rest pose",
+     "bind a skeleton whose joints fit: `skel:skeleton`, `primvars:skel:jointIndices` and `jointWeights`"),
     # Transforms and cameras.
     (r"^of an instance", "look for a scale of 0, or a number that overflowed, among the instances' transforms"),
     (r"not a positive number", "write a positive `metersPerUnit` into the stage's metadata"),
-    (r"transform|none is used|has no inverse|flat", "look for a scale of 0, or a number that overflowed, in the prim's xformOps"),
+    (r"transform|none is used|has no inverse|flat",
+     "look for a scale of 0, or a number that overflowed, in the prim's xformOps"),
     (r"finite|not a number|NaN|is negative|are negative|is no finite number|three finite numbers",
      "write a number in the range that the schema gives; look at what exported it"),
     (r"perspective is used|shutter|clippingRange|two numbers|extents to frame|clip nothing|axis|is none of X",
      "correct the attribute; the schema of UsdGeomCamera or of the shape lists its values"),
     # Instances.
-    (r"protoIndices|prototype|holds itself|instances|instance is", "correct `protoIndices` and `prototypes` of the PointInstancer"),
+    (r"protoIndices|prototype|holds itself|instances|instance is",
+     "correct `protoIndices` and `prototypes` of the PointInstancer"),
     # Lights.
+    (r"below zero", "lights of negative intensity make such pixels; denoise the light that is given and that is taken apart"),
     (r"mesh light|names no mesh", "bind the mesh light to a mesh"),
     (r"cannot be used, the light", "correct the light's collections `lightLink` and `shadowLink`"),
-    (r"light is off|no size|negative light|not evaluated|light filters|portals|light lights everything|lights everything",
+    (r"light is off|no size|not evaluated|light filter|portals|light lights everything|lights everything",
      "UsdLux inputs of the light itself are evaluated; remove the rest, or give it a size above 0"),
     # Materials.
     (r"does not exist; displayColor|binding is left out|which …; the", "correct `material:binding`: its target is a Material"),
     (r"is not a volume; a white", "bind a material with a volume terminal (`ND_volume`)"),
     (r"can be shown; displayColor|no usable surface|is not a surface|not a displacement|is not a volume|terminal",
      "connect `outputs:surface` (or mtlx:surface) to a node of type surfaceshader"),
-    (r"is not modelled|cannot stand here|coats only as the top", "use another node; [nodes](../generated/nodes.md) lists those that there are"),
+    (r"is not modelled|cannot stand here|coats only as the top",
+     "use another node; [nodes](../generated/nodes.md) lists those that there are"),
     (r"nodes; it is left out|nested too deeply|too large|more than … lobes|different normals|too much would|come to more than",
      "split the material, or bake parts of it to textures (`patina bake`)"),
     (r"unknown space|unknown address|unknown wrap|wrap mode|is not known|channels|filter",
@@ -83,11 +95,13 @@ _ROWS = (
     (r"unknown error", "Embree gives no reason; report it, with the stage"),
     (r"shading model|no translation", "ask for one of UsdPreviewSurface, gltf_pbr, standard_surface, open_pbr_surface"),
     # Render settings and products.
-    (r"product|AOV|raster can|alone is rendered|UsdRenderProduct|orderedVars", "correct the UsdRender prim; [AOVs](aovs.md) lists the names"),
+    (r"product|AOV|raster can|alone is rendered|UsdRenderProduct|orderedVars",
+     "correct the UsdRender prim; [AOVs](aovs.md) lists the names"),
     (r"setting|back end|is not allowed|purpose|not rendered in|looked at|holds no pixel",
      "correct the UsdRenderSettings prim; [flags](flags.md) lists settings and ranges"),
     (r"there is no prim", "correct the relationship: no prim has that path"),
-    (r"cannot be read and is not drawn|cannot be used|cannot be read", "the rest of the message is OpenUSD's or the library's own reason"),
+    (r"cannot be read and is not drawn|cannot be used|cannot be read",
+     "the rest of the message is OpenUSD's or the library's own reason"),
 )
 _COMPILED = tuple((re.compile(pattern, re.IGNORECASE), text) for pattern, text in _ROWS)
 

@@ -92,7 +92,7 @@ def _surface(network):
 
 
 def _image(network, source, output, kind, resolution, warnings):
-    """What an output gives over the unit square, rows from the top; None for text."""
+    """The values of an output over the unit square, rows from the top; None for text."""
     if kind in ("string", "filename"):
         return None
     probes = [_probe(network, source, output, kind, sign) for sign in (1, -1)]

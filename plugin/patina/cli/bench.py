@@ -19,10 +19,12 @@ BENCHMARKS = {
     "hydra": ("hydraBench.py", "frames in Hydra: first, after a camera move, rays per second, memory; beside "
                                "hdEmbree and Storm"),
     "lobes": ("lobeBench.py", "what the lobes of a constant material cost at a vertex of a path; beside Mitsuba 3"),
-    "path": ("pathBench.py", "path tracing: seconds until the error is small, what a sample takes; beside Mitsuba 3 and Cycles"),
+    "path": ("pathBench.py",
+             "path tracing: seconds until the error is small, what a sample takes; beside Mitsuba 3 and Cycles"),
     "raster": ("rasterBench.py", "frames of the rasterizer: first, after an edit, after a camera move, and where their time "
                                  "goes; beside Storm"),
-    "view": ("viewBench.py", "pages of `patina view` in headless Chromium: size, seconds to the first picture and to 64 samples"),
+    "view": ("viewBench.py",
+             "pages of `patina view` in headless Chromium: size, seconds to the first picture and to 64 samples"),
 }
 
 

@@ -16,7 +16,7 @@ from patina.cli.advice import advice
 MAX_CAUSES = 20  # causes on the terminal; all of them are in --json
 SEVERITIES = ("error", "warning")
 
-# What messages say where something is missing.
+# Words of messages where something is missing.
 _MISSING = re.compile(
     r"not drawn|nothing is drawn|not written|not read\b|not found|not readable|not shaped by|"
     r"is left out|are left out|left out$|left out with|cannot be|cannot read|could not|"

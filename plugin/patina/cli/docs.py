@@ -15,8 +15,10 @@ from patina.cli.errors import CommandError
 
 
 def add_arguments(parser):
-    parser.add_argument("folder", metavar="FOLDER", help="where the site goes: a new or empty folder, or one that holds an earlier site")
-    parser.add_argument("--strict", action="store_true", help="exit with 1 where a page links to nothing, or a part is left out")
+    parser.add_argument("folder", metavar="FOLDER", help="where the site goes: a new or empty folder, or one that holds an "
+                                                         "earlier site")
+    parser.add_argument("--strict", action="store_true",
+                        help="exit with 1 where a page links to nothing, or a part is left out")
 
 
 def run(arguments):

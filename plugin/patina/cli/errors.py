@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a user did or met, as opposed to a defect of Patina; and which of it passes by itself."""
+"""Failures that a user caused or met, as opposed to defects of Patina, and which of them pass by themselves."""
 import errno
 
 DONE, FAILED, USAGE, TEMPORARY = 0, 1, 2, 75  # exit statuses; the last as EX_TEMPFAIL of sysexits.h

@@ -85,7 +85,7 @@ def _with_prim(record, stage):
 
 
 def _check_render(module, arguments, record):
-    """What each task would refuse is said at once."""
+    """Refuses at once all that each task would refuse."""
     if arguments.cut.parts > 1:
         from patina.farm import partJob
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Frame specs as usdrecord understands them, and image names with a place for the frame as usdrecord, husk and printf have it."""
+"""Frame specs as usdrecord understands them, and image names with a place for the frame as usdrecord, husk and printf have
+it."""
 import math
 import os
 import re

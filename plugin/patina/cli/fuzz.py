@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the fuzzers of a checkout for a time: bytes and legal inputs with extreme values, which may be refused with a message, and
-must not crash, hang, take memory without end, lose an image or make values that are no numbers.
+"""Runs the fuzzers of a checkout for a time: bytes and legal inputs with extreme values, which may be refused with a message,
+and must not crash, hang, take memory without end, lose an image or make values that are no numbers.
 
   patina fuzz --seconds 600
   patina fuzz randomStages edits --seconds 3600 --seed 1000 --json=figures.json
@@ -23,9 +23,10 @@ def add_arguments(parser):
     parser.add_argument("--list", action="store_true", help="print the fuzzers and end")
     parser.add_argument("--seconds", type=float, default=60.0, metavar="S", help="of all together (default: 60)")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the first input; the others count up (default: 1)")
-    parser.add_argument("--corpus", metavar="FOLDER", help="inputs of the native fuzzers, kept small, that the next run goes on from "
-                                                           "(default: none are kept)")
-    parser.add_argument("--findings", metavar="FOLDER", default="patinaFindings", help="where findings are saved (default: patinaFindings)")
+    parser.add_argument("--corpus", metavar="FOLDER", help="inputs of the native fuzzers, kept small, that the next run goes "
+                                                           "on from (default: none are kept)")
+    parser.add_argument("--findings", metavar="FOLDER", default="patinaFindings",
+                        help="where findings are saved (default: patinaFindings)")
     parser.add_argument("--build", metavar="FOLDER", help="the instrumented build (default: build-fuzz in the checkout)")
     parser.add_argument("--json", metavar="FILE", help="write the figures of the run")
     parser.add_argument("--keep", metavar="FINDING", help="make a saved finding a test called NAME")

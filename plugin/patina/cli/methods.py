@@ -41,7 +41,8 @@ def _measured(figures):
     if figures is None:
         return []
     if figures["errorOf"] == "effort":
-        return [f"measured: time x variance {figures['mean']:.2g} of the default's in the mean, {figures['largest']:.2g} at most"]
+        return [f"measured: time x variance {figures['mean']:.2g} of the default's in the mean, {figures['largest']:.2g} at "
+                "most"]
     return [f"measured: mean {figures['errorOf']} {'' if figures['errorOf'] == 'noise' else 'error '}"
             f"{figures['mean']:.2g}, largest {figures['largest']:.2g}, {figures['cost']:.2g} times the default's time"]
 

@@ -75,7 +75,8 @@ def _above(layer, what, Sdf):
 
 
 def _check_waiting(root, Sdf):
-    """:raises InputError: where a layer, or one below it in its stack, names a pipe or a device as a layer: USD would wait for it"""
+    """:raises InputError: where a layer, or one below it in its stack, names a pipe or a device as a layer: USD would wait for
+    it"""
     waiting, seen = [root], {root.identifier}
     for layer in waiting:  # grows as it goes
         below = set(layer.subLayerPaths)

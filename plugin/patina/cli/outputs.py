@@ -133,7 +133,7 @@ def write_text(path, text):
 
 
 def write_json(target, value):
-    """What --json means: - for standard output, else a file; nothing for None.
+    """The target of --json: - for standard output, else a file; nothing for None.
 
     :returns: whether it took standard output"""
     if not target:

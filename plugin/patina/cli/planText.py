@@ -39,7 +39,7 @@ def _ratio(value, base):
 
 
 def scene_lines(plans, tolerance):
-    """What the plans of all materials mean for an image of the scene.
+    """The plans of all materials, summed up for an image of the scene.
 
     :param plans: list of (name, plan)
     """

@@ -110,6 +110,7 @@ class _Job:
         self._check_warnings()
         if self.arguments.denoise:
             self._denoise(film)
+            self._check_warnings()
         with self.statistics.phase("write"):
             self._write(film, shot, settings, info)
         if self.arguments.report:
@@ -124,6 +125,9 @@ class _Job:
 
     def _denoise(self, film):
         with self.statistics.phase("denoise"):
+            if denoiser.takes_away(film):
+                self.statistics.warn("", "denoise", "some pixels are below zero, which counts as black for the denoiser; "
+                                     "color.noisy has them")
             denoiser.run(self.module, film, self.arguments.threads)
 
     def _check_outputs(self, shot):
@@ -134,7 +138,7 @@ class _Job:
             outputs.check(checkpoints.path_of(shot.image))
 
     def _left_over(self, image):
-        """What a render that was killed has left; it goes when this image is written."""
+        """Files that a killed render has left; they go when this image is written."""
         path = checkpoints.path_of(image)
         if self.arguments.resume or not os.path.isfile(path):
             return []

@@ -60,7 +60,8 @@ def _add_stage_flags(group):
 def _add_render_flags(group):
     group.add_argument("--backend", default="embree", choices=["embree", "raster"],
                        help="what renders (default: embree, which also takes over where raster finds no OpenGL)")
-    settingFlags.add(group, "the render", _TEXTS, after={"indirectClamp": _add_denoise_flag, "environmentSamples": methods.add_flag})
+    settingFlags.add(group, "the render", _TEXTS, after={"indirectClamp": _add_denoise_flag,
+                                                         "environmentSamples": methods.add_flag})
 
 
 def _add_denoise_flag(group):

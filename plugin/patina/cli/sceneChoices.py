@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is chosen for a stage as a whole: asked of the back end itself, which builds the scene and samples one pixel of it."""
+"""Choices for a stage as a whole, by asking the back end itself, which builds the scene and samples one pixel of it."""
 from patina.cli import compiled, openStage, overrides
 from patina.cli.errors import CommandError
 

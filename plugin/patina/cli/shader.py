@@ -67,7 +67,8 @@ def _check_usage(arguments):
     if not 1 <= arguments.largest_texture <= 16384:
         raise UsageError("patina shader: --largestTexture is 1 to 16384")
     if arguments.target not in OWN and (arguments.method or arguments.albedo_table):
-        raise UsageError("patina shader: --method and --albedoTable are for glsl and essl; the others have methods of their own")
+        raise UsageError("patina shader: --method and --albedoTable are for glsl and essl; the others have methods of "
+                         "their own")
     if arguments.form == "authored" and arguments.target != "mtlx":
         raise UsageError("patina shader: --form authored is for mtlx; shader text is made from the expanded graph")
     if arguments.stage != "pixel" and arguments.target != "msl":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `patina record` renders, one shot after the other."""
+"""The shots that `patina record` renders, one after the other."""
 from patina.cli import denoiser, frames, products, recordFlags
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.shot import Output, Shot

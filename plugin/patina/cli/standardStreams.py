@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What cannot be written to a standard stream is lost: a reader that goes away does not end a render."""
+"""A reader of a standard stream that goes away does not end a render: further output is lost."""
 import os
 import sys
 
@@ -31,7 +31,7 @@ class LosingStream:
 
 
 def silence(stream):
-    """What is left in its buffer goes nowhere, so that nothing fails again when Python ends."""
+    """Discards the rest of its buffer, so that nothing fails again when Python ends."""
     try:
         null = os.open(os.devnull, os.O_WRONLY)
         os.dup2(null, stream.fileno())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What --json shows of a render: times by phase, rays, samples, memory, warnings."""
+"""The statistics of a render that --json shows: times by phase, rays, samples, memory, warnings."""
 import contextlib
 import time
 

@@ -55,10 +55,11 @@ def run(arguments):
     # pytest runs in the root, where testpaths are meant; paths keep the meaning that they had.
     passed_on = [os.path.abspath(a) if _named(a) else a for a in arguments.passed_on]
     tier = arguments.tier or ("all" if any(map(_named, arguments.passed_on)) else "smoke" if arguments.room else "full")
-    command = [sys.executable, "-m", "pytest", *_workers(passed_on, tier), "-q", "-ra", "-c", os.path.join(testenv, "pytest.ini"),
+    command = [sys.executable, "-m", "pytest", *_workers(passed_on, tier), "-q", "-ra", "-c",
+               os.path.join(testenv, "pytest.ini"),
                "--rootdir", root, "-p", "testTiers", "--tier", tier, *_rooms(arguments.room, testenv), *passed_on]
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) == signal.SIG_IGN:  # as by nohup; tests send them, and the processes that they start inherit
+        if signal.getsignal(number) == signal.SIG_IGN:  # as by nohup, and child processes inherit it
             signal.signal(number, signal.SIG_DFL)
     return min(1, subprocess.call(command, env=environment, cwd=root))
 

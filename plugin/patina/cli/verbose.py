@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `patina record --verbose` tells of a frame: time and memory of each phase."""
+"""The lines of `patina record --verbose` on a frame: time and memory of each phase."""
 from patina.cli import memory
 
 # phase of the statistics -> what it is called; in their order

@@ -68,7 +68,7 @@ class Job:
             if link:  # a narrow terminal shows less of the line of progress
                 self.progress.say(f"Dask's page: {link}")
             try:
-                one.run(frames, waiting, lambda state: self._show(state, frames, link))
+                one.run(frames, waiting, lambda state: self._look(state, cluster, frames, link))
             except KeyboardInterrupt:
                 if one.done or any(frame.kept(started) for frame in frames):
                     raise TemporaryError("interrupted; --resume goes on with what is there") from None
@@ -136,7 +136,8 @@ class Job:
                 if time.monotonic() > end:
                     raise CommandError(f"{self.arguments.engine} has no worker after {FIRST_WORKER_SECONDS} s") from None
 
-    def _show(self, state, frames, link):
+    def _look(self, state, cluster, frames, link):
+        cluster.replace(state.present)
         text = f"{len(state.written)} of {len(frames)} frames, {state.done} of {state.total} tasks, {state.count} workers"
         self.progress.step(state.done, state.total, f"{text}, {link}" if link else text)
 

@@ -58,7 +58,8 @@ def template(arguments, record, shots, folder):
         parameters.append(_path("Parts", "DIRECTORY", "INOUT", record.image + ".parts", folder, "parts until they are merged"))
         steps = _cut_steps(arguments, flags, frames)
     name = f"patina {os.path.basename(record.stage)}".translate(str.maketrans("{}", "()"))[:LONGEST_NAME]
-    return {"specificationVersion": VERSION, "name": name, "parameterDefinitions": parameters, **_environments(), "steps": steps}
+    return {"specificationVersion": VERSION, "name": name, "parameterDefinitions": parameters, **_environments(),
+            "steps": steps}
 
 
 def _environments():

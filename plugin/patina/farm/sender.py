@@ -90,6 +90,11 @@ class Sender:
         return self.client.submit(worker.run, task.arguments(self.arguments, self.threads), self.folder, task.log, self.checks,
                                   self.variables, pure=False, retries=0, **places)
 
+    @property
+    def present(self):
+        """how many workers there are, those that were refused included"""
+        return len(self._seen[1])
+
     def _workers(self):
         """:returns: addresses of the workers that are there, as they were a moment ago"""
         if time.monotonic() - self._seen[0] > LOOK_SECONDS:

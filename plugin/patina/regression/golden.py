@@ -66,7 +66,8 @@ class Golden:
         """:returns: (the Golden, the mean image)"""
         images = [render(stage, FIRST_SEED + i, scene.arguments) for i in range(scene.renders)]
         height, width = images[0].shape[:2]
-        return cls(welch.tiles(images), digest(images[0]), (width, height), list(scene.arguments), __version__), np.mean(images, axis=0)
+        return cls(welch.tiles(images), digest(images[0]), (width, height), list(scene.arguments), __version__), np.mean(images,
+                                                                                                                         axis=0)
 
     def write(self, path):
         about = {"first": self.first, "size": self.size, "arguments": self.arguments, "version": self.version}
@@ -104,10 +105,12 @@ def compare(stage, scene, golden):
 
     :raises RenderError: where the stage cannot be rendered"""
     if golden.arguments != list(scene.arguments):
-        return Result(f"the golden image was made with {' '.join(golden.arguments)}, the test asks for {' '.join(scene.arguments)}")
+        return Result(f"the golden image was made with {' '.join(golden.arguments)}, the test asks for "
+                      f"{' '.join(scene.arguments)}")
     again = render(stage, FIRST_SEED, scene.arguments)
     if again.shape[1::-1] != golden.size:
-        return Result(f"the image is {again.shape[1]} x {again.shape[0]}, the golden one {golden.size[0]} x {golden.size[1]}", again)
+        return Result(f"the image is {again.shape[1]} x {again.shape[0]}, the golden one {golden.size[0]} x {golden.size[1]}",
+                      again)
     if digest(again) == golden.first:
         return Result()
     images = [render(stage, OTHER_SEEDS + i, scene.arguments) for i in range(scene.renders)]
@@ -115,9 +118,9 @@ def compare(stage, scene, golden):
     result = Result(image=np.mean(images, axis=0), sees=scene.margin + float(np.median(interval.half)))
     which = interval.outside(scene.margin)
     if which.any():
-        result.problem = (f"{which.any(axis=-1).sum()} of {which[..., 0].size} tiles differ by more than {100 * scene.margin:g} % "
-                          f"(significance 1 % for all of them): {interval.worst(which)}")
+        result.problem = (f"{which.any(axis=-1).sum()} of {which[..., 0].size} tiles differ by more than "
+                          f"{100 * scene.margin:g} % (significance 1 % for all of them): {interval.worst(which)}")
     elif result.sees > (1.0 + NOISE) * scene.margin:
-        result.hint = (f"noise hides differences of a tile below {100 * result.sees:.2g} %; more samples or renders show smaller "
-                       "ones")
+        result.hint = (f"noise hides differences of a tile below {100 * result.sees:.2g} %; more samples or renders show "
+                       "smaller ones")
     return result

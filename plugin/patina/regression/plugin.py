@@ -85,7 +85,8 @@ class _Stage(pytest.Item):
         if result.hint:
             warnings.warn(SceneWarning(f"{self.name}: {result.hint}"))
         if result.problem:
-            raise SceneFailure("\n".join([result.problem, *self._pictures(folder, result.image), f"if the new one is right: {self._how()}"]))
+            raise SceneFailure("\n".join([result.problem, *self._pictures(folder, result.image),
+                                          f"if the new one is right: {self._how()}"]))
 
     def _how(self):
         return HOW.format(folder=self.config.getoption("--patina-scenes"), name=self.name)

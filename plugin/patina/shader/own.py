@@ -9,7 +9,8 @@ HEAD = """\
 {version}
 // A material as a fragment shader.
 //
-// A vertex shader gives vPosition, vObjectPosition, vNormal, vTangent (w: side of the bitangent), vUv and vColor in world space.
+// A vertex shader gives vPosition, vObjectPosition, vNormal, vTangent (w: side of the bitangent), vUv and vColor in world
+// space.
 // Uniforms: eye, pixelAngle (radians across a pixel), lightDirection (unit vector to the light), lightIrradiance,
 // surroundings (radiance from all around), pass (a number that counts up), normalToWorld, albedoTable (R32F, 1024 wide:
 // what lobes reflect in all, as `patina shader --albedoTable` writes it), sampler0 and on (linear RGBA, the first level alone)

@@ -81,7 +81,8 @@ def _primvars(context, prim, keep):
         if values is None:
             continue
         if len(values) != len(keep):
-            context.warn(prim.GetPath(), primvar.GetName(), f"has {len(values)} values for {len(keep)} instances; it is left out")
+            context.warn(prim.GetPath(), primvar.GetName(),
+                         f"has {len(values)} values for {len(keep)} instances; it is left out")
             continue
         values = in_rendering_space(context, prim, primvar.GetAttr(), values)
         found.append((primvar.GetPrimvarName(), "vertex", values[keep], None))

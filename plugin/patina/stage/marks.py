@@ -2,7 +2,7 @@
 """Marks of prims: the primvars of hdDelegate/scene/primMarks.def, and the assets that prims belong to."""
 import functools
 
-from pxr import Kind, Usd, UsdGeom
+from pxr import Kind, Usd
 
 _PREFIX = "primvars:"
 

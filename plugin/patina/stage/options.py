@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a caller may ask of the reader, and what the reader tells."""
+"""Options of the reader, and its report."""
 from dataclasses import dataclass, field
 
 
@@ -37,7 +37,7 @@ class StageOptions:
 
 @dataclass
 class StageInfo:
-    """What was read."""
+    """The report of a reading."""
     camera: str = ""  # path in the scene
     cameras: list = field(default_factory=list)
     framed: bool = False  # the stage had no camera

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What prims inherit on the way down, and what the walk finds."""
+"""State that prims inherit on the way down, and the findings of the walk."""
 from dataclasses import dataclass, field, replace
 
 
@@ -22,7 +22,7 @@ class Group:
 
 @dataclass(frozen=True)
 class State:
-    """What is inherited."""
+    """Inherited state."""
     group: Group = Group()
     purpose: str = "default"
     primvars: tuple = ()  # inheritable ones

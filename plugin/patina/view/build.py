@@ -82,7 +82,8 @@ class Builder:
                 "lights": self.lights, "lightTable": blobs.pack(np.asarray(self.light_table, "<f4")),
                 "notes": self.notes, "camera": self.camera, "environments": self.environments,
                 "shapes": [{**shapes.packed(name, mesh, closed), "toWorld": [float(x) for x in columns]}
-                           for name, mesh, closed, columns in self.shapes], "start": start, "references": compareImages.made(self)}
+                           for name, mesh, closed, columns in self.shapes],
+                "start": start, "references": compareImages.made(self)}
 
 
 def _share_presets(found):

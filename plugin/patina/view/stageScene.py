@@ -20,7 +20,8 @@ class StageScene:
             info = reader.read_stage(stage, edit, reader.StageOptions(headlight=False))
         self.z_up = info.up_axis == "Z"
         found = compiled.load().web_lights(self.scene)
-        self.lights = [{"name": path.removesuffix("/light_of_mesh").rpartition("/")[2], "row": [float(x) for x in row]} for path, row in found["lights"]]
+        self.lights = [{"name": path.removesuffix("/light_of_mesh").rpartition("/")[2], "row": [float(x) for x in row]}
+                       for path, row in found["lights"]]
         self.domes, self.light_table, self.light_notes = found["domes"], found["table"], found["notes"]
 
     def shapes(self, wanted, material_paths):

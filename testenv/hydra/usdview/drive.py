@@ -4,8 +4,8 @@ camera, picks a prim, changes a material and takes screenshots.
 
     xvfb-run python drive.py FOLDER STAGE --renderer Patina [--defaultsettings ...]
 
-Everything after FOLDER is usdview's. Writes start.png, turned.png, edited.png (the view), the same of the whole window (startWindow.png, ...) and
-result.json to FOLDER. $PATINA_DRIVE_SIZE is the size of the view, 480x360 if not given.
+Everything after FOLDER is usdview's. Writes start.png, turned.png, edited.png (the view), the same of the whole window
+(startWindow.png, ...) and result.json to FOLDER. $PATINA_DRIVE_SIZE is the size of the view, 480x360 if not given.
 Runs in the Python of OpenUSD. The stage has to have a shader at the path that $PATINA_DRIVE_SHADER names,
 with the colour input that $PATINA_DRIVE_INPUT names.
 """

@@ -209,7 +209,7 @@ TEST(Subsurface, DarkColoursAreLessNoisyThanPhysicalChances) {
     }
 }
 
-// What a black ball lets through along chords of 2 R cos: the mean of exp(-x cos) over the cosine,
+// Transmittance of a black ball along chords of 2 R cos: the mean of exp(-x cos) over the cosine,
 // 2 (1 - (1 + x) exp(-x)) / x^2 with x = 2 R / l. Chances to leave or not have the relative
 // variance 1 / mean - 1; a quarter of it at most is asked for where that is far above 1.
 // Significance as above; 1 % for the ball's facets.

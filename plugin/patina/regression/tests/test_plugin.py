@@ -48,7 +48,8 @@ def folder(tmp_path):
 
 def run(folder, *arguments):
     """:returns: exit status and output of a pytest that knows the plugin alone"""
-    done = subprocess.run([sys.executable, "-m", "pytest", "-p", "patina.regression.plugin", "-p", "no:cacheprovider", "-q", "-rA",
+    done = subprocess.run([sys.executable, "-m", "pytest", "-p", "patina.regression.plugin", "-p", "no:cacheprovider", "-q",
+                           "-rA",
                            "--patina-scenes", str(folder), *arguments], cwd=folder.parent, capture_output=True, text=True,
                           env=dict(os.environ, PYTEST_DISABLE_PLUGIN_AUTOLOAD="1"))
     return done.returncode, done.stdout + done.stderr

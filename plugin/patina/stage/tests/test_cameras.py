@@ -51,7 +51,8 @@ def test_choice(read):
 def test_framing_shows_everything(read, numbers, up):
     """The corners of the bounding box fall inside of the picture."""
     import numpy as np
-    reading = read(f'(upAxis = "{up}")\ndef Cube "c" {{ double3 xformOp:translate = (10, 20, 30)  uniform token[] xformOpOrder = ["xformOp:translate"] }}')
+    reading = read(f'(upAxis = "{up}")\ndef Cube "c" {{ double3 xformOp:translate = (10, 20, 30)  uniform token[] xformOpOrder '
+                   f'= ["xformOp:translate"] }}')
     assert reading.info.framed
     camera = reading.prim(reading.info.camera)
     inverse = np.linalg.inv(np.array(numbers(camera["transform"])).reshape(4, 4))

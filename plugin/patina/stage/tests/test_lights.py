@@ -140,7 +140,8 @@ def test_networks_of_lights_are_told(read):
     def RectLight "plain" { uniform token light:shaderId = "RectLight" }""")
     about = [w for w in reading.warnings if w.startswith(("/shaded", "/tinted", "/other", "/plain"))]
     assert about == [
-        "/shaded inputs:color: is connected to /rig/shader.outputs:out, which is not evaluated for lights; its own value is used",
+        "/shaded inputs:color: is connected to /rig/shader.outputs:out, which is not evaluated for lights; its own value is "
+        "used",
         "/other light:shaderId: is ND_light, which is not evaluated; the light is drawn by its type"]
     assert any(w.startswith("/rig outputs:mtlx:light: light shaders of materials are not drawn") for w in reading.warnings)
     assert reading.prim("/shaded")["color"] == "1 0 0"

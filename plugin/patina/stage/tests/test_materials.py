@@ -7,7 +7,8 @@ import pytest
 
 
 def material(body, name="m"):
-    return f'def Material "{name}" {{ {body} }}\ndef Sphere "ball{name}" (prepend apiSchemas = ["MaterialBindingAPI"]) {{ rel material:binding = </{name}> }}\n'
+    return (f'def Material "{name}" {{ {body} }}\n'
+            f'def Sphere "ball{name}" (prepend apiSchemas = ["MaterialBindingAPI"]) {{ rel material:binding = </{name}> }}\n')
 
 
 SHADER = """
@@ -109,8 +110,10 @@ def test_broken_networks_are_warned_of(read, said):
 
 def test_nodes_in_a_cycle_end(read):
     reading = read(material(SHADER % "color3f inputs:diffuseColor.connect = </m/a.outputs:o>" + """
-    def Shader "a" { uniform token info:id = "UsdUVTexture"  color3f inputs:x.connect = </m/b.outputs:o>  color3f outputs:o }
-    def Shader "b" { uniform token info:id = "UsdUVTexture"  color3f inputs:x.connect = </m/a.outputs:o>  color3f outputs:o }"""))
+    def Shader "a" { uniform token info:id = "UsdUVTexture"
+        color3f inputs:x.connect = </m/b.outputs:o>  color3f outputs:o }
+    def Shader "b" { uniform token info:id = "UsdUVTexture"
+        color3f inputs:x.connect = </m/a.outputs:o>  color3f outputs:o }"""))
     assert reading.text.count("connect x = ") == 2  # the network keeps the cycle; its expansion cuts it
 
 
@@ -135,7 +138,8 @@ def test_textures_are_resolved(read, tmp_path):
 
 def test_textures_inside_a_package(read, statements, tmp_path):
     inner = tmp_path / "inner.usda"
-    inner.write_text("#usda 1.0\n" + statements(material(SHADER % "asset inputs:file = @tex/a.png@\nasset inputs:tiles = @tex/t.<UDIM>.png@\n")))
+    textures = "asset inputs:file = @tex/a.png@\nasset inputs:tiles = @tex/t.<UDIM>.png@\n"
+    inner.write_text("#usda 1.0\n" + statements(material(SHADER % textures)))
     package = tmp_path / "p.usdz"
     with zipfile.ZipFile(package, "w", zipfile.ZIP_STORED) as z:
         for name, data in (("inner.usda", inner.read_bytes()), ("tex/a.png", b"first"), ("tex/t.1002.png", b"tile")):
@@ -165,7 +169,8 @@ def test_a_type_that_usd_does_not_know_is_told(read):
 def test_references_to_materialx_documents(read, tmp_path):
     (tmp_path / "doc.mtlx").write_text("""<?xml version="1.0"?><materialx version="1.39">
         <standard_surface name="shader" type="surfaceshader"><input name="base" type="float" value="0.3"/></standard_surface>
-        <surfacematerial name="Look" type="material"><input name="surfaceshader" type="surfaceshader" nodename="shader"/></surfacematerial>
+        <surfacematerial name="Look" type="material">
+            <input name="surfaceshader" type="surfaceshader" nodename="shader"/></surfacematerial>
         </materialx>""")
     reading = read("""
     def Scope "mtl" (references = @./doc.mtlx@</MaterialX/Materials>) { }

@@ -66,7 +66,8 @@ def test_primvars_of_each_kind(read):
 
 
 def test_primvar_normals_stand_above_normals(read):
-    text = 'def Mesh "m" { uniform token subdivisionScheme = "none"\n normal3f[] normals = [(0, 0, 1)] (interpolation = "uniform")\n%s' + QUAD + "}"
+    text = ('def Mesh "m" { uniform token subdivisionScheme = "none"\n'
+            ' normal3f[] normals = [(0, 0, 1)] (interpolation = "uniform")\n%s' + QUAD + "}")
     assert read(text % "").prim("/m")["primvar normals uniform x3"] == "0 0 1"
     mesh = read(text % 'normal3f[] primvars:normals = [(0, 1, 0)] (interpolation = "constant")').prim("/m")
     assert mesh["primvar normals constant x3"] == "0 1 0"

@@ -125,6 +125,7 @@ def test_both_back_ends_draw_them(read):
         for name, (row, column), wanted in (("patch", (4, 4), (1, 0, 0)), ("tets", (5, 9), (0, 1, 0)),
                                             ("hermite", (12, 4), (0, 0, 1)), ("nurbs", (12, 12), (1, 1, 0))):
             pixel = image[row, column]
-            # Beside its colour a form shows the white sky in its interface of ior 1.5: below a quarter, Fresnel's share at 75 degrees.
+            # Beside its colour a form shows the white sky in its interface of ior 1.5: below a quarter, Fresnel's share at 75
+            # degrees.
             assert (pixel[np.array(wanted) == 0] < 0.25).all() and (pixel[np.array(wanted) == 1] > 0.5).all(), (
                 backend, name, pixel)

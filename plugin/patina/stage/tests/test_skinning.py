@@ -6,8 +6,10 @@ SKELETON = """
     def SkelRoot "r" {
         def Skeleton "skel" (prepend apiSchemas = ["SkelBindingAPI"]) {
             uniform token[] joints = ["a", "a/b"]
-            uniform matrix4d[] bindTransforms = [((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,0,1)), ((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,1,0,1))]
-            uniform matrix4d[] restTransforms = [((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,0,1)), ((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,1,0,1))]
+            uniform matrix4d[] bindTransforms = [((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,0,1)),
+                ((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,1,0,1))]
+            uniform matrix4d[] restTransforms = [((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,0,1)),
+                ((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,1,0,1))]
             rel skel:animationSource = </r/skel/anim>
             double3 xformOp:translate = (100, 0, 0)  uniform token[] xformOpOrder = ["xformOp:translate"]
             def SkelAnimation "anim" {
@@ -69,7 +71,8 @@ def test_dual_quaternions_differ(read, numbers):
             float[] primvars:skel:jointWeights = [0.5, 0.5, 0.5, 0.5, 0.5, 0.5] (interpolation = "vertex"; elementSize = 2)"""
     turned = SKELETON.replace("quatf[] rotations = [(1, 0, 0, 0)]", "quatf[] rotations = [(0, 0, 1, 0)]")
     linear = numbers(read(turned % half, frame=0.0).prim("/r/m")["points"])
-    dual = numbers(read(turned % (half + '\nuniform token primvars:skel:skinningMethod = "dualQuaternion"'), frame=0.0).prim("/r/m")["points"])
+    dual = numbers(read(turned % (half + '\nuniform token primvars:skel:skinningMethod = "dualQuaternion"'),
+                        frame=0.0).prim("/r/m")["points"])
     assert linear[3] == pytest.approx(0.0, abs=1e-5)  # half a turn collapses
     assert abs(dual[3]) + abs(dual[5]) == pytest.approx(1.0, abs=1e-4)  # and here it does not
 

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Lines of Python are no longer than CONTRIBUTING says; ruff and clang-format are told the same."""
+import os
+import re
+import shutil
+import subprocess
+
+import pytest
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+LIMIT = 128
+
+
+def read(path):
+    with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+        return file.read()
+
+
+def too_long(text, limit=LIMIT):
+    """:returns: numbers of lines; a word that cannot be broken, a link say, is no mistake"""
+    return [number for number, line in enumerate(text.split("\n"), 1)
+            if len(line) > limit and re.search(r"\s", line.strip().lstrip("# "))]
+
+
+def test_python_keeps_to_its_columns():
+    if not shutil.which("git") or subprocess.run(["git", "rev-parse"], cwd=ROOT, capture_output=True).returncode:
+        pytest.skip("this is no git checkout: git lists the files")
+    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.py"], cwd=ROOT,
+                            capture_output=True, text=True, check=True).stdout.splitlines()
+    files = [path for path in listed if os.path.isfile(os.path.join(ROOT, path))]
+    assert len(files) > 200
+    found = [f"{path}:{number}" for path in files for number in too_long(read(path))]
+    assert not found, f"longer than {LIMIT} columns"
+
+
+def test_documents_and_tools_name_the_same_limit():
+    words = " ".join(read("CONTRIBUTING.md").split())
+    columns = re.search(r"(\d+) columns \(`.clang-format`\), Python (\d+)", words)
+    ruff = read("pyproject.toml").partition("[tool.ruff]")[2]
+    assert int(columns[2]) == LIMIT and f"line-length = {LIMIT}" in ruff
+    assert "E501" not in re.search(r"^ignore = \[.*?\]", ruff, re.MULTILINE)[0]
+    assert f"ColumnLimit: {columns[1]}" in read(".clang-format")
+
+
+def test_a_long_line_is_found():
+    assert too_long("a\n" + "b " * 65 + "\n# " + "x" * 200) == [2]

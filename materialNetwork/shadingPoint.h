@@ -34,6 +34,8 @@ struct ShadingPoint {
     /// One per sample where MaterialProgram::jitters(): patterns whose values are random have others
     /// then, with the same mean. 0: the values that stand for all.
     uint32_t seed = 0;
+    /// Of the light that is asked for, nm, where MaterialProgram::disperses(); 0: no one wavelength.
+    float wavelength = 0.0f;
 
     glm::vec3 worldPosition() const { return position + worldOrigin; }
 };

@@ -9,3 +9,6 @@
 #include "shaders/lights/line.glsl"
 #include "shaders/lights/distant.glsl"
 #include "shaders/lights/dome.glsl"
+#include "shaders/lights/filters/box.glsl"
+#include "shaders/lights/filters/opening.glsl"
+#include "shaders/lights/filters/ramp.glsl"

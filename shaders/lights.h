@@ -53,6 +53,9 @@ inline vec3 sqrt(const vec3& v) {
 inline vec3 abs(const vec3& v) {
     return glm::abs(v);
 }
+inline vec3 max(const vec3& a, const vec3& b) {
+    return glm::max(a, b);
+}
 inline float floor(float x) {
     return std::floor(x);
 }

@@ -8,6 +8,7 @@
 #include "shaders/patterns/place2d.glsl"
 #include "shaders/patterns/reflectance.glsl"
 #include "shaders/patterns/blackbody.glsl"
+#include "shaders/patterns/dispersion.glsl"
 #include "shaders/patterns/noise.glsl"
 #include "shaders/patterns/blur.glsl"
 #include "shaders/patterns/worley.glsl"

@@ -10,7 +10,7 @@ namespace patina {
 
 /// A renderer that may lose its device, and one that takes over then and keeps the work: a failure
 /// with RenderProgress::deviceFailed starts the same render again with the second one. Listeners
-/// never hear of it; the scene's diagnostics do, once a scene.
+/// are not notified of it; the scene's diagnostics do, once a scene.
 class FallbackRenderer : public Renderer {
 public:
     /// @param first may be null: `reason` says why, and the second renders from the start

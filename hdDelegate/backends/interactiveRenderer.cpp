@@ -124,7 +124,7 @@ bool InteractiveRenderer::fetch(Source& from, Source& to) {
     return true;
 }
 
-void InteractiveRenderer::lookAtFailure(const RenderProgress& quick) {
+void InteractiveRenderer::checkFailure(const RenderProgress& quick) {
     if (!quick.failed || !quick.deviceFailed || _quickLost) return;
     _quickLost = true;
     _scene->diagnostics().warn("", "",
@@ -191,7 +191,7 @@ void InteractiveRenderer::changeOver(const std::string& camera) {
             news = fetch(_fromQuick, quick);
             news |= fetch(_fromSlow, slow);
         }
-        lookAtFailure(quick.progress);
+        checkFailure(quick.progress);
         if (slow.progress.failed || (slow.ended() && !_listener)) {
             _quick->stop();
             if (_listener) _listener(*_film, slow.progress);

@@ -62,7 +62,7 @@ private:
     bool awaitNews(const std::string& camera, Clock::time_point started, bool stepping, bool shown);
     void startSlow(const std::string& camera);
     bool fetch(Source& from, Source& to);
-    void lookAtFailure(const RenderProgress& quick);
+    void checkFailure(const RenderProgress& quick);
     void end(const RenderProgress& last);
 
     std::unique_ptr<Renderer> _quick, _slow;

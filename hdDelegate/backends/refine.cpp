@@ -44,7 +44,7 @@ Picture refine(Picture rasterized, const Picture& traced, const Picture& noise, 
         vec4& quick = rasterized.pixels[i];
         for (int k = 0; k < 3; ++k) {
             const float to = tracedMean.pixels[i][k], from = mean.pixels[i][k];
-            const float gain = from > 0.0f ? to / from : 1.0f;
+            const float gain = from != 0.0f ? to / from : 1.0f;
             quick[k] *= std::clamp(gain, 1.0f / maxGain, maxGain);
         }
         rest.pixels[i] = traced.pixels[i] - quick;
@@ -54,11 +54,13 @@ Picture refine(Picture rasterized, const Picture& traced, const Picture& noise, 
     Picture result = traced;
     eachPixel(result, [&](size_t i) {
         if (traced.pixels[i].w == 0.0f) return; // nothing there: no light of neighbours leaks in
-        const float l = luminance(vec3(tracedMean.pixels[i])) + 1e-4f;
+        const float l = luminance(glm::abs(vec3(tracedMean.pixels[i]))) + 1e-4f;
         const float relative = localNoise.pixels[i].x / (l * l) + localNoise.pixels[i].y;
         const float clear = halfAt * halfAt / (halfAt * halfAt + relative);
         const float weight = clear + (1.0f - clear) * done * done;
-        const vec3 moved = glm::max(vec3(rasterized.pixels[i] + rest.pixels[i]), vec3(0.0f));
+        vec3 moved(rasterized.pixels[i] + rest.pixels[i]);
+        for (int k = 0; k < 3; ++k) // lights that take light away leave less than none
+            if (!(tracedMean.pixels[i][k] < 0.0f)) moved[k] = std::max(moved[k], 0.0f);
         result.pixels[i] =
             vec4(glm::mix(moved, vec3(traced.pixels[i]), weight), traced.pixels[i].w);
     });

@@ -2,6 +2,7 @@
 #include "hdDelegate/embree/embreeRenderer.h"
 
 #include "hdDelegate/embree/seenOrigin.h"
+#include "hdDelegate/lights/resolvedLight.h"
 #include "hdDelegate/parallel.h"
 
 #include <utility>
@@ -124,6 +125,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     const std::vector<AovSpec> aovs = renderedAovs(_settings.aovs, _settings.cryptomatteLevels);
     _film->reset(_settings.width, _settings.height, aovs, !_film->resumeToken.empty());
 
+    _film->allowNegative(takesLightAway(state, _settings));
     _film->setFirstSample(uint32_t(std::max(0, _settings.sampleBegin)));
     const CameraRays rays(camera, _settings, _origin);
     RenderSettings sampled = _settings;

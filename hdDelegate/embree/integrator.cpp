@@ -1,164 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/integrator.h"
 
-#include "hdDelegate/embree/ambientOcclusion.h"
 #include "hdDelegate/embree/aovWriter.h"
 #include "hdDelegate/embree/media/freeFlight.h"
-#include "hdDelegate/embree/media/mediaAround.h"
 #include "hdDelegate/embree/path.h"
 #include "hdDelegate/film/pixelFilter.h"
 #include "hdDelegate/embree/sceneLights.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace patina {
-
-Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
-                       const CameraRays& camera, const RenderSettings& settings,
-                       const std::vector<AovSpec>& aovs)
-    : _scene(scene), _lights(lights), _camera(camera), _settings(settings), _aovs(aovs),
-      _lightPaths(aovs), _filter(settings.filterRadius),
-      _cullBack(settings.cullStyle.rfind("back", 0) == 0),
-      _cullFront(settings.cullStyle.rfind("front", 0) == 0),
-      _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos),
-      _ambientOcclusion(settings.integrator == "ambientOcclusion"),
-      _lightSamples(settings.lightSamples > 0 ? settings.lightSamples
-                                              : lights.worthwhileSamples()) {
-    for (size_t i = 0; i < aovs.size(); ++i) {
-        if (aovs[i].id == AovId::denoisingAlbedo) _denoisingAlbedo = int(i);
-        if (aovs[i].id == AovId::denoisingNormal) _denoisingNormal = int(i);
-    }
-    const vec3 eye = vec3(glm::inverse(camera.worldToCamera())[3]);
-    if (std::isfinite(eye.x + eye.y + eye.z)) _cameraMedia = mediaAround(scene, eye, 0.5f);
-}
-
-void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters& counters) const {
-    Sampler sampler(uint32_t(x), uint32_t(y), _settings.seed, index);
-    const vec4 uFilm = sampler.next4();
-    const float uTime = sampler.next2().x;
-    const vec2 offset = _filter.sample(vec2(uFilm));
-    const vec2 pixel = vec2(x, y) + 0.5f + offset;
-    const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime);
-    const AovTarget target{film, x, y, glm::length(offset)};
-    counters.clock.enter(nullptr);
-    if (_ambientOcclusion) {
-        const AmbientOcclusion occlusion{_scene, _settings.ambientOcclusionSamples};
-        const float seen = occlusion.sample(ray, sampler, _aovs, target, _camera, counters.rays);
-        ++counters.paths;
-        film.addColor(x, y, vec3(std::max(seen, 0.0f)), seen < 0.0f ? 0.0f : 1.0f);
-        return;
-    }
-
-    Path path(sampler);
-    path.origin = ray.origin;
-    path.direction = ray.direction;
-    path.near = ray.near;
-    path.far = ray.far;
-    path.time = ray.time;
-    path.coneWidth = ray.coneWidth;
-    path.coneSpread = ray.coneSpread;
-    path.media = _cameraMedia;
-    std::optional<LightPathRecord> lightPaths;
-    if (!_lightPaths.empty()) path.lightPaths = &lightPaths.emplace(_lightPaths);
-    trace(path, target, counters);
-    ++counters.paths;
-    addFeatures(path, target);
-    const vec3 color = path.radiance * _camera.camera().exposureScale;
-    if (lightPaths)
-        _lightPaths.write(*lightPaths, target, _camera.camera().exposureScale,
-                          !Film::usable(color, path.alpha));
-    film.addColor(x, y, color, path.alpha);
-}
-
-/// What guides the denoiser, of every sample, so that means fade at outlines as the colour does.
-void Integrator::addFeatures(const Path& path, const AovTarget& target) const {
-    if (_denoisingAlbedo < 0 && _denoisingNormal < 0) return;
-    // What only mirrors, lamps and skies show is its own texture.
-    const vec3 albedo = path.featured ? path.featureAlbedo : glm::min(path.radiance, vec3(1.0f));
-    if (_denoisingAlbedo >= 0)
-        target.film.addAov(_denoisingAlbedo, target.x, target.y, &albedo.x, 0.0f);
-    if (_denoisingNormal >= 0)
-        target.film.addAov(_denoisingNormal, target.x, target.y, &path.featureNormal.x, 0.0f);
-}
-
-/// Light that the ray meets before `distance`: area lights, and at infinity domes and suns.
-/// @returns where the camera's ray ends on a light, or `distance`.
-float Integrator::addLightsAlong(Path& path, float distance) const {
-    LightHit hits[8];
-    const int count = _lights.set().intersect(path.origin, path.direction, path.near, distance,
-                                              path.time, hits, 8);
-    if (path.fromCamera()) {
-        // The camera sees lights as solid shapes; every other ray passes through them, as shadow
-        // rays do, so that light and BSDF samples agree.
-        const LightHit* nearest = nullptr;
-        for (int i = 0; i < count; ++i)
-            if (_lights.info(hits[i].light).cameraVisible &&
-                (!nearest || hits[i].distance < nearest->distance))
-                nearest = &hits[i];
-        if (!nearest) return distance;
-        const vec3 seen =
-            path.throughput * transmittanceTo(path, nearest->distance) * nearest->radiance;
-        path.radiance += seen;
-        if (path.lightPaths) path.lightPaths->see(emitterOf(nearest->light), seen);
-        path.alpha = 1.0f;
-        return nearest->distance;
-    }
-    for (int i = 0; i < count; ++i) {
-        const float lightPdf =
-            path.specular ? 0.0f
-                          : _lights.set().pdf(hits[i].light, path.vertex, path.vertexNormal,
-                                              path.vertexTwoSided, path.time, hits[i]);
-        addLight(path, hits[i].light, transmittanceTo(path, hits[i].distance) * hits[i].radiance,
-                 lightPdf);
-    }
-    return distance;
-}
-
-/// Light found by following the BSDF, weighted against what light samples would have found.
-void Integrator::addLight(Path& path, int light, const vec3& radiance, float lightPdf) const {
-    const LightInfo& info = _lights.info(light);
-    if (!linked(info.lightCategory, path.vertexSurface, path.vertexInstanceCategories)) return;
-    const float weight =
-        path.specular ? 1.0f : misWeight(path.pdf, path.lightSamples * lightPdf, info.dome);
-    const vec3 share = path.diffuseShare * info.diffuse + path.specularShare * info.specular;
-    if (path.lightPaths)
-        path.lightPaths->found(emitterOf(light), radiance * weight, info.diffuse, info.specular);
-    addRadiance(path, share * radiance * weight);
-}
 
 void Integrator::addRadiance(Path& path, const vec3& radiance) const {
     vec3 contribution = path.throughput * radiance;
     float clamp = 1.0f;
     if (_settings.indirectClamp > 0.0f && path.indirect()) {
-        const float l = luminance(contribution);
+        const float l = std::abs(luminance(contribution));
         if (l > _settings.indirectClamp) contribution *= clamp = _settings.indirectClamp / l;
     }
     path.radiance += contribution;
     if (path.lightPaths) path.lightPaths->add(radiance, path.throughput * clamp);
-}
-
-void Integrator::addEscaped(Path& path) const {
-    for (int light : _lights.set().infiniteLights()) {
-        const LightInfo& info = _lights.info(light);
-        if (path.fromCamera() && (!info.cameraVisible || !info.dome)) continue;
-        const EnvironmentMap::Place place = _lights.set().place(light, path.direction, path.time);
-        const vec3 radiance = _lights.set().environment(light, place, path.time);
-        if (path.fromCamera()) {
-            path.radiance += path.throughput * radiance;
-            if (path.lightPaths) path.lightPaths->see(emitterOf(light), path.throughput * radiance);
-            path.alpha = 1.0f;
-            continue;
-        }
-        if (radiance == vec3(0.0f)) continue;
-        const float lightPdf =
-            path.specular ? 0.0f
-                          : _lights.set().pdfInfinite(light, path.vertex, path.vertexNormal,
-                                                      path.vertexTwoSided, place, path.time);
-        addLight(path, light, radiance, lightPdf);
-    }
 }
 
 /// Light that the surface itself gives off towards the ray.
@@ -185,15 +48,15 @@ void Integrator::addEmission(Path& path, const SurfacePoint& point, const Hit& h
 LightDraw Integrator::beginLight(const Path& path, const SurfacePoint& point, bool twoSided,
                                  const vec3& u) const {
     const ShadingPoint& s = point.shading;
-    return _lights.set().begin(s.position, seenSide(s), twoSided, u, path.time);
+    return _lights.set().begin(s.position, facingNormal(s), twoSided, u, path.time);
 }
 
-vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf,
+vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const VertexBsdf& bsdf,
                              const Hit& hit, const LightDraw& draw, TraceCounters& counters) const {
     const ShadingPoint& s = point.shading;
     const bool twoSided = bsdf.transmits();
     LightSample light;
-    if (!_lights.set().sample(draw, s.position, seenSide(s), twoSided, path.time, light) ||
+    if (!_lights.set().sample(draw, s.position, facingNormal(s), twoSided, path.time, light) ||
         !(light.pdf > 0.0f))
         return vec3(0.0f);
     const LightInfo& info = _lights.info(light.light);
@@ -232,8 +95,8 @@ vec3 Integrator::directLight(const Path& path, const SurfacePoint& point, const 
 }
 
 /// Sets the path on its way from a vertex, and keeps what later light hits have to know about it.
-void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
-                        const BsdfSample& next) const {
+void Integrator::depart(Path& path, const SurfacePoint& point, const Hit& hit,
+                        const VertexBsdf& bsdf, const BsdfSample& next) const {
     const ShadingPoint& s = point.shading;
     const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
     path.rays = (next.event & sh::LOBE_TRANSMIT) != 0 ? RayTransmission
@@ -268,7 +131,7 @@ constexpr int drawsAtOnce = 4; // light samples
 void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& counters) const {
     bool aovsWritten = _aovs.empty();
     const bool guided = _denoisingAlbedo >= 0 || _denoisingNormal >= 0;
-    int passed = 0;
+    int passThroughs = 0;
     float travelled = 0.0f; // since the last vertex, over surfaces that were passed through
     const bool hasFiniteLights = _lights.set().hasIntersectable();
     while (true) {
@@ -307,7 +170,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         const bool back = glm::dot(s.geometricNormal, s.viewDirection) < 0.0f;
         const bool culled = path.fromCamera() &&
                             (back ? cullsBack(*hit.surface->prim) : cullsFront(*hit.surface->prim));
-        vec3 passes(1.0f);
+        vec3 transmittance(1.0f);
         float presence = 1.0f;
         // Shadow rays have no width. What a scattered ray passes must be what they pass: where a
         // cutout blurs away, the two ways to find a light would see different surfaces.
@@ -315,15 +178,15 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         if (!path.fromCamera()) point.shading.uvFootprint = 0.0f;
         const float opacity = culled               ? 0.0f
                               : point.slot->opaque ? 1.0f
-                                                   : program.opacity(s, &passes, &presence);
+                                                   : program.opacity(s, &transmittance, &presence);
         point.shading.uvFootprint = footprint;
         const bool caught = path.fromCamera() && hit.surface->prim->catching.any();
         // What is present emits, whether or not light also passes.
         if (!culled && !caught && presence > 0.0f) addEmission(path, point, hit, presence);
         if (opacity < 1.0f && !(path.sampler.random() < opacity)) {
-            path.throughput *= passes;
-            if (++passed > maxPassThroughs || path.throughput == vec3(0.0f)) break;
-            if (program.passingEnters() && !culled) path.media.cross(program, s);
+            path.throughput *= transmittance;
+            if (++passThroughs > maxPassThroughs || path.throughput == vec3(0.0f)) break;
+            if (program.passThroughEnters() && !culled) path.media.cross(program, s);
             path.origin = s.position + path.direction * std::max(point.offset, 1e-7f);
             path.near = 0.0f;
             continue;
@@ -347,6 +210,18 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
                     beginLight(path, point, draws2Sided, vec3(u.point4(uint32_t(drawn))));
         }
 
+        if (program.disperses() && !caught) {
+            if (!path.waves.alone) {
+                const bool goesOn = disperse(path, point, hit, aovsWritten ? nullptr : &target,
+                                             counters);
+                aovsWritten = true;
+                if (!goesOn || !survivesRoulette(path)) break;
+                path.coneWidth = width;
+                travelled = 0.0f;
+                continue;
+            }
+            point.shading.wavelength = path.waves.nm[0];
+        }
         Bsdf bsdf;
         program.evaluate(s, bsdf);
         if (program.hasSubsurface()) bsdf.walkSubsurface();

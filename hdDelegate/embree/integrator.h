@@ -21,7 +21,7 @@ struct TraceCounters {
 constexpr int maxPassThroughs = 256; ///< surfaces that presence lets one ray through
 
 /// The normal on the side that a surface is seen from.
-inline vec3 seenSide(const ShadingPoint& s) {
+inline vec3 facingNormal(const ShadingPoint& s) {
     return glm::dot(s.viewDirection, s.geometricNormal) < 0.0f ? -s.normal : s.normal;
 }
 
@@ -55,6 +55,7 @@ private:
     void addFeatures(const Path& path, const AovTarget& target) const;
     void trace(Path& path, const AovTarget& target, TraceCounters& counters) const;
     float addLightsAlong(Path& path, float distance) const;
+    vec3 filteredTo(const Path& path, int light, float distance) const;
     void addLight(Path& path, int light, const vec3& radiance, float lightPdf) const;
     void addRadiance(Path& path, const vec3& radiance) const;
     void addEscaped(Path& path) const;
@@ -62,8 +63,8 @@ private:
     /// Begins a light sample for directLight(), before the lobes are known.
     LightDraw beginLight(const Path& path, const SurfacePoint& point, bool twoSided,
                          const vec3& u) const;
-    vec3 directLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf, const Hit& hit,
-                     const LightDraw& draw, TraceCounters& counters) const;
+    vec3 directLight(const Path& path, const SurfacePoint& point, const VertexBsdf& bsdf,
+                     const Hit& hit, const LightDraw& draw, TraceCounters& counters) const;
     /// Light that a medium scatters towards the path, from one light sample.
     vec3 mediumLight(const Path& path, const vec3& position, const sh::PhaseMixture& phase,
                      const vec3& u, TraceCounters& counters) const;
@@ -74,7 +75,13 @@ private:
     vec3 transmittanceTo(const Path& path, float distance) const;
     Flight scatter(Path& path, const Medium& medium, float distance, TraceCounters& counters) const;
     bool survivesRoulette(Path& path) const;
-    void depart(Path& path, const SurfacePoint& point, const Hit& hit, const Bsdf& bsdf,
+    void chooseWavelengths(Path& path, const MaterialProgram& program, ShadingPoint& s) const;
+    /// Takes the path through a vertex of several wavelengths, light samples included.
+    /// @param aovs if given: gets what AOVs show of the point
+    /// @returns false when the path ends
+    bool disperse(Path& path, SurfacePoint& point, const Hit& hit, const AovTarget* aovs,
+                  TraceCounters& counters) const;
+    void depart(Path& path, const SurfacePoint& point, const Hit& hit, const VertexBsdf& bsdf,
                 const BsdfSample& next) const;
     /// What the camera sees of a prim that is a matte or a catcher; the path may go on by
     /// reflection.
@@ -98,7 +105,8 @@ private:
     /// @param incident radiance over density, with its weight and what is left of it
     void announceDirect(const Path& path, const ShadingPoint& s, const LightSample& light,
                         const BsdfEval& f, const vec3& incident) const;
-    void announceScatter(const Path& path, const BsdfSample& next, const Bsdf& bsdf) const;
+    void announceScatter(const Path& path, const BsdfSample& next,
+                         const VertexBsdf& bsdf) const;
     void addShadow(const Path& path, const vec3& value, const LightSample& light,
                    const vec3& radiance, const vec3& seen) const;
     bool linked(int category, const Surface* surface, const std::vector<int>* instance) const;

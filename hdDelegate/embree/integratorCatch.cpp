@@ -25,7 +25,7 @@ float Integrator::shadowed(const Path& path, const SurfacePoint& point, const Hi
     for (uint32_t i = 0; i < candidates; ++i) {
         LightSample light;
         const LightDraw draw = beginLight(path, point, twoSided, vec3(u.point4(i)));
-        if (!_lights.set().sample(draw, s.position, seenSide(s), twoSided, path.time, light) ||
+        if (!_lights.set().sample(draw, s.position, facingNormal(s), twoSided, path.time, light) ||
             !(light.pdf > 0.0f))
             continue;
         const LightInfo& info = _lights.info(light.light);
@@ -35,7 +35,8 @@ float Integrator::shadowed(const Path& path, const SurfacePoint& point, const Hi
                                   ? _lights.triangleRadiance(light, s.position, path.time)
                                   : light.radiance * _lights.set().image(light);
         const float weight =
-            luminance((f.diffuse * info.diffuse + f.specular * info.specular) * radiance) /
+            luminance(
+                glm::abs((f.diffuse * info.diffuse + f.specular * info.specular) * radiance)) /
             light.pdf;
         if (!(weight > 0.0f)) continue;
         sum += weight;

@@ -56,7 +56,8 @@ void Integrator::addShadow(const Path& path, const vec3& value, const LightSampl
         (glm::max(vec3(0.0f), 1.0f - seen) / (path.lightSamples * light.pdf));
 }
 
-void Integrator::announceScatter(const Path& path, const BsdfSample& next, const Bsdf& bsdf) const {
+void Integrator::announceScatter(const Path& path, const BsdfSample& next,
+                                 const VertexBsdf& bsdf) const {
     const EventType type =
         (next.event & sh::LOBE_TRANSMIT) != 0 ? EventType::Transmit : EventType::Reflect;
     const bool singular = (next.event & sh::LOBE_DELTA) != 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hdDelegate/embree/embreeScene.h"
+#include "hdDelegate/embree/heroWavelengths.h"
 #include "hdDelegate/embree/media/mediumStack.h"
 #include "hdDelegate/film/sampler.h"
 
@@ -37,6 +38,7 @@ struct Path {
     const std::vector<int>* vertexInstanceCategories = nullptr;
 
     MediumStack media;
+    HeroWavelengths waves;
 
     // for the denoiser: the first surface that is no mirror
     bool featured = false;

@@ -92,6 +92,9 @@ SceneLights::SceneLights(const SceneState& state, const EmbreeScene& scene, cons
                              "the mesh light has no mesh and gives no light");
             continue;
         }
+        if (!light->filters.empty())
+            diagnostics.warn(light->path, "light:filters",
+                             "light filters are not applied to mesh lights");
         MeshLight meshLight{light, lightBaseRadiance(*light), int(_infos.size())};
         if (light->normalize) {
             const auto where = scene.groupTransforms(surface->prim->group);
@@ -151,7 +154,7 @@ void SceneLights::addSurface(const Surface& surface, const EmbreeScene& scene,
                 // Each side may have a shader of its own.
                 for (const float side : {1.0f, -1.0f}) {
                     computeSurfacePoint(hit, p + n * side, -n * side, 0.0f, point);
-                    brightest = std::max(brightest, luminance(emission(point)));
+                    brightest = std::max(brightest, luminance(glm::abs(emission(point))));
                     if (!glows) break;
                 }
             }

@@ -59,18 +59,18 @@ vec3 Integrator::visibility(const Path& path, const MediumStack& media, const ve
         computeSurfacePoint(hit, origin, direction, 0.0f, point);
         if (linked(light.shadowCategory, hit.surface, hit.instanceCategories)) {
             const MaterialProgram& program = *point.slot->program;
-            vec3 passes(1.0f);
+            vec3 transmittance(1.0f);
             const float opacity =
-                point.slot->opaque ? 1.0f : program.opacity(point.shading, &passes);
-            passes *= 1.0f - opacity;
+                point.slot->opaque ? 1.0f : program.opacity(point.shading, &transmittance);
+            transmittance *= 1.0f - opacity;
             if (light.shadowFalloff > 0.0f && light.shadowDistance > 0.0f) {
                 const float fade = std::clamp(
                     (light.shadowDistance - hit.distance) / light.shadowFalloff, 0.0f, 1.0f);
-                passes = glm::mix(vec3(1.0f), passes,
-                                  std::pow(fade, std::max(light.shadowFalloffGamma, 1e-3f)));
+                transmittance = glm::mix(vec3(1.0f), transmittance,
+                                         std::pow(fade, std::max(light.shadowFalloffGamma, 1e-3f)));
             }
-            through *= passes;
-            if (program.passingEnters()) {
+            through *= transmittance;
+            if (program.passThroughEnters()) {
                 through *= left(here, hit.distance - last);
                 last = hit.distance;
                 here.cross(program, point.shading);

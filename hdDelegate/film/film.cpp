@@ -83,6 +83,7 @@ void Film::reset(int width, int height, const std::vector<AovSpec>& aovs, bool k
     _denoised.clear();
     if (keep && same) return;
     _firstSample = 0;
+    _allowsNegative = false;
 
     size_t pixels = size_t(width) * size_t(height);
     _width = width;
@@ -115,13 +116,14 @@ bool Film::findSpec(const std::string& name, AovSpec& spec) const {
     return true;
 }
 
-bool Film::usable(const glm::vec3& radiance, float alpha) {
-    return isUsable(alpha) && isUsable(radiance.r) && isUsable(radiance.g) && isUsable(radiance.b);
+bool Film::usable(const glm::vec3& radiance, float alpha) const {
+    const glm::vec3 r = _allowsNegative ? glm::abs(radiance) : radiance;
+    return isUsable(alpha) && isUsable(r.r) && isUsable(r.g) && isUsable(r.b);
 }
 
 bool Film::addColor(int x, int y, glm::vec3 radiance, float alpha) {
     Pixel& p = _pixels[index(x, y)];
-    lookAtMean(p);
+    recordMean(p);
     ++p.count;
     const bool goodAlpha = isUsable(alpha);
     const bool good = usable(radiance, alpha);
@@ -148,7 +150,7 @@ Film::Sums Film::Sums::operator+(const Sums& other) const {
 }
 
 /// Before a pixel's next sample: keeps the mean after each power of two.
-void Film::lookAtMean(Pixel& p) {
+void Film::recordMean(Pixel& p) {
     if (!p.count || (p.count & (p.count - 1))) return;
     p.deviationBefore = deviationOfMean(p);
     p.meanBefore = float(luminanceOf(p.total().color) / p.count);
@@ -236,6 +238,7 @@ void Film::copyFrom(const Film& other) {
     _planes = other._planes;
     _denoised = other._denoised;
     _firstSample = other._firstSample;
+    _allowsNegative = other._allowsNegative;
     _dropped.store(other._dropped.load(std::memory_order_relaxed), std::memory_order_relaxed);
     resumeToken = other.resumeToken;
 }

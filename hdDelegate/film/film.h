@@ -64,13 +64,17 @@ public:
     /// Index of the sample that a pixel takes next.
     uint32_t nextSample(int x, int y) const { return _firstSample + pixel(x, y).count; }
 
-    /// Colour and alpha always exist, and come last of a sample's values. Not finite or negative
-    /// samples are counted and dropped as a whole (the sample counts as black); @returns false
-    /// then. The alpha of such a sample is kept when it is a number, so that a dropped sample makes
-    /// no hole.
+    /// After reset(): the scene's lights take light away, so that negative samples are no mistake.
+    void allowNegative(bool allow) { _allowsNegative = allow; }
+    bool allowsNegative() const { return _allowsNegative; }
+
+    /// Colour and alpha always exist, and come last of a sample's values. Samples that are not
+    /// finite, or negative where that is not allowed, are counted and dropped as a whole (the
+    /// sample counts as black); @returns false then. The alpha of such a sample is kept when it is
+    /// a number, so that a dropped sample makes no hole.
     bool addColor(int x, int y, glm::vec3 radiance, float alpha);
     /// @returns whether addColor() takes it
-    static bool usable(const glm::vec3& radiance, float alpha);
+    bool usable(const glm::vec3& radiance, float alpha) const;
     /// Values that are not finite (and not ids) are counted and dropped as a whole.
     /// @param distance of the sample from the pixel's centre, for AovKind::First; of equally near
     ///        samples the earlier one stays
@@ -157,7 +161,7 @@ private:
     size_t index(int x, int y) const { return size_t(y) * size_t(_width) + size_t(x); }
     const Pixel& pixel(int x, int y) const { return _pixels[index(x, y)]; }
     static float deviationOfMean(const Pixel& pixel);
-    static void lookAtMean(Pixel& pixel);
+    static void recordMean(Pixel& pixel);
     void closeSpan(size_t index);
     void drop() { _dropped.fetch_add(1, std::memory_order_relaxed); }
     static Plane clearedPlane(const AovSpec& spec, size_t pixels);
@@ -169,6 +173,7 @@ private:
     std::vector<float> _denoised; ///< what shows instead of the colour's means, or empty
     std::atomic<uint64_t> _dropped{0};
     uint32_t _firstSample = 0;
+    bool _allowsNegative = false;
 };
 
 } // namespace patina

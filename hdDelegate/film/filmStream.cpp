@@ -152,7 +152,7 @@ void FilmStream::appendPixel(Film::Pixel& pixel, const Film::Pixel& part) {
         pixel = part;
         return;
     }
-    Film::lookAtMean(pixel);
+    Film::recordMean(pixel);
     // Of one span: it has ended, or it is open, and zeros are the other's sums.
     pixel.closed = pixel.closed + part.closed;
     pixel.open = part.open;

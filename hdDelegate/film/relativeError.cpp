@@ -40,7 +40,7 @@ double relativeError(const Film& film, int x0, int y0, int x1, int y1, PixelNois
     Grid luminance(x1 - x0, y1 - y0), squares(x1 - x0, y1 - y0);
     for (int y = y0; y < y1; ++y)
         for (int x = x0; x < x1; ++x)
-            luminance.at(x - x0, y - y0) = film.luminance(x, y);
+            luminance.at(x - x0, y - y0) = std::abs(film.luminance(x, y));
     double plain = 0.0; // by the variance of samples that would be independent
     for (int y = y0; y < y1; ++y)
         for (int x = x0; x < x1; ++x) {

@@ -78,6 +78,9 @@ void HdPatinaLight::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     // Hosts mark params dirty for visibility, collections and resources alike.
     if (all || (*dirtyBits & ~HdDirtyBits(DirtyTransform)))
         readLightParams(*delegate, param, id, _type, *light);
+    for (const LightFilter& filter : light->filters) // edits of one reach the light
+        delegate->GetRenderIndex().GetChangeTracker().AddSprimSprimDependency(SdfPath(filter.path),
+                                                                              id);
     if (GetInstancerId().IsEmpty()) {
         param.instances().leave(id);
         light->group.clear();

@@ -10,8 +10,8 @@
 
 namespace patina {
 
-/// Every UsdLux light: shape, colour, shaping, shadow, textures, linking. Portals and light filters
-/// are reported and left out. The camera light that hosts add shines so that a white matte surface
+/// Every UsdLux light: shape, colour, shaping, shadow, textures, linking. Portals are
+/// reported and left out. The camera light that hosts add shines so that a white matte surface
 /// that faces it looks white.
 class HdPatinaLight final : public HdLight {
 public:

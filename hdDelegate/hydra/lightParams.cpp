@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/lightParams.h"
 
+#include "hdDelegate/hydra/lightFilter.h"
 #include "hdDelegate/hydra/values.h"
 
 #include "materialNetwork/color/colorSpaces.h"
@@ -186,9 +187,7 @@ void readLightParams(HdSceneDelegate& delegate, HdPatinaRenderParam& param, cons
 
     readNetwork(delegate, param, id, light);
     readLightGroup(delegate, p, id, light);
-    const VtValue filters = delegate.GetLightParamValue(id, HdTokens->filters);
-    if (filters.IsHolding<SdfPathVector>() && !filters.UncheckedGet<SdfPathVector>().empty())
-        param.warn(id, "light:filters", "light filters are not applied");
+    light.filters = readLightFilters(delegate, param, id);
     const VtValue portals = delegate.GetLightParamValue(id, HdTokens->portals);
     if (portals.IsHolding<SdfPathVector>() && !portals.UncheckedGet<SdfPathVector>().empty())
         param.warn(id, "portals", "are not used; the dome lights everything");

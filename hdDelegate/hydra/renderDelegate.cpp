@@ -8,6 +8,7 @@
 #include "hdDelegate/hydra/implicit.h"
 #include "hdDelegate/hydra/instancer.h"
 #include "hdDelegate/hydra/light.h"
+#include "hdDelegate/hydra/lightFilter.h"
 #include "hdDelegate/hydra/material.h"
 #include "hdDelegate/hydra/mesh.h"
 #include "hdDelegate/hydra/points.h"
@@ -81,7 +82,8 @@ const TfTokenVector& HdPatinaRenderDelegate::GetSupportedSprimTypes() const {
     // They sync in this order.
     static const TfTokenVector types = [] {
         TfTokenVector all = {HdPrimTypeTokens->camera, HdPrimTypeTokens->coordSys,
-                             HdPrimTypeTokens->material, HdPrimTypeTokens->extComputation};
+                             HdPrimTypeTokens->material, HdPrimTypeTokens->extComputation,
+                             HdPrimTypeTokens->lightFilter};
         all.insert(all.end(), lightTypes().begin(), lightTypes().end());
         return all;
     }();
@@ -198,6 +200,7 @@ HdSprim* HdPatinaRenderDelegate::CreateSprim(const TfToken& type, const SdfPath&
     if (type == HdPrimTypeTokens->material) return new HdPatinaMaterial(id);
     if (type == HdPrimTypeTokens->coordSys) return new HdCoordSys(id);
     if (type == HdPrimTypeTokens->extComputation) return new HdExtComputation(id);
+    if (type == HdPrimTypeTokens->lightFilter) return new HdPatinaLightFilter(id);
     if (contains(lightTypes(), type)) return new HdPatinaLight(type, id);
     TF_WARN("%s: prims of type %s are not known", id.GetText(), type.GetText());
     return nullptr;

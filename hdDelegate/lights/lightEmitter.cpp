@@ -35,19 +35,27 @@ vec3 LightEmitter::radiance(const vec3& position, const vec3& direction, float t
     return shaped(pose, direction) * texture(pose.shape, position);
 }
 
-EmitterDraw LightEmitter::begin(const vec3& normal, bool twoSided, const vec2& u,
+EmitterDraw LightEmitter::begin(const vec3& point, const vec3& normal, bool twoSided, const vec2& u,
                                 float time) const {
     EmitterDraw draw;
     draw.u = u;
-    if (!_environment) return draw;
+    if (!_portals.empty()) draw.guided = _portals.sample(point, draw.u, draw.direction);
+    if (!_environment || draw.guided) return draw;
     Pose scratch;
     const Pose& pose = poseAt(time, scratch);
-    draw.sky = _environment->begin(u, normal * pose.domeToWorld, twoSided);
+    draw.sky = _environment->begin(draw.u, normal * pose.domeToWorld, twoSided);
     return draw;
 }
 
 bool LightEmitter::sample(const EmitterDraw& draw, const vec3& point, const vec3& normal,
                           bool twoSided, float time, EmitterSample& out) const {
+    if (!sampleBare(draw, point, normal, twoSided, time, out)) return false;
+    if (!_filters.empty()) out.radiance *= filtered(point, out.direction, out.distance, time);
+    return true;
+}
+
+bool LightEmitter::sampleBare(const EmitterDraw& draw, const vec3& point, const vec3& normal,
+                              bool twoSided, float time, EmitterSample& out) const {
     const vec2& u = draw.u;
     Pose scratch;
     const Pose& pose = poseAt(time, scratch);
@@ -77,7 +85,7 @@ bool LightEmitter::sample(const EmitterDraw& draw, const vec3& point, const vec3
     }
     case Kind::Line: return sampleLine(pose, point, u.x, out);
     case Kind::Distant: return sampleDistant(pose, u, out);
-    case Kind::Dome: return sampleDome(pose, normal, twoSided, draw, out);
+    case Kind::Dome: return sampleDome(pose, point, normal, twoSided, draw, time, out);
     default: return false;
     }
 }
@@ -113,8 +121,26 @@ bool LightEmitter::sampleDistant(const Pose& pose, const vec2& u, EmitterSample&
     return true;
 }
 
-bool LightEmitter::sampleDome(const Pose& pose, const vec3& normal, bool twoSided,
-                              const EmitterDraw& draw, EmitterSample& out) const {
+bool LightEmitter::sampleDome(const Pose& pose, const vec3& point, const vec3& normal,
+                              bool twoSided, const EmitterDraw& draw, float time,
+                              EmitterSample& out) const {
+    if (_portals.empty()) return sampleSky(pose, normal, twoSided, draw, out);
+    if (draw.guided) {
+        out.distance = INFINITY;
+        out.normal = vec3(0.0f);
+        out.radiance = _resolved.radiance;
+        out.direction = draw.direction;
+        out.local = glm::transpose(pose.domeToWorld) * out.direction;
+        out.pdf = skyPdf(pose, normal, twoSided, place(out.direction, time));
+    } else if (!sampleSky(pose, normal, twoSided, draw, out)) {
+        return false;
+    }
+    out.pdf = _portals.pdf(point, out.direction, out.pdf);
+    return out.pdf > 0.0f && std::isfinite(out.pdf);
+}
+
+bool LightEmitter::sampleSky(const Pose& pose, const vec3& normal, bool twoSided,
+                             const EmitterDraw& draw, EmitterSample& out) const {
     out.distance = INFINITY;
     out.normal = vec3(0.0f);
     out.radiance = _resolved.radiance;
@@ -177,7 +203,7 @@ vec3 LightEmitter::environment(const EnvironmentMap::Place& place, float time) c
                : vec3(0.0f);
 }
 
-float LightEmitter::environmentPdf(const vec3& normal, bool twoSided,
+float LightEmitter::environmentPdf(const vec3& point, const vec3& normal, bool twoSided,
                                    const EnvironmentMap::Place& place, float time) const {
     if (_resolved.delta || !atInfinity()) return 0.0f;
     Pose scratch;
@@ -186,6 +212,15 @@ float LightEmitter::environmentPdf(const vec3& normal, bool twoSided,
         return shLights::distantHit(pose.toLight, _resolved.versine, place.direction)
                    ? shLights::distantPdf(_resolved.versine)
                    : 0.0f;
+    const float own = skyPdf(pose, normal, twoSided, place);
+    if (_portals.empty()) return own;
+    // Of an image the place is in its own frame.
+    const vec3 world = _environment ? pose.domeToWorld * place.direction : place.direction;
+    return _portals.pdf(point, world, own);
+}
+
+float LightEmitter::skyPdf(const Pose& pose, const vec3& normal, bool twoSided,
+                           const EnvironmentMap::Place& place) const {
     if (_environment) return _environment->pdf(place, normal * pose.domeToWorld, twoSided);
     if (normal == vec3(0.0f)) return 0.25f / pi;
     const float cosine = glm::dot(normal, place.direction);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/lights/domePortals.h"
 #include "hdDelegate/lights/environmentMap.h"
+#include "hdDelegate/lights/lightFilters.h"
 #include "hdDelegate/lights/lightTree.h"
 #include "hdDelegate/lights/resolvedLight.h"
 
@@ -23,6 +25,8 @@ struct EmitterSample {
 struct EmitterDraw {
     vec2 u{0.0f};
     SkyDistribution::Draw sky;
+    bool guided = false; ///< by a portal, in this direction
+    vec3 direction{0.0f};
 };
 
 /// One light made ready for sampling. Area lights sample points on their shape; points, lines and
@@ -48,10 +52,15 @@ public:
     /// Samples are taken in three steps, because an image around the scene is larger than caches:
     /// what one step will read is asked for by the step before.
     /// @param normal,twoSided as of LightSet::sample(); constant domes sample by the cosine
-    EmitterDraw begin(const vec3& normal, bool twoSided, const vec2& u, float time) const;
-    /// Goes on with the same normal, side and time. The radiance is without image().
+    EmitterDraw begin(const vec3& point, const vec3& normal, bool twoSided, const vec2& u,
+                      float time) const;
+    /// Goes on with the same normal, side and time. The radiance is filtered, and without image().
     bool sample(const EmitterDraw& draw, const vec3& point, const vec3& normal, bool twoSided,
                 float time, EmitterSample& out) const;
+    /// What is left of the light on its way to a point, by its filters.
+    vec3 filtered(const vec3& point, const vec3& direction, float distance, float time) const {
+        return _filters.empty() ? vec3(1.0f) : _filters.factor(point, direction, distance, time);
+    }
     /// The factor of the image around the scene in the radiance of a sample.
     vec3 image(const vec3& local) const {
         return _environment ? _environment->radiance(local) : vec3(1.0f);
@@ -67,8 +76,8 @@ public:
     /// image.
     EnvironmentMap::Place place(const vec3& direction, float time) const;
     vec3 environment(const EnvironmentMap::Place& place, float time) const;
-    float environmentPdf(const vec3& normal, bool twoSided, const EnvironmentMap::Place& place,
-                         float time) const;
+    float environmentPdf(const vec3& point, const vec3& normal, bool twoSided,
+                         const EnvironmentMap::Place& place, float time) const;
     /// Estimate of the irradiance on a plane that faces the light; lights at infinity only.
     float irradiance() const { return _irradiance; }
     /// False when all of a light at infinity is behind a surface that does not transmit.
@@ -83,10 +92,17 @@ private:
     Pose makePose(const mat4& toWorld) const;
     const Pose& poseAt(float time, Pose& scratch) const;
     bool setUpDome(LightImages& images);
+    void addPortals(float time, Diagnostics& diagnostics);
+    bool sampleBare(const EmitterDraw& draw, const vec3& point, const vec3& normal, bool twoSided,
+                    float time, EmitterSample& out) const;
     bool sampleLine(const Pose& pose, const vec3& point, float u, EmitterSample& out) const;
     bool sampleDistant(const Pose& pose, const vec2& u, EmitterSample& out) const;
-    bool sampleDome(const Pose& pose, const vec3& normal, bool twoSided, const EmitterDraw& draw,
-                    EmitterSample& out) const;
+    bool sampleDome(const Pose& pose, const vec3& point, const vec3& normal, bool twoSided,
+                    const EmitterDraw& draw, float time, EmitterSample& out) const;
+    bool sampleSky(const Pose& pose, const vec3& normal, bool twoSided, const EmitterDraw& draw,
+                   EmitterSample& out) const;
+    float skyPdf(const Pose& pose, const vec3& normal, bool twoSided,
+                 const EnvironmentMap::Place& place) const;
     vec3 texture(const AreaShape& shape, const vec3& position) const;
     vec3 shaped(const Pose& pose, const vec3& direction) const;
 
@@ -102,6 +118,8 @@ private:
     std::shared_ptr<const ImageRGB> _texture;
     std::shared_ptr<const EnvironmentMap> _environment;
     std::shared_ptr<const IesProfile> _profile;
+    LightFilters _filters;
+    DomePortals _portals;
 };
 
 } // namespace patina

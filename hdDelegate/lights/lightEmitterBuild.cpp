@@ -42,10 +42,11 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const d
         Light like = light;
         like.angle = std::min(light.angle, 180.0f);
         const mat4 toWorld = toWorldAt(shutterOpen);
-        _irradiance = luminance(_resolved.radiance) *
-                      float(_resolved.delta ? 1.0 : lightSizeFactor(like, toWorld));
+        _irradiance =
+            _resolved.power() * float(_resolved.delta ? 1.0 : lightSizeFactor(like, toWorld));
     }
     _profile = lightProfile(light, diagnostics);
+    _filters = LightFilters(light, groupToWorld, origin, shutterOpen, images, diagnostics);
     const bool usesTexture = !light.textureFile.empty();
     if (_resolved.kind == Kind::Dome && !setUpDome(images)) _resolved.kind = Kind::None;
     if (_resolved.kind == Kind::Area && light.type == LightType::Rect && usesTexture) {
@@ -56,7 +57,7 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const d
             sum += glm::dvec3(pixel);
         const vec3 mean(sum / double(_texture->pixels.size()));
         _meanTexture =
-            luminance(mean * _resolved.radiance) / std::max(luminance(_resolved.radiance), 1e-30f);
+            luminance(mean * glm::abs(_resolved.radiance)) / std::max(_resolved.power(), 1e-30f);
     }
     _pose = makePose(toWorldAt(shutterOpen));
     for (size_t i = 1; i < _times.size(); ++i)
@@ -65,21 +66,40 @@ LightEmitter::LightEmitter(const Light& light, const mat4& groupToWorld, const d
                  "the light has no size or is flattened to nothing; it is off");
             _resolved.kind = Kind::None;
         }
-    const bool anything =
-        luminance(_resolved.radiance) * _meanTexture * _pose.shaping.level() > 0.0f;
+    if (_resolved.kind == Kind::Dome) addPortals(shutterOpen, diagnostics);
+    const bool anything = _resolved.power() * _meanTexture * _pose.shaping.level() > 0.0f;
     if (!anything) _resolved.kind = Kind::None;
 }
 
 bool LightEmitter::setUpDome(LightImages& images) {
     if (_light.textureFile.empty()) {
-        _irradiance = pi * luminance(_resolved.radiance);
+        _irradiance = pi * _resolved.power();
         return true;
     }
     _environment = images.environment(_light.textureFile, _light.textureColorSpace,
                                       environmentFormat(_light.textureFormat), _light.path,
                                       "inputs:texture:file");
-    _irradiance = pi * luminance(_resolved.radiance * _environment->mean());
+    _irradiance = pi * luminance(glm::abs(_resolved.radiance) * _environment->mean());
     return !_environment->black();
+}
+
+/// Where they are when the shutter opens: they guide samples alone.
+void LightEmitter::addPortals(float time, Diagnostics& diagnostics) {
+    const mat3 toDome = glm::transpose(_pose.domeToWorld);
+    for (const LightPortal& portal : _light.portals) {
+        DomePortal made(_group * transformAt(portal.transform, time, _origin), portal.width,
+                        portal.height, [&](const vec3& direction) {
+                            return _environment
+                                       ? luminance(_environment->radiance(toDome * direction))
+                                       : 1.0f;
+                        });
+        if (made.valid())
+            _portals.add(std::move(made));
+        else
+            diagnostics.warn(_light.path, "portals",
+                             portal.path +
+                                 " has no size or shows nothing of the sky; it is left out");
+    }
 }
 
 LightEmitter::Pose LightEmitter::makePose(const mat4& toWorld) const {
@@ -115,8 +135,8 @@ LightTreeLeaf LightEmitter::leaf(int id) const {
                                ? (_resolved.kind == Kind::Line ? glm::length(pose.along) : 1.0f)
                            : round ? 0.25f * pose.shape.area
                                    : pose.shape.area;
-        leaf.intensity = std::max(leaf.intensity, luminance(_resolved.radiance) * _meanTexture *
-                                                      area * pose.shaping.level());
+        leaf.intensity = std::max(leaf.intensity,
+                                  _resolved.power() * _meanTexture * area * pose.shaping.level());
     }
     leaf.axis = cone.axis;
     leaf.spread = cone.spread;

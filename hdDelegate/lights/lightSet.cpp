@@ -96,7 +96,7 @@ LightDraw LightSet::begin(const vec3& point, const vec3& normal, bool twoSided, 
     draw.light = light;
     draw.selection = selection;
     if (light < _lightCount)
-        draw.emitter = _emitters[light].begin(normal, twoSided, vec2(u), time);
+        draw.emitter = _emitters[light].begin(point, normal, twoSided, vec2(u), time);
     else
         draw.emitter.u = vec2(u);
     return draw;
@@ -197,7 +197,7 @@ float LightSet::pdf(int light, const vec3& point, const vec3& normal, bool twoSi
 float LightSet::pdfInfinite(int light, const vec3& point, const vec3& normal, bool twoSided,
                             const EnvironmentMap::Place& place, float time) const {
     if (light < 0 || light >= _lightCount) return 0.0f;
-    const float p = _emitters[light].environmentPdf(normal, twoSided, place, time);
+    const float p = _emitters[light].environmentPdf(point, normal, twoSided, place, time);
     return p > 0.0f ? p * selectionProbability(light, point, normal, twoSided) : 0.0f;
 }
 

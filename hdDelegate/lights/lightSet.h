@@ -103,6 +103,15 @@ public:
                                    : vec3(1.0f);
     }
 
+    /// What the filters of a light leave of it, which intersect() and environment() do not know of.
+    /// @param distance infinite for lights at infinity
+    vec3 filtered(int light, const vec3& point, const vec3& direction, float distance,
+                  float time) const {
+        return light < _lightCount
+                   ? _emitters[size_t(light)].filtered(point, direction, distance, time)
+                   : vec3(1.0f);
+    }
+
     /// Area lights between `near` and `far` that shine towards the ray's origin, in no order.
     /// @returns how many; of more than maxHits the nearest ones
     int intersect(const vec3& origin, const vec3& direction, float near, float far, float time,

@@ -2,6 +2,8 @@
 #include "hdDelegate/lights/resolvedLight.h"
 
 #include "hdDelegate/scene/lightUnits.h"
+#include "hdDelegate/scene/scene.h"
+#include "hdDelegate/scene/settings.h"
 #include "materialNetwork/diagnostics.h"
 #include "materialNetwork/maths.h"
 
@@ -109,10 +111,6 @@ ResolvedLight resolveLight(const Light& light, const mat4& toWorld, Diagnostics&
     if (base == vec3(0.0f)) return {};
     ResolvedLight r = kindOf(light, toWorld, diagnostics);
     if (r.kind == Kind::None) return r;
-    const vec3 signedRadiance = r.radiance;
-    r.radiance = glm::max(r.radiance, vec3(0.0f));
-    if (r.radiance != signedRadiance)
-        warn("inputs:intensity", "negative light is not supported and counts as zero");
     if (r.kind == Kind::Area && !makeAreaShape(light, toWorld).valid) {
         diagnostics.warn(light.path, lightSizeInput(light),
                          "the light has no size or is flattened to nothing; it is off");
@@ -120,6 +118,19 @@ ResolvedLight resolveLight(const Light& light, const mat4& toWorld, Diagnostics&
     }
     if (r.radiance == vec3(0.0f) || !isFinite(r.radiance)) return {};
     return r;
+}
+
+float ResolvedLight::power() const {
+    return luminance(glm::abs(radiance));
+}
+
+bool takesLightAway(const SceneState& state, const RenderSettings& settings) {
+    if (!settings.enableSceneLights) return false;
+    for (const auto& item : state.lights) {
+        const vec3 base = lightBaseRadiance(*item.second);
+        if (item.second->visible && std::min({base.x, base.y, base.z}) < 0.0f) return true;
+    }
+    return false;
 }
 
 LightPose lightPose(const Light& light, Kind kind, const mat4& toWorld,

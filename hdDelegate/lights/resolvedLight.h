@@ -7,6 +7,8 @@
 namespace patina {
 
 class Diagnostics;
+struct SceneState;
+struct RenderSettings;
 
 bool isFinite(const vec3& v);
 bool isFinite(const mat4& m);
@@ -21,15 +23,22 @@ struct ResolvedLight {
     /// A direction or a place of no extent, which no ray can hit.
     bool delta = false;
     /// Of points the intensity, of lines the intensity across per length, of distant lights of
-    /// angle 0 the irradiance on a plane that faces them. Never negative.
+    /// angle 0 the irradiance on a plane that faces them. Negative of lights that take light away.
     vec3 radiance{0.0f};
     /// Of distant lights: half the angle, and 1 - cos of it without cancellation.
     float halfAngle = 0.0f, versine = 0.0f;
+
+    /// Luminance without the sign, by which lights are chosen: what takes light away counts by how
+    /// much.
+    float power() const;
 };
 
 /// @returns kind None for a light that gives no light; reasons that look like mistakes are warned
 /// of
 ResolvedLight resolveLight(const Light& light, const mat4& toWorld, Diagnostics& diagnostics);
+
+/// Whether some light that is on has a channel below zero, so that pixels may be negative.
+bool takesLightAway(const SceneState& state, const RenderSettings& settings);
 
 /// Where a light is at one time, by what it is treated as.
 struct LightPose {

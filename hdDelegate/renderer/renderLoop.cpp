@@ -104,7 +104,7 @@ void RenderLoop::notify() {
     _lastNotified = Clock::now();
 }
 
-/// The listener hears the end before progress() tells it.
+/// The listener is notified of the end before progress() tells it.
 void RenderLoop::finish(const std::string& failure, bool temporary) {
     RenderProgress last = progress();
     if (!failure.empty()) {

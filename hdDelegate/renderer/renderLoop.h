@@ -68,7 +68,7 @@ protected:
     }
     /// Of the samples: fraction, times and the estimate that follows from both.
     void reportFraction(RenderProgress& progress, double fraction, int samplesDone) const;
-    /// The listener hears of the film, unless it did just now.
+    /// Notifies the listener of the film, unless it did just now.
     void notify();
     double secondsSinceStart() const { return secondsSince(_started); }
 

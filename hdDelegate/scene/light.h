@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/scene/lightFilter.h"
+#include "hdDelegate/scene/lightPortal.h"
 #include "hdDelegate/scene/types.h"
 
 namespace patina {
@@ -80,6 +82,9 @@ struct Light {
     // linking: empty lights (or shadows) everything; else a name found in Geometry::categories
     std::string lightLink;
     std::string shadowLink;
+
+    std::vector<LightFilter> filters; ///< in their order; they multiply
+    std::vector<LightPortal> portals; ///< dome
 
     std::string lightGroup; ///< its label in light path expressions; empty: none
 

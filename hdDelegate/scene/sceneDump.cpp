@@ -233,6 +233,37 @@ void writeVector(Writer& w, const char* name, const vec3& v, const vec3& fallbac
     if (v != fallback) w.array(name, &v.x, 3);
 }
 
+void writeInput(Writer& w, const std::string& name, float v, float d) {
+    w.field(name.c_str(), v, d);
+}
+void writeInput(Writer& w, const std::string& name, bool v, bool d) {
+    w.field(name.c_str(), v, d);
+}
+void writeInput(Writer& w, const std::string& name, const std::string& v, const std::string& d) {
+    w.field(name.c_str(), v, d);
+}
+void writeInput(Writer& w, const std::string& name, const vec3& v, const vec3& d) {
+    writeVector(w, name.c_str(), v, d);
+}
+void writeInput(Writer& w, const std::string& name, const std::vector<float>& v,
+                const std::vector<float>&) {
+    w.array(name, v);
+}
+void writeInput(Writer& w, const std::string& name, const std::vector<vec3>& v,
+                const std::vector<vec3>&) {
+    if (!v.empty()) w.array(name, &v[0].x, 3 * v.size(), 3);
+}
+
+void writeFilter(Writer& w, const LightFilter& f) {
+    const LightFilter d;
+    w.line("filter", f.path);
+    w.line("filter.type", lightFilterRows[int(f.type)].word);
+    w.transform("filter.transform", f.transform);
+#define PATINA_FILTER_INPUT(type, field_, names, fallback, description)                            \
+    writeInput(w, "filter." #field_, f.field_, d.field_);
+#include "hdDelegate/scene/lightFilterInputs.inc"
+}
+
 void writeLight(Writer& w, const Light& l) {
     const Light d;
     w.prim("Light", l.path);
@@ -270,6 +301,14 @@ void writeLight(Writer& w, const Light& l) {
     w.field("shadowFalloffGamma", l.shadowFalloffGamma, d.shadowFalloffGamma);
     w.field("lightLink", l.lightLink, d.lightLink);
     w.field("shadowLink", l.shadowLink, d.shadowLink);
+    for (const LightFilter& filter : l.filters)
+        writeFilter(w, filter);
+    for (const LightPortal& portal : l.portals) {
+        w.line("portal", portal.path);
+        w.transform("portal.transform", portal.transform);
+        w.field("portal.width", portal.width, 1.0f);
+        w.field("portal.height", portal.height, 1.0f);
+    }
     w.field("lightGroup", l.lightGroup, d.lightGroup);
     w.field("geometry", l.geometry, d.geometry);
     w.field("materialSyncMode", l.materialSyncMode, d.materialSyncMode);

@@ -116,6 +116,12 @@ public:
     /// @returns density of eval()
     float density(const glm::vec3& wi) const { return evalLobes(wi, Lobes::None).pdf; }
 
+    /// @param drawn a sample with LOBE_DELTA, of lobes like these
+    /// @param u that it was drawn with
+    /// @returns value and probability of all mirrors and smooth interfaces that send light exactly
+    /// the same way, in the measure of such a sample: the weight of one is value / pdf
+    BsdfEval evalDelta(const BsdfSample& drawn, const glm::vec3& u) const;
+
     /// @returns how the light that comes from `sample` counts: eval() of the lobes in its weight
     BsdfEval evalDrawn(const BsdfSample& sample) const;
 

@@ -51,7 +51,7 @@ MaterialProgram::make(const MaterialIr& ir, const MethodSet& methods, MethodPlan
         new MaterialProgram(bindMethods(ir, methods), std::move(planned)));
 }
 
-float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* passes,
+float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* transmittance,
                                float* presence) const {
     float x;
     if (_code->opacityCode.empty()) {
@@ -62,7 +62,7 @@ float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* passes,
         x = registers.data()[_code->opacity].x;
     }
     x = sh::unit(x);
-    if (passes) *passes = glm::vec3(1.0f);
+    if (transmittance) *transmittance = glm::vec3(1.0f);
     if (presence) *presence = x;
     if (!_code->hasPassThrough || x == 0.0f) return x;
     glm::vec3 passThrough;
@@ -75,7 +75,7 @@ float MaterialProgram::opacity(const ShadingPoint& point, glm::vec3* passes,
     }
     glm::vec3 color;
     x = sh::presenceOf(x, passThrough, color);
-    if (passes) *passes = color;
+    if (transmittance) *transmittance = color;
     return x;
 }
 

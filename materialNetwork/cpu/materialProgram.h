@@ -21,9 +21,8 @@ struct ProgramCode;
 class MaterialProgram {
 public:
     /// @param ir as compileIr() makes it; its textures must outlive the program
-    static std::shared_ptr<const MaterialProgram> make(const MaterialIr& ir,
-                                                       const MethodSet& methods,
-                                                       MethodPlan planned = {});
+    static std::shared_ptr<const MaterialProgram>
+    make(const MaterialIr& ir, const MethodSet& methods, MethodPlan planned = {});
     ~MaterialProgram();
 
     /// Primvars in the order of their slots (PrimvarReader::read).
@@ -36,17 +35,26 @@ public:
     /// Has a hair lobe, which stands for a whole fibre: what it lets through leaves on the far
     /// side.
     bool isFibre() const { return _facts.isFibre; }
-    bool hasTransmission() const { return _facts.hasTransmission; } ///< a lobe may send light through
-    bool hasInterior() const { return _facts.hasInterior; }         ///< a medium fills closed objects
+    bool hasTransmission() const {
+        return _facts.hasTransmission;
+    }                                                       ///< a lobe may send light through
+    bool hasInterior() const { return _facts.hasInterior; } ///< a medium fills closed objects
     /// There is no surface: rays go on past the boundary, and only the medium is seen.
     bool isVolumeOnly() const { return _facts.isVolumeOnly; }
     /// Rays that presence lets pass are inside the object afterwards: its boundary is there, but
     /// bends nothing.
-    bool passingEnters() const { return _facts.hasInterior && _facts.passingEnters; }
+    bool passThroughEnters() const { return _facts.hasInterior && _facts.passThroughEnters; }
     bool hasSubsurface() const { return _facts.hasSubsurface; }
     bool hasDisplacement() const { return _facts.hasDisplacement; }
-    bool usesUv() const { return _facts.usesUv; }   ///< reads texture coordinates
-    bool jitters() const { return _facts.jitters; } ///< blurs, with taps that ShadingPoint::seed moves
+    bool usesUv() const { return _facts.usesUv; } ///< reads texture coordinates
+    bool jitters() const {
+        return _facts.jitters;
+    } ///< blurs, with taps that ShadingPoint::seed moves
+
+    /// Its lobes are others for each ShadingPoint::wavelength, and some let light through.
+    bool disperses() const { return _facts.disperses; }
+    /// Where it disperses, a path takes several wavelengths along.
+    bool hasHeroWavelengths() const { return _facts.heroWavelengths; }
 
     /// @returns isOpaque() for a prim that lacks some primvars
     /// @param attributes per slot of primvars(): negative when the prim has no such primvar
@@ -55,9 +63,9 @@ public:
     /// Presence of the surface, 0..1: the chance that a ray meets it at all, instead of passing
     /// straight on. What lobes would pass straight on is part of this and not of the Bsdf, so that
     /// shadow rays see through them; it then depends on viewDirection.
-    /// @param passes if given: colour of the light that passes, divided by 1 - opacity
+    /// @param transmittance if given: colour of the light that passes, divided by 1 - opacity
     /// @param presence if given: the part that is not absent; it emits, even where light passes
-    float opacity(const ShadingPoint& point, glm::vec3* passes = nullptr,
+    float opacity(const ShadingPoint& point, glm::vec3* transmittance = nullptr,
                   float* presence = nullptr) const;
 
     /// Radiance emitted towards wo (world space, unit), where the surface is present. Both sides

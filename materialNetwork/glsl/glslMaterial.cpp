@@ -47,6 +47,9 @@ public:
         line("vec3 passThrough;");
         for (const std::string& walks : glslWalksLeftOut(_code))
             _out.leftOut.push_back(walks);
+        if (_facts.disperses)
+            _out.leftOut.push_back("chromatic dispersion is the path tracer's alone: all light bends "
+                                   "as that of the d line");
         instantiateFunction();
         setupFunction();
         presenceFunction();

@@ -151,6 +151,13 @@ bool rewritePattern(const Graph&, const GraphNode& node, Operand& out) {
     case Algebra::Switch: return rewriteSwitch(node, out);
     case Algebra::Rotate: return isConstantValue(in[1], 0.0f) && take(node, in[0], out);
     case Algebra::NormalMap: return rewriteNormalMap(node, out);
+    case Algebra::Disperse: {
+        const auto none = [](const Operand& x) {
+            float value;
+            return constantNumber(x, value) && !(value > 0.0f);
+        };
+        return (none(in[1]) || none(in[2])) && take(node, in[0], out);
+    }
     case Algebra::IsUniform: out = constantOf(type, in[0].isConstant() ? 1.0f : 0.0f); return true;
     }
     return false;

@@ -30,8 +30,7 @@ public:
 
     void run() {
         _ir.layerTransmittance = _methods.get<method::LayerTransmittance>();
-        _ir.slabsHaveTwoFaces =
-            _methods.get<method::ThinWalled>() != method::ThinWalled::Sheet;
+        _ir.slabsHaveTwoFaces = _methods.get<method::ThinWalled>() != method::ThinWalled::Sheet;
         bool changed = false;
         for (LobeTemplate& t : _ir.lobes)
             changed |= bindLobe(t);
@@ -51,12 +50,10 @@ private:
         const bool flat = t.kind == LobeKind::Subsurface &&
                           _methods.get<method::Subsurface>() == method::Subsurface::Diffuse;
         if (flat) makeDiffuse(t);
-        const std::vector<std::string>& names = lobeParameters(t.filmDielectric
-                                                                   ? LobeKind::Dielectric
-                                                                   : t.kind);
-        t.constant = std::all_of(t.parameters, t.parameters + names.size(), [&](Register r) {
-            return size_t(r) < _ir.constants.size();
-        });
+        const std::vector<std::string>& names =
+            lobeParameters(t.filmDielectric ? LobeKind::Dielectric : t.kind);
+        t.constant = std::all_of(t.parameters, t.parameters + names.size(),
+                                 [&](Register r) { return size_t(r) < _ir.constants.size(); });
         return flat;
     }
 
@@ -141,16 +138,21 @@ private:
         f.constant = _ir.surfaceCode.empty();
         f.hasEmission = !_ir.edf.empty();
         f.isOpaque = !_ir.hasPassThrough && _ir.opacityIsOne;
-        f.passingEnters = f.isVolumeOnly;
+        f.passThroughEnters = f.isVolumeOnly;
         for (const LobeTemplate& t : _ir.lobes) {
             f.hasTransmission |= lobeHas(t.kind, lobe::Transmits) ||
                                  (!t.passThrough && (t.mode & sh::SCATTER_T) != 0);
             f.isFibre |= lobeHas(t.kind, lobe::Fibre);
             f.hasSubsurface |= t.kind == LobeKind::Subsurface;
-            f.passingEnters |= t.passThrough && !t.thin;
+            f.passThroughEnters |= t.passThrough && !t.thin;
         }
+        f.disperses = _methods.get<method::Dispersion>() != method::Dispersion::None &&
+                      f.hasTransmission &&
+                      std::any_of(_ir.surfaceCode.begin(), _ir.surfaceCode.end(),
+                                  [](const Instruction& i) { return i.pattern->spectral; });
+        f.heroWavelengths = _methods.get<method::Dispersion>() == method::Dispersion::Hero;
         f.hasInterior = (!_ir.vdf.empty() || !_ir.volumeEdf.empty()) && !f.isThinWalled &&
-                        (f.hasTransmission || f.passingEnters);
+                        (f.hasTransmission || f.passThroughEnters);
     }
 
     MaterialIr& _ir;

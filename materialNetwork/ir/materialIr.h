@@ -98,8 +98,10 @@ struct MaterialFacts {
     std::vector<MaterialPrimvar> primvars;
     bool constant = false, hasEmission = false, isOpaque = true, isThinWalled = false;
     bool hasTransmission = false, isFibre = false, hasInterior = false, isVolumeOnly = false;
-    bool hasSubsurface = false, hasDisplacement = false, passingEnters = false;
+    bool hasSubsurface = false, hasDisplacement = false, passThroughEnters = false;
     bool usesUv = false, jitters = false;
+    bool disperses = false;       ///< what it lets through bends by its wavelength
+    bool heroWavelengths = false; ///< of which a path carries several at once
 };
 
 /// A compiled material that knows no back end: patterns as instructions over registers of four

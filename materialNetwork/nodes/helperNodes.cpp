@@ -41,6 +41,11 @@ constexpr Pattern blackbody = pattern("vec4(patternBlackbody($0.x), 0.0)", [](Ca
     c.out() = vec4(sh::patternBlackbody(c.x(0)), 0.0f);
 });
 
+constexpr Pattern dispersedIor =
+    spectralPattern("vec4(patternDispersedIor($0.x, $1.x, $2.x, 0.0))", [](Call c) {
+        c.out() = vec4(sh::patternDispersedIor(c.x(0), c.x(1), c.x(2), c.point().wavelength));
+    });
+
 /// Reached at run time only by an input that varies.
 constexpr Pattern isUniform = rarePattern("vec4(0.0)", [](Call c) { c.out() = vec4(0.0f); });
 
@@ -54,6 +59,9 @@ const NodeRow rows[] = {
      "color3 reflectivity=0.944 0.776 0.373, color3 edge_color=0.998 0.981 0.751",
      "color3 ior, color3 extinction", artisticIor},
     {"ND_blackbody", "blackbody", "float temperature=5000", "color3", blackbody},
+    {"ND_patina_dispersed_ior", "patina_dispersed_ior",
+     "float ior=1.5, float abbe_number=0, float scale=1", "float", dispersedIor, Algebra::Disperse,
+     nullptr, nullptr, true},
     {"ND_isuniform_$", "isuniform", "$ in=0", "float", isUniform, Algebra::IsUniform,
      "float color3"},
 };

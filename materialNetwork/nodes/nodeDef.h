@@ -79,6 +79,7 @@ enum class Algebra {
     Switch,    ///< (in1.., which)
     Rotate,    ///< (in, amount...) by nothing
     NormalMap, ///< (in, scale, normal...) with a neutral colour
+    Disperse,  ///< (ior, abbe number, scale): at number or scale 0 the ior
     IsUniform  ///< 1 when the input is the same everywhere, else 0
 };
 

@@ -63,10 +63,15 @@ struct Pattern {
     const char* glsl = nullptr;
     const char* glslWithout = nullptr; ///< in place of `glsl` where there is no texture
     bool rare = false;                 ///< the text needs shaders/raster/moreNodes.glsl
+    bool spectral = false;             ///< reads ShadingPoint::wavelength
 };
 
 constexpr Pattern pattern(const char* glsl, PatternFunction function) {
     return {function, glsl, nullptr, false};
+}
+/// That has other values for each wavelength; the text is that for no one wavelength.
+constexpr Pattern spectralPattern(const char* glsl, PatternFunction function) {
+    return {function, glsl, nullptr, false, true};
 }
 constexpr Pattern pattern(const char* glsl, const char* without, PatternFunction function) {
     return {function, glsl, without, false};

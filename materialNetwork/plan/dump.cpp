@@ -107,7 +107,8 @@ private:
         const GraphNode& node = _plan.graph.nodes[size_t(c.node)];
         std::string text = title;
         if (_lobe[size_t(i)] >= 0) text += " " + std::to_string(_lobe[size_t(i)]);
-        text += ": " + nodeText(_plan.graph, node) + (c.sharedInterface ? " fused" : "") +
+        text += ": " + nodeText(_plan.graph, node) +
+                (c.sharedInterface ? " shared interface" : "") +
                 (c.thin && !_plan.thinWalled ? " thin walled" : "");
         return text + " * " + weight + "\n";
     }

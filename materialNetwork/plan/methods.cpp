@@ -8,15 +8,36 @@ const std::vector<ChoicePoint>& choicePoints() {
 #define PATINA_CHOICE(Type, name, truth, matters) {name, truth, {
 #define PATINA_METHOD(Type, Id, name, description) {name, description, false},
 #define PATINA_WALK(Type, Id, name, description) {name, description, true},
-#define PATINA_CHOICE_END(Type) }},
+#define PATINA_CHOICE_END(Type)                                                                    \
+    }                                                                                              \
+    }                                                                                              \
+    ,
 #include "materialNetwork/plan/choicePoints.inc"
     };
     return points;
 }
 
+namespace {
+
+struct MethodAlias {
+    Choice point;
+    size_t place; ///< of the method
+    const char* name;
+};
+
+constexpr MethodAlias methodAliases[] = {
+#define PATINA_METHOD_ALIAS(Type, Id, name) {Choice::Type, size_t(method::Type::Id), name},
+#include "materialNetwork/plan/choicePoints.inc"
+};
+
+} // namespace
+
 const Method* ChoicePoint::find(const std::string& method) const {
     for (const Method& m : methods)
         if (m.name == method) return &m;
+    for (const MethodAlias& alias : methodAliases)
+        if (choicePoints()[size_t(alias.point)].name == name && alias.name == method)
+            return &methods[alias.place];
     return nullptr;
 }
 
@@ -34,9 +55,10 @@ MethodSet::MethodSet(const MethodChoices& choices) {
 
 std::string chosenMethod(const MethodChoices& choices, const std::string& point) {
     const auto found = choices.find(point);
-    if (found != choices.end()) return found->second;
     const ChoicePoint* known = findChoicePoint(point);
-    return known ? known->methods.front().name : "";
+    if (found == choices.end()) return known ? known->methods.front().name : "";
+    const Method* method = known ? known->find(found->second) : nullptr;
+    return method ? method->name : found->second;
 }
 
 std::string truthMethod(const std::string& point) {
@@ -61,8 +83,8 @@ std::string checkMethods(const MethodChoices& choices) {
     for (const auto& item : choices) {
         const ChoicePoint* point = findChoicePoint(item.first);
         if (!point)
-            return "there is no choice point '" + item.first + "' (there are: " +
-                   listed(choicePoints()) + ")";
+            return "there is no choice point '" + item.first +
+                   "' (there are: " + listed(choicePoints()) + ")";
         if (!point->find(item.second))
             return "the choice point '" + item.first + "' has no method '" + item.second +
                    "' (it has: " + listed(point->methods) + ")";

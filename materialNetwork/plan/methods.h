@@ -20,7 +20,9 @@ enum class Choice : uint8_t {
 namespace method {
 #define PATINA_CHOICE(Type, name, truth, matters) enum class Type : uint8_t {
 #define PATINA_METHOD(Type, Id, name, description) Id,
-#define PATINA_CHOICE_END(Type) };
+#define PATINA_CHOICE_END(Type)                                                                    \
+    }                                                                                              \
+    ;
 #include "materialNetwork/plan/choicePoints.inc"
 } // namespace method
 
@@ -46,7 +48,7 @@ struct ChoicePoint {
                        ///< depends on the object. The planner only looks for less noise there.
     std::vector<Method> methods;
 
-    /// @returns the method of a name; null when there is none
+    /// @returns the method of a name, or of one that it had before; null when there is none
     const Method* find(const std::string& method) const;
 };
 

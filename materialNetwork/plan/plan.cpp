@@ -18,8 +18,10 @@ public:
     Planner(Plan& plan, Diagnostics& diagnostics) : _plan(plan), _diagnostics(diagnostics) {}
 
     void run() {
-        _sharesInterfaces = _plan.methods["reflectionOverTransmission"] == "fused";
-        _thinSlabs = _plan.methods["thinWalled"] != "solid";
+        const MethodSet methods(_plan.methods);
+        _sharesInterfaces = methods.get<method::ReflectionOverTransmission>() ==
+                            method::ReflectionOverTransmission::SharedInterface;
+        _thinSlabs = methods.get<method::ThinWalled>() != method::ThinWalled::Solid;
         _plan.opacity.value = Value::makeFloat(1.0f);
         const auto surface = _plan.graph.terminals.find("surface");
         if (surface != _plan.graph.terminals.end()) planSurface(surface->second, "surface");
@@ -299,7 +301,7 @@ Plan makePlan(Graph graph, std::vector<std::string> cuts, Diagnostics& diagnosti
     for (const ChoicePoint& point : choicePoints())
         plan.methods[point.name] = chosenMethod(methods, point.name);
     Planner(plan, diagnostics).run();
-    if (plan.methods["layering"] == "positionFree") {
+    if (MethodSet(plan.methods).get<method::Layering>() == method::Layering::PositionFree) {
         const std::vector<LayerWalkability> layers =
             layerWalkability(plan, MethodSet(plan.methods).get<method::Subsurface>());
         for (size_t i = 0; i < layers.size(); ++i)

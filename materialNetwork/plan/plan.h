@@ -33,7 +33,8 @@ struct PlanClosure {
 ///   the largest channel where the interface itself is coloured, so that no channel gains energy.
 ///   A diffuse or metal top lets through 1 - weight, mix and add follow from their parts, and a
 ///   product counts by the largest channel of its factor.
-/// - A reflection lobe over a transmission lobe is one interface ("fused"): the layer has already
+/// - A reflection lobe over a transmission lobe is one interface ("sharedInterface"): the layer has
+/// already
 ///   taken what was reflected, so the transmission lobe leaves out its own loss. Without that the
 ///   loss would count twice.
 /// - thin_walled surfaces have no inside: transmission goes straight on, tinted once, and nothing
@@ -87,5 +88,8 @@ bool walksBeneath(const PlanClosure& closure, method::Subsurface subsurface);
 
 /// Whether light that is transmitted changes direction, so that the surface has an inside.
 bool refracts(const Plan& plan, const PlanClosure& closure);
+
+/// Whether light that it refracts may change direction by its wavelength.
+bool disperses(const Plan& plan, const PlanClosure& closure);
 
 } // namespace patina

@@ -86,4 +86,21 @@ bool refracts(const Plan& plan, const PlanClosure& closure) {
            !isConstantValue(closureInput(plan, closure, "ior"), 1.0f);
 }
 
+namespace {
+
+bool readsWavelength(const Graph& graph, const Operand& operand) {
+    if (operand.isConstant()) return false;
+    const GraphNode& node = graph.nodes[size_t(operand.node)];
+    if (node.def->pattern && node.def->pattern->spectral) return true;
+    return std::any_of(node.inputs.begin(), node.inputs.end(),
+                       [&](const Operand& input) { return readsWavelength(graph, input); });
+}
+
+} // namespace
+
+bool disperses(const Plan& plan, const PlanClosure& closure) {
+    return !closure.thin && closure.kind == ClosureKind::Dielectric && refracts(plan, closure) &&
+           readsWavelength(plan.graph, closureInput(plan, closure, "ior"));
+}
+
 } // namespace patina

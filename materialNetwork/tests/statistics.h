@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include <cmath>
 

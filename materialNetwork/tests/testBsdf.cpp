@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The BSDF of whole materials: energy, sampling, layers, sides.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -164,8 +164,9 @@ TEST(Bsdf, SamplingFollowsTheDensity) {
     }
 }
 
-// A smooth reflection lobe over a fused transmission lobe is the RT lobe, from both sides.
-TEST(Bsdf, FusedReflectionOverTransmissionIsTheInterface) {
+// A smooth reflection lobe over a transmission lobe of the same interface is the RT lobe, from both
+// sides.
+TEST(Bsdf, ReflectionOverTransmissionIsTheSharedInterface) {
     const Inputs smooth = {{"roughness", pair(0.0f)}};
     const auto with = [&](const char* mode) {
         Inputs inputs = smooth;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every BSDF node through the whole way from network to Bsdf: it is modelled, gains no energy, and
 // is sampled by the density that it states.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include <algorithm>
 #include <cmath>

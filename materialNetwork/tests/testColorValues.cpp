@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colour values know the colour spaces that textures know.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include "materialNetwork/color/colorSpaces.h"
 #include "materialNetwork/network/value.h"
@@ -96,7 +96,7 @@ TEST(ColorValues, AnUnknownSpaceKeepsTheValueAndIsNamed) {
         const Compiled c(network(red)), plain(network(color(0.9f, 0.1f, 0.1f)));
         const std::string reported = warnings(c.diagnostics);
         EXPECT_NE(reported.find(inModel ? "/m/surface [diffuseColor] unknown colour space"
-                                    : "/m/bsdf [color] unknown colour space"),
+                                        : "/m/bsdf [color] unknown colour space"),
                   std::string::npos)
             << reported;
         ShadingPoint point;

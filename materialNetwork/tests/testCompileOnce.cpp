@@ -3,7 +3,7 @@
 // was compiled.
 #include "materialNetwork/compileCounts.h"
 #include "materialNetwork/cpu/programCode.h"
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 namespace patina {
 
@@ -24,10 +24,10 @@ NetworkNode image(const char* path, const char* id) {
 
 /// A shading model with textures, whose roughness varies over them.
 Network textured() {
-    return makeNetwork({image("color", "ND_image_color3"), image("rough", "ND_image_float"),
-                        makeNode("surface", "ND_standard_surface_surfaceshader", {},
-                                 {{"base_color", {"color", "out"}},
-                                  {"specular_roughness", {"rough", "out"}}})});
+    return makeNetwork(
+        {image("color", "ND_image_color3"), image("rough", "ND_image_float"),
+         makeNode("surface", "ND_standard_surface_surfaceshader", {},
+                  {{"base_color", {"color", "out"}}, {"specular_roughness", {"rough", "out"}}})});
 }
 
 /// Its radius is a texture, which a diffuse surface has no use for.

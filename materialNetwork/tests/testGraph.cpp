@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken networks: never a crash or a hang, always a message, always the documented fallback.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include "materialNetwork/nodes/nodeTable.h"
 #include "materialNetwork/network/value.h"

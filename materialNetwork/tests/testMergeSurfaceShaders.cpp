@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mixes of whole shaders, back shaders, unlit surfaces: one program that acts as its parts do.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include "materialNetwork/mtlx/document.h"
 

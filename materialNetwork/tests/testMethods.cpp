@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The meanings that the field leaves open: every method gives the numbers that it promises.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 namespace patina {
 
@@ -229,11 +229,13 @@ TEST(Methods, ExplainNamesThoseThatMatter) {
     const Network glass =
         layered(makeNode("top", "ND_dielectric_bsdf"), makeNode("base", "ND_dielectric_btdf"));
     EXPECT_TRUE(has(explained(glass), "method layerTransmittance = returned: "));
-    EXPECT_TRUE(has(explained(glass), "method reflectionOverTransmission = fused: "));
+    EXPECT_TRUE(has(explained(glass), "method reflectionOverTransmission = sharedInterface: "));
     EXPECT_FALSE(has(explained(glass), "method thinWalled"));
+    EXPECT_EQ(explained(glass, {{"reflectionOverTransmission", "fused"}}),
+              explained(glass)); // its former name
     const std::string literal = explained(glass, {{"reflectionOverTransmission", "literal"}});
     EXPECT_TRUE(has(literal, "method reflectionOverTransmission = literal: "));
-    EXPECT_FALSE(has(literal, " fused *"));
+    EXPECT_FALSE(has(literal, " shared interface *"));
     Network pane = glass;
     pane.nodes.back().inputs["thin_walled"] = Value::makeBool(true);
     EXPECT_TRUE(has(explained(pane, {{"thinWalled", "solid"}}), "method thinWalled = solid: "));

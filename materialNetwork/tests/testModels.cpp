@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shading models that come with the library.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include "materialNetwork/nodes/models.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // MaterialX documents.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include "materialNetwork/mtlx/document.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // MaterialX documents that ask for more stack, memory or time than there is.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include "materialNetwork/mtlx/document.h"
 #include "materialNetwork/mtlx/xmlFile.h"
@@ -115,7 +115,8 @@ TEST_F(MtlxHostile, MoreElementsThanAreReadAreLeftOut) {
                               "<xi:include href='many.mtlx'/>";
     EXPECT_EQ(read(twice + material).size(), 1u);
     EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
-    EXPECT_TRUE(reported("'many.mtlx' holds more tags and attributes than the 2097152 that are read"));
+    EXPECT_TRUE(
+        reported("'many.mtlx' holds more tags and attributes than the 2097152 that are read"));
     EXPECT_TRUE(read(many + many + material).empty());
     EXPECT_TRUE(reported("main.mtlx [] holds more tags and attributes than"));
 }
@@ -126,8 +127,9 @@ TEST_F(MtlxHostile, ValuesThatAreNotOfTheirTypeAreToldAndNotUsed) {
         const auto networks =
             read("<constant name='c' type='" + type + "'><input name='value' type='" + type +
                  "' value='" + value + "'/></constant>" +
-                 (color ? "" : "<convert name='v' type='color3'><input name='in' type='" + type +
-                                   "' nodename='c'/></convert>") +
+                 (color ? ""
+                        : "<convert name='v' type='color3'><input name='in' type='" + type +
+                              "' nodename='c'/></convert>") +
                  "<oren_nayar_diffuse_bsdf name='d' type='BSDF'>"
                  "<input name='color' type='color3' nodename='" +
                  (color ? "c" : "v") +
@@ -254,7 +256,8 @@ TEST_F(MtlxHostile, MaterialsThatMultiplyAreGivenUpTogether) {
     for (const Network& network : networks)
         EXPECT_TRUE(network.empty() && network.nodes.empty());
     // Six times 200000 is beyond the bound of the document.
-    EXPECT_TRUE(reported("the materials come to more than 1000000 nodes; the last 994 are left out"));
+    EXPECT_TRUE(
+        reported("the materials come to more than 1000000 nodes; the last 994 are left out"));
     EXPECT_EQ(diagnostics.count(), 6 + 1);
 }
 

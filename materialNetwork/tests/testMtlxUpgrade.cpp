@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Included documents, and documents of MaterialX 1.38.
-#include "materialNetwork/tests/patternTest.h"
+#include "materialNetwork/tests/patternFixture.h"
 
 #include "materialNetwork/mtlx/document.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes that look at the neighbourhood of a point, against what calculus says.
-#include "materialNetwork/tests/patternTest.h"
+#include "materialNetwork/tests/patternFixture.h"
 
 #include <cmath>
 
@@ -68,7 +68,8 @@ TEST(Neighbourhood, TapsOfBlursConverge) {
         blurOf("blur", "step", 0.5f)};
     const int seeds = 4096;
     const float column = std::sqrt(0.8f * 0.2f / 5.0f) / 5.0f; // deviation of one sample
-    EXPECT_NEAR(meanAt(nodes, "blur", 0.53f, seeds), 0.56f, 4.5f * column / std::sqrt(float(seeds)));
+    EXPECT_NEAR(meanAt(nodes, "blur", 0.53f, seeds), 0.56f,
+                4.5f * column / std::sqrt(float(seeds)));
     EXPECT_NEAR(at(nodes, "blur", 0.53f).x, 0.6f, 1e-5f); // where nobody has samples
 
     // A cell adds at most half a fifth of the slope, so that 4.5 deviations are:

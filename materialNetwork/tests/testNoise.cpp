@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Noise. The expected numbers were computed with the shader functions of MaterialX 1.39.6
 // (libraries/stdlib/genglsl), which define these nodes.
-#include "materialNetwork/tests/patternTest.h"
+#include "materialNetwork/tests/patternFixture.h"
 
 namespace patina {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a material asks for and does not get is told, by prim and input.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include "materialNetwork/mtlx/document.h"
 
@@ -8,54 +8,6 @@
 #include <fstream>
 
 namespace patina {
-
-namespace {
-
-std::string reportedOf(const char* model, Inputs inputs, Connections connections = {}) {
-    return warnings(
-        Compiled(makeNetwork({makeNode("surface", model, std::move(inputs), std::move(connections)),
-                              makeNode("map", "ND_image_float")}))
-            .diagnostics);
-}
-
-} // namespace
-
-TEST(NotShown, DispersionIsTold) {
-    const struct {
-        const char *model, *input;
-    } cases[] = {
-        {"ND_open_pbr_surface_surfaceshader", "transmission_dispersion_scale"},
-        {"ND_standard_surface_surfaceshader", "transmission_dispersion"},
-        {"ND_standard_surface_surfaceshader_100", "transmission_dispersion"},
-        {"ND_gltf_pbr_surfaceshader", "dispersion"},
-    };
-    for (const auto& c : cases) {
-        const std::string expected =
-            std::string("/m/surface [") + c.input +
-            "] chromatic dispersion is not modelled; the input is ignored\n";
-        EXPECT_EQ(reportedOf(c.model, {{c.input, number(0.5f)}}), expected);
-        EXPECT_EQ(reportedOf(c.model, {}, {{c.input, {"map", "out"}}}), expected);
-        EXPECT_EQ(reportedOf(c.model, {{c.input, number(0.0f)}}), "") << "0 asks for none";
-    }
-    // What is connected may turn out to be a constant.
-    for (const float scale : {0.0f, 0.25f}) {
-        const NetworkNode product = makeNode("product", "ND_multiply_float",
-                                             {{"in1", number(2.0f)}, {"in2", number(scale)}});
-        const Compiled c(
-            makeNetwork({makeNode("surface", "ND_open_pbr_surface_surfaceshader", {},
-                                  {{"transmission_dispersion_scale", {"product", ""}}}),
-                         product}));
-        EXPECT_EQ(c.diagnostics.count(), scale > 0.0f ? 1 : 0) << warnings(c.diagnostics);
-    }
-    // Nor does a circle go on for ever.
-    EXPECT_NE(reportedOf("ND_open_pbr_surface_surfaceshader", {},
-                     {{"transmission_dispersion_scale", {"surface", ""}}}),
-              "");
-    // An Abbe number alone disperses nothing: the scale beside it is 0.
-    EXPECT_EQ(reportedOf("ND_open_pbr_surface_surfaceshader",
-                     {{"transmission_dispersion_abbe_number", number(40.0f)}}),
-              "");
-}
 
 TEST(NotShown, LightsOfDocumentsAreTold) {
     const std::string path = testing::TempDir() + "patinaLights.mtlx";

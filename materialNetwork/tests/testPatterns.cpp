@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colour, shape and matrix nodes against closed forms.
-#include "materialNetwork/tests/patternTest.h"
+#include "materialNetwork/tests/patternFixture.h"
 
 namespace patina {
 

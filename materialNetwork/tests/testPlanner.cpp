@@ -2,7 +2,7 @@
 // The planner: methods follow from the tolerance and the measured table, and from nothing else.
 #include "materialNetwork/plan/methodTable.h"
 #include "materialNetwork/planner/planner.h"
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 namespace patina {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include "shaders/closure.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Simplification changes no value: random pattern graphs give the same number whether their leaves
 // are constants, which fold, or primvars of the same value, which do not.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes that read the surface or images: spaces, slopes, placed images.
-#include "materialNetwork/tests/patternTest.h"
+#include "materialNetwork/tests/patternFixture.h"
 
 namespace patina {
 

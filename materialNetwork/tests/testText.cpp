@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Networks, graphs and plans as text, compared with reviewed files. After a wanted change run with
 // PATINA_UPDATE_EXPECTED=1, and review the difference.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 #include "materialNetwork/network/translate.h"
 
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Translations between shading models.
-#include "materialNetwork/tests/patternTest.h"
+#include "materialNetwork/tests/patternFixture.h"
 
 #include "materialNetwork/nodes/models.h"
 #include "materialNetwork/network/translate.h"

@@ -94,8 +94,8 @@ class SceneEdit:
         """
     def set_light(self, path: str, **kwargs: typing.Any) -> None:
         """
-        A UsdLux light; keywords are the fields of Light.
-        Keywords: group, type, transform, visible, camera_visible, color, intensity, exposure, diffuse, specular, normalize, enable_color_temperature, color_temperature, texture_file, texture_format, texture_color_space, guide_radius, shaping_focus, shaping_focus_tint, shaping_cone_angle, shaping_cone_softness, shaping_cone_authored, ies_file, ies_angle_scale, ies_normalize, shadow_enable, shadow_color, shadow_distance, shadow_falloff, shadow_falloff_gamma, light_link, shadow_link, light_group, geometry, material_sync_mode, angle, radius, width, height, length, treat_as_point, treat_as_line.
+        A UsdLux light; keywords are the fields of Light. filters: a list of dicts of path, type, transform and light_filter_inputs(). portals: of path, transform, width and height.
+        Keywords: group, type, transform, visible, camera_visible, color, intensity, exposure, diffuse, specular, normalize, enable_color_temperature, color_temperature, texture_file, texture_format, texture_color_space, guide_radius, shaping_focus, shaping_focus_tint, shaping_cone_angle, shaping_cone_softness, shaping_cone_authored, ies_file, ies_angle_scale, ies_normalize, shadow_enable, shadow_color, shadow_distance, shadow_falloff, shadow_falloff_gamma, light_link, shadow_link, filters, portals, light_group, geometry, material_sync_mode, angle, radius, width, height, length, treat_as_point, treat_as_line.
         """
     def set_material(self, path: str, network: Network) -> None:
         """
@@ -501,6 +501,14 @@ def explain_material(network: Network, warnings: typing.Any = None, methods: dic
 def instruction_set() -> str:
     """
     What this build computes with, in words: renders of two machines have equal bits where build and instruction set are equal.
+    """
+def light_filter_inputs() -> list[typing.Any]:
+    """
+    Inputs of light filters: (names in schemas, separated by blanks, key of a filter of set_light(), type).
+    """
+def light_filter_types() -> dict[str, typing.Any]:
+    """
+    Types of light filters, separated by blanks where several are read alike -> word.
     """
 def light_inputs() -> list[typing.Any]:
     """

@@ -52,6 +52,8 @@ void setLight(PythonEdit& edit, const std::string& path, const py::kwargs& value
         .read("shadow_falloff_gamma", light->shadowFalloffGamma)
         .read("light_link", light->lightLink)
         .read("shadow_link", light->shadowLink)
+        .read("filters", light->filters)
+        .read("portals", light->portals)
         .read("light_group", light->lightGroup)
         .read("geometry", light->geometry)
         .read("material_sync_mode", light->materialSyncMode)
@@ -158,8 +160,30 @@ void bindScene(py::module_& m) {
             return inputs;
         },
         "Inputs that shape lights: (name in the schema, keyword of set_light(), float or bool).");
+    m.def(
+        "light_filter_types",
+        [] {
+            py::dict types;
+            for (const LightFilterRow& row : lightFilterRows)
+                types[row.schemas] = row.word;
+            return types;
+        },
+        "Types of light filters, separated by blanks where several are read alike -> word.");
+    m.def(
+        "light_filter_inputs",
+        [] {
+            py::list inputs;
+#define PATINA_FILTER_INPUT(type, field, names, fallback, description)                             \
+    inputs.append(py::make_tuple(names, #field, #type));
+#include "hdDelegate/scene/lightFilterInputs.inc"
+            return inputs;
+        },
+        "Inputs of light filters: (names in schemas, separated by blanks, key of a filter of "
+        "set_light(), type).");
     edit.def("set_light", &setLight, py::arg("path"),
-             "A UsdLux light; keywords are the fields of Light.")
+             "A UsdLux light; keywords are the fields of Light. filters: a list of dicts of path, "
+             "type, transform and light_filter_inputs(). portals: of path, "
+             "transform, width and height.")
         .def("set_camera", &setCamera, py::arg("path"),
              "A UsdGeomCamera; keywords are the fields of Camera.")
         .def("set_material", &setMaterial, py::arg("path"), py::arg("network"),

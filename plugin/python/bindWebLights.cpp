@@ -46,6 +46,14 @@ std::array<float, 3> triple(const vec3& v) {
     return {v.x, v.y, v.z};
 }
 
+vec3 notNegative(const Light& light, const vec3& radiance, WebLights& out) {
+    const vec3 kept = glm::max(radiance, vec3(0.0f));
+    if (kept != radiance)
+        out.notes.push_back("the light " + light.path +
+                            " takes light away, which counts as zero on the page");
+    return kept;
+}
+
 /// A rect's image, means over its cells, top row first.
 /// @returns first value, width and height
 vec3 addImage(const Light& light, WebLights& out) {
@@ -126,9 +134,9 @@ bool addTriangles(const Scene& scene, const Light& light, vec4* row, WebLights& 
         out.table.emplace_back(t.edge1, 0.0f);
         out.table.emplace_back(t.edge2, 0.0f);
     }
-    vec3 radiance = lightBaseRadiance(light);
+    vec3 radiance = notNegative(light, lightBaseRadiance(light), out);
     if (light.normalize) radiance /= float(whole);
-    row[1] = vec4(glm::max(radiance * float(whole / kept), vec3(0.0f)), 1.0f);
+    row[1] = vec4(radiance * float(whole / kept), 1.0f);
     return true;
 }
 
@@ -148,7 +156,7 @@ std::vector<float> lightRow(const Scene& scene, const Light& light, const mat4& 
     } else {
         const ResolvedLight is = resolveLight(light, toWorld, out.diagnostics);
         pose = lightPose(light, is.kind, toWorld, nullptr);
-        radiance = is.radiance;
+        radiance = notNegative(light, is.radiance, out);
         switch (is.kind) {
         case ResolvedLight::Kind::Distant:
             kind = Distant;
@@ -239,7 +247,8 @@ void addLight(const Scene& scene, const std::string& path, const Light& light, W
         dome["path"] = path;
         dome["texture"] = light.textureFile;
         dome["pixels"] = latlongOf(light, out);
-        dome["radiance"] = triple(resolveLight(light, toWorld, out.diagnostics).radiance);
+        dome["radiance"] =
+            triple(notNegative(light, resolveLight(light, toWorld, out.diagnostics).radiance, out));
         dome["axes"] = std::vector<std::array<float, 3>>{
             triple(vec3(toWorld[0])), triple(vec3(toWorld[1])), triple(vec3(toWorld[2]))};
         out.domes.append(dome);

@@ -265,6 +265,46 @@ void convert(py::handle from, LightType& to) {
     fromName(from, to, words);
 }
 
+void convert(py::handle from, LightFilterType& to) {
+    std::map<std::string, LightFilterType> words;
+    for (const LightFilterRow& row : lightFilterRows)
+        words[row.word] = row.type;
+    fromName(from, to, words);
+}
+
+void convert(py::handle from, std::vector<LightFilter>& to) {
+    to.clear();
+    for (const py::handle& item : py::cast<py::sequence>(from)) {
+        if (!py::isinstance<py::dict>(item)) throw py::value_error("needs a dict for each filter");
+        LightFilter filter;
+        const auto values = py::reinterpret_borrow<py::kwargs>(item);
+        Fields("a filter of set_light", "", values)
+            .read("path", filter.path)
+            .read("type", filter.type)
+            .read("transform", filter.transform)
+#define PATINA_FILTER_INPUT(type, field, names, fallback, description) .read(#field, filter.field)
+#include "hdDelegate/scene/lightFilterInputs.inc"
+            .finish();
+        to.push_back(std::move(filter));
+    }
+}
+
+void convert(py::handle from, std::vector<LightPortal>& to) {
+    to.clear();
+    for (const py::handle& item : py::cast<py::sequence>(from)) {
+        if (!py::isinstance<py::dict>(item)) throw py::value_error("needs a dict for each portal");
+        LightPortal portal;
+        const auto values = py::reinterpret_borrow<py::kwargs>(item);
+        Fields("a portal of set_light", "", values)
+            .read("path", portal.path)
+            .read("transform", portal.transform)
+            .read("width", portal.width)
+            .read("height", portal.height)
+            .finish();
+        to.push_back(std::move(portal));
+    }
+}
+
 void Fields::finish() const {
     for (auto item : _values) {
         const std::string name = py::str(item.first);

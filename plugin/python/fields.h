@@ -35,6 +35,9 @@ void convert(pybind11::handle from, CurveBasis& to);
 void convert(pybind11::handle from, CurveWrap& to);
 void convert(pybind11::handle from, ImplicitShape& to);
 void convert(pybind11::handle from, LightType& to);
+void convert(pybind11::handle from, LightFilterType& to);
+void convert(pybind11::handle from, std::vector<LightFilter>& to);
+void convert(pybind11::handle from, std::vector<LightPortal>& to);
 
 template <class T> void convert(pybind11::handle from, T& to) {
     to = from.cast<T>();

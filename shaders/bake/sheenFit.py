@@ -34,8 +34,8 @@ def albedo(mu, roughness, count=64):
     root = (nodes + 1.0) / 2.0
     z, phi = np.meshgrid(root * root, math.pi * root, indexing="ij")
     weight = np.outer(weights * root, weights) * math.pi
-    side, aside = math.sqrt(1.0 - mu * mu), np.sqrt(1.0 - z * z)
-    x, y = side + aside * np.cos(phi), aside * np.sin(phi)
+    sineView, sineLight = math.sqrt(1.0 - mu * mu), np.sqrt(1.0 - z * z)
+    x, y = sineView + sineLight * np.cos(phi), sineLight * np.sin(phi)
     across = x * x + y * y
     sine2 = across / (across + (mu + z) ** 2)
     density = (2.0 + 1.0 / roughness) / (2.0 * math.pi) * sine2 ** (0.5 / roughness)

@@ -110,10 +110,10 @@ struct AreaLight {
 /// A light beside the direction in which a mirror would show it, or edge on; for diffuse lobes on
 /// all sides.
 AreaLight pose(int kind, bool edgeOn, bool around, const vec3& wo, int i) {
-    const float aside = 0.35f * float(i - 1), turned = 2.4f * float(i);
+    const float offset = 0.35f * float(i - 1), turned = 2.4f * float(i);
     const float about = around ? pi + 0.4f * pi * float(i) : pi;
     vec3 to = glm::normalize(vec3(wo.x * std::cos(about), wo.x * std::sin(about), wo.z) +
-                             aside * vec3(std::cos(turned), std::sin(turned), 0.7f));
+                             offset * vec3(std::cos(turned), std::sin(turned), 0.7f));
     to.z = std::max(to.z, 0.05f);
     to = glm::normalize(to);
     AreaLight l{kind, 1.6f * to, vec3(0.0f), vec3(0.0f), vec3(0.0f)};

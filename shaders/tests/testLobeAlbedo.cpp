@@ -308,7 +308,7 @@ TEST(LobeAlbedo, AnisotropicGlassKeepsItsBudget) {
                 }
 }
 
-TEST(LobeAlbedo, LayeredReflectionAndFusedTransmissionAreTheWholeInterface) {
+TEST(LobeAlbedo, LayeredReflectionAndTransmissionAreTheSharedInterface) {
     for (double alpha : {0.0, 0.05, 0.3, 1.0})
         for (double z : {1.0, 0.7, 0.2, -0.3, -0.75, -0.9}) {
             const vec3 wo = direction(z, 0.4);

@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 import subprocess
+import time
 
 import pytest
 
@@ -105,6 +106,29 @@ def test_the_words_of_a_queue_that_refuses_are_told(tmp_path):
     assert result.returncode == 1
     assert result.stderr == "patina: no workers of slurm:2: sbatch: error: invalid partition: nope\n"
     assert not (tmp_path / "a.exr.parts").exists()
+
+
+@pytest.mark.parametrize("forgotten", (False, True), ids=("known", "forgotten"))
+def test_workers_that_do_not_come_back_are_replaced(monkeypatch, forgotten):
+    """A worker whose keeper is closed, too, is started by nobody else."""
+    pytest.importorskip("distributed")
+    with engines.Cluster(engines.parse("local:2", [])) as cluster:
+        cluster.client.wait_for_workers(2, timeout=60)
+        local = cluster._cluster
+        before = set(cluster.client.scheduler_info(n_workers=-1)["workers"])
+        for name, nanny in list(local.workers.items()):
+            local.sync(nanny.close)
+            if forgotten:  # as Dask does after its setting distributed.deploy.lost-worker-timeout
+                local.workers.pop(name)
+        end = time.monotonic() + 60
+        while cluster.client.scheduler_info(n_workers=-1)["workers"] and time.monotonic() < end:
+            time.sleep(0.05)
+        cluster.replace(2)
+        assert not cluster.client.scheduler_info(n_workers=-1)["workers"], "nobody is missed"
+        monkeypatch.setattr(engines, "REPLACE_SECONDS", 0.0)
+        cluster.replace(0)
+        cluster.client.wait_for_workers(2, timeout=60)
+        assert not before & set(cluster.client.scheduler_info(n_workers=-1)["workers"])
 
 
 def test_a_movie_survives_the_death_of_its_workers(tmp_path):

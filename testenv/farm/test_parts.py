@@ -21,7 +21,8 @@ def folder(tmp_path_factory):
 @pytest.mark.parametrize("cut, flags", [
     ("4", ("--samples", "5", "--aov", "all")),
     ("1x3", ("--samples", "50", "--aov", "all", "--aov", "denoisingAlbedo")),
-    ("2x2", ("--samples", "20", "--dataWindow", "9,5,50,30", "--seed", "3")),
+    ("2x2", ("--samples", "20", "--dataWindow", "9,5,50,30", "--seed", "3", "--aov", "cryptoMaterial", "--aov", "direct",
+             "--aov", "red=lpe:C.*L")),
 ])
 def test_all_that_the_file_holds_is_the_same(folder, cut, flags):
     stage, image = scene("texturedDiffuse"), folder / f"cut{cut}.exr"

@@ -37,9 +37,15 @@ FEATURES = {
     "shadowsOfLimitedDistance": Feature(
         "shadows of limited distance know only the side of a caster that is nearest to the light",
         "test_byDesign.py::test_shadows_of_limited_distance_know_the_near_side"),
+    "dispersion": Feature(
+        "all light bends as that of the d line, 588 nm, and a warning names the material",
+        "test_dispersionLeftOut.py::test_glass_has_the_ior_of_the_d_line", ("prism",)),
     "motionOfLights": Feature(
         "while the shutter is open lights stand where they are in the middle of that",
         "test_byDesign.py::test_lights_do_not_move_while_the_shutter_is_open"),
+    "lightFilters": Feature(
+        "light filters are not applied, which a warning says",
+        "test_byDesign.py::test_light_filters_are_left_out", ("lightFilters",)),
 }
 SCENES = {scene: [name for name, feature in FEATURES.items() if scene in feature.scenes]
           for feature in FEATURES.values() for scene in feature.scenes}

@@ -9,7 +9,7 @@ import numpy as np
 
 from pairs import DIRECT
 
-LABEL = 14  # pixels of a label's height
+LABEL = 26  # pixels of a label's height: two lines
 GAP = 4
 COLUMNS = 3  # pairs side by side
 
@@ -27,13 +27,13 @@ def _shown(linear):
     return (np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055) * 255 + 0.5).astype(np.uint8)
 
 
-def label(row):
-    """:returns: what stands over a pair"""
+def labels(row):
+    """:returns: the two lines that stand over a pair: its name, and what was measured or went wrong"""
     if "error" in row:
-        return f"{row['name']}: {row['error']}"
+        return row["name"], row["error"]
     found = row["traced"][DIRECT]
     flip = "" if found["flip"] is None else f" FLIP {found['flip']:.3f}"
-    return f"{row['name']}: bias {100 * found['bias']:+.1f} %{flip} block {100 * found['worst']:.0f} %"
+    return row["name"], f"bias {100 * found['bias']:+.1f} %{flip} block {100 * found['worst']:.0f} %"
 
 
 def _paste(rows, path):
@@ -49,9 +49,10 @@ def _paste(rows, path):
     draw = ImageDraw.Draw(sheet)
     for i, (row, each) in enumerate(zip(rows, images)):
         left, top = i % COLUMNS * cell[0], i // COLUMNS * cell[1]
-        text = label(row)
-        room = cell[0] // 6  # characters of Pillow's own font, the end of the name and the numbers first
-        draw.text((left + 2, top + 1), text if len(text) <= room else text[-room:], fill=(255, 255, 255))
+        room = cell[0] // 6  # characters of Pillow's own font
+        name, found = labels(row)
+        draw.text((left + 2, top + 1), name[-room:], fill=(255, 255, 255))  # names differ at their ends
+        draw.text((left + 2, top + 1 + LABEL // 2), found[:room], fill=(255, 255, 255))
         for k, image in enumerate(each):
             sheet.paste(Image.fromarray(_shown(image)), (left + k * (width + GAP), top + LABEL))
     sheet.save(path)

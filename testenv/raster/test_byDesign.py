@@ -2,6 +2,7 @@
 """Each feature that the rasterizer draws otherwise by design (byDesign.py): it draws what is said there, and that is not
 what the path tracer draws. Both by the test of equivalence.py: the rasterizer's image is the path tracer's of the stage
 without the feature, with the same margin as everywhere, and differs from the path tracer's image of the stage itself."""
+import json
 import os
 
 import numpy as np
@@ -194,6 +195,20 @@ def test_shadows_of_limited_distance_know_the_near_side(tmp_path):
     whole = floorLights.write(tmp_path / "closed", text)
     same(whole, floorLights.write(tmp_path / "open", text.replace(block, OPEN_BLOCK)), 1, "--disableCameraLight")
     assert differences(whole, whole, 1, "--disableCameraLight").max() > 0.05
+
+
+def test_light_filters_are_left_out(tmp_path):
+    with open(inProcess.scene("lightFilters"), encoding="utf-8") as file:
+        text = file.read()
+    images = []
+    for name, contents in (("filtered", text), ("bare", text.replace("rel light:filters", "custom rel unused"))):
+        stage, image, said = (tmp_path / f"{name}.{ending}" for ending in ("usda", "exr", "json"))
+        stage.write_text(contents)
+        inProcess.record(stage, image, "--backend", "raster", "--imageWidth", 16, "--samples", 2, f"--json={said}")
+        images.append(inProcess.pixels(image))
+        warned = {w["prim"] for w in json.loads(said.read_text())["warnings"] if "not applied by the rasterizer" in w["message"]}
+        assert warned == ({"/World/spot", "/World/ramped"} if name == "filtered" else set())
+    assert np.array_equal(*images)
 
 
 def test_every_feature_has_its_test():

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/compiled/compiledShapes.h"
+#include "hdDelegate/geometry/tests/meshFixtures.h"
 
 #include <gtest/gtest.h>
 
@@ -9,16 +10,7 @@ namespace patina {
 namespace {
 
 std::shared_ptr<Mesh> cube() {
-    auto mesh = std::make_shared<Mesh>();
-    mesh->path = "/cube";
-    std::vector<vec3> points;
-    for (int i = 0; i < 8; ++i)
-        points.push_back({i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1});
-    mesh->points = points;
-    mesh->faceVertexCounts.assign(6, 4);
-    mesh->faceVertexIndices = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4,
-                               2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
-    return mesh;
+    return std::make_shared<Mesh>(cubeMesh());
 }
 
 struct Shapes : ::testing::Test {

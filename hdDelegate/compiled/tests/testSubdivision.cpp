@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/compiled/compiledScene.h"
+#include "hdDelegate/geometry/tests/meshFixtures.h"
 
 #include <gtest/gtest.h>
 
@@ -9,18 +10,8 @@ namespace patina {
 namespace {
 
 /// Two units along each side.
-std::shared_ptr<Mesh> cube(const std::string& path) {
-    auto mesh = std::make_shared<Mesh>();
-    mesh->path = path;
-    std::vector<vec3> points;
-    for (int i = 0; i < 8; ++i)
-        points.push_back({i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1});
-    mesh->points = points;
-    mesh->faceVertexCounts.assign(6, 4);
-    mesh->faceVertexIndices = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4,
-                               2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
-    mesh->scheme = SubdivisionScheme::CatmullClark;
-    return mesh;
+std::shared_ptr<Mesh> cube() {
+    return std::make_shared<Mesh>(cubeMesh(SubdivisionScheme::CatmullClark));
 }
 
 Camera cameraAt(float z) {
@@ -37,7 +28,7 @@ struct Subdivisions : ::testing::Test {
     RenderSettings settings;
 
     Subdivisions() {
-        scene->edit().set(std::shared_ptr<const Geometry>(cube("/cube")));
+        scene->edit().set(std::shared_ptr<const Geometry>(cube()));
         settings.width = settings.height = 400;
     }
     Subdivision choice(float distance) {
@@ -61,7 +52,7 @@ TEST_F(Subdivisions, AreChosenOnceForAllRenderers) {
     choice(9.0f);
     EXPECT_EQ(compiled->subdivision().planned(), 3u);
     EXPECT_EQ(compiled->extents().measured(), 1u) << "the prim is as it was";
-    scene->edit().set(std::shared_ptr<const Geometry>(cube("/cube")));
+    scene->edit().set(std::shared_ptr<const Geometry>(cube()));
     choice(9.0f);
     EXPECT_EQ(compiled->subdivision().planned(), 4u);
     EXPECT_EQ(compiled->extents().measured(), 2u);
@@ -77,7 +68,7 @@ TEST_F(Subdivisions, AreFinerForASmallerTolerance) {
 TEST_F(Subdivisions, ArePlannedWhereverTheSceneIs) {
     settings.tolerance = 0.01;
     const float here = choice(8.0f).edgeLength;
-    auto far = cube("/cube");
+    auto far = cube();
     far->transform = dmat4(1.0);
     far->transform.values[0][3] = glm::dvec4(3e8, 0.0, 0.0, 1.0); // floats are 32 units apart there
     scene->edit().set(std::shared_ptr<const Geometry>(far));
@@ -109,7 +100,7 @@ TEST(Subdivision, IsNoCoarserForDisplacementThanTheStandard) {
 }
 
 TEST(PrimExtent, OfACube) {
-    auto mesh = cube("/cube");
+    auto mesh = cube();
     mesh->points.values[0].push_back(vec3(NAN, 9.0f, 9.0f)); // no face has it
     const PrimExtent extent(*mesh);
     EXPECT_EQ(extent.low, vec3(-1.0f));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/geometry/tests/meshFixtures.h"
 #include "hdDelegate/image/fieldGrid.h"
 #include "hdDelegate/renderer/renderer.h"
 
@@ -33,17 +34,10 @@ std::shared_ptr<const MaterialPrim> makeMaterial(const std::string& path, float 
 
 std::shared_ptr<Mesh> makeCube(const std::string& path, const mat4& transform,
                                const std::string& group = "") {
-    auto mesh = std::make_shared<Mesh>();
+    auto mesh = std::make_shared<Mesh>(cubeMesh());
     mesh->path = path;
     mesh->group = group;
     mesh->transform = transform;
-    std::vector<vec3> points;
-    for (int i = 0; i < 8; ++i)
-        points.push_back({i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1});
-    mesh->points = points;
-    mesh->faceVertexCounts.assign(6, 4);
-    mesh->faceVertexIndices = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4,
-                               2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
     return mesh;
 }
 

@@ -8,8 +8,8 @@ namespace patina {
 
 namespace {
 
-constexpr size_t mostNodes = 20000; // of the nondeterministic automaton
-constexpr size_t mostStates = 2000; // before equal ones are merged
+constexpr size_t maxNodes = 20000; // of the nondeterministic automaton
+constexpr size_t maxStates = 2000; // before equal ones are merged
 
 [[noreturn]] void tooLarge(const std::string& expression) {
     throw std::invalid_argument("light path expression '" + expression +
@@ -78,7 +78,7 @@ public:
 
 private:
     int add() {
-        if (_states.size() >= mostNodes) tooLarge(_expression);
+        if (_states.size() >= maxNodes) tooLarge(_expression);
         _states.emplace_back();
         return int(_states.size()) - 1;
     }
@@ -158,7 +158,7 @@ void LightPathAutomaton::determinise(const Nondeterministic& from, const LightLa
         from.close(set);
         const auto [place, isNew] = numbers.emplace(set, int(sets.size()));
         if (isNew) {
-            if (sets.size() >= mostStates) tooLarge(expression);
+            if (sets.size() >= maxStates) tooLarge(expression);
             _accepts.push_back(std::binary_search(set.begin(), set.end(), from.end()));
             sets.push_back(std::move(set));
         }

@@ -9,7 +9,7 @@ namespace patina {
 namespace {
 
 constexpr int deepest = 64;                // groups within groups
-constexpr int mostRepeats = 64;            // of {n,m}: paths are no longer
+constexpr int maxRepeats = 64;             // of {n,m}: paths are no longer
 constexpr char typeLetters[] = "CRTVLBO";  // by EventType
 constexpr char scatterLetters[] = "xDGSs"; // by EventScatter
 constexpr char wantedTypes[] = "an event type (C R T V L B O or .)";
@@ -182,8 +182,8 @@ private:
         int value = 0;
         for (; _at < _text.size() && _text[_at] >= '0' && _text[_at] <= '9'; ++_at) {
             value = 10 * value + (_text[_at] - '0');
-            if (value > mostRepeats)
-                failAt(start, "at most " + std::to_string(mostRepeats) + " repetitions");
+            if (value > maxRepeats)
+                failAt(start, "at most " + std::to_string(maxRepeats) + " repetitions");
         }
         return value;
     }

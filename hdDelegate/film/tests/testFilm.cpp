@@ -89,6 +89,20 @@ TEST(Film, BadSamplesAreDroppedCountedAndBlack) {
     EXPECT_FLOAT_EQ(film.alpha(0, 0), 0.8f) << "only the alpha that is not a number is missing";
 }
 
+TEST(Film, NegativeSamplesCountWhereLightsTakeLightAway) {
+    Film film, copy;
+    film.reset(1, 1, {});
+    film.allowNegative(true);
+    EXPECT_TRUE(film.addColor(0, 0, {-3, 1, 0}, 1.0f));
+    EXPECT_FALSE(film.addColor(0, 0, {-inf, 0, 0}, 1.0f));
+    EXPECT_FALSE(film.addColor(0, 0, {1, 1, 1}, -1.0f)) << "coverage is never negative";
+    copy.copyFrom(film);
+    EXPECT_TRUE(copy.addColor(0, 0, {-3, 0, 0}, 1.0f));
+    EXPECT_EQ(copy.color(0, 0).x, -1.5f);
+    film.reset(1, 1, {});
+    EXPECT_FALSE(film.addColor(0, 0, {-1, 0, 0}, 1.0f)) << "each render says it anew";
+}
+
 TEST(Film, DroppedSamplesAreCountedWithoutRaces) {
     Film film;
     film.reset(64, 64, {});

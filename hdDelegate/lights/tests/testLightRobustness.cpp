@@ -49,7 +49,6 @@ TEST(Robustness, brokenLightsAreOffAndNamed) {
         {"infinite exposure", [](Light& l) { l.exposure = 1e9f; }},
         {"NaN transform", [](Light& l) { l.transform.values[0][3].x = notANumber; }},
         {"flattened", [](Light& l) { l.transform.values[0] = mat4(0.0f); }},
-        {"negative", [](Light& l) { l.intensity = -1.0f; }},
     };
     for (const LightType type :
          {LightType::Sphere, LightType::Rect, LightType::Disk, LightType::Cylinder})
@@ -63,6 +62,29 @@ TEST(Robustness, brokenLightsAreOffAndNamed) {
             EXPECT_EQ(scene.diagnostics.all()[0].prim, "/light");
             exercise(set);
         }
+}
+
+TEST(Robustness, lightThatIsTakenAwayIsSampledLikeLightThatIsGiven) {
+    for (const LightType type : {LightType::Sphere, LightType::Rect, LightType::Disk,
+                                 LightType::Cylinder, LightType::Dome, LightType::Distant}) {
+        LightScene given, taken;
+        auto light = makeLight(type), minus = makeLight(type);
+        minus->intensity = -light->intensity;
+        given.build(light);
+        taken.build(minus);
+        EXPECT_EQ(taken.diagnostics.count(), 0);
+        Random random(7);
+        for (int i = 0; i < 100; ++i) {
+            const vec3 u = random.cube(), point(0.1f, 0.2f, -3.0f), normal(0.0f, 0.0f, 1.0f);
+            LightSample a, b;
+            const bool found = given.set->sample(point, normal, true, u, 0.0f, a);
+            ASSERT_EQ(taken.set->sample(point, normal, true, u, 0.0f, b), found);
+            if (!found) continue;
+            EXPECT_EQ(a.direction, b.direction);
+            EXPECT_EQ(a.pdf, b.pdf);
+            EXPECT_EQ(a.radiance, -b.radiance) << int(type);
+        }
+    }
 }
 
 TEST(Robustness, lightsThatAreMerelyOffDoNotWarn) {

@@ -100,13 +100,14 @@ public:
         float presence = 1.0f;
         if (!_source.program->isOpaque()) _source.program->opacity(shading, nullptr, &presence);
         vec3 sum = lit;
-        if (_source.glows && light.mode != RasterMeshLight::Alone) {
-            const vec3 glow = _source.program->emission(shading, direction);
-            sum = light.mode == RasterMeshLight::None    ? glow
-                  : light.mode == RasterMeshLight::Tints ? lit * glow
-                                                         : lit + glow;
+        if (_source.glows && light.mode != RasterMeshLight::NoMaterialResponse) {
+            const vec3 glow =
+                glm::max(_source.program->emission(shading, direction), vec3(0.0f));
+            sum = light.mode == RasterMeshLight::NoLight          ? glow
+                  : light.mode == RasterMeshLight::GlowTintsLight ? lit * glow
+                                                                  : lit + glow;
         }
-        sum = glm::max(sum * presence, vec3(0.0f));
+        sum *= presence;
         return std::isfinite(sum.x + sum.y + sum.z) ? sum : vec3(0.0f);
     }
     /// The same by angles about the axis.
@@ -119,7 +120,8 @@ public:
 
     /// A narrow cone that is inclined shows itself about its own axis. @returns whether it has any
     bool aimAtCone() {
-        if (!_source.glows || _source.light.mode == RasterMeshLight::Alone) return false;
+        if (!_source.glows || _source.light.mode == RasterMeshLight::NoMaterialResponse)
+            return false;
         const std::vector<vec3> axes = coneAxes(_source.program->code(), shading);
         if (axes.empty()) return false;
         if (glm::dot(axes[0], axis) < 0.99999f) {
@@ -198,7 +200,7 @@ float RasterEmitters::brightness(const Source& source, unsigned triangle, bool c
     for (int i = 0; i < count; ++i) {
         Place place(source, triangle, places[i]);
         if (source.even && !source.sides) {
-            sum += luminance(place.towards(0.0f, 0.0f));
+            sum += luminance(glm::abs(place.towards(0.0f, 0.0f)));
             continue;
         }
         place.aimAtCone();
@@ -206,8 +208,8 @@ float RasterEmitters::brightness(const Source& source, unsigned triangle, bool c
         float front = 0.0f, back = 0.0f, weights = 0.0f;
         for (const float theta : {0.05f, 0.5f, 0.9f, 1.3f}) {
             const float weight = std::cos(theta) * std::sin(theta);
-            front += weight * luminance(place.towards(theta, 1.0f));
-            back += weight * luminance(place.towards(pi - theta, 1.0f));
+            front += weight * luminance(glm::abs(place.towards(theta, 1.0f)));
+            back += weight * luminance(glm::abs(place.towards(pi - theta, 1.0f)));
             weights += weight;
         }
         sum += 0.5f * (front + back) / weights;
@@ -218,12 +220,11 @@ float RasterEmitters::brightness(const Source& source, unsigned triangle, bool c
 void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t subset,
                          const std::shared_ptr<const MaterialProgram>& program,
                          const RasterMeshLight& light, const mat4& toWorld, int category,
-                         bool closed, const vec3& origin,
-                         const std::vector<InstanceStep>& steps) {
+                         bool closed, const vec3& origin, const std::vector<InstanceStep>& steps) {
     Source source;
     source.glows = program->hasEmission();
-    if (!source.glows && light.mode == RasterMeshLight::None) return;
-    const bool usesGlow = source.glows && light.mode != RasterMeshLight::Alone;
+    if (!source.glows && light.mode == RasterMeshLight::NoLight) return;
+    const bool usesGlow = source.glows && light.mode != RasterMeshLight::NoMaterialResponse;
     const bool constant = !usesGlow || program->code().emissionCode.empty();
     source.mesh = mesh;
     source.program = program;
@@ -234,14 +235,15 @@ void RasterEmitters::add(const std::shared_ptr<const TriangleMesh>& mesh, size_t
     source.steps = steps;
     source.st = mesh->attribute("st");
     source.even = (!usesGlow || !dependsOnView(program->code())) && program->isOpaque();
-    source.sides = light.mode == RasterMeshLight::Adds || !source.even;
+    source.sides = light.mode == RasterMeshLight::Independent || !source.even;
     for (const MaterialPrimvar& primvar : program->primvars()) {
         const MeshAttribute* a = mesh->attribute(primvar.name);
         source.attributes.push_back(a ? int(a - mesh->attributes.data()) : -1);
     }
     source.mirrored = glm::determinant(mat3(toWorld)) < 0.0f;
-    source.twoSided = source.glows && !closed &&
-                      (light.mode == RasterMeshLight::None || light.mode == RasterMeshLight::Adds);
+    source.twoSided =
+        source.glows && !closed &&
+        (light.mode == RasterMeshLight::NoLight || light.mode == RasterMeshLight::Independent);
     source.category = category;
     // Their areas, too.
     std::vector<std::pair<unsigned, float>> candidates;
@@ -329,7 +331,7 @@ RasterEmission RasterEmitters::emission(const RasterEmitter& e, const vec2& uv) 
     const vec3 along = place.towards(0.0f, 0.0f);
     for (const float theta : {0.05f, 0.2f, 0.4f, 0.9f, 1.3f, 1.8f, 2.5f}) {
         const vec3 first = place.towards(theta, 0.7f);
-        const float scale = 1e-4f * luminance(first) + 1e-20f;
+        const float scale = 1e-4f * std::fabs(luminance(first)) + 1e-20f;
         flat &= glm::length(first - along) <= scale;
         for (const float turn : {1.3f, 2.9f, 3.8f, 5.1f})
             round &= glm::length(place.towards(theta, turn) - first) <= scale;

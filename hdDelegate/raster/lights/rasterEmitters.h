@@ -11,8 +11,8 @@ namespace patina {
 
 /// What a UsdLuxMeshLightAPI adds to the surface of a mesh.
 struct RasterMeshLight {
-    enum Mode { None, Tints, Adds, Alone }; ///< of materialSyncMode, for the shader
-    Mode mode = None;
+    enum Mode { NoLight, GlowTintsLight, Independent, NoMaterialResponse };
+    Mode mode = NoLight; ///< materialSyncMode of UsdLux, for the shader
     vec3 radiance{0.0f};
     std::string lightLink;
 };
@@ -82,8 +82,8 @@ private:
         std::vector<InstanceStep> steps;
         std::vector<int> attributes; ///< of the mesh, per primvar of the program; -1: none
         const MeshAttribute* st = nullptr;
-        bool glows = false, even = false; ///< even: alike towards all directions of a side
-        bool sides = false;               ///< one side may give other light than the other
+        bool glows = false, even = false;       ///< even: alike towards all directions of a side
+        bool sides = false;                     ///< one side may give other light than the other
         bool twoSided = true, mirrored = false; ///< of its triangles, as category
         int category = -1;
     };

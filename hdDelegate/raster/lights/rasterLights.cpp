@@ -25,13 +25,16 @@ RasterLights::RasterLights(const SceneState& state, const RenderSettings& settin
                            const std::set<std::string>& domeMethods, LightImages& images,
                            RasterDomes& domes, const LinkNames& links, Diagnostics& diagnostics)
     : _domeMethods(domeMethods), _domeSamples(domeSamples), _seed(uint32_t(settings.seed)),
-      _shadows(settings.enableShadows) {
+      _shadows(settings.enableShadows), _takeAway(takesLightAway(state, settings)) {
     if (!domeMethods.empty() && domeMethods.count("sampled") == 0) _domeSamples = 0;
     domes.begin();
     if (settings.enableSceneLights)
         for (const auto& item : state.lights) {
             const Light& light = *item.second;
             if (!light.visible) continue;
+            if (!light.filters.empty())
+                diagnostics.warn(light.path, "light:filters",
+                                 "light filters are not applied by the rasterizer");
             if (light.type == LightType::Mesh) continue; // see RasterEmitters
             for (const RasterPlace& place : places.places(light.group))
                 add(light, mat4(place.groupToWorld * exactTransformAt(light.transform, timeCode)),
@@ -73,7 +76,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
         g.cone = vec4(0.0f, 0.0f, is.versine, 2.0f * pi * is.versine);
         _hasWideSun |= is.versine > narrowSun;
         g.origin = vec4(s.toLight, 0.0f);
-        s.weight = luminance(s.radiance) * (s.delta ? 1.0f : std::min(g.cone.w, pi));
+        s.weight = luminance(glm::abs(s.radiance)) * (s.delta ? 1.0f : std::min(g.cone.w, pi));
         break;
     case ResolvedLight::Kind::Dome:
         s.domeToWorld = pose.domeToWorld;
@@ -83,7 +86,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
         break;
     case ResolvedLight::Kind::Point:
         s.kind = Point;
-        s.weight = luminance(s.radiance);
+        s.weight = luminance(glm::abs(s.radiance));
         break;
     case ResolvedLight::Kind::Line: {
         const float length = glm::length(pose.along);
@@ -91,7 +94,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
         s.toLight = pose.along;
         g.axis[0] = vec4(pose.along / length, 0.0f);
         s.extent = 0.5f * length;
-        s.weight = luminance(s.radiance) * length;
+        s.weight = luminance(glm::abs(s.radiance)) * length;
         break;
     }
     default: s.shape = pose.shape; addShape(s, light, images);
@@ -108,7 +111,7 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
         sun.delta = true;
         sun.toLight = s.domeToWorld * s.sunDirection;
         sun.radiance = s.radiance * s.sunIrradiance;
-        sun.weight = luminance(sun.radiance);
+        sun.weight = luminance(glm::abs(sun.radiance));
         sun.environment = nullptr;
         sun.fixed.origin = vec4(sun.toLight, 1.0f);
         sun.fixed.cone = vec4(1.0f, 0.0f, 0.0f, 0.0f);
@@ -155,7 +158,7 @@ void RasterLights::addShape(Source& s, const Light& light, LightImages& images) 
     vec3 low(INFINITY), high(-INFINITY);
     growBounds(s.shape, low, high);
     s.extent = 0.5f * glm::length(high - low);
-    s.weight = luminance(s.radiance) * 0.25f * s.extent * s.extent * pi;
+    s.weight = luminance(glm::abs(s.radiance)) * 0.25f * s.extent * s.extent * pi;
     for (int i = 0; i < 3; ++i) {
         g.axis[i] = vec4(s.shape.axes[i], 0.0f);
         g.inverse[i] = vec4(s.shape.inverse[i], 0.0f);

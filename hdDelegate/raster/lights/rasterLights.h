@@ -77,6 +77,8 @@ public:
     }
     /// Whether shadows are asked for in directions that are no light's samples.
     bool needsSky() const { return _shadows && (_hasDome || _hasWideSun); }
+    /// Pixels may be negative.
+    bool takeAway() const { return _takeAway; }
     const RasterLightTables& tables() const { return _tables; }
     static constexpr int maxTables = ///< values of a pass in tables
         maxCoarseSamples * RasterEmission::maxValues;
@@ -132,7 +134,7 @@ private:
     std::set<std::string> _domeMethods;
     int _domeSamples = 1; ///< 0: no material looks at samples of domes
     uint32_t _seed = 0;
-    bool _shadows = true, _hasDome = false, _hasWideSun = false;
+    bool _shadows = true, _hasDome = false, _hasWideSun = false, _takeAway = false;
     static constexpr float narrowSun = 0.003f; ///< see lighting.frag.glsl
 };
 

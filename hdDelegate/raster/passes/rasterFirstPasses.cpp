@@ -28,7 +28,8 @@ void RasterPasses::smooth(const RasterSample& sample, bool look, std::vector<vec
             const vec3 change = vec3(_smoothing[at]) * is - vec3(before[at]) * was;
             if (change == vec3(0.0f) || film.sampleCount(x, y) == 0) continue;
             const vec3 mean = film.color(x, y) + change / float(film.sampleCount(x, y));
-            film.setMean(x, y, glm::max(mean, vec3(0.0f)), film.alpha(x, y));
+            const float least = film.allowsNegative() ? -INFINITY : 0.0f;
+            film.setMean(x, y, glm::max(mean, vec3(least)), film.alpha(x, y));
         }
 }
 

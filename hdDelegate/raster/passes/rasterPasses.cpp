@@ -243,6 +243,7 @@ void RasterPasses::drawTransmitting(const RasterScene& scene, const RasterVisibl
 void RasterPasses::draw(const RasterScene& scene, const RasterLights& lights,
                         const RasterDomes& domes, int environmentSamples,
                         const RasterCamera& camera, const RasterSample& sample, Film& film) {
+    film.allowNegative(lights.takeAway());
     const uint32_t pass = sample.pass;
     const int longer = std::max(_width, _height);
     // A volume is lit by all of a pass's lights, each of which takes long.

@@ -189,11 +189,11 @@ void RasterScene::addDraws(const std::shared_ptr<const Geometry>& prim, int rank
     int lit = -1;
     if (const auto meshLight = _parts.meshLights->of(prim->path, settings)) {
         const Light& light = *meshLight;
-        draw.meshLight.radiance = glm::max(lightBaseRadiance(light), vec3(0.0f));
+        draw.meshLight.radiance = lightBaseRadiance(light);
         draw.meshLight.mode =
-            light.materialSyncMode == "noMaterialResponse"       ? RasterMeshLight::Alone
-            : light.materialSyncMode == "materialGlowTintsLight" ? RasterMeshLight::Tints
-                                                                 : RasterMeshLight::Adds;
+            light.materialSyncMode == "noMaterialResponse" ? RasterMeshLight::NoMaterialResponse
+            : light.materialSyncMode == "materialGlowTintsLight" ? RasterMeshLight::GlowTintsLight
+                                                                 : RasterMeshLight::Independent;
         if (light.normalize)
             draw.meshLight.radiance /= std::max(
                 areaOf(*_groups[firstGroup].shape->mesh, mat4(places[0].groupToWorld * toGroup)),

@@ -46,7 +46,7 @@ void RasterScene::update(const SceneState& state, const vec3& origin, const Rast
     _camera = camera.camera();
     _settings = asked;
     _version = state.version;
-    _shapes.hold(asked.interactive);
+    _shapes.retainFixed(asked.interactive);
     _lightsMayDiffer = !edits || !edits->delta.lights.empty();
     if (!edits || !updateTouched(*edits, state, camera, stop, compiling)) {
         _lightsMayDiffer = true;

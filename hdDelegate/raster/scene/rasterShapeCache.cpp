@@ -129,7 +129,7 @@ std::shared_ptr<const RasterShape> RasterShapeCache::build(const Request& reques
     const auto made = _compiled.shape({request.prim, options, request.displacers, request.toWorld});
     const bool faces =
         request.prim->kind == GeometryKind::Mesh || request.prim->kind == GeometryKind::Implicit;
-    if (_holds && (request.edge == 0.0f || !faces)) _held.push_back(made);
+    if (_retains && (request.edge == 0.0f || !faces)) _retained.push_back(made);
     if (faces) {
         const TriangleMesh& mesh = made->mesh;
         if (mesh.positions.empty() || mesh.triangles.empty()) return shape;

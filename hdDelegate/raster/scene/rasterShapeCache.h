@@ -47,10 +47,10 @@ public:
 
     explicit RasterShapeCache(CompiledShapes& compiled) : _compiled(compiled) {}
 
-    /// Whether shapes that do not depend on the camera are held, once they are in buffers, for
+    /// Whether shapes that do not depend on the camera are retained, once they are in buffers, for
     /// another back end of the scene, until release().
-    void hold(bool holds) { _holds = holds; }
-    void release() { _held.clear(); }
+    void retainFixed(bool retains) { _retains = retains; }
+    void release() { _retained.clear(); }
 
     /// @returns a shape, which is empty when the prim shows nothing
     std::shared_ptr<const RasterShape> get(const Request& request);
@@ -71,8 +71,8 @@ private:
     std::shared_ptr<const RasterShape> build(const Request& request);
 
     CompiledShapes& _compiled;
-    bool _holds = false;
-    std::vector<std::shared_ptr<const PrimShape>> _held;
+    bool _retains = false;
+    std::vector<std::shared_ptr<const PrimShape>> _retained;
     std::map<std::tuple<std::string, float, float>, Entry> _entries; ///< by name, edge and time
     size_t _forgetAt = 64; ///< so many entries are looked through
     size_t _built = 0;

@@ -4,7 +4,7 @@
 #include "hdDelegate/raster/gl/glProgram.h"
 #include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/tests/agreement.h"
-#include "hdDelegate/raster/tests/rasterTest.h"
+#include "hdDelegate/raster/tests/rasterFixture.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -106,10 +106,11 @@ struct Reason {
     const char* cause;
 };
 const Reason reasons[] = {
-    {"dielectric", "past total reflection and under fused layers what passes is 1 minus nearly 1"},
-    {"schlick",
-     "past total reflection and under fused layers what passes is 1 minus nearly 1; an index of up "
-     "to 22, from a colour near 1, multiplies the rounding of the cosine by its square"},
+    {"dielectric",
+     "past total reflection and under shared interfaces what passes is 1 minus nearly 1"},
+    {"schlick", "past total reflection and under shared interfaces what passes is 1 minus nearly "
+                "1; an index of up "
+                "to 22, from a colour near 1, multiplies the rounding of the cosine by its square"},
     {"conductor", "n below 1 with k 0: facets lie on both sides of total reflection"},
     {"methods of conductor",
      "at grazing angles narrow facets multiply the rounding of their slope"},

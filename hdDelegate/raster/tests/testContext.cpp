@@ -3,7 +3,7 @@
 
 #include "hdDelegate/raster/gl/glProgram.h"
 #include "hdDelegate/raster/gl/glResources.h"
-#include "hdDelegate/raster/tests/rasterTest.h"
+#include "hdDelegate/raster/tests/rasterFixture.h"
 
 #include <EGL/egl.h>
 

@@ -6,7 +6,7 @@
 #include "hdDelegate/raster/gl/glResources.h"
 #include "hdDelegate/raster/gl/programCompiler.h"
 #include "hdDelegate/raster/rasterRenderer.h"
-#include "hdDelegate/raster/tests/rasterTest.h"
+#include "hdDelegate/raster/tests/rasterFixture.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/raster/lights/lightChoice.h"
 #include "hdDelegate/raster/lights/rasterLights.h"
-#include "hdDelegate/raster/tests/rasterTest.h"
+#include "hdDelegate/raster/tests/rasterFixture.h"
 #include "hdDelegate/scene/settings.h"
 
 #include <numeric>

@@ -4,9 +4,9 @@
 
 #include "hdDelegate/raster/gl/glProgram.h"
 #include "hdDelegate/raster/gl/glResources.h"
-#include "hdDelegate/raster/tests/rasterTest.h"
+#include "hdDelegate/raster/tests/rasterFixture.h"
 #include "materialNetwork/glsl/glslMaterial.h"
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 using namespace patina;
 

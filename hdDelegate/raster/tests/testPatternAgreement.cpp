@@ -3,10 +3,10 @@
 
 #include "hdDelegate/raster/gl/glProgram.h"
 #include "hdDelegate/raster/gl/glResources.h"
-#include "hdDelegate/raster/tests/rasterTest.h"
+#include "hdDelegate/raster/tests/rasterFixture.h"
 #include "materialNetwork/glsl/glslPatterns.h"
 #include "materialNetwork/nodes/nodeTable.h"
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 #include "materialNetwork/network/value.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "hdDelegate/raster/gl/programCache.h"
 #include "hdDelegate/raster/gl/glProgram.h"
 #include "hdDelegate/raster/gl/glResources.h"
-#include "hdDelegate/raster/tests/rasterTest.h"
+#include "hdDelegate/raster/tests/rasterFixture.h"
 
 #include <chrono>
 #include <cstdlib>

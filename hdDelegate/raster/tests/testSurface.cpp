@@ -2,7 +2,7 @@
 // Meshes become buffers: corners that agree share a vertex, those that do not are kept apart.
 
 #include "hdDelegate/raster/scene/rasterSurface.h"
-#include "hdDelegate/raster/tests/rasterTest.h"
+#include "hdDelegate/raster/tests/rasterFixture.h"
 
 using namespace patina;
 

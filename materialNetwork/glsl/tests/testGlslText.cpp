@@ -2,7 +2,7 @@
 // Generated texts compared with reviewed files, and read by the reference compiler. After a wanted
 // change run with PATINA_UPDATE_EXPECTED=1, and review the difference.
 #include "materialNetwork/glsl/glslMaterial.h"
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 #include "shaders/shaderText.h"
 
 #include <cstdlib>
@@ -114,7 +114,8 @@ TEST(GlslDefinitions, SayWhatAllLobesHaveInCommon) {
             {makeNode("bsdf", "ND_conductor_bsdf", {{"thinfilm_thickness", number(thickness)}})});
         FakeTextures textures;
         Diagnostics diagnostics;
-        return makeGlslMaterial(compileMaterial(network, textures, diagnostics, methods, -1.0)->ir())
+        return makeGlslMaterial(
+                   compileMaterial(network, textures, diagnostics, methods, -1.0)->ir())
             .definitions;
     };
     EXPECT_EQ(definitions(0.0f, {}), "#define PATINA_COMPENSATE(compensate) 1\n" + none);

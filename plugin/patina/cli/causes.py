@@ -93,7 +93,7 @@ class Causes:
         return sorted(merged, key=lambda g: (SEVERITIES.index(g["severity"]), -g["count"]))
 
     def lines(self, reported=None, last=True, json=True):
-        """:param told: dict that remembers what was shown before, which is not shown again ...
+        """:param reported: dict that remembers what was shown before, which is not shown again ...
         :param last: ... unless this is the last call, and it was met more often since
         :param json: whether the command has a --json that holds them all
         :returns: lines of at most MAX_CAUSES causes for all calls with the same dict; the last call says how many more"""

@@ -28,6 +28,13 @@ def run(module, film, threads=0):
         raise CommandError(f"--denoise: {error}") from None
 
 
+def takes_away(film):
+    """:returns: whether pixels are negative, as lights of negative intensity make them"""
+    import numpy as np
+
+    return bool((np.asarray(film.resolve("color")) < 0.0).any())
+
+
 def of_wheel():
     """:returns: the library in PyPI's pyoidn, or an empty text"""
     found = importlib.util.find_spec("pyoidn")

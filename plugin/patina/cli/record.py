@@ -110,6 +110,7 @@ class _Job:
         self._check_warnings()
         if self.arguments.denoise:
             self._denoise(film)
+            self._check_warnings()
         with self.statistics.phase("write"):
             self._write(film, shot, settings, info)
         if self.arguments.report:
@@ -124,6 +125,9 @@ class _Job:
 
     def _denoise(self, film):
         with self.statistics.phase("denoise"):
+            if denoiser.takes_away(film):
+                self.statistics.warn("", "denoise", "some pixels are below zero, which counts as black for the denoiser; "
+                                     "color.noisy has them")
             denoiser.run(self.module, film, self.arguments.threads)
 
     def _check_outputs(self, shot):

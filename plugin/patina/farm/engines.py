@@ -8,6 +8,7 @@ import os
 import re
 import shlex
 import sys
+import time
 from dataclasses import dataclass, field
 
 from patina.cli.errors import CommandError, UsageError
@@ -17,6 +18,7 @@ QUEUES = {"slurm": "SLURMCluster", "pbs": "PBSCluster", "lsf": "LSFCluster", "sg
 HELP = ("dask://HOST[:PORT] is a scheduler that runs; local:N starts N workers here; slurm:N, pbs:N, lsf:N and sge:N ask a "
         "queue for N jobs; k8s:N asks Kubernetes for N pods (default: local, with two cores or more for each worker)")
 PORT = 8786  # Dask's own
+REPLACE_SECONDS = 15.0  # so often workers are asked for in the place of those that are gone
 
 
 @dataclass(frozen=True)
@@ -83,6 +85,7 @@ class Cluster:
         self.engine = engine
         self._cluster = self.client = None
         self._complaints = _Complaints()
+        self._asked = float("-inf")  # when for workers
 
     def __enter__(self):
         _quiet()
@@ -92,6 +95,7 @@ class Cluster:
                 self.client = distributed.Client(self.engine.address, timeout="30s", **self.engine.options)
             else:
                 self._cluster = self._start(distributed)
+                self._scale()
                 self.client = distributed.Client(self._cluster)
         except (OSError, RuntimeError, ValueError, TypeError) as error:
             self.__exit__()
@@ -111,6 +115,16 @@ class Cluster:
         jobs = list(getattr(self._cluster, "workers", {}).values())
         return "" if any(getattr(job, "job_id", None) for job in jobs) else self._complaints.text
 
+    def replace(self, there):
+        """Asks for workers in the place of those that went away: Dask forgets a worker that is away for longer than its setting
+        `distributed.deploy.lost-worker-timeout`, and starts no other by itself. An operator of Kubernetes does so.
+
+        :param there: how many workers there are"""
+        if self._cluster is None or self.engine.kind == "k8s" or there >= self.engine.workers:
+            return
+        if time.monotonic() - self._asked >= REPLACE_SECONDS:
+            self._scale()
+
     def dashboard(self):
         """:returns: the address of Dask's own page, or an empty text: it needs bokeh"""
         if self.engine.kind != "dask" and not importlib.util.find_spec("bokeh"):
@@ -124,18 +138,23 @@ class Cluster:
                                                "memory_limit": 0, "dashboard_address": "127.0.0.1:0", **engine.options})
         if engine.kind == "k8s":
             operator = _import("dask_kubernetes.operator", "dask-kubernetes")
-            cluster = operator.KubeCluster(**pods.cluster_options(operator.make_cluster_spec, engine.workers, engine.options,
-                                                                  environment()))
-            cluster.scale(engine.workers)
-            return cluster
+            return operator.KubeCluster(**pods.cluster_options(operator.make_cluster_spec, engine.workers, engine.options,
+                                                               environment()))
         jobqueue = _import("dask_jobqueue", "dask-jobqueue")
         # What a queue says to a job that it does not take comes to no other place.
         for name in ("tornado.application", "asyncio"):
             log = logging.getLogger(name)
             log.handlers, log.propagate = [self._complaints], False
-        cluster = getattr(jobqueue, QUEUES[engine.kind])(**queue_options(engine))
-        cluster.scale(jobs=engine.workers)
-        return cluster
+        return getattr(jobqueue, QUEUES[engine.kind])(**queue_options(engine))
+
+    def _scale(self):
+        self._asked = time.monotonic()
+        workers = getattr(self._cluster, "workers", {})
+        for name, one in list(workers.items()):
+            # One that was killed while it started is never forgotten by Dask.
+            if getattr(getattr(one, "status", None), "name", "") in ("closed", "failed"):
+                workers.pop(name, None)
+        self._cluster.scale(**{"jobs" if self.engine.kind in QUEUES else "n": self.engine.workers})
 
 
 class _Complaints(logging.Handler):

@@ -53,7 +53,7 @@ class Job:
         finally:
             for frame in frames:
                 frame.leave()  # no worker writes a log any more
-        self._tell(one, frames, seconds, cost, counts)
+        self._report(one, frames, seconds, cost, counts)
 
     def _on_workers(self, frames, waiting, counts):
         """:returns: the Sender that did it, seconds that it took, and those of the sender for a task"""
@@ -68,7 +68,7 @@ class Job:
             if link:  # a narrow terminal shows less of the line of progress
                 self.progress.say(f"Dask's page: {link}")
             try:
-                one.run(frames, waiting, lambda state: self._show(state, frames, link))
+                one.run(frames, waiting, lambda state: self._look(state, cluster, frames, link))
             except KeyboardInterrupt:
                 if one.done or any(frame.kept(started) for frame in frames):
                     raise TemporaryError("interrupted; --resume goes on with what is there") from None
@@ -136,7 +136,8 @@ class Job:
                 if time.monotonic() > end:
                     raise CommandError(f"{self.arguments.engine} has no worker after {FIRST_WORKER_SECONDS} s") from None
 
-    def _show(self, state, frames, link):
+    def _look(self, state, cluster, frames, link):
+        cluster.replace(state.present)
         text = f"{len(state.written)} of {len(frames)} frames, {state.done} of {state.total} tasks, {state.count} workers"
         self.progress.step(state.done, state.total, f"{text}, {link}" if link else text)
 
@@ -148,7 +149,7 @@ class Job:
         cluster.client.gather([cluster.client.submit(worker.nothing, pure=False) for _ in range(EMPTY_TASKS)])
         return (clock() - begin) / EMPTY_TASKS
 
-    def _tell(self, one, frames, seconds, cost, counts):
+    def _report(self, one, frames, seconds, cost, counts):
         written = one.written
         for reason in one.refusals:
             self.progress.say(f"a worker was left out: {reason}")

@@ -25,17 +25,17 @@ def merge(module, parts, image, threads=0):
             reports.append(json.loads(report))
     except RuntimeError as error:
         raise CommandError(str(error)) from error
-    told = _Told(arguments, first.frame, image, reports)
-    told.rendered(_state(reports), film)
+    merged = _MergedStatistics(arguments, first.frame, image, reports)
+    merged.rendered(_state(reports), film)
     if arguments.denoise:
         denoiser.run(module, film, threads)
     try:
         module.write_images(film, image, first.options,
-                            told.metadata(arguments, first.settings, first.camera))
+                            merged.metadata(arguments, first.settings, first.camera))
     except RuntimeError as error:
         raise CommandError(str(error)) from error
-    told.end_frame()
-    return told
+    merged.end_frame()
+    return merged
 
 
 def _state(reports):
@@ -48,7 +48,7 @@ def _state(reports):
             "backend": reports[0]["backend"], "materialSeconds": {}, "converged": True}
 
 
-class _Told(statistics.Statistics):
+class _MergedStatistics(statistics.Statistics):
     """The numbers of a frame whose parts were rendered elsewhere."""
 
     def __init__(self, arguments, frame, image, reports):

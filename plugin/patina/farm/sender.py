@@ -48,23 +48,23 @@ class Sender:
         self.done = self.total = self.count = 0  # tasks, and workers
         self.times = []  # (kind, seconds) of each task
 
-    def run(self, frames, waiting, told):
+    def run(self, frames, waiting, report):
         """:param frames: list of work.Frame, in their order
         :param waiting: tasks that can begin
-        :param told: called with this now and then"""
+        :param report: called with this now and then"""
         left = collections.deque(waiting)
         self.total = sum(frame.left + 1 if frame.cut.parts > 1 else 1 for frame in frames)
         while left or self.tasks:
             try:
-                self._step(left, told)
+                self._step(left, report)
             except (OSError, RuntimeError, TimeoutError, CancelledError) as error:
                 # Tasks end by themselves as failures: this is of the scheduler, or of the way to it.
                 self.lost = f"the scheduler is lost ({_words(error)})"
                 return
 
-    def _step(self, left, told):
+    def _step(self, left, report):
         self._fill(left)
-        told(self)
+        report(self)
         try:
             future = self.ended.get(timeout=LOOK_SECONDS)
         except queue.Empty:
@@ -89,6 +89,11 @@ class Sender:
         places = {"workers": others, "allow_other_workers": True} if avoided and others else {}
         return self.client.submit(worker.run, task.arguments(self.arguments, self.threads), self.folder, task.log, self.checks,
                                   self.variables, pure=False, retries=0, **places)
+
+    @property
+    def present(self):
+        """how many workers there are, those that were refused included"""
+        return len(self._seen[1])
 
     def _workers(self):
         """:returns: addresses of the workers that are there, as they were a moment ago"""

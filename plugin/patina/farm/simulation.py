@@ -73,7 +73,7 @@ def run(costs, frames, parts, workers, seed=0):
             ready.append(task)
         elif kind == "worked":
             free += 1
-            serve("told", task)
+            serve("reported", task)
         else:
             outstanding -= 1
             if task[1] is None:

@@ -11,17 +11,20 @@ RENAMED = {  # id of a node -> category and nodedef
     "UsdTransform2d": ("UsdTransform2d", "ND_UsdTransform2d"),
     "UsdPreviewSurface": ("UsdPreviewSurface", "ND_UsdPreviewSurface_surfaceshader"),
     "PatinaCoat": ("layer", "ND_layer_bsdf"),
+    "ND_patina_dispersed_ior": ("dot", "ND_dot_float"),
     # Not the node of the same name: that is a graph which some generators cannot follow.
     **{"UsdPrimvarReader_" + usd: ("geompropvalue", "ND_geompropvalue_" + own) for usd, own in (
         ("float", "float"), ("float2", "vector2"), ("float3", "vector3"), ("float4", "vector4"), ("int", "integer"),
         ("string", "string"), ("normal", "vector3"), ("point", "vector3"), ("vector", "vector3"))},
 }
 SIMPLER = {"PatinaCoat": "the coat is written as a plain layer, which MaterialX has: light that it sends back down is counted "
-                         "by the reader's own rule"}
-RENAMED_INPUTS = {"geompropvalue": {"varname": "geomprop", "fallback": "default"}}  # of a category
+                         "by the reader's own rule",
+           "ND_patina_dispersed_ior": "MaterialX has no ior by wavelength: the glass is written without its dispersion"}
+RENAMED_INPUTS = {"dot": {"ior": "in"}, "geompropvalue": {"varname": "geomprop", "fallback": "default"}}  # of a category
 UNKNOWN_INPUTS = {  # nodedef -> inputs that it does not have
     "ND_gltf_normalmap_vector3_1_0": {"normal", "tangent", "bitangent"},
     "ND_UsdUVTexture_23": {"sourceColorSpace"},
+    "ND_dot_float": {"abbe_number", "scale"},
 }
 TEXTURE = "ND_UsdUVTexture_23"
 COLOR_SPACES = {"sRGB": "srgb_texture", "raw": "lin_rec709"}  # of sourceColorSpace

@@ -24,6 +24,7 @@ class Context:
         self.skinned = []  # (prim whose space it is, points) of what UsdGeom.BBoxCache does not know
         self.cyclic = False  # there are instancers that hold themselves: UsdGeom.BBoxCache never ends there
         self.color_spaces = ColorSpaces()
+        self.portals = None  # paths of the portals that domes name, once they are asked for
         self._xforms = {}
 
     def warn(self, prim, input_, message):

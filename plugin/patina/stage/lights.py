@@ -4,7 +4,7 @@ import functools
 
 from pxr import Gf, UsdGeom, UsdLux, UsdShade
 
-from . import assets, kinds
+from . import assets, kinds, lightFilters, portals
 from .context import number, vector
 from .primvars import text
 from .transforms import transform_of
@@ -27,14 +27,14 @@ def emit(context, found, linking):
     _read_shadow(context, prim, fields)
     fields["light_link"], fields["shadow_link"] = linking.links_of(prim)
     fields["light_group"] = _light_group(context, found)
-    if prim.HasRelationship("light:filters") and prim.GetRelationship("light:filters").GetTargets():
-        context.warn(prim.GetPath(), "light:filters", "light filters are not applied")
+    fields["filters"] = lightFilters.of(context, prim, group)
     _report_network(context, prim, is_mesh)
 
     after = None
     if type_ == "dome":
         _read_texture(context, prim, fields)
         fields["texture_format"] = str(_input(context, prim, "texture:format") or "automatic")
+        fields["portals"] = portals.of(context, prim, group)
         after = _dome_pole(context, prim)
     elif type_ == "rect":
         _read_texture(context, prim, fields)

@@ -6,7 +6,7 @@ they inherit from outside (material, purpose, primvars), since those make them l
 """
 from pxr import Usd, UsdGeom
 
-from . import drawModes, marks
+from . import drawModes, marks, portals
 from .context import Guard, get
 from .kinds import GPRIM_KINDS, Kinds
 from .skinning import skinning_of
@@ -90,7 +90,7 @@ class Walk:
             self._camera(prim, own)
         elif kind == "light":
             self.walked.lights.append(Found(prim, own, state.group.path(prim), names))
-        elif kind == "unsupported":
+        elif kind == "unsupported" and not portals.is_used(self.context, prim):
             self.context.warn(prim.GetPath(), "", f"prims of type {prim.GetTypeName()} are not drawn")
         elif kind in GPRIM_KINDS:
             if self._drawn(own):

@@ -75,11 +75,15 @@ def live_inputs(network, limit=LIMIT):
 
 
 def _without_warnings(network, found):
-    """Leaves out what is warned of only because it is open: inputs that are not modelled, where they ask for nothing."""
+    """Leaves out what is told of only because it is open: inputs that are not shown, where they ask for nothing."""
     compile_one = compiled.load().web_material
-    reported = set(compile_one(network, {}, 1)["warnings"])
-    kept = _fitting(list(range(len(found))),
-                    lambda chosen: reported.issuperset(compile_one(with_live(network, found, chosen), {}, 1)["warnings"]))
+
+    def told(changed):
+        made = compile_one(changed, {}, 1)
+        return set(made["warnings"]) | {text for text in made["leftOut"] if "dispersion" in text}
+
+    reported = told(network)
+    kept = _fitting(list(range(len(found))), lambda chosen: reported.issuperset(told(with_live(network, found, chosen))))
     return [found[i] for i in kept]
 
 

@@ -110,7 +110,7 @@ def build(name, network, methods, textures):
     if beyond:
         notes.append(f"{beyond} more inputs have no slider")
     material["notes"] = notes
-    warnings = [text for text in lean["leftOut"] if "not a number" in text]
+    warnings = [text for text in lean["leftOut"] if "not a number" in text or "dispersion" in text]
     warnings += [": ".join(part for part in warning if part) for warning in lean["warnings"]]
     material["layer"] = (network, inputs, found)
     return material, lobes, warnings

@@ -49,6 +49,15 @@ void MediaScene::sphere(const std::string& path, const vec3& center, float radiu
     scene->edit().set(std::shared_ptr<const Geometry>(prim));
 }
 
+void MediaScene::plane(const std::string& path, const vec3& center, float size,
+                       const std::string& material) {
+    auto prim = place<Implicit>(path, placed(center, vec3(1.0f)));
+    prim->shape = ImplicitShape::Plane;
+    prim->width = prim->length = size;
+    prim->material = material;
+    scene->edit().set(std::shared_ptr<const Geometry>(prim));
+}
+
 void MediaScene::dome(float radiance) {
     auto light = std::make_shared<Light>();
     light->path = "/dome";

@@ -23,6 +23,9 @@ public:
               const std::string& material);
     void sphere(const std::string& path, const vec3& center, float radius,
                 const std::string& material);
+    /// A square that faces along z.
+    void plane(const std::string& path, const vec3& center, float size,
+               const std::string& material);
     void dome(float radiance);
     void distant(const vec3& irradiance, const vec3& travels);
     /// Looks along -z from `eye`, orthographic, on a square of that width.

@@ -164,13 +164,7 @@ TEST(Media, TheCameraMayStandInside) {
 TEST(Media, AnOpenSheetFillsNothing) {
     MediaScene s;
     s.material("/m", volumeNodes(vec3(1.0f), vec3(0)), "volume");
-    auto plane = std::make_shared<Implicit>();
-    plane->path = "/ceiling";
-    plane->shape = ImplicitShape::Plane;
-    plane->width = plane->length = 100.0f;
-    plane->material = "/m";
-    plane->transform.values[0][3] = vec4(0, 0, 1, 1);
-    s.scene->edit().set(std::shared_ptr<const Geometry>(plane));
+    s.plane("/ceiling", vec3(0, 0, 1), 100.0f, "/m");
     s.dome(1.0f);
     s.camera(vec3(0, 0, 0), 1.0f);
     expectMean(s.render(4, 1), vec3(1.0f));

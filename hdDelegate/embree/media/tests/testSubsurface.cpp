@@ -3,6 +3,7 @@
 
 #include "hdDelegate/embree/media/randomWalk.h"
 #include "hdDelegate/embree/media/tests/mediaScene.h"
+#include "hdDelegate/geometry/tests/meshFixtures.h"
 
 #include <gtest/gtest.h>
 
@@ -69,12 +70,7 @@ TEST(Subsurface, OpenMeshesAreDiffuse) {
     const vec3 color(0.2f, 0.5f, 0.8f);
     MediaScene s;
     s.material("/m", skin(color, vec3(1e5f), 0.0f));
-    auto plane = std::make_shared<Implicit>();
-    plane->path = "/sheet";
-    plane->shape = ImplicitShape::Plane;
-    plane->width = plane->length = 100.0f;
-    plane->material = "/m";
-    s.scene->edit().set(std::shared_ptr<const Geometry>(plane));
+    s.plane("/sheet", vec3(0), 100.0f, "/m");
     s.dome(1.0f);
     s.camera(vec3(0, 0, 5), 1.0f);
     const auto image = s.render(32, 64);
@@ -86,16 +82,12 @@ TEST(Subsurface, OpenBowlsGainNothing) {
     for (float radius : {0.1f, 1.0f}) {
         MediaScene s;
         s.material("/m", skin(vec3(1), vec3(radius, 0.3f * radius, 0.1f * radius), 0.0f));
-        auto mesh = std::make_shared<Mesh>();
+        auto mesh = std::make_shared<Mesh>(cubeMesh());
         mesh->path = "/box";
         mesh->material = "/m";
-        std::vector<vec3> points;
-        for (int i = 0; i < 8; ++i)
-            points.push_back(vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
-        // without the side that the camera does not see
-        mesh->faceVertexCounts.assign(5, 4);
-        mesh->faceVertexIndices = {4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
-        mesh->points = Sampled<std::vector<vec3>>(points);
+        // Without the side that the camera does not see, the last.
+        mesh->faceVertexCounts.pop_back();
+        mesh->faceVertexIndices.resize(20);
         s.scene->edit().set(std::shared_ptr<const Geometry>(mesh));
         s.dome(1.0f);
         s.camera(vec3(0, 0, 5), 1.9f);
@@ -150,24 +142,17 @@ TEST(Subsurface, PartsThatOverlapAreOneObject) {
     const auto meanOf = [](bool inner) {
         MediaScene s;
         s.material("/m", skin(vec3(0.9f), vec3(0.5f), 0.0f));
-        auto mesh = std::make_shared<Mesh>();
+        auto mesh = std::make_shared<Mesh>(cubeMesh());
         mesh->path = "/boxes";
         mesh->material = "/m";
-        std::vector<vec3> points;
-        for (int box = 0; box < (inner ? 2 : 1); ++box) {
-            const int base = int(points.size());
-            const float half = box == 0 ? 1.0f : 0.7f;
-            for (int i = 0; i < 8; ++i)
-                points.push_back(half * vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
-            const int faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                     {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-            for (const auto& face : faces) {
-                mesh->faceVertexCounts.push_back(4);
-                for (int k : face)
-                    mesh->faceVertexIndices.push_back(base + k);
-            }
+        if (inner) {
+            const Mesh box = *mesh;
+            for (const vec3& p : box.points.first())
+                mesh->points.values[0].push_back(0.7f * p);
+            for (int corner : box.faceVertexIndices)
+                mesh->faceVertexIndices.push_back(8 + corner);
+            mesh->faceVertexCounts.assign(12, 4);
         }
-        mesh->points = Sampled<std::vector<vec3>>(points);
         s.scene->edit().set(std::shared_ptr<const Geometry>(mesh));
         s.dome(1.0f);
         s.camera(vec3(0, 0, 5), 1.9f);

@@ -30,18 +30,6 @@ std::vector<NetworkNode> white() {
         node("/m/diffuse", "ND_oren_nayar_diffuse_bsdf", {{"color", Value::makeColor3(1, 1, 1)}})};
 }
 
-void plane(MediaScene& s, const std::string& path, const vec3& center, float size,
-           const std::string& material) {
-    auto prim = std::make_shared<Implicit>();
-    prim->path = path;
-    prim->shape = ImplicitShape::Plane;
-    prim->width = prim->length = size;
-    prim->material = material;
-    prim->transform = MotionTransform(
-        mat4(vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0), vec4(center, 1)));
-    s.scene->edit().set(std::shared_ptr<const Geometry>(prim));
-}
-
 } // namespace
 
 TEST(ThinSlabs, ShadowsHaveTheColourOfTheSlab) {
@@ -50,9 +38,9 @@ TEST(ThinSlabs, ShadowsHaveTheColourOfTheSlab) {
         MediaScene s;
         s.material("/m", white());
         s.material("/pane", pane(tint, 0.0f));
-        plane(s, "/floor", vec3(0), 1.0f, "/m");
+        s.plane("/floor", vec3(0), 1.0f, "/m");
         // Between the sun and what the camera sees, but not seen itself.
-        if (withPane) plane(s, "/window", vec3(0, 2, 2), 2.0f, "/pane");
+        if (withPane) s.plane("/window", vec3(0, 2, 2), 2.0f, "/pane");
         s.distant(vec3(1), vec3(0, -1, -1));
         s.camera(vec3(0, 0, 5), 0.1f);
         return s.render(4, 16).mean;
@@ -71,7 +59,7 @@ TEST(ThinSlabs, WhiteOnesLoseNothing) {
         MediaScene s;
         s.material("/pane", pane(vec3(1), roughness));
         s.cube("/box", vec3(0), vec3(1), "/pane");
-        plane(s, "/front", vec3(0, 0, 2), 4.0f, "/pane");
+        s.plane("/front", vec3(0, 0, 2), 4.0f, "/pane");
         s.dome(1.0f);
         s.camera(vec3(0, 0, 5), 1.2f);
         const auto image = s.render(16, 32);
@@ -88,9 +76,9 @@ TEST(ThinSlabs, LightIsTintedOnceByEach) {
     s.material("/light",
                {node("/m/surface", "ND_surface", {}, {{"edf", {"/m/edf", ""}}}),
                 node("/m/edf", "ND_uniform_edf", {{"color", Value::makeColor3(1, 1, 1)}})});
-    plane(s, "/first", vec3(0, 0, 2), 4.0f, "/pane");
-    plane(s, "/second", vec3(0, 0, 1), 4.0f, "/pane");
-    plane(s, "/light", vec3(0), 1.0f, "/light");
+    s.plane("/first", vec3(0, 0, 2), 4.0f, "/pane");
+    s.plane("/second", vec3(0, 0, 1), 4.0f, "/pane");
+    s.plane("/light", vec3(0), 1.0f, "/light");
     s.camera(vec3(0, 0, 5), 0.1f);
     s.settings.maxDepth = 0; // without light that bounces between the walls
     const auto image = s.render(16, 256);

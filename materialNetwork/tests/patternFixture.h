@@ -3,7 +3,7 @@
 
 #include "materialNetwork/graph/algebra.h"
 #include "materialNetwork/nodes/nodeTable.h"
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 #include "materialNetwork/network/value.h"
 
 namespace patina {

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/embree/integrator.h"
+
+#include "hdDelegate/embree/ambientOcclusion.h"
+#include "hdDelegate/embree/media/mediaAround.h"
+#include "hdDelegate/film/film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+// What a sample of a pixel is: its ray, and where its light goes.
+
+namespace patina {
+
+Integrator::Integrator(const EmbreeScene& scene, const SceneLights& lights,
+                       const CameraRays& camera, const RenderSettings& settings,
+                       const std::vector<AovSpec>& aovs)
+    : _scene(scene), _lights(lights), _camera(camera), _settings(settings), _aovs(aovs),
+      _lightPaths(aovs), _filter(settings.filterRadius),
+      _cullBack(settings.cullStyle.rfind("back", 0) == 0),
+      _cullFront(settings.cullStyle.rfind("front", 0) == 0),
+      _cullDoubleSided(settings.cullStyle.find("Unless") == std::string::npos),
+      _ambientOcclusion(settings.integrator == "ambientOcclusion"),
+      _lightSamples(settings.lightSamples > 0 ? settings.lightSamples
+                                              : lights.worthwhileSamples()) {
+    for (size_t i = 0; i < aovs.size(); ++i) {
+        if (aovs[i].id == AovId::denoisingAlbedo) _denoisingAlbedo = int(i);
+        if (aovs[i].id == AovId::denoisingNormal) _denoisingNormal = int(i);
+    }
+    const vec3 eye = vec3(glm::inverse(camera.worldToCamera())[3]);
+    if (std::isfinite(eye.x + eye.y + eye.z)) _cameraMedia = mediaAround(scene, eye, 0.5f);
+}
+
+void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters& counters) const {
+    Sampler sampler(uint32_t(x), uint32_t(y), _settings.seed, index);
+    const vec4 uFilm = sampler.next4();
+    const float uTime = sampler.next2().x;
+    const vec2 offset = _filter.sample(vec2(uFilm));
+    const vec2 pixel = vec2(x, y) + 0.5f + offset;
+    const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime);
+    const AovTarget target{film, x, y, glm::length(offset)};
+    counters.clock.enter(nullptr);
+    if (_ambientOcclusion) {
+        const AmbientOcclusion occlusion{_scene, _settings.ambientOcclusionSamples};
+        const float seen = occlusion.sample(ray, sampler, _aovs, target, _camera, counters.rays);
+        ++counters.paths;
+        film.addColor(x, y, vec3(std::max(seen, 0.0f)), seen < 0.0f ? 0.0f : 1.0f);
+        return;
+    }
+
+    Path path(sampler);
+    path.origin = ray.origin;
+    path.direction = ray.direction;
+    path.near = ray.near;
+    path.far = ray.far;
+    path.time = ray.time;
+    path.coneWidth = ray.coneWidth;
+    path.coneSpread = ray.coneSpread;
+    path.media = _cameraMedia;
+    std::optional<LightPathRecord> lightPaths;
+    if (!_lightPaths.empty()) path.lightPaths = &lightPaths.emplace(_lightPaths);
+    trace(path, target, counters);
+    ++counters.paths;
+    addFeatures(path, target);
+    const vec3 color = path.radiance * _camera.camera().exposureScale;
+    if (lightPaths)
+        _lightPaths.write(*lightPaths, target, _camera.camera().exposureScale,
+                          !film.usable(color, path.alpha));
+    film.addColor(x, y, color, path.alpha);
+}
+
+/// What guides the denoiser, of every sample, so that means fade at outlines as the colour does.
+void Integrator::addFeatures(const Path& path, const AovTarget& target) const {
+    if (_denoisingAlbedo < 0 && _denoisingNormal < 0) return;
+    // What only mirrors, lamps and skies show is its own texture.
+    const vec3 albedo =
+        path.featured ? path.featureAlbedo : glm::clamp(path.radiance, vec3(0.0f), vec3(1.0f));
+    if (_denoisingAlbedo >= 0)
+        target.film.addAov(_denoisingAlbedo, target.x, target.y, &albedo.x, 0.0f);
+    if (_denoisingNormal >= 0)
+        target.film.addAov(_denoisingNormal, target.x, target.y, &path.featureNormal.x, 0.0f);
+}
+
+} // namespace patina

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wavelengths of paths, and the weights that keep their mean.
+#include "hdDelegate/embree/heroWavelengths.h"
+#include "hdDelegate/embree/wavelengths.h"
+
+#include <gtest/gtest.h>
+
+namespace patina {
+
+TEST(Wavelengths, WhatAllHaveInCommonStaysAsItIs) {
+    constexpr int n = 1 << 20;
+    glm::dvec3 sum(0.0);
+    float last = 0.0f;
+    for (int i = 0; i < n; ++i) {
+        const Wavelengths::Drawn drawn = Wavelengths::get().draw((float(i) + 0.5f) / float(n));
+        EXPECT_GE(drawn.nm, last);
+        last = drawn.nm;
+        sum += glm::dvec3(drawn.weight);
+        for (int c = 0; c < 3; ++c)
+            ASSERT_TRUE(drawn.weight[c] >= 0.0f && drawn.weight[c] <= 3.0001f);
+    }
+    // A midpoint rule errs in the 400 bins' edges alone: by at most a step of 3 / n in each.
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(sum[c] / n, 1.0, 400.0 * 3.0 / n);
+}
+
+TEST(Wavelengths, TheyAreDrawnByWhatChannelsSee) {
+    // The share of draws below a wavelength is the mean share of what channels see below it.
+    for (const float u : {0.1f, 0.35f, 0.6f, 0.9f}) {
+        const float nm = Wavelengths::get().draw(u).nm;
+        double below = 0.0;
+        for (float x = 380.0f + 0.05f; x < nm; x += 0.1f) {
+            const vec3 s = Wavelengths::get().sensitivity(x);
+            below += 0.1 * double(s.x + s.y + s.z) / 3.0;
+        }
+        EXPECT_NEAR(below, u, 2e-3); // a step of 0.1 nm sees 0.001 at most
+    }
+}
+
+TEST(Wavelengths, OneOfThreeStandsForAll) {
+    // The mean over heroes of what is left when the others are left out is what all had together.
+    for (const float u : {0.0f, 0.2f, 0.77f, 0.999f}) {
+        HeroWavelengths waves;
+        const vec3 all = waves.begin(u);
+        float chances = 0.0f;
+        vec3 shares(0.0f), mean(0.0f);
+        for (int hero = 0; hero < HeroWavelengths::count; ++hero) {
+            chances += waves.chances[hero];
+            shares += waves.shares[hero];
+            HeroWavelengths turned;
+            const float third = u + float(hero) / float(HeroWavelengths::count);
+            const vec3 together = turned.begin(third < 1.0f ? third : third - 1.0f);
+            EXPECT_LT(glm::length(together - all), 1e-3f) << "the set of wavelengths is the same";
+            mean += together * turned.leaveOthers() / float(HeroWavelengths::count);
+            EXPECT_TRUE(turned.alone);
+            EXPECT_EQ(turned.shares[0], vec3(1.0f));
+        }
+        EXPECT_FLOAT_EQ(chances, float(HeroWavelengths::count));
+        EXPECT_LT(glm::length(mean - all), 1e-3f);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(shares[c], all[c] > 0.0f ? 1.0f : 0.0f, 1e-6f);
+    }
+}
+
+} // namespace patina

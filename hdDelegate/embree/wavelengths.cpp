@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/embree/wavelengths.h"
+
+#include "shaders/shaders.h"
+
+#include <algorithm>
+
+namespace patina {
+
+namespace {
+
+constexpr int firstNm = 380, bins = 400; // the range of sh::filmWavelength()
+
+float chance(const vec3& sensitivity) {
+    return (sensitivity.x + sensitivity.y + sensitivity.z) / 3.0f;
+}
+
+} // namespace
+
+const Wavelengths& Wavelengths::get() {
+    static const Wavelengths wavelengths;
+    return wavelengths;
+}
+
+Wavelengths::Wavelengths() {
+    glm::dvec3 sum(0.0);
+    for (int i = 0; i < bins; ++i) {
+        _sensitivity.push_back(glm::max(sh::filmChannels(float(firstNm + i) + 0.5f), vec3(0.0f)));
+        sum += glm::dvec3(_sensitivity.back());
+    }
+    double below = 0.0;
+    for (vec3& s : _sensitivity) {
+        s = vec3(glm::dvec3(s) / sum);
+        _below.push_back(float(below));
+        below += double(chance(s));
+    }
+    _below.push_back(1.0f);
+}
+
+Wavelengths::Drawn Wavelengths::draw(float u) const {
+    const auto next = std::upper_bound(_below.begin(), _below.end() - 1, u);
+    const size_t i = size_t(next - _below.begin()) - 1;
+    const float width = _below[i + 1] - _below[i];
+    const float f = width > 0.0f ? std::min((u - _below[i]) / width, 1.0f) : 0.5f;
+    const float density = chance(_sensitivity[i]);
+    return {float(firstNm + int(i)) + f,
+            density > 0.0f ? _sensitivity[i] / density : vec3(0.0f)};
+}
+
+vec3 Wavelengths::sensitivity(float nm) const {
+    const float bin = nm - float(firstNm);
+    return bin >= 0.0f && bin < float(bins) ? _sensitivity[size_t(bin)] : vec3(0.0f);
+}
+
+} // namespace patina

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hdDelegate/hydra/lightFilter.h"
+
+#include "hdDelegate/hydra/values.h"
+
+#include <pxr/imaging/hd/material.h>
+#include <pxr/imaging/hd/tokens.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace patina {
+
+namespace {
+
+/// The inputs of one filter, which hosts give as parameters or as a node of a network.
+class Inputs {
+public:
+    Inputs(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& light,
+           const SdfPath& id)
+        : _delegate(delegate), _param(param), _light(light), _id(id) {
+        const VtValue resource = delegate.GetMaterialResource(id);
+        if (!resource.IsHolding<HdMaterialNetworkMap>()) return;
+        const HdMaterialNetworkMap& map = resource.UncheckedGet<HdMaterialNetworkMap>();
+        const auto found = map.map.find(HdMaterialTerminalTokens->lightFilter);
+        if (found != map.map.end() && !found->second.nodes.empty())
+            _node = found->second.nodes.back();
+    }
+
+    std::string type() const {
+        const std::string given =
+            textOf(_delegate.GetLightParamValue(_id, TfToken("lightFilterType")));
+        return given.empty() ? _node.identifier.GetString() : given;
+    }
+
+    void read(const char* names, float& field) const {
+        const VtValue value = get(names);
+        double number = 0.0;
+        if (value.IsEmpty()) return;
+        if (numberOf(value, number) && std::isfinite(number))
+            field = float(number);
+        else
+            _param.warn(_light, "light:filters",
+                        _id.GetString() + " has an input " + names +
+                            " that is not a finite number; the fallback is used");
+    }
+    void read(const char* names, bool& field) const {
+        double number = 0.0;
+        if (numberOf(get(names), number)) field = number != 0.0;
+    }
+    void read(const char* names, std::string& field) const {
+        const VtValue value = get(names);
+        double number = 0.0;
+        if (numberOf(value, number))
+            field = std::to_string(int(number));
+        else if (!textOf(value).empty())
+            field = textOf(value);
+    }
+    void read(const char* names, std::vector<float>& field) const {
+        int components = 0;
+        const std::vector<float> values = floatsOf(get(names), components);
+        if (components != 1) return;
+        field = values;
+    }
+    void read(const char* names, vec3& field) const {
+        std::vector<vec3> values;
+        read(names, values);
+        if (!values.empty()) field = values[0];
+    }
+    void read(const char* names, std::vector<vec3>& field) const {
+        int components = 0;
+        const std::vector<float> values = floatsOf(get(names), components);
+        if (components != 3) return;
+        field.clear();
+        for (size_t i = 0; i + 2 < values.size(); i += 3)
+            field.emplace_back(values[i], values[i + 1], values[i + 2]);
+    }
+    bool has(const char* names) const { return !get(names).IsEmpty(); }
+
+private:
+    VtValue get(const char* names) const {
+        std::istringstream words(names);
+        for (std::string word; words >> word;)
+            for (const char* prefix :
+                 {"inputs:ri:lightFilter:", "ri:lightFilter:", "inputs:", ""}) {
+                const TfToken name(prefix + word);
+                const auto found = _node.parameters.find(name);
+                if (found != _node.parameters.end()) return found->second;
+                const VtValue value = _delegate.GetLightParamValue(_id, name);
+                if (!value.IsEmpty()) return value;
+            }
+        return VtValue();
+    }
+    HdSceneDelegate& _delegate;
+    HdPatinaRenderParam& _param;
+    const SdfPath &_light, &_id;
+    HdMaterialNode _node;
+};
+
+const LightFilterRow* rowOf(const std::string& type) {
+    for (const LightFilterRow& row : lightFilterRows) {
+        std::istringstream words(row.schemas);
+        for (std::string word; words >> word;)
+            if (word == type) return &row;
+    }
+    return nullptr;
+}
+
+} // namespace
+
+std::vector<LightFilter> readLightFilters(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                                          const SdfPath& light) {
+    std::vector<LightFilter> filters;
+    const VtValue paths = delegate.GetLightParamValue(light, HdTokens->filters);
+    if (!paths.IsHolding<SdfPathVector>()) return filters;
+    for (const SdfPath& path : paths.UncheckedGet<SdfPathVector>()) {
+        const Inputs inputs(delegate, param, light, path);
+        const LightFilterRow* row = rowOf(inputs.type());
+        if (!row) {
+            const std::string given = inputs.type();
+            if (given.empty())
+                param.warn(light, "light:filters",
+                           path.GetString() + " has no type; the light filter is left out");
+            else
+                param.warn(light, "light:filters",
+                           path.GetString() + " is a light filter of unknown type '" + given +
+                               "'; it is left out");
+            continue;
+        }
+        LightFilter filter;
+        filter.path = path.GetString();
+        filter.type = row->type;
+        filter.transform = MotionTransform(toMat4(delegate.GetTransform(path)));
+#define PATINA_FILTER_INPUT(type, field, names, fallback, description)                             \
+    inputs.read(names, filter.field);
+#include "hdDelegate/scene/lightFilterInputs.inc"
+        // Rods are there to block.
+        if (row->type == LightFilterType::Rod && !inputs.has("intensity ri:intensity"))
+            filter.intensity = 0.0f;
+        filters.push_back(std::move(filter));
+    }
+    return filters;
+}
+
+} // namespace patina

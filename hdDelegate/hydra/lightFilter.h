@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hdDelegate/hydra/renderParam.h"
+#include "hdDelegate/scene/light.h"
+
+#include <pxr/imaging/hd/changeTracker.h>
+#include <pxr/imaging/hd/sceneDelegate.h>
+#include <pxr/imaging/hd/sprim.h>
+
+namespace patina {
+
+/// A light filter holds nothing: the lights that name it read it, and are read again when it
+/// changes.
+class HdPatinaLightFilter final : public HdSprim {
+public:
+    explicit HdPatinaLightFilter(const SdfPath& id) : HdSprim(id) {}
+
+    void Sync(HdSceneDelegate*, HdRenderParam*, HdDirtyBits* dirtyBits) override {
+        *dirtyBits = HdChangeTracker::Clean;
+    }
+    HdDirtyBits GetInitialDirtyBitsMask() const override {
+        return HdChangeTracker::AllSceneDirtyBits;
+    }
+};
+
+/// The filters that a light names. One of unknown type is left out with a warning.
+std::vector<LightFilter> readLightFilters(HdSceneDelegate& delegate, HdPatinaRenderParam& param,
+                                          const SdfPath& light);
+
+} // namespace patina

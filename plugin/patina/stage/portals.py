@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Portals that domes name: rectangles that guide their samples."""
+from pxr import Usd
+
+from .context import number
+from .transforms import transform_of
+
+
+def of(context, dome, group):
+    """:returns: what set_light() takes as `portals`"""
+    portals = []
+    for path in _targets(dome):
+        prim = context.stage.GetPrimAtPath(path)
+        if not prim or prim.GetTypeName() != "PortalLight":
+            context.warn(dome.GetPath(), "portals", f"{path} is no PortalLight; it is left out")
+            continue
+        portal = {"path": str(path), "transform": transform_of(context, prim, group.anchor)}
+        for name in ("width", "height"):
+            portal[name] = number(context, prim, "inputs:" + name, 1.0)
+        portals.append(portal)
+    return portals
+
+
+def is_used(context, prim):
+    """:returns: whether a dome of the stage names this portal"""
+    if prim.GetTypeName() != "PortalLight":
+        return False
+    if context.portals is None:
+        domes = (p for p in Usd.PrimRange(context.stage.GetPseudoRoot()) if p.HasRelationship("portals"))
+        context.portals = {path for dome in domes for path in _targets(dome)}
+    return prim.GetPath() in context.portals
+
+
+def _targets(dome):
+    return dome.GetRelationship("portals").GetForwardedTargets() if dome.HasRelationship("portals") else []

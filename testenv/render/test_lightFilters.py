@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Light filters against closed forms, on the floor of lightStages: albedo 0.5, a light two units above."""
+import json
+import math
+
+import pytest
+
+from lightStages import DOWN, STAGE, light
+from rendering import color, record
+
+POINT = ["float inputs:intensity = 4", "float inputs:radius = 0.01", "bool inputs:normalize = 1", "bool treatAsPoint = 1"]
+PLACED = ["double3 xformOp:translate = (%g, %g, %g)", "float xformOp:rotateX = -90",
+              'uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateX"]']
+
+
+def filter_text(kind, lines, place=(0.0, 1.0, 0.0), name="filter"):
+    body = "\n    ".join([*lines, PLACED[0] % place, *PLACED[1:]])
+    return f'def {kind} "{name}"\n{{\n    {body}\n}}\n'
+
+
+def floor(folder, lamp, filters="", samples=16, flags=(), size=8):
+    stage, image = folder / "stage.usda", folder / "image.exr"
+    stage.write_text(STAGE.format(light=lamp + filters))
+    record(stage, image, "--camera", "/camera", "--imageWidth", size, "--imageHeight", size, "--samples", samples, *flags)
+    return color(image).mean()
+
+
+def lamp(kind="SphereLight", attributes=POINT, target="</filter>"):
+    return light(kind, [*attributes, f"rel light:filters = {target}"], DOWN)
+
+
+@pytest.fixture
+def unfiltered(tmp_path):
+    return floor(tmp_path, light("SphereLight", POINT, DOWN))
+
+
+# The floor's point is the origin; the light's way to it crosses the plane y = 1 at x = 0.
+@pytest.mark.parametrize("lines, place, share", [
+    (["float inputs:ri:lightFilter:width = 2"], (0, 1, 0), 1.0),
+    (["float inputs:ri:lightFilter:width = 0.5", "float inputs:ri:lightFilter:radius = 0"], (1, 1, 0), 0.0),
+    (["float inputs:width = 0.5", "float inputs:radius = 0", "bool inputs:invert = 1"], (1, 1, 0), 1.0),
+    (["float inputs:width = 0.5", "float inputs:radius = 0", "float inputs:density = 0.25"], (1, 1, 0), 0.75),
+    (["float inputs:width = 1", "float inputs:radius = 0", "float inputs:edge = 1"], (1, 1, 0), 0.5),  # smoothstep(1/2)
+    (["float inputs:width = 1", "float inputs:radius = 0", "float inputs:left = 1"], (1, 1, 0), 1.0),
+    (["float inputs:width = 0.5", "float inputs:radius = 0"], (1, 3, 0), 1.0),  # above the light: nothing crosses it
+    (["float inputs:width = 1", "float inputs:intensity = 3"], (0, 1, 0), 3.0),
+])
+def test_barn_door(tmp_path, unfiltered, lines, place, share):
+    found = floor(tmp_path, lamp(), filter_text("PxrBarnLightFilter", lines, place))
+    assert found == pytest.approx(share * unfiltered, rel=1e-3, abs=1e-6)
+
+
+def test_barn_door_over_half_of_a_light(tmp_path):
+    """An opening whose side stands over the middle of a wide light hides half of it: half of its irradiance, by symmetry."""
+    wide = ["float inputs:width = 2", "float inputs:height = 2", "float inputs:intensity = 2"]
+    whole = floor(tmp_path, light("RectLight", wide, DOWN), samples=256)
+    opening = filter_text("PxrBarnLightFilter", ["float inputs:width = 4", "float inputs:height = 8", "float inputs:radius = 0"], (2, 1, 0))
+    half = floor(tmp_path, lamp("RectLight", wide), opening, samples=256)
+    # 16384 samples of what is 0 or 1: a standard error of 0.4 % of the half were they independent; five of them.
+    assert half == pytest.approx(0.5 * whole, rel=0.02)
+
+
+def test_barn_door_before_a_distant_light(tmp_path):
+    sun = ["float inputs:intensity = 1", "float inputs:angle = 0"]
+    whole = floor(tmp_path, light("DistantLight", sun, DOWN))
+    for x, share in ((0.0, 1.0), (2.0, 0.0)):
+        found = floor(tmp_path, lamp("DistantLight", sun), filter_text("PxrBarnLightFilter", [], (x, 1, 0)))
+        assert found == pytest.approx(share * whole, rel=1e-3, abs=1e-6)
+
+
+@pytest.mark.parametrize("lines, place, share", [
+    ([], (0, 0, 0), 0.0),
+    ([], (0, 1.5, 0), 1.0),  # beside the point, on the way to the light: rods change what is lit inside of them
+    (["float inputs:intensity = 0.25"], (0, 0, 0), 0.25),
+    (["float inputs:intensity = 0.25", "bool inputs:invert = 1"], (0, 1.5, 0), 0.25),
+    (["float inputs:radius = 0", "float inputs:edge = 1"], (1, 0, 0), 0.5),
+])
+def test_rod(tmp_path, unfiltered, lines, place, share):
+    found = floor(tmp_path, lamp(), filter_text("PxrRodLightFilter", lines, place))
+    assert found == pytest.approx(share * unfiltered, rel=1e-3, abs=1e-6)
+
+
+@pytest.mark.parametrize("lines, share", [
+    (["float inputs:beginDist = 1", "float inputs:endDist = 5"], 0.75),  # the light is 2 away
+    (["float inputs:beginDist = 1", "float inputs:endDist = 5", "float[] inputs:ramp_Knots = [0, 0.5, 1]",
+      "float[] inputs:ramp_Floats = [2, 4, 0]"], 3.0),
+    (['token inputs:rampType = "spherical"', "float inputs:beginDist = 0", "float inputs:endDist = 4"], 0.75),
+    (["int inputs:rampType = 1", "float inputs:beginDist = 0", "float inputs:endDist = 2"], 0.5),
+    (["int inputs:rampType = 3", "float inputs:beginDist = 0", "float inputs:endDist = 20"], 1.0),
+])
+def test_ramp(tmp_path, unfiltered, lines, share):
+    found = floor(tmp_path, lamp(), filter_text("PxrRampLightFilter", lines))
+    # The camera's pixels are up to 0.02 away from the origin.
+    assert found == pytest.approx(share * unfiltered, rel=2e-3)
+
+
+def test_multiplier_and_order(tmp_path, unfiltered):
+    filters = filter_text("PxrIntMultLightFilter", ["float inputs:exposure = 1", "float inputs:intensity = 0.75"])
+    filters += filter_text("LightFilter", ['token lightFilter:shaderId = "PxrIntMultLightFilter"', "float inputs:intensity = 2"], name="other")
+    found = floor(tmp_path, lamp(target="[</filter>, </other>]"), filters)
+    assert found == pytest.approx(3.0 * unfiltered, rel=1e-5)
+
+
+def test_the_camera_and_samples_of_the_bsdf_see_the_filtered_light(tmp_path):
+    """A dome is found by both strategies; its filter scales what they find alike."""
+    dome = ["float inputs:intensity = 1"]
+    text = light("DomeLight", [*dome, "rel light:filters = </filter>"], "")
+    found = floor(tmp_path, text, filter_text("PxrIntMultLightFilter", ["float inputs:intensity = 2"]), samples=64)
+    # Irradiance pi, albedo 0.5; 4096 samples whose values differ by less than their mean.
+    assert found == pytest.approx(2.0 * 0.5, rel=5 / math.sqrt(4096))
+
+
+def test_bad_filters_are_named(tmp_path, unfiltered):
+    wrong = filter_text("PxrNoSuchLightFilter", []) + filter_text("PxrCookieLightFilter", [], name="bare")
+    wrong += filter_text("PxrRampLightFilter", ["float[] inputs:ramp_Knots = [1, 0]", "float[] inputs:ramp_Floats = [1, 1]",
+                                                "float inputs:endDist = 1e9"], name="ramp")
+    statistics = tmp_path / "statistics.json"
+    found = floor(tmp_path, lamp(target="[</filter>, </nowhere>, </bare>, </ramp>]"), wrong, flags=(f"--json={statistics}",))
+    assert found == pytest.approx(unfiltered, rel=1e-3)
+    said = [w["message"] for w in json.loads(statistics.read_text())["warnings"] if w["prim"] == "/light"]
+    for text in ("/nowhere does not exist", "unknown type 'PxrNoSuchLightFilter'", "/bare has no map", "/ramp has a ramp whose knots"):
+        assert any(text in message for message in said), (text, said)

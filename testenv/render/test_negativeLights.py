@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A light of negative intensity gives minus the picture of the positive one: samples are chosen by the power without its sign."""
+import numpy as np
+import pytest
+
+from lightStages import ABOVE, DOWN, STAGE, light
+from rendering import color, record
+
+MESH = """def Mesh "light" (
+    prepend apiSchemas = ["MeshLightAPI"]
+)
+{
+    %s
+    uniform token light:materialSyncMode = "noMaterialResponse"
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1)]
+    uniform token subdivisionScheme = "none"
+}
+"""
+LIGHTS = {
+    "sphere": lambda lines: light("SphereLight", lines, ABOVE),
+    "rect": lambda lines: light("RectLight", lines),
+    "distant": lambda lines: light("DistantLight", ["float inputs:angle = 5", *lines], DOWN),
+    "dome": lambda lines: light("DomeLight", lines, ""),
+    "mesh": lambda lines: MESH % "\n    ".join(lines),
+}
+
+
+def picture(folder, name, intensity, *flags, tint=(1.0, 0.5, 0.25)):
+    stage, image = folder / f"{name}{intensity}.usda", folder / f"{name}{intensity}.exr"
+    lines = [f"float inputs:intensity = {intensity}", f"color3f inputs:color = {tint}"]
+    stage.write_text(STAGE.format(light=LIGHTS[name](lines)))
+    record(stage, image, "--camera", "/camera", "--imageWidth", 8, "--imageHeight", 8, "--samples", 16, *flags)
+    return color(image)
+
+
+@pytest.mark.parametrize("backend", ["embree", "raster"])
+@pytest.mark.parametrize("name", LIGHTS)
+def test_minus_the_picture_of_the_positive_light(tmp_path, name, backend):
+    given = picture(tmp_path, name, 3.0, "--backend", backend)
+    taken = picture(tmp_path, name, -3.0, "--backend", backend)
+    assert given.min() > 0.0
+    # The same samples with the other sign: the path tracer's sums round alike, the driver's to floats.
+    assert np.abs(given + taken).max() <= (0.0 if backend == "embree" else 1e-5 * given.max())
+
+
+def test_channels_have_signs_of_their_own(tmp_path):
+    mixed = picture(tmp_path, "rect", 3.0, tint=(1.0, -0.5, 0.0))
+    assert (mixed[..., 0] > 0.0).all() and (mixed[..., 2] == 0.0).all()
+    assert np.allclose(mixed[..., 1], -0.5 * mixed[..., 0], rtol=1e-6)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Iors by wavelength: what models make of an Abbe number, and when a program disperses.
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 
 #include "shaders/patterns.h"
 

@@ -28,7 +28,7 @@ ROWS = [
     ("choicePoint", r"\bSHEEN_(TABLED|FITTED|QUADRATURE)\b|(Choice|method)::Sheen\b|\bsheenMethods\b|PATINA_CHOICE\(Sheen\b",
      {"materialNetwork/plan/choicePoints.inc", "shaders/lobes/sheen.glsl", "shaders/lib/methods/sheenReflects.glsl",
       "shaders/measure/measureSheen.cpp"}),
-    ("setting", r"\bambientOcclusionSamples\b", {"hdDelegate/scene/settings.def", "hdDelegate/embree/integrator.cpp"}),
+    ("setting", r"\bambientOcclusionSamples\b", {"hdDelegate/scene/settings.def", "hdDelegate/embree/integratorSample.cpp"}),
     ("setting", r"\bmaxScatterings\b", {"hdDelegate/scene/settings.def", "hdDelegate/embree/integratorMedia.cpp"}),
     ("node", r"ND_unpremult|\bunpremult\b|\bunpremultiply\b", {"materialNetwork/nodes/colorNodes.cpp"}),
 ]

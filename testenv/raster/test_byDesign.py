@@ -206,7 +206,8 @@ def test_light_filters_are_left_out(tmp_path):
         stage.write_text(contents)
         inProcess.record(stage, image, "--backend", "raster", "--imageWidth", 16, "--samples", 2, f"--json={said}")
         images.append(inProcess.pixels(image))
-        warned = {w["prim"] for w in json.loads(said.read_text())["warnings"] if "not applied by the rasterizer" in w["message"]}
+        warned = {w["prim"] for w in json.loads(said.read_text())["warnings"]
+                  if "not applied by the rasterizer" in w["message"]}
         assert warned == ({"/World/spot", "/World/ramped"} if name == "filtered" else set())
     assert np.array_equal(*images)
 

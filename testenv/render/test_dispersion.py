@@ -161,7 +161,8 @@ def test_a_prism_bends_each_wavelength_as_snell_says(tmp_path, band):
     found = means(prism_stage(tmp_path, strip(near, far)), "--maxDepth", 2)
     for channel in range(3):
         if expected[channel] > 0.0:
-            assert scipy.stats.ttest_1samp(found[:, channel], expected[channel]).pvalue > SIGNIFICANCE, (found.mean(0), expected)
+            assert scipy.stats.ttest_1samp(found[:, channel], expected[channel]).pvalue > SIGNIFICANCE, (found.mean(0),
+                                                                                                         expected)
         assert found[:, channel].mean() == pytest.approx(expected[channel], abs=0.02 * expected.max())
 
 

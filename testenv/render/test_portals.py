@@ -68,6 +68,7 @@ def PortalLight "lonely"
 """)
     record(stage, tmp_path / "image.exr", "--imageWidth", 4, "--samples", 1, f"--json={statistics}")
     said = [w["prim"] + " " + w["message"] for w in json.loads(statistics.read_text())["warnings"]]
-    for text in ("/sky /nowhere is no PortalLight", "/sky /ball is no PortalLight", "/sky /flat has no size", "/lonely prims of type PortalLight"):
+    for text in ("/sky /nowhere is no PortalLight", "/sky /ball is no PortalLight", "/sky /flat has no size",
+                 "/lonely prims of type PortalLight"):
         assert any(line.startswith(text) for line in said), (text, said)
     assert not any(line.startswith("/flat") for line in said)

@@ -54,8 +54,8 @@ def test_barn_door_over_half_of_a_light(tmp_path):
     """An opening whose side stands over the middle of a wide light hides half of it: half of its irradiance, by symmetry."""
     wide = ["float inputs:width = 2", "float inputs:height = 2", "float inputs:intensity = 2"]
     whole = floor(tmp_path, light("RectLight", wide, DOWN), samples=256)
-    opening = filter_text("PxrBarnLightFilter", ["float inputs:width = 4", "float inputs:height = 8",
-                                                 "float inputs:radius = 0"], (2, 1, 0))
+    opening = filter_text("PxrBarnLightFilter",
+                          ["float inputs:width = 4", "float inputs:height = 8", "float inputs:radius = 0"], (2, 1, 0))
     half = floor(tmp_path, lamp("RectLight", wide), opening, samples=256)
     # 16384 samples of what is 0 or 1: a standard error of 0.4 % of the half were they independent; five of them.
     assert half == pytest.approx(0.5 * whole, rel=0.02)
@@ -97,8 +97,8 @@ def test_ramp(tmp_path, unfiltered, lines, share):
 
 def test_multiplier_and_order(tmp_path, unfiltered):
     filters = filter_text("PxrIntMultLightFilter", ["float inputs:exposure = 1", "float inputs:intensity = 0.75"])
-    filters += filter_text("LightFilter", ['token lightFilter:shaderId = "PxrIntMultLightFilter"',
-                                           "float inputs:intensity = 2"], name="other")
+    other = ['token lightFilter:shaderId = "PxrIntMultLightFilter"', "float inputs:intensity = 2"]
+    filters += filter_text("LightFilter", other, name="other")
     found = floor(tmp_path, lamp(target="[</filter>, </other>]"), filters)
     assert found == pytest.approx(3.0 * unfiltered, rel=1e-5)
 

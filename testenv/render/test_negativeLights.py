@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A light of negative intensity gives minus the picture of the positive one: samples are chosen by the power without its
-sign."""
+"""A light of negative intensity gives minus the picture of the positive one: the power without its sign chooses samples."""
 import numpy as np
 import pytest
 

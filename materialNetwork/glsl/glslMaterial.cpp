@@ -47,7 +47,7 @@ public:
         line("vec3 passThrough;");
         for (const std::string& walks : glslWalksLeftOut(_code))
             _out.leftOut.push_back(walks);
-        if (_facts.disperses)
+        if (asksForDispersion())
             _out.leftOut.push_back("chromatic dispersion is the path tracer's alone: all light bends "
                                    "as that of the d line");
         instantiateFunction();
@@ -150,6 +150,15 @@ private:
     }
 
     /// Lobes set up, with weights that do not yet know what passes straight.
+    /// Also where nothing lets light through yet, which an input of the page may change.
+    bool asksForDispersion() const {
+        return std::any_of(_code.surfaceCode.begin(), _code.surfaceCode.end(),
+                           [](const Instruction& i) { return i.pattern->spectral; }) &&
+               std::any_of(_code.lobes.begin(), _code.lobes.end(), [](const LobeTemplate& t) {
+                   return t.methods.get<method::Dispersion>() != method::Dispersion::None;
+               });
+    }
+
     void instantiateFunction() {
         line("void instantiate() {");
         instructions(_code.surfaceCode);

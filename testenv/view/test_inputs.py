@@ -81,6 +81,8 @@ def dispersive(module, name, given=None, behind=False):
     network = module.Network("/m")
     network.add_node("/m/s", node)
     network.set_terminal("surface", "/m/s", "")
+    if name == "gltf":
+        network.set_input("/m/s", "metallic", "float", 0.0)  # metal has nothing to disperse
     if behind:
         network.add_node("/m/p", "ND_multiply_float")
         network.set_input("/m/p", "in1", "float", given or 0.0)

@@ -42,8 +42,8 @@ def of(context, light, group):
         name = _type_name(prim)
         if name not in _types():
             known = ", ".join(sorted(_types()))
-            context.warn(light.GetPath(), "light:filters", f"{path} is a light filter of unknown type '{name}' (known: {known}); "
-                         "it is left out")
+            context.warn(light.GetPath(), "light:filters",
+                         f"{path} is a light filter of unknown type '{name}' (known: {known}); it is left out")
             continue
         filters.append({"path": str(path), "type": _types()[name], "transform": _transform(context, prim, group),
                         **_read(context, prim, name)})

@@ -46,7 +46,7 @@ def test_nothing_outshines_a_white_sky(name, backend, tmp_path):
     stage, image = under_a_white_sky(name, tmp_path / "white.usda"), str(tmp_path / "white.exr")
     pairs.record(stage, image, "--backend", backend, "--samples", str(SAMPLES), "-w", str(WIDTH))
     found = pairs.pixels(image)
-    assert np.isfinite(found).all() and found.max() > 0.05
+    assert np.isfinite(found).all() and found.max() > 0.0, "nothing is lit"
     h, w = (n // 8 * 8 for n in found.shape[:2])
     blocks = found[:h, :w].reshape(h // 8, 8, w // 8, 8, 3).mean(axis=(1, 3))
     assert blocks.max() <= BLOCK and found.mean() <= IMAGE, (blocks.max(), found.mean())

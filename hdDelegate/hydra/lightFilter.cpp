@@ -27,10 +27,14 @@ public:
             _node = found->second.nodes.back();
     }
 
+    /// The shader's where the prim is of the general type.
     std::string type() const {
-        const std::string given =
-            textOf(_delegate.GetLightParamValue(_id, TfToken("lightFilterType")));
-        return given.empty() ? _node.identifier.GetString() : given;
+        const std::string given = parameter("lightFilterType");
+        if (!given.empty() && given != "LightFilter") return given;
+        if (!_node.identifier.IsEmpty()) return _node.identifier.GetString();
+        // UsdImagingDelegate makes no node of a shader that its registry does not know.
+        const std::string shader = parameter("lightFilter:shaderId");
+        return shader.empty() ? given : shader;
     }
 
     void read(const char* names, float& field) const {
@@ -78,6 +82,9 @@ public:
     bool has(const char* names) const { return !get(names).IsEmpty(); }
 
 private:
+    std::string parameter(const char* name) const {
+        return textOf(_delegate.GetLightParamValue(_id, TfToken(name)));
+    }
     VtValue get(const char* names) const {
         std::istringstream words(names);
         for (std::string word; words >> word;)

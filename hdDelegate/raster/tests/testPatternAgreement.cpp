@@ -3,10 +3,10 @@
 
 #include "hdDelegate/raster/gl/glProgram.h"
 #include "hdDelegate/raster/gl/glResources.h"
-#include "hdDelegate/raster/tests/rasterFixture.h"
+#include "hdDelegate/raster/tests/rasterTest.h"
 #include "materialNetwork/glsl/glslPatterns.h"
 #include "materialNetwork/nodes/nodeTable.h"
-#include "materialNetwork/tests/materialFixture.h"
+#include "materialNetwork/tests/materialTest.h"
 #include "materialNetwork/network/value.h"
 
 #include <algorithm>
@@ -230,16 +230,13 @@ TEST_P(PatternAgreement, OfNodesWithTheirFunctions) {
     for (const Case& c : all) {
         for (int t = 0; t < trials; ++t) {
             const std::vector<glm::vec4> expected = reference(c, t);
-            for (int o = 0; o < c.outputs && size_t(o) < c.components.size(); ++o) {
-                // Sums and rotations round by the largest component, not by each one's own size.
-                float largest = 0.0f;
-                for (int k = 0; k < c.components[size_t(o)]; ++k)
-                    largest = std::max(largest, std::fabs(expected[size_t(o)][k]));
-                for (int k = 0; k < c.components[size_t(o)]; ++k)
-                    EXPECT_NEAR(answers[size_t(slot + o) * trials + size_t(t)][k],
-                                expected[size_t(o)][k], 2e-4f * largest + 2e-5f)
+            for (int o = 0; o < c.outputs && size_t(o) < c.components.size(); ++o)
+                for (int k = 0; k < c.components[size_t(o)]; ++k) {
+                    const float e = expected[size_t(o)][k];
+                    EXPECT_NEAR(answers[size_t(slot + o) * trials + size_t(t)][k], e,
+                                2e-4f * std::fabs(e) + 2e-5f)
                         << c.def->id << " trial " << t << " output " << o;
-            }
+                }
         }
         slot += c.outputs;
     }

@@ -13,6 +13,8 @@ from test_bothBackEnds import opengl  # noqa: F401  (skips where there is no Ope
 
 BLOCK = 1.02   # brightest 8x8 block
 IMAGE = 1.002  # mean of the image
+DARK = {"portals": 0.0}  # a room: its one window is a small part of what a point sees
+LIT = 0.05  # of the sky's radiance, by the brightest pixel of all others
 WIDTH, SAMPLES = 32, 16
 
 
@@ -46,7 +48,7 @@ def test_nothing_outshines_a_white_sky(name, backend, tmp_path):
     stage, image = under_a_white_sky(name, tmp_path / "white.usda"), str(tmp_path / "white.exr")
     pairs.record(stage, image, "--backend", backend, "--samples", str(SAMPLES), "-w", str(WIDTH))
     found = pairs.pixels(image)
-    assert np.isfinite(found).all() and found.max() > 0.0, "nothing is lit"
+    assert np.isfinite(found).all() and found.max() > DARK.get(name, LIT), "nothing is lit"
     h, w = (n // 8 * 8 for n in found.shape[:2])
     blocks = found[:h, :w].reshape(h // 8, 8, w // 8, 8, 3).mean(axis=(1, 3))
     assert blocks.max() <= BLOCK and found.mean() <= IMAGE, (blocks.max(), found.mean())

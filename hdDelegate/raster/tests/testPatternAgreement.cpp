@@ -3,10 +3,10 @@
 
 #include "hdDelegate/raster/gl/glProgram.h"
 #include "hdDelegate/raster/gl/glResources.h"
-#include "hdDelegate/raster/tests/rasterTest.h"
+#include "hdDelegate/raster/tests/rasterFixture.h"
 #include "materialNetwork/glsl/glslPatterns.h"
 #include "materialNetwork/nodes/nodeTable.h"
-#include "materialNetwork/tests/materialTest.h"
+#include "materialNetwork/tests/materialFixture.h"
 #include "materialNetwork/network/value.h"
 
 #include <algorithm>
@@ -228,13 +228,16 @@ TEST_P(PatternAgreement, OfNodesWithTheirFunctions) {
 
     slot = 0;
     for (const Case& c : all) {
+        // The random numbers of hexagons are fractions of a product below 2^15: one rounding more
+        // or less, as of a fused sum, moves them by 2^-9, and what they turn by as much.
+        const float random = c.def->id.find("hextiled") != std::string::npos ? 0x1p-9f : 0.0f;
         for (int t = 0; t < trials; ++t) {
             const std::vector<glm::vec4> expected = reference(c, t);
             for (int o = 0; o < c.outputs && size_t(o) < c.components.size(); ++o)
                 for (int k = 0; k < c.components[size_t(o)]; ++k) {
                     const float e = expected[size_t(o)][k];
                     EXPECT_NEAR(answers[size_t(slot + o) * trials + size_t(t)][k], e,
-                                2e-4f * std::fabs(e) + 2e-5f)
+                                2e-4f * std::fabs(e) + 2e-5f + random)
                         << c.def->id << " trial " << t << " output " << o;
                 }
         }

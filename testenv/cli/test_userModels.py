@@ -61,6 +61,27 @@ def models(tmp_path):
     return folder
 
 
+GRAIN = '<input name="grain" type="float" value="0" patina-not-modelled="grain is not modelled; the input is ignored"/>'
+PRODUCT = """<multiply name="m" type="float"><input name="in1" type="float" value="2"/>
+  <input name="in2" type="float" value="%g"/></multiply>"""
+
+
+@pytest.mark.parametrize("node, source, warned", [
+    ("", 'value="0.5"', True), ("", 'value="0"', False),
+    (PRODUCT % 0.25, 'nodename="m"', True), (PRODUCT % 0.0, 'nodename="m"', False), ("", 'nodename="p"', True),
+], ids=("value", "default", "product", "zero", "circle"))
+def test_an_input_that_a_model_does_not_serve_is_told_where_it_would_change_something(models, tmp_path, node, source, warned):
+    (models / "plaster.mtlx").write_text(MODEL.replace("<nodedef name=\"ND_plaster\" node=\"plaster\">",
+                                                       "<nodedef name=\"ND_plaster\" node=\"plaster\">" + GRAIN))
+    file = tmp_path / "wall.mtlx"
+    shade = '<input name="shade" type="float" value="0.75"/>'
+    file.write_text(WALL.replace(shade, f'{shade}<input name="grain" type="float" {source}/>').replace(
+        '"1.39">', f'"1.39">{node}', 1))
+    process = patina("bsdf", "albedo", file, models=models)
+    assert process.returncode == 0, process.stderr
+    assert ("grain is not modelled; the input is ignored" in process.stderr) == warned, process.stderr
+
+
 @pytest.mark.parametrize("name, text", [("wall.mtlx", WALL), ("wall.usda", STAGE)])
 def test_a_model_is_a_file_in_a_folder(models, tmp_path, name, text):
     file = tmp_path / name

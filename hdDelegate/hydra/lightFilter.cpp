@@ -7,11 +7,14 @@
 #include <pxr/imaging/hd/tokens.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 namespace patina {
 
 namespace {
+
+constexpr const char* prefixes[] = {"inputs:ri:lightFilter:", "ri:lightFilter:", "inputs:", ""};
 
 /// The inputs of one filter, which hosts give as parameters or as a node of a network.
 class Inputs {
@@ -62,9 +65,12 @@ public:
     }
     void read(const char* names, std::vector<float>& field) const {
         int components = 0;
-        const std::vector<float> values = floatsOf(get(names), components);
-        if (components != 1) return;
-        field = values;
+        const VtValue value = get(names);
+        const std::vector<float> values = floatsOf(value, components);
+        if (components == 1)
+            field = values;
+        else if (!value.IsEmpty())
+            tellBadArray(names);
     }
     void read(const char* names, vec3& field) const {
         std::vector<vec3> values;
@@ -73,23 +79,70 @@ public:
     }
     void read(const char* names, std::vector<vec3>& field) const {
         int components = 0;
-        const std::vector<float> values = floatsOf(get(names), components);
-        if (components != 3) return;
+        const VtValue value = get(names);
+        const std::vector<float> values = floatsOf(value, components);
+        if (components != 3) {
+            if (!value.IsEmpty()) tellBadArray(names);
+            return;
+        }
         field.clear();
         for (size_t i = 0; i + 2 < values.size(); i += 3)
             field.emplace_back(values[i], values[i + 1], values[i + 2]);
     }
+    /// Warns of inputs that are not evaluated. Of a filter that came as parameters only those are
+    /// known that the table lists.
+    void tellOfOthers() const {
+        for (const IgnoredFilterInput& row : ignoredFilterInputs) {
+            const VtValue value = get(row.names);
+            if (!value.IsEmpty() && !isIdle(value, row.idle)) tell(row.names);
+        }
+        for (const auto& parameter : _node.parameters)
+            if (!isKnown(withoutPrefix(parameter.first.GetString())))
+                tell(parameter.first.GetString());
+    }
     bool has(const char* names) const { return !get(names).IsEmpty(); }
 
 private:
+    void tellBadArray(const char* names) const {
+        _param.warn(_light, "light:filters",
+                    _id.GetString() + " has an input " + names +
+                        " that is no array of finite numbers; the fallback is used");
+    }
+    void tell(const std::string& input) const {
+        _param.warn(_light, "light:filters",
+                    _id.GetString() + " has an input " + input + " that is not evaluated");
+    }
+    static bool isIdle(const VtValue& value, const char* idle) {
+        double number = 0.0;
+        const bool isNumber = numberOf(value, number);
+        std::istringstream words(idle);
+        for (std::string word; words >> word;) {
+            char* end = nullptr;
+            const double wanted = std::strtod(word.c_str(), &end);
+            if (word == "*" || (isNumber ? *end == 0 && wanted == number : textOf(value) == word))
+                return true;
+        }
+        return !isNumber && textOf(value).empty();
+    }
+    static bool isKnown(const std::string& name) {
+        std::string all = " ";
+#define PATINA_FILTER_INPUT(type, field, names, fallback, description) all += names " ";
+#define PATINA_FILTER_IGNORED(names, idle) all += names " ";
+#include "hdDelegate/scene/lightFilterInputs.inc"
+        return all.find(" " + name + " ") != std::string::npos;
+    }
+    static std::string withoutPrefix(const std::string& name) {
+        for (const std::string prefix : prefixes)
+            if (name.compare(0, prefix.size(), prefix) == 0) return name.substr(prefix.size());
+        return name;
+    }
     std::string parameter(const char* name) const {
         return textOf(_delegate.GetLightParamValue(_id, TfToken(name)));
     }
     VtValue get(const char* names) const {
         std::istringstream words(names);
         for (std::string word; words >> word;)
-            for (const char* prefix :
-                 {"inputs:ri:lightFilter:", "ri:lightFilter:", "inputs:", ""}) {
+            for (const char* prefix : prefixes) {
                 const TfToken name(prefix + word);
                 const auto found = _node.parameters.find(name);
                 if (found != _node.parameters.end()) return found->second;
@@ -141,6 +194,7 @@ std::vector<LightFilter> readLightFilters(HdSceneDelegate& delegate, HdPatinaRen
 #define PATINA_FILTER_INPUT(type, field, names, fallback, description)                             \
     inputs.read(names, filter.field);
 #include "hdDelegate/scene/lightFilterInputs.inc"
+        inputs.tellOfOthers();
         // Rods are there to block.
         if (row->type == LightFilterType::Rod && !inputs.has("intensity ri:intensity"))
             filter.intensity = 0.0f;

@@ -114,11 +114,12 @@ LightFilters::LightFilters(const Light& light, const mat4& groupToWorld, const d
         filter.directional = f.directional;
         filter.shear = vec2(f.shearX / f.scaleWidth, f.shearY / f.scaleHeight);
         filter.apex = f.apex;
-        filter.density = f.density;
+        filter.density = std::clamp(f.density, 0.0f, 1.0f);
+        if (filter.density != f.density) warn("has a density that is not within 0..1; it is clamped");
         filter.invert = f.invert;
         filter.intensity = f.intensity;
         if (f.type == LightFilterType::Multiplier) filter.intensity *= std::exp2(f.exposure);
-        if (!std::isfinite(filter.intensity + filter.density)) {
+        if (!std::isfinite(filter.intensity + f.density)) {
             warn("has a density or intensity that is not finite; it is left out");
             continue;
         }

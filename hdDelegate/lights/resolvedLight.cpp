@@ -124,11 +124,31 @@ float ResolvedLight::power() const {
     return luminance(glm::abs(radiance));
 }
 
+namespace {
+
+/// Whether a factor of the filter may be below 0.
+bool canTurnSign(const LightFilter& filter) {
+    const auto negative = [](float value) { return value < 0.0f; };
+    return filter.intensity < 0.0f ||
+           std::any_of(filter.rampFloats.begin(), filter.rampFloats.end(), negative) ||
+           std::any_of(filter.colors.begin(), filter.colors.end(), [&](const vec3& color) {
+               return negative(std::min({color.x, color.y, color.z}));
+           }) ||
+           // Overshoot of the curve, and images above 1 that are inverted.
+           filter.rampInterpolation.rfind("catmull", 0) == 0 ||
+           filter.colorInterpolation.rfind("catmull", 0) == 0 || filter.invert;
+}
+
+} // namespace
+
 bool takesLightAway(const SceneState& state, const RenderSettings& settings) {
     if (!settings.enableSceneLights) return false;
     for (const auto& item : state.lights) {
         const vec3 base = lightBaseRadiance(*item.second);
-        if (item.second->visible && std::min({base.x, base.y, base.z}) < 0.0f) return true;
+        if (!item.second->visible) continue;
+        if (std::min({base.x, base.y, base.z}) < 0.0f) return true;
+        const auto& filters = item.second->filters;
+        if (std::any_of(filters.begin(), filters.end(), canTurnSign)) return true;
     }
     return false;
 }

@@ -24,6 +24,16 @@ inline constexpr LightFilterRow lightFilterRows[] = {
 #include "hdDelegate/scene/lightFilterInputs.inc"
 };
 
+/// An input that is read only to say that it is not evaluated.
+struct IgnoredFilterInput {
+    const char *names, *idle;
+};
+
+inline constexpr IgnoredFilterInput ignoredFilterInputs[] = {
+#define PATINA_FILTER_IGNORED(names, idle) {names, idle},
+#include "hdDelegate/scene/lightFilterInputs.inc"
+};
+
 /// What changes a light on its way to a point: a prim that the light's `light:filters` names. The
 /// inputs are explained in lightFilterInputs.inc.
 struct LightFilter {

@@ -498,6 +498,10 @@ def explain_material(network: Network, warnings: typing.Any = None, methods: dic
     """
     What is modelled of a material, as text. Warnings are appended to the list.
     """
+def ignored_light_filter_inputs() -> dict[str, typing.Any]:
+    """
+    Inputs of light filters that are not evaluated -> the values, separated by blanks, at which they do nothing.
+    """
 def instruction_set() -> str:
     """
     What this build computes with, in words: renders of two machines have equal bits where build and instruction set are equal.

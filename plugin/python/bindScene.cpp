@@ -180,6 +180,16 @@ void bindScene(py::module_& m) {
         },
         "Inputs of light filters: (names in schemas, separated by blanks, key of a filter of "
         "set_light(), type).");
+    m.def(
+        "ignored_light_filter_inputs",
+        [] {
+            py::dict ignored;
+            for (const IgnoredFilterInput& row : ignoredFilterInputs)
+                ignored[row.names] = row.idle;
+            return ignored;
+        },
+        "Inputs of light filters that are not evaluated -> the values, separated by blanks, at which "
+        "they do nothing.");
     edit.def("set_light", &setLight, py::arg("path"),
              "A UsdLux light; keywords are the fields of Light. filters: a list of dicts of path, "
              "type, transform and light_filter_inputs(). portals: of path, "

@@ -44,6 +44,8 @@ def unfiltered(tmp_path):
     (["float inputs:width = 1", "float inputs:radius = 0", "float inputs:left = 1"], (1, 1, 0), 1.0),
     (["float inputs:width = 0.5", "float inputs:radius = 0"], (1, 3, 0), 1.0),  # above the light: nothing crosses it
     (["float inputs:width = 1", "float inputs:intensity = 3"], (0, 1, 0), 3.0),
+    (["float inputs:width = 1", "float inputs:intensity = -3"], (0, 1, 0), -3.0),
+    (["float inputs:width = 0.5", "float inputs:radius = 0", "float inputs:density = 2"], (1, 1, 0), 0.0),  # at most 1
 ])
 def test_barn_door(tmp_path, unfiltered, lines, place, share):
     found = floor(tmp_path, lamp(), filter_text("PxrBarnLightFilter", lines, place))
@@ -110,6 +112,17 @@ def test_the_camera_and_samples_of_the_bsdf_see_the_filtered_light(tmp_path):
     found = floor(tmp_path, text, filter_text("PxrIntMultLightFilter", ["float inputs:intensity = 2"]), samples=64)
     # Irradiance pi, albedo 0.5; 4096 samples whose values differ by less than their mean.
     assert found == pytest.approx(2.0 * 0.5, rel=5 / math.sqrt(4096))
+
+
+def test_inputs_that_are_not_evaluated_are_named(tmp_path):
+    lines = ["float inputs:ri:lightFilter:saturation = 0.5", "float inputs:diffuse = 1", "float inputs:twist = 3",
+             "bool inputs:analytic:useLightDirection = 1", 'token inputs:combineMode = "mult"', "int inputs:colorRamp = 4",
+             "float inputs:density = 2"]
+    statistics = tmp_path / "statistics.json"
+    floor(tmp_path, lamp(), filter_text("PxrBarnLightFilter", lines), samples=1, flags=(f"--json={statistics}",))
+    said = sorted(w["message"] for w in json.loads(statistics.read_text())["warnings"])
+    assert said == ["/filter has a density that is not within 0..1; it is clamped", "is 0.5, which is not evaluated",
+                    "is 3.0, which is not evaluated", "is True, which is not evaluated"]
 
 
 def test_bad_filters_are_named(tmp_path, unfiltered):

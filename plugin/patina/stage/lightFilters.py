@@ -10,9 +10,6 @@ from .context import number, vector
 from .transforms import transform_of
 
 _PREFIXES = ("inputs:ri:lightFilter:", "inputs:", "ri:lightFilter:", "")
-# What is read to say that it is not done, with the values at which it does nothing.
-_UNUSED = {"combineMode": ("", "mult", "multiply", 0), "diffuse": (1.0,), "specular": (1.0,), "saturation": (1.0,),
-           "preBarn": ("", "None", "noEffect", 0), "preBarnEffect": ("", "None", "noEffect", 0)}
 
 
 @functools.lru_cache(maxsize=None)
@@ -27,6 +24,14 @@ def _inputs():
     import _patina
 
     return [(names.split(), key, type_) for names, key, type_ in _patina.light_filter_inputs()]
+
+
+@functools.lru_cache(maxsize=None)
+def _ignored():
+    """:returns: dict: name of an input that is not evaluated -> values at which that changes nothing"""
+    import _patina
+
+    return {name: idle.split() for names, idle in _patina.ignored_light_filter_inputs().items() for name in names.split()}
 
 
 def of(context, light, group):
@@ -85,12 +90,29 @@ def _read(context, prim, name):
             fields[key] = read
     if _types()[name] == "rod":
         fields.setdefault("intensity", 0.0)  # rods are there to block
-    for unused, idle in _UNUSED.items():
-        attribute = _attribute(prim, [unused])
-        value = attribute.Get(context.time) if attribute else None
-        if value is not None and value not in idle:
-            context.warn(prim.GetPath(), attribute.GetName(), f"is {value}, which is not evaluated")
+    _tell_of_others(context, prim)
     return fields
+
+
+def _tell_of_others(context, prim):
+    """Warns of inputs that are not evaluated."""
+    known = {name for names, _, _ in _inputs() for name in names}
+    for attribute in prim.GetAuthoredAttributes():
+        prefix = next((p for p in _PREFIXES[:-1] if attribute.GetName().startswith(p)), None)
+        name = attribute.GetName()[len(prefix or ""):]
+        if prefix is None or name in known or not attribute.HasAuthoredValue():
+            continue
+        value = attribute.Get(context.time)
+        if not _is_idle(value, _ignored().get(name, ())):
+            context.warn(prim.GetPath(), attribute.GetName(), f"is {value}, which is not evaluated")
+
+
+def _is_idle(value, words):
+    if "*" in words:
+        return True
+    if isinstance(value, (bool, int, float)):
+        return any(word.lstrip("-").replace(".", "", 1).isdigit() and float(word) == value for word in words)
+    return str(value) in words or str(value) == ""
 
 
 def _value(context, prim, attribute, type_, value):

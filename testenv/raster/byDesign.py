@@ -37,6 +37,9 @@ FEATURES = {
     "shadowsOfLimitedDistance": Feature(
         "shadows of limited distance know only the side of a caster that is nearest to the light",
         "test_byDesign.py::test_shadows_of_limited_distance_know_the_near_side"),
+    "seamsOfThinWalls": Feature(
+        "in a room whose walls have no thickness a strip along their seams, some texels of a shadow map wide, sees the sky",
+        "test_byDesign.py::test_a_closed_room_of_thin_walls_is_dark_but_for_its_seams", ("portals",)),
     "dispersion": Feature(
         "all light bends as that of the d line, 588 nm, and a warning names the material",
         "test_dispersionLeftOut.py::test_glass_has_the_ior_of_the_d_line", ("prism",)),

@@ -197,6 +197,43 @@ def test_shadows_of_limited_distance_know_the_near_side(tmp_path):
     assert differences(whole, whole, 1, "--disableCameraLight").max() > 0.05
 
 
+CORNERS = [(x, y, z) for x in (-2, 2) for y in (0, 3) for z in (-2, 2)]
+SIDES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+ROOM = """    def Mesh "walls"
+    {
+        int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
+        int[] faceVertexIndices = %s
+        point3f[] points = %s
+        uniform token subdivisionScheme = "none"
+    }
+""" % (list(range(24)), [CORNERS[i] for side in SIDES for i in side])
+
+
+def test_a_closed_room_of_thin_walls_is_dark_but_for_its_seams(tmp_path):
+    stage = tmp_path / "room.usda"
+    stage.write_text(f"""#usda 1.0
+(
+    upAxis = "Y"
+)
+def Xform "World"
+{{
+{ROOM}{SKY}    def Camera "camera"
+    {{
+        float2 clippingRange = (0.01, 100)
+        float focalLength = 15
+        double3 xformOp:translate = (-0.5, 1.5, 1.9)
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }}
+}}
+""")
+    shown = {width: inProcess.Stage(str(stage), "--backend", "raster", "--samples", 16, "-w", width).image(0).mean()
+             for width in (48, 192)}
+    assert inProcess.Stage(str(stage), "--samples", 4, "-w", 48).image(0).max() == 0.0
+    assert shown[48] > 0.0, "no light is left along the seams: take this feature out"
+    # Maps have as many texels as the image has pixels, so the strip is a quarter as wide; half is allowed.
+    assert shown[192] < 0.5 * shown[48]
+
+
 def test_light_filters_are_left_out(tmp_path):
     with open(inProcess.scene("lightFilters"), encoding="utf-8") as file:
         text = file.read()

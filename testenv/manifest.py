@@ -145,9 +145,8 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     # Slow in software, and test_refraction.py looks at the same more closely.
     ("testenv/raster/test_byDesign.py::test_glass_shows_what_is_behind", "long", None),
     ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same_looked_at_closely*", "long", None),
-    # Half a minute of compiling shaders in software each, where a neighbour shows the same: polishedSteel and roughConductor,
-    # manyDomes, and the filtered sky on the same balls.
-    ("testenv/raster/test_bothBackEnds.py::test_both_draw_the_same[[]classic/hematite]", "long", None),
+    # Half a minute of compiling shaders in software each, where a neighbour shows the same: manyDomes, and the filtered sky on
+    # the same balls.
     ("testenv/raster/test_lights.py::test_light_is_the_path_tracers[[]twoDomes]", "long", None),
     ("testenv/raster/test_lights.py::test_a_method_of_domes_keeps_the_tolerance_*[[]harmonics-roughConductor]", "long", None),
 )

@@ -133,6 +133,14 @@ std::vector<std::string> paths(const Scene& scene, const std::string& kind) {
     throw py::value_error("there is no kind of prim '" + kind + "'");
 }
 
+template <class Rows>
+py::dict wordsBySchemas(const Rows& rows) {
+    py::dict words;
+    for (const auto& row : rows)
+        words[row.schemas] = row.word;
+    return words;
+}
+
 } // namespace
 
 void bindScene(py::module_& m) {
@@ -143,12 +151,7 @@ void bindScene(py::module_& m) {
           "it.");
     m.def(
         "light_types",
-        [] {
-            py::dict types;
-            for (const LightRow& row : lightRows)
-                types[row.schemas] = row.word;
-            return types;
-        },
+        [] { return wordsBySchemas(lightRows); },
         "UsdLux types, separated by blanks where several are read alike -> word for set_light().");
     m.def(
         "light_inputs",
@@ -162,12 +165,7 @@ void bindScene(py::module_& m) {
         "Inputs that shape lights: (name in the schema, keyword of set_light(), float or bool).");
     m.def(
         "light_filter_types",
-        [] {
-            py::dict types;
-            for (const LightFilterRow& row : lightFilterRows)
-                types[row.schemas] = row.word;
-            return types;
-        },
+        [] { return wordsBySchemas(lightFilterRows); },
         "Types of light filters, separated by blanks where several are read alike -> word.");
     m.def(
         "light_filter_inputs",

@@ -30,7 +30,7 @@ class Case:
 # Chosen by cost: what two cores decide within half a minute each, and at least a third of it stages that were not made for
 # this. All others are held in the long tier.
 FULL = {
-    "classic/hematite", "curves", "lightDome", "roughConductor",
+    "curves", "lightDome", "roughConductor",
     "outOfView/rect", "outOfView/disk", "outOfView/sphere", "outOfView/point", "outOfView/line", "outOfView/spot",
     "outOfView/profile", "outOfView/sun", "outOfView/meshLight", "outOfView/glowingMesh", "assets/Teapot",
     "assets/NormalsTextureBiasAndScale", "assets/TextureCoordinateTest", "assets/AnimatedCube", "assets/CesiumMan",

@@ -115,6 +115,21 @@ EmbreeGroup* EmbreeScene::buildGroup(const std::string& name, int depth, const V
     return group.get();
 }
 
+std::vector<const Surface*>
+EmbreeScene::surfacesWith(bool (*wanted)(const MaterialProgram&)) const {
+    std::vector<const Surface*> result;
+    for (const auto& item : _surfaces) {
+        const Surface* surface = item.second.surface.get();
+        if (!surface) continue;
+        for (const MaterialSlot& slot : surface->materials)
+            if (slot.program && wanted(*slot.program)) {
+                result.push_back(surface);
+                break;
+            }
+    }
+    return result;
+}
+
 std::vector<mat4> EmbreeScene::groupTransforms(const std::string& group) const {
     std::vector<mat4> result;
     _parts.placements->forPlaces(

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/embreeRenderer.h"
 
+#include "hdDelegate/embree/caustics/photonPass.h"
 #include "hdDelegate/embree/seenOrigin.h"
 #include "hdDelegate/lights/resolvedLight.h"
 #include "hdDelegate/parallel.h"
 
+#include <algorithm>
+#include <climits>
 #include <utility>
 
 namespace patina {
@@ -25,9 +28,10 @@ void EmbreeRenderer::publish(const TileSchedule& schedule) {
     });
 }
 
-void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& schedule, int tile) {
+void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& schedule, int tile,
+                                int end) {
     if (interrupted()) return;
-    const int target = schedule.target(tile);
+    const int target = std::min(schedule.target(tile), end);
     const Tile& t = schedule.tiles()[tile];
     TraceCounters counters;
     if (_settings.timeMaterials) counters.clock.start();
@@ -43,6 +47,64 @@ void EmbreeRenderer::renderTile(const Integrator& integrator, TileSchedule& sche
     const std::lock_guard<std::mutex> lock(_spentMutex);
     for (const auto& item : counters.clock.stop())
         _spent[item.first] += item.second;
+}
+
+std::unique_ptr<CausticCasters> EmbreeRenderer::casters(const RenderSettings& settings,
+                                                        const Camera& camera,
+                                                        const std::vector<AovSpec>& aovs) const {
+    if (chosenMethod(settings.methods, "caustics") != "photons") return nullptr;
+    auto result = std::make_unique<CausticCasters>(*_embree);
+    const char* reason =
+        result->empty()                   ? nullptr
+        : _lights->splitsLobes()          ? "a light treats diffuse and specular light differently"
+        : !LightPathAovs(aovs).empty()    ? "an AOV asks for light paths"
+        : !result->complete()             ? "curves, points or shared shapes are of glass"
+        : settings.enableMotionBlur && camera.shutterOpen < camera.shutterClose ? "of motion blur"
+                                                                                : "";
+    if (!reason) return nullptr;
+    if (!*reason) return result;
+    _scene->diagnostics().warn(camera.path, "method:caustics",
+                               std::string("photons show no caustics, paths do, since ") + reason);
+    return nullptr;
+}
+
+PhotonMap EmbreeRenderer::photons(const Integrator& integrator, const CausticCasters& casters,
+                                  int block) {
+    constexpr int min = 1 << 16, max = 1 << 20;
+    const double wanted = 0.5 * PhotonPass::samples * _settings.width * double(_settings.height);
+    const int count = int(std::clamp(wanted, double(min), double(max)));
+    std::vector<Photon> sent(static_cast<size_t>(count));
+    constexpr int batch = 1024;
+    parallelFor(0, (count + batch - 1) / batch, [&](int b) {
+        TraceCounters counters;
+        for (int i = b * batch; i < std::min(count, (b + 1) * batch) && !stopped(); ++i)
+            sent[size_t(i)] = integrator.photon(casters, uint32_t(block), uint32_t(i),
+                                                uint32_t(count), counters);
+        _rays += counters.rays;
+        _shadowRays += counters.shadowRays;
+    });
+    return PhotonMap(std::move(sent));
+}
+
+void EmbreeRenderer::takeBlocks(Integrator& integrator, const CausticCasters& casters,
+                                const TileSchedule& schedule, const std::vector<int>& tiles,
+                                Arena& arena, const std::function<void(int end)>& take) {
+    int begin = INT_MAX, end = 0;
+    for (int tile : tiles) {
+        begin = std::min(begin, schedule.count(tile));
+        end = std::max(end, schedule.target(tile));
+    }
+    for (int block = begin / PhotonPass::samples; block * PhotonPass::samples < end; ++block) {
+        if (!_photonPass || _photonPass->block != block) {
+            _photonPass = std::make_unique<PhotonPass>();
+            _photonPass->block = block;
+            _photonPass->radius = PhotonPass::radiusOf(block);
+            arena.execute([&] { _photonPass->map = photons(integrator, casters, block); });
+        }
+        if (interrupted()) return;
+        integrator.usePhotons(_photonPass.get());
+        take((block + 1) * PhotonPass::samples);
+    }
 }
 
 std::map<std::string, double> EmbreeRenderer::materialSeconds() {
@@ -132,19 +194,25 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
     sampled.tolerance = plan.noise(_settings.tolerance);
     sampled.maxDepth = plan.depth(_settings);
     sampled.rouletteDepth = plan.rouletteDepth(_settings);
-    const Integrator integrator(*_embree, *_lights, rays, sampled, aovs);
+    Integrator integrator(*_embree, *_lights, rays, sampled, aovs);
+    const std::unique_ptr<CausticCasters> glass = casters(sampled, camera, aovs);
+    _photonPass.reset();
     TileSchedule schedule(*_film, sampled);
     beginSampling();
     bool haveImage = schedule.samplesDone() > 0; // the time limit never leaves holes
     while (!stopped()) {
         const std::vector<int> tiles = schedule.pending();
         if (tiles.empty()) break;
-        arena.execute([&] {
-            parallelForEach(tiles.begin(), tiles.end(), [&](int tile) {
-                renderTile(integrator, schedule, tile);
-                if ((haveImage && outOfTime()) || wantsCheckpoint()) interrupt();
+        const auto take = [&](int end) {
+            arena.execute([&] {
+                parallelForEach(tiles.begin(), tiles.end(), [&](int tile) {
+                    renderTile(integrator, schedule, tile, end);
+                    if ((haveImage && outOfTime()) || wantsCheckpoint()) interrupt();
+                });
             });
-        });
+        };
+        if (!glass) take(INT_MAX);
+        else takeBlocks(integrator, *glass, schedule, tiles, arena, take);
         publish(schedule);
         maybeCheckpoint();
         haveImage = haveImage || schedule.samplesDone() > 0;

@@ -2,13 +2,16 @@
 #pragma once
 
 #include "hdDelegate/compiled/compiledScene.h"
+#include "hdDelegate/embree/caustics/photonPass.h"
 #include "hdDelegate/embree/embreeScene.h"
 #include "hdDelegate/embree/integrator.h"
 #include "hdDelegate/embree/lightsKey.h"
 #include "hdDelegate/embree/tileSchedule.h"
+#include "hdDelegate/parallel.h"
 #include "hdDelegate/renderer/renderLoop.h"
 
 #include <atomic>
+#include <functional>
 #include <mutex>
 
 namespace patina {
@@ -21,7 +24,17 @@ public:
 
 private:
     void render(const SceneState& state, const Camera& camera) override;
-    void renderTile(const Integrator& integrator, TileSchedule& schedule, int tile);
+    /// @param end of the samples that are taken now, even where the schedule wants more
+    void renderTile(const Integrator& integrator, TileSchedule& schedule, int tile, int end);
+    /// The casters of the scene, where photons are asked for and show all that paths would.
+    std::unique_ptr<CausticCasters> casters(const RenderSettings& settings, const Camera& camera,
+                                            const std::vector<AovSpec>& aovs) const;
+    /// Takes samples up to the schedule's targets in blocks, each with photons of its own.
+    void takeBlocks(Integrator& integrator, const CausticCasters& casters,
+                    const TileSchedule& schedule, const std::vector<int>& tiles, Arena& arena,
+                    const std::function<void(int end)>& take);
+    /// Sends out the photons of a block of samples.
+    PhotonMap photons(const Integrator& integrator, const CausticCasters& casters, int block);
     void updateScene(const SceneState& state, const Camera& camera);
     std::map<std::string, double> buildCounts() const;
     void publish(const TileSchedule& schedule);
@@ -33,6 +46,7 @@ private:
     LightsKey _lightsKey;
     bool _lightsMayDiffer = true; ///< from what the key was made of
     std::unique_ptr<SceneLights> _lights;
+    std::unique_ptr<PhotonPass> _photonPass; ///< of the last block; null without photons
     std::map<std::string, double> _builtBefore; ///< counts of scenes rendered earlier
     size_t _lightsBuilt = 0;
     dvec3 _origin{0.0}; ///< of all that is built, see originOfSeen()

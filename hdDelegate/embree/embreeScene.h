@@ -71,6 +71,8 @@ public:
     bool hasMedia() const { return _withMedia > 0; } ///< some material fills its object
     /// Those with a material that glows, in the order of their paths.
     const std::vector<const Surface*>& emissiveSurfaces() const { return _emissive; }
+    /// Those with a material for which `wanted` holds, in the order of their paths.
+    std::vector<const Surface*> surfacesWith(bool (*wanted)(const MaterialProgram&)) const;
     /// World transforms of a group (for lights inside prototypes).
     std::vector<mat4> groupTransforms(const std::string& group) const;
     /// The same with the instances around. Their values live as long as sharedPlacements().

@@ -243,9 +243,10 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         }
         if (path.depth >= _settings.maxDepth || _lights.hidesMaterial(hit.surface)) break;
 
+        if (_photons) meetCaustics(path, point, bsdf, width);
         if (bsdf.stochastic() || bsdf.transmits() != draws2Sided) drawn = 0;
         const Sampler::Set uLight = path.sampler.nextSet(uint32_t(lightSamples));
-        if (bsdf.hasNonDelta() && !_lights.set().empty())
+        if (bsdf.hasNonDelta() && !path.throughCasters && !_lights.set().empty())
             for (int i = 0; i < lightSamples; ++i) {
                 const LightDraw draw = i < drawn ? draws[i]
                                                  : beginLight(path, point, bsdf.transmits(),
@@ -259,6 +260,7 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
         path.throughput *= next.weight;
         if (!(luminance(path.throughput) > 0.0f)) break;
         if ((next.event & LOBE_SUBSURFACE) != 0) {
+            path.onPhotons = false;
             if (!passBeneath(path, point, hit, bsdf.subsurface(next), counters)) break;
         } else {
             if ((next.event & sh::LOBE_TRANSMIT) != 0) path.media.cross(program, s);

@@ -18,6 +18,10 @@ struct TraceCounters {
     MaterialClock clock;
 };
 
+struct PhotonPass;
+struct Photon;
+class CausticCasters;
+
 constexpr int maxPassThroughs = 256; ///< surfaces that presence lets one ray through
 
 /// The normal on the side that a surface is seen from.
@@ -47,6 +51,13 @@ class Integrator {
 public:
     Integrator(const EmbreeScene& scene, const SceneLights& lights, const CameraRays& camera,
                const RenderSettings& settings, const std::vector<AovSpec>& aovs);
+
+    /// Caustics come from photons from now on, until the next call. @param pass null: from paths
+    void usePhotons(const PhotonPass* pass) { _photons = pass; }
+    /// Sends out a photon. It depends on the block, its index and the seed alone.
+    /// @param count of the photons of the block
+    Photon photon(const CausticCasters& casters, uint32_t block, uint32_t index, uint32_t count,
+                  TraceCounters& counters) const;
 
     /// Traces one sample of a pixel and adds it to the film.
     void sample(Film& film, int x, int y, uint32_t index, TraceCounters& counters) const;
@@ -81,6 +92,14 @@ private:
     /// @returns false when the path ends
     bool disperse(Path& path, SurfacePoint& point, const Hit& hit, const AovTarget* aovs,
                   TraceCounters& counters) const;
+    /// Takes a photon over a surface of glass. @param first its flux is not over a cosine yet
+    bool bendPhoton(Path& path, const SurfacePoint& point, bool first) const;
+    vec3 photonLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf,
+                     float width) const;
+    /// Shows photons where the path meets a surface that is no glass, and notes which light they have
+    /// from there.
+    /// @param width of the ray's cone
+    void meetCaustics(Path& path, const SurfacePoint& point, const Bsdf& bsdf, float width) const;
     void depart(Path& path, const SurfacePoint& point, const Hit& hit, const VertexBsdf& bsdf,
                 const BsdfSample& next) const;
     /// What the camera sees of a prim that is a matte or a catcher; the path may go on by
@@ -125,6 +144,7 @@ private:
     LightPathAovs _lightPaths;
     int _denoisingAlbedo = -1, _denoisingNormal = -1; ///< places in the film, or -1
     PixelFilter _filter;
+    const PhotonPass* _photons = nullptr; ///< of the samples that are taken now
     MediumStack _cameraMedia; ///< that the camera stands in
     bool _cullBack, _cullFront, _cullDoubleSided, _ambientOcclusion;
     int _lightSamples; ///< at the first vertex

@@ -20,6 +20,7 @@ void Integrator::chooseWavelengths(Path& path, const MaterialProgram& program,
 
 bool Integrator::disperse(Path& path, SurfacePoint& point, const Hit& hit, const AovTarget* aovs,
                           TraceCounters& counters) const {
+    path.onPhotons = path.throughCasters = false;
     const MaterialProgram& program = *point.slot->program;
     const ShadingPoint& s = point.shading;
     chooseWavelengths(path, program, point.shading);

@@ -52,6 +52,7 @@ float Integrator::addLightsAlong(Path& path, float distance) const {
 
 /// Light found by following the BSDF, weighted against what light samples would have found.
 void Integrator::addLight(Path& path, int light, const vec3& radiance, float lightPdf) const {
+    if (path.throughCasters) return;
     const LightInfo& info = _lights.info(light);
     if (!linked(info.lightCategory, path.vertexSurface, path.vertexInstanceCategories)) return;
     const float weight =

@@ -92,6 +92,7 @@ Integrator::Flight Integrator::scatter(Path& path, const Medium& medium, float d
     if (path.depth >= _settings.maxDepth || path.scatterings >= _settings.maxScatterings)
         return Flight::Ends;
     ++path.scatterings;
+    path.onPhotons = path.throughCasters = false;
     path.lightSamples = 1.0f;
     const vec3 position = path.origin + path.direction * distance;
     const sh::PhaseMixture phase = sh::phaseMixture(medium, path.throughput);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/sceneLights.h"
 
+#include "hdDelegate/embree/caustics/causticCasters.h"
 #include "hdDelegate/scene/lightUnits.h"
 #include "materialNetwork/maths.h"
 
@@ -10,19 +11,6 @@
 namespace patina {
 
 namespace {
-
-Hit hitOn(const Surface* surface, unsigned primitive, const GroupPlace& place, vec2 uv) {
-    Hit hit;
-    hit.surface = surface;
-    hit.primitive = primitive;
-    hit.u = uv.x;
-    hit.v = uv.y;
-    hit.groupToWorld = place.toWorld;
-    hit.instanced = !surface->prim->group.empty();
-    for (const InstanceStep& step : place.steps)
-        if (hit.stepCount < Hit::maxSteps) hit.steps[hit.stepCount++] = step;
-    return hit;
-}
 
 /// World area of a surface (first time step).
 double areaOf(const Surface& surface, const mat4& place) {

@@ -33,6 +33,9 @@ public:
     /// Of a tile's pixels, as of film/relativeError.h.
     double relativeError(const Tile& tile) const;
 
+    /// Samples that all pixels of a tile have.
+    int count(int tile) const;
+
 private:
     /// The result of looking at a tile.
     struct ErrorCheck {
@@ -40,7 +43,6 @@ private:
         bool isEnough = false;
     };
 
-    int count(int tile) const;
     bool isEnough(int tile, int samples) const;
 
     const Film& _film;

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Caustics from photons: against Fresnel's and Beer's laws, where paths find nothing, and against paths, where they do."""
+import numpy as np
+import pytest
+import scipy.stats
+
+from inProcess import Stage
+
+SEEDS = range(8)
+SIGNIFICANCE = 1e-4  # of each test; fixed seeds
+IOR = 1.5
+PASSED = (1 - ((IOR - 1) / (IOR + 1)) ** 2) ** 2  # by both faces of a slab, seen straight on (Fresnel)
+
+STAGE = """#usda 1.0
+(
+    upAxis = "Y"
+)
+def Camera "camera"
+{{
+    float2 clippingRange = (0.01, 100)
+    token projection = "orthographic"
+    float horizontalAperture = {aperture}
+    float verticalAperture = {aperture}
+    double3 xformOp:translate = ({x}, 0.9, 0)
+    float3 xformOp:rotateXYZ = (-90, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+}}
+def Mesh "floor"
+{{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [(-1.5, 0, 1.5), (1.5, 0, 1.5), (1.5, 0, -1.5), (-1.5, 0, -1.5)]
+    color3f[] primvars:displayColor = [(0.5, 0.5, 0.5)]
+    uniform token subdivisionScheme = "none"
+}}
+{glass}
+def Material "glass"
+{{
+    token outputs:mtlx:surface.connect = </glass/surface.outputs:out>
+    def Shader "surface"
+    {{
+        uniform token info:id = "ND_open_pbr_surface_surfaceshader"
+        float inputs:transmission_weight = 1
+        color3f inputs:transmission_color = ({color})
+        float inputs:transmission_depth = 1
+        float inputs:specular_ior = 1.5
+        float inputs:specular_roughness = {roughness}
+        token outputs:out
+    }}
+}}
+{light}
+"""
+SLAB = """def Mesh "slab" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
+{
+    int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]
+    int[] faceVertexIndices = [4, 5, 6, 7, 3, 2, 1, 0, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7]
+    point3f[] points = [(-2, 1, 2), (2, 1, 2), (2, 1, -2), (-2, 1, -2), (-2, 2, 2), (2, 2, 2), (2, 2, -2), (-2, 2, -2)]
+    uniform token subdivisionScheme = "none"
+    rel material:binding = </glass>
+}
+"""
+BALL = """def Sphere "ball" (
+    prepend apiSchemas = ["MaterialBindingAPI"]
+)
+{
+    double radius = 0.4
+    double3 xformOp:translate = (0, 1.5, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+    rel material:binding = </glass>
+}
+"""
+SUN = """def DistantLight "sun"
+{
+    float inputs:intensity = 2
+    float inputs:angle = 0
+    float3 xformOp:rotateXYZ = (-90, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
+}
+"""
+LAMP = """def RectLight "lamp"
+{
+    float inputs:intensity = 5
+    float inputs:width = 3
+    float inputs:height = 3
+    double3 xformOp:translate = (0, 4, 0)
+    float3 xformOp:rotateXYZ = (-90, 0, 0)
+    uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateXYZ"]
+}
+"""
+
+
+def stage(folder, glass, light, roughness=0.0, color="1, 1, 1", aperture=10, x=0, **more):
+    path = folder / "caustics.usda"
+    path.write_text(STAGE.format(glass=glass, light=light, roughness=roughness, color=color, aperture=aperture, x=x, **more))
+    return path
+
+
+def opened(path, method, *arguments):
+    return Stage(path, "--imageWidth", 16, "--samples", 16, "--disableCameraLight", "--method", f"caustics={method}", *arguments)
+
+
+@pytest.mark.parametrize("color", [(1, 1, 1), (0.5, 0.25, 0.9)])
+def test_a_slab_passes_what_fresnel_and_beer_leave(tmp_path, color):
+    """Three surfaces at most: light that goes to and fro between the faces is left out. A sun of no size through flat glass
+    is found by no path."""
+    sun = opened(stage(tmp_path, "", SUN), "paths", "--maxDepth", 1).image(0).mean()  # the bare floor
+    path = stage(tmp_path, SLAB, SUN, color=", ".join(map(str, color)))
+    images = np.array([opened(path, "photons", "--maxDepth", 3).image(seed).mean((0, 1)) for seed in SEEDS])
+    assert not opened(path, "paths", "--maxDepth", 3).image(0).any()
+    wanted = sun * PASSED * np.array(color)
+    for c in range(3):
+        t = scipy.stats.ttest_1samp(images[:, c], wanted[c])
+        assert t.pvalue > SIGNIFICANCE, (images[:, c].mean(), wanted[c])
+    # The test could see an error of this size.
+    assert scipy.stats.sem(images[:, 0]) < 0.01 * wanted[0]
+
+
+def test_photons_show_what_paths_find(tmp_path):
+    path = stage(tmp_path, BALL, LAMP, roughness=0.5, aperture=20)
+    means = {}
+    for method, samples in (("photons", 16), ("paths", 256)):
+        made = opened(path, method, "--samples", samples)
+        images = np.array([made.image(seed)[..., 1] for seed in SEEDS])
+        # Quarters of the image: what photons blur stays in them.
+        means[method] = images.reshape(len(SEEDS), 2, 8, 2, 8).mean((2, 4)).reshape(len(SEEDS), 4)
+    per_test = 1 - (1 - SIGNIFICANCE) ** 0.25  # Sidak
+    for q in range(4):
+        a, b = means["photons"][:, q], means["paths"][:, q]
+        assert scipy.stats.ttest_ind(a, b, equal_var=False).pvalue > per_test, (a.mean(), b.mean())
+        assert np.hypot(scipy.stats.sem(a), scipy.stats.sem(b)) < 0.01 * b.mean()
+
+
+def test_bits_depend_on_no_threads(tmp_path):
+    path = stage(tmp_path, BALL, LAMP, aperture=20)
+    one, three = (opened(path, "photons", "--threads", n).image(5) for n in (1, 3))
+    assert np.array_equal(one, three) and one.any()
+
+
+def test_where_photons_cannot_be_used_paths_are(tmp_path):
+    path = stage(tmp_path, BALL, LAMP.replace("float inputs:intensity", "float inputs:diffuse = 0.5\n    float inputs:intensity"))
+    photons, paths = opened(path, "photons"), opened(path, "paths")
+    assert np.array_equal(photons.image(1), paths.image(1))
+    told = [w for w in photons.warnings() if "caustics" in str(w)]
+    assert len(told) == 1 and "treats diffuse and specular light differently" in str(told[0])
+    assert not [w for w in paths.warnings() if "caustics" in str(w)]

@@ -70,8 +70,11 @@ std::unique_ptr<CausticCasters> EmbreeRenderer::casters(const RenderSettings& se
 
 PhotonMap EmbreeRenderer::photons(const Integrator& integrator, const CausticCasters& casters,
                                   int block) {
-    constexpr int min = 1 << 16, max = 1 << 20;
-    const double wanted = 0.5 * PhotonPass::samples * _settings.width * double(_settings.height);
+    // A photon takes about as long as a path of a few vertices.
+    constexpr double perPath = 0.25;
+    constexpr int min = 1 << 13, max = 1 << 20; // 1 << 20 take 72 MB
+    const double wanted =
+        perPath * PhotonPass::samples * _settings.width * double(_settings.height);
     const int count = int(std::clamp(wanted, double(min), double(max)));
     std::vector<Photon> sent(static_cast<size_t>(count));
     constexpr int batch = 1024;

@@ -24,7 +24,8 @@ FEATURES = {
         "test_byDesign.py::test_what_hides_the_sky_from_mirrors_is_blurred"),
     "shadowsOfGlass": Feature(
         "what lobes refract of a light goes straight on, without caustics",
-        "test_glassShadows.py::test_a_slab_of_glass_lets_light_through", ("roughDielectricSlab", "roughGlass", "media", "caustics")),
+        "test_glassShadows.py::test_a_slab_of_glass_lets_light_through",
+        ("roughDielectricSlab", "roughGlass", "media", "caustics")),
     "behindGlass": Feature(
         "what transmits shows the scene behind it, which is more than direct light",
         "test_byDesign.py::test_glass_shows_what_is_behind",

@@ -98,7 +98,8 @@ def stage(folder, glass, light, roughness=0.0, color="1, 1, 1", aperture=10, x=0
 
 
 def opened(path, method, *arguments):
-    return Stage(path, "--imageWidth", 16, "--samples", 16, "--disableCameraLight", "--method", f"caustics={method}", *arguments)
+    return Stage(path, "--imageWidth", 16, "--samples", 16, "--disableCameraLight", "--method", f"caustics={method}",
+                 *arguments)
 
 
 @pytest.mark.parametrize("color", [(1, 1, 1), (0.5, 0.25, 0.9)])
@@ -139,7 +140,8 @@ def test_bits_depend_on_no_threads(tmp_path):
 
 
 def test_where_photons_cannot_be_used_paths_are(tmp_path):
-    path = stage(tmp_path, BALL, LAMP.replace("float inputs:intensity", "float inputs:diffuse = 0.5\n    float inputs:intensity"))
+    halved = LAMP.replace("float inputs:intensity", "float inputs:diffuse = 0.5\n    float inputs:intensity")
+    path = stage(tmp_path, BALL, halved)
     photons, paths = opened(path, "photons"), opened(path, "paths")
     assert np.array_equal(photons.image(1), paths.image(1))
     told = [w for w in photons.warnings() if "caustics" in str(w)]

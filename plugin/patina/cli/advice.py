@@ -16,6 +16,7 @@ _ROWS = (
      "a limit of the rasterizer or the driver; `--backend embree` has none"),
     (r"the image stays as it is", "install Open Image Denoise (`./patina` fetches pyoidn for `--denoise`)"),
     (r"start too far away, or have no direction", "look for transforms and points that are far too large, or no numbers"),
+    (r"photons show no caustics", "change what the message names, or take `--method caustics=paths`"),
     # Inputs.
     (r"has no such input|no such input|such an input|has no output|no such output|has no input|does not exist; the default",
      "spell the name as the node's definition does; `patina explain` lists the inputs that there are"),

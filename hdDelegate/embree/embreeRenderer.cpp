@@ -55,10 +55,10 @@ std::unique_ptr<CausticCasters> EmbreeRenderer::casters(const RenderSettings& se
     if (chosenMethod(settings.methods, "caustics") != "photons") return nullptr;
     auto result = std::make_unique<CausticCasters>(*_embree);
     const char* reason =
-        result->empty()                   ? nullptr
-        : _lights->splitsLobes()          ? "a light treats diffuse and specular light differently"
-        : !LightPathAovs(aovs).empty()    ? "an AOV asks for light paths"
-        : !result->complete()             ? "curves, points or shared shapes are of glass"
+        result->empty()                ? nullptr
+        : _lights->splitsLobes()       ? "a light treats diffuse and specular light differently"
+        : !LightPathAovs(aovs).empty() ? "an AOV asks for light paths"
+        : !result->complete()          ? "curves, points or shared shapes are of glass"
         : settings.enableMotionBlur && camera.shutterOpen < camera.shutterClose ? "of motion blur"
                                                                                 : "";
     if (!reason) return nullptr;
@@ -81,8 +81,8 @@ PhotonMap EmbreeRenderer::photons(const Integrator& integrator, const CausticCas
     parallelFor(0, (count + batch - 1) / batch, [&](int b) {
         TraceCounters counters;
         for (int i = b * batch; i < std::min(count, (b + 1) * batch) && !stopped(); ++i)
-            sent[size_t(i)] = integrator.photon(casters, uint32_t(block), uint32_t(i),
-                                                uint32_t(count), counters);
+            sent[size_t(i)] =
+                integrator.photon(casters, uint32_t(block), uint32_t(i), uint32_t(count), counters);
         _rays += counters.rays;
         _shadowRays += counters.shadowRays;
     });
@@ -214,8 +214,10 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
                 });
             });
         };
-        if (!glass) take(INT_MAX);
-        else takeBlocks(integrator, *glass, schedule, tiles, arena, take);
+        if (!glass)
+            take(INT_MAX);
+        else
+            takeBlocks(integrator, *glass, schedule, tiles, arena, take);
         publish(schedule);
         maybeCheckpoint();
         haveImage = haveImage || schedule.samplesDone() > 0;

@@ -46,7 +46,7 @@ private:
     LightsKey _lightsKey;
     bool _lightsMayDiffer = true; ///< from what the key was made of
     std::unique_ptr<SceneLights> _lights;
-    std::unique_ptr<PhotonPass> _photonPass; ///< of the last block; null without photons
+    std::unique_ptr<PhotonPass> _photonPass;    ///< of the last block; null without photons
     std::map<std::string, double> _builtBefore; ///< counts of scenes rendered earlier
     size_t _lightsBuilt = 0;
     dvec3 _origin{0.0}; ///< of all that is built, see originOfSeen()

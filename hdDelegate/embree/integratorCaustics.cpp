@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-// Caustics from photons (Jensen 1996): light that comes to surfaces that are no glass by way of glass. docs/design/pathTracer.md has the partition between photons and paths.
+// Caustics from photons (Jensen 1996): light that comes to surfaces that are no glass by way of
+// glass. docs/design/pathTracer.md has the partition between photons and paths.
 
 namespace patina {
 
@@ -57,8 +58,8 @@ bool Integrator::bendPhoton(Path& path, const SurfacePoint& point, bool first) c
         Bsdf back;
         program.evaluate(seen, back);
         const BsdfEval f = back.eval(s.viewDirection);
-        path.throughput *= (f.diffuse + f.specular) *
-                           (leaves / (next.pdf * std::max(arrives, 1e-6f)));
+        path.throughput *=
+            (f.diffuse + f.specular) * (leaves / (next.pdf * std::max(arrives, 1e-6f)));
     }
     if (!(luminance(path.throughput) > 0.0f)) return false;
     if ((next.event & sh::LOBE_TRANSMIT) != 0) path.media.cross(program, s);
@@ -78,8 +79,7 @@ Photon Integrator::photon(const CausticCasters& casters, uint32_t block, uint32_
     Path path(sampler);
     const vec4 where = sampler.next4();
     path.time = 0.0f;
-    CausticCasters::Point start =
-        casters.sample(vec2(where), vec2(where.z, where.w), path.time);
+    CausticCasters::Point start = casters.sample(vec2(where), vec2(where.z, where.w), path.time);
     if (!(start.pdf > 0.0f)) return result;
     LightSample light;
     if (!_lights.set().sample(start.position, start.normal, false, sampler.next3(), path.time,
@@ -102,8 +102,7 @@ Photon Integrator::photon(const CausticCasters& casters, uint32_t block, uint32_
     const vec3 seen = visibility(path, path.media, point.departure(light.direction),
                                  light.direction, light.distance, info, counters);
     if (seen == vec3(0.0f)) return result;
-    path.throughput =
-        radiance * seen * (presence / (light.pdf * start.pdf * float(count)));
+    path.throughput = radiance * seen * (presence / (light.pdf * start.pdf * float(count)));
     if (!bendPhoton(path, point, true)) return result;
     const float first = luminance(path.throughput);
 
@@ -125,8 +124,7 @@ Photon Integrator::photon(const CausticCasters& casters, uint32_t block, uint32_
             path.throughput *= transmittance;
             if (++passed > maxPassThroughs || path.throughput == vec3(0.0f)) break;
             if (program.passThroughEnters()) path.media.cross(program, point.shading);
-            path.origin = point.shading.position +
-                          path.direction * std::max(point.offset, 1e-7f);
+            path.origin = point.shading.position + path.direction * std::max(point.offset, 1e-7f);
             continue;
         }
         if (!castsCaustics(program)) {

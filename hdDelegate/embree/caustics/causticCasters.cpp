@@ -82,8 +82,7 @@ CausticCasters::CausticCasters(const EmbreeScene& scene) : _placements(scene.sha
         if (shape.triangles.empty()) continue;
         accumulate(shape.sums);
         for (const GroupPlace& place : scene.groupPlaces(surface->prim->group)) {
-            const float size =
-                std::cbrt(std::abs(glm::determinant(glm::mat3(place.toWorld))));
+            const float size = std::cbrt(std::abs(glm::determinant(glm::mat3(place.toWorld))));
             const float area = shape.area * size * size;
             if (!(area > 0.0f) || !std::isfinite(area)) continue;
             _placed.push_back({int(_shapes.size()), place});
@@ -112,10 +111,10 @@ CausticCasters::Point CausticCasters::sample(vec2 u, vec2 which, float time) con
     point.hit.time = time;
     const uvec3& t = surface.topology().triangles[triangle];
     const auto& positions = surface.placed.positions[0];
-    point.position = vec3(placed.place.toWorld *
-                          vec4(positions[t[0]] * (1.0f - uv.x - uv.y) + positions[t[1]] * uv.x +
-                                   positions[t[2]] * uv.y,
-                               1.0f));
+    point.position =
+        vec3(placed.place.toWorld * vec4(positions[t[0]] * (1.0f - uv.x - uv.y) +
+                                             positions[t[1]] * uv.x + positions[t[2]] * uv.y,
+                                         1.0f));
     const bool mirrored =
         surface.flipNormals != (glm::determinant(glm::mat3(placed.place.toWorld)) < 0.0f);
     point.normal = n * ((mirrored ? -1.0f : 1.0f) / twice);

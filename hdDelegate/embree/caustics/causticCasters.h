@@ -26,7 +26,7 @@ public:
 
     /// A point of a caster.
     struct Point {
-        Hit hit; ///< without a distance
+        Hit hit;                           ///< without a distance
         vec3 position{0.0f}, normal{0.0f}; ///< normal of the triangle, on its front
         float pdf = 0.0f;                  ///< by area; 0: there is none
     };

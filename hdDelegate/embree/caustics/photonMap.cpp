@@ -20,7 +20,9 @@ void PhotonMap::split(size_t begin, size_t end) {
         high = glm::max(high, _photons[i].position);
     }
     const vec3 extent = high - low;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                     : extent.y >= extent.z                       ? 1
+                                                                  : 2;
     const size_t middle = (begin + end) / 2;
     std::nth_element(_photons.begin() + long(begin), _photons.begin() + long(middle),
                      _photons.begin() + long(end), [axis](const Photon& a, const Photon& b) {

@@ -44,8 +44,7 @@ public:
             const vec3 d = point - photon.position;
             if (glm::dot(d, d) < radius * radius) body(photon);
             const float side = d[photon.axis];
-            if (side > -radius && middle + 1 < range.end)
-                ranges[count++] = {middle + 1, range.end};
+            if (side > -radius && middle + 1 < range.end) ranges[count++] = {middle + 1, range.end};
             if (side < radius && range.begin < middle) ranges[count++] = {range.begin, middle};
         }
     }

@@ -18,7 +18,8 @@ std::vector<Photon> scattered(int count, unsigned seed) {
     for (int i = 0; i < count; ++i) {
         // A third lies on a plane, as photons do, and some in one place.
         const float height = i % 3 == 0 ? 0.0f : place(random);
-        photons[size_t(i)].position = i % 50 == 0 ? vec3(0.5f) : vec3(place(random), height, place(random));
+        photons[size_t(i)].position =
+            i % 50 == 0 ? vec3(0.5f) : vec3(place(random), height, place(random));
         photons[size_t(i)].flux = vec3(1.0f);
         photons[size_t(i)].bounces = i;
     }

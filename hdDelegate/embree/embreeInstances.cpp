@@ -132,9 +132,8 @@ std::vector<GroupPlace> EmbreeScene::groupPlaces(const std::string& group) const
     _parts.placements->forPlaces(
         group, GroupPlace(),
         [&](const Instancer& instancer, uint32_t i, int, GroupPlace& place) {
-            place.toWorld =
-                interpolate(instancer.transforms[i], 0.0f, originOf(instancer.group)) *
-                place.toWorld;
+            place.toWorld = interpolate(instancer.transforms[i], 0.0f, originOf(instancer.group)) *
+                            place.toWorld;
             place.steps.insert(place.steps.begin(),
                                {_parts.placements->valuesOf(instancer).get(), int(i)});
             return true;

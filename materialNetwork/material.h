@@ -15,10 +15,10 @@ namespace patina {
 /// the value that it takes. A connection to that input is dropped.
 using MaterialOverrides = std::map<std::string, Value>;
 
-/// Takes a material from its network as authored to a program: expand, simplify, plan, compile, each
-/// once; then its methods are chosen and bound.
-/// Never fails: every problem is reported by prim and input, and a documented fallback used (an
-/// input's default, or makeDisplayColorNetwork() for a surface that cannot be understood at all).
+/// Takes a material from its network as authored to a program: expand, simplify, plan, compile,
+/// each once; then its methods are chosen and bound. Never fails: every problem is reported by prim
+/// and input, and a documented fallback used (an input's default, or makeDisplayColorNetwork() for
+/// a surface that cannot be understood at all).
 /// @param methods that are forced
 /// @param tolerance of the image, from which the other methods follow (Planning); negative:
 /// defaults

@@ -31,10 +31,11 @@ struct ShadingPoint {
     float lengthPerUv = 1.0f; ///< world length of one unit of the default uv set
     float uvFootprint = 0.0f; ///< width of the ray cone in units of the default uv set
     const PrimvarReader* primvars = nullptr;
-    /// One per sample where MaterialProgram::jitters(): patterns whose values are random have others
-    /// then, with the same mean. 0: the values that stand for all.
+    /// One per sample where MaterialProgram::jitters(): patterns whose values are random have
+    /// others then, with the same mean. 0: the values that stand for all.
     uint32_t seed = 0;
-    /// Of the light that is asked for, nm, where MaterialProgram::disperses(); 0: no one wavelength.
+    /// Of the light that is asked for, nm, where MaterialProgram::disperses(); 0: no one
+    /// wavelength.
     float wavelength = 0.0f;
 
     glm::vec3 worldPosition() const { return position + worldOrigin; }

@@ -39,8 +39,9 @@ def names_in(path, ending):
 
 
 def cell(text):
-    """:returns: text that breaks no row of a table"""
-    return " ".join(text.split()).replace("|", "\\|")
+    """:returns: text that breaks no row of a table, and names no element of HTML outside of code"""
+    parts = " ".join(text.split()).replace("|", "\\|").split("`")
+    return "`".join(part if i % 2 else re.sub(r"<(?=[A-Za-z/!])", r"\\<", part) for i, part in enumerate(parts))
 
 
 def table(head, rows):

@@ -27,8 +27,8 @@ CompiledState CompiledScene::compiled(const SceneState& state, const RenderSetti
     const auto delta = _scene->changes(_compiledVersion, state.version);
     const bool known = delta && _compiled.placements;
     if (!known || !delta->instancers.empty() || _excludePaths != settings.excludePaths)
-        _compiled.placements = std::make_shared<Placements>(
-            state, settings, _scene->diagnostics(), _compiled.placements.get());
+        _compiled.placements = std::make_shared<Placements>(state, settings, _scene->diagnostics(),
+                                                            _compiled.placements.get());
     if (!known || !delta->lights.empty()) {
         const auto keep = [](auto& part, auto made) {
             if (!part || !(*part == *made)) part = std::move(made);

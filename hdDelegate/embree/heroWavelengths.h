@@ -12,10 +12,10 @@ namespace patina {
 struct HeroWavelengths {
     static constexpr int count = 3;
 
-    float nm[count] = {};  ///< 0 until begin()
-    vec3 shares[count];    ///< of the path's throughput, per channel; they sum to 1
-    float chances[count];  ///< of the path so far, had this one been the hero; their mean is 1
-    bool alone = false;    ///< the hero is the only one left
+    float nm[count] = {}; ///< 0 until begin()
+    vec3 shares[count];   ///< of the path's throughput, per channel; they sum to 1
+    float chances[count]; ///< of the path so far, had this one been the hero; their mean is 1
+    bool alone = false;   ///< the hero is the only one left
 
     bool chosen() const { return nm[0] > 0.0f; }
 
@@ -36,7 +36,7 @@ public:
                   const HeroWavelengths& waves, const Bsdf& hero);
 
     bool transmits() const { return _transmits; }   ///< any of them
-    bool hasNonDelta() const { return _nonDelta; }   ///< any of them
+    bool hasNonDelta() const { return _nonDelta; }  ///< any of them
     bool stochastic() const { return _stochastic; } ///< any of them
 
     /// @returns value of all, each by its share; the density is that of sample()
@@ -62,12 +62,16 @@ public:
     VertexBsdf(const Bsdf& bsdf, const DispersedBsdf* dispersed = nullptr)
         : _bsdf(bsdf), _dispersed(dispersed) {}
 
-    BsdfEval eval(const vec3& wi) const { return _dispersed ? _dispersed->eval(wi) : _bsdf.eval(wi); }
+    BsdfEval eval(const vec3& wi) const {
+        return _dispersed ? _dispersed->eval(wi) : _bsdf.eval(wi);
+    }
     BsdfEval evalDrawn(const BsdfSample& sample) const {
         return _dispersed ? _dispersed->eval(sample.wi) : _bsdf.evalDrawn(sample);
     }
     bool transmits() const { return _dispersed ? _dispersed->transmits() : _bsdf.transmits(); }
-    bool hasNonDelta() const { return _dispersed ? _dispersed->hasNonDelta() : _bsdf.hasNonDelta(); }
+    bool hasNonDelta() const {
+        return _dispersed ? _dispersed->hasNonDelta() : _bsdf.hasNonDelta();
+    }
 
 private:
     const Bsdf& _bsdf;

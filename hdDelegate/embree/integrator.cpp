@@ -212,8 +212,8 @@ void Integrator::trace(Path& path, const AovTarget& target, TraceCounters& count
 
         if (program.disperses() && !caught) {
             if (!path.waves.alone) {
-                const bool goesOn = disperse(path, point, hit, aovsWritten ? nullptr : &target,
-                                             counters);
+                const bool goesOn =
+                    disperse(path, point, hit, aovsWritten ? nullptr : &target, counters);
                 aovsWritten = true;
                 if (!goesOn || !survivesRoulette(path)) break;
                 path.coneWidth = width;

@@ -124,8 +124,7 @@ private:
     /// @param incident radiance over density, with its weight and what is left of it
     void announceDirect(const Path& path, const ShadingPoint& s, const LightSample& light,
                         const BsdfEval& f, const vec3& incident) const;
-    void announceScatter(const Path& path, const BsdfSample& next,
-                         const VertexBsdf& bsdf) const;
+    void announceScatter(const Path& path, const BsdfSample& next, const VertexBsdf& bsdf) const;
     void addShadow(const Path& path, const vec3& value, const LightSample& light,
                    const vec3& radiance, const vec3& seen) const;
     bool linked(int category, const Surface* surface, const std::vector<int>* instance) const;

@@ -34,8 +34,8 @@ public:
 private:
     void change(const MaterialProgram* program) {
         const Clock::time_point now = Clock::now();
-        place() += uint64_t(
-            std::chrono::duration_cast<std::chrono::nanoseconds>(now - _last).count());
+        place() +=
+            uint64_t(std::chrono::duration_cast<std::chrono::nanoseconds>(now - _last).count());
         _last = now;
         _current = program;
     }

@@ -167,9 +167,8 @@ bool readAttribute(const Surface& surface, int attribute, unsigned primitive, fl
 
 bool readPrimvar(const Hit& hit, const std::string& name, float out[4]) {
     const int attribute = hit.surface->findAttribute(name);
-    return attribute >= 0
-               ? readAttribute(*hit.surface, attribute, hit.primitive, hit.u, hit.v, out)
-               : readInstances(hit.steps, hit.stepCount, name, out);
+    return attribute >= 0 ? readAttribute(*hit.surface, attribute, hit.primitive, hit.u, hit.v, out)
+                          : readInstances(hit.steps, hit.stepCount, name, out);
 }
 
 bool SurfacePoint::read(int slotIndex, float out[4]) const {

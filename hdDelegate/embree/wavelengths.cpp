@@ -43,8 +43,7 @@ Wavelengths::Drawn Wavelengths::draw(float u) const {
     const float width = _below[i + 1] - _below[i];
     const float f = width > 0.0f ? std::min((u - _below[i]) / width, 1.0f) : 0.5f;
     const float density = chance(_sensitivity[i]);
-    return {float(firstNm + int(i)) + f,
-            density > 0.0f ? _sensitivity[i] / density : vec3(0.0f)};
+    return {float(firstNm + int(i)) + f, density > 0.0f ? _sensitivity[i] / density : vec3(0.0f)};
 }
 
 vec3 Wavelengths::sensitivity(float nm) const {

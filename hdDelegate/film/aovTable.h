@@ -35,7 +35,7 @@ struct AovRow {
     const char* letters = ""; ///< of channels in files; empty: X, Y, Z or none
     const char* hydraName = nullptr;
     const char* expression = nullptr; ///< of its light paths
-    const char* aliases = ""; ///< of render vars, separated by spaces
+    const char* aliases = "";         ///< of render vars, separated by spaces
 
     // The words of aovs.def.
     AovRow& film() {

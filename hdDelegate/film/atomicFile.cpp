@@ -106,8 +106,7 @@ void removeLeftOver(const fs::path& folder, const fs::path& target) {
             unique.find_first_not_of("0123456789-") != std::string::npos ||
             isAlive(unique.substr(0, dash)))
             continue;
-        const int file =
-            ::open(it->path().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+        const int file = ::open(it->path().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
         if (file < 0) continue;
         struct stat found;
         if (::fstat(file, &found) == 0 && S_ISREG(found.st_mode) &&

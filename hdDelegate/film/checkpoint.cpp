@@ -10,8 +10,7 @@ namespace patina {
 
 namespace {
 
-constexpr FilmFileKind checkpoint = {
-    "checkpoint", {'P', 'a', 't', 'i', 'n', 'a', 'C', 'P'}, 3};
+constexpr FilmFileKind checkpoint = {"checkpoint", {'P', 'a', 't', 'i', 'n', 'a', 'C', 'P'}, 3};
 
 } // namespace
 

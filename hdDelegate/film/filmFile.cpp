@@ -115,8 +115,7 @@ void FilmFileReader::finish() {
 }
 
 void FilmFileReader::fail(const std::string& reason) const {
-    throw std::runtime_error(std::string("cannot read ") + _kind + " '" + _name +
-                             "': " + reason);
+    throw std::runtime_error(std::string("cannot read ") + _kind + " '" + _name + "': " + reason);
 }
 
 void FilmFileReader::raw(void* data, size_t size) {

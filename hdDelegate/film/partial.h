@@ -19,8 +19,7 @@ class PartialWriter {
 public:
     /// @param file appears all at once, when commit() is called
     /// @param description what made the part; its host reads it
-    PartialWriter(const std::string& file, const std::string& description,
-                  std::vector<Tile> tiles);
+    PartialWriter(const std::string& file, const std::string& description, std::vector<Tile> tiles);
     /// @throws std::invalid_argument where a tile lies outside of the film
     void add(const Film& film);
     /// @param report what the render told; its host reads it

@@ -180,8 +180,9 @@ std::vector<LightFilter> readLightFilters(HdSceneDelegate& delegate, HdPatinaRen
             const std::string given = inputs.type();
             if (given.empty())
                 param.warn(light, "light:filters",
-                           path.GetString() + " has no type that this OpenUSD knows; the light filter is left "
-                                              "out (a LightFilter may name it as lightFilter:shaderId)");
+                           path.GetString() +
+                               " has no type that this OpenUSD knows; the light filter is "
+                               "left out (a LightFilter may name it as lightFilter:shaderId)");
             else
                 param.warn(light, "light:filters",
                            path.GetString() + " is a light filter of unknown type '" + given +

@@ -17,8 +17,8 @@ namespace {
 bool bySolidAngle(const AreaShape& shape, const vec3& point) {
     if (!shape.rightAngled) return false;
     const vec3 v = point - shape.origin;
-    const float longest = std::max(glm::dot(shape.axes[0], shape.axes[0]),
-                                   glm::dot(shape.axes[1], shape.axes[1]));
+    const float longest =
+        std::max(glm::dot(shape.axes[0], shape.axes[0]), glm::dot(shape.axes[1], shape.axes[1]));
     return longest > 0.1f * glm::dot(v, v);
 }
 
@@ -39,8 +39,10 @@ AreaShape::Kind kindOf(LightType type) {
     switch (type) {
 #define PATINA_LIGHT(Type, word, schemas, hydra)                                                   \
     case LightType::Type: break;
+        // area lights have a row with more columns
 #define PATINA_AREA_LIGHT(Type, ...)                                                               \
     case LightType::Type: return AreaShape::Kind::Type;
+        // one case per row
 #include "hdDelegate/scene/lightTypes.inc"
     }
     return AreaShape::Kind::Sphere;
@@ -149,6 +151,7 @@ bool isFlatShape(int number) {
     switch (number) {
 #define PATINA_AREA_LIGHT(Type, word, schemas, hydra, number, flat, ...)                           \
     case shLights::SHAPE_##number: return flat;
+        // one case per row
 #include "hdDelegate/scene/lightTypes.inc"
     default: return false;
     }

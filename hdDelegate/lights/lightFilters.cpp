@@ -115,7 +115,8 @@ LightFilters::LightFilters(const Light& light, const mat4& groupToWorld, const d
         filter.shear = vec2(f.shearX / f.scaleWidth, f.shearY / f.scaleHeight);
         filter.apex = f.apex;
         filter.density = std::clamp(f.density, 0.0f, 1.0f);
-        if (filter.density != f.density) warn("has a density that is not within 0..1; it is clamped");
+        if (filter.density != f.density)
+            warn("has a density that is not within 0..1; it is clamped");
         filter.invert = f.invert;
         filter.intensity = f.intensity;
         if (f.type == LightFilterType::Multiplier) filter.intensity *= std::exp2(f.exposure);

@@ -131,9 +131,10 @@ bool canTurnSign(const LightFilter& filter) {
     const auto negative = [](float value) { return value < 0.0f; };
     return filter.intensity < 0.0f ||
            std::any_of(filter.rampFloats.begin(), filter.rampFloats.end(), negative) ||
-           std::any_of(filter.colors.begin(), filter.colors.end(), [&](const vec3& color) {
-               return negative(std::min({color.x, color.y, color.z}));
-           }) ||
+           std::any_of(filter.colors.begin(), filter.colors.end(),
+                       [&](const vec3& color) {
+                           return negative(std::min({color.x, color.y, color.z}));
+                       }) ||
            // Overshoot of the curve, and images above 1 that are inverted.
            filter.rampInterpolation.rfind("catmull", 0) == 0 ||
            filter.colorInterpolation.rfind("catmull", 0) == 0 || filter.invert;

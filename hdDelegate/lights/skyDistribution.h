@@ -24,8 +24,8 @@ public:
     int width() const { return _width; }
     int height() const { return _height; }
 
-    /// A sample whose row of cells in a block is chosen. The rest of the row that is to be read is on
-    /// its way into the cache.
+    /// A sample whose row of cells in a block is chosen. The rest of the row that is to be read is
+    /// on its way into the cache.
     struct Draw {
         const float* cells = nullptr; ///< cumulative
         int left = 0, count = 0;      ///< first column, number of cells

@@ -73,10 +73,10 @@ struct Geometry {
     bool doubleSided = true;
     bool leftHanded = false;
     std::string lightGroup; ///< label of the light that it gives off; empty: none
-    std::string renderTag; ///< Hydra's name of its purpose (proxy, render, guide); empty: geometry
-    int id = -1;           ///< for the primId AOV; -1: the rank of its path
-    std::string matteName; ///< in cryptoObject; empty: its path, see objectMatte()
-    std::string assetName; ///< in cryptoAsset; empty: that of what is around, see assetMatte()
+    std::string renderTag;  ///< Hydra's name of its purpose (proxy, render, guide); empty: geometry
+    int id = -1;            ///< for the primId AOV; -1: the rank of its path
+    std::string matteName;  ///< in cryptoObject; empty: its path, see objectMatte()
+    std::string assetName;  ///< in cryptoAsset; empty: that of what is around, see assetMatte()
 
     virtual ~Geometry() = default;
     const Primvar* primvar(const std::string& name) const;

@@ -127,8 +127,10 @@ std::string lightSizeInput(const Light& l) {
     switch (l.type) {
 #define PATINA_LIGHT(Type, word, schemas, hydra)                                                   \
     case LightType::Type: break;
+        // area lights have a row with more columns
 #define PATINA_AREA_LIGHT(Type, word, schemas, hydra, number, flat, size, area, ...)               \
     case LightType::Type: return named({__VA_ARGS__});
+        // one case per row
 #include "hdDelegate/scene/lightTypes.inc"
     }
     return "xformOpOrder";
@@ -138,8 +140,10 @@ vec3 lightSize(const Light& l) {
     switch (l.type) {
 #define PATINA_LIGHT(Type, word, schemas, hydra)                                                   \
     case LightType::Type: break;
+        // area lights have a row with more columns
 #define PATINA_AREA_LIGHT(Type, word, schemas, hydra, number, flat, size, area, ...)               \
     case LightType::Type: return size;
+        // one case per row
 #include "hdDelegate/scene/lightTypes.inc"
     }
     return vec3(1.0f);
@@ -153,8 +157,10 @@ double lightSizeFactor(const Light& light, const mat4& toWorld) {
     switch (light.type) {
 #define PATINA_LIGHT(Type, word, schemas, hydra)                                                   \
     case LightType::Type: break;
+        // area lights have a row with more columns
 #define PATINA_AREA_LIGHT(Type, word, schemas, hydra, number, flat, size, area, ...)               \
     case LightType::Type: return area;
+        // one case per row
 #include "hdDelegate/scene/lightTypes.inc"
     }
     return 1.0;

@@ -71,9 +71,9 @@ public:
     size_t count(const std::string& path) const { return find(path) == end() ? 0 : 1; }
 
     const_iterator find(const std::string& path) const {
-        const auto block =
-            std::lower_bound(_blocks.begin(), _blocks.end(), path,
-                             [](const BlockPtr& b, const std::string& p) { return b->back().first < p; });
+        const auto block = std::lower_bound(
+            _blocks.begin(), _blocks.end(), path,
+            [](const BlockPtr& b, const std::string& p) { return b->back().first < p; });
         if (block == _blocks.end()) return end();
         const auto item =
             std::lower_bound((*block)->begin(), (*block)->end(), path,
@@ -168,8 +168,7 @@ template <class T> PrimMap<T> PrimMap<T>::changed(const Changes& changes) const 
     return out;
 }
 
-template <class T>
-template <class F>
+template <class T> template <class F>
 void PrimMap<T>::forDifferences(const PrimMap& a, const PrimMap& b, const F& f) {
     std::unordered_set<const Block*> ofA, shared;
     for (const BlockPtr& block : a._blocks)

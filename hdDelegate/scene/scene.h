@@ -80,7 +80,7 @@ public:
     void setMetersPerUnit(double metersPerUnit);
     /// A path may hold prims of several kinds (a mesh that is a light, say).
     void remove(const std::string& path, PrimKind kind = PrimKind::Any);
-    void clear();                         ///< removes everything
+    void clear(); ///< removes everything
     void commit();
 
 private:

@@ -6,7 +6,8 @@
 
 namespace patina {
 
-/// What an EnergyCurve holds, by the lobe's own method. For dielectric, Schlick and conductor lobes.
+/// What an EnergyCurve holds, by the lobe's own method. For dielectric, Schlick and conductor
+/// lobes.
 EnergyCurve::Energy lobeEnergy(const BsdfLobe& lobe, const glm::vec3& wo);
 
 } // namespace patina

@@ -48,8 +48,9 @@ public:
         for (const std::string& walks : glslWalksLeftOut(_code))
             _out.leftOut.push_back(walks);
         if (asksForDispersion())
-            _out.leftOut.push_back("chromatic dispersion is the path tracer's alone: all light bends "
-                                   "as that of the d line");
+            _out.leftOut.push_back(
+                "chromatic dispersion is the path tracer's alone: all light bends as that of the "
+                "d line");
         instantiateFunction();
         setupFunction();
         presenceFunction();

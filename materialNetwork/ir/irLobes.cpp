@@ -74,9 +74,8 @@ void IrBuilder::lobe(const PlanClosure& closure, ClosureOp& op, bool hasInside,
 
     // A thin slab has no inside for light to go to. Where a method is forced that does not go there
     // either, textures of the walk are not opened.
-    const bool flat =
-        closure.kind == ClosureKind::Subsurface &&
-        !walksBeneath(closure, MethodSet(_plan.methods).get<method::Subsurface>());
+    const bool flat = closure.kind == ClosureKind::Subsurface &&
+                      !walksBeneath(closure, MethodSet(_plan.methods).get<method::Subsurface>());
     if (flat) t.kind = LobeKind::OrenNayar;
     const std::vector<std::string>& names =
         lobeParameters(flat ? LobeKind::OrenNayar : lobeKind(closure.kind));

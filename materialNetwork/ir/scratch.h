@@ -6,8 +6,8 @@
 
 namespace patina {
 
-/// Space for one value per closure; on the stack unless the material is huge. Of each type and use only
-/// one may be alive per thread.
+/// Space for one value per closure; on the stack unless the material is huge. Of each type and use
+/// only one may be alive per thread.
 template <class T, int use = 0> class Scratch {
 public:
     explicit Scratch(size_t n) : _data(_local) {

@@ -35,8 +35,7 @@ bool darkensItself(const Plan& plan, const PlanClosure& closure) {
     return closure.kind == ClosureKind::Layer && category == "patina_coat";
 }
 
-std::vector<LayerWalkability> layerWalkability(const Plan& plan,
-                                                method::Subsurface subsurface) {
+std::vector<LayerWalkability> layerWalkability(const Plan& plan, method::Subsurface subsurface) {
     const size_t n = plan.closures.size();
     std::vector<LayerWalkability> found(n);
     std::vector<std::string> blocked(n); // parts come before wholes

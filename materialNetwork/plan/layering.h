@@ -22,7 +22,6 @@ bool darkensItself(const Plan& plan, const PlanClosure& closure);
 /// its base: the top is one interface that reflects, and light does not pass the base straight, or
 /// go beneath it, or through a lobe that is the other half of the same interface; and no model
 /// darkens the base already.
-std::vector<LayerWalkability> layerWalkability(const Plan& plan,
-                                                method::Subsurface subsurface);
+std::vector<LayerWalkability> layerWalkability(const Plan& plan, method::Subsurface subsurface);
 
 } // namespace patina

@@ -13,6 +13,7 @@ bool matters(const Plan& plan, const PlanClosure& c, Choice point) {
     switch (point) {
 #define PATINA_CHOICE(Type, name, truth, matters)                                                  \
     case Choice::Type: return matters;
+        // one case per row
 #include "materialNetwork/plan/choicePoints.inc"
     case Choice::Count: break;
     }

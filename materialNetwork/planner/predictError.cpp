@@ -108,8 +108,7 @@ public:
     Predictor(const Plan& plan, const std::string& point, const std::string& method)
         : _plan(plan), _point(point), _rows(rowsOf(plan, point, method)) {
         if (point == "layering")
-            _walks =
-                layerWalkability(plan, MethodSet(plan.methods).get<method::Subsurface>());
+            _walks = layerWalkability(plan, MethodSet(plan.methods).get<method::Subsurface>());
         _choice = Choice(findChoicePoint(point) - choicePoints().data());
     }
 
@@ -200,8 +199,8 @@ private:
         // Compensation takes from the albedo only what facets lose, times their reflectance.
         const double counts =
             _point == "directionalAlbedo" ? std::min(contribution.reflectance + 0.05, 1.0) : 1.0;
-        const bool ofLight =
-            std::string_view(row.errorOf) == "albedo" || std::string_view(row.errorOf) == "reflectance";
+        const bool ofLight = std::string_view(row.errorOf) == "albedo" ||
+                             std::string_view(row.errorOf) == "reflectance";
         const double below = ofLight && contribution.beneath > 0.0f
                                  ? cell.error / std::max(1.0 - cell.truth, 0.01)
                                  : 0.0;

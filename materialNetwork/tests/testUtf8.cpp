@@ -15,7 +15,7 @@ TEST(Utf8, ValidTextsStay) {
 
 TEST(Utf8, EveryByteOfNoCharacterIsReplaced) {
     const std::string r = "\xEF\xBF\xBD";
-    EXPECT_EQ(validUtf8("a\xFF" "b"), "a" + r + "b");
+    EXPECT_EQ(validUtf8(std::string("a\xFF") + "b"), "a" + r + "b");
     EXPECT_EQ(validUtf8("\xC3"), r);                         // cut
     EXPECT_EQ(validUtf8("\xE2\x82"), r + r);                 // cut
     EXPECT_EQ(validUtf8("\xC0\xAF"), r + r);                 // a slash, longer than needed

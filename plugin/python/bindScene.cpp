@@ -133,8 +133,7 @@ std::vector<std::string> paths(const Scene& scene, const std::string& kind) {
     throw py::value_error("there is no kind of prim '" + kind + "'");
 }
 
-template <class Rows>
-py::dict wordsBySchemas(const Rows& rows) {
+template <class Rows> py::dict wordsBySchemas(const Rows& rows) {
     py::dict words;
     for (const auto& row : rows)
         words[row.schemas] = row.word;
@@ -150,8 +149,7 @@ void bindScene(py::module_& m) {
           "Primvars, without 'primvars:', that say which rays see a prim and what mattes make of "
           "it.");
     m.def(
-        "light_types",
-        [] { return wordsBySchemas(lightRows); },
+        "light_types", [] { return wordsBySchemas(lightRows); },
         "UsdLux types, separated by blanks where several are read alike -> word for set_light().");
     m.def(
         "light_inputs",
@@ -164,8 +162,7 @@ void bindScene(py::module_& m) {
         },
         "Inputs that shape lights: (name in the schema, keyword of set_light(), float or bool).");
     m.def(
-        "light_filter_types",
-        [] { return wordsBySchemas(lightFilterRows); },
+        "light_filter_types", [] { return wordsBySchemas(lightFilterRows); },
         "Types of light filters, separated by blanks where several are read alike -> word.");
     m.def(
         "light_filter_inputs",
@@ -186,8 +183,8 @@ void bindScene(py::module_& m) {
                 ignored[row.names] = row.idle;
             return ignored;
         },
-        "Inputs of light filters that are not evaluated -> the values, separated by blanks, at which "
-        "they do nothing.");
+        "Inputs of light filters that are not evaluated -> the values, separated by blanks, at "
+        "which they do nothing.");
     edit.def("set_light", &setLight, py::arg("path"),
              "A UsdLux light; keywords are the fields of Light. filters: a list of dicts of path, "
              "type, transform and light_filter_inputs(). portals: of path, "

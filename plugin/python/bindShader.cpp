@@ -22,8 +22,7 @@ py::tuple expanded(const Network& network) {
     py::list warnings;
     for (const Diagnostic& d : diagnostics.all())
         warnings.append(py::dict(py::arg("prim") = d.prim, py::arg("input") = d.input,
-                                 py::arg("message") = d.message,
-                                 py::arg("count") = d.count));
+                                 py::arg("message") = d.message, py::arg("count") = d.count));
     return py::make_tuple(std::move(result), warnings);
 }
 

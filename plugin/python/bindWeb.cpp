@@ -67,10 +67,9 @@ py::dict textureOf(const TextureSystem& textures, int handle, int largest) {
 std::vector<std::string> lobesOf(const MaterialProgram& program) {
     std::vector<std::string> list;
     for (const LobeTemplate& lobe : program.code().lobes)
-        list.push_back(lobeRow(lobe.kind).prefix + std::string(" ") +
-                       std::to_string(lobe.mode) + " " + std::to_string(lobe.variant) + " " +
-                       std::to_string(lobe.ndf) + (lobe.film ? " film" : "") +
-                       (lobe.passThrough ? " passThrough" : ""));
+        list.push_back(lobeRow(lobe.kind).prefix + std::string(" ") + std::to_string(lobe.mode) +
+                       " " + std::to_string(lobe.variant) + " " + std::to_string(lobe.ndf) +
+                       (lobe.film ? " film" : "") + (lobe.passThrough ? " passThrough" : ""));
     return list;
 }
 

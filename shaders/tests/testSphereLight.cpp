@@ -25,7 +25,7 @@ struct Pose {
     bool hit(const vec3& wi, float& t, float& density) const {
         const glm::mat3 inverse = glm::inverse(axes);
         return shLights::sphereLightHit(inverse * -origin, inverse * wi,
-                                  std::fabs(glm::determinant(axes)), t, density);
+                                        std::fabs(glm::determinant(axes)), t, density);
     }
     vec3 place(const vec3& u) const { return origin + axes * shLights::sphereLightPlace(u); }
 };

@@ -41,10 +41,10 @@ Read valueOf(const InstanceValues& values, const std::string& name, int instance
 }
 
 TEST(InstanceValues, AreOnePerInstanceOrOneForAll) {
-    const Instancer prim = ofThree(
-        {primvar("tint", Interpolation::Varying, 3, {0, 1, 2, 10, 11, 12, 20, 21, 22}),
-         primvar("size", Interpolation::Constant, 1, {7}),
-         primvar("st", Interpolation::Vertex, 2, {0, 1, 2, 3, 4, 5})});
+    const Instancer prim =
+        ofThree({primvar("tint", Interpolation::Varying, 3, {0, 1, 2, 10, 11, 12, 20, 21, 22}),
+                 primvar("size", Interpolation::Constant, 1, {7}),
+                 primvar("st", Interpolation::Vertex, 2, {0, 1, 2, 3, 4, 5})});
     Diagnostics diagnostics;
     const InstanceValues values(prim, diagnostics);
     EXPECT_EQ(valueOf(values, "tint", 0), (Read{0, 1, 2, 0}));

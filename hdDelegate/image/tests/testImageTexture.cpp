@@ -185,8 +185,7 @@ TEST(ImageTexture, GreyOfEqualChannelsIsSampledToTheSameBits) {
     for (size_t i = 0; i < 256; ++i)
         square[i] = float(i * i) / (255.0f * 255.0f);
     std::mt19937 random(7);
-    for (const TexelType type :
-         {TexelType::U8, TexelType::U16, TexelType::Half, TexelType::Float})
+    for (const TexelType type : {TexelType::U8, TexelType::U16, TexelType::Half, TexelType::Float})
         for (const TexelLayout layout : {TexelLayout::Rgb, TexelLayout::Rgba}) {
             ImageTexture colored(width, height, layout, type);
             const size_t n = size_t(colored.channels());

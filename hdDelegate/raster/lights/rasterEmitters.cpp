@@ -101,8 +101,7 @@ public:
         if (!_source.program->isOpaque()) _source.program->opacity(shading, nullptr, &presence);
         vec3 sum = lit;
         if (_source.glows && light.mode != RasterMeshLight::NoMaterialResponse) {
-            const vec3 glow =
-                glm::max(_source.program->emission(shading, direction), vec3(0.0f));
+            const vec3 glow = glm::max(_source.program->emission(shading, direction), vec3(0.0f));
             sum = light.mode == RasterMeshLight::NoLight          ? glow
                   : light.mode == RasterMeshLight::GlowTintsLight ? lit * glow
                                                                   : lit + glow;

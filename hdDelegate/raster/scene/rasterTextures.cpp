@@ -142,8 +142,8 @@ std::shared_ptr<const GlTexture> RasterTextures::plain(int handle) {
                               std::to_string(largest) + " along a side; it is shown with " +
                               size(first));
     // One number per texel where all are grey. With a border of no alpha there is one more.
-    const bool grey = image->layout() == TexelLayout::Grey &&
-                      request.wrapS != TextureWrap::Black && request.wrapT != TextureWrap::Black;
+    const bool grey = image->layout() == TexelLayout::Grey && request.wrapS != TextureWrap::Black &&
+                      request.wrapT != TextureWrap::Black;
     const GLenum format = !grey ? _format : _format == GL_RGBA16F ? GL_R16F : GL_R32F;
     *texture = GlTexture(GL_TEXTURE_2D, format, levels[first].width, levels[first].height, 1,
                          int(levels.size() - first));

@@ -23,10 +23,10 @@ Map filled(int count) {
 
 std::vector<std::string> differences(const Map& a, const Map& b) {
     std::vector<std::string> found;
-    Map::forDifferences(a, b,
-                        [&](const std::string& at, const Map::Value& before, const Map::Value& now) {
-                            found.push_back((before ? now ? "=" : "-" : "+") + at);
-                        });
+    Map::forDifferences(
+        a, b, [&](const std::string& at, const Map::Value& before, const Map::Value& now) {
+            found.push_back((before ? now ? "=" : "-" : "+") + at);
+        });
     return found;
 }
 

@@ -20,12 +20,12 @@ const char* kindOf(mode_t mode) {
     return S_ISBLK(mode) || S_ISCHR(mode) ? "a device" : "something else";
 }
 
-std::string problemOf(const struct stat& found, uint64_t maxBytes) {
+std::string problemOf(const struct stat& found, const MostBytes& most) {
     if (!S_ISREG(found.st_mode))
         return std::string("is ") + kindOf(found.st_mode) + ", not a regular file";
-    if (uint64_t(found.st_size) > maxBytes)
-        return "holds " + std::to_string(found.st_size) + " bytes; at most " +
-               std::to_string(maxBytes) + " are read";
+    if (uint64_t(found.st_size) > most.bytes)
+        return "holds " + std::to_string(found.st_size) + " bytes; at most " + most.text +
+               " are read";
     return {};
 }
 
@@ -43,15 +43,15 @@ struct Descriptor {
 
 } // namespace
 
-std::string whyUnreadable(const std::string& path, uint64_t maxBytes) {
+std::string whyUnreadable(const std::string& path, const MostBytes& most) {
     struct stat found;
     if (::stat(path.c_str(), &found) != 0) return problemOf(errno);
-    const std::string problem = problemOf(found, maxBytes);
+    const std::string problem = problemOf(found, most);
     return problem.empty() && ::access(path.c_str(), R_OK) != 0 ? problemOf(errno) : problem;
 }
 
 std::string whyNoImage(const std::string& path) {
-    const std::string problem = whyUnreadable(path, maxImageBytes);
+    const std::string problem = whyUnreadable(path, Limit::imageBytes);
     if (!problem.empty()) return problem;
     const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
     char start[4096];
@@ -61,10 +61,10 @@ std::string whyNoImage(const std::string& path) {
     return zeros ? "is no image: it begins with zeros" : "";
 }
 
-bool readRegularFile(const std::string& path, uint64_t maxBytes, std::string& bytes,
+bool readRegularFile(const std::string& path, const MostBytes& most, std::string& bytes,
                      std::string& problem) {
     bytes.clear();
-    problem = whyUnreadable(path, maxBytes);
+    problem = whyUnreadable(path, most);
     if (!problem.empty()) return false;
     // Looked at once more when it is open: what a name stands for may change in between. Without
     // O_NONBLOCK a pipe would wait for its writer.
@@ -74,7 +74,7 @@ bool readRegularFile(const std::string& path, uint64_t maxBytes, std::string& by
         problem = errno == ENXIO ? "is a socket or a device, not a regular file" : problemOf(errno);
         return false;
     }
-    problem = problemOf(found, maxBytes);
+    problem = problemOf(found, most);
     if (!problem.empty()) return false;
     bytes.reserve(size_t(found.st_size) + 1);
     char part[1 << 16];
@@ -84,8 +84,8 @@ bool readRegularFile(const std::string& path, uint64_t maxBytes, std::string& by
         if (got < 0 && errno == EINTR) continue;
         if (got < 0)
             problem = "cannot be read: " + std::string(std::strerror(errno));
-        else if (uint64_t(got) > maxBytes - bytes.size())
-            problem = "holds more than the " + std::to_string(maxBytes) + " bytes that are read";
+        else if (uint64_t(got) > most.bytes - bytes.size())
+            problem = "holds more bytes than the " + most.text + " that are read";
         if (!problem.empty()) {
             bytes.clear();
             return false;

@@ -3,8 +3,8 @@
 
     ./patina python testenv/generateDocs.py [--check] [PAGE ...]
 
-Pages: nodes, flags, methods, aovs, marks, byDesign, messages, benchmarks. testenv/lint/test_generatedDocs.py fails where one
-is stale.
+Pages: nodes, flags, limits, methods, aovs, marks, byDesign, messages, benchmarks. testenv/lint/test_generatedDocs.py fails
+where one is stale.
 """
 import argparse
 import os
@@ -125,6 +125,19 @@ def flags():
     return lines
 
 
+def limits():
+    from patina import limits as known
+
+    rows = [(f"`{name}`", f"{default:,}", f"{least:,} to {most:,}", text)
+            for name, (default, least, most, text) in known.table().items()]
+    return ["# Limits", "",
+            "What input may ask for at most, so that a hostile or broken file ends in a message and not in memory without end.",
+            "What is beyond a limit is left out, the prim and the limit are named, and the rest is shown. Defaults are beyond",
+            "what real scenes hold. `--limit NAME=VALUE` sets one (`record`, `merge`, `explain`, `bsdf`, `check`, `bake`,",
+            '`shader`, `view`); `PATINA_LIMITS="NAME=VALUE ..."` in the environment sets them in every host. The table is',
+            "`materialNetwork/limits.def`.", "", *table(("limit", "default", "may be", "of what"), rows)]
+
+
 def methods():
     from patina.cli import compiled
 
@@ -209,8 +222,8 @@ def messages():
     return lines
 
 
-PAGES = {"nodes": nodes, "flags": flags, "methods": methods, "aovs": aovs, "marks": marks, "byDesign": by_design,
-         "messages": messages, "benchmarks": benchmarks.page}
+PAGES = {"nodes": nodes, "flags": flags, "limits": limits, "methods": methods, "aovs": aovs, "marks": marks,
+         "byDesign": by_design, "messages": messages, "benchmarks": benchmarks.page}
 NOTE = "<!-- Made by `./patina python testenv/generateDocs.py`; edits are lost. -->"
 
 

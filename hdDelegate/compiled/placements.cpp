@@ -2,6 +2,9 @@
 #include "hdDelegate/compiled/placements.h"
 
 #include "hdDelegate/compiled/drawFilter.h"
+#include "materialNetwork/limits.h"
+
+#include <algorithm>
 
 namespace patina {
 
@@ -29,6 +32,74 @@ Placements::Placements(const SceneState& state, const RenderSettings& settings,
             for (auto& [prototype, list] : instances)
                 _of[prototype].push_back({instancer, std::move(list)});
         }
+    keepWithinLimits(diagnostics);
+}
+
+namespace {
+
+/// How often groups are placed in the world, as Placements::forPlaces() visits them. As a double:
+/// a few levels of a thousand instances each come to more than integers hold.
+class PlaceCount {
+public:
+    explicit PlaceCount(const Placements& placements) : _placements(placements) {}
+
+    double of(const std::string& group, int depth = 0) {
+        if (group.empty()) return 1.0;
+        if (depth > Placements::maxDepth) return 0.0;
+        const auto key = std::make_pair(group, depth);
+        const auto known = _known.find(key);
+        if (known != _known.end()) return known->second;
+        double sum = 0.0;
+        for (const Placements::Use& use : _placements.of(group))
+            sum += double(use.instances.size()) * of(use.instancer->group, depth + 1);
+        return _known[key] = sum;
+    }
+
+private:
+    const Placements& _placements;
+    std::map<std::pair<std::string, int>, double> _known;
+};
+
+} // namespace
+
+void Placements::keepWithinLimits(Diagnostics& diagnostics) {
+    const double most = double(limitOf(Limit::instances));
+    PlaceCount places(*this);
+    std::map<const Instancer*, double> counts;
+    double sum = 0.0;
+    for (const auto& item : _of)
+        for (const Use& use : item.second) {
+            const double count = double(use.instances.size()) * places.of(use.instancer->group, 1);
+            counts[use.instancer.get()] += count;
+            sum += count;
+        }
+    if (sum <= most) return;
+    // Those of few stay: of instancers in each other the innermost goes first.
+    Instancers order = _drawn;
+    std::stable_sort(order.begin(), order.end(), [&](const auto& a, const auto& b) {
+        return counts[a.get()] < counts[b.get()];
+    });
+    std::set<const Instancer*> left;
+    double kept = 0.0;
+    for (const auto& instancer : order)
+        if ((kept += counts[instancer.get()]) > most) left.insert(instancer.get());
+    diagnostics.warn(order.back()->path, "",
+                     "the scene has more instances than " + limitText(Limit::instances) +
+                         "; the instancer is left out, and " + std::to_string(left.size() - 1) +
+                         " others");
+    const auto gone = [&](const auto& instancer) { return left.count(instancer.get()) > 0; };
+    const auto remove = [&](Instancers& list) {
+        list.erase(std::remove_if(list.begin(), list.end(), gone), list.end());
+    };
+    remove(_drawn);
+    for (auto& group : _in)
+        remove(group.second);
+    for (auto& item : _of) {
+        auto& uses = item.second;
+        uses.erase(std::remove_if(uses.begin(), uses.end(),
+                                  [&](const Use& use) { return gone(use.instancer); }),
+                   uses.end());
+    }
 }
 
 const std::vector<Placements::Use>& Placements::of(const std::string& prototype) const {

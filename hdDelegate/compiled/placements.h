@@ -27,6 +27,7 @@ public:
     };
     using Instancers = std::vector<std::shared_ptr<const Instancer>>;
 
+    /// Instancers that place more than Limit::instances are left out, those of most first.
     /// @param settings excludePaths counts
     /// @param before of an earlier state: values of instancers that stayed are taken from it; or
     /// null
@@ -64,6 +65,8 @@ public:
     }
 
 private:
+    void keepWithinLimits(Diagnostics& diagnostics);
+
     Instancers _drawn;
     std::map<std::string, Instancers> _in;
     std::map<std::string, std::vector<Use>> _of;

@@ -70,7 +70,7 @@ void FilmFileWriter::fail() {
 
 FilmFileReader::FilmFileReader(const FilmFileKind& kind, const std::string& name)
     : _kind(kind.name), _name(name), _file(nullptr, &std::fclose) {
-    const std::string problem = whyUnreadable(name, maxImageBytes);
+    const std::string problem = whyUnreadable(name, Limit::imageBytes);
     if (!problem.empty()) fail("it " + problem);
     _file.reset(std::fopen(name.c_str(), "rb"));
     if (!_file) fail(std::strerror(errno));

@@ -177,7 +177,7 @@ std::shared_ptr<const FieldGrid> take(Program& program) {
 
 std::shared_ptr<const FieldGrid> readFieldGrid(const std::string& file, const std::string& field,
                                                const std::string& prim, Diagnostics& diagnostics) {
-    std::string problem = whyUnreadable(file, maxImageBytes);
+    std::string problem = whyUnreadable(file, Limit::imageBytes);
     if (problem.empty()) {
         try {
             Program program(file, field);

@@ -70,7 +70,7 @@ bool bracket(const std::vector<float>& values, float x, size_t& index, float& fr
 bool IesProfile::load(const std::string& file, std::string& error) {
     *this = IesProfile();
     std::string text;
-    return readRegularFile(file, maxDocumentBytes, text, error) && parse(text, error);
+    return readRegularFile(file, Limit::documentBytes, text, error) && parse(text, error);
 }
 
 bool IesProfile::parse(const std::string& text, std::string& error) {

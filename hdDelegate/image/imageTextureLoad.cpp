@@ -2,6 +2,7 @@
 #include "hdDelegate/image/imageTextureLoad.h"
 
 #include "hdDelegate/parallel.h"
+#include "materialNetwork/limits.h"
 #include "materialNetwork/regularFile.h"
 
 #include <OpenImageIO/half.h>
@@ -17,9 +18,6 @@ namespace patina {
 namespace {
 
 constexpr float largestHalf = 65504.0f;
-/// Of one image when it is unpacked: a file of some hundred kB can ask for any number of them.
-/// 32768 x 16384 texels of three halves take 3 GiB.
-constexpr uint64_t maxBytes = uint64_t(1) << 32;
 
 std::string oneLine(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
@@ -74,10 +72,11 @@ struct OpenImage {
         layout = layoutOf(s);
         const int channels = std::min(s.nchannels, 4);
         const uint64_t texels = uint64_t(s.width) * uint64_t(s.height);
-        if (texels > maxBytes / (uint64_t(channels) * oiioType(nativeType(s)).size())) {
+        // A file of some hundred kB can ask for any number of them.
+        const uint64_t each = uint64_t(channels) * oiioType(nativeType(s)).size();
+        if (texels > limitOf(Limit::textureBytes) / each) {
             error = "an image of " + std::to_string(s.width) + "x" + std::to_string(s.height) +
-                    " texels takes more than the " + std::to_string(maxBytes >> 30) +
-                    " GiB that one texture may";
+                    " texels takes more bytes than " + limitText(Limit::textureBytes);
             input.reset();
         }
     }

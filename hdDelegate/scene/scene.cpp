@@ -3,6 +3,7 @@
 
 #include "hdDelegate/scene/cameraCheck.h"
 #include "hdDelegate/scene/instancerCheck.h"
+#include "hdDelegate/scene/sceneLimits.h"
 
 #include <cmath>
 #include <utility>
@@ -131,6 +132,14 @@ void SceneEdit::commit() {
     std::lock_guard<std::mutex> lock(_scene->_mutex);
     const SceneState& before = *_scene->_state;
     auto after = std::make_shared<SceneState>(_clear ? SceneState() : before);
+    {
+        SceneLimits limits(after->triangles, _scene->diagnostics());
+        limits.keep(after->geometry, _geometry);
+        limits.keep(after->instancers, _instancers);
+        limits.keep(after->lights, _lights);
+        limits.keep(after->cameras, _cameras);
+        limits.keep(after->materials, _materials);
+    }
     SceneDelta delta;
     delta.geometry = take(after->geometry, _geometry);
     delta.instancers = take(after->instancers, _instancers);

@@ -26,6 +26,7 @@ struct SceneState {
     PrimMap<Camera> cameras;
     PrimMap<MaterialPrim> materials;
     double metersPerUnit = 0.01;
+    uint64_t triangles = 0; ///< of all geometry, see trianglesOf()
 };
 
 /// @returns whether both hold the same prim objects, versions aside
@@ -81,6 +82,7 @@ public:
     /// A path may hold prims of several kinds (a mesh that is a light, say).
     void remove(const std::string& path, PrimKind kind = PrimKind::Any);
     void clear(); ///< removes everything
+    /// What would leave the scene beyond its limits is left out, see SceneLimits.
     void commit();
 
 private:

@@ -133,7 +133,7 @@ ColorSpaces::ColorSpaces(const std::string& configFile) : _impl(new Impl) {
     if (configFile.empty()) return;
     try {
         if (configFile.rfind("ocio://", 0) != 0) { // those are in the library
-            const std::string problem = whyUnreadable(configFile, maxDocumentBytes);
+            const std::string problem = whyUnreadable(configFile, Limit::documentBytes);
             if (!problem.empty()) throw std::runtime_error("the file " + problem);
         }
         _impl->user = ocio::Config::CreateFromFile(configFile.c_str());

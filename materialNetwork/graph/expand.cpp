@@ -5,9 +5,11 @@
 #include "materialNetwork/network/geomprop.h"
 #include "materialNetwork/graph/graph.h"
 #include "materialNetwork/graph/simplify.h"
+#include "materialNetwork/limits.h"
 #include "materialNetwork/network/value.h"
 
 #include <deque>
+#include <optional>
 #include <set>
 
 namespace patina {
@@ -28,17 +30,17 @@ public:
         _result.path = _network.path;
         for (const auto& [name, c] : _network.terminals)
             request(c.node, 0);
-        while (!_queue.empty() && _nodes <= maxExpandedNodes) {
+        while (!_queue.empty() && _nodes <= _mostNodes) {
             const auto [path, depth] = _queue.front();
             _queue.pop_front();
             const auto found = _source.find(path);
             if (found != _source.end()) visit(*found->second, depth);
         }
-        if (_nodes > maxExpandedNodes) {
+        if (_nodes > _mostNodes) {
             // Definitions that use others twice, those others twice, and so on.
             _diagnostics.warn(_network.path, "",
-                              "the material comes to more than " +
-                                  std::to_string(maxExpandedNodes) + " nodes; it is left out");
+                              "the material comes to more nodes than " +
+                                  limitText(Limit::nodes) + "; it is left out");
             Network nothing;
             nothing.path = _network.path;
             return nothing;
@@ -85,7 +87,7 @@ private:
         const std::string prefix = node.path + "/";
         _instances[node.path] = {model, prefix};
         _nodes += 1 + model->nodes.size();
-        if (_nodes > maxExpandedNodes) return;
+        if (_nodes > _mostNodes) return;
         reportInputs(node, *model);
         for (const NetworkNode& inner : model->nodes) {
             _owned.push_back(instantiate(inner, node, *model, prefix, depth));
@@ -231,14 +233,32 @@ private:
     bool _asked = true;             ///< whether inputs in vain are looked for
     size_t _nodes = 0;              ///< of the result and of all models taken in
     std::deque<std::pair<std::string, int>> _queue;
+    const size_t _mostNodes = limitOf(Limit::nodes);
     Network _result;
 };
+
+/// @returns the network without the values whose texts are longer than they may be
+std::optional<Network> withoutLongTexts(const Network& network, Diagnostics& diagnostics) {
+    const size_t most = limitOf(Limit::textLength);
+    std::optional<Network> result;
+    for (size_t i = 0; i < network.nodes.size(); ++i)
+        for (const auto& [input, value] : network.nodes[i].inputs) {
+            if (value.text.size() <= most) continue;
+            diagnostics.warn(network.nodes[i].path, input,
+                             "the text is longer than " + limitText(Limit::textLength) +
+                                 "; the default is used");
+            if (!result) result = network;
+            result->nodes[i].inputs.erase(input);
+        }
+    return result;
+}
 
 } // namespace
 
 Network expand(const Network& network, const ModelLookup& models, Diagnostics& diagnostics) {
     ++compileCounts().expansions;
-    return Expander(network, models, diagnostics).run();
+    const auto within = withoutLongTexts(network, diagnostics);
+    return Expander(within ? *within : network, models, diagnostics).run();
 }
 
 Network expand(const Network& network, Diagnostics& diagnostics) {

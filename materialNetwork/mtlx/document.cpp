@@ -2,6 +2,7 @@
 #include "materialNetwork/mtlx/document.h"
 
 #include "materialNetwork/graph/expand.h"
+#include "materialNetwork/limits.h"
 #include "materialNetwork/mtlx/include.h"
 #include "materialNetwork/mtlx/parser.h"
 #include "materialNetwork/mtlx/upgrade.h"
@@ -10,17 +11,11 @@
 
 namespace patina {
 
-namespace {
-
-constexpr size_t maxNodes = 5 * maxExpandedNodes; ///< of all materials of a document
-
-} // namespace
-
 bool parseMtlx(const std::string& text, const std::string& path, bool wantMaterials,
                MtlxDocument& out, Diagnostics& diagnostics) {
     pugi::xml_document xml;
     std::string problem;
-    if (!loadXml(text, xml, problem)) {
+    if (!loadXml(text, xml, problem, limitOf(Limit::markup))) {
         diagnostics.warn(path, "", problem + "; the document is ignored");
         return false;
     }
@@ -37,7 +32,7 @@ bool parseMtlx(const std::string& text, const std::string& path, bool wantMateri
 
 std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics) {
     std::string text, problem;
-    if (!readRegularFile(path, maxDocumentBytes, text, problem)) {
+    if (!readRegularFile(path, Limit::documentBytes, text, problem)) {
         diagnostics.warn(path, "", "the file " + problem);
         return {};
     }
@@ -51,6 +46,7 @@ std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics)
         return found == models.end() ? nullptr : found->second;
     };
     // Many materials of many nodes each would take as much as one that is given up.
+    const size_t each = limitOf(Limit::nodes), maxNodes = 5 * each;
     size_t nodes = 0, leftOut = 0;
     for (Network& network : document.materials) {
         Network expanded;
@@ -60,13 +56,14 @@ std::vector<Network> readMtlx(const std::string& path, Diagnostics& diagnostics)
         else
             ++leftOut;
         const bool givenUp = expanded.empty() && !network.empty();
-        nodes += givenUp ? maxExpandedNodes : expanded.nodes.size();
+        nodes += givenUp ? each : expanded.nodes.size();
         network = std::move(expanded);
     }
     if (leftOut)
         diagnostics.warn(path, "",
-                         "the materials come to more than " + std::to_string(maxNodes) +
-                             " nodes; the last " + std::to_string(leftOut) + " are left out");
+                         "the materials come to more nodes than five times " +
+                             limitText(Limit::nodes) + "; the last " +
+                             std::to_string(leftOut) + " are left out");
     return std::move(document.materials);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/mtlx/include.h"
 
+#include "materialNetwork/limits.h"
 #include "materialNetwork/mtlx/xmlFile.h"
 #include "materialNetwork/regularFile.h"
 
@@ -15,9 +16,6 @@ namespace patina {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr size_t maxDocuments = 1000;
-constexpr uint64_t maxBytes = maxDocumentBytes; ///< of all included documents together
 
 std::string canonical(const fs::path& path) {
     std::error_code error;
@@ -55,14 +53,24 @@ private:
                                   "; that include is left out");
             return;
         }
-        if (++_documents > maxDocuments) {
-            _diagnostics.warn(path, "", "too many included documents; " + name + " is left out");
+        if (++_documents > limitOf(Limit::includes)) {
+            _diagnostics.warn(path, "",
+                              "there are more included documents than " +
+                                  limitText(Limit::includes) + "; " + name + " is left out");
             return;
         }
+        if (_open.size() > limitOf(Limit::includeDepth)) {
+            _diagnostics.warn(path, "",
+                              "included documents are more levels deep than " +
+                                  limitText(Limit::includeDepth) + "; " + name + " is left out");
+            return;
+        }
+        // Of all included documents together.
+        const uint64_t mostBytes = limitOf(Limit::documentBytes), most = limitOf(Limit::markup);
         std::string text, problem;
         pugi::xml_document xml;
-        if (readRegularFile(target, maxBytes - _bytes, text, problem) &&
-            loadXml(text, xml, problem, maxMarkup - std::min(_markup, maxMarkup)))
+        if (readRegularFile(target, mostBytes - std::min(_bytes, mostBytes), text, problem) &&
+            loadXml(text, xml, problem, most - std::min<uint64_t>(_markup, most)))
             _markup += markupOf(text);
         _bytes += text.size();
         const pugi::xml_node included = xml.child("materialx");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materialNetwork/mtlx/xmlFile.h"
 
+#include "materialNetwork/limits.h"
+
 #include <algorithm>
 
 namespace patina {
@@ -8,10 +10,11 @@ namespace patina {
 namespace {
 
 bool nestsTooDeeply(const pugi::xml_node& root) {
+    const int most = int(limitOf(Limit::nesting));
     int depth = 0;
     for (pugi::xml_node node = root.first_child(); node;) {
         if (const pugi::xml_node child = node.first_child()) {
-            if (++depth > maxNesting) return true;
+            if (++depth > most) return true;
             node = child;
             continue;
         }
@@ -31,17 +34,18 @@ size_t markupOf(const std::string& text) {
         std::count_if(text.begin(), text.end(), [](char c) { return c == '<' || c == '='; }));
 }
 
-bool loadXml(const std::string& text, pugi::xml_document& out, std::string& problem, size_t limit) {
-    if (markupOf(text) > limit) {
-        problem = "holds more tags and attributes than the " + std::to_string(maxMarkup) +
-                  " that are read of a document and what it includes";
+bool loadXml(const std::string& text, pugi::xml_document& out, std::string& problem,
+             uint64_t most) {
+    if (markupOf(text) > most) {
+        problem = "holds more tags and attributes than the " + limitText(Limit::markup) +
+                  " of a document and what it includes";
         return false;
     }
     const pugi::xml_parse_result result = out.load_buffer(text.data(), text.size());
     if (!result)
         problem = std::string("is not readable as XML: ") + result.description();
     else if (nestsTooDeeply(out))
-        problem = "has elements nested more than " + std::to_string(maxNesting) + " deep";
+        problem = "has elements nested more levels deep than " + limitText(Limit::nesting);
     return problem.empty();
 }
 

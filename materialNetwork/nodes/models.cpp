@@ -33,7 +33,7 @@ ModelLibrary::ModelLibrary() {
             std::sort(files.begin(), files.end());
             for (const fs::path& file : files) {
                 std::string text, problem;
-                if (readRegularFile(file.string(), maxDocumentBytes, text, problem))
+                if (readRegularFile(file.string(), Limit::documentBytes, text, problem))
                     add(text, file.string());
                 else
                     _diagnostics.warn(file.string(), "", "the file " + problem);

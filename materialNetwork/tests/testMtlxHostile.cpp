@@ -2,6 +2,7 @@
 // MaterialX documents that ask for more stack, memory or time than there is.
 #include "materialNetwork/tests/materialFixture.h"
 
+#include "materialNetwork/limits.h"
 #include "materialNetwork/mtlx/document.h"
 #include "materialNetwork/mtlx/xmlFile.h"
 #include "materialNetwork/nodes/nodeTable.h"
@@ -91,7 +92,8 @@ std::string shown(const std::string& category) {
 TEST_F(MtlxHostile, GraphsNestedTooDeeplyAreNoDocument) {
     EXPECT_TRUE(read(nested("nodegraph", 20000) + material).empty());
     EXPECT_TRUE(
-        reported("main.mtlx [] has elements nested more than 64 deep; the document is ignored"));
+        reported("main.mtlx [] has elements nested more levels deep than 64 (--limit nesting); "
+                 "the document is ignored"));
     EXPECT_EQ(read(nested("nodegraph", 60) + material).size(), 1u);
 }
 
@@ -100,7 +102,8 @@ TEST_F(MtlxHostile, IncludesNestedTooDeeplyAreLeftOut) {
     // In what is included, and in the element that includes.
     write("deep.mtlx", nested("a", depth));
     EXPECT_EQ(read("<xi:include href='deep.mtlx'/>" + material).size(), 1u);
-    EXPECT_TRUE(reported("'deep.mtlx' has elements nested more than 64 deep; it is left out"));
+    EXPECT_TRUE(reported("'deep.mtlx' has elements nested more levels deep than 64 (--limit "
+                         "nesting); it is left out"));
     EXPECT_TRUE(
         read("<xi:include href='deep.mtlx'>" + nested("a", depth) + "</xi:include>").empty());
     EXPECT_EQ(diagnostics.count(), 2) << warnings(diagnostics);
@@ -108,7 +111,8 @@ TEST_F(MtlxHostile, IncludesNestedTooDeeplyAreLeftOut) {
 
 /// Each element takes some 500 bytes while it is read.
 TEST_F(MtlxHostile, MoreElementsThanAreReadAreLeftOut) {
-    const std::string many = repeated("<a/>", maxMarkup / 2), few = repeated("<a b=''/>", 1000);
+    const std::string many = repeated("<a/>", limitOf(Limit::markup) / 2),
+                      few = repeated("<a b=''/>", 1000);
     write("many.mtlx", many);
     write("few.mtlx", few);
     const std::string twice = "<xi:include href='many.mtlx'/><xi:include href='few.mtlx'/>"
@@ -116,7 +120,7 @@ TEST_F(MtlxHostile, MoreElementsThanAreReadAreLeftOut) {
     EXPECT_EQ(read(twice + material).size(), 1u);
     EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
     EXPECT_TRUE(
-        reported("'many.mtlx' holds more tags and attributes than the 2097152 that are read"));
+        reported("'many.mtlx' holds more tags and attributes than the 2097152 (--limit markup)"));
     EXPECT_TRUE(read(many + many + material).empty());
     EXPECT_TRUE(reported("main.mtlx [] holds more tags and attributes than"));
 }
@@ -240,7 +244,8 @@ TEST_F(MtlxHostile, DefinitionsThatMultiplyAreGivenUp) {
     EXPECT_TRUE(networks[0].empty());
     EXPECT_TRUE(networks[0].nodes.empty());
     EXPECT_TRUE(
-        reported("main.mtlx:M [] the material comes to more than 200000 nodes; it is left out"));
+        reported("main.mtlx:M [] the material comes to more nodes than 200000 (--limit nodes); it "
+                 "is left out"));
     EXPECT_EQ(diagnostics.count(), 1) << warnings(diagnostics);
 }
 
@@ -257,7 +262,8 @@ TEST_F(MtlxHostile, MaterialsThatMultiplyAreGivenUpTogether) {
         EXPECT_TRUE(network.empty() && network.nodes.empty());
     // Six times 200000 is beyond the bound of the document.
     EXPECT_TRUE(
-        reported("the materials come to more than 1000000 nodes; the last 994 are left out"));
+        reported("the materials come to more nodes than five times 200000 (--limit nodes); the last "
+                 "994 are left out"));
     EXPECT_EQ(diagnostics.count(), 6 + 1);
 }
 

@@ -53,7 +53,7 @@ TEST_F(RegularFile, IsRefusedBeyondTheBound) {
     // Files whose size is not told are bounded too.
     std::string bytes, problem;
     EXPECT_FALSE(readRegularFile("/proc/self/maps", 9, bytes, problem));
-    EXPECT_EQ(problem, "holds more than the 9 bytes that are read");
+    EXPECT_EQ(problem, "holds more bytes than the 9 that are read");
 }
 
 TEST_F(RegularFile, NothingElseIsRead) {

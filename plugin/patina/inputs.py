@@ -5,10 +5,10 @@ import os
 import re
 import stat
 
-MAX_TEXT = 1 << 28  # bytes of documents that are read as text
+from patina import limits
+
 _UDIM = "<UDIM>"
 _INCLUDE = re.compile(rb"""<xi:include\b[^>]*?\bhref\s*=\s*(?:"([^"]+)"|'([^']+)')""")
-_MAX_INCLUDES = 1000
 _noted = set()
 
 
@@ -35,7 +35,7 @@ def file_of(path):
 
 def note_document(path):
     """The same for a MaterialX document, with what it includes."""
-    waiting = [os.path.abspath(path)]
+    waiting, most = [os.path.abspath(path)], limits.value("includes")
     for file in waiting:  # grows as it goes
         note(file)
         try:
@@ -45,7 +45,7 @@ def note_document(path):
         for match in _INCLUDE.finditer(data):
             name = (match[1] or match[2]).decode(errors="surrogateescape")
             more = os.path.normpath(os.path.join(os.path.dirname(file), name))
-            if more not in waiting and len(waiting) < _MAX_INCLUDES:
+            if more not in waiting and len(waiting) < most:
                 waiting.append(more)
 
 
@@ -105,15 +105,18 @@ def check_regular(path):
         raise InputError(f"{path} is a folder" if stat.S_ISDIR(mode) else f"{path} is no regular file")
 
 
-def read(path, maximum=MAX_TEXT):
-    """:returns: the bytes of a regular file
+def read(path, maximum=None):
+    """:param maximum: of bytes; None: the limit documentBytes
+    :returns: the bytes of a regular file
     :raises InputError: where it is none, or larger than `maximum`"""
     check_regular(path)
+    named = f"{maximum}" if maximum else f"{limits.value('documentBytes')} (--limit documentBytes)"
+    maximum = maximum or limits.value("documentBytes")
     file = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     with open(file, "rb") as stream:
         if not stat.S_ISREG(os.fstat(file).st_mode):
             raise InputError(f"{path} is no regular file")
         data = stream.read(maximum + 1)
     if len(data) > maximum:
-        raise InputError(f"{path} holds more than the {maximum} bytes that are read")
+        raise InputError(f"{path} holds more bytes than the {named} that are read")
     return data

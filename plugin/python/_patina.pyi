@@ -530,6 +530,10 @@ def light_types() -> dict[str, typing.Any]:
     """
     UsdLux types, separated by blanks where several are read alike -> word for set_light().
     """
+def limits() -> dict[str, int]:
+    """
+    The limits that hold in this process, by name.
+    """
 def machine() -> dict[str, typing.Any]:
     """
     A dict[str, typing.Any]: compiler, openglRenderer, openglVersion, and openglError, why there is no OpenGL.
@@ -570,6 +574,10 @@ def node_definition(id: str) -> typing.Any:
     """
     The id, category, inputs and outputs (name, MaterialX type) of a node or shading model; None for an unknown one.
     """
+def node_ids() -> list[str]:
+    """
+    Ids of all node definitions and shading models, sorted.
+    """
 def node_inputs(id: str) -> dict[str, typing.Any]:
     """
     Names and MaterialX types of a node's inputs; empty for an unknown node.
@@ -601,6 +609,10 @@ def read_mtlx(path: str, warnings: typing.Any = None) -> list[Network]:
 def set_denoiser_library(path: str) -> None:
     """
     Which Open Image Denoise to load; empty for $PATINA_OIDN_LIBRARY or the system's.
+    """
+def set_limits(values: dict[str, int]) -> str:
+    """
+    Gives limits of this process values, by their names in materialNetwork/limits.def; all others have their defaults again, or what the variable PATINA_LIMITS says. What was read before stays. Returns an empty text, or why nothing was changed.
     """
 def shader_text(path: str) -> str:
     """

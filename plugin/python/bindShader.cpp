@@ -10,6 +10,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 namespace py = pybind11;
 
 namespace patina {
@@ -46,6 +48,16 @@ py::object nodeDefinition(const std::string& id) {
     return dict;
 }
 
+std::vector<std::string> nodeIds() {
+    std::vector<std::string> ids;
+    for (const auto& def : NodeTable::get().all())
+        ids.push_back(def->id);
+    for (const auto& model : ModelLibrary::get().all())
+        ids.push_back(model->def.id);
+    std::sort(ids.begin(), ids.end());
+    return ids;
+}
+
 std::string wholeShader(const std::string& text) {
     std::string error;
     const ShaderText flat = flattenShader("material", text, error);
@@ -59,6 +71,7 @@ void bindShader(py::module_& m) {
     m.def("expand_material", &expanded, py::arg("network"),
           "The simplified graph of a material as a network of primitive nodes, and the list of "
           "warnings.");
+    m.def("node_ids", &nodeIds, "Ids of all node definitions and shading models, sorted.");
     m.def("node_definition", &nodeDefinition, py::arg("id"),
           "The id, category, inputs and outputs (name, MaterialX type) of a node or shading model; "
           "None for an unknown one.");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/compiled/placements.h"
 
+#include "materialNetwork/limits.h"
+
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
@@ -90,6 +92,26 @@ TEST_F(Fixture, KeepsTheOrderOfGroupsAndPaths) {
     const Placements placements(state, settings, diagnostics);
     ASSERT_EQ(placements.in("").size(), 3u);
     EXPECT_EQ(placements.in("")[0]->path, "/a");
+}
+
+/// Eight levels of ten instances each are a hundred million places, from eighty transforms.
+TEST_F(Fixture, LeavesOutTheInstancersOfMostInstancesBeyondTheLimit) {
+    std::string group;
+    for (int level = 0; level < 8; ++level) {
+        const std::string next = "g" + std::to_string(level);
+        add(instancer("/" + next, group, {next}, std::vector<int>(10, 0)));
+        group = next;
+    }
+    ASSERT_EQ(setLimits({{"instances", 2000}}), "");
+    EXPECT_EQ(placesOf("g2").size(), 1000u); // 10 + 100 + 1000 are within it
+    EXPECT_EQ(placesOf("g7").size(), 0u);
+    EXPECT_EQ(Placements(state, settings, diagnostics).drawn().size(), 3u);
+    ASSERT_EQ(diagnostics.count(), 1);
+    EXPECT_EQ(diagnostics.all()[0].prim, "/g7");
+    EXPECT_EQ(diagnostics.all()[0].message, "the scene has more instances than 2000 (--limit "
+                                            "instances); the instancer is left out, and 4 others");
+    setLimits({});
+    EXPECT_EQ(Placements(state, settings, diagnostics).drawn().size(), 8u);
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/scene/scene.h"
 
+#include "materialNetwork/limits.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -120,6 +122,55 @@ TEST(Scene, editsFromSeveralThreadsAllArrive) {
         thread.join();
     EXPECT_EQ(scene.snapshot()->geometry.size(), 200u);
     EXPECT_EQ(scene.snapshot()->version, 200u);
+}
+
+std::shared_ptr<const Geometry> quads(const std::string& path, int count) {
+    const auto mesh = meshAt(path);
+    mesh->faceVertexCounts.assign(size_t(count), 4);
+    mesh->faceVertexIndices.assign(size_t(count) * 4, 0);
+    return mesh;
+}
+
+TEST(Scene, whatLeavesItBeyondItsLimitsIsLeftOutAndNamed) {
+    Scene scene;
+    setLimits({{"triangles", 10}});
+    {
+        SceneEdit edit = scene.edit();
+        for (const char* path : {"/a", "/b", "/c", "/d"})
+            edit.set(quads(path, 2)); // 4 triangles
+    }
+    EXPECT_EQ(scene.snapshot()->geometry.size(), 2u);
+    EXPECT_EQ(scene.snapshot()->triangles, 8u);
+    ASSERT_EQ(scene.diagnostics().count(), 1);
+    EXPECT_EQ(scene.diagnostics().all()[0].prim, "/c");
+    EXPECT_EQ(scene.diagnostics().all()[0].message,
+              "the scene has more triangles than 10 (--limit triangles); the prim is left out, "
+              "and 1 others");
+    // What goes makes room; a prim that is set again does not count twice.
+    {
+        SceneEdit edit = scene.edit();
+        edit.remove("/a");
+        edit.set(quads("/b", 2));
+        edit.set(quads("/c", 3));
+    }
+    EXPECT_EQ(scene.snapshot()->triangles, 10u);
+    EXPECT_EQ(scene.snapshot()->geometry.count("/c"), 1u);
+    EXPECT_EQ(scene.diagnostics().count(), 1);
+    {
+        SceneEdit edit = scene.edit();
+        edit.clear();
+        edit.set(quads("/e", 5));
+    }
+    EXPECT_EQ(scene.snapshot()->triangles, 10u);
+    setLimits({{"prims", 2}, {"textLength", 20}});
+    {
+        SceneEdit edit = scene.edit();
+        for (const char* path : {"/f", "/g", "/a path that is longer"})
+            edit.set(quads(path, 1));
+    }
+    EXPECT_EQ(scene.snapshot()->geometry.size(), 2u);
+    EXPECT_EQ(scene.diagnostics().count(), 3);
+    setLimits({});
 }
 
 } // namespace

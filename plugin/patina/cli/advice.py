@@ -17,6 +17,10 @@ _ROWS = (
     (r"the image stays as it is", "install Open Image Denoise (`./patina` fetches pyoidn for `--denoise`)"),
     (r"start too far away, or have no direction", "look for transforms and points that are far too large, or no numbers"),
     (r"photons show no caustics", "change what the message names, or take `--method caustics=paths`"),
+    # Limits.
+    (r"\(--limit|nodes than|is longer than|the scene has more|included documents than|levels deep than",
+     "raise the limit with `--limit`, or with PATINA_LIMITS in other hosts, where the file is trusted; "
+     "[limits](limits.md) lists them"),
     # Inputs.
     (r"has no such input|no such input|such an input|has no output|no such output|has no input|does not exist; the default",
      "spell the name as the node's definition does; `patina explain` lists the inputs that there are"),
@@ -87,7 +91,7 @@ _ROWS = (
      "connect `outputs:surface` (or mtlx:surface) to a node of type surfaceshader"),
     (r"is not modelled|cannot stand here|coats only as the top",
      "use another node; [nodes](../generated/nodes.md) lists those that there are"),
-    (r"nodes; it is left out|nested too deeply|too large|more than … lobes|different normals|too much would|come to more than",
+    (r"nested too deeply|too large|more than … lobes|different normals|too much would",
      "split the material, or bake parts of it to textures (`patina bake`)"),
     (r"unknown space|unknown address|unknown wrap|wrap mode|is not known|channels|filter",
      "use one of the values of the MaterialX specification"),

@@ -16,6 +16,7 @@ import sys
 
 import numpy as np
 
+from patina import limits
 from patina.cli import bakeOutput, compiled, materials, outputs, statistics
 from patina.cli.bakeOutput import NORMALS
 from patina.cli.errors import CommandError, UsageError
@@ -43,6 +44,7 @@ def add_arguments(parser):
 def run(arguments):
     if not 1 <= arguments.resolution <= 16384:
         raise UsageError("patina bake: --resolution is 1 to 16384")
+    limits.add_flag(parser)
     if os.path.splitext(arguments.output)[1].lower() not in bakeOutput.EXTENSIONS:
         raise UsageError("patina bake: OUT ends in .usda, .usdc or .usd")
     found, warnings = materials.load(arguments.material, arguments.set)

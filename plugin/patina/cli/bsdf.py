@@ -20,6 +20,7 @@ import sys
 
 import numpy as np
 
+from patina import limits
 from patina.cli import compiled, materials, methods, outputs, statistics
 from patina.cli.errors import CommandError, UsageError
 
@@ -38,6 +39,7 @@ def add_arguments(parser):
                         help="whose code runs: raster is the GLSL on the driver (default: embree)")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
+    limits.add_flag(parser)
     methods.add_flag(parser)
     parser.add_argument("--json", metavar="FILE",
                         help="one JSON object per line: --json to standard output, --json=FILE to a file")

@@ -21,6 +21,7 @@ import sys
 
 import numpy as np
 
+from patina import limits
 from patina.cli import compiled, layers, materials, methods, outputs, statistics
 from patina.cli.errors import CommandError, UsageError
 from patina.cli.progress import Progress
@@ -45,6 +46,7 @@ def add_arguments(parser):
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the random numbers (default: 0)")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
+    limits.add_flag(parser)
     methods.add_flag(parser)
     parser.add_argument("--json", metavar="FILE", help="write the results as JSON: --json to standard output, "
                                                        "--json=FILE to a file")

@@ -11,6 +11,7 @@ Of a whole stage with a tolerance it also builds the scene, and tells what is ch
 """
 import sys
 
+from patina import limits
 from patina.cli import compiled, materials, methods, outputs, planText, recordFlags, sceneChoices, statistics
 
 
@@ -19,6 +20,7 @@ def add_arguments(parser):
         "the only material", "every material"))
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
+    limits.add_flag(parser)
     methods.add_flag(parser)
     recordFlags.add_tolerance_flag(parser)
     parser.add_argument("--backend", default="embree", choices=["embree", "raster"],

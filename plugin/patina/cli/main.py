@@ -7,7 +7,7 @@ import re
 import sys
 import traceback
 
-from patina import __version__, inputs
+from patina import __version__, inputs, limits
 from patina.cli import interrupts, standardStreams
 from patina.cli.errors import FAILED, TEMPORARY, USAGE, CommandError, UsageError, is_temporary
 
@@ -123,7 +123,11 @@ def _dispatch(argv):
         parse = parser.parse_intermixed_args if getattr(module, "INTERMIXED", False) else parser.parse_args
         arguments = parse(words)
         arguments.argv, arguments.given = list(argv), _given(parser, parse, words)
-    return module.run(arguments) or 0
+    limits.apply(getattr(arguments, "limit", []))
+    try:
+        return module.run(arguments) or 0
+    finally:
+        limits.apply([])
 
 
 def _given(parser, parse, words):

@@ -13,7 +13,7 @@ import contextlib
 import os
 import tempfile
 
-from patina import inputs
+from patina import inputs, limits
 from patina.cli import compiled, frames, outputs
 from patina.cli.errors import CommandError
 from patina.cli.progress import Progress
@@ -28,6 +28,7 @@ def add_arguments(parser):
     parser.add_argument("--allowMixed", action="store_true",
                         help="take parts of other builds and instruction sets: the image has no defined bits then")
     parser.add_argument("--threads", type=int, default=0, metavar="N", help="default: all cores")
+    limits.add_flag(parser)
     parser.add_argument("--json", metavar="FILE",
                         help="statistics of the frame: --json to standard output, --json=FILE to a file")
     parser.add_argument("--quiet", "-q", action="store_true", help="errors only")

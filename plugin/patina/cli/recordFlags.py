@@ -2,6 +2,7 @@
 """The flags of `patina record`, and the render settings that they mean."""
 import math
 
+from patina import limits
 from patina.cli import denoiser, frames, methods, overrides, rows, settingFlags, snapshots
 from patina.cli.errors import CommandError, UsageError
 from patina.farm import cut
@@ -122,6 +123,7 @@ def _add_run_flags(group):
                        help="one page that needs no network: image and AOVs to wipe through, samples and error of each pixel, "
                             "time by phase and by material, memory, warnings, the plan, and the command. With --frames of the "
                             "last frame, or of each where the name has a place for it")
+    limits.add_flag(group)
     group.add_argument("--strict", action="store_true", help="warnings make the render fail")
     group.add_argument("--json", metavar="FILE",
                        help="statistics (times by phase, rays, samples, memory, warnings): --json to standard "

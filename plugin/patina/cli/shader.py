@@ -15,6 +15,7 @@ and the vertex stage too with --stage vertex.
 """
 import sys
 
+from patina import limits
 from patina.cli import compiled, materials, methods, outputs, statistics
 from patina.cli.errors import CommandError, UsageError
 
@@ -38,6 +39,7 @@ def add_arguments(parser):
                         help="of glsl and essl: write the table that lobes look up")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
+    limits.add_flag(parser)
     methods.add_flag(parser)
     parser.add_argument("--json", metavar="FILE", help="write text, textures and primvars as JSON: --json to standard output, "
                                                        "--json=FILE to a file")

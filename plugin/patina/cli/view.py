@@ -7,6 +7,7 @@ the materials. It needs Node and npm once, to fetch and bundle what the page is 
 import os
 import sys
 
+from patina import limits
 from patina.cli import materials, methods, outputs, statistics
 from patina.cli.errors import UsageError
 
@@ -40,6 +41,7 @@ def add_arguments(parser):
                         help="largest side of textures and environments in the page (default: 1024)")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
+    limits.add_flag(parser)
     methods.add_flag(parser)
 
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What input may ask for at most.
+#include "materialNetwork/limits.h"
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+
+namespace patina {
+
+void bindLimits(py::module_& m) {
+    m.def("set_limits", &setLimits, py::arg("values"),
+          "Gives limits of this process values, by their names in materialNetwork/limits.def; all "
+          "others have their defaults again, or what the variable PATINA_LIMITS says. What was "
+          "read before stays. Returns an empty text, or why nothing was changed.");
+    m.def(
+        "limits",
+        [] {
+            std::map<std::string, uint64_t> values;
+#define LIMIT(name, ...) values[#name] = limitOf(Limit::name);
+#include "materialNetwork/limits.def"
+#undef LIMIT
+            return values;
+        },
+        "The limits that hold in this process, by name.");
+}
+
+} // namespace patina

@@ -89,6 +89,17 @@ def own_pages(site):
     return [path for path in pages(site) if "cpp" not in path.relative_to(site).parts and path.name != "404.html"]
 
 
+HEADERS = ("index", "annotated", "hierarchy", "files", "functions", "namespacepatina", "classpatina_1_1Film", "film_8h",
+           "film_8h_source", "search/all_0")  # one of each sort of Doxygen's pages
+
+
+@pytest.mark.parametrize("scheme, width", [("light", 1280), ("dark", 400)])
+def test_no_page_of_headers_has_a_violation(chromium, site, scheme, width):
+    script = axe_script()
+    found = {name: look_at(chromium, script, str(site / "api" / "cpp" / f"{name}.html"), scheme, width) for name in HEADERS}
+    assert not {name: texts for name, texts in found.items() if texts}
+
+
 @pytest.mark.parametrize("scheme, width", [("light", 1280), ("dark", 400)])
 def test_no_page_has_a_violation(chromium, site, scheme, width):
     """Every page, at the width of a desk and in dark at that of a telephone: axe-core finds nothing, and nothing sticks out."""

@@ -25,7 +25,7 @@ def site(tmp_path_factory):
 
 
 class Assets(html.parser.HTMLParser):
-    """What a page loads by itself."""
+    """The files that a page loads by itself."""
 
     def __init__(self, text):
         super().__init__()

@@ -28,7 +28,7 @@ function(_patina_flags target)
     endif()
 endfunction()
 
-# What most files include of other people's headers is compiled once for the libraries, and once for the tests, which are
+# Headers of other projects that most files include are compiled once for the libraries, and once for the tests, which are
 # programs and include googletest.
 if(PATINA_PRECOMPILED)
     if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache$" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

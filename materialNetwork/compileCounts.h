@@ -5,7 +5,7 @@
 
 namespace patina {
 
-/// What has been done for materials since the process began, for who checks that it is done once.
+/// Counts of the work on materials since the process began; tests check that it is done once.
 struct CompileCounts {
     std::atomic<long> expansions{0}; ///< networks expanded into graphs
     std::atomic<long> irs{0};        ///< plans compiled

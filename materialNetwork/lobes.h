@@ -6,7 +6,7 @@
 namespace patina {
 
 namespace lobe {
-/// What a kind of lobe is to the rest of a material.
+/// Properties of a kind of lobe that the rest of a material depends on.
 enum Trait : unsigned {
     None = 0,
     Diffuse = 1,    ///< counts as diffuse light

@@ -7,7 +7,7 @@
 
 namespace patina {
 
-// What every room computes with, in one place.
+// Constants and functions that every room computes with.
 
 inline constexpr float pi = 3.14159265358979323846f;
 inline constexpr double piDouble = 3.14159265358979323846;

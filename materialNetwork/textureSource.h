@@ -13,7 +13,7 @@ namespace patina {
 
 enum class TextureWrap { Black, Clamp, Repeat, Mirror };
 
-/// What a material needs to know to read a texture.
+/// A texture that a material reads, and how it is read.
 struct TextureRequest {
     std::string file; ///< resolved path; `<UDIM>` stands for the tile number
     std::string

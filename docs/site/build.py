@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 
+import headers
 import pages
 from patina.cli.errors import CommandError
 from patina.view import bundle
@@ -76,10 +77,16 @@ def _doxygen(folder, source):
     with open(os.path.join(HERE, "Doxyfile"), encoding="utf-8") as file:
         text = file.read()
     text += f"\nOUTPUT_DIRECTORY = \"{folder}\"\nHTML_OUTPUT = doxygen\nSTRIP_FROM_PATH = \"{pages.ROOT}\"\n"
+    text += f"HTML_EXTRA_STYLESHEET = \"{os.path.join(HERE, 'headers.css')}\"\n"
     done = subprocess.run([program, "-"], input=text, cwd=pages.ROOT, capture_output=True, text=True, check=False)
     made = os.path.join(folder, "doxygen")
     if done.returncode != 0 or not os.path.isfile(os.path.join(made, "index.html")):
         raise CommandError("Doxygen failed: " + " ".join(done.stderr.split())[-400:])
+    headers.improve(made)
+    with open(os.path.join(HERE, "headers.css"), encoding="utf-8") as file:
+        colors = file.read()
+    with open(os.path.join(made, "search", "search.css"), "a", encoding="utf-8") as file:
+        file.write(colors)  # the pages of results read this file alone
     os.makedirs(os.path.dirname(target), exist_ok=True)
     shutil.move(made, target)
     return ""

@@ -44,7 +44,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    /// What one of the two has brought.
+    /// The state of one of the two.
     struct Source {
         std::unique_ptr<Film> film = std::make_unique<Film>(); ///< a copy, to be overwritten
         RenderProgress progress;                               ///< at that time

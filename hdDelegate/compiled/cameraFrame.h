@@ -7,8 +7,8 @@
 
 namespace patina {
 
-/// What a camera and the settings say of an image: its window, lens and shutter. The conform policy
-/// of the settings decides which aperture yields when the image has another shape.
+/// The frame that a camera and the settings describe: its window, lens and shutter. The conform
+/// policy of the settings decides which aperture yields when the image has another shape.
 struct CameraFrame {
     CameraFrame(const Camera& camera, const RenderSettings& settings);
 

@@ -18,7 +18,7 @@
 
 namespace patina {
 
-/// What of one state every back end asks for. A part that an edit leaves as it was is the same
+/// The compiled parts of one state. A part that an edit leaves as it was is the same
 /// object as before the edit.
 struct CompiledState {
     std::shared_ptr<const Placements> placements;
@@ -26,16 +26,16 @@ struct CompiledState {
     std::shared_ptr<const MeshLights> meshLights;
 };
 
-/// What edits mean for a back end that knows the state before them.
+/// The effect of edits on a back end that knows the state before them.
 struct SceneEdits {
     SceneDelta delta;
     /// Geometry that is there and has changed, or is bound to a material that has.
     std::set<std::string> touched;
 };
 
-/// What every back end needs of a scene, made once for all its renderers: texels, images of lights,
-/// programs of materials, shapes, media of volumes, where instances are, how finely surfaces are
-/// drawn, and what edits touch. Thread safe.
+/// The part of a scene that every back end needs, made once for all its renderers: texels, images
+/// of lights, programs of materials, shapes, media of volumes, where instances are, how finely
+/// surfaces are drawn, and what edits touch. Thread safe.
 class CompiledScene {
 public:
     explicit CompiledScene(const std::shared_ptr<Scene>& scene);
@@ -53,7 +53,7 @@ public:
     SubdivisionChoice& subdivision() { return _subdivision; }
 
     CompiledState compiled(const SceneState& state, const RenderSettings& settings);
-    /// What was edited between an earlier version and a state.
+    /// The edits between an earlier version and a state.
     /// @returns nothing where that is not known any more: everything may differ
     std::optional<SceneEdits> editsSince(uint64_t version, const SceneState& state);
 

@@ -10,7 +10,7 @@
 
 namespace patina {
 
-/// What the shape of a prim is made from.
+/// The inputs that the shape of a prim is made from.
 struct ShapeRequest {
     std::shared_ptr<const Geometry> prim;
     TessellationOptions options;

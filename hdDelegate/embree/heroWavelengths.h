@@ -55,7 +55,7 @@ private:
     bool _transmits, _nonDelta, _stochastic;
 };
 
-/// What light that comes to a vertex or leaves it asks of its lobes.
+/// The lobes of a vertex, as light that comes to it or leaves it evaluates them.
 class VertexBsdf {
 public:
     /// @param dispersed the same point for several wavelengths, or null

@@ -82,7 +82,7 @@ private:
     enum class Flight { Arrives, Scatters, Ends };
     /// Takes the path through the medium that it is in, up to `distance` or to where it scatters.
     Flight fly(Path& path, float distance, TraceCounters& counters) const;
-    /// What is left of light on the way of the path up to a distance.
+    /// Transmittance along the path's ray up to a distance.
     vec3 transmittanceTo(const Path& path, float distance) const;
     Flight scatter(Path& path, const Medium& medium, float distance, TraceCounters& counters) const;
     bool survivesRoulette(Path& path) const;

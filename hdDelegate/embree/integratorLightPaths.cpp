@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/integrator.h"
 
-// What the AOVs of light paths have to know of a path, where some are asked for.
+// The record of a path for the AOVs of light paths, where some are asked for.
 
 namespace patina {
 

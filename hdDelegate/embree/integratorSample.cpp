@@ -9,7 +9,7 @@
 #include <cmath>
 #include <optional>
 
-// What a sample of a pixel is: its ray, and where its light goes.
+// A sample of a pixel: its ray, and where its light goes.
 
 namespace patina {
 

@@ -21,7 +21,7 @@ enum class AovId {
     unknown ///< none of the table
 };
 
-/// What aovs.def says of one AOV.
+/// One row of aovs.def.
 struct AovRow {
     AovId id = AovId::unknown;
     const char* name = "";
@@ -76,7 +76,7 @@ struct AovRow {
 /// By AovId, without AovId::unknown.
 const std::vector<AovRow>& aovRows();
 
-/// What follows the prefix of the AOVs of primvars.
+/// The rest of a primvar AOV's name after its prefix.
 inline constexpr char primvarAovs[] = "primvars:";
 
 /// What follows is a light path expression; before it may stand NAME=.

@@ -7,7 +7,7 @@
 
 namespace patina {
 
-/// What a surface gives for an AOV, in one place for all renderers.
+/// The value of an AOV at a surface, in one place for all renderers.
 ///
 /// @tparam Point what the renderer knows of the place: inCamera() and windowDepth() of its
 ///         position in camera space, position() in the world, normal(), worldToCamera(),

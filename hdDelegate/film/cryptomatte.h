@@ -20,7 +20,7 @@ std::string cryptomatteLayer(const AovSpec& spec);
 /// crypto_object00.R ... crypto_object02.A
 std::vector<std::string> cryptomatteChannels(const AovSpec& spec);
 
-/// What the file says of it: cryptomatte/ID/name, hash, conversion and manifest.
+/// Its metadata in the file: cryptomatte/ID/name, hash, conversion and manifest.
 void addCryptomatteMetadata(const AovSpec& spec, const CoverageNames::Map& names,
                             Metadata& metadata);
 

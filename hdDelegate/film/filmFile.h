@@ -22,7 +22,7 @@ private:
 
 using FilePtr = std::unique_ptr<FILE, int (*)(FILE*)>;
 
-/// What a file with accumulators is called in messages, and how it begins.
+/// The name of a file with accumulators in messages, and how the file begins.
 struct FilmFileKind {
     const char* name;     ///< "checkpoint"
     char magic[8];        ///< no terminator

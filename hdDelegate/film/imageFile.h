@@ -13,7 +13,8 @@ namespace patina {
 class ColorSpaces;
 
 using MetadataValue = std::variant<std::string, int, double>;
-/// What an image says about its making. Names are those of OIIO (Software, DateTime, ...) or free.
+/// Metadata of an image about its making. Names are those of OIIO (Software, DateTime, ...) or
+/// free.
 using Metadata = std::map<std::string, MetadataValue>;
 
 /// How a film becomes a file.

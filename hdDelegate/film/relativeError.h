@@ -5,7 +5,7 @@
 
 namespace patina {
 
-/// What the noise of neighbouring pixels has to do with each other.
+/// How the noise of neighbouring pixels is related.
 enum class PixelNoise {
     Independent, ///< every pixel has random numbers of its own (path tracer)
     Shared,      ///< all have the same (rasterizer): many pixels tell no more than one

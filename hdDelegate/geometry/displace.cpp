@@ -94,7 +94,7 @@ private:
     const std::vector<int>& _attributes;
 };
 
-/// What stays the same over all corners while a mesh is displaced.
+/// Data shared by all corners while a mesh is displaced.
 struct Displacement {
     TriangleMesh& mesh;
     const std::vector<std::shared_ptr<const MaterialProgram>>& materials;

@@ -26,9 +26,9 @@ struct MeshAttribute {
     std::vector<float> data; ///< always finite
 };
 
-/// What both back ends draw. Positions are those of the prim's object space; the geometric normal
-/// cross(b - a, c - a) of every triangle points out of the front face, whatever the orientation of
-/// the prim.
+/// Triangles that both back ends draw. Positions are those of the prim's object space; the
+/// geometric normal cross(b - a, c - a) of every triangle points out of the front face, whatever
+/// the orientation of the prim.
 struct TriangleMesh {
     std::vector<std::vector<vec3>> positions; ///< per time step, uniform over the shutter
     std::vector<uvec3> triangles;

@@ -14,7 +14,8 @@ namespace patina {
 /// film's depth); the other names are the same, primvars:NAME and lpe:EXPR among them.
 std::string filmAovOf(const TfToken& hydraName);
 
-/// What a host should allocate for an AOV; of format HdFormatInvalid when it is not known.
+/// The buffer that a host should allocate for an AOV; of format HdFormatInvalid when it is not
+/// known.
 HdAovDescriptor aovDescriptor(const TfToken& hydraName);
 
 } // namespace patina

@@ -7,7 +7,7 @@
 
 namespace patina {
 
-/// What a host wants to see where nothing was hit.
+/// The host's value for pixels where nothing was hit.
 struct ClearValue {
     float values[4] = {0.0f, 0.0f, 0.0f, 0.0f};
     bool isInteger = false; ///< the first value holds the bits of an int32

@@ -7,7 +7,7 @@
 
 namespace patina {
 
-/// What hosts can ask of the delegate by name.
+/// Commands that hosts can give the delegate by name.
 HdCommandDescriptors commandDescriptors();
 
 /// @returns false, with a warning, for unknown commands, wrong arguments and failures

@@ -22,7 +22,7 @@ struct HdPatinaSettingsPrim {
     HdRenderSettings::RenderProducts products;
 };
 
-/// What a delegate and its render passes share. Passes hold it, so that they may outlive the
+/// State that a delegate and its render passes share. Passes hold it, so that they may outlive the
 /// delegate, in whatever order a host tears things down.
 class HdPatinaDelegateState {
 public:

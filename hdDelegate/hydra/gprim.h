@@ -68,7 +68,7 @@ public:
         }
         syncShape(*delegate, param, *dirtyBits, all, reprToken, *prim);
         _prim = prim;
-        // What is not seen is no part of the scene; it comes back as it was.
+        // An invisible prim is no part of the scene; it comes back as it was.
         if (this->IsVisible())
             param.set(shownAs(*delegate, param, _prim));
         else

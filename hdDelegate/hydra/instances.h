@@ -17,7 +17,7 @@ namespace patina {
 
 class HdPatinaRenderParam;
 
-/// What a Hydra instancer holds, by index. The transforms are those of the instances in the space
+/// The data of a Hydra instancer, by index. The transforms are those of the instances in the space
 /// of its parent, so that the scene needs no more of it.
 struct HdPatinaInstanceData {
     std::vector<MotionTransform> transforms;
@@ -38,7 +38,7 @@ public:
     /// It is no longer drawn by any instancer.
     void leave(const SdfPath& prototype);
 
-    /// What an instancer holds.
+    /// The data of an instancer.
     /// @param group the group that it is placed in, as place() told; empty for the world
     void setInstancer(const SdfPath& instancer, const std::string& group,
                       std::shared_ptr<const HdPatinaInstanceData> data);

@@ -10,7 +10,7 @@
 
 namespace patina {
 
-/// What a prim's dirty primvars became.
+/// The values of a prim's dirty primvars.
 struct PrimvarUpdate {
     bool pointsChanged = false;
     Sampled<std::vector<vec3>> points;

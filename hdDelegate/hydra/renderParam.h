@@ -18,7 +18,7 @@ namespace patina {
 
 class HdPatinaInstances;
 
-/// What the prims of one delegate share: the renderer's scene and the changes that wait to be
+/// State that the prims of one delegate share: the renderer's scene and the changes that wait to be
 /// committed. Renderers work on snapshots, so no prim ever has to stop them: sync only collects
 /// changes, and CommitResources applies all of them as one edit.
 class HdPatinaRenderParam final : public HdRenderParam {

@@ -7,8 +7,8 @@
 
 namespace patina {
 
-/// What hosts show while a render runs, under the names that they look for: percentDone (0..100),
-/// fractionDone, numCompletedSamples, totalClockTime and timeRemaining (seconds),
+/// Statistics that hosts show while a render runs, under the names that they look for: percentDone
+/// (0..100), fractionDone, numCompletedSamples, totalClockTime and timeRemaining (seconds),
 /// renderProgressAnnotation (a line), peakMemory (bytes of the process), warnings; and everything
 /// in RenderProgress::statistics as patina:NAME. Of several passes the one that is furthest behind
 /// counts.

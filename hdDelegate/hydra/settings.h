@@ -7,7 +7,7 @@
 
 namespace patina {
 
-/// What a Hydra host chooses: how to render, and with what.
+/// Choices of a Hydra host: render settings and back end.
 struct HdPatinaSettings : RenderSettings {
     /// embree, raster, interactive (the rasterizer's image, refined by path tracing), or auto:
     /// interactive in interactive hosts where there is a GPU, else embree.

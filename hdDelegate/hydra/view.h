@@ -11,7 +11,7 @@
 
 namespace patina {
 
-/// What a render pass looks at: which camera, and how its picture lies in the buffers.
+/// The view of a render pass: which camera, and how its picture lies in the buffers.
 struct HdPatinaView {
     bool ownCamera = false; ///< `camera` is not a prim of the scene and has to be set
     std::string cameraPath; ///< of the scene's camera to look through

@@ -12,7 +12,7 @@ namespace patina {
 
 enum class TexelType : uint8_t { U8, U16, Half, Float };
 
-/// What the channels of a texture mean; its size is channelCount().
+/// Meaning of the channels of a texture; its size is channelCount().
 enum class TexelLayout : uint8_t { Grey, GreyAlpha, RedGreen, Rgb, Rgba };
 int channelCount(TexelLayout layout);
 

@@ -34,7 +34,7 @@ public:
     /// Texels of a handle, for back ends with samplers of their own; null for a missing one.
     /// @param tile UDIM number; of a plain texture any
     std::shared_ptr<const ImageTexture> image(int handle, int tile = 1001) const;
-    /// What a handle was opened with.
+    /// The request that a handle was opened with.
     const TextureRequest& request(int handle) const;
     size_t memoryBytes() const; ///< of the texels in memory
 

@@ -23,7 +23,7 @@ public:
                const std::function<float(const vec3&)>& luminance);
     bool valid() const { return _valid; }
 
-    /// What a point sees through the portal, in cells of the map.
+    /// The part of the map that a point sees through the portal, in cells.
     struct Window {
         float low[2] = {0, 0}, high[2] = {0, 0};
         double worth = 0.0; ///< 0 where it sees nothing

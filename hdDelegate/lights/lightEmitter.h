@@ -57,7 +57,7 @@ public:
     /// Goes on with the same normal, side and time. The radiance is filtered, and without image().
     bool sample(const EmitterDraw& draw, const vec3& point, const vec3& normal, bool twoSided,
                 float time, EmitterSample& out) const;
-    /// What is left of the light on its way to a point, by its filters.
+    /// The share of the light that its filters let through to a point.
     vec3 filtered(const vec3& point, const vec3& direction, float distance, float time) const {
         return _filters.empty() ? vec3(1.0f) : _filters.factor(point, direction, distance, time);
     }

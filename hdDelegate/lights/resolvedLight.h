@@ -13,7 +13,7 @@ struct RenderSettings;
 bool isFinite(const vec3& v);
 bool isFinite(const mat4& m);
 
-/// What a UsdLux light is treated as, and how bright it is then: the same for every renderer.
+/// The kind of light that a UsdLux prim becomes, and its brightness: the same for every renderer.
 /// Spheres and cylinders that ask for it (treatAsPoint, treatAsLine), or that normalize and have no
 /// radius, become points and lines.
 struct ResolvedLight {

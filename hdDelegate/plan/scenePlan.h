@@ -9,8 +9,9 @@
 
 namespace patina {
 
-/// What the methods of a scene and of its materials mean for an image of it: both back ends fill
-/// one when they have compiled the materials, and stop sampling by what it leaves for noise.
+/// Methods of a scene and of its materials, and their expected effect on an image of it: both back
+/// ends fill one when they have compiled the materials, and stop sampling by what it leaves for
+/// noise.
 class ScenePlan {
 public:
     /// @param path of the material; empty for displayColor

@@ -11,7 +11,7 @@
 
 namespace patina {
 
-/// What every back end does around its samples: a thread that renders one state of the scene, and
+/// The loop of every back end around its samples: a thread that renders one state of the scene, and
 /// is stopped, paused and asked for its progress by others; a listener; checkpoints; a time limit.
 ///
 /// A back end overrides render(), and calls stop() first in its destructor.

@@ -13,7 +13,7 @@
 
 namespace patina {
 
-/// What a renderer can tell about its work. Times in seconds.
+/// Statistics of a render. Times in seconds.
 struct RenderProgress {
     double fraction = 0.0; ///< 0..1 of the expected work
     int samplesDone = 0;   ///< full passes over the image, in samples per pixel

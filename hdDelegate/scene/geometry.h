@@ -44,7 +44,7 @@ struct Visibility {
     bool sees(unsigned rays) const { return (mask() & rays) != 0; }
 };
 
-/// What the camera sees of a prim in the place of its own light. Other rays meet it as it is.
+/// How the camera sees a matte or catcher in place of its own light. Other rays meet it as it is.
 struct Catching {
     bool matte = false;       ///< nothing: a hole in the picture, black and without alpha
     bool shadows = false;     ///< black, as opaque as it is in shadow
@@ -56,7 +56,7 @@ struct Catching {
 enum class SubdivisionScheme { None, CatmullClark, Loop, Bilinear };
 enum class GeometryKind { Mesh, Curves, Points, Implicit, Volume };
 
-/// What all gprims share.
+/// The members of every gprim.
 struct Geometry {
     std::string path;
     std::string group; ///< prototype that this prim belongs to; empty means the world itself
@@ -90,7 +90,7 @@ struct NurbsDirection {
     double low = 0.0, high = 0.0; ///< part that is drawn; all of it where low is not below high
 };
 
-/// What makes a mesh a UsdGeomNurbsPatch.
+/// The attributes of a UsdGeomNurbsPatch, in a mesh.
 struct NurbsPatch {
     NurbsDirection u, v;
     std::vector<double> weights; ///< one per control point, not multiplied into it; empty: all 1

@@ -34,8 +34,8 @@ inline constexpr IgnoredFilterInput ignoredFilterInputs[] = {
 #include "hdDelegate/scene/lightFilterInputs.inc"
 };
 
-/// What changes a light on its way to a point: a prim that the light's `light:filters` names. The
-/// inputs are explained in lightFilterInputs.inc.
+/// A filter, which changes a light on its way to a point: a prim that the light's `light:filters`
+/// names. The inputs are explained in lightFilterInputs.inc.
 struct LightFilter {
     using floats = std::vector<float>;
     using vec3s = std::vector<vec3>;

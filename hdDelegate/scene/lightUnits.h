@@ -24,7 +24,7 @@ double lightSizeFactor(const Light& light, const mat4& toWorld);
 /// Size of an area light along the axes of its unit shape (shaders/lights/shape.glsl), before its
 /// transform; 1 for other lights.
 vec3 lightSize(const Light& light);
-/// What to name where a light of a shape has no size: an input that is 0, else the transform.
+/// The name to report where a light of a shape has no size: an input that is 0, else the transform.
 std::string lightSizeInput(const Light& light);
 
 /// Radiance that a light emits before textures and shaping: intensity 2^exposure color blackbody,

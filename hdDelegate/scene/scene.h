@@ -48,7 +48,7 @@ public:
     /// The state after the last commit.
     std::shared_ptr<const SceneState> snapshot() const;
 
-    /// What commits changed from one version to a later one.
+    /// The changes of all commits from one version to a later one.
     /// @returns nothing where that is not known any more: everything may differ
     std::optional<SceneDelta> changes(uint64_t from, uint64_t to) const;
 

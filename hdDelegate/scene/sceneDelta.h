@@ -10,7 +10,7 @@
 
 namespace patina {
 
-/// What happened to a prim between two states.
+/// The change of a prim between two states.
 enum class PrimEdit {
     Set,     ///< it is another object
     Added,   ///< it was not there before
@@ -18,7 +18,7 @@ enum class PrimEdit {
     Passing, ///< it came and went: it was not there before and is not now
 };
 
-/// What differs between two states of a scene: paths by kind, without the prims, so that none is
+/// The difference of two states of a scene: paths by kind, without the prims, so that none is
 /// kept alive.
 struct SceneDelta {
     using Paths = std::map<std::string, PrimEdit>;
@@ -41,9 +41,9 @@ public:
 
     /// @param version one more than that of the call before
     void add(uint64_t version, SceneDelta delta);
-    /// What differs is not known: everything may.
+    /// The difference is not known: everything may have changed.
     void clear();
-    /// What differs between two versions.
+    /// The difference of two versions.
     /// @returns nothing where that is not known any more, or `from` is the later one
     std::optional<SceneDelta> between(uint64_t from, uint64_t to) const;
 

@@ -8,7 +8,7 @@
 
 namespace patina {
 
-/// What settings.def says of one setting.
+/// One row of settings.def.
 struct SettingRow {
     using Member =
         std::variant<bool RenderSettings::*, int RenderSettings::*, uint32_t RenderSettings::*,

@@ -39,7 +39,7 @@ public:
     explicit ColorSpaces(const std::string& configFile = {});
     ~ColorSpaces();
 
-    /// What the environment variable OCIO names, else the built-in configuration.
+    /// The configuration that the environment variable OCIO names, else the built-in one.
     static const ColorSpaces& shared();
     /// Why the file that OCIO names could not be used by shared(); empty when all is well.
     static const std::string& sharedProblem();

@@ -21,7 +21,7 @@ struct BsdfEval : sh::MaterialEval {
 /// BsdfSample::event bit: light enters to be scattered beneath the surface, see SubsurfaceEntry.
 constexpr int LOBE_SUBSURFACE = 8;
 
-/// What light meets that has gone beneath the surface. It enters spread by the cosine (Lambert),
+/// The medium beneath the surface. Light enters spread by the cosine (Lambert),
 /// scatters, and leaves spread by the cosine again.
 struct SubsurfaceEntry {
     glm::vec3 color{0.0f};  ///< albedo of an infinitely thick object under diffuse light
@@ -73,7 +73,7 @@ using BsdfFrame = sh::Frame;
 /// Lives on the stack; no allocation, unless layers are walked. All directions are in world space
 /// and point away from the surface; the outgoing direction is fixed when the Bsdf is built.
 ///
-/// What counts as reflection and what as transmission is decided by the geometric normal together
+/// The geometric normal decides between reflection and transmission, together
 /// with the lobe's own normal: where the two disagree the value is 0, so that no light leaks
 /// through a surface because of an interpolated or mapped normal.
 class Bsdf {

@@ -13,7 +13,7 @@ namespace {
 constexpr int maxBounces = 1000; // roulette ends walks long before
 constexpr int sureBounces = 8;   // that no roulette ends
 
-/// What a walk wants to know about a lobe.
+/// A lobe as a walk on its microsurface sees it.
 struct Walker {
     glm::vec2 alpha;
     int ndf;
@@ -193,7 +193,7 @@ template <class Lobe> sh::LobeEval eval(const Lobe& lobe, const glm::vec3& wo, c
     const float turn = crosses ? 1.0f : walker.retro;
     const glm::vec3 i(wi.x * turn, wi.y * turn, wi.z * side);
     const sh::LobeEval single = singleEval(lobe, wo, wi);
-    // What the first facet reflects is known; what it refracts depends on its height here.
+    // The reflection of the first facet is known; its refraction depends on the height here.
     glm::vec3 sum(0.0f);
     Walk<Lobe> walk(lobe, walker, {wo.x, wo.y, wo.z * side}, random);
     for (int bounce = 0; bounce < maxBounces && walk.meets(); ++bounce) {

@@ -42,7 +42,7 @@ struct GlslMaterial {
     std::string definitions;  ///< may stand before material.glsl: what holds for all lobes
 };
 
-/// What the text may use.
+/// Features that the text may use.
 struct GlslFeatures {
     bool textureArrays = true; ///< else UDIM shows its first tile, and every texture has a unit
     bool energyCurves = true;  ///< albedos of constant interfaces from curves in the parameters

@@ -9,7 +9,7 @@
 
 namespace patina {
 
-/// What the text of a pattern is made of.
+/// The parts that the text of a pattern is made of.
 struct GlslPatternNames {
     /// Text of a row of input i, a vec4; only matrices have more than row 0.
     std::function<std::string(int input, int row)> input;

@@ -10,7 +10,7 @@
 
 namespace patina {
 
-/// What an input of a graph node gets: the output of an earlier node, or a constant.
+/// The source of a graph node's input: the output of an earlier node, or a constant.
 struct Operand {
     int node = -1;
     int output = 0;

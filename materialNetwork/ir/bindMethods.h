@@ -6,7 +6,7 @@
 namespace patina {
 
 /// A method for every choice point that programs have: `unbound` as compileIr() makes it, with what
-/// hangs on methods. What no lobe reads any more is left out.
+/// hangs on methods. Instructions that no lobe reads any more are left out.
 MaterialIr bindMethods(MaterialIr unbound, const MethodSet& methods);
 
 /// Whether a lobe on top of a layer sends light back down to the base: an interface that reflects.

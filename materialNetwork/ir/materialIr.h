@@ -47,7 +47,7 @@ struct LobeTemplate {
     Register weight = 0;
     Register parameters[maxParameters] = {};
 
-    // What bindMethods() sets.
+    // Set by bindMethods().
     MethodSet methods;
     int compensate = 1; ///< COMPENSATE_*
     bool walks = false; ///< between its facets, see cpu/microsurface.h
@@ -74,7 +74,7 @@ struct ClosureOp {
     int normal = -1; ///< ConicalEdf, MeasuredEdf: its own normal, -1 for that of the point
     std::shared_ptr<const EmissionProfile> profile; ///< MeasuredEdf; null emits evenly
 
-    // What bindMethods() sets.
+    // Set by bindMethods().
     bool walked = false;  ///< a layer that is walked, see cpu/layerWalk.h
     bool beneath = false; ///< stands somewhere in a layer's base, where light returns
     bool returns = false; ///< a layer whose top sends light back down that counts
@@ -129,7 +129,7 @@ struct MaterialIr {
     bool opacityIsOne = false;        ///< by itself, without what lobes pass straight on
     const TextureSource* textures = nullptr;
 
-    // What bindMethods() sets; hasEmission and what follows from lobes too.
+    // Set by bindMethods(), with hasEmission and all else that follows from lobes.
     MaterialFacts facts;
     int walkedLayers = 0;          ///< of `bsdf`
     bool slabsHaveTwoFaces = true; ///< thin slabs

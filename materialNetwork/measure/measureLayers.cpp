@@ -37,7 +37,7 @@ Row named(const char* point, const std::string& method, const std::string& subje
     return row;
 }
 
-/// What a layer adds to its base.
+/// The light that a layer adds to that of its base.
 void timeLayer(const Base& base, const MethodChoices& methods, Row& row) {
     std::vector<std::shared_ptr<const MaterialProgram>> with;
     for (int i = 0; i < metalSide; ++i)
@@ -79,7 +79,7 @@ public:
         }
     }
 
-    /// What layers scaled by albedo are off.
+    /// Error of layers that are scaled by albedo.
     void measure(double albedo, const MethodChoices& methods, Row& row) const {
         Errors errors;
         std::shared_ptr<const MaterialProgram> program;

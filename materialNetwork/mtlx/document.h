@@ -8,7 +8,7 @@
 
 namespace patina {
 
-/// What a MaterialX document defines.
+/// The definitions and elements of a MaterialX document.
 struct MtlxDocument {
     std::vector<ShadingModel> models; ///< node definitions with their graphs
     std::vector<Network> materials;   ///< one per material; node paths are "/graph/node"

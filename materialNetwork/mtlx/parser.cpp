@@ -145,7 +145,7 @@ void MtlxParser::readDef(const Element& element, NodeDef& def) const {
         def.outputs.push_back({"out", valueTypeFromName(element.attribute("type").value())});
 }
 
-/// What an element means by a name: one of its own namespace before one without.
+/// Resolves a name that an element uses: one of its own namespace before one without.
 std::string MtlxParser::referenced(const Element& element, const std::string& name,
                                    const std::map<std::string, Element>& known) const {
     for (const std::string& candidate : {qualifiedName(element, name), name}) {

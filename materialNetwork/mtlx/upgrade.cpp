@@ -83,7 +83,7 @@ private:
         }
     }
 
-    /// What an element of the scope means by a name. Documents may hold very many.
+    /// Resolves a name that an element of the scope uses. Documents may hold very many.
     Node siblingNamed(const Node& from, const std::string& name) const {
         for (const std::string& candidate : {qualifiedName(from, name), name}) {
             const auto found = _siblings.find(candidate);

@@ -42,7 +42,7 @@ constexpr Pattern logicXor = rarePattern(logicXorGlsl, [](Call c) {
 constexpr Pattern logicNot = pattern("vec4($0.x == 0.0 ? 1.0 : 0.0)",
                                      [](Call c) { c.out() = vec4(c.x(0) == 0.0f ? 1.0f : 0.0f); });
 
-/// What is below the first is the first; there is nothing above the last.
+/// Indices below the first take the first; above the last there is nothing.
 constexpr Pattern switched = rarePattern(
     "nodeSwitch(${10}.x, vec4[10]($0, $1, $2, $3, $4, $5, $6, $7, $8, $9))", [](Call c) {
         const float which = std::fmax(std::floor(c.x(10)), 0.0f);

@@ -38,7 +38,7 @@ public:
     const ShadingModel* find(const std::string& id) const;
     const ShadingModel* resolve(const std::string& category, ValueType outputType,
                                 const std::map<std::string, ValueType>& inputTypes) const;
-    /// What went wrong while the models were read.
+    /// Problems met while the models were read.
     const Diagnostics& diagnostics() const { return _diagnostics; }
     const std::vector<std::unique_ptr<ShadingModel>>& all() const { return _models; }
 

@@ -10,7 +10,7 @@
 
 namespace patina {
 
-/// What a node that is not a pattern does.
+/// The kinds of nodes that are not patterns.
 enum class ClosureKind {
     None, ///< a pattern
 #define PATINA_LOBE(Kind, prefix, traits, probe, lit) Kind,

@@ -12,7 +12,7 @@
 
 namespace patina {
 
-/// What an instruction knows from compile time.
+/// Compile-time data of an instruction.
 struct PatternData {
     int size = 1;    ///< components of the first input
     int handle = -1; ///< texture
@@ -21,7 +21,7 @@ struct PatternData {
     glm::vec4 value{0.0f};
 };
 
-/// What an instruction may read at run time. While constants are folded there is no point.
+/// Run-time data of an instruction. While constants are folded there is no point.
 struct PatternContext {
     const ShadingPoint* point = nullptr;
     const TextureSource* textures = nullptr;
@@ -50,8 +50,8 @@ struct PatternCall {
 
 using PatternFunction = void (*)(const PatternCall& call);
 
-/// What a node computes, for both back ends: rows of nodes name it, and so does what is compiled of
-/// them.
+/// The computation of a node, for both back ends: rows of nodes name it, and so does what is
+/// compiled of them.
 ///
 /// The text has the outputs as GLSL expressions, separated by `;`. $0..$9 and ${10}... are inputs
 /// (all vec4), $A0 and $B0 input 0 as mat3 and mat4; $s is the size of the first input, $m the
@@ -84,7 +84,7 @@ constexpr Pattern rarePattern(const char* glsl, const char* without, PatternFunc
     return {function, glsl, without, true};
 }
 
-/// What a node may ask for when its instruction is compiled.
+/// Requests that a node may make while its instruction is compiled.
 class PatternSetup {
 public:
     virtual ~PatternSetup() = default;

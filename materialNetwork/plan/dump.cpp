@@ -146,7 +146,7 @@ private:
         }
     }
 
-    /// What a layer's top lets through.
+    /// Transmittance of a layer's top.
     std::string transmittance(int i) const {
         if (i < 0) return "1";
         std::string& text = _transmittance[size_t(i)];

@@ -8,7 +8,7 @@
 
 namespace patina {
 
-/// What the method positionFree of the choice point layering can do with a layer.
+/// How far the method positionFree of the choice point layering applies to a layer.
 struct LayerWalkability {
     bool walks = false;
     std::string reason; ///< why not

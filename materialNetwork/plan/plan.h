@@ -26,7 +26,7 @@ struct PlanClosure {
     bool has(lobe::Trait trait) const { return lobeHas(kind, trait); }
 };
 
-/// What a back end has to render: closures with their parameters, and the patterns these need.
+/// A material as back ends render it: closures with their parameters, and the patterns these need.
 ///
 /// Three meanings that the field leaves open are choice points (methods.h). Their defaults:
 /// - A layer lets through 1 - E of its top. E is the top's directional albedo at wo without tint,

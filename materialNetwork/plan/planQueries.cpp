@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be asked of a plan and its closures.
+// Questions about a plan and its closures.
 
 #include "materialNetwork/plan/plan.h"
 

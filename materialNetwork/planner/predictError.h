@@ -8,7 +8,7 @@
 
 namespace patina {
 
-/// What the table says of a method on a material.
+/// Error and cost of a method on a material, by the table.
 struct Prediction {
     bool measured = false;
     double error = 0.0; ///< relative luminance, light that has met one surface

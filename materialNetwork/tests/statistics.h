@@ -98,7 +98,7 @@ inline Mean sampledAlbedo(const MaterialProgram& program, const glm::vec3& wo, i
     return mean;
 }
 
-/// What samples of a material find, by where they go, without mirrors.
+/// Weights of samples of a material, binned by direction, without mirrors.
 inline Cells sampledCells(const MaterialProgram& program, const glm::vec3& wo, int samples,
                           uint32_t seed) {
     Random random(seed);

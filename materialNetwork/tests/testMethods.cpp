@@ -115,7 +115,7 @@ TEST(Methods, SubsurfaceCanBeDiffuse) {
     EXPECT_EQ(kind("diffuse"), LobeKind::OrenNayar);
 }
 
-// What a layer takes from its base follows the albedo method, and the exact ones agree.
+// The share that a layer takes from its base follows the albedo method; the exact ones agree.
 TEST(Methods, DirectionalAlbedoDecidesWhatALayerTakes) {
     const auto of = [](const char* method) {
         return measure(coated(0.5f), {{"directionalAlbedo", method}}).albedo.x;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a material asks for and does not get is told, by prim and input.
+// Each request of a material that is not served has a warning that names prim and input.
 #include "materialNetwork/tests/materialFixture.h"
 
 #include "materialNetwork/mtlx/document.h"

@@ -22,7 +22,7 @@ Network translated(const Network& network, const std::string& target) {
     return result;
 }
 
-/// What an input of the surface node gets, after everything is folded.
+/// The value of an input of the surface node after everything is folded.
 std::vector<float> folded(const Network& network, const std::string& input) {
     Diagnostics diagnostics;
     const NetworkNode* surface = network.find("/m/surface");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is told is UTF-8, whatever bytes a file holds.
+// Messages are UTF-8, whatever bytes a file holds.
 #include "materialNetwork/diagnostics.h"
 #include "materialNetwork/utf8.h"
 

@@ -8,8 +8,8 @@
 // Names of types that plugInfo.json gives hold no namespace, so this one class lives in OpenUSD's.
 PXR_NAMESPACE_OPEN_SCOPE
 
-/// What hosts load as "Patina". It needs no GPU; where there is one, contexts of its own make the
-/// first images of interactive sessions, and never touch those of the host.
+/// The plugin that hosts load as "Patina". It needs no GPU; where there is one, contexts of its own
+/// make the first images of interactive sessions, and never touch those of the host.
 class HdPatinaRendererPlugin : public HdRendererPlugin {
 public:
     HdPatinaRendererPlugin() : HdPatinaRendererPlugin("auto") {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What has to happen to a scene before the delegate sees it.
+// Changes to a scene before the delegate sees it.
 
 #include "plugin/hydra/meshLightSceneIndex.h"
 #include "plugin/hydra/relinkedLightSceneIndex.h"

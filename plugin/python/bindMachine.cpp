@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What this build and this machine's driver call themselves: for pages that show measured times.
+// Names of this build and of this machine's driver, for pages that show measured times.
 
 #ifdef PATINA_HAS_RASTER
 #include "hdDelegate/raster/gl/eglContext.h"

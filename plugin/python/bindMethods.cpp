@@ -46,7 +46,7 @@ py::list choiceList(const std::vector<PlannedMethod>& planned) {
 
 namespace {
 
-/// What a row of the table and one measured now have in common.
+/// The columns that a row of the table and one measured now have in common.
 template <class Row> py::dict shared(const Row& r) {
     py::dict row;
     row["point"] = r.point;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What writes a material for others: its expanded graph, the definitions of nodes, whole shaders.
+// A material written for other programs: its expanded graph, the definitions of nodes, whole
+// shaders.
 
 #include "materialNetwork/material.h"
 #include "materialNetwork/nodes/models.h"

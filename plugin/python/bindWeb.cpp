@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a page needs to show a material in WebGL2: its text, its textures, and what all share.
+// The data with which a page shows a material in WebGL2: its text, its textures, and the text that
+// all share.
 
 #include "hdDelegate/image/textureSystem.h"
 #include "materialNetwork/cpu/programCode.h"

@@ -43,7 +43,7 @@ PATINA_FN vec3 closureSum(vec3 a, vec3 b) {
 PATINA_FN vec3 closureScaled(vec3 a, float share) {
     return a * share;
 }
-// What a share leaves.
+// The part of `a` that a share leaves.
 PATINA_FN vec3 closureRest(vec3 a, float share) {
     return a * (1.0f - share);
 }

@@ -117,7 +117,7 @@ PATINA_FN vec3 shareAverage(vec3 c) {
     return vec3(unit((c.x + c.y + c.z) / 3.0f));
 }
 
-// What tops let through where nothing is counted that comes back, per channel.
+// Transmittance of tops per channel, without the light that comes back.
 PATINA_FN vec3 passLobe(vec3 coverage, float weight) {
     return 1.0f - weight * coverage;
 }

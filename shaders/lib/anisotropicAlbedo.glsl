@@ -89,7 +89,7 @@ PATINA_FN float turnedWeight(int k, vec4 f) {
            select(f.z, 1.0f - f.z, (k & 4) != 0) * select(f.w, 1.0f - f.w, (k & 8) != 0);
 }
 
-// What anisotropy adds to entry i of the moments.
+// The addition of anisotropy to entry i of the moments.
 PATINA_FN_RARE float turnedEntry(MicrofacetPlace p, int i) {
     float e = 0.0f;
     int table = p.ndf * MICROFACET_SIZE + TURNED_MOMENT + i;
@@ -120,7 +120,7 @@ PATINA_FN float microfacetMean(MicrofacetPlace p, float exponent) {
     return powSchlick(clamp(1.0f - p.mu + d, 0.0f, 1.0f), exponent);
 }
 
-// What anisotropy adds to the two floats of the interface.
+// The addition of anisotropy to the two floats of the interface.
 PATINA_FN_RARE vec2 turnedInterface(MicrofacetPlace p, float eta) {
     vec2 e = vec2(0.0f);
     bool above = eta >= 1.0f;

@@ -81,7 +81,7 @@ PATINA_FN vec4 filmBase(float ec, float e2, float s2, float n, float k) {
     return vec4(sr, si, pr, pi);
 }
 
-// What one polarisation reflects. r12: amplitude at the film's surface; (r, i): that at the base
+// Reflectance of one polarisation. r12: amplitude at the film's surface; (r, i): that at the base
 // per channel. Adds the orders with powers of q = -r12 (r + i i).
 struct FilmSum {
     vec3 constant; // without interference

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every lobe returns. Directions are unit vectors in the local frame (z = shading normal, x =
+// Results of every lobe. Directions are unit vectors in the local frame (z = shading normal, x =
 // tangent) and point away from the surface. wo is where the path comes from, wi where it goes to.
 
 // Bits of LobeSample.event.

@@ -8,7 +8,7 @@ PATINA_FN vec3 ltcMap(vec3 v, vec4 m) {
     return vec3(m.x * v.x + m.y * v.z, m.z * v.y, m.w * v.x + v.z);
 }
 
-// What the edge between two unit vectors adds: z of their cross product, times angle over sine.
+// The contribution of the edge between two unit vectors: z of their cross product, times angle over sine.
 PATINA_FN float ltcEdge(vec3 a, vec3 b) {
     vec3 c = cross(a, b);
     float cosine = dot(a, b);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the lobes on microfacets share, for both distributions of facet normals. With the length
+// Functions shared by the lobes on microfacets, for both distributions of facet normals. With the length
 // l(w) of either, Smith's masking is the same:
 //   G1(o) / o.z          = 2 / (o.z + l(o))
 //   G2(o, i) / (o.z i.z) = 2 / (l(o) i.z + l(i) o.z)

@@ -8,7 +8,7 @@
 
 namespace patina::measure {
 
-/// What a walk on the microsurface found.
+/// The result of a walk on the microsurface.
 struct Walked {
     double all = 0.0;   ///< share of light that comes back, however often it bounced
     double once = 0.0;  ///< of that, after one bounce

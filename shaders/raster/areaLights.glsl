@@ -86,7 +86,7 @@ vec3 byOutline(Light l) {
     return sum * l.radiance.xyz * l.fade.w * shadowAt(l, wi) / above;
 }
 
-// What sheen has of the light, by its samples alone.
+// Light that sheen reflects, by its samples alone.
 vec3 onSheen(Light l) {
     vec3 weights[max(LOBES, 1)];
     bool any = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the camera sees where no surface is: area lights as solid shapes, and domes.
+// The background, which the camera sees where no surface is: area lights as solid shapes, and domes.
 #include "shaders/compat/glsl.glsl"
 #define ALL_LIGHTS
 #include "shaders/raster/pass.glsl"

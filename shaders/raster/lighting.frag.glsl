@@ -6,7 +6,7 @@
 #include "shaders/raster/links.glsl"
 #include "shaders/raster/shadows.glsl"
 layout(location = 0) out vec4 outColor;
-// What a first look is smoothed by, see firstLook.frag.glsl.
+// The data that a first look is smoothed by, see firstLook.frag.glsl.
 layout(location = 1) out vec4 outNoisy;  // light that neighbours find by other samples
 layout(location = 2) out vec4 outGuide;  // how light the material is; w: prim, 0 where nothing is smoothed
 layout(location = 3) out vec4 outPlace;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies behind surfaces that transmit, and the media inside. An approximation: light goes through
+// The scene behind surfaces that transmit, and the media inside. An approximation: light goes through
 // the near face, straight to the nearest face that is turned away, and out there; then it meets what
 // the screen shows of all other surfaces, else lights and domes. (Wyman 2005, "An approximate
 // image-space approach for interactive refraction", with samples of the BSDF in place of the

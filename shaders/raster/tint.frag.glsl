@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What coloured surfaces do to all that is behind them, where this pass does not show them: factors,
+// The tint of coloured surfaces over all that is behind them, where this pass does not show them: factors,
 // so that their order does not matter.
 layout(location = 0) out vec4 outColor;
 void main() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands behind the shape: the environment, or a colour.
+// The backdrop of the shape: the environment, or a colour.
 precision highp float;
 precision highp int;
 precision highp sampler2D;

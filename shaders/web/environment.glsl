@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What comes from infinitely far: a map around a vertical axis, and an even part.
+// Light from infinitely far: a map around a vertical axis, and an even part.
 #include "shaders/lights/dome.glsl"
 uniform sampler2D environmentMap;
 uniform mat3 worldToEnvironment;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What an edit of one colour costs: python editTimes.py PRIMS BACKEND [REPEATS [KIND]]. A stage of that many quads with eleven
+"""Seconds of an edit of one colour: python editTimes.py PRIMS BACKEND [REPEATS [KIND]]. A stage of that many quads with eleven
 materials, of which one has a single user. The colour is that of the material (KIND material, the default), of a quad (mesh) or
 of a light (light). Prints a line of JSON: median milliseconds of a commit and of what the back end does before its first
 sample, and how many prims it looked at."""

@@ -14,7 +14,7 @@ MEGABYTE = 2.0 ** 20
 
 
 class Heap(ctypes.Structure):
-    """What mallinfo2() of glibc returns."""
+    """The fields of glibc's mallinfo2()."""
     _fields_ = [(name, ctypes.c_size_t) for name in ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks",
                                                      "uordblks", "fordblks", "keepcost")]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a render says of itself while it lasts."""
+"""The progress that a render tells while it lasts."""
 import io
 
 from patina.cli import progress

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a job removes, which commands it sends, and how it tells that what failed may pass."""
+"""The files that a job removes, the commands that it sends, and how it tells a failure that may pass."""
 import concurrent.futures
 import os
 import time

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What may become of an input: in the process that runs it, and seen from outside."""
+"""The outcomes of an input: in the process that runs it, and seen from outside."""
 import json
 import os
 import re

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What corpora begin with: one sound input of each kind, so that fuzzers start behind the first checks."""
+"""The seeds of corpora: one sound input of each kind, so that fuzzers start behind the first checks."""
 import os
 import shutil
 import struct

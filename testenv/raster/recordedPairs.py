@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What was measured of each test scene with many samples: recordedPairs.json beside this file, the table of
+"""Measurements of each test scene with many samples: recordedPairs.json beside this file, the table of
 docs/measurements/rasterPairs.md.
 
 Nothing is held against these numbers but themselves: a lint reads them (test_recordedPairs.py). `settings` are samples and

@@ -179,7 +179,7 @@ def hold(renderers, stage, passes=4, samples=32):
 
 @pytest.mark.parametrize("kind,where", CASES, ids=lambda value: NAMES.get(value, value))
 def test_emitters_out_of_view(kind, where, renderers):
-    """What glows has half its light where its own plane hides it."""
+    """An emitter has half its light where its own plane hides it."""
     # How many samples fall on the seen faces of a cube is a whole number: by 1/43 of 16 passes.
     passes = {"glowingCube": 16, "glowingSphere": 12, "glowingQuad": 4, "meshLight": 4}.get(kind, 32)
     hold(renderers, load(KINDS[kind](where), "400, 300, 200" if where == HIGH else "4, 3, 2"), passes)

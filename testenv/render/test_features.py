@@ -176,8 +176,8 @@ def test_aovs_of_a_plain_quad(tmp_path):
     stage, image = tmp_path / "stage.usda", tmp_path / "image.exr"
     stage.write_text(HEAD + CAMERA + quad("a", 0, 1.5) + quad("b", 4, 0.25) + lambert("white", 0.5) + distant("sun"))
     record(stage, image, "--imageWidth", 33, "--imageHeight", 33, "--samples", 16,
-           *[f for name in ("depth", "cameraDepth", "normal", "position", "albedo", "primvars:st", "primId", "instanceId",
-                            "elementId", "sampleCount", "variance") for f in ("--aov", name)])
+           *[f for name in ("depth", "cameraDepth", "normal", "Neye", "position", "albedo", "primvars:st", "primId",
+                            "instanceId", "elementId", "sampleCount", "variance") for f in ("--aov", name)])
     import _patina
 
     found = _patina.read_image(str(image))
@@ -185,7 +185,8 @@ def test_aovs_of_a_plain_quad(tmp_path):
     middle, side = (16, 16), (16, 24)
     assert data["depth.Z"][middle] == pytest.approx(6, abs=1e-4)
     assert data["depth.Z"][side] == pytest.approx(10, abs=1e-4)
-    assert data["normal.Z"][side] == pytest.approx(1, abs=1e-6)
+    for name in ("normal", "Neye"):  # the camera looks along -z
+        assert [data[f"{name}.{axis}"][side] for axis in "XYZ"] == pytest.approx([0, 0, 1], abs=1e-6)
     assert data["primId"][side] == 0 and data["primId"][middle] == 1 and data["primId"][0, 0] == -1
     assert data["instanceId"][side] == -1 and data["elementId"][side] == 0
     assert data["albedo.G"][side] == pytest.approx(0.5, abs=1e-3)

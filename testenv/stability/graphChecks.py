@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What must hold for every material, whatever is in it: numbers at its worst places, from either back end."""
+"""Checks that hold for every material, whatever is in it: numbers at its worst places, from either back end."""
 import numpy as np
 
 COSINES = (1.0, 0.7, 0.3, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0, -1e-7, -1e-3, -0.4, -1.0)
@@ -41,7 +41,7 @@ def bad(values):
 
 
 class Failures(list):
-    """What failed, in words; one line per kind of failure, with its first place."""
+    """Failures in words; one line per kind of failure, with its first place."""
 
     def check(self, wrong, what, places, values):
         """:param wrong: a flag per row"""

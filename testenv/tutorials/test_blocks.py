@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What runs the tutorials finds their blocks, and fails where one of them fails."""
+"""The runner of tutorials finds their blocks, and fails where one of them fails."""
 import os
 import re
 

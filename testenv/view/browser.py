@@ -78,7 +78,7 @@ class Browser:
                                    + code + " })()")
 
     def picture(self, change=""):
-        """What the page computes after a change: linear colours, top row first."""
+        """The picture that the page computes after a change: linear colours, top row first."""
         flat = self.evaluate(change + "; viewer.invalidate(); viewer.settle();"
                              "return [viewer.width, viewer.height, Array.from(viewer.accumulator.read())];")
         return np.array(flat[2], np.float32).reshape(flat[1], flat[0], 4)[::-1, :, :3]

@@ -25,7 +25,7 @@ def site(tmp_path_factory):
 
 
 class Assets(html.parser.HTMLParser):
-    """What a page loads by itself."""
+    """The files that a page loads by itself."""
 
     def __init__(self, text):
         super().__init__()
@@ -87,6 +87,17 @@ def test_the_interfaces_are_in_it(site):
 def own_pages(site):
     """:returns: all but Doxygen's, and but the page for unknown addresses, whose links begin at a server's root"""
     return [path for path in pages(site) if "cpp" not in path.relative_to(site).parts and path.name != "404.html"]
+
+
+HEADERS = ("index", "annotated", "hierarchy", "files", "functions", "namespacepatina", "classpatina_1_1Film", "film_8h",
+           "film_8h_source", "search/all_0")  # one of each sort of Doxygen's pages
+
+
+@pytest.mark.parametrize("scheme, width", [("light", 1280), ("dark", 400)])
+def test_no_page_of_headers_has_a_violation(chromium, site, scheme, width):
+    script = axe_script()
+    found = {name: look_at(chromium, script, str(site / "api" / "cpp" / f"{name}.html"), scheme, width) for name in HEADERS}
+    assert not {name: texts for name, texts in found.items() if texts}
 
 
 @pytest.mark.parametrize("scheme, width", [("light", 1280), ("dark", 400)])

@@ -16,7 +16,7 @@ struct EventPattern {
     unsigned types = any;    ///< bits of EventType
     unsigned scatters = any; ///< bits of EventScatter
 
-    /// What one place for a label takes.
+    /// The labels that one place of a pattern takes.
     struct Labels {
         std::vector<std::string> names;
         bool none = false;    ///< also an event without a label

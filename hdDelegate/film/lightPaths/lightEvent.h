@@ -6,7 +6,7 @@
 
 namespace patina {
 
-/// What happens to light at one point of its path, by the letters of OSL's light path expressions.
+/// An event of light at one point of its path, by the letters of OSL's light path expressions.
 enum class EventType {
     Camera,     ///< C
     Reflect,    ///< R

@@ -16,7 +16,7 @@ constexpr size_t maxStates = 2000; // before equal ones are merged
                                 "': it needs too many states; fewer or smaller {n,m} need less");
 }
 
-/// What may happen at all: letters in the order of EventType and EventScatter.
+/// All possible events: letters in the order of EventType and EventScatter.
 bool happens(EventType type, EventScatter scatter) {
     switch (type) {
     case EventType::Reflect:

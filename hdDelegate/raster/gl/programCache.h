@@ -12,8 +12,8 @@ namespace patina {
 /// Linked programs on disk, by what they were made from and by the driver that made them: in
 /// $PATINA_CACHE/programs, without it in $XDG_CACHE_HOME/patina/programs or
 /// ~/.cache/patina/programs; an empty PATINA_CACHE turns it off. Several processes may use a folder
-/// at once: files appear whole. What does not fit (damaged, of another driver) is as if it were not
-/// there, and is written anew. Nothing here fails a render.
+/// at once: files appear whole. A file that does not fit (damaged, of another driver) is as if it
+/// were not there, and is written anew. Nothing here fails a render.
 class ProgramCache {
 public:
     static constexpr uint64_t largestFolder = 256u << 20; ///< bytes

@@ -9,7 +9,7 @@
 
 namespace patina {
 
-/// What a UsdLuxMeshLightAPI adds to the surface of a mesh.
+/// The glow that a UsdLuxMeshLightAPI adds to the surface of a mesh.
 struct RasterMeshLight {
     enum Mode { NoLight, GlowTintsLight, Independent, NoMaterialResponse };
     Mode mode = NoLight; ///< materialSyncMode of UsdLux, for the shader

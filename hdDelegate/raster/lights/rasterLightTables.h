@@ -26,7 +26,8 @@ struct ProfileTable {
     int first = -1, thetas = 0, phis = 0;
 };
 
-/// What shaders look up of lights in one buffer: images of rects, profiles, harmonics of domes.
+/// Tables of lights that shaders look up in one buffer: images of rects, profiles, harmonics of
+/// domes.
 class RasterLightTables {
 public:
     static constexpr int largestImage = 512; ///< texels along a side; larger ones are averaged

@@ -147,7 +147,7 @@ void RasterLights::addDome(Source& s, const Light& light, LightImages& images, R
     g.origin = vec4(s.radiance, 0.0f);
 }
 
-/// What a shape needs, and a rect's image.
+/// The parameters of a shape, and a rect's image.
 void RasterLights::addShape(Source& s, const Light& light, LightImages& images) {
     s.kind = Kind(int(s.shape.kind));
     GpuLight& g = s.fixed;

@@ -42,7 +42,7 @@ public:
                  LightImages& images, RasterDomes& domes, const LinkNames& links,
                  Diagnostics& diagnostics);
 
-    /// What a pass knows of the lights.
+    /// The lights as a pass knows them.
     struct Sampled {
         std::vector<GpuLight> lights; ///< taken ones first, then those that are only looked at
         int taken = 0;

@@ -8,7 +8,7 @@
 
 namespace patina {
 
-/// What can be seen of the sky, for directions that are no light's samples: small shadow maps, one
+/// Visibility of the sky, for directions that are no light's samples: small shadow maps, one
 /// for each cell of an octahedral grid of directions. Passes redraw some of them from other
 /// directions of their cells, so that the edges of shadows blur instead of standing still.
 class RasterSky {

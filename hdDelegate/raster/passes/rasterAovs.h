@@ -7,7 +7,7 @@
 
 namespace patina {
 
-/// What the AOV pass found, by pixel, rows from the bottom as OpenGL counts.
+/// Results of the AOV pass, by pixel, rows from the bottom as OpenGL counts.
 struct RasterAovImages {
     std::vector<vec4> positions; ///< world space beside the origin, w 0 where nothing is
     std::vector<vec4> normals, albedos;

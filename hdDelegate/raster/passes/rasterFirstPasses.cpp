@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What first looks make of a film, see RasterLook.
+// The passes of first looks, see RasterLook.
 
 #include "hdDelegate/raster/passes/rasterPasses.h"
 

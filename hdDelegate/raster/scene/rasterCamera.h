@@ -8,7 +8,7 @@
 
 namespace patina {
 
-/// What one pass sees: matrices for one point of the pixel, the lens and the shutter.
+/// The view of one pass: matrices for one point of the pixel, the lens and the shutter.
 struct RasterView {
     mat4 worldToClip{1.0f}, clipToWorld{1.0f};
     vec3 eye{0.0f}, forward{0, 0, -1}; ///< world

@@ -97,7 +97,7 @@ public:
 
     size_t programsBuilt() const { return _built; }
 
-    /// What the methods of the materials in use are expected to cost.
+    /// Expected cost of the methods of the materials in use.
     ScenePlan plan() const;
 
 private:

@@ -42,7 +42,7 @@ struct RasterDraw {
     RasterMeshLight meshLight;
 };
 
-/// What of a scene a view may show.
+/// The part of a scene that a view may show.
 struct RasterVisible {
     std::vector<RasterRun> runs;                  ///< of instances
     std::vector<std::pair<size_t, size_t>> group; ///< first run and the one after the last
@@ -122,7 +122,7 @@ private:
         int ids[4] = {-1, 0, 0, 0};
         void place(const mat4& toWorld);
     };
-    /// What is of one prim.
+    /// The data of one prim.
     struct Span {
         int rank = 0;
         size_t firstGroup = 0, groups = 0, firstDraw = 0, draws = 0;

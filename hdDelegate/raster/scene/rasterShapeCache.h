@@ -30,7 +30,7 @@ struct RasterShape {
 /// Shapes, for as long as nothing changes that they are made of.
 class RasterShapeCache {
 public:
-    /// What a shape is made of.
+    /// The inputs that a shape is made of.
     struct Request {
         std::shared_ptr<const Geometry> prim;
         /// Longest edge, object units; 0: as authored. Of curves and points: the width of a pixel.

@@ -33,7 +33,7 @@ struct RasterTriangles {
     std::vector<vec3> along;
 };
 
-/// What a shape is drawn as.
+/// The primitives that a shape is drawn as.
 struct RasterForm {
     RasterTriangles seen;
     RasterTriangles casting; ///< for shadow maps; without triangles: as it is seen

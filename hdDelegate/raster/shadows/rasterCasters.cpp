@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What casts shadows, drawn into the maps of lights and of the sky's cells.
+// Casters of shadows, drawn into the maps of lights and of the sky's cells.
 
 #include "hdDelegate/raster/passes/rasterPasses.h"
 

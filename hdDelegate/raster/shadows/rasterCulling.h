@@ -14,7 +14,7 @@ struct RasterBox {
     static RasterBox around(const vec3& low, const vec3& high, const mat4& toWorld);
 };
 
-/// What a view can show.
+/// The region that a view can show.
 class RasterFrustum {
 public:
     /// @param clampsNear nothing is outside of the near plane

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is told of instancers that ask for more than is drawn.
+// Warnings about instancers that ask for more than is drawn.
 #include "hdDelegate/scene/instancerCheck.h"
 
 #include <gtest/gtest.h>

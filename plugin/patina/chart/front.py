@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is best at its price."""
+"""The Pareto front: points that nothing else beats in both time and error."""
 import math
 
 

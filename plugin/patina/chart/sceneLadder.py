@@ -44,7 +44,7 @@ class Ladder:
         return [r for r in self.rungs if r.backend == backend and (r.tolerance > 0.0) == tolerances]
 
     def seconds_in_all(self, rung):
-        """What a first render costs: reading the stage, building scene and shaders, sampling."""
+        """Seconds of a first render: reading the stage, building scene and shaders, sampling."""
         return self.renders.seconds_to_read + self.first[rung.backend] + rung.seconds
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the planner takes along a sweep: where it switches, the predicted error of what it left would be too large."""
+"""The planner's choice along a sweep: where it switches, the method before would have too large a predicted error."""
 from patina.chart import probes
 from patina.chart.sweeps import Sweep
 from patina.cli import compiled

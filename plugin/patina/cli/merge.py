@@ -6,7 +6,7 @@
   patina merge shot.1.part shot.2.part shot.exr
 
 Parts say what made them: the stage with all of its layers and textures, the settings, the version and what it computes with.
-Those that do not belong together are refused, and missing ones are named. What the image's file holds follows from the
+Those that do not belong together are refused, and missing ones are named. The channels of the image's file follow from the
 flags that the parts were made with.
 """
 import contextlib

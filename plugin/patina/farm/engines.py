@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What runs the parts: a Dask cluster that is there, one of this machine, or one that a queue or Kubernetes starts."""
+"""Engines that run the parts: a Dask cluster that is there, one of this machine, or one that a queue or Kubernetes starts."""
 import contextlib
 import importlib.util
 import json

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What made a part: everything that the bits of a frame depend on. Parts with the same go together."""
+"""The identity of a part: everything that the bits of a frame depend on. Parts with the same go together."""
 import contextlib
 import hashlib
 import json

@@ -8,7 +8,7 @@ from patina.farm import cut
 COUNTED = ("rays", "shadowRays", "paths", "droppedSamples")  # statistics of which parts have shares
 
 class Description:
-    """What a part's file says of itself."""
+    """The header of a part's file."""
 
     def __init__(self, file, values):
         self.file = file

@@ -15,7 +15,7 @@ REFUSALS = 20  # of one task, by workers that came later
 
 @dataclasses.dataclass
 class Row:
-    """What a worker has done."""
+    """The work that a worker has done."""
     host: str = ""
     tasks: int = 0
     seconds: float = 0.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What more workers would give: the events of a farm on paper, by what a part, a merge and the sender were measured to take.
+"""The gain of more workers: the events of a farm on paper, by the measured seconds of a part, a merge and the sender.
 
 The sender and Dask's scheduler are one server: every task waits for it once when it is sent and once when it is done. A worker
 takes the next task that was sent to it. A frame's merge follows its last part.
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Costs:
-    """What was measured. Seconds."""
+    """Measured times in seconds."""
     parts: tuple  # of single parts; each task takes one of them by chance
     merges: tuple  # of merges, or of images that were not cut
     sender: float  # that the sender and the scheduler are busy for one task

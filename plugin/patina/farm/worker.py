@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What runs on a worker. Everything goes through paths that the worker shares with the sender."""
+"""The work of a farm's worker. Everything goes through paths that the worker shares with the sender."""
 import os
 import socket
 import subprocess

@@ -15,7 +15,7 @@ from patina.cli import causes, memory, planText, verbose
 
 @dataclass
 class Facts:
-    """What is told of a render."""
+    """A render, as the sections of its report need it."""
     arguments: object
     frame: dict  # its numbers, as in --json
     frames: list  # those of all frames so far

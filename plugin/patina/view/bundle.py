@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page's script: fetched from npm and bundled on first use, then kept.
 
-Versions are pinned by web/package.json and web/package-lock.json. What is fetched and made lies in
+Versions are pinned by web/package.json and web/package-lock.json. Fetched packages and bundles lie in
 PATINA_VIEW_CACHE, or patina/view in the user's cache folder, under a name made of both files.
 """
 import hashlib

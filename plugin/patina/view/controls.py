@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the sliders of a page are: one entry per live input, as JSON that a user may replace.
+"""The sliders of a page: one entry per live input, as JSON that a user may replace.
 
   {"controls": [{"input": "NODE.NAME", "label": TEXT, "folder": TEXT, "kind": "color" | "number" | "switch",
                  "min": N, "max": N, "step": N, "default": [N...], "unit": TEXT},

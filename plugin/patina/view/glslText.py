@@ -16,7 +16,7 @@ def lean(text):
 
 
 def library():
-    """What all pages share."""
+    """The GLSL that all pages share."""
     load = compiled.load().shader_text
     return {name: lean(load(f"shaders/web/{file}.glsl")) for name, file in (
         ("head", "head"), ("page", "page.frag"), ("surface", "surface.vert"),

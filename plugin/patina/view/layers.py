@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the page needs to save its values as a layer of USD."""
+"""Data with which the page saves its values as a layer of USD."""
 import math
 import os
 import re

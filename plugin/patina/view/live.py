@@ -141,7 +141,7 @@ def with_live(network, inputs, chosen):
 
 
 def shape_of(material):
-    """What a driver's work depends on: the lobes, and whether the surface may be absent."""
+    """The key of a driver's work: the lobes, and whether the surface may be absent."""
     return material["lobes"], material["presence"], material["emission"]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a page takes from a stage: its lights, its domes, and the prims that show a material."""
+"""The parts of a stage that a page shows: its lights, its domes, and the prims that show a material."""
 import numpy as np
 
 from patina.cli import compiled, openStage, overrides

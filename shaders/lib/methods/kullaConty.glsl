@@ -36,7 +36,7 @@ PATINA_FN MultiLobe multiLobe(vec3 favg, float ess, vec2 alpha, int ndf) {
     return l;
 }
 
-// What the second lobe adds to a lobe's value and density. essIn: E(wi).
+// Value and density that the second lobe adds to a lobe. essIn: E(wi).
 PATINA_FN LobeEval multiAdd(MultiLobe l, LobeEval e, float iz, float essIn) {
     e.value += l.color * (l.rate * (1.0f - essIn) * iz);
     e.pdf = mix(e.pdf, INV_PI * iz, l.chance);

@@ -9,7 +9,7 @@
 
 namespace patina {
 
-/// What hydraHost is asked to do.
+/// The command line of hydraHost.
 struct CommandLine {
     std::string stage, image; ///< no image: nothing is written
     HostOptions host;

@@ -10,7 +10,7 @@ PXR_NAMESPACE_USING_DIRECTIVE
 
 namespace patina {
 
-/// What was in a render buffer, as floats. Row 0 is the top row.
+/// The content of a render buffer, as floats. Row 0 is the top row.
 struct HostImage {
     int width = 0, height = 0, components = 0;
     std::vector<float> values; ///< integers are kept exactly up to 2^24

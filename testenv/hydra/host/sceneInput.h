@@ -13,7 +13,7 @@ PXR_NAMESPACE_USING_DIRECTIVE
 
 namespace patina {
 
-/// What an id buffer's pixel shows.
+/// The prim that a pixel of an id buffer shows.
 struct HostHit {
     SdfPath path;      ///< prim of the stage, instance proxies included
     SdfPath instancer; ///< outermost instancer, empty when there is none

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What hosts do to a delegate besides rendering: they close it half way, make another one, take it
+// Uses of a delegate by hosts besides rendering: they close it half way, make another one, take it
 // apart in any order, resize it to nothing, pause and stop it.
 
 #include "testenv/hydra/edits/baseStage.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What leaves the page: pictures, layers, links; and the way back to the start.
+// Exports of the page: pictures, layers, links; and the reset to the start.
 import { layerText } from "./layer.js";
 
 function save(name, blob) {

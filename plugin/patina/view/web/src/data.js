@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page was made with: a JSON text in the document, arrays in it packed (view/blobs.py).
+// The data of the page: a JSON text in the document, arrays in it packed (view/blobs.py).
 
 export async function readDocument() {
     const data = JSON.parse(document.getElementById("patina-data").textContent);

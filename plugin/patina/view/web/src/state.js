@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user can change, and how it becomes a link. Values of inputs are arrays of numbers.
+// The user's changes, and how they become a link. Values of inputs are arrays of numbers.
 
 const copy = x => JSON.parse(JSON.stringify(x));
 

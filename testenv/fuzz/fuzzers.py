@@ -21,4 +21,7 @@ FUZZERS = {
     "materialDocuments": Fuzzer("generated", "legal MaterialX documents of all nodes, explained and evaluated", 2, ()),
     "edits": Fuzzer("generated", "random edits while an image is rendered", 2, ()),
     "commandLines": Fuzzer("generated", "every flag of the commands that read files", 2, ()),
+    "faults": Fuzzer("generated", "the n-th call that writes, reads, maps or asks for memory fails", 2, ()),
+    "changing": Fuzzer("generated", "files change while they are read", 2, ()),
+    "killed": Fuzzer("generated", "kill -9 at random moments of a render that is resumed", 2, ()),
 }

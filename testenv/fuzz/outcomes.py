@@ -30,7 +30,7 @@ def command(words, folder):
 
 
 # What validation raises; any other exception that a prim's reader meets is a defect, though it ends as a warning.
-_FORESEEN = ("StageError", "ValueError", "ErrorException", "RuntimeError")
+_FORESEEN = ("StageError", "InputError", "ValueError", "ErrorException", "RuntimeError")
 
 
 def tell_swallowed():
@@ -45,6 +45,13 @@ def tell_swallowed():
             traceback.print_exception(kind, error, trace)
         return leave(self, kind, error, trace)
     context.Guard.__exit__ = told
+
+
+def leave(status):
+    """Ends a process that was forked, with all that it has said."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status or 0)
 
 
 def record(words, folder):

@@ -37,6 +37,13 @@ def test_what_was_found(name, path, hand):
     assert kind in outcomes.GOOD, signature + "\n" + answer["error"]
 
 
+@pytest.mark.parametrize("name", ("faults", "changing", "killed"))
+def test_a_minute_of_faults(name):
+    """More of what the kept inputs show, for a minute each; `./patina fuzz NAME --seconds S` goes on."""
+    found = generated.run(importlib.import_module(name), 60, 5000, print)
+    assert found["inputs"] >= 1 and not found["findings"], [finding[1] for finding in found["findings"]]
+
+
 @pytest.mark.parametrize("name", GENERATED)
 def test_a_seed_is_an_input_for_ever(name):
     module = importlib.import_module(name)
@@ -83,6 +90,17 @@ def test_what_ends_as_a_warning_is_found_too(hand, tmp_path, monkeypatch):
     assert found[0] == "traceback" and "a defect" in found[2]["error"]
     assert outcomes.kind_of({"timedOut": False, "signal": 0, "status": 0,
                              "error": "out of memory: /dome: no memory for it"}) == "memory"
+
+
+def test_documents_hold_every_node():
+    import generateDocs
+    import materialDocuments
+
+    table = {category for name in generateDocs.names_in(generateDocs.NODES, "Nodes.cpp")
+             for category in generateDocs.categories(generateDocs.read(f"{generateDocs.NODES}/{name}"))}
+    known = {node[1] for node in materialDocuments._known()}
+    assert len(table) > 150 and not table - known
+    assert {"standard_surface", "open_pbr_surface", "UsdPreviewSurface"} <= known
 
 
 def test_inputs_shrink():

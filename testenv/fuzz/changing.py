@@ -12,6 +12,7 @@ import outcomes
 
 EXTENSION = ".json"
 LINES = False
+CPU_SECONDS = 100  # a driver in software compiles for half a minute before it draws
 STAGE = '''#usda 1.0
 (
     subLayers = [@layer.usda@]

@@ -16,6 +16,7 @@ import outcomes
 HERE = os.path.dirname(os.path.abspath(__file__))
 EXTENSION = ".json"
 LINES = False
+CPU_SECONDS = 100  # a driver in software compiles for half a minute before it draws
 NUMBERS = {"write": ("ENOSPC", "EIO", "EDQUOT", "EROFS"), "read": ("EIO", "EMFILE"), "map": ("ENOMEM", "EACCES"),
            "memory": ("ENOMEM",)}
 OUTPUTS = (("image.png",), ("image.exr",), ("image.exr", "--keepCheckpoint"),

@@ -5,6 +5,7 @@ The kept inputs of the native fuzzers are run by testFuzzCorpus.
 """
 import importlib
 import os
+import subprocess
 import types
 
 import pytest
@@ -16,6 +17,7 @@ import generated  # noqa: E402
 import keptFindings  # noqa: E402
 import outcomes  # noqa: E402
 import shrink  # noqa: E402
+import traced  # noqa: E402
 from fuzzers import FUZZERS  # noqa: E402
 
 GENERATED = [name for name, fuzzer in FUZZERS.items() if fuzzer.kind == "generated"]
@@ -35,6 +37,12 @@ def test_what_was_found(name, path, hand):
     with open(path, "rb") as file:
         kind, signature, answer = generated.outcome(hand, module, file.read(), module.EXTENSION)
     assert kind in outcomes.GOOD, signature + "\n" + answer["error"]
+
+
+@pytest.mark.parametrize("name", [name for name, fuzzer in FUZZERS.items() if fuzzer.kind == "python"])
+def test_what_followers_of_coverage_have_kept(name):
+    done = subprocess.run(traced.command(name, "--run", *keptFindings.corpus(name)), capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize("name", ("faults", "changing", "killed"))

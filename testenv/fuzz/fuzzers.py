@@ -3,7 +3,8 @@
 from collections import namedtuple
 
 Fuzzer = namedtuple("Fuzzer", "kind reads share sources")
-"""kind: native (libFuzzer), python (atheris) or generated; reads: what is tried; share: of the time; sources: files whose lines are counted"""
+"""kind: native (libFuzzer), python (atheris) or generated; reads: what is tried; share: of the time; sources: files whose lines
+are counted"""
 
 FUZZERS = {
     "mtlx": Fuzzer("native", "bytes as a MaterialX document; its materials as programs and GLSL", 2,

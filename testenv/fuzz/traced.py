@@ -46,7 +46,8 @@ def run(name, corpus, seconds, seed, say):
                     raise RuntimeError(f"{name} ended with {result.returncode}: {result.stdout[-500:]}")
                 break
             raised = re.findall(r"^(\w+(?:Error|Exception)\b.*)", result.stdout, re.MULTILINE)
-            kind = "hang" if "-timeout-" in found[0] else "memory" if "-oom-" in found[0] else "traceback" if raised else "crash"
+            kind = ("hang" if "-timeout-" in found[0] else "memory" if "-oom-" in found[0] else "traceback" if raised else
+                    "crash")
             reason = re.sub(r"\d+|'[^']*'", "*", raised[-1] if raised else os.path.basename(found[0]).split("-")[1])[:160]
             if reason not in findings:
                 say(f"{kind}: {reason}")

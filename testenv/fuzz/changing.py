@@ -140,6 +140,7 @@ def execute(path, folder):
     r = randoms.Random(asked["seed"])
     process = os.fork()
     if not process:
+        outcomes.end_with_parent()
         outcomes.leave(outcomes.record(["record", "shot.usda", "image.exr", "--camera", "/camera", "--backend",
                                         asked["backend"]], folder))
     time.sleep(asked["begin"])

@@ -65,7 +65,7 @@ def execute(path, folder):
             "status = main.main(sys.argv[6:])\nf.failNthBegin(b'', 0, 0)\nsys.stderr.flush()\nos._exit(status)\n")
     done = subprocess.run([sys.executable, "-X", "faulthandler", "-c", code, library(), folder, asked["kind"], str(asked["at"]),
                            str(getattr(errno, asked["error"])), *words], env=dict(os.environ, LD_PRELOAD=library()),
-                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, preexec_fn=outcomes.end_with_parent)
     # That memory is missing is what was asked for here, and to say so no finding.
     sys.stderr.buffer.write(done.stderr.replace(b"out of memory", b"the memory that fails").replace(b"bad_alloc", b"bad alloc"))
     sys.stderr.flush()

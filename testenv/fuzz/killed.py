@@ -53,7 +53,7 @@ def _render(words, folder, seconds=None):
     :returns: the exit status, or None where it was killed"""
     process = os.fork()
     if not process:
-        os.setpgid(0, 0)
+        outcomes.end_with_parent()
         outcomes.leave(outcomes.command(words, folder))
     if seconds is None:
         return os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])

@@ -3,8 +3,8 @@
 
     ./patina python testenv/generateDocs.py [--check] [PAGE ...]
 
-Pages: nodes, flags, limits, methods, aovs, marks, byDesign, messages, benchmarks. testenv/lint/test_generatedDocs.py fails
-where one is stale.
+Pages: nodes, flags, limits, methods, aovs, marks, byDesign, messages, benchmarks, trust (docs/trust.md).
+testenv/lint/test_generatedDocs.py fails where one is stale.
 """
 import argparse
 import os
@@ -222,19 +222,31 @@ def messages():
     return lines
 
 
+def trust():
+    sys.path.append(os.path.join(ROOT, "testenv", "fuzz"))
+    import results
+
+    return results.page()
+
+
 PAGES = {"nodes": nodes, "flags": flags, "limits": limits, "methods": methods, "aovs": aovs, "marks": marks,
-         "byDesign": by_design, "messages": messages, "benchmarks": benchmarks.page}
+         "byDesign": by_design, "messages": messages, "benchmarks": benchmarks.page, "trust": trust}
+PLACES = {"trust": os.path.join(ROOT, "docs", "trust.md")}  # of pages that are not in docs/generated
 NOTE = "<!-- Made by `./patina python testenv/generateDocs.py`; edits are lost. -->"
 
 
+def path_of(page):
+    return PLACES.get(page, os.path.join(FOLDER, page + ".md"))
+
+
 def text_of(page):
-    """:returns: what docs/generated/PAGE.md has to hold"""
+    """:returns: what the page's file has to hold"""
     lines = PAGES[page]()
     return "\n".join([lines[0], NOTE, *lines[1:]]) + "\n"
 
 
 def is_stale(page):
-    path = os.path.join(FOLDER, page + ".md")
+    path = path_of(page)
     return not os.path.isfile(path) or read(path) != text_of(page)
 
 
@@ -251,9 +263,9 @@ def main():
         sys.exit(f"stale: {', '.join(stale)}" if stale else 0)
     os.makedirs(FOLDER, exist_ok=True)
     for page in stale:
-        with open(os.path.join(FOLDER, page + ".md"), "w", encoding="utf-8") as file:
+        with open(path_of(page), "w", encoding="utf-8") as file:
             file.write(text_of(page))
-        print(f"wrote docs/generated/{page}.md")
+        print(f"wrote {os.path.relpath(path_of(page), ROOT)}")
 
 
 if __name__ == "__main__":

@@ -122,6 +122,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     ("testenv/raster/test_fallback.py::*", None, "raster backends"),
     # The path of an image is that of an OpenEXR file, which another of these tests goes.
     ("testenv/fuzz/test_faults.py::*[[]png[]]", "long", None),
+    ("testenv/fuzz/test_fuzz.py::test_a_minute_of_faults*", "long", None),
     # Every test scene to the noise of thousands of samples.
     ("testenv/render/test_convergence.py::test_error_falls_with_samples*", "long", None),
     ("testenv/tests/test_runner.py::*", "smoke", None),

@@ -84,8 +84,10 @@ PATINA_FN LayerLight layerThrough(float weight, vec3 coverage, vec3 inside, floa
                                   LayerLight base) {
     vec3 kinds = layerKinds(0.5f * alpha, z, 0.0f);
     vec3 mirror = coverage * kinds.x + inside * kinds.y;
-    // Closures that are added may have an albedo above 1: no more comes back than from white ones.
-    vec3 again = min(base.mirrored * mirror + base.spread * inside, max(mirror, inside));
+    // Closures that are added may have an albedo above 1: what comes back is that of white ones, in the
+    // same parts, so that no more leaves than the base has.
+    vec3 whole = max(base.mirrored + base.spread, vec3(1.0f));
+    vec3 again = (base.mirrored * mirror + base.spread * inside) / whole;
     vec3 enters = (1.0f - coverage) / max(1.0f - again, vec3(1e-6f));
     vec3 bare = vec3(1.0f - weight);
     return layerLight(bare + weight * enters * (1.0f - mirror), bare + weight * enters * (1.0f - inside),

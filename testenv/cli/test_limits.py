@@ -106,6 +106,11 @@ def test_what_is_no_limit_is_wrong_usage(text, words, tmp_path):
     assert done.returncode == 2 and words in done.stderr and done.stderr.count("\n") == 1
 
 
+@pytest.mark.parametrize("command", ["record", "merge", "explain", "bsdf", "check", "bake", "shader", "view"])
+def test_commands_that_read_files_have_the_flag(command):
+    assert "--limit NAME=VALUE" in inProcess.patina(command, "--help").stdout
+
+
 def test_all_are_listed():
     listed = inProcess.patina("record", "--limit", "list").stdout
     assert [line.split()[0] for line in listed.splitlines()] == list(limits.table())

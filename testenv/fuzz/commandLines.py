@@ -35,7 +35,13 @@ def _flags(command):
 
 def make(seed):
     """:returns: the bytes of an input: a list of words as JSON, one on a line"""
-    r = randoms.Random(seed)
+    command, words = line(randoms.Random(seed))
+    words = [command, *words, *LAST.get(command, ())]
+    return ("[\n" + ",\n".join(map(json.dumps, words)) + "\n]\n").encode()
+
+
+def line(r):
+    """:returns: a command, and the words after it"""
     command = r.choice(COMMANDS)
     words = [r.choice(FILES) for _ in range(r.choice((0, 1, 2, 2, 2, 3)))]
     if command == "record" and r.random() < 0.7:
@@ -46,7 +52,7 @@ def make(seed):
         words.insert(r.randint(0, len(words)), flag)
         if valued and r.random() < 0.95:
             words.insert(words.index(flag) + 1, r.choice(choices) if choices and r.random() < 0.5 else r.choice(VALUES))
-    return ("[\n" + ",\n".join(json.dumps(w) for w in [command, *words, *LAST.get(command, ())]) + "\n]\n").encode()
+    return command, words
 
 
 def execute(path, folder):

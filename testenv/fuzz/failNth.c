@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Preloaded: the n-th call that writes below a folder fails, as on a full disk. test_faults.py
-// builds it.
+// Preloaded: the n-th call of a kind fails. Of calls that write, read or map, those on files below
+// a folder count; of those for memory, large ones. test_faults.py and faults.py build it.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -8,13 +8,21 @@
 #include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
 static char folder[PATH_MAX];
 static int failAt, count, problem;
-static char failed[32], trace[1 << 16];
+static char failed[32], trace[1 << 16], kind[16] = "write";
+static const size_t largePiece = 1 << 16;
+
+/// @param name write, read, map or memory
+void failNthKind(const char* name) {
+    strncpy(kind, name, sizeof kind - 1);
+}
 
 /// Begins anew. @param at of the call that fails, from 1; 0: none are looked at. @param number
 /// errno's
@@ -34,22 +42,35 @@ const char* failNthWhich(void) {
     return failed;
 }
 
-static int counts(const char* path, const char* name) {
-    if (!failAt || !path || strncmp(path, folder, strlen(folder)) != 0) return 0;
+static int countsCall(const char* name) {
     if (strlen(trace) + strlen(name) + 2 < sizeof trace) strcat(strcat(trace, name), "\n");
     if (++count != failAt) return 0;
     strcpy(failed, name);
     errno = problem;
     return 1;
 }
-static int countsFile(int file, const char* name) {
+/// Files are named in the way that the program names them: where a path is relative, the folder is
+/// the working one.
+static int countsKind(const char* path, const char* name, const char* of) {
+    if (!failAt || !path || strcmp(kind, of) != 0) return 0;
+    if (path[0] == '/' && strncmp(path, folder, strlen(folder)) != 0) return 0;
+    return countsCall(name);
+}
+static int counts(const char* path, const char* name) {
+    return countsKind(path, name, "write");
+}
+static int countsFileKind(int file, const char* name, const char* of) {
     char link[64], path[PATH_MAX];
-    if (!failAt) return 0;
+    if (!failAt || strcmp(kind, of) != 0) return 0;
     snprintf(link, sizeof link, "/proc/self/fd/%d", file);
     ssize_t size = readlink(link, path, sizeof path - 1);
     if (size <= 0) return 0;
     path[size] = 0;
-    return counts(path, name);
+    if (path[0] != '/') return 0; // a pipe, a socket
+    return countsKind(path, name, of);
+}
+static int countsFile(int file, const char* name) {
+    return countsFileKind(file, name, "write");
 }
 
 #define NEXT(function)                                                                             \
@@ -113,4 +134,48 @@ int rename(const char* from, const char* to) {
     if (counts(from, "rename")) return -1;
     NEXT(rename);
     return next(from, to);
+}
+
+#define READER(name, ...)                                                                          \
+    NEXT(name);                                                                                    \
+    return next(__VA_ARGS__);
+ssize_t read(int file, void* data, size_t size) {
+    if (countsFileKind(file, "read", "read")) return -1;
+    READER(read, file, data, size)
+}
+ssize_t pread(int file, void* data, size_t size, off_t at) {
+    if (countsFileKind(file, "pread", "read")) return -1;
+    READER(pread, file, data, size, at)
+}
+size_t fread(void* data, size_t size, size_t number, FILE* file) {
+    if (countsFileKind(fileno(file), "fread", "read")) return 0;
+    READER(fread, data, size, number, file)
+}
+void* mmap(void* at, size_t size, int protection, int flags, int file, off_t from) {
+    if (file >= 0 && countsFileKind(file, "mmap", "map")) return MAP_FAILED;
+    READER(mmap, at, size, protection, flags, file, from)
+}
+
+// dlsym() allocates itself: glibc's own names need no look-up.
+extern void* __libc_malloc(size_t);
+extern void* __libc_realloc(void*, size_t);
+extern void* __libc_memalign(size_t, size_t);
+static int countsPiece(size_t size, const char* name) {
+    return failAt && size >= largePiece && strcmp(kind, "memory") == 0 && countsCall(name);
+}
+void* malloc(size_t size) {
+    return countsPiece(size, "malloc") ? NULL : __libc_malloc(size);
+}
+void* realloc(void* before, size_t size) {
+    return countsPiece(size, "realloc") ? NULL : __libc_realloc(before, size);
+}
+int posix_memalign(void** result, size_t alignment, size_t size) {
+    if (countsPiece(size, "memalign")) return ENOMEM;
+    void* made = __libc_memalign(alignment, size);
+    if (!made) return ENOMEM;
+    *result = made;
+    return 0;
+}
+void* aligned_alloc(size_t alignment, size_t size) {
+    return countsPiece(size, "memalign") ? NULL : __libc_memalign(alignment, size);
 }

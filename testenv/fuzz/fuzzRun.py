@@ -8,6 +8,7 @@ import tempfile
 import generated
 import keptFindings
 import native
+import traced
 from fuzzers import FUZZERS
 
 
@@ -59,6 +60,11 @@ def run(names, seconds, seed, corpus, findings, build, say=print):
                 say(f"  {name}: {line}")
             if fuzzer.kind == "generated":
                 results[name] = generated.run(importlib.import_module(name), share, seed, tell)
+            elif fuzzer.kind == "python":
+                if traced.missing():
+                    say(f"left out: {name}: {traced.missing()}")
+                    continue
+                results[name] = traced.run(name, corpus or scratch, share, seed, tell)
             elif not left_out:
                 results[name] = native.run(name, fuzzer, build, corpus or scratch, share, seed, tell)
             else:

@@ -3,7 +3,8 @@
 from collections import namedtuple
 
 Fuzzer = namedtuple("Fuzzer", "kind reads share sources")
-"""kind: native (libFuzzer) or generated; reads: what is tried; share: of the time; sources: files whose lines are counted"""
+"""kind: native (libFuzzer), python (atheris) or generated; reads: what is tried; share: of the time; sources: files whose lines
+are counted"""
 
 FUZZERS = {
     "mtlx": Fuzzer("native", "bytes as a MaterialX document; its materials as programs and GLSL", 2,
@@ -17,8 +18,13 @@ FUZZERS = {
                     "hdDelegate/film/checkpoint.cpp")),
     "image": Fuzzer("native", "bytes as an image: its size, channels and metadata", 1, ("hdDelegate/film/readImage.cpp",
                                                                                      "materialNetwork/utf8.cpp")),
+    "stageReader": Fuzzer("python", "bytes as the choices that make a legal stage, which is read and not rendered", 2, ()),
+    "commandParser": Fuzzer("python", "bytes as the choices that make a command line, which is parsed and not run", 1, ()),
     "randomStages": Fuzzer("generated", "legal stages of all prim types with extreme values, rendered", 4, ()),
     "materialDocuments": Fuzzer("generated", "legal MaterialX documents of all nodes, explained and evaluated", 2, ()),
     "edits": Fuzzer("generated", "random edits while an image is rendered", 2, ()),
     "commandLines": Fuzzer("generated", "every flag of the commands that read files", 2, ()),
+    "faults": Fuzzer("generated", "the n-th call that writes, reads, maps or asks for memory fails", 2, ()),
+    "changing": Fuzzer("generated", "files change while they are read", 2, ()),
+    "killed": Fuzzer("generated", "kill -9 at random moments of a render that is resumed", 2, ()),
 }

@@ -1,46 +1,34 @@
 # SPDX-License-Identifier: Apache-2.0
 """Random materials: `.mtlx` documents of every node that is known, and UsdShade networks of them."""
-import glob
-import os
 import random as randoms
-import re
 
 import outcomes
 import values
 
 EXTENSION = ".mtlx"
 LINES = True
-ROOM = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "materialNetwork"))
 MARK = "PWND"
-ROW = re.compile(r'\{\s*"(ND_[^"]*)",\s*"([^"]*)",\s*((?:"[^"]*"\s*)+),\s*"([^"]*)"')
-MODEL = re.compile(r'<nodedef name="(\w+)" node="(\w+)".*?<output name="\w+" type="(\w+)"', re.DOTALL)
-TYPES = ("float", "integer", "boolean", "color3", "color4", "vector2", "vector3", "vector4", "matrix33", "matrix44", "string")
+CLOSURES = ("BSDF", "EDF", "VDF", "surfaceshader", "volumeshader", "displacementshader")
 _nodes = []
 
 
 def _known():
-    """:returns: list of (id, category, list of (type, name) of its inputs, type of its first output): the table's rows, and the
-        models' definitions"""
+    """:returns: list of (id, category, list of (type, name) of its inputs, type of its first output): all definitions of nodes
+        and shading models"""
     if not _nodes:
         import _patina
 
-        rows = [m.groups() for path in sorted(glob.glob(os.path.join(ROOM, "nodes", "*.cpp")))
-                for m in ROW.finditer(_text(path))]
-        found = {identity.replace("$", kind): (category, (output.split() or ["float"])[0].replace("$", kind))
-                 for identity, category, _, output in rows for kind in (TYPES if "$" in identity else ("",))}
-        for path in sorted(glob.glob(os.path.join(ROOM, "models", "*.mtlx"))):
-            found.update({name: (category, output) for name, category, output in MODEL.findall(_text(path))})
-        found["UsdPreviewSurface"] = ("UsdPreviewSurface", "surfaceshader")
-        for identity, (category, output) in sorted(found.items()):
-            inputs = _patina.node_inputs(identity)
-            if inputs:
-                _nodes.append((identity, category, [(kind, name) for name, kind in inputs.items()], output))
+        for identity in _patina.node_ids():
+            found = _patina.node_definition(identity)
+            inputs = [(kind, name) for name, kind in _patina.node_inputs(identity).items()]
+            _nodes.append((identity, found["category"], inputs, found["outputs"][0][1] if found["outputs"] else "material"))
     return _nodes
 
 
-def _text(path):
-    with open(path, encoding="utf-8") as file:
-        return file.read()
+def _chosen(random):
+    """:returns: a definition; half of them closures and shaders, which are few among so many patterns"""
+    closures = [node for node in _known() if node[3] in CLOSURES]
+    return random.choice(closures if random.random() < 0.5 else _known())
 
 
 COUNTS = {"float": 1, "integer": 1, "vector2": 2, "vector3": 3, "vector4": 4, "color3": 3, "color4": 4, "matrix33": 9,
@@ -63,7 +51,7 @@ def _plain(random, kind):
 def make(seed):
     """:returns: the bytes of an input"""
     r = randoms.Random(seed)
-    nodes = [r.choice(_known()) for _ in range(r.randint(1, 14))]
+    nodes = [_chosen(r) for _ in range(r.randint(1, 14))]
     version = r.choice(("1.39", "1.39", "1.38", "1.37", "9", "", "nan"))
     extra = r.choice(("", "", ' colorspace="lin_rec709"', ' colorspace="g22_ap1"', ' colorspace="none such"', ' namespace="n"',
                       ' fileprefix="/dev/"'))
@@ -102,7 +90,7 @@ SDF = {"float": "float", "integer": "int", "boolean": "bool", "vector2": "float2
 
 def usd_material(random):
     """:returns: lines of a UsdShade material called material"""
-    shaders = [random.choice(_known()) for _ in range(random.randint(1, 6))]
+    shaders = [_chosen(random) for _ in range(random.randint(1, 6))]
     first = "UsdPreviewSurface" if random.random() < 0.5 else "ND_standard_surface_surfaceshader"
     known = {node[0]: node for node in _known()}
     shaders = [known.get(first, shaders[0]), *shaders]

@@ -152,4 +152,4 @@ def _coverage(program, work, sources, scratch):
         if any(name.startswith(source) for source in sources):
             covered += file["summary"]["lines"]["covered"]
             total += file["summary"]["lines"]["count"]
-    return covered, total
+    return (covered, total) if covered else None  # a program that ended before its profile was written

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The outcomes of an input: in the process that runs it, and seen from outside."""
+import ctypes
 import json
 import os
 import re
@@ -30,7 +31,7 @@ def command(words, folder):
 
 
 # What validation raises; any other exception that a prim's reader meets is a defect, though it ends as a warning.
-_FORESEEN = ("StageError", "ValueError", "ErrorException", "RuntimeError")
+_FORESEEN = ("StageError", "InputError", "ValueError", "ErrorException", "RuntimeError")
 
 
 def tell_swallowed():
@@ -45,6 +46,18 @@ def tell_swallowed():
             traceback.print_exception(kind, error, trace)
         return leave(self, kind, error, trace)
     context.Guard.__exit__ = told
+
+
+def end_with_parent():
+    """Has this process killed when the one that has started it ends: no input leaves something running."""
+    ctypes.CDLL(None).prctl(1, 9)  # PR_SET_PDEATHSIG, SIGKILL
+
+
+def leave(status):
+    """Ends a process that was forked, with all that it has said."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status or 0)
 
 
 def record(words, folder):

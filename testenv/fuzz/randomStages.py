@@ -50,8 +50,8 @@ def _schemas():
 
 
 class _Writer:
-    def __init__(self, seed):
-        self.random = randoms.Random(seed)
+    def __init__(self, seed, random=None):
+        self.random = random or randoms.Random(seed)
         self.types = sorted(_schemas())
         self.count = 0
 
@@ -125,7 +125,11 @@ def _once(lines):
 
 def make(seed):
     """:returns: the bytes of an input"""
-    writer = _Writer(seed)
+    return stage(_Writer(seed))
+
+
+def stage(writer):
+    """:returns: the bytes of the stage that a writer's random numbers make"""
     r = writer.random
     head = ["#usda 1.0", "(", f'    upAxis = "{r.choice("YZ")}"',
             f"    metersPerUnit = {r.choice(('0.01', '1', '0', '-1', '1e-30', 'inf'))}", ")"]

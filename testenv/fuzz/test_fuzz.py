@@ -5,6 +5,7 @@ The kept inputs of the native fuzzers are run by testFuzzCorpus.
 """
 import importlib
 import os
+import subprocess
 import types
 
 import pytest
@@ -16,6 +17,7 @@ import generated  # noqa: E402
 import keptFindings  # noqa: E402
 import outcomes  # noqa: E402
 import shrink  # noqa: E402
+import traced  # noqa: E402
 from fuzzers import FUZZERS  # noqa: E402
 
 GENERATED = [name for name, fuzzer in FUZZERS.items() if fuzzer.kind == "generated"]
@@ -35,6 +37,19 @@ def test_what_was_found(name, path, hand):
     with open(path, "rb") as file:
         kind, signature, answer = generated.outcome(hand, module, file.read(), module.EXTENSION)
     assert kind in outcomes.GOOD, signature + "\n" + answer["error"]
+
+
+@pytest.mark.parametrize("name", [name for name, fuzzer in FUZZERS.items() if fuzzer.kind == "python"])
+def test_what_followers_of_coverage_have_kept(name):
+    done = subprocess.run(traced.command(name, "--run", *keptFindings.corpus(name)), capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("name", ("faults", "changing", "killed"))
+def test_a_minute_of_faults(name):
+    """More of what the kept inputs show, for a minute each; `./patina fuzz NAME --seconds S` goes on."""
+    found = generated.run(importlib.import_module(name), 60, 5000, print)
+    assert found["inputs"] >= 1 and not found["findings"], [finding[1] for finding in found["findings"]]
 
 
 @pytest.mark.parametrize("name", GENERATED)
@@ -83,6 +98,17 @@ def test_what_ends_as_a_warning_is_found_too(hand, tmp_path, monkeypatch):
     assert found[0] == "traceback" and "a defect" in found[2]["error"]
     assert outcomes.kind_of({"timedOut": False, "signal": 0, "status": 0,
                              "error": "out of memory: /dome: no memory for it"}) == "memory"
+
+
+def test_documents_hold_every_node():
+    import generateDocs
+    import materialDocuments
+
+    table = {category for name in generateDocs.names_in(generateDocs.NODES, "Nodes.cpp")
+             for category in generateDocs.categories(generateDocs.read(f"{generateDocs.NODES}/{name}"))}
+    known = {node[1] for node in materialDocuments._known()}
+    assert len(table) > 150 and not table - known
+    assert {"standard_surface", "open_pbr_surface", "UsdPreviewSurface"} <= known
 
 
 def test_inputs_shrink():

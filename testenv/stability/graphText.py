@@ -48,6 +48,8 @@ VDFS = {
     "anisotropic_vdf": {"absorption": ("vector3", 0, 3), "scattering": ("vector3", 0, 3), "anisotropy": ("float", -1, 1)},
 }
 BURLEY_GAIN = 1.56  # of a white lobe of roughness 1 at grazing angles: the model as it was published
+# What graphs hold beside the tables: nodes that take the place of others, or stand between.
+MORE = ("dielectric_btdf", "thin_film_bsdf", "patina_dispersed_ior")
 SIZES = {"float": 1, "vector2": 2, "vector3": 3, "color3": 3}
 
 
@@ -66,6 +68,7 @@ class Graph:
 
     def __init__(self, seed):
         self.random = random.Random(seed)
+        self.more = random.Random(f"more {seed}")  # of its own, so that what else a seed means stays
         self.seed = seed
         self.lines = []
         self.kinds = []  # categories of closures in it
@@ -182,14 +185,24 @@ class Graph:
                 found[name] = ("string", "", self.random.choice(spec))
             else:
                 found[name] = self.value(*spec)
+            if name == "ior" and spec[0] == "float" and self.more.random() < 0.3:
+                found[name] = ("float", self.dispersed(found[name]), "")
         return found, bound
+
+    def dispersed(self, ior):
+        self.kinds.append("patina_dispersed_ior")
+        given = {"abbe_number": (20.0, 55.0, *EXTREMES), "scale": (0.5, *EXTREMES)}
+        return self.node("patina_dispersed_ior", "float", {"ior": ior, **{
+            name: ("float", "", number(self.more.choice(values))) for name, values in given.items()}})
 
     # Closures -------------------------------------------------------------------------------------------------------
 
     def leaf(self, table, kind):
         category = self.random.choice(list(table))
-        self.kinds.append(category)
         inputs, bound = self.inputs(table[category])
+        if category == "dielectric_bsdf" and self.more.random() < 0.2:
+            category = "dielectric_btdf"
+        self.kinds.append(category)
         if inputs.get("form", ("", "", ""))[2] == "exact":
             bound = float("inf")  # Ward's exact form, as it was printed
         if category == "burley_diffuse_bsdf":
@@ -215,10 +228,20 @@ class Graph:
         b, other = self.bsdf(depth - 1)
         second = ("BSDF", b, "")
         if chance < 0.68:
+            if self.more.random() < 0.1:
+                first = ("BSDF", self.filmed(first), "")
             return self.node("layer", "BSDF", {"top": first, "base": second}), max(bound, other)
         if chance < 0.85:
             return (self.node("mix", "BSDF", {"fg": first, "bg": second, "mix": self.value("float", 0, 1)}), max(bound, other))
         return self.node("add", "BSDF", {"in1": first, "in2": second}), bound + other
+
+    def filmed(self, base):
+        """:returns: a thin film over a closure, as the older layered node has it"""
+        self.kinds.append("thin_film_bsdf")
+        film = self.node("thin_film_bsdf", "BSDF", {
+            name: ("float", "", number(self.more.choice(values)))
+            for name, values in (("thickness", (300.0, 550.0, *EXTREMES)), ("ior", (1.3, 2.0, *EXTREMES)))})
+        return self.node("layer", "BSDF", {"top": ("BSDF", film, ""), "base": base})
 
     def edf(self, depth):
         if depth <= 1 or self.random.random() < 0.5:

@@ -62,10 +62,12 @@ def main():
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--raster", type=int, default=0, metavar="N", help="also on OpenGL, every Nth graph (0: none)")
     parser.add_argument("--keep", metavar="FOLDER", help="where graphs that fail are written")
+    parser.add_argument("--results", nargs="?", const="", metavar="FILE",
+                        help="add the figures to this table (default: testenv/fuzz/results.json)")
     arguments = parser.parse_args()
     import _patina
 
-    points, start, broken = _patina.choice_points(), time.time(), 0
+    points, start, broken, findings = _patina.choice_points(), time.time(), 0, []
     for seed in range(arguments.seed, arguments.seed + arguments.count):
         graph = graphText.Graph(seed)
         methods = graphText.methods(seed, points)
@@ -74,11 +76,20 @@ def main():
         if not found:
             continue
         broken += 1
+        findings.append(("promise", f"seed {seed}: {found[0]}"))
         print("\n  ".join([f"seed {seed}: {', '.join(graph.kinds)}; methods: {methods}; bound: {graph.bound:g}", *found]),
               flush=True)
         if arguments.keep:
             os.makedirs(arguments.keep, exist_ok=True)
             kept.write(os.path.join(arguments.keep, f"graph{seed}.mtlx"), graph.text(), graph, methods, found)
+    if arguments.results is not None:
+        sys.path.append(os.path.join(folder, "..", "fuzz"))
+        import results
+
+        counts = {"fine": arguments.count - broken} | ({"promise": broken} if broken else {})
+        results.append([results.row("randomGraphsRaster" if arguments.raster == 1 else "randomGraphs", arguments.seed, {
+            "inputs": arguments.count, "seconds": time.time() - start, "counts": counts, "findings": findings})],
+            arguments.results or results.FILE)
     print(f"{broken} of {arguments.count} graphs failed; {time.time() - start:.1f} s")
     return 1 if broken else 0
 

@@ -37,6 +37,7 @@ def add_arguments(parser):
     parser.add_argument("--format", default="png", choices=["png", "exr"], help="of textures (default: png)")
     parser.add_argument("--in-place", action="store_true", dest="in_place",
                         help="OUT may be the stage itself, one of its layers or any other: all other prims in it stay")
+    limits.add_flag(parser)
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
                         help="change an input before (repeatable)")
 
@@ -44,7 +45,6 @@ def add_arguments(parser):
 def run(arguments):
     if not 1 <= arguments.resolution <= 16384:
         raise UsageError("patina bake: --resolution is 1 to 16384")
-    limits.add_flag(parser)
     if os.path.splitext(arguments.output)[1].lower() not in bakeOutput.EXTENSIONS:
         raise UsageError("patina bake: OUT ends in .usda, .usdc or .usd")
     found, warnings = materials.load(arguments.material, arguments.set)

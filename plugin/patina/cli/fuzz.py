@@ -29,6 +29,9 @@ def add_arguments(parser):
                         help="where findings are saved (default: patinaFindings)")
     parser.add_argument("--build", metavar="FOLDER", help="the instrumented build (default: build-fuzz in the checkout)")
     parser.add_argument("--json", metavar="FILE", help="write the figures of the run")
+    parser.add_argument("--results", nargs="?", const="", metavar="FILE",
+                        help="add the figures to this table (default: testenv/fuzz/results.json, of which "
+                             "docs/trust.md is made)")
     parser.add_argument("--keep", metavar="FINDING", help="make a saved finding a test called NAME")
 
 
@@ -61,4 +64,9 @@ def run(arguments):
                           os.path.abspath(arguments.build or os.path.join(root, "build-fuzz")))
     if arguments.json:
         fuzzRun.write(results, arguments.json, {"seed": arguments.seed})
+    if arguments.results is not None:
+        import results as table
+
+        table.append([table.row(name, arguments.seed, found) for name, found in results.items()],
+                     arguments.results or table.FILE)
     return 1 if any(found["findings"] for found in results.values()) else 0

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Calls that fail once: the n-th that writes an output (a full disk, a device that fails), maps or reads a file, or asks for a
+large piece of memory. The old image or the new one is there, whole, and the message is one line."""
+import errno
+import json
+import os
+import random as randoms
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import changing
+import outcomes
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+EXTENSION = ".json"
+LINES = False
+CPU_SECONDS = 100  # a driver in software compiles for half a minute before it draws
+NUMBERS = {"write": ("ENOSPC", "EIO", "EDQUOT", "EROFS"), "read": ("EIO", "EMFILE"), "map": ("ENOMEM", "EACCES"),
+           "memory": ("ENOMEM",)}
+OUTPUTS = (("image.png",), ("image.exr",), ("image.exr", "--keepCheckpoint"),
+           ("image.exr", "--part", "1/2", "--partial", "a.part"),
+           ("image.tif", "--bits", "32"), ("image.exr", "--aov", "all"), ("image.exr", "--report", "a.html", "--json=b.json"))
+_library = []
+
+
+def make(seed):
+    """:returns: the bytes of an input: what is rendered, which call fails, and with which error"""
+    r = randoms.Random(seed)
+    kind = r.choice(("write", "write", "read", "map", "memory", "memory"))
+    return json.dumps({"output": r.choice(OUTPUTS), "kind": kind, "error": r.choice(NUMBERS[kind]),
+                       "at": r.randint(1, 12) if r.random() < 0.6 else r.randint(1, 120),
+                       "backend": r.choice(("embree", "embree", "raster"))}, indent=1).encode() + b"\n"
+
+
+def library():
+    """:returns: the path of the library that makes calls fail; empty without a C compiler"""
+    if not _library:
+        compiler = shutil.which("cc") or shutil.which("gcc")
+        path = os.path.join(tempfile.gettempdir(), f"patinaFailNth-{os.getuid()}.so")
+        source = os.path.join(HERE, "failNth.c")
+        if compiler and not (os.path.exists(path) and os.stat(path).st_mtime > os.stat(source).st_mtime):
+            made = f"{path}.{os.getpid()}"
+            subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", made, source, "-ldl"], check=True)
+            os.replace(made, path)
+        _library.append(path if compiler else "")
+    return _library[0]
+
+
+def execute(path, folder):
+    """Renders with a call that fails, in a process that may die. :returns: its exit status"""
+    with open(path, encoding="utf-8") as file:
+        asked = json.load(file)
+    if not library():
+        return 0
+    changing._write_all(folder)
+    image, *more = asked["output"]
+    with open(os.path.join(folder, image), "wb") as file:
+        file.write(outcomes.SENTINEL)
+    words = ["record", "shot.usda", image, *more, "--camera", "/camera", "--backend", asked["backend"], *outcomes.SMALL]
+    code = ("import ctypes, os, sys\nfrom patina.cli import main, record\nimport numpy, _patina\nfrom pxr import Usd, UsdGeom\n"
+            "f = ctypes.CDLL(sys.argv[1])\nos.chdir(sys.argv[2])\n"
+            "f.failNthKind(sys.argv[3].encode())\nf.failNthBegin(sys.argv[2].encode(), int(sys.argv[4]), int(sys.argv[5]))\n"
+            "status = main.main(sys.argv[6:])\nf.failNthBegin(b'', 0, 0)\nsys.stderr.flush()\nos._exit(status)\n")
+    done = subprocess.run([sys.executable, "-X", "faulthandler", "-c", code, library(), folder, asked["kind"], str(asked["at"]),
+                           str(getattr(errno, asked["error"])), *words], env=dict(os.environ, LD_PRELOAD=library()),
+                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, preexec_fn=outcomes.end_with_parent)
+    # That memory is missing is what was asked for here, and to say so no finding.
+    sys.stderr.buffer.write(done.stderr.replace(b"out of memory", b"the memory that fails").replace(b"bad_alloc", b"bad alloc"))
+    sys.stderr.flush()
+    if done.returncode < 0:
+        os.kill(os.getpid(), -done.returncode)
+    with open(os.path.join(folder, image), "rb") as file:
+        data = file.read()
+    if data != outcomes.SENTINEL:
+        import _patina
+
+        try:
+            _patina.read_image(os.path.join(folder, image))
+        except (OSError, RuntimeError) as error:
+            return outcomes.broken(f"the image is neither the old one nor whole: {error}")
+        if done.returncode and "--report" not in more and "--part" not in more and "--keepCheckpoint" not in more \
+                and not any(word.startswith("--json") for word in more) and done.returncode != 75:
+            return outcomes.broken("a render that failed has changed the image")
+    elif not done.returncode and "--part" not in more:
+        return outcomes.broken("a render that is done has written no image")
+    if [name for name in os.listdir(folder) if name.startswith(".")]:
+        return outcomes.broken("a temporary file is left over")
+    return done.returncode

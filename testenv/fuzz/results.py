@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the machines have found, by their own figures: testenv/fuzz/results.json, of which docs/trust.md is made. A run adds a
+row; what was mended and what is known and left is written by hand."""
+import json
+import os
+
+FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "results.json")
+# Machines that are no fuzzers, and how they are run.
+OTHERS = {
+    "randomGraphs": ("legal material graphs, on the processor", "./patina python testenv/stability/randomGraphs.py --seed 1 "
+                                                                "--count 10000 --results"),
+    "randomGraphsRaster": ("legal material graphs, on the processor and as GLSL, held together",
+                           "./patina python testenv/stability/randomGraphs.py --seed 1 --count 1000 --raster 1 --results"),
+}
+
+
+def read(path=FILE):
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def row(machine, seed, found):
+    """:param found: numbers of a run, as generated.run() and native.run() have them"""
+    return {"machine": machine, "seed": seed, "inputs": found["inputs"], "seconds": round(found["seconds"], 1),
+            "counts": found["counts"], "lines": list(found["lines"]) if found.get("lines") else None,
+            "findings": [signature for _, signature, *_ in found["findings"]]}
+
+
+def append(rows, path=FILE):
+    """Adds rows to the file, which is replaced as a whole."""
+    table = read(path)
+    table["runs"] += rows
+    with open(path + ".new", "w", encoding="utf-8") as file:
+        lines = {key: ",\n".join("  " + json.dumps(item, ensure_ascii=False) for item in table[key]) for key in table}
+        file.write("{\n" + ",\n".join(f' "{key}": [\n{text}\n ]' for key, text in lines.items()) + "\n}\n")
+    os.replace(path + ".new", path)
+
+
+def sums(table):
+    """:returns: dict of machine -> inputs, seconds, counts by kind, lines of the last run that has them, and findings"""
+    found = {}
+    for run in table["runs"]:
+        of = found.setdefault(run["machine"], {"inputs": 0, "seconds": 0.0, "counts": {}, "lines": None, "findings": []})
+        of["inputs"] += run["inputs"]
+        of["seconds"] += run["seconds"]
+        of["lines"] = run["lines"] or of["lines"]
+        for kind, number in run["counts"].items():
+            of["counts"][kind] = of["counts"].get(kind, 0) + number
+        of["findings"] += [reason for reason in run["findings"] if reason not in of["findings"]]
+    return found
+
+
+def page():
+    """:returns: lines of docs/trust.md"""
+    from fuzzers import FUZZERS
+
+    table = read()
+    by_machine = sums(table)
+    kinds = sorted({kind for of in by_machine.values() for kind in of["counts"]} - {"fine", "message"})
+    rows, parsers, total, seconds = [], [], 0, 0.0
+    for name in [*FUZZERS, *OTHERS]:
+        of = by_machine.get(name)
+        what = FUZZERS[name].reads if name in FUZZERS else OTHERS[name][0]
+        command = f"./patina fuzz {name} --seconds 3600 --results" if name in FUZZERS else OTHERS[name][1]
+        if of is None:
+            rows.append((f"`{name}`", what, "no run is noted", "", *[""] * len(kinds), f"`{command}`"))
+            continue
+        total, seconds = total + of["inputs"], seconds + of["seconds"]
+        rows.append((f"`{name}`", what, f"{of['inputs']:,}", f"{of['seconds'] / 3600:.2f}",
+                     *(str(of["counts"].get(kind, 0)) for kind in kinds), f"`{command}`"))
+        if name in FUZZERS and FUZZERS[name].sources:
+            covered = "not measured" if not of["lines"] else f"{of['lines'][0]:,} of {of['lines'][1]:,} lines, " \
+                f"{100 * of['lines'][0] / of['lines'][1]:.0f} %"
+            parsers.append((", ".join(f"`{source}`" for source in FUZZERS[name].sources), f"`{name}`", covered))
+    head = ("machine", "tries", "inputs", "hours", *kinds, "command")
+    mended = [(item["what"], item["by"], f"`{item['test']}`") for item in table["mended"]]
+    return ["# Trust, in figures", "",
+            "Machines look for what users would find: inputs that crash, hang, take memory without end, lose an image or make",
+            f"values that are no numbers. The runs that are noted here took {seconds / 3600:.1f} hours, on two cores that",
+            f"other work shared, and tried {total:,} inputs. Each run adds a row to `testenv/fuzz/results.json`",
+            "(`--results`), of which this page is made. [SECURITY.md](../SECURITY.md) says what is claimed,",
+            "[limits](generated/limits.md) what input may ask for at most.", "",
+            "## Runs", "",
+            "Kinds count inputs, not causes: *library* is what fails in another library without Patina too. All other inputs",
+            "were fine, or ended with a message.", "",
+            *_table(head, rows), "",
+            "## What the parsers' fuzzers reach", "",
+            "Lines of the sources that the kept inputs of a fuzzer run, by llvm-cov. The generated inputs reach the rest",
+            "through the command line, which is not counted.", "",
+            *_table(("sources", "fuzzer", "reached"), parsers), "",
+            "## Mended", "", *_table(("what was wrong", "found by", "held by"), mended), "",
+            "## Known and left", "", *(f"- {text}" for text in table["known"])]
+
+
+def _table(head, rows):
+    import generateDocs
+
+    return generateDocs.table(head, rows)

@@ -4,6 +4,7 @@
 #include "shaders/lights/ies.glsl"
 #include "shaders/lights/shaping.glsl"
 #include "shaders/lights/basis.glsl"
+#include "shaders/lights/kinds.glsl"
 #include "shaders/lights/shapes.glsl"
 #include "shaders/lights/sphereInside.glsl"
 #include "shaders/lights/line.glsl"

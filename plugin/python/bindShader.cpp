@@ -5,6 +5,7 @@
 #include "materialNetwork/material.h"
 #include "materialNetwork/nodes/models.h"
 #include "materialNetwork/nodes/nodeTable.h"
+#include "plugin/python/warningList.h"
 #include "shaders/shaderText.h"
 #include "shaders/unusedFunctions.h"
 
@@ -22,11 +23,7 @@ namespace {
 py::tuple expanded(const Network& network) {
     Diagnostics diagnostics;
     Network result = expandedMaterial(network, diagnostics);
-    py::list warnings;
-    for (const Diagnostic& d : diagnostics.all())
-        warnings.append(py::dict(py::arg("prim") = d.prim, py::arg("input") = d.input,
-                                 py::arg("message") = d.message, py::arg("count") = d.count));
-    return py::make_tuple(std::move(result), warnings);
+    return py::make_tuple(std::move(result), warningList(diagnostics));
 }
 
 template <class Def> py::list typedNames(const std::vector<Def>& defs) {

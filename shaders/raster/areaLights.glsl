@@ -8,8 +8,8 @@
 
 // Whether the light is even over its whole surface, so that its outline says all.
 bool isOutline(Light l) {
-    return l.origin.w <= 0.0 && int(l.radiance.w) < LTC_SHAPES && l.table.x < 0.0 &&
-           l.table.w < 0.0 && l.shaping.w == 0.0 && l.focusTint.w == 0.0;
+    return !isDelta(l) && l.kind < LTC_SHAPES && l.firstValue < 0 &&
+           l.firstProfile < 0 && l.focus == 0.0 && !hasCone(l);
 }
 
 // Whether lobes of the material are all of kinds that transforms stand for. In what is nearly a mirror
@@ -26,9 +26,9 @@ bool isTransformable() {
 
 // The outline as the point sees it. @returns how many corners, 0 where it shines away
 int outlineOf(Light l, out vec3 corners[LTC_CORNERS]) {
-    int kind = int(l.radiance.w);
-    vec3 d = point.position - l.origin.xyz;
-    if ((kind == SHAPE_RECT || kind == SHAPE_DISK) && dot(l.normal.xyz, d) <= 0.0) return 0;
+    int kind = l.kind;
+    vec3 d = point.position - l.origin;
+    if ((kind == SHAPE_RECT || kind == SHAPE_DISK) && dot(l.normal, d) <= 0.0) return 0;
     LtcOutline outline = ltcOutline(kind, toShape(l, d));
     for (int i = 0; i < outline.count; ++i)
         corners[i] = fromShape(l, outline.corners[i]) - d;
@@ -37,9 +37,9 @@ int outlineOf(Light l, out vec3 corners[LTC_CORNERS]) {
 
 // Share of the light's samples that are above the plane of the surface.
 float shareAbove(Light l, vec3 n) {
-    int kind = int(l.radiance.w);
-    float h = dot(n, l.origin.xyz - point.position);
-    vec3 reach = vec3(dot(n, l.axis0.xyz), dot(n, l.axis1.xyz), dot(n, l.axis2.xyz));
+    int kind = l.kind;
+    float h = dot(n, l.origin - point.position);
+    vec3 reach = vec3(dot(n, l.axis0), dot(n, l.axis1), dot(n, l.axis2));
     if (kind == SHAPE_DISK || kind == SHAPE_SPHERE) { // a sphere's samples have a disk's shadow
         float across = kind == SHAPE_DISK ? length(reach.xy) : length(reach);
         float t = clamp(h / max(across, 1e-20), -1.0, 1.0);
@@ -75,15 +75,15 @@ vec3 byOutline(Light l) {
         bool mirror = kind == LOBE_MIRROR;
         vec4 map = mirror ? ltcMicrofacets(wo, lobeAlpha(i)) : vec4(1.0, 0.0, 1.0, 0.0);
         sum += lobeWeight[i] * lobeAlbedo[i] * ltcShare(own, count, map) *
-               (mirror ? l.inverse1.w : l.inverse0.w);
+               (mirror ? l.specular : l.diffuse);
     }
-    if (sum == vec3(0.0) || l.shadow.x < 0.0) return sum * l.radiance.xyz * l.fade.w;
+    if (sum == vec3(0.0) || l.firstMap < 0) return sum * l.radiance * l.weight;
     // The outline is cut at the horizon: samples below it are no shadow.
     vec3 n = dot(point.geometricNormal, point.view) < 0.0 ? -point.geometricNormal : point.geometricNormal;
-    vec3 wi = unitOr(l.sampled.xyz - point.position, n);
+    vec3 wi = unitOr(l.sampled - point.position, n);
     float above = shareAbove(l, n);
     if (dot(n, wi) <= 0.0 || above <= 1e-4) return vec3(0.0);
-    return sum * l.radiance.xyz * l.fade.w * shadowAt(l, wi) / above;
+    return sum * l.radiance * l.weight * shadowAt(l, wi) / above;
 }
 
 // Light that sheen reflects, by its samples alone.

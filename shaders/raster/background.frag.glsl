@@ -6,11 +6,15 @@
 #include "shaders/raster/cameraRay.glsl"
 layout(location = 0) out vec4 outColor;
 
+bool isSeen(Light l) {
+    return (l.flags & LIGHT_IS_SEEN) != 0;
+}
+
 // All domes together, as the camera sees them.
 vec4 skyRadiance(vec3 w, float lod) {
     vec4 sum = vec4(0.0);
     for (int i = 0; i < lightInfo.x; ++i)
-        if (int(lights[i].radiance.w) == LIGHT_DOME && lights[i].inverse2.w != 0.0)
+        if (lights[i].kind == LIGHT_DOME && isSeen(lights[i]))
             sum += vec4(radianceOfDome(lights[i], w, lod), 1.0);
     return vec4(sum.rgb, min(sum.a, 1.0));
 }
@@ -24,14 +28,14 @@ void main() {
     vec4 shape = vec4(0.0);
     for (int i = 0; i < lightInfo.x; ++i) {
         Light l = lights[i];
-        if (l.inverse2.w == 0.0) continue;
+        if (!isSeen(l)) continue;
         float t, density;
         vec3 image;
         if (!lightHit(l, start + direction * range.x, direction, t, density, image)) continue;
         t += range.x;
         if (t >= min(nearest, range.y)) continue;
         nearest = t;
-        shape = vec4(l.radiance.xyz * image * shapingFactor(l, -direction), 1.0);
+        shape = vec4(l.radiance * image * shapingFactor(l, -direction), 1.0);
         vec4 clip = worldToClip * vec4(start + direction * t, 1.0);
         depth = clamp(clip.z / clip.w * 0.5 + 0.5, 0.0, 1.0);
     }

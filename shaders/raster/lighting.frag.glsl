@@ -32,9 +32,9 @@ float trustOf(int kind) {
 
 // That each pixel takes of a light.
 float samplesOf(Light l) {
-    int kind = int(l.radiance.w);
+    int kind = l.kind;
     bool sky = kind == LIGHT_DOME || kind == LIGHT_MORE_DOME;
-    return l.axis0.w > 0.0 ? l.axis0.w : sky ? l.cone.y : 1.0;
+    return l.perPixel > 0.0 ? l.perPixel : sky ? l.domeSamples : 1.0;
 }
 
 float heuristic(float a, float b) {
@@ -42,12 +42,12 @@ float heuristic(float a, float b) {
 }
 
 bool isLit(Light l) {
-    return isLinked(vIds.z, int(l.axis2.w));
+    return isLinked(vIds.z, l.category);
 }
 
 // The dominant light of a dome, which is apart from its harmonics only.
 bool isSunOfDome(Light l) {
-    return int(l.radiance.w) == LIGHT_DISTANT && l.origin.w > 0.0 && l.cone.x != 0.0;
+    return (l.flags & LIGHT_OF_DOME) != 0;
 }
 
 #include "shaders/raster/refraction.glsl"
@@ -59,7 +59,7 @@ vec3 guide = vec3(0.0);
 
 // Light from one light's sample. guides: no light, but the material's own guide.
 vec3 fromLight(Light l, bool guides) {
-    int kind = int(l.radiance.w);
+    int kind = l.kind;
 #ifdef DOME_METHOD
     if ((kind == LIGHT_DOME || kind == LIGHT_MORE_DOME) && !guides) return vec3(0.0); // see skyLight()
 #endif
@@ -77,10 +77,10 @@ vec3 fromLight(Light l, bool guides) {
     // Samples of the BSDF find what comes through the object.
     if ((dot(wi, point.geometricNormal) > 0.0) != woOutside()) f.specular = vec3(0.0);
 #endif
-    vec3 value = f.diffuse * l.inverse0.w + f.specular * l.inverse1.w;
+    vec3 value = f.diffuse * l.diffuse + f.specular * l.specular;
     if (value == vec3(0.0)) return vec3(0.0);
     float weight = 1.0;
-    if (l.origin.w <= 0.0) {
+    if (!isDelta(l)) {
         // Weights of domes come from the density's table on both sides.
         bool sky = kind == LIGHT_DOME || kind == LIGHT_MORE_DOME;
         float chance = samplesOf(l) * (sky ? domePdf(l, wi, 0.0) : density);
@@ -109,9 +109,9 @@ vec3 along(MaterialSample s) {
     float sky = -1.0;
     for (int i = 0; i < look.x; ++i) {
         Light l = lights[i];
-        int kind = int(l.radiance.w);
-        if (l.origin.w > 0.0 || kind > LIGHT_DOME || !isLit(l) || (outlines && isOutline(l))) continue;
-        vec3 radiance = l.radiance.xyz;
+        int kind = l.kind;
+        if (isDelta(l) || kind > LIGHT_DOME || !isLit(l) || (outlines && isOutline(l))) continue;
+        vec3 radiance = l.radiance;
         float density, seen = 1.0;
         if (kind == LIGHT_DOME) {
 #ifdef DOME_METHOD
@@ -124,8 +124,8 @@ vec3 along(MaterialSample s) {
             density = samplesOf(l) * domePdf(l, s.wi, lod);
             radiance = radianceOfDome(l, s.wi, lod);
         } else if (kind == LIGHT_DISTANT) {
-            if (!distantHit(l.origin.xyz, l.cone.z, s.wi)) continue;
-            density = distantPdf(l.cone.z) * samplesOf(l);
+            if (!distantHit(l.axis2, l.versine, s.wi)) continue;
+            density = distantPdf(l.versine) * samplesOf(l);
         } else {
             float t;
             vec3 image;
@@ -134,18 +134,18 @@ vec3 along(MaterialSample s) {
             density *= samplesOf(l);
         }
         vec3 shadow = vec3(1.0);
-        if (l.shadow.x >= 0.0) {
-            if (kind == LIGHT_DOME || (kind == LIGHT_DISTANT && l.cone.z > NARROW_SUN)) {
+        if (l.firstMap >= 0) {
+            if (kind == LIGHT_DOME || (kind == LIGHT_DISTANT && l.versine > NARROW_SUN)) {
                 if (sky < 0.0) sky = skyReaches(s.wi);
-                shadow = mix(l.shadowColor.rgb, vec3(1.0), sky);
+                shadow = mix(l.shadowColor, vec3(1.0), sky);
             } else {
                 // The light's own sample tells how much of it the point sees.
-                vec3 there = l.sampled.xyz;
-                shadow = shadowAt(l, l.sampled.w != 0.0 ? normalize(there - point.position) : there);
+                vec3 there = l.sampled;
+                shadow = shadowAt(l, isAtPlace(l) ? normalize(there - point.position) : there);
             }
         }
-        float weight = l.fade.w * (delta ? 1.0 : heuristic(pdf, trustOf(kind) * density));
-        sum += (s.diffuseWeight * l.inverse0.w + s.specularWeight * l.inverse1.w) * radiance *
+        float weight = l.weight * (delta ? 1.0 : heuristic(pdf, trustOf(kind) * density));
+        sum += (s.diffuseWeight * l.diffuse + s.specularWeight * l.specular) * radiance *
                shadow * weight;
     }
     return sum;

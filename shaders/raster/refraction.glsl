@@ -80,20 +80,20 @@ vec3 lightsAlong(vec3 origin, vec3 direction, float pdf, bool delta) {
     float lod = delta ? 0.0 : 0.5 * log2(1.0 / max(float(counts.y) * pdf * extra.z * texel, 1e-20));
     for (int i = 0; i < look.x; ++i) {
         Light l = lights[i];
-        int kind = int(l.radiance.w);
-        if (l.origin.w > 0.0 || kind > LIGHT_DOME || !isLit(l)) continue;
-        vec3 radiance = l.radiance.xyz;
+        int kind = l.kind;
+        if (isDelta(l) || kind > LIGHT_DOME || !isLit(l)) continue;
+        vec3 radiance = l.radiance;
         if (kind == LIGHT_DOME) {
             radiance = radianceOfDome(l, direction, clamp(lod, 0.0, float(lightInfo.y)));
         } else if (kind == LIGHT_DISTANT) {
-            if (!distantHit(l.origin.xyz, l.cone.z, direction)) continue;
+            if (!distantHit(l.axis2, l.versine, direction)) continue;
         } else {
             float t, density;
             vec3 image;
             if (!lightHit(l, origin, direction, t, density, image)) continue;
             radiance *= image * shapingFactor(l, -direction);
         }
-        sum += radiance * l.fade.w * l.inverse1.w;
+        sum += radiance * l.weight * l.specular;
     }
     return sum;
 }
@@ -118,9 +118,9 @@ vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool
     for (int i = look.y; i < counts.x; ++i) {
         Light l = lights[i];
         if (!isLit(l) || isSunOfDome(l)) continue;
-        if (int(l.radiance.w) == LIGHT_DOME && l.cone.y == 0.0) { // nobody samples it: its mean
-            found += radianceOfDome(l, direction, max(float(lightInfo.y) - 1.0, 0.0)) * l.fade.w *
-                     l.inverse1.w;
+        if (l.kind == LIGHT_DOME && l.domeSamples == 0.0) { // nobody samples it: its mean
+            found += radianceOfDome(l, direction, max(float(lightInfo.y) - 1.0, 0.0)) * l.weight *
+                     l.specular;
             continue;
         }
         vec3 wi;
@@ -129,7 +129,7 @@ vec3 throughMedium(vec3 behind, vec3 start, vec3 direction, float distance, bool
         vec3 p = phaseMixtureEval(phase, -direction, wi).value;
         // The object's own far side is in the shadow maps, so they tell nothing of light from there.
         bool outwards = dot(wi, point.geometricNormal) > 0.0;
-        found += radiance * p * l.inverse1.w * (boundary && !outwards ? vec3(1.0) : shadowAt(l, wi));
+        found += radiance * p * l.specular * (boundary && !outwards ? vec3(1.0) : shadowAt(l, wi));
     }
     return sum + scattering * stretch * found;
 }

@@ -78,8 +78,8 @@ bool isShown(mat4 worldToMap, vec3 p) {
 }
 
 // Which of one or six maps around a place shows a direction from there.
-int faceOf(float maps, vec3 d) {
-    if (maps <= 1.0) return 0;
+int faceOf(int maps, vec3 d) {
+    if (maps <= 1) return 0;
     vec3 a = abs(d);
     return a.x >= a.y && a.x >= a.z ? (d.x > 0.0 ? 0 : 1)
            : a.y >= a.z            ? (d.y > 0.0 ? 2 : 3)
@@ -88,18 +88,18 @@ int faceOf(float maps, vec3 d) {
 
 // Where a light's maps were drawn from: another sample's place, where it has none of its own.
 vec3 shadowOrigin(Light l) {
-    return l.shadow.w >= 2.0 ? lights[int(l.shadow.w) - 2].sampled.xyz : l.sampled.xyz;
+    return l.mapsFrom >= 0 ? lights[l.mapsFrom].sampled : l.sampled;
 }
 
 // Whether a light's sample reaches a point, as far as its maps tell.
 float reaches(Light l, vec3 p) {
     vec3 d = p - shadowOrigin(l);
-    int map = int(l.shadow.x) + faceOf(l.shadow.y, d);
-    if (isTube() && l.shadow.z > 0.0) {
-        int finer = int(l.shadow.x + l.shadow.y) + faceOf(l.shadow.z, d);
+    int map = l.firstMap + faceOf(l.maps, d);
+    if (isTube() && l.fibreMaps > 0) {
+        int finer = l.firstMap + l.maps + faceOf(l.fibreMaps, d);
         if (isShown(shadowMatrices[finer], p)) map = finer;
     }
-    vec3 towards = l.sampled.w != 0.0 ? -d : l.sampled.xyz;
+    vec3 towards = isAtPlace(l) ? -d : l.sampled;
     return isInFront(true, shadowMaps, shadowMatrices[map], map, p, planeTowards(normalize(towards)), 1e-6);
 }
 
@@ -138,24 +138,24 @@ float skyReaches(vec3 wi) {
 
 // Share of the light's sample that arrives; the colour of shadows where it does not.
 vec3 shadowAt(Light l, vec3 wi) {
-    if (l.shadow.x < 0.0) return vec3(1.0);
+    if (l.firstMap < 0) return vec3(1.0);
     vec3 p = departure(wi);
-    if (l.shadow.y == 0.0) return mix(l.shadowColor.rgb, vec3(1.0), skyReaches(wi));
-    float away = l.shadow.w != 0.0 ? length(point.position - shadowOrigin(l)) : 1.0;
+    if (l.maps == 0) return mix(l.shadowColor, vec3(1.0), skyReaches(wi));
+    float away = isAtPlace(l) ? length(point.position - shadowOrigin(l)) : 1.0;
     float seen = reaches(l, p);
-    if (seen < 1.0 && l.fade.x > 0.0) {
+    if (seen < 1.0 && l.shadowDistance > 0.0) {
         // What is nearest to the light is further off than h where the point moved by h is lit.
-        int steps = l.fade.y > 0.0 ? 8 : 1;
-        float start = l.fade.y > 0.0 ? max(l.fade.x - l.fade.y, 0.0) : l.fade.x;
+        int steps = l.shadowFalloff > 0.0 ? 8 : 1;
+        float start = l.shadowFalloff > 0.0 ? max(l.shadowDistance - l.shadowFalloff, 0.0) : l.shadowDistance;
         float blocked = 0.0, last = 1.0 - seen, depth = 1.0;
         for (int i = 0; i < steps; ++i) {
-            float h = steps > 1 ? mix(start, l.fade.x, (float(i) + 0.5) / float(steps)) : start;
-            float now = l.shadow.w != 0.0 && h >= away ? 0.0 : min(1.0 - reaches(l, p + wi * h), last);
+            float h = steps > 1 ? mix(start, l.shadowDistance, (float(i) + 0.5) / float(steps)) : start;
+            float now = isAtPlace(l) && h >= away ? 0.0 : min(1.0 - reaches(l, p + wi * h), last);
             blocked += (last - now) * depth;
-            depth = steps > 1 ? pow(clamp((l.fade.x - h) / l.fade.y, 0.0, 1.0), l.fade.z) : 0.0;
+            depth = steps > 1 ? pow(clamp((l.shadowDistance - h) / l.shadowFalloff, 0.0, 1.0), l.shadowGamma) : 0.0;
             last = now;
         }
         seen = 1.0 - blocked;
     }
-    return mix(l.shadowColor.rgb, vec3(1.0), seen);
+    return mix(l.shadowColor, vec3(1.0), seen);
 }

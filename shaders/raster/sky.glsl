@@ -23,7 +23,7 @@ void keepLobes(int kinds) {
 
 // Irradiance of a dome by its harmonics; see SkyHarmonics.
 vec3 domeIrradiance(Light l, vec3 normal) {
-    if (l.cone.z < 0.0) return PI * l.origin.xyz;
+    if (l.firstHarmonic < 0) return PI * l.domeRadiance;
     vec3 n = toDome(l, normal);
     float h[9] = float[9](0.282094792, 0.488602512 * n.y, 0.488602512 * n.z, 0.488602512 * n.x,
                           1.092548431 * n.x * n.y, 1.092548431 * n.y * n.z,
@@ -31,25 +31,25 @@ vec3 domeIrradiance(Light l, vec3 normal) {
                           0.546274215 * (n.x * n.x - n.y * n.y));
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 9; ++i)
-        sum += h[i] * lightTables[int(l.cone.z) + i].xyz;
-    return l.origin.xyz * max(sum, vec3(0.0));
+        sum += h[i] * lightTables[l.firstHarmonic + i].xyz;
+    return l.domeRadiance * max(sum, vec3(0.0));
 }
 
 vec3 prefiltered(Light l, vec3 wi, float alpha) {
-    if (l.cone.x < 0.0) return l.origin.xyz;
+    if (l.domeLayer < 0.0) return l.domeRadiance;
     vec2 at = domeTexel(toDome(l, wi));
     // Below the first level the image itself gets sharper, by its own smaller versions.
-    vec3 sharp = textureLod(domeMaps, vec3(at, l.cone.x), max(0.0, log2(max(alpha * alpha * sqrt(extra.x), 1e-6)))).rgb;
-    if (alpha <= 0.02) return l.origin.xyz * sharp;
+    vec3 sharp = textureLod(domeMaps, vec3(at, l.domeLayer), max(0.0, log2(max(alpha * alpha * sqrt(extra.x), 1e-6)))).rgb;
+    if (alpha <= 0.02) return l.domeRadiance * sharp;
     float level = alpha < 0.2   ? (alpha - 0.1) / 0.1
                   : alpha < 0.4 ? 1.0 + (alpha - 0.2) / 0.2
                   : alpha < 0.7 ? 2.0 + (alpha - 0.4) / 0.3
                                 : min(3.0 + (alpha - 0.7) / 0.3, 4.0);
-    float low = floor(max(level, 0.0)), first = l.cone.x * float(PREFILTERED_LEVELS);
+    float low = floor(max(level, 0.0)), first = l.domeLayer * float(PREFILTERED_LEVELS);
     vec3 a = textureLod(prefilteredMaps, vec3(at, first + low), 0.0).rgb;
     vec3 b = textureLod(prefilteredMaps, vec3(at, first + min(low + 1.0, 4.0)), 0.0).rgb;
     vec3 rough = mix(a, b, max(level, 0.0) - low);
-    return l.origin.xyz * mix(sharp, rough, clamp((alpha - 0.02) / 0.08, 0.0, 1.0));
+    return l.domeRadiance * mix(sharp, rough, clamp((alpha - 0.02) / 0.08, 0.0, 1.0));
 }
 
 // How much of the sky a surface sees: the mean over directions by the cosine, all pixels the same.
@@ -85,12 +85,12 @@ vec3 skyByLobes(bool mirrors) {
         }
         for (int k = 0; k < look.x; ++k) {
             Light l = lights[k];
-            if (int(l.radiance.w) != LIGHT_DOME || !isLit(l)) continue;
+            if (l.kind != LIGHT_DOME || !isLit(l)) continue;
             vec3 light = kind == LOBE_MIRROR ? prefiltered(l, mirrored, lobeAlpha(i))
                                              : INV_PI * domeIrradiance(l, normal);
-            vec3 shadow = l.shadow.x < 0.0 ? vec3(1.0) : mix(l.shadowColor.rgb, vec3(1.0), seen);
-            sum += lobeWeight[i] * lobeAlbedo[i] * light * shadow * l.fade.w *
-                   (kind == LOBE_DIFFUSE ? l.inverse0.w : l.inverse1.w);
+            vec3 shadow = l.firstMap < 0 ? vec3(1.0) : mix(l.shadowColor, vec3(1.0), seen);
+            sum += lobeWeight[i] * lobeAlbedo[i] * light * shadow * l.weight *
+                   (kind == LOBE_DIFFUSE ? l.diffuse : l.specular);
         }
     }
     return sum;
@@ -111,11 +111,11 @@ vec3 skyBySamples() {
         float sky = -1.0;
         for (int k = 0; k < look.x; ++k) {
             Light l = lights[k];
-            if (int(l.radiance.w) != LIGHT_DOME || !isLit(l)) continue;
+            if (l.kind != LIGHT_DOME || !isLit(l)) continue;
             vec3 light = radianceOfDome(l, s.wi, clamp(lod, 0.0, float(lightInfo.y)));
             if (sky < 0.0) sky = skyReaches(s.wi);
-            vec3 shadow = l.shadow.x < 0.0 ? vec3(1.0) : mix(l.shadowColor.rgb, vec3(1.0), sky);
-            sum += (s.diffuseWeight * l.inverse0.w + s.specularWeight * l.inverse1.w) * light * shadow * l.fade.w;
+            vec3 shadow = l.firstMap < 0 ? vec3(1.0) : mix(l.shadowColor, vec3(1.0), sky);
+            sum += (s.diffuseWeight * l.diffuse + s.specularWeight * l.specular) * light * shadow * l.weight;
         }
     }
     return sum / float(max(count, 1));

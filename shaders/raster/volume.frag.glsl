@@ -108,12 +108,11 @@ vec3 litAt(vec3 p, vec3 direction, float g, float jitter) {
     point.position = p;
     for (int i = look.y; i < counts.x; ++i) {
         Light l = lights[i];
-        int kind = int(l.radiance.w);
-        if (kind == LIGHT_DISTANT && l.origin.w > 0.0 && l.cone.x != 0.0) continue; // a dome's
-        if (kind == LIGHT_DOME && l.cone.y == 0.0) { // nobody samples it: its mean
-            sum += radianceOfDome(l, direction, max(float(lightInfo.y) - 1.0, 0.0)) * l.fade.w *
+        if ((l.flags & LIGHT_OF_DOME) != 0) continue;
+        if (l.kind == LIGHT_DOME && l.domeSamples == 0.0) { // nobody samples it: its mean
+            sum += radianceOfDome(l, direction, max(float(lightInfo.y) - 1.0, 0.0)) * l.weight *
                    lightInside(p, evenDirection(vec2(jitter, fract(17.0 * jitter))), 1e30, jitter, 0.25 * INV_PI) *
-                   (4.0 * PI * l.inverse1.w);
+                   (4.0 * PI * l.specular);
             continue;
         }
         vec3 wi;
@@ -122,7 +121,7 @@ vec3 litAt(vec3 p, vec3 direction, float g, float jitter) {
         if (radiance == vec3(0.0)) continue;
         point.geometricNormal = wi;
         sum += radiance / density * shadowAt(l, wi) *
-               lightInside(p, wi, reach, jitter, henyeyGreenstein(g, dot(direction, wi))) * l.inverse1.w;
+               lightInside(p, wi, reach, jitter, henyeyGreenstein(g, dot(direction, wi))) * l.specular;
     }
     return sum;
 }

@@ -1,30 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "shaders/lights.h"
+
+#include <cstddef>
 #include <glm/glm.hpp>
 
 namespace patina {
 
-/// A light with the sample of it that a pass takes, as shaders/raster/pass.glsl has it.
+/// A light with the sample of it that a pass takes: what lightFields.glsl says of each field.
 struct GpuLight {
-    glm::vec4 sampled, normal, radiance, origin, axis[3], inverse[3], shaping, focusTint, cone,
-        shadow, shadowColor, fade, table, shapingX, shapingY;
+#define PATINA_ROW(vector, type, number, initial)                                                  \
+    glm::vec3 vector{0.0f};                                                                        \
+    type number = initial;
+#define PATINA_NUMBERS(type, a, b, c, d, initial)                                                  \
+    type a = initial, b = initial, c = initial, d = initial;
+#include "shaders/raster/lightFields.glsl"
+#undef PATINA_ROW
+#undef PATINA_NUMBERS
 
-    /// A light with nothing in it: no shape, no shaping, no shadow, seen by all.
-    static GpuLight none() {
-        GpuLight g;
-        g.sampled = g.normal = g.radiance = g.origin = glm::vec4(0.0f);
-        for (int i = 0; i < 3; ++i)
-            g.axis[i] = g.inverse[i] = glm::vec4(0.0f, 0.0f, 0.0f, i < 2 ? 1.0f : 0.0f);
-        g.axis[2].w = -1.0f;
-        g.shaping = g.focusTint = g.cone = g.shadowColor = glm::vec4(0.0f);
-        g.shadow = glm::vec4(-1.0f, 0.0f, 0.0f, 0.0f);
-        g.fade = glm::vec4(-1.0f, -1.0f, 1.0f, 1.0f);
-        g.table = glm::vec4(-1.0f, 0.0f, 0.0f, -1.0f);
-        g.shapingX = g.shapingY = glm::vec4(0.0f);
-        return g;
+    bool is(int flag) const { return (flags & flag) != 0; }
+    void set(int flag, bool on = true) { flags = on ? flags | flag : flags & ~flag; }
+    void samplePlace(const glm::vec3& place) {
+        sampled = place;
+        set(shLights::LIGHT_AT_PLACE);
     }
+    void sampleDirection(const glm::vec3& direction, float pdf) {
+        sampled = direction;
+        normal = glm::vec3(0.0f);
+        density = pdf;
+    }
+    void setAxes(const glm::mat3& m) { axis0 = m[0], axis1 = m[1], axis2 = m[2]; }
+    void setInverse(const glm::mat3& m) { inverse0 = m[0], inverse1 = m[1], inverse2 = m[2]; }
+    /// It has no map of its own, but the shadows of the sky.
+    void castBySky() { firstMap = maps = fibreMaps = 0; }
 };
+
+// Both layouts of GLSL, std140 and std430, place these types as C++ does where rows are whole.
+#define PATINA_ROW(vector, type, number, initial)                                                  \
+    static_assert(offsetof(GpuLight, vector) % 16 == 0 && sizeof(GpuLight::number) == 4 &&         \
+                  offsetof(GpuLight, number) == offsetof(GpuLight, vector) + 12);
+#define PATINA_NUMBERS(type, a, b, c, d, initial)                                                  \
+    static_assert(offsetof(GpuLight, a) % 16 == 0 && sizeof(GpuLight::a) == 4 &&                   \
+                  offsetof(GpuLight, d) == offsetof(GpuLight, a) + 12);
+#include "shaders/raster/lightFields.glsl"
+#undef PATINA_ROW
+#undef PATINA_NUMBERS
+static_assert(sizeof(GpuLight) % 16 == 0);
 
 /// A view from a light, to be drawn into one shadow map.
 struct ShadowView {

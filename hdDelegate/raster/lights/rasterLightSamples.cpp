@@ -27,7 +27,7 @@ GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
     switch (s.kind) {
     default: { // shapes
         if (s.shape.kind == AreaShape::Kind::Sphere) {
-            g.sampled = vec4(s.shape.origin + s.shape.axes * shLights::sphereLightPlace(u), 1.0f);
+            g.samplePlace(s.shape.origin + s.shape.axes * shLights::sphereLightPlace(u));
             break;
         }
         vec3 q = shLights::shapePlace(s.kind, vec2(u));
@@ -37,24 +37,23 @@ GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
             image = s.image->sample(vec2(u), on);
             q = vec3(on, 0.0f);
         }
-        g.sampled = vec4(s.shape.origin + s.shape.axes * q, 1.0f);
-        g.normal =
-            vec4(shapeNormalAt(s.kind, s.shape, q), image * shapePlaceDensity(s.kind, s.shape, q));
+        g.samplePlace(s.shape.origin + s.shape.axes * q);
+        g.normal = shapeNormalAt(s.kind, s.shape, q);
+        g.density = image * shapePlaceDensity(s.kind, s.shape, q);
         break;
     }
     case Triangle: break; // see takeEmitters()
-    case Point: g.sampled = vec4(s.position, 1.0f); break;
+    case Point: g.samplePlace(s.position); break;
     case Line:
-        g.sampled = vec4(s.position + (u.x - 0.5f) * s.toLight, 1.0f);
-        g.normal.w = 0.5f / s.extent;
+        g.samplePlace(s.position + (u.x - 0.5f) * s.toLight);
+        g.density = 0.5f / s.extent;
         break;
     case Distant: {
         const vec3 helper = std::fabs(s.toLight.x) < 0.7f ? vec3(1, 0, 0) : vec3(0, 1, 0);
         const vec3 x = glm::normalize(glm::cross(helper, s.toLight));
         const vec3 direction =
-            shLights::distantSample({x, glm::cross(s.toLight, x), s.toLight}, g.cone.z, vec2(u));
-        g.sampled = vec4(direction, 0.0f);
-        g.normal = vec4(0.0f, 0.0f, 0.0f, s.delta ? 1.0f : 1.0f / g.cone.w);
+            shLights::distantSample({x, glm::cross(s.toLight, x), s.toLight}, g.versine, vec2(u));
+        g.sampleDirection(direction, s.delta ? 1.0f : 1.0f / (2.0f * pi * g.versine));
         break;
     }
     case Dome:
@@ -67,13 +66,13 @@ GpuLight RasterLights::draw(const Source& s, const vec3& u) const {
         } else {
             d = onSphere(vec2(u));
         }
-        g.sampled = vec4(s.domeToWorld * d, 0.0f);
-        g.normal = vec4(0.0f, 0.0f, 0.0f, pdf);
-        if (!(pdf > 0.0f)) radiance = vec3(0.0f), g.normal.w = 1.0f;
+        g.sampleDirection(s.domeToWorld * d, pdf);
+        if (!(pdf > 0.0f)) radiance = vec3(0.0f), g.density = 1.0f;
         break;
     }
     }
-    g.radiance = vec4(radiance, float(s.kind));
+    g.radiance = radiance;
+    g.kind = s.kind;
     return g;
 }
 
@@ -190,11 +189,11 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
         for (int n = 0; n < samples; ++n) {
             const uint32_t index = pass * uint32_t(samples) + uint32_t(n);
             GpuLight g = draw(s, threeNumbers(_seed, index, set));
-            g.fade.w = choice.second;
+            g.weight = choice.second;
             // The first of a dome also stands for what samples of the BSDF find.
-            if (n > 0) g.radiance.w = float(MoreDome);
+            if (n > 0) g.kind = MoreDome;
             if (_shadows && s.shadows && s.kind == Dome && _domeSamples == 0)
-                g.shadow.x = 0.0f; // has no map of its own, but shadows
+                g.castBySky();
             else if (_shadows && s.shadows)
                 castShadow(g, s.shadowCategory, passNumbers(_seed, index, set + 1), bounds, room,
                            out);
@@ -206,7 +205,7 @@ RasterLights::Sampled RasterLights::sample(uint32_t pass, const RasterEmitters& 
     out.taken = int(out.lights.size());
     out.look[0] = out.look[2] = out.taken;
     for (size_t i = 0; i < _sources.size(); ++i)
-        if (!taken[i] && _sources[i].fixed.inverse[2].w != 0.0f)
+        if (!taken[i] && _sources[i].fixed.is(shLights::LIGHT_IS_SEEN))
             out.lights.push_back(draw(_sources[i], vec3(0.5f)));
     return out;
 }
@@ -220,27 +219,30 @@ void RasterLights::takeEmitters(uint32_t pass, int samples, const RasterEmitters
         const RasterEmitter& e = emitters.choose(u.x, within, chance);
         // Uniform over the triangle (Turk 1990).
         const float root = std::sqrt(within);
-        GpuLight g = GpuLight::none();
-        g.sampled = vec4(e.corner + e.edge1 * (root * (1.0f - u.y)) + e.edge2 * (root * u.y), 1.0f);
-        g.normal = vec4(glm::normalize(glm::cross(e.edge1, e.edge2)), chance / e.area);
-        if (e.mirrored) g.normal = vec4(-vec3(g.normal), g.normal.w);
+        GpuLight g;
+        g.samplePlace(e.corner + e.edge1 * (root * (1.0f - u.y)) + e.edge2 * (root * u.y));
+        g.normal = glm::normalize(glm::cross(e.edge1, e.edge2));
+        g.density = chance / e.area;
+        if (e.mirrored) g.normal = -g.normal;
         const RasterEmission glow = emitters.emission(e, vec2(root * (1.0f - u.y), root * u.y));
-        g.radiance = vec4(glow.radiance, float(Triangle));
+        g.kind = Triangle;
+        g.radiance = glow.radiance;
         if (!glow.values.empty()) {
-            g.radiance = vec4(1.0f, 1.0f, 1.0f, float(Triangle));
-            g.table = vec4(float(_tables.firstOfPass() + int(out.tables.size())),
-                           float(glow.stepsOfTheta), float(glow.stepsOfTurn), -1.0f);
-            g.shaping = vec4(glow.axis, 0.0f);
-            g.shapingX = vec4(glow.x, 0.0f);
-            g.shapingY = vec4(glow.y, 0.0f);
+            g.radiance = vec3(1.0f);
+            g.firstValue = _tables.firstOfPass() + int(out.tables.size());
+            g.columns = glow.stepsOfTheta;
+            g.rows = glow.stepsOfTurn;
+            g.shapingAxis = glow.axis;
+            g.shapingX = glow.x;
+            g.shapingY = glow.y;
             for (const vec3& value : glow.values)
                 out.tables.emplace_back(value, 0.0f);
         }
-        g.axis[0] = vec4(e.edge1, 0.0f);
-        g.axis[1] = vec4(e.edge2, 0.0f);
-        g.cone = vec4(0.0f, 0.0f, e.twoSided ? 1.0f : 0.0f, 0.0f);
-        g.fade.w = 1.0f / float(samples);
-        g.axis[2].w = float(e.category);
+        g.axis0 = e.edge1;
+        g.axis1 = e.edge2;
+        g.set(shLights::LIGHT_TWO_SIDED, e.twoSided);
+        g.weight = 1.0f / float(samples);
+        g.category = e.category;
         if (_shadows) castShadow(g, -1, turn, bounds, maximum, out);
         out.lights.push_back(g);
     }

@@ -57,26 +57,33 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
     s.shadows = light.shadowEnable;
     s.shadowCategory = categoryOf(light.shadowLink, links);
     GpuLight& g = s.fixed;
-    g.shadowColor = vec4(light.shadowColor, 0.0f);
-    g.fade = vec4(light.shadowDistance, light.shadowFalloff,
-                  std::max(light.shadowFalloffGamma, 1e-3f), 1.0f);
+    g.shadowColor = light.shadowColor;
+    g.shadowDistance = light.shadowDistance;
+    g.shadowFalloff = light.shadowFalloff;
+    g.shadowGamma = std::max(light.shadowFalloffGamma, 1e-3f);
     const shLights::Shaping& beam = pose.shaping.beam();
-    g.shaping = vec4(beam.axis, beam.focus);
-    g.focusTint = vec4(beam.focusTint, beam.cone ? 1.0f : 0.0f);
-    g.cone = vec4(beam.coneStart, beam.coneEnd, 0.0f, 0.0f);
+    g.shapingAxis = beam.axis;
+    g.shapingX = beam.x;
+    g.shapingY = beam.y;
+    g.focus = beam.focus;
+    g.focusTint = beam.focusTint;
+    g.set(shLights::LIGHT_HAS_CONE, beam.cone);
+    g.coneStart = beam.coneStart;
+    g.coneEnd = beam.coneEnd;
     const ProfileTable profile = _tables.profile(light, diagnostics);
-    g.table.w = float(profile.first);
-    g.shapingX = vec4(beam.x, float(profile.thetas));
-    g.shapingY = vec4(beam.y, float(profile.phis));
+    g.firstProfile = profile.first;
+    g.profileThetas = profile.thetas;
+    g.profilePhis = profile.phis;
     bool cameraVisible = light.cameraVisible;
     switch (is.kind) {
     case ResolvedLight::Kind::Distant:
         s.kind = Distant;
         s.toLight = pose.toLight;
-        g.cone = vec4(0.0f, 0.0f, is.versine, 2.0f * pi * is.versine);
+        g.versine = is.versine;
         _hasWideSun |= is.versine > narrowSun;
-        g.origin = vec4(s.toLight, 0.0f);
-        s.weight = luminance(glm::abs(s.radiance)) * (s.delta ? 1.0f : std::min(g.cone.w, pi));
+        g.axis2 = s.toLight;
+        s.weight = luminance(glm::abs(s.radiance)) *
+                   (s.delta ? 1.0f : std::min(2.0f * pi * is.versine, pi));
         break;
     case ResolvedLight::Kind::Dome:
         s.domeToWorld = pose.domeToWorld;
@@ -92,18 +99,18 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
         const float length = glm::length(pose.along);
         s.kind = Line;
         s.toLight = pose.along;
-        g.axis[0] = vec4(pose.along / length, 0.0f);
+        g.axis0 = pose.along / length;
         s.extent = 0.5f * length;
         s.weight = luminance(glm::abs(s.radiance)) * length;
         break;
     }
     default: s.shape = pose.shape; addShape(s, light, images);
     }
-    g.axis[2].w = float(categoryOf(light.lightLink, links));
-    g.inverse[0].w = light.diffuse;
-    g.inverse[1].w = light.specular;
-    g.inverse[2].w = cameraVisible && !s.delta ? 1.0f : 0.0f;
-    if (s.delta) g.origin.w = 1.0f;
+    g.category = categoryOf(light.lightLink, links);
+    g.diffuse = light.diffuse;
+    g.specular = light.specular;
+    g.set(shLights::LIGHT_IS_SEEN, cameraVisible && !s.delta);
+    g.set(shLights::LIGHT_IS_DELTA, s.delta);
     _sources.push_back(s);
     if (light.type == LightType::Dome && s.sunIrradiance != vec3(0.0f)) {
         Source sun = s;
@@ -113,9 +120,10 @@ void RasterLights::add(const Light& light, const mat4& toWorld, const RenderSett
         sun.radiance = s.radiance * s.sunIrradiance;
         sun.weight = luminance(glm::abs(sun.radiance));
         sun.environment = nullptr;
-        sun.fixed.origin = vec4(sun.toLight, 1.0f);
-        sun.fixed.cone = vec4(1.0f, 0.0f, 0.0f, 0.0f);
-        sun.fixed.inverse[2].w = 0.0f;
+        sun.fixed.axis2 = sun.toLight;
+        sun.fixed.set(shLights::LIGHT_IS_DELTA);
+        sun.fixed.set(shLights::LIGHT_OF_DOME);
+        sun.fixed.set(shLights::LIGHT_IS_SEEN, false);
         _sources.push_back(sun);
     }
 }
@@ -141,10 +149,11 @@ void RasterLights::addDome(Source& s, const Light& light, LightImages& images, R
             s.sunIrradiance = sky.sunIrradiance;
         }
     }
-    for (int i = 0; i < 3; ++i)
-        g.axis[i] = vec4(s.domeToWorld[i], 0.0f);
-    g.cone = vec4(float(layer), float(_domeSamples), float(first), 0.0f);
-    g.origin = vec4(s.radiance, 0.0f);
+    g.setAxes(s.domeToWorld);
+    g.domeRadiance = s.radiance;
+    g.domeLayer = float(layer);
+    g.domeSamples = float(_domeSamples);
+    g.firstHarmonic = first;
 }
 
 /// The parameters of a shape, and a rect's image.
@@ -153,17 +162,17 @@ void RasterLights::addShape(Source& s, const Light& light, LightImages& images) 
     GpuLight& g = s.fixed;
     if (const RectImage* image = _tables.rect(light, images)) {
         s.image = image;
-        g.table = vec4(float(image->first), float(image->width), float(image->height), g.table.w);
+        g.firstValue = image->first;
+        g.columns = image->width;
+        g.rows = image->height;
     }
     vec3 low(INFINITY), high(-INFINITY);
     growBounds(s.shape, low, high);
     s.extent = 0.5f * glm::length(high - low);
     s.weight = luminance(glm::abs(s.radiance)) * 0.25f * s.extent * s.extent * pi;
-    for (int i = 0; i < 3; ++i) {
-        g.axis[i] = vec4(s.shape.axes[i], 0.0f);
-        g.inverse[i] = vec4(s.shape.inverse[i], 0.0f);
-    }
-    g.origin = vec4(s.shape.origin, 0.0f);
+    g.setAxes(s.shape.axes);
+    g.setInverse(s.shape.inverse);
+    g.origin = s.shape.origin;
     s.position = s.shape.origin;
 }
 

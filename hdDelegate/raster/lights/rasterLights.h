@@ -84,11 +84,18 @@ public:
         maxCoarseSamples * RasterEmission::maxValues;
 
 private:
-    /// Those of AreaShape, and, with the numbers of lights.glsl:
-    enum Kind { Point = 100, Distant, Dome, MoreDome, Line, Triangle };
+    /// Those of AreaShape, and of shaders/lights/kinds.glsl:
+    enum Kind {
+        Point = shLights::LIGHT_POINT,
+        Distant = shLights::LIGHT_DISTANT,
+        Dome = shLights::LIGHT_DOME,
+        MoreDome = shLights::LIGHT_MORE_DOME,
+        Line = shLights::LIGHT_LINE,
+        Triangle = shLights::LIGHT_TRIANGLE,
+    };
     struct Source {
         Kind kind = Point;
-        GpuLight fixed = GpuLight::none();
+        GpuLight fixed;
         AreaShape shape;
         vec3 radiance{0.0f}, position{0.0f}, toLight{0.0f};
         float weight = 0.0f; ///< rough luminous power, for choosing among lights

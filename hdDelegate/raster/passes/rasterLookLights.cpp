@@ -26,7 +26,7 @@ constexpr float sharpSun = 3.4e-4f;
 /// As many as there is a use for; 1 where all are alike.
 int RasterLights::lookSamples(const Source& s) const {
     if (s.kind == Dome) return _domeSamples > 0 ? maxPooled : 1;
-    if (s.kind == Distant) return s.fixed.cone.z > sharpSun ? maxPooled / 2 : 1;
+    if (s.kind == Distant) return s.fixed.versine > sharpSun ? maxPooled / 2 : 1;
     return s.kind == Point || (s.delta && s.kind != Line) ? 1 : maxPooled / 2;
 }
 
@@ -39,7 +39,7 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
     const auto cast = [&](GpuLight& g, uint32_t index) {
         if (!_shadows || !s.shadows) return;
         if (dome && _domeSamples == 0)
-            g.shadow.x = 0.0f; // has no map of its own, but shadows
+            g.castBySky();
         else
             castShadow(g, s.shadowCategory, passNumbers(_seed, index, set + 1), bounds, maximum,
                        out);
@@ -56,17 +56,17 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
     for (uint32_t n = 0; n < drawn; ++n) {
         const uint32_t index = pass * drawn + n;
         GpuLight g = draw(s, threeNumbers(_seed, index, set));
-        (dome && g.normal.w > peakDensity ? peaks : all).emplace_back(index, g);
+        (dome && g.density > peakDensity ? peaks : all).emplace_back(index, g);
     }
     const float found = float(all.size()) / float(drawn);
     const auto toSamples = [&] {
         std::vector<DomeSample> to;
         for (const auto& [index, g] : all) {
             // What samples of diffuse BSDFs leave to them: see fromLight() in lighting.frag.glsl.
-            const float own = float(samples / every) * g.normal.w;
+            const float own = float(samples / every) * g.density;
             const float diffuse = float(RasterLook::bsdfSamples) * 0.2f;
             const float share = own * own / std::max(own * own + diffuse * diffuse, 1e-20f);
-            to.push_back({vec3(g.sampled), vec3(g.radiance) * (share / g.normal.w)});
+            to.push_back({g.sampled, g.radiance * (share / g.density)});
         }
         return to;
     };
@@ -76,7 +76,7 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
     if (dome) {
         const std::vector<vec3> factors = lookWeights(toSamples(), many);
         for (size_t k = 0; k < all.size(); ++k)
-            all[k].second.radiance = vec4(vec3(all[k].second.radiance) * factors[k], float(Dome));
+            all[k].second.radiance *= factors[k];
     }
     const size_t shares = std::min<size_t>(peaks.size(), maxPeaks);
     const float perPixel = float(samples / every);
@@ -85,26 +85,28 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
     const auto take = [&](uint32_t index, GpuLight g, float weight, std::vector<GpuLight>& to) {
         if (dome) {
             // Densities of domes are those of all samples together.
-            g.cone.y = 1.0f;
-            g.radiance.w = float(MoreDome);
+            g.domeSamples = 1.0f;
+            g.kind = MoreDome;
         }
-        g.axis[0].w = perPixel;
-        g.fade.w = weight;
+        g.perPixel = perPixel;
+        g.weight = weight;
         const int number = taken++;
         if (number < mapped || &to == &shared) {
             cast(g, index);
             if (!dome) origins.push_back(to.size());
         } else if (_shadows && s.shadows && dome) {
-            g.shadow = vec4(0.0f); // the sky's
+            g.castBySky();
         } else if (!origins.empty()) {
             const size_t origin = origins[size_t(number) % origins.size()];
-            g.shadow = to[origin].shadow;
-            if (g.shadow.x >= 0.0f && g.shadow.w != 0.0f) g.shadow.w = 2.0f + float(origin);
+            g.firstMap = to[origin].firstMap;
+            g.maps = to[origin].maps;
+            g.fibreMaps = to[origin].fibreMaps;
+            if (g.firstMap >= 0 && g.is(shLights::LIGHT_AT_PLACE)) g.mapsFrom = int(origin);
         }
         to.push_back(g);
     };
     // Those that are taken are as bright as all are.
-    const auto light = [](const GpuLight& g) { return vec3(g.radiance) / g.normal.w; };
+    const auto light = [](const GpuLight& g) { return g.radiance / g.density; };
     vec3 wanted(0.0f), had(0.0f);
     for (const auto& peak : peaks)
         wanted += light(peak.second) / float(peaks.size());
@@ -119,9 +121,9 @@ void RasterLights::addLook(const Source& s, size_t number, uint32_t pass, int sa
     for (const auto& [index, g] : all)
         take(index, g, found / float(all.size()), pool);
     GpuLight g = !pool.empty() ? pool.back() : !shared.empty() ? shared.back() : s.fixed;
-    g.radiance.w = float(s.kind);
-    g.axis[0].w = perPixel;
-    g.fade.w = 1.0f;
+    g.kind = s.kind;
+    g.perPixel = perPixel;
+    g.weight = 1.0f;
     if (s.kind != Line) looked.push_back(g);
 }
 
@@ -182,7 +184,7 @@ void RasterLights::join(Sampled& out, const std::vector<GpuLight>& looked,
                         const std::vector<GpuLight>& shared, std::vector<GpuLight> pool) {
     const size_t first = looked.size() + shared.size();
     for (GpuLight& g : pool)
-        if (g.shadow.w >= 2.0f) g.shadow.w += float(first);
+        if (g.mapsFrom >= 0) g.mapsFrom += int(first);
     out.lights = looked;
     out.lights.insert(out.lights.end(), shared.begin(), shared.end());
     out.lights.insert(out.lights.end(), pool.begin(), pool.end());

@@ -289,7 +289,7 @@ void RasterPasses::drawImage(const RasterScene& scene, const RasterLights& light
         matrices.push_back(v.worldToMap);
     static_assert(RasterLights::maxTaken * sizeof(GpuLight) <= 63232, "see isEnough()");
     std::vector<GpuLight> taken(sampled.lights.begin(), sampled.lights.begin() + sampled.taken);
-    taken.resize(RasterLights::maxTaken, GpuLight::none());
+    taken.resize(RasterLights::maxTaken);
     const GlBuffer lightBuffer(sampled.lights), takenBuffer(taken), matrixBuffer(matrices);
 
     const RasterView view = camera.view(sample.offset, sample.lens, sample.time, scene.boundsMin(),

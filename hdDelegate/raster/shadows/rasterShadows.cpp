@@ -30,7 +30,7 @@ mat4 looking(const vec3& from, const vec3& direction, float turn) {
 
 /// @returns what ShadowView::worldToLight is for a sample of a flat emitter
 mat4 planeOf(const GpuLight& light, const ShadowBounds& bounds) {
-    const vec3 n(light.normal), from(light.sampled);
+    const vec3 n = light.normal, from = light.sampled;
     const vec3 x =
         glm::normalize(glm::cross(n, std::fabs(n.x) < 0.7f ? vec3(1, 0, 0) : vec3(0, 1, 0)));
     const vec3 y = glm::cross(n, x);
@@ -39,8 +39,8 @@ mat4 planeOf(const GpuLight& light, const ShadowBounds& bounds) {
         const vec3 a = glm::abs(v);
         return std::max({a.x, a.y, a.z});
     };
-    const float place = std::max(
-        {largest(from), glm::length(vec3(light.axis[0])), glm::length(vec3(light.axis[1]))});
+    const float place =
+        std::max({largest(from), glm::length(light.axis0), glm::length(light.axis1)});
     const float thin = std::max(4e-6f * place, 1e-30f);
     // Further away the same error is too small an angle to be seen.
     const vec3 receivers = 0.5f * (bounds.receiverMin + bounds.receiverMax);
@@ -125,38 +125,41 @@ ShadowView distantShadow(const vec3& toLight, vec2 turn, const ShadowBounds& bou
 
 void RasterLights::castShadow(GpuLight& light, int category, vec2 turn, const ShadowBounds& bounds,
                               int maximum, Sampled& out) const {
-    const float first = float(out.shadows.size());
+    const int first = int(out.shadows.size());
     const int maps = castOnto(light, category, turn, bounds, maximum, out);
     if (maps == 0) return;
     const int more =
         out.fibres ? castOnto(light, category, turn, bounds.ofFibres(), maximum, out) : 0;
-    light.shadow = vec4(first, float(maps), float(more), light.sampled.w == 0.0f ? 0.0f : 1.0f);
+    light.firstMap = first;
+    light.maps = maps;
+    light.fibreMaps = more;
 }
 
 int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
                            const ShadowBounds& bounds, int maximum, Sampled& out) const {
     const auto full = [&](int more) { return int(out.shadows.size()) + more > maximum; };
-    const int kind = int(light.radiance.w);
+    const int kind = light.kind;
     const bool flat = kind == Triangle || isFlatShape(kind);
+    const bool atPlace = light.is(shLights::LIGHT_AT_PLACE);
     const auto cast = [&](const mat4& worldToMap, bool clampsNear) {
-        ShadowView view{worldToMap, light.sampled, category, clampsNear};
+        ShadowView view{worldToMap, vec4(light.sampled, atPlace ? 1.0f : 0.0f), category,
+                        clampsNear};
         if (kind == shLights::SHAPE_SPHERE) {
             view.own = ShadowView::Sphere;
-            const mat3 inverse(vec3(light.inverse[0]), vec3(light.inverse[1]),
-                               vec3(light.inverse[2]));
-            view.worldToLight = mat4(inverse) * glm::translate(mat4(1.0f), -vec3(light.origin));
+            const mat3 inverse(light.inverse0, light.inverse1, light.inverse2);
+            view.worldToLight = mat4(inverse) * glm::translate(mat4(1.0f), -light.origin);
         } else if (flat) {
             view.own = ShadowView::Plane;
             view.worldToLight = planeOf(light, bounds);
         }
         out.shadows.push_back(view);
     };
-    if (light.sampled.w == 0.0f) {
+    if (!atPlace) {
         if (full(1)) return 0;
-        cast(distantShadow(vec3(light.sampled), turn, bounds, out.mapSize).worldToMap, true);
+        cast(distantShadow(light.sampled, turn, bounds, out.mapSize).worldToMap, true);
         return 1;
     }
-    const vec3 from = vec3(light.sampled);
+    const vec3 from = light.sampled;
     const vec3 center = 0.5f * (bounds.receiverMin + bounds.receiverMax);
     const float radius = 0.5f * glm::length(bounds.receiverMax - bounds.receiverMin);
     const float distance = glm::length(center - from);
@@ -173,7 +176,7 @@ int RasterLights::castOnto(const GpuLight& light, int category, vec2 turn,
         if (full(1)) return 0;
         // Numbers are for where shadows fall, but of fading shadows, which are looked for on all of
         // the way.
-        const bool clamps = !(light.fade.x > 0.0f);
+        const bool clamps = !(light.shadowDistance > 0.0f);
         const float nearest = clamps ? std::max(0.95f * cone.nearest, minimum) : minimum;
         cast(frustum(1.02f * cone.tangent, nearest) * looking(from, cone.axis, turn.x), clamps);
         return 1;

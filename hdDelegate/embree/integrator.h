@@ -96,8 +96,8 @@ private:
     bool bendPhoton(Path& path, const SurfacePoint& point, bool first) const;
     vec3 photonLight(const Path& path, const SurfacePoint& point, const Bsdf& bsdf,
                      float width) const;
-    /// Shows photons where the path meets a surface that is no glass, and notes which light they have
-    /// from there.
+    /// Shows photons where the path meets a surface that is no glass, and notes which light they
+    /// have from there.
     /// @param width of the ray's cone
     void meetCaustics(Path& path, const SurfacePoint& point, const Bsdf& bsdf, float width) const;
     void depart(Path& path, const SurfacePoint& point, const Hit& hit, const VertexBsdf& bsdf,
@@ -144,7 +144,7 @@ private:
     int _denoisingAlbedo = -1, _denoisingNormal = -1; ///< places in the film, or -1
     PixelFilter _filter;
     const PhotonPass* _photons = nullptr; ///< of the samples that are taken now
-    MediumStack _cameraMedia; ///< that the camera stands in
+    MediumStack _cameraMedia;             ///< that the camera stands in
     bool _cullBack, _cullFront, _cullDoubleSided, _ambientOcclusion;
     int _lightSamples; ///< at the first vertex
 };

@@ -41,7 +41,7 @@ struct Path {
     HeroWavelengths waves;
 
     // caustics from photons, see integratorCaustics.cpp
-    bool onPhotons = false; ///< since a surface that shows photons it has met casters alone
+    bool onPhotons = false;      ///< since a surface that shows photons it has met casters alone
     bool throughCasters = false; ///< and the last vertex is one of them: photons have its light
 
     // for the denoiser: the first surface that is no mirror

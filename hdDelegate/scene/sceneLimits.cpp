@@ -62,8 +62,7 @@ void SceneLimits::report() {
         if (refused.count > 0)
             _diagnostics.warn(refused.first, "",
                               "the scene has more " + std::string(refused.what) + " than " +
-                                  limitText(refused.limit) +
-                                  "; the prim is left out, and " +
+                                  limitText(refused.limit) + "; the prim is left out, and " +
                                   std::to_string(refused.count - 1) + " others");
 }
 

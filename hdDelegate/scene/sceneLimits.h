@@ -24,8 +24,7 @@ public:
         : _triangles(triangles), _diagnostics(diagnostics) {}
     ~SceneLimits() { report(); }
 
-    template <class T>
-    void keep(const PrimMap<T>& prims, typename PrimMap<T>::Changes& changes) {
+    template <class T> void keep(const PrimMap<T>& prims, typename PrimMap<T>::Changes& changes) {
         size_t count = prims.size();
         for (const auto& [path, after] : changes) { // what goes makes room first
             const auto before = prims.find(path);

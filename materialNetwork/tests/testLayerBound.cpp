@@ -23,8 +23,8 @@ TEST(LayerBound, NoMoreLeavesThanTheBaseHasOfWhatEnters) {
         const float coverage = share(), inside = share(), alpha = share(), z = share();
         const sh::LayerLight base =
             sh::layerLight(glm::vec3(mirrored), glm::vec3(spread), glm::vec3(0.0f));
-        const sh::LayerLight through = sh::layerThrough(1.0f, glm::vec3(coverage),
-                                                        glm::vec3(inside), alpha, z, base);
+        const sh::LayerLight through =
+            sh::layerThrough(1.0f, glm::vec3(coverage), glm::vec3(inside), alpha, z, base);
         const float leaves = through.mirrored.x * mirrored + through.spread.x * spread;
         // Five roundings of numbers near 1, each 2^-24, over a divisor of 1e-6 at least: 0.3.
         ASSERT_LE(leaves, (1.0f - coverage) * (mirrored + spread) * 1.3f)

@@ -261,9 +261,9 @@ TEST_F(MtlxHostile, MaterialsThatMultiplyAreGivenUpTogether) {
     for (const Network& network : networks)
         EXPECT_TRUE(network.empty() && network.nodes.empty());
     // Six times 200000 is beyond the bound of the document.
-    EXPECT_TRUE(
-        reported("the materials come to more nodes than five times 200000 (--limit nodes); the last "
-                 "994 are left out"));
+    EXPECT_TRUE(reported(
+        "the materials come to more nodes than five times 200000 (--limit nodes); the last "
+        "994 are left out"));
     EXPECT_EQ(diagnostics.count(), 6 + 1);
 }
 

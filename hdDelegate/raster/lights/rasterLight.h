@@ -19,8 +19,12 @@ struct GpuLight {
 #undef PATINA_ROW
 #undef PATINA_NUMBERS
 
-    bool is(int flag) const { return (flags & flag) != 0; }
-    void set(int flag, bool on = true) { flags = on ? flags | flag : flags & ~flag; }
+    bool is(int flag) const {
+        return (flags & flag) != 0;
+    }
+    void set(int flag, bool on = true) {
+        flags = on ? flags | flag : flags & ~flag;
+    }
     void samplePlace(const glm::vec3& place) {
         sampled = place;
         set(shLights::LIGHT_AT_PLACE);
@@ -30,10 +34,16 @@ struct GpuLight {
         normal = glm::vec3(0.0f);
         density = pdf;
     }
-    void setAxes(const glm::mat3& m) { axis0 = m[0], axis1 = m[1], axis2 = m[2]; }
-    void setInverse(const glm::mat3& m) { inverse0 = m[0], inverse1 = m[1], inverse2 = m[2]; }
+    void setAxes(const glm::mat3& m) {
+        axis0 = m[0], axis1 = m[1], axis2 = m[2];
+    }
+    void setInverse(const glm::mat3& m) {
+        inverse0 = m[0], inverse1 = m[1], inverse2 = m[2];
+    }
     /// It has no map of its own, but the shadows of the sky.
-    void castBySky() { firstMap = maps = fibreMaps = 0; }
+    void castBySky() {
+        firstMap = maps = fibreMaps = 0;
+    }
 };
 
 // Both layouts of GLSL, std140 and std430, place these types as C++ does where rows are whole.

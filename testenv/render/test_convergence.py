@@ -21,10 +21,10 @@ NAMES = sorted(os.path.splitext(os.path.basename(path))[0] for path in glob.glob
 COUNTS, SEEDS = (16, 64, 256), (11, 12, 13)
 # Caustics through glass, and paths from hair to hair into its highlights, are found so rarely that 16 samples miss most of
 # them and err too little.
-LATER = {"roughGlass": (64, 256, 1024), "hair": (64, 256, 1024), "caustics": (64, 256, 1024)}
-# Paths find next to nothing of these caustics. Samples of a block of 16 share photons, and the variance falls as the power 2/3
-# of their number alone, for the radius shrinks (Knaus and Zwicker 2011): a slope of -1/3, and the same 0.05.
-ARGUMENTS, BOUNDS = {"caustics": ("--method", "caustics=photons")}, {"caustics": -0.28}
+LATER = {"roughGlass": (64, 256, 1024), "hair": (64, 256, 1024)}
+# Paths find next to nothing of its caustics, and photons blur their edges: neither error falls as noise does. test_caustics.py has
+# closed forms of them.
+NAMES.remove("caustics")
 
 
 def trimmed_rmse(image, reference):
@@ -37,8 +37,7 @@ FEW = (4, 16, 64)  # of all but LATER, which need the counts above
 
 def slope(name, width, counts, seeds):
     """:returns: of log RMSE over log samples, and the errors; no slope where next to nothing is random"""
-    stage = inProcess.Stage(scene(name), "--imageWidth", width, "--imageHeight", round(width * 9 / 16),
-                           *ARGUMENTS.get(name, ()))
+    stage = inProcess.Stage(scene(name), "--imageWidth", width, "--imageHeight", round(width * 9 / 16))
     reference = stage.image(1, samples=counts[-1] * 16)
     if np.ptp(reference) == 0 or name == "furnace":
         return None, [trimmed_rmse(stage.image(2, samples=samples), reference) for samples in counts]
@@ -56,7 +55,7 @@ def falls(name, found, errors, bound):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_error_falls_with_samples(name):
-    falls(name, *slope(name, 48, LATER.get(name, COUNTS), SEEDS), BOUNDS.get(name, -0.45))
+    falls(name, *slope(name, 48, LATER.get(name, COUNTS), SEEDS), -0.45)
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name not in LATER and name != "furnace"])

@@ -22,8 +22,8 @@ COUNTS, SEEDS = (16, 64, 256), (11, 12, 13)
 # Caustics through glass, and paths from hair to hair into its highlights, are found so rarely that 16 samples miss most of
 # them and err too little.
 LATER = {"roughGlass": (64, 256, 1024), "hair": (64, 256, 1024)}
-# Paths find next to nothing of its caustics, and photons blur their edges: neither error falls as noise does. test_caustics.py has
-# closed forms of them.
+# Paths find next to nothing of its caustics, and photons blur their edges: neither error falls as noise does. test_caustics.py
+# has closed forms of them.
 NAMES.remove("caustics")
 
 

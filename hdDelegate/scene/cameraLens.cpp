@@ -33,6 +33,14 @@ vec2 CameraLens::fieldsOfView() const {
     return glm::radians(own);
 }
 
+bool needsRays(const Camera& camera) {
+    const CameraLens& lens = camera.lens;
+    const bool oneEye = lens.stereo == StereoView::Left || lens.stereo == StereoView::Right;
+    return !lens.standard() || !lens.distortionMap.empty() || lens.distortionK1 != 0.0f ||
+           lens.distortionK2 != 0.0f ||
+           !(lens.stereo == StereoView::Mono || (oneEye && !camera.orthographic));
+}
+
 double imageAspect(const Camera& camera) {
     const CameraLens& lens = camera.lens;
     double aspect = camera.horizontalAperture > 0.0f && camera.verticalAperture > 0.0f

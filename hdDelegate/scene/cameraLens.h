@@ -52,4 +52,7 @@ struct CameraLens {
 /// fields of view; twice or half as much where both eyes share it. 16 / 9 where there is none.
 double imageAspect(const Camera& camera);
 
+/// Whether a camera has what only rays show: a projection that is no plane, distortion, both eyes.
+bool needsRays(const Camera& camera);
+
 } // namespace patina

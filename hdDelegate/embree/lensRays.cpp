@@ -113,7 +113,8 @@ LensRay LensRays::ray(vec2 pixel, vec2 lens, vec2 within) const {
             0.5f + (place - 0.5f) * (1.0f + r2 * (_lens.distortionK1 + r2 * _lens.distortionK2));
     }
     View view;
-    view.seen = std::isfinite(place.x + place.y);
+    constexpr float farthest = 1e6f; // films; what is not finite is not less, either
+    view.seen = std::abs(place.x) + std::abs(place.y) < farthest;
     if (view.seen) view = (this->*_project)(place);
     LensRay ray;
     ray.seen = view.seen;

@@ -255,3 +255,14 @@ TEST(LensRays, AnIdentityOfAMapChangesNoBit) {
             EXPECT_EQ(a.coneSpread, b.coneSpread);
         }
 }
+
+TEST(LensRays, WhereAMapShowsNoPlaceIsNothing) {
+    Camera camera = cameraOf(LensProjection::Standard);
+    camera.lens.distortionMap = "broken";
+    for (float bad : {std::nanf(""), INFINITY, 3e38f}) {
+        const std::vector<vec2> places(4, vec2(0.5f, bad));
+        const CameraRays rays(camera, image(10, 10), dvec3(0.0),
+                              std::make_shared<const DistortionMap>(2, 2, places));
+        EXPECT_FALSE(rays.ray({5, 5}, vec2(0.5f), 0.0f).seen) << bad;
+    }
+}

@@ -95,7 +95,8 @@ if(TARGET _patina)
     install(FILES plugin/python/_patina.pyi DESTINATION ${pythonFolder})
     install(DIRECTORY plugin/patina DESTINATION ${pythonFolder}
         PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
-    foreach(table hdDelegate/scene/settings.def hdDelegate/scene/primMarks.def hdDelegate/film/aovs.def
+    foreach(table hdDelegate/scene/settings.def hdDelegate/scene/primMarks.def
+            hdDelegate/scene/cameraInputs.def hdDelegate/film/aovs.def
             materialNetwork/limits.def)
         get_filename_component(folder ${table} DIRECTORY)
         install(FILES ${table} DESTINATION ${pythonFolder}/patina/tables/${folder})

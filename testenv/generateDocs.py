@@ -3,7 +3,7 @@
 
     ./patina python testenv/generateDocs.py [--check] [PAGE ...]
 
-Pages: nodes, flags, limits, methods, aovs, marks, byDesign, messages, benchmarks, trust (docs/trust.md).
+Pages: nodes, flags, limits, methods, aovs, marks, cameras, byDesign, messages, benchmarks, trust (docs/trust.md).
 testenv/lint/test_generatedDocs.py fails where one is stale.
 """
 import argparse
@@ -195,6 +195,16 @@ def marks():
             *table(("primvar", "meaning"), rows)]
 
 
+def cameras():
+    from patina.cli import rows as tables
+
+    rows = [(f"`{row.text(0)}`", row.text(2)) for row in tables.read("hdDelegate/scene/cameraInputs.def", "CAMERA_INPUT")]
+    return ["# Attributes of cameras", "", "What a camera may have beyond UsdGeomCamera's attributes. The table is",
+            "`hdDelegate/scene/cameraInputs.def`. Of several the lower ones are stronger. Each may also be a primvar of the",
+            "camera, `primvars:` before its name, which is weaker. Defaults stand in brackets. [Cameras](../design/cameras.md)",
+            "has the meanings.", "", *table(("attribute", "meaning"), rows)]
+
+
 def by_design():
     sys.path.append(os.path.join(ROOT, "testenv", "raster"))
     import byDesign
@@ -229,7 +239,7 @@ def trust():
     return results.page()
 
 
-PAGES = {"nodes": nodes, "flags": flags, "limits": limits, "methods": methods, "aovs": aovs, "marks": marks,
+PAGES = {"nodes": nodes, "flags": flags, "limits": limits, "methods": methods, "aovs": aovs, "marks": marks, "cameras": cameras,
          "byDesign": by_design, "messages": messages, "benchmarks": benchmarks.page, "trust": trust}
 PLACES = {"trust": os.path.join(ROOT, "docs", "trust.md")}  # of pages that are not in docs/generated
 NOTE = "<!-- Made by `./patina python testenv/generateDocs.py`; edits are lost. -->"

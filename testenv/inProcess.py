@@ -70,8 +70,7 @@ class Stage:
         self.module, self.scene, self.backend = _patina, _patina.Scene(), a.backend
         with self.scene.edit() as edit:
             self.camera = reader.read_stage(opened, edit, options).camera
-        camera = self.scene.camera(self.camera)
-        aspect = camera["horizontal_aperture"] / camera["vertical_aperture"]
+        aspect = self.scene.camera(self.camera)["image_aspect"]
         self.settings = dict(recordFlags.settings_of(a), width=a.imageWidth, checkpointSeconds=0.0,
                              height=image_height or a.imageHeight or max(1, round(a.imageWidth / aspect)))
         self.renderer = _patina.make_renderer(a.backend)

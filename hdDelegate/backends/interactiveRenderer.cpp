@@ -37,8 +37,12 @@ void InteractiveRenderer::start(std::shared_ptr<Scene> scene, const std::string&
     _last = RenderProgress();
     _quickEnded = _slowStarted = _pause = _stop = false;
     _running = true;
-    // The rasterizer knows no other integrator, and without an audience there is no hurry.
-    if (_listener && !_quickLost && settings.integrator == "path") {
+    const auto state = _scene->snapshot();
+    const auto prim = state->cameras.find(camera);
+    const bool drawn = prim == state->cameras.end() || !needsRays(*prim->second);
+    // The rasterizer knows no other integrator, and not every camera. Without an audience there is
+    // no hurry.
+    if (_listener && !_quickLost && drawn && settings.integrator == "path") {
         RenderSettings quick = settings;
         quick.samples = std::min(settings.samples, quickSamples);
         quick.seconds = 0.0;

@@ -22,6 +22,30 @@ vec2 conform(vec2 aperture, float imageAspect, const std::string& policy) {
     return aperture;
 }
 
+/// How much of the image one eye has.
+vec2 shareOf(StereoView stereo) {
+    if (stereo == StereoView::SideBySide) return {0.5f, 1.0f};
+    if (stereo == StereoView::OverUnder) return {1.0f, 0.5f};
+    return vec2(1.0f);
+}
+
+/// The smallest angle that a pixel covers anywhere on a film that is no plane.
+/// @param window width and height of the film in any unit
+float smallestAngle(const CameraLens& lens, const vec2& window, const vec2& pixels) {
+    const vec2 fields = lens.fieldsOfView();
+    const float half = 0.5f * fields.x;
+    // What a pixel is of the radius of a fisheye's circle, which spans half of the field.
+    const float step = (window.x / pixels.x) / (0.5f * std::min(window.x, window.y));
+    switch (lens.projection) {
+    case LensProjection::FisheyeEquidistant: return half * step;
+    case LensProjection::FisheyeEquisolid: return 2.0f * std::sin(0.5f * half) * step; // middle
+    case LensProjection::FisheyeStereographic: return std::sin(half) * step;           // edge
+    case LensProjection::Cylindrical: // at the upper edge
+        return std::min(fields.x / pixels.x, std::sin(fields.y) / pixels.y);
+    default: return std::min(fields.x / pixels.x, fields.y / pixels.y);
+    }
+}
+
 double largest(const dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
@@ -31,15 +55,15 @@ double largest(const dvec3& v) {
 CameraFrame::CameraFrame(const Camera& camera, const RenderSettings& settings)
     : imageSize(settings.width, settings.height), focusDistance(camera.focusDistance),
       shutterOpen(float(camera.shutterOpen)), clipNear(camera.clipNear), clipFar(camera.clipFar),
-      orthographic(camera.orthographic) {
+      orthographic(camera.orthographic && camera.lens.standard()), radial(!camera.lens.standard()) {
     constexpr float unit = 0.1f; // tenths of a scene unit
     shutterLength =
         settings.enableMotionBlur ? std::max(0.0f, float(camera.shutterClose) - shutterOpen) : 0.0f;
     vec2 aperture(std::max(1e-6f, camera.horizontalAperture),
                   std::max(1e-6f, camera.verticalAperture));
     const vec2 offset = vec2(camera.horizontalApertureOffset, camera.verticalApertureOffset) * unit;
-    const float aspect =
-        imageSize.x / imageSize.y * float(std::max(1e-6, settings.pixelAspectRatio));
+    eyeSize = imageSize * shareOf(camera.lens.stereo);
+    const float aspect = eyeSize.x / eyeSize.y * float(std::max(1e-6, settings.pixelAspectRatio));
     aperture = conform(aperture * unit, aspect, settings.aspectRatioConformPolicy);
     const float focal = std::max(1e-6f, camera.focalLength) * unit;
     // An orthographic camera's aperture is in scene units too, as GfCamera has it.
@@ -48,10 +72,12 @@ CameraFrame::CameraFrame(const Camera& camera, const RenderSettings& settings)
     windowMax = (offset + 0.5f * aperture) * scale;
     if (settings.enableDepthOfField && camera.fStop > 0.0f && focusDistance > 0.0f && !orthographic)
         lensRadius = 0.5f * focal / camera.fStop;
+    _pixelSpread = radial ? smallestAngle(camera.lens, windowMax - windowMin, eyeSize)
+                          : (windowMax.x - windowMin.x) / eyeSize.x;
 }
 
 float CameraFrame::windowDepth(const vec3& p) const {
-    const float z = -p.z;
+    const float z = depthOf(p);
     if (orthographic) return std::clamp((z - clipNear) / (clipFar - clipNear), 0.0f, 1.0f);
     if (z <= 0.0f) return 0.0f;
     return std::clamp(clipFar * (z - clipNear) / (z * (clipFar - clipNear)), 0.0f, 1.0f);

@@ -8,23 +8,33 @@
 namespace patina {
 
 /// The frame that a camera and the settings describe: its window, lens and shutter. The conform
-/// policy of the settings decides which aperture yields when the image has another shape.
+/// policy of the settings decides which aperture yields when the image has another shape. Where
+/// both eyes share the image, each has a window of its own.
 struct CameraFrame {
     CameraFrame(const Camera& camera, const RenderSettings& settings);
 
     vec2 imageSize{1.0f};                           ///< pixels
+    vec2 eyeSize{1.0f};                             ///< pixels of the part of one eye
     vec2 windowMin{0.0f}, windowMax{0.0f};          ///< at distance 1; orthographic: scene units
     float lensRadius = 0.0f;                        ///< scene units; 0: everything is sharp
     float focusDistance = 0.0f;                     ///< scene units
     float shutterOpen = 0.0f, shutterLength = 0.0f; ///< time codes relative to the frame
     float clipNear = 0.0f, clipFar = 0.0f;
     bool orthographic = false;
+    bool radial = false; ///< distances count from the centre, not along the axis
 
-    /// The angle (radians; scene units when orthographic) that one pixel covers.
-    float pixelSpread() const { return (windowMax.x - windowMin.x) / imageSize.x; }
+    /// The smallest angle (radians; scene units when orthographic) that one pixel covers.
+    float pixelSpread() const { return _pixelSpread; }
+    /// What `depth` and the clipping range measure: scene units from the camera.
+    float depthOf(const vec3& cameraPoint) const {
+        return radial ? glm::length(cameraPoint) : -cameraPoint.z;
+    }
     float timeCode(float time) const { return shutterOpen + time * shutterLength; } ///< of 0..1
     /// Depth in [0,1] as OpenGL's default window depth over the camera's own clipping range.
     float windowDepth(const vec3& cameraPoint) const;
+
+private:
+    float _pixelSpread = 0.0f;
 };
 
 /// Where the camera is in the middle of the shutter.

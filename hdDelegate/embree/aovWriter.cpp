@@ -18,6 +18,7 @@ public:
           _inCamera(vec3(camera.worldToCamera() * vec4(point.shading.position, 1.0f))) {}
 
     const vec3& inCamera() const { return _inCamera; }
+    float depth() const { return _camera.depthOf(_inCamera); }
     float windowDepth() const { return _camera.windowDepth(_inCamera); }
     vec3 position() const { return _shading.worldPosition(); }
     const vec3& normal() const { return _shading.normal; }

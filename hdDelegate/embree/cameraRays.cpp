@@ -19,22 +19,33 @@ mat4 interpolate(const MotionTransform& transform, float time, const dvec3& orig
     return value(i - 1) * (1.0f - f) + value(i) * f;
 }
 
-CameraRays::CameraRays(const Camera& camera, const RenderSettings& settings, const dvec3& origin)
+CameraRays::CameraRays(const Camera& camera, const RenderSettings& settings, const dvec3& origin,
+                       std::shared_ptr<const DistortionMap> distortion)
     : _camera(camera), _frame(camera, settings), _origin(origin),
       _moves(camera.transform.moves() && _frame.shutterLength > 0.0f),
       _pixelSpread(_frame.pixelSpread()) {
     _worldToCamera = glm::inverse(transformAt(0.5f));
+    if (LensRays::needed(camera.lens)) _lens.emplace(camera, _frame, std::move(distortion));
 }
 
 mat4 CameraRays::transformAt(float time) const {
     return interpolate(_camera.transform, _frame.timeCode(time), _origin);
 }
 
-CameraRay CameraRays::ray(vec2 pixel, vec2 lens, float time) const {
+CameraRay CameraRays::ray(vec2 pixel, vec2 lens, float time, vec2 within) const {
     const vec2 s = pixel / _frame.imageSize, low = _frame.windowMin, high = _frame.windowMax;
     const vec2 window(low.x + s.x * (high.x - low.x), high.y + s.y * (low.y - high.y));
     vec3 origin(0.0f), direction(window, -1.0f);
-    if (_camera.orthographic) {
+    if (_lens) {
+        const LensRay own = _lens->ray(pixel, lens, within);
+        if (!own.seen) {
+            CameraRay none;
+            none.seen = false;
+            return none;
+        }
+        origin = own.origin;
+        direction = own.direction;
+    } else if (_camera.orthographic) {
         origin = vec3(window, 0.0f);
         direction = vec3(0, 0, -1);
     } else if (_frame.lensRadius > 0.0f) {
@@ -50,7 +61,8 @@ CameraRay CameraRays::ray(vec2 pixel, vec2 lens, float time) const {
     const vec3 worldDirection = mat3(transform) * direction;
     const float scale = glm::length(worldDirection);
     ray.direction = worldDirection / scale;
-    const float alongAxis = std::max(1e-6f, -direction.z); // clip distances are along the axis
+    // Clip distances are along the axis, where there is a plane to measure them from.
+    const float alongAxis = _frame.radial ? 1.0f : std::max(1e-6f, -direction.z);
     ray.near = std::max(0.0f, _camera.clipNear) * scale / alongAxis;
     ray.far = _camera.clipFar * scale / alongAxis;
     for (const vec4& plane : _camera.clippingPlanes) {
@@ -64,7 +76,7 @@ CameraRay CameraRays::ray(vec2 pixel, vec2 lens, float time) const {
             ray.far = 0.0f;
     }
     ray.time = time;
-    if (_camera.orthographic)
+    if (_frame.orthographic)
         ray.coneWidth = _pixelSpread;
     else
         ray.coneSpread = _pixelSpread;

@@ -134,6 +134,13 @@ std::map<std::string, double> EmbreeRenderer::buildCounts() const {
     return counts;
 }
 
+const std::shared_ptr<const DistortionMap>& EmbreeRenderer::distortionOf(const Camera& camera) {
+    if (!_distortion || _distortionFile != camera.lens.distortionMap)
+        _distortion = DistortionMap::read(camera, _scene->diagnostics());
+    _distortionFile = camera.lens.distortionMap;
+    return _distortion;
+}
+
 void EmbreeRenderer::updateScene(const SceneState& state, const Camera& camera) {
     if (!_compiled || _compiled->scene() != _scene) {
         _builtBefore = buildCounts();
@@ -192,7 +199,7 @@ void EmbreeRenderer::render(const SceneState& state, const Camera& camera) {
 
     _film->allowNegative(takesLightAway(state, _settings));
     _film->setFirstSample(uint32_t(std::max(0, _settings.sampleBegin)));
-    const CameraRays rays(camera, _settings, _origin);
+    const CameraRays rays(camera, _settings, _origin, distortionOf(camera));
     RenderSettings sampled = _settings;
     sampled.tolerance = plan.noise(_settings.tolerance);
     sampled.maxDepth = plan.depth(_settings);

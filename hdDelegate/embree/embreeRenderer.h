@@ -36,6 +36,8 @@ private:
     /// Sends out the photons of a block of samples.
     PhotonMap photons(const Integrator& integrator, const CausticCasters& casters, int block);
     void updateScene(const SceneState& state, const Camera& camera);
+    /// The camera's map, from the render before where that has the same.
+    const std::shared_ptr<const DistortionMap>& distortionOf(const Camera& camera);
     std::map<std::string, double> buildCounts() const;
     void publish(const TileSchedule& schedule);
     std::map<std::string, double> materialSeconds();
@@ -46,6 +48,8 @@ private:
     LightsKey _lightsKey;
     bool _lightsMayDiffer = true; ///< from what the key was made of
     std::unique_ptr<SceneLights> _lights;
+    std::shared_ptr<const DistortionMap> _distortion;
+    std::string _distortionFile;
     std::unique_ptr<PhotonPass> _photonPass;    ///< of the last block; null without photons
     std::map<std::string, double> _builtBefore; ///< counts of scenes rendered earlier
     size_t _lightsBuilt = 0;

@@ -38,7 +38,11 @@ void Integrator::sample(Film& film, int x, int y, uint32_t index, TraceCounters&
     const float uTime = sampler.next2().x;
     const vec2 offset = _filter.sample(vec2(uFilm));
     const vec2 pixel = vec2(x, y) + 0.5f + offset;
-    const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime);
+    const CameraRay ray = _camera.ray(pixel, vec2(uFilm.z, uFilm.w), uTime, vec2(x, y) + 0.5f);
+    if (!ray.seen) {
+        film.addColor(x, y, vec3(0.0f), 0.0f);
+        return;
+    }
     const AovTarget target{film, x, y, glm::length(offset)};
     counters.clock.enter(nullptr);
     if (_ambientOcclusion) {

@@ -47,6 +47,7 @@ dvec3 originOfSeen(const EmbreeScene& scene, const Camera& camera, const RenderS
                              (float(y) + 0.5f) / probes * float(settings.height));
             const CameraRay ray = rays.ray(pixel, vec2(0.5f), 0.5f);
             Hit hit;
+            if (!ray.seen) continue;
             if (scene.intersect(ray.origin, ray.direction, ray.near, ray.far, ray.time, RayCamera,
                                 hit))
                 seen.push_back({hit.distance, ray.origin + ray.direction * hit.distance});

@@ -9,10 +9,11 @@ namespace patina {
 
 /// The value of an AOV at a surface, in one place for all renderers.
 ///
-/// @tparam Point what the renderer knows of the place: inCamera() and windowDepth() of its
-///         position in camera space, position() in the world, normal(), worldToCamera(),
-///         primId(), instanceId(), elementId(); albedo(out) and primvar(out), which say whether
-///         they know it; and denoisingOfPaths, where guides of the denoiser come from whole paths
+/// @tparam Point what the renderer knows of the place: inCamera(), its position in camera space,
+///         with its depth() and windowDepth(); position() in the world, normal(),
+///         worldToCamera(), primId(), instanceId(), elementId(); albedo(out) and primvar(out),
+///         which say whether they know it; and denoisingOfPaths, where guides of the denoiser come
+///         from whole paths
 /// @returns false where there is nothing to write
 template <class Point> bool aovValue(AovId id, const Point& p, float out[4]) {
     const auto put = [&](const glm::vec3& v) {
@@ -24,7 +25,7 @@ template <class Point> bool aovValue(AovId id, const Point& p, float out[4]) {
         return true;
     };
     switch (id) {
-    case AovId::depth: out[0] = -p.inCamera().z; return true;
+    case AovId::depth: out[0] = p.depth(); return true;
     case AovId::cameraDepth: out[0] = glm::length(p.inCamera()); return true;
     case AovId::deviceDepth: out[0] = p.windowDepth(); return true;
     case AovId::normal: return put(p.normal());

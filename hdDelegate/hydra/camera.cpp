@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/hydra/camera.h"
 
+#include "hdDelegate/hydra/marks.h"
 #include "hdDelegate/hydra/sampling.h"
 #include "hdDelegate/hydra/values.h"
+#include "hdDelegate/scene/cameraInputs.h"
 #include "hdDelegate/scene/instancerCheck.h"
 
 #include <pxr/base/gf/camera.h>
@@ -62,6 +64,19 @@ MotionTransform transformOf(HdSceneDelegate& delegate, HdPatinaRenderParam& para
     return sampledOf(std::move(times), std::move(values));
 }
 
+/// The lens of cameraInputs.def; a name of its own is stronger than a primvar.
+void readInputs(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
+                Camera& camera) {
+    Marks inputs;
+    for (const std::string& name : cameraInputNames())
+        for (const char* prefix : {"primvars:", ""}) {
+            const VtValue value = delegate.GetCameraParamValue(id, TfToken(prefix + name));
+            MarkValue input;
+            if (markOf(value, input)) inputs[name] = input;
+        }
+    applyCameraInputs(inputs, camera, param.scene()->diagnostics());
+}
+
 } // namespace
 
 void HdPatinaCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
@@ -106,6 +121,7 @@ void HdPatinaCamera::Sync(HdSceneDelegate* delegate, HdRenderParam* renderParam,
     double scale = std::exp2(GetExposure());
     numberOf(delegate->GetCameraParamValue(GetId(), TfToken("linearExposureScale")), scale);
     camera->exposureScale = float(scale);
+    readInputs(*delegate, param, GetId(), *camera);
     param.set(std::shared_ptr<const Camera>(camera));
 }
 

@@ -9,8 +9,8 @@
 
 namespace patina {
 
-/// A camera that render passes find under its path in the scene. Lens distortion and split diopters
-/// are not modelled.
+/// A camera that render passes find under its path in the scene. HdCamera's own lens distortion and
+/// split diopters are not modelled; cameraInputs.def has what is.
 class HdPatinaCamera final : public HdCamera {
 public:
     explicit HdPatinaCamera(const SdfPath& id) : HdCamera(id) {}

@@ -2,13 +2,11 @@
 #include "hdDelegate/hydra/marks.h"
 
 #include "hdDelegate/hydra/values.h"
-#include "hdDelegate/scene/primMarks.h"
+
+#include <pxr/usd/sdf/assetPath.h>
 
 namespace patina {
 
-namespace {
-
-/// A number or a text; of an array its only element.
 bool markOf(const VtValue& value, MarkValue& mark) {
     int components = 0;
     const std::vector<float> numbers = floatsOf(value, components);
@@ -18,14 +16,13 @@ bool markOf(const VtValue& value, MarkValue& mark) {
     }
     if (value.IsHolding<VtStringArray>() && value.UncheckedGet<VtStringArray>().size() == 1)
         mark = std::string(value.UncheckedGet<VtStringArray>()[0]);
-    else if (value.IsHolding<std::string>() || value.IsHolding<TfToken>())
+    else if (value.IsHolding<std::string>() || value.IsHolding<TfToken>() ||
+             value.IsHolding<SdfAssetPath>())
         mark = textOf(value);
     else
         return false;
     return true;
 }
-
-} // namespace
 
 void readMarks(HdSceneDelegate& delegate, HdPatinaRenderParam& param, const SdfPath& id,
                Geometry& prim) {

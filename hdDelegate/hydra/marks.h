@@ -3,10 +3,14 @@
 
 #include "hdDelegate/hydra/renderParam.h"
 #include "hdDelegate/scene/geometry.h"
+#include "hdDelegate/scene/primMarks.h"
 
 #include <pxr/imaging/hd/sceneDelegate.h>
 
 namespace patina {
+
+/// A number or a text; of an array its only element. @returns false for other values
+bool markOf(const VtValue& value, MarkValue& mark);
 
 /// Gives a prim what its constant primvars of primMarks.def say, and takes away what they no longer
 /// do.

@@ -168,7 +168,8 @@ private:
         return RasterCamera(camera, _settings);
     }
 
-    void render(const SceneState& state, const Camera& cameraPrim) {
+    void render(const SceneState& state, const Camera& authored) {
+        const Camera cameraPrim = rasterizedCamera(authored, _scene->diagnostics());
         RasterCamera camera = cameraFrom(cameraPrim);
         if (cameraPrim.clippingPlanes.size() > size_t(RasterPasses::maxPlanes))
             _scene->diagnostics().warn(cameraPrim.path, "clippingPlanes",

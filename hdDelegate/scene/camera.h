@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/scene/cameraLens.h"
 #include "hdDelegate/scene/types.h"
 
 namespace patina {
@@ -22,6 +23,7 @@ struct Camera {
     std::vector<vec4> clippingPlanes;             ///< camera space; points with dot < 0 are clipped
     double shutterOpen = 0.0, shutterClose = 0.0; ///< time codes relative to the frame
     float exposureScale = 1.0f;                   ///< linear factor of the image
+    CameraLens lens;
 };
 
 } // namespace patina

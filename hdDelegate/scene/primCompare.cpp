@@ -100,7 +100,7 @@ bool sameCamera(const Camera& a, const Camera& b) {
                                       c.exposureScale};
     };
     return same(a.transform, b.transform) && a.orthographic == b.orthographic &&
-           numbers(a) == numbers(b) && a.clippingPlanes == b.clippingPlanes;
+           numbers(a) == numbers(b) && a.clippingPlanes == b.clippingPlanes && a.lens == b.lens;
 }
 
 } // namespace patina

@@ -16,6 +16,10 @@ const char* const interpolationNames[] = {"constant", "uniform", "varying", "ver
 const char* const schemeNames[] = {"none", "catmullClark", "loop", "bilinear"};
 const char* const basisNames[] = {"linear", "bezier", "bspline", "catmullRom"};
 const char* const wrapNames[] = {"nonperiodic", "periodic", "pinned"};
+const char* const projectionNames[] = {"standard",         "fisheyeEquidistant",
+                                       "fisheyeEquisolid", "fisheyeStereographic",
+                                       "cylindrical",      "spherical"};
+const char* const stereoNames[] = {"mono", "left", "right", "sideBySide", "overUnder"};
 const char* const shapeNames[] = {"sphere", "cube", "cone", "cylinder", "capsule", "plane"};
 
 std::string number(double x) {
@@ -333,6 +337,20 @@ void writeCamera(Writer& w, const Camera& c) {
     w.field("shutterOpen", c.shutterOpen, d.shutterOpen);
     w.field("shutterClose", c.shutterClose, d.shutterClose);
     w.field("exposureScale", c.exposureScale, d.exposureScale);
+    const CameraLens &l = c.lens, n;
+    if (!l.standard()) w.line("projection", projectionNames[int(l.projection)]);
+    w.field("fieldOfView", l.fieldOfView, n.fieldOfView);
+    w.field("verticalFieldOfView", l.verticalFieldOfView, n.verticalFieldOfView);
+    w.field("apertureBlades", l.apertureBlades, n.apertureBlades);
+    w.field("apertureBladeCurvature", l.apertureBladeCurvature, n.apertureBladeCurvature);
+    w.field("apertureRotation", l.apertureRotation, n.apertureRotation);
+    w.field("apertureAspect", l.apertureAspect, n.apertureAspect);
+    if (l.stereo != n.stereo) w.line("stereo", stereoNames[int(l.stereo)]);
+    w.field("interocularDistance", l.interocularDistance, n.interocularDistance);
+    w.field("convergenceDistance", l.convergenceDistance, n.convergenceDistance);
+    w.field("distortionMap", l.distortionMap, n.distortionMap);
+    w.field("distortionK1", l.distortionK1, n.distortionK1);
+    w.field("distortionK2", l.distortionK2, n.distortionK2);
 }
 
 void writeMaterial(Writer& w, const MaterialPrim& m) {

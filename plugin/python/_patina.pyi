@@ -69,8 +69,8 @@ class SceneEdit:
         """
     def set_camera(self, path: str, **kwargs: typing.Any) -> None:
         """
-        A UsdGeomCamera; keywords are the fields of Camera.
-        Keywords: transform, orthographic, horizontal_aperture, vertical_aperture, horizontal_aperture_offset, vertical_aperture_offset, focal_length, f_stop, focus_distance, clip_near, clip_far, clipping_planes, shutter_open, shutter_close, exposure_scale.
+        A UsdGeomCamera; keywords are the fields of Camera. inputs: a dict of values by camera_input_names().
+        Keywords: transform, orthographic, horizontal_aperture, vertical_aperture, horizontal_aperture_offset, vertical_aperture_offset, focal_length, f_stop, focus_distance, clip_near, clip_far, clipping_planes, shutter_open, shutter_close, exposure_scale, inputs.
         """
     def set_curves(self, path: str, **kwargs: typing.Any) -> None:
         """
@@ -147,7 +147,7 @@ class Scene:
         ...
     def camera(self, path: str) -> dict[str, typing.Any]:
         """
-        A camera's values by set_camera()'s keywords; KeyError where there is none.
+        A camera's values by set_camera()'s keywords, and image_aspect, the width over the height that its image has of itself; KeyError where there is none.
         """
     def clear_warnings(self) -> None:
         """
@@ -437,6 +437,10 @@ class RasterProbe:
 def albedo_table() -> numpy.typing.NDArray[numpy.float32]:
     """
     The baked directional albedos, in the layout of shaders/lib/albedoTable.glsl.
+    """
+def camera_input_names() -> list[str]:
+    """
+    Attributes of cameras beyond UsdGeomCamera's own; each may stand after 'primvars:' too.
     """
 def channels_of_aov(aov: str) -> str:
     """

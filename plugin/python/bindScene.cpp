@@ -2,6 +2,7 @@
 // The scene, its edits, lights and cameras.
 
 #include "plugin/python/sceneEdit.h"
+#include "hdDelegate/scene/cameraInputs.h"
 #include "hdDelegate/scene/sceneDump.h"
 #include "plugin/python/fields.h"
 #include "plugin/python/warningList.h"
@@ -63,6 +64,7 @@ void setLight(PythonEdit& edit, const std::string& path, const py::kwargs& value
 
 void setCamera(PythonEdit& edit, const std::string& path, const py::kwargs& values) {
     auto camera = std::make_shared<Camera>();
+    Marks inputs;
     camera->path = path;
     Fields("set_camera", path, values)
         .read("transform", camera->transform)
@@ -80,7 +82,9 @@ void setCamera(PythonEdit& edit, const std::string& path, const py::kwargs& valu
         .read("shutter_open", camera->shutterOpen)
         .read("shutter_close", camera->shutterClose)
         .read("exposure_scale", camera->exposureScale)
+        .read("inputs", inputs)
         .finish();
+    applyCameraInputs(inputs, *camera, edit.scene->diagnostics());
     edit.set(std::shared_ptr<const Camera>(std::move(camera)));
 }
 
@@ -113,6 +117,7 @@ py::dict cameraDict(const Scene& scene, const std::string& path) {
     dict["shutter_open"] = camera.shutterOpen;
     dict["shutter_close"] = camera.shutterClose;
     dict["exposure_scale"] = camera.exposureScale;
+    dict["image_aspect"] = imageAspect(camera);
     return dict;
 }
 
@@ -148,6 +153,9 @@ void bindScene(py::module_& m) {
     m.def("mark_names", &markNames,
           "Primvars, without 'primvars:', that say which rays see a prim and what mattes make of "
           "it.");
+    m.def(
+        "camera_input_names", &cameraInputNames,
+        "Attributes of cameras beyond UsdGeomCamera's own; each may stand after 'primvars:' too.");
     m.def(
         "light_types", [] { return wordsBySchemas(lightRows); },
         "UsdLux types, separated by blanks where several are read alike -> word for set_light().");
@@ -190,7 +198,8 @@ void bindScene(py::module_& m) {
              "type, transform and light_filter_inputs(). portals: of path, "
              "transform, width and height.")
         .def("set_camera", &setCamera, py::arg("path"),
-             "A UsdGeomCamera; keywords are the fields of Camera.")
+             "A UsdGeomCamera; keywords are the fields of Camera. inputs: a dict of values by "
+             "camera_input_names().")
         .def("set_material", &setMaterial, py::arg("path"), py::arg("network"),
              "A material; prims name it by its path.")
         .def("set_meters_per_unit", &PythonEdit::setMetersPerUnit, py::arg("meters_per_unit"),
@@ -227,7 +236,9 @@ void bindScene(py::module_& m) {
              "Paths of all geometry, instancers, lights, cameras or materials; ValueError for "
              "another kind.")
         .def("camera", &cameraDict, py::arg("path"),
-             "A camera's values by set_camera()'s keywords; KeyError where there is none.")
+             "A camera's values by set_camera()'s keywords, and image_aspect, the width over the "
+             "height "
+             "that its image has of itself; KeyError where there is none.")
         .def(
             "material",
             [](const Scene& s, const std::string& path) {

@@ -62,7 +62,8 @@ Scene()
     edit() -> SceneEdit         a batch of changes; also a context manager that commits
     version, meters_per_unit
     paths(kind)                 kind is geometry, instancers, lights, cameras or materials
-    camera(path) -> dict        apertures, focal_length, orthographic... as set; KeyError if absent
+    camera(path) -> dict        apertures, focal_length, orthographic... as set, and image_aspect;
+                                KeyError if absent
     material(path) -> Network   as set; KeyError if absent
     dump(values=16) -> str      the scene as text, arrays cut after so many values
     warn(prim, input, message), warnings() -> list of dicts prim, input, message, count
@@ -91,6 +92,7 @@ visibility    True, False, (camera, indirect, shadow) or (camera, diffuse, shado
               transmission, volume)
 catching      (matte, shadows, reflections)
 marks         dict of the values of primvars that mark_names() has, without 'primvars:'
+inputs        of set_camera(): dict of the values of attributes that camera_input_names() has
 Times are time codes relative to the frame, ascending.
 
 Network(path)

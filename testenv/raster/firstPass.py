@@ -65,8 +65,7 @@ class Stage:
                 edit.set_light("/FirstPassSky", type="dome", texture_file=SKY, texture_format="latlong",
                                texture_color_space="auto", transform=self._upright(stage))
         self.camera = info.camera
-        camera = self.scene.camera(info.camera)
-        aspect = camera["horizontal_aperture"] / camera["vertical_aperture"]
+        aspect = self.scene.camera(info.camera)["image_aspect"]
         self.size = {"width": width, "height": max(8, round(width / aspect))}
         self.renderers = {}
 

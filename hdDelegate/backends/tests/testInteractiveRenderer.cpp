@@ -92,6 +92,18 @@ TEST(Interactive, TheQuickImageComesFirstAndTheSlowOneLastWithoutAJump) {
     EXPECT_TRUE(std::is_sorted(s.depths.begin(), s.depths.end())) << "AOVs went back";
 }
 
+TEST(Interactive, CamerasThatOnlyRaysShowAreTracedFromTheStart) {
+    Session s;
+    auto camera = std::make_shared<Camera>();
+    camera->path = "/camera";
+    camera->lens.projection = LensProjection::Spherical;
+    s.scene->edit().set(std::shared_ptr<const Camera>(camera));
+    s.renderer->start(s.scene, "/camera", s.settings, s.film);
+    s.renderer->wait();
+    EXPECT_EQ(s.quick->starts, 0);
+    EXPECT_EQ(pictureOf(*s.film).pixels, s.reference().pixels);
+}
+
 TEST(Interactive, EditsStartWithTheQuickImageAgain) {
     Session s;
     s.settings.samples = 1000;

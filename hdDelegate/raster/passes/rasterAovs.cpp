@@ -20,6 +20,7 @@ struct PixelPoint {
     vec3 inCamera() const {
         return vec3(camera.worldToCamera() * vec4(vec3(images.positions[i]), 1.0f));
     }
+    float depth() const { return -inCamera().z; }
     float windowDepth() const { return camera.windowDepth(inCamera()); }
     vec3 position() const { return origin + vec3(images.positions[i]); }
     vec3 normal() const { return vec3(images.normals[i]); }

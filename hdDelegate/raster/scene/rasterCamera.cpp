@@ -19,8 +19,29 @@ vec2 disk(vec2 u) {
 
 } // namespace
 
+Camera rasterizedCamera(Camera camera, Diagnostics& diagnostics) {
+    CameraLens& lens = camera.lens;
+    const auto leaveOut = [&](const char* input, bool drawn, auto& value) {
+        if (drawn) return;
+        diagnostics.warn(camera.path, input,
+                         "has no effect, since it is not drawn by the rasterizer");
+        value = {};
+    };
+    leaveOut("patina:projection", lens.standard(), lens.projection);
+    leaveOut("patina:distortionMap", lens.distortionMap.empty(), lens.distortionMap);
+    leaveOut("patina:distortionK1", lens.distortionK1 == 0.0f, lens.distortionK1);
+    leaveOut("patina:distortionK2", lens.distortionK2 == 0.0f, lens.distortionK2);
+    const bool oneEye = lens.stereo == StereoView::Left || lens.stereo == StereoView::Right;
+    leaveOut("patina:stereo", lens.stereo == StereoView::Mono || (oneEye && !camera.orthographic),
+             lens.stereo);
+    return camera;
+}
+
 RasterCamera::RasterCamera(const Camera& camera, const RenderSettings& settings)
-    : _camera(camera), _frame(camera, settings) {
+    : _camera(camera), _frame(camera, settings), _aperture(camera.lens) {
+    const float half = 0.5f * camera.lens.interocularDistance;
+    if (camera.lens.stereo == StereoView::Left) _eye = -half;
+    if (camera.lens.stereo == StereoView::Right) _eye = half;
     _worldToCamera = glm::inverse(transformAt(camera.transform, timeCode(0.5f)));
 }
 
@@ -51,10 +72,19 @@ RasterView RasterCamera::view(vec2 offset, vec2 lens, float time, const vec3& lo
     } else {
         // A point of the lens sees the plane in focus through the same window.
         vec2 at(0.0f);
-        if (_frame.lensRadius > 0.0f) at = disk(lens) * _frame.lensRadius;
+        if (_frame.lensRadius > 0.0f)
+            at = (_aperture.isDisk() ? disk(lens) * _aperture.scale() : _aperture.sample(lens)) *
+                 _frame.lensRadius;
         if (_frame.lensRadius > 0.0f) {
             lo -= at / _camera.focusDistance;
             hi -= at / _camera.focusDistance;
+        }
+        if (_eye != 0.0f) {
+            const float convergence = _camera.lens.convergenceDistance;
+            const float seen = convergence > 0.0f ? _eye / convergence : 0.0f;
+            lo.x -= seen;
+            hi.x -= seen;
+            at.x += _eye;
         }
         lensShift = glm::translate(mat4(1.0f), vec3(-at, 0.0f));
         v.worldToClip =
@@ -75,7 +105,8 @@ RasterView RasterCamera::view(vec2 offset, vec2 lens, float time, const vec3& lo
 
 float RasterCamera::blurAt(float distance) const {
     if (!(_frame.lensRadius > 0.0f)) return 0.0f;
-    return _frame.lensRadius * std::fabs(distance / _camera.focusDistance - 1.0f);
+    return _frame.lensRadius * std::max(_aperture.scale().x, 1.0f) *
+           std::fabs(distance / _camera.focusDistance - 1.0f);
 }
 
 } // namespace patina

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hdDelegate/compiled/apertureShape.h"
 #include "hdDelegate/compiled/cameraFrame.h"
+#include "materialNetwork/diagnostics.h"
 
 #include <algorithm>
 #include <vector>
@@ -18,6 +20,10 @@ struct RasterView {
     float reach = 0.0f;       ///< from the camera's near plane to its far plane
     std::vector<vec4> planes; ///< world; what is behind one is not seen
 };
+
+/// A camera as it is rasterized: without what only rays draw, which is told by camera and
+/// attribute.
+Camera rasterizedCamera(Camera camera, Diagnostics& diagnostics);
 
 /// The camera of a rasterized image.
 class RasterCamera {
@@ -45,6 +51,8 @@ public:
 private:
     Camera _camera;
     CameraFrame _frame;
+    ApertureShape _aperture;
+    float _eye = 0.0f; ///< of two: from their middle to the right
     mat4 _worldToCamera{1.0f};
 };
 

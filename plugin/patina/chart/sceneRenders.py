@@ -50,9 +50,7 @@ class StageRenders:
         self.missing = {}  # back end -> why it is not there
 
     def _size(self):
-        camera = self.scene.camera(self.info.camera)
-        apertures = camera["horizontal_aperture"], camera["vertical_aperture"]
-        aspect = apertures[0] / apertures[1] if min(apertures) > 0.0 else 16.0 / 9.0
+        aspect = self.scene.camera(self.info.camera)["image_aspect"]
         width = self.arguments.imageWidth or DEFAULT_WIDTH
         height = max(1, round(width / aspect))
         if width * height > MAX_PIXELS:

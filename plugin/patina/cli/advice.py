@@ -25,7 +25,10 @@ _ROWS = (
     (r"has no such input|no such input|such an input|has no output|no such output|has no input|does not exist; the default",
      "spell the name as the node's definition does; `patina explain` lists the inputs that there are"),
     (r"means nothing here|these rays see the prim", "docs/generated/marks.md lists the primvars and the values that they take"),
+    (r"which cameras take|this projection can show|both eyes see|neither a number nor a text",
+     "docs/generated/cameras.md lists the attributes of cameras and their ranges"),
     # Files and textures.
+    (r"lens does not distort", "check the path; the map is an image with the places in red and green"),
     (r"names no file|names no IES file|no file is given", "set the asset path, or disconnect the node"),
     (r"has nothing for|magenta|emits the same everywhere|not shaped by it|card is plain",
      "check the path as the message spells it, against the layer that authors it"),

@@ -79,7 +79,7 @@ def add_tolerance_flag(group):
 def _add_output_flags(group):
     group.add_argument("--imageWidth", "-w", type=_size, metavar="PIXELS", help="default: 960")
     group.add_argument("--imageHeight", type=_size, metavar="PIXELS",
-                       help="default: from the width and the camera's aperture")
+                       help="default: from the width and the camera's aperture or fields of view")
     settingFlags.add(group, "the image", _TEXTS)
     group.add_argument("--dataWindow", type=_window, metavar="X0,Y0,X1,Y1",
                        help="render only these pixels, both corners included, counted from the upper left")

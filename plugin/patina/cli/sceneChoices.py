@@ -20,9 +20,7 @@ def of_stage(file, set_texts, forced, tolerance, backend):
     scene = module.Scene()
     with scene.edit() as edit:
         info = reader.read_stage(stage, edit, reader.StageOptions())
-    camera = scene.camera(info.camera)
-    apertures = camera["horizontal_aperture"], camera["vertical_aperture"]
-    aspect = apertures[0] / apertures[1] if min(apertures) > 0.0 else 16.0 / 9.0
+    aspect = scene.camera(info.camera)["image_aspect"]
     renderer = module.make_renderer(backend)
     renderer.start(scene, info.camera, {"width": WIDTH, "height": max(1, round(WIDTH / aspect)), "dataWindow": (0, 0, 0, 0),
                                         "samples": 1, "tolerance": tolerance, "maxDepth": -1, "methods": forced,

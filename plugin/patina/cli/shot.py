@@ -17,7 +17,7 @@ class Shot:
     frame: object  # time code, or None for the default time
     outputs: list
     camera: object = None  # path or name; None: the stage's own
-    size: tuple = (None, None)  # pixels; what is None follows from the camera's aperture
+    size: tuple = (None, None)  # pixels; what is None follows from the camera
     settings: dict = field(default_factory=dict)  # render settings that differ from those of the command
     page: object = None  # of --report
 

@@ -35,12 +35,10 @@ def plan(arguments, stage, settings_prim=None):
 def size_of(shot, camera, pixel_aspect):
     """:param camera: dict of the scene
     :param pixel_aspect: width of a pixel over its height
-    :returns: width and height in pixels: what is not given follows from the camera's aperture
+    :returns: width and height in pixels: what is not given follows from the camera's aperture or field of view
     :raises CommandError: where they are too large"""
     width, height = shot.size
-    apertures = camera["horizontal_aperture"], camera["vertical_aperture"]
-    aspect = apertures[0] / apertures[1] if min(apertures) > 0.0 else 16.0 / 9.0
-    aspect /= pixel_aspect
+    aspect = camera["image_aspect"] / pixel_aspect
     if width is None:
         width = DEFAULT_WIDTH if height is None else max(1, round(height * aspect))
     if height is None:

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cameras: those of the stage, and the one that frames a stage without any."""
+import functools
 import math
 
 import numpy as np
 from pxr import Gf, UsdGeom, UsdRender, UsdUtils
 
-from . import compat
+from . import assets, compat
 from .context import array, get, number
 from .errors import StageError
 from .transforms import transform_of
@@ -59,6 +60,30 @@ def shutter_of(context, found):
     return (opens, closes)
 
 
+@functools.lru_cache(maxsize=None)
+def _input_names():
+    """:returns: attribute -> name of hdDelegate/scene/cameraInputs.def; a name of its own is stronger than a primvar"""
+    import _patina
+
+    names = _patina.camera_input_names()
+    return {**{"primvars:" + name: name for name in names}, **{name: name for name in names}}
+
+
+def inputs_of(context, prim):
+    """:returns: dict of what the camera has beyond UsdGeomCamera, by names of cameraInputs.def"""
+    authored, found = set(prim.GetAuthoredPropertyNames()), {}
+    for attribute_name, name in _input_names().items():
+        attribute = prim.GetAttribute(attribute_name) if attribute_name in authored else None
+        value = attribute.Get(context.time) if attribute else None
+        if hasattr(value, "path"):
+            value = assets.resolve(context, attribute)
+        if isinstance(value, (bool, int, float, str)):
+            found[name] = value if isinstance(value, str) else float(value)
+        elif value is not None:
+            context.warn(prim.GetPath(), attribute_name, "is neither a number nor a text; it is left out")
+    return found
+
+
 def emit(context, found):
     prim, time = found.prim, context.time
     fields = {key: number(context, prim, name, fallback) for name, (key, fallback) in _FIELDS.items()}
@@ -82,7 +107,7 @@ def emit(context, found):
         orthographic=projection == "orthographic",
         clip_near=near, clip_far=far, clipping_planes=planes,
         shutter_open=opens, shutter_close=closes,
-        exposure_scale=compat.exposure_scale(UsdGeom.Camera(prim), time), **fields)
+        exposure_scale=compat.exposure_scale(UsdGeom.Camera(prim), time), inputs=inputs_of(context, prim), **fields)
     context.count("cameras")
 
 

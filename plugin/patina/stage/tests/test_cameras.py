@@ -101,3 +101,28 @@ def test_a_projection_that_is_not_known_is_told(read, projection, reported):
     assert (reading.prim("/c").get("orthographic") == "true") == (projection == "orthographic")
     assert ("/c projection: 'fisheye' is not known; perspective is used" in reading.warnings) == reported
     assert reported or not any("projection" in w for w in reading.warnings)
+
+
+def test_what_cameras_have_beyond_the_schema(read):
+    reading = read("""def Camera "c" {
+        token patina:projection = "fisheyeEquisolid"
+        float patina:fieldOfView = 200
+        int primvars:arnold:aperture_blades = 5
+        float primvars:arnold:aperture_rotation = 30
+        float primvars:patina:apertureRotation = 40
+        float patina:apertureRotation = 50
+        token patina:stereo = "sideBySide"
+        double patina:interocularDistance = 6.5
+        asset patina:distortionMap = @./map.exr@ }""")
+    camera = reading.prim("/c")
+    assert camera["projection"] == "fisheyeEquisolid" and camera["stereo"] == "sideBySide"
+    assert [camera[n] for n in ("fieldOfView", "apertureBlades", "apertureRotation", "interocularDistance")] == [
+        "200", "5", "50", "6.5"]
+    assert camera["distortionMap"].startswith('"/') and camera["distortionMap"].endswith('map.exr"')
+    assert not reading.warnings
+    assert reading.scene.camera("/c")["image_aspect"] == pytest.approx(2 * 20.955 / 15.2908)
+
+
+def test_a_value_that_is_neither_number_nor_text(read):
+    reading = read('def Camera "c" { float3 patina:fieldOfView = (1, 2, 3) }')
+    assert reading.warnings == ["/c patina:fieldOfView: is neither a number nor a text; it is left out"]

@@ -40,11 +40,14 @@ std::vector<EnergyCurve::Energy> sampled(const BsdfLobe& lobe, int count, float 
     return nodes;
 }
 
-/// The cubic of Catmull and Rom (1974).
+/// The cubic of Catmull and Rom (1974), kept to the range of its nodes: beside a step it would
+/// swing beyond them, and a factor below 0.
 glm::vec3 cubic(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d,
                 float f) {
     const glm::vec3 first = c - a, second = 2.0f * a - 5.0f * b + 4.0f * c - d;
-    return b + 0.5f * f * (first + f * (second + f * (3.0f * (b - c) + d - a)));
+    const glm::vec3 value = b + 0.5f * f * (first + f * (second + f * (3.0f * (b - c) + d - a)));
+    return glm::clamp(value, glm::min(glm::min(a, b), glm::min(c, d)),
+                      glm::max(glm::max(a, b), glm::max(c, d)));
 }
 
 EnergyCurve::Energy readCubic(const std::vector<EnergyCurve::Energy>& nodes, float z) {

@@ -17,6 +17,10 @@ namespace {
 constexpr int maxBounces = 500; // roulette ends walks long before
 constexpr int sureBounces = 6;  // that no roulette ends
 
+/// Most that a walk may carry: where colours above 1 gain light at every bounce there is no finite
+/// sum, and infinity times 0 is no number.
+constexpr float mostThroughput = 1e15f;
+
 /// Shares of the density: the base as seen through a smooth top, and diffuse light.
 constexpr float throughTopShare = 0.7f, diffuseShare = 0.3f;
 
@@ -24,6 +28,7 @@ const EnergyCurve noCurve;
 
 /// @returns false when roulette ends the walk
 bool goesOn(int bounces, glm::vec3& throughput, HashedNumbers& random) {
+    throughput = glm::min(throughput, glm::vec3(mostThroughput));
     const float maximum = std::max(throughput.x, std::max(throughput.y, throughput.z));
     if (!(maximum > 0.0f)) return false;
     if (bounces < sureBounces || maximum >= 1.0f) return true;

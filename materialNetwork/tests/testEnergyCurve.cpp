@@ -85,6 +85,27 @@ TEST(EnergyCurve, IsFineForSlowMethods) {
     }
 }
 
+// What a film adds to a curve may fill it up to 1 at some angles alone: beside such a step a cubic
+// swings beyond its nodes, and no factor or albedo is negative.
+TEST(EnergyCurve, NeverSwingsBelowZero) {
+    BsdfLobe lobe;
+    lobe.kind = LobeKind::Schlick;
+    lobe.schlick = sh::schlickMethods(
+        sh::schlickFilm(sh::schlickSetup(glm::vec3(0.5f, 0.0f, 0.0f), glm::vec3(0.0f, 1.0f, 0.5f),
+                                         glm::vec3(0.727f), 0.0f, glm::vec2(0.05f), false,
+                                         sh::SCATTER_RT, false, sh::COMPENSATE_SCALE),
+                        295.6f, 1.64f),
+        sh::ALBEDO_SAMPLES_16, sh::SAMPLING_VNDF, sh::FILM_GAUSSIANS);
+    EnergyCurve curve;
+    curve.measure(lobe);
+    for (int i = 0; i <= 4000; ++i) {
+        const EnergyCurve::Energy e = curve.at(float(i) / 4000.0f);
+        for (const glm::vec3& v : {e.kr, e.kt, e.r, e.t})
+            ASSERT_GE(std::min(v.x, std::min(v.y, v.z)), 0.0f) << i;
+        ASSERT_LE(std::max(e.r.x, std::max(e.r.y, e.r.z)), 1.0f) << i;
+    }
+}
+
 TEST(EnergyCurve, LeavesOtherLobesAlone) {
     EnergyCurve curve;
     BsdfLobe lobe;

@@ -3,7 +3,7 @@
 // cosines, is written as a sum of (1 - c)^p, p = 0, 1.7, 2.5, 5, 10, 20, whose albedos the moment
 // table has. The matrix is the inverse of that basis at those cosines, printed by
 // shaders/bake/conductorBasis.py. The sum meets the exact curve within 3e-3 for metals (mean 3e-4);
-// below ior 1 with little k it does not (conductorSteep).
+// below ior 1 with little k it does not (conductorSteepIor).
 
 const vec3 CONDUCTOR_COS = vec3(0.0894427191f, 0.252982213f, 0.464758002f);
 const float CONDUCTOR_COS3 = 0.715541753f;
@@ -22,6 +22,17 @@ PATINA_FN vec3 curveMeanAdded(MicrofacetPlace p, vec3 f0, vec3 f1, vec3 f2, vec3
               f4 * 10.6694767f - f5 * 3.95763754f;
     return f5 + a1 * microfacetMean(p, 1.7f) + a2 * microfacetMean(p, 2.5f) + a3 * microfacetMean(p, 5.0f) +
            a4 * microfacetMean(p, 10.0f) + a5 * microfacetMean(p, 20.0f);
+}
+
+// A "metal" that refracts: close below a critical angle the reflectance jumps, which no sum of
+// smooth curves follows.
+PATINA_FN bool conductorSteepChannel(float n, float k) {
+    return n < 1.0f && k < 0.5f && n * n - k * k > -0.1f;
+}
+
+PATINA_FN bool conductorSteepIor(vec3 n, vec3 k) {
+    return conductorSteepChannel(n.x, k.x) || conductorSteepChannel(n.y, k.y) ||
+           conductorSteepChannel(n.z, k.z);
 }
 
 // Its cosines. Films are evaluated in loops over them: drivers copy the text of a function to wherever it is

@@ -145,17 +145,9 @@ PATINA_FN LobeSample conductorSample(ConductorLobe l, vec3 wo, vec3 u) {
     return s;
 }
 
-// A "metal" that refracts: close below a critical angle the reflectance jumps, which no sum of
-// smooth curves follows.
-PATINA_FN bool conductorSteepChannel(float n, float k) {
-    return n < 1.0f && k < 0.5f && n * n - k * k > -0.1f;
-}
-
 PATINA_FN bool conductorSteep(ConductorLobe l) {
     return (l.fresnel == FRESNEL_EXACT || filmIsThere(l.film)) &&
-           (conductorSteepChannel(l.ior.x, l.extinction.x) ||
-            conductorSteepChannel(l.ior.y, l.extinction.y) ||
-            conductorSteepChannel(l.ior.z, l.extinction.z));
+           conductorSteepIor(l.ior, l.extinction);
 }
 
 PATINA_FN vec3 conductorAlbedo(ConductorLobe l, vec3 wo) {

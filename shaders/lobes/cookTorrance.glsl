@@ -5,6 +5,7 @@
 
 const int COOK_TORRANCE_EXACT = 0;
 const int COOK_TORRANCE_SCHLICK = 1;
+const int COOK_TORRANCE_FACETS = 64; // that stand for all, where the reflectance jumps
 
 struct CookTorranceLobe {
     vec3 color; // F0, for Schlick
@@ -62,12 +63,36 @@ PATINA_FN LobeSample cookTorranceSample(CookTorranceLobe l, vec3 wo, vec3 u) {
     return s;
 }
 
+PATINA_FN bool cookTorranceSteep(CookTorranceLobe l) {
+    return l.fresnel == COOK_TORRANCE_EXACT && conductorSteepIor(l.ior, l.extinction);
+}
+
+// Mean reflectance over facets drawn as samples are, by the sequence of Roberts 2018 ("The
+// Unreasonable Effectiveness of Quasirandom Sequences") in three dimensions.
+PATINA_FN_RARE vec3 cookTorranceFacets(CookTorranceLobe l, vec3 wo) {
+    vec3 sum = vec3(0.0f);
+    float white = 0.0f;
+    for (int j = 0; j < COOK_TORRANCE_FACETS; ++j) {
+        float t = float(j) + 0.5f;
+        vec2 u = vec2(albedoFract(t * 0.8191725134f), albedoFract(t * 0.6710436067f));
+        vec3 m = vCavityChoose(wo, beckmannSample(l.alpha, u), albedoFract(t * 0.5497004779f));
+        float c = clamp(dot(wo, m), 0.0f, 1.0f);
+        float iz = m.z * (2.0f * c) - wo.z;
+        float left = vCavityBoth(wo.z, iz, c, m.z) / vCavityVisible(wo.z, c, m.z);
+        left = select(left, 0.0f, c > 0.0f && iz > 0.0f);
+        sum += cookTorranceFresnel(l, c) * left;
+        white += left;
+    }
+    return sum / max(white, ALBEDO_MIN);
+}
+
 PATINA_FN vec3 cookTorranceAlbedo(CookTorranceLobe l, vec3 wo) {
     if (wo.z < 0.0f) return vec3(0.0f);
     MicrofacetPlace p = microfacetPlace(wo, vec2(l.alpha), NDF_GGX);
     p.moment.base += V_CAVITY_TABLE;
     vec3 mean = mix(l.color, vec3(1.0f), microfacetMean(p, 5.0f));
     if (l.fresnel == COOK_TORRANCE_EXACT) mean = conductorMean(p, l.ior, l.extinction);
+    if (cookTorranceSteep(l)) mean = cookTorranceFacets(l, wo);
     return mean * microfacetAlbedo0(p);
 }
 

@@ -215,6 +215,20 @@ TEST(LobeAlbedo, EqualsTheMeanSampleWeight) {
                     b.measuredInside);
 }
 
+// Below ior 1 the reflectance jumps to 1 at a critical angle, which no sum of smooth curves
+// follows: 64 facets stand for all. Each of them is 1/64 of the light.
+TEST(LobeAlbedo, CookTorranceKnowsItsCriticalAngle) {
+    for (double ior : {0.16, 0.5, 0.8, 0.95})
+        for (double alpha : {0.1, 0.4, 0.77})
+            for (double z : {0.95, 0.6, 0.2}) {
+                const LobeCase c = PATINA_LOBE_CASE("thin", cookTorrance, vec3(1.0), vec3(ior),
+                                                    vec3(0.0), alpha, sh64::COOK_TORRANCE_EXACT);
+                const vec3 wo = direction(z, 0.3);
+                EXPECT_NEAR(c.f64.albedo(wo).x, sampledAlbedo(c.f64, wo, pointCount).x, 3.0 / 64.0)
+                    << ior << " " << alpha << " " << z;
+            }
+}
+
 TEST(LobeAlbedo, DiffuseIsExact) {
     const bake::GaussRule rule(120);
     for (const LobeCase& c : lobeCases(1)) {

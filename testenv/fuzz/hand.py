@@ -14,7 +14,7 @@ import time
 CPU_SECONDS = 20  # a module may name more
 WALL_SECONDS = 120  # where the machine is busy; at least six times the processor's
 BYTES = 6 << 30  # of addresses: Python, USD and the driver's libraries take 2 GiB of them
-TOLD = 4000  # bytes of standard error that are answered
+TOLD = 16000  # bytes of standard error that are answered; a message may repeat a long word
 
 
 def _child(module, ask):

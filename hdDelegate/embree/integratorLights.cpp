@@ -64,6 +64,8 @@ void Integrator::addLight(Path& path, int light, const vec3& radiance, float lig
 }
 
 void Integrator::addEscaped(Path& path) const {
+    // A ray that is not traced for want of a direction has no place in an image.
+    if (!std::isfinite(path.direction.x + path.direction.y + path.direction.z)) return;
     for (int light : _lights.set().infiniteLights()) {
         const LightInfo& info = _lights.info(light);
         if (path.fromCamera() && (!info.cameraVisible || !info.dome)) continue;

@@ -60,8 +60,10 @@ def leave(status):
     os._exit(status or 0)
 
 
-def record(words, folder):
-    """The same of a render to image.exr, which exists before: it is the old one afterwards, or a whole new one of numbers."""
+def record(words, folder, darkens=False):
+    """The same of a render to image.exr, which exists before: it is the old one afterwards, or a whole new one of numbers.
+
+    :param darkens: whether lights of the stage take light away, so that numbers may be negative"""
     image = os.path.join(folder, "image.exr")
     with open(image, "wb") as file:
         file.write(SENTINEL)
@@ -85,7 +87,7 @@ def record(words, folder):
 
     found = _patina.read_image(image)
     colors = np.array(found.pixels)[..., [found.channels.index(c) for c in "RGBA"]]
-    if not np.isfinite(colors).all() or (colors < 0).any():
+    if not np.isfinite(colors).all() or (not darkens and (colors < 0).any()):
         return broken("the image holds values that are no numbers, or negative")
     return 0
 

@@ -148,7 +148,27 @@ def stage(writer):
 
 def execute(path, folder):
     """Renders an input, in a process that may die. :returns: its exit status"""
-    return outcomes.record(["record", path, "image.exr", "--camera", "/camera"], folder)
+    return outcomes.record(["record", path, "image.exr", "--camera", "/camera"], folder, _takes_light_away(path))
+
+
+def _takes_light_away(path):
+    """:returns: whether a number below 0 stands among the inputs of a light, each of which may be a factor of its light"""
+    from pxr import Usd, UsdLux
+
+    try:
+        stage = Usd.Stage.Open(path)
+    except Exception:  # Patina says why it does not open
+        return False
+    for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
+        if prim.HasAPI(UsdLux.LightAPI):
+            for name in ("color", "intensity", "diffuse", "specular"):
+                attribute = prim.GetAttribute("inputs:" + name)
+                values = [attribute.Get(time) for time in (Usd.TimeCode.Default(), *attribute.GetTimeSamples())] \
+                    if attribute else []
+                if any(number < 0 for value in values if value is not None
+                       for number in (value if hasattr(value, "__len__") else [value])):
+                    return True
+    return False
 
 
 def without(path):

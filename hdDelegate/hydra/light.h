@@ -10,9 +10,9 @@
 
 namespace patina {
 
-/// Every UsdLux light: shape, colour, shaping, shadow, textures, linking. Portals are
-/// reported and left out. The camera light that hosts add shines so that a white matte surface
-/// that faces it looks white.
+/// Every UsdLux light: shape, colour, shaping, shadow, textures, linking, portals where the host
+/// has scene indices. The camera light that hosts add shines so that a white matte surface that
+/// faces it looks white.
 class HdPatinaLight final : public HdLight {
 public:
     HdPatinaLight(const TfToken& type, const SdfPath& id) : HdLight(id), _type(type) {}

@@ -2,6 +2,7 @@
 #include "hdDelegate/hydra/lightParams.h"
 
 #include "hdDelegate/hydra/lightFilter.h"
+#include "hdDelegate/hydra/lightPortals.h"
 #include "hdDelegate/hydra/values.h"
 
 #include "materialNetwork/color/colorSpaces.h"
@@ -188,9 +189,7 @@ void readLightParams(HdSceneDelegate& delegate, HdPatinaRenderParam& param, cons
     readNetwork(delegate, param, id, light);
     readLightGroup(delegate, p, id, light);
     light.filters = readLightFilters(delegate, param, id);
-    const VtValue portals = delegate.GetLightParamValue(id, HdTokens->portals);
-    if (portals.IsHolding<SdfPathVector>() && !portals.UncheckedGet<SdfPathVector>().empty())
-        param.warn(id, "portals", "are not used; the dome lights everything");
+    if (light.type == LightType::Dome) light.portals = readLightPortals(delegate, param, id);
 
     // Hosts' own camera light carries what a rasterizer needs to know of it.
     if (light.type == LightType::Distant && p.has("params")) {

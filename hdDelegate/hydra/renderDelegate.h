@@ -11,8 +11,9 @@ namespace patina {
 /// Patina as Hydra sees it.
 ///
 /// Supported: mesh, basisCurves, points, and the implicit shapes as they are; instancers, nested;
-/// cameras, all UsdLux lights but portals and filters, materials, coordinate systems, computations;
-/// render buffers; UsdRenderSettings prims. Sync only collects changes (see HdPatinaRenderParam).
+/// cameras, all UsdLux lights with their filters and portals, materials, coordinate systems,
+/// computations; render buffers; UsdRenderSettings prims. Sync only collects changes (see
+/// HdPatinaRenderParam).
 class HdPatinaRenderDelegate final : public HdRenderDelegate {
 public:
     /// @param backend the default of the setting `backend`

@@ -101,6 +101,7 @@ if(TARGET _patina)
         get_filename_component(folder ${table} DIRECTORY)
         install(FILES ${table} DESTINATION ${pythonFolder}/patina/tables/${folder})
     endforeach()
+    install(DIRECTORY materialNetwork/library DESTINATION ${pythonFolder}/patina/tables/materialNetwork)
     # Where Node and npm are, the material page's script is made here, so that users need neither.
     find_program(PATINA_NPM npm)
     find_package(Python3 COMPONENTS Interpreter)

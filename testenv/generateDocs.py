@@ -3,7 +3,7 @@
 
     ./patina python testenv/generateDocs.py [--check] [PAGE ...]
 
-Pages: nodes, flags, limits, methods, aovs, marks, cameras, byDesign, messages, benchmarks, trust (docs/trust.md).
+Pages: nodes, flags, limits, methods, aovs, marks, cameras, library, byDesign, messages, benchmarks, trust (docs/trust.md).
 testenv/lint/test_generatedDocs.py fails where one is stale.
 """
 import argparse
@@ -205,6 +205,20 @@ def cameras():
             "has the meanings.", "", *table(("attribute", "meaning"), rows)]
 
 
+def library():
+    from patina.library import catalog
+
+    rows = [(e.group, f"`library:{e.name}`", e.title, e.source) for e in catalog.entries()]
+    return ["# Material library", "",
+            "Materials that come with Patina, as MaterialX documents in `materialNetwork/library`. A name stands for its",
+            "material wherever a command asks for one: `patina explain library:gold`,",
+            "`patina view library:gold -o gold.html`, `patina shader library:gold --target mtlx --output gold.mtlx`.",
+            "`patina view --library -o library.html` makes a page of all, with pictures of both back ends.",
+            "*Designed* numbers were chosen by eye; all others have a source.", "",
+            "![All materials, as the path tracer shows them](../pictures/library.png)", "",
+            *table(("group", "name", "title", "sources"), rows)]
+
+
 def by_design():
     sys.path.append(os.path.join(ROOT, "testenv", "raster"))
     import byDesign
@@ -240,7 +254,7 @@ def trust():
 
 
 PAGES = {"nodes": nodes, "flags": flags, "limits": limits, "methods": methods, "aovs": aovs, "marks": marks, "cameras": cameras,
-         "byDesign": by_design, "messages": messages, "benchmarks": benchmarks.page, "trust": trust}
+         "library": library, "byDesign": by_design, "messages": messages, "benchmarks": benchmarks.page, "trust": trust}
 PLACES = {"trust": os.path.join(ROOT, "docs", "trust.md")}  # of pages that are not in docs/generated
 NOTE = "<!-- Made by `./patina python testenv/generateDocs.py`; edits are lost. -->"
 

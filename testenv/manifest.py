@@ -102,6 +102,7 @@ OVERRIDES = (  # pattern, tier or None, rooms or None
     # A minute of software OpenGL; the whole table, measured again.
     ("testenv/cli/test_subdivisionPlan.py::test_the_predicted_error_holds_in_the_rasterizer", "long", None),
     ("testenv/cli/test_chart.py::test_errors_are_those_of_the_table", "long", None),
+    ("plugin/patina/library/tests/test_library.py::test_check_passes*", "long", None),
     ("testenv/cli/test_predictions.py::*", "full", "chart materialNetwork"),
     ("testenv/cli/test_check.py::*", "full", "cli materialNetwork shaders"),
     ("testenv/cli/test_bsdf.py::*", "full", "cli materialNetwork raster shaders"),

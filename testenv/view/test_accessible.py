@@ -9,6 +9,7 @@ from accessibility import axe_script, look_at, violations
 
 from patina.chart import look, png, svg
 from patina.cli import main
+from patina.library import catalog, page
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.normpath(os.path.join(HERE, "..", ".."))
@@ -47,8 +48,15 @@ def sheet(tmp_path_factory):
     return str(path)
 
 
+@pytest.fixture(scope="module")
+def library(tmp_path_factory):
+    path = tmp_path_factory.mktemp("library") / "a.html"
+    path.write_text(page.document(16, 1, [e for e in catalog.entries() if e.name in ("chalk", "gold")])[0])
+    return str(path)
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("name", ["report", "charts", "sheet"])
+@pytest.mark.parametrize("name", ["report", "charts", "sheet", "library"])
 def test_pages_have_no_serious_violation(chromium, axe, request, name, scheme):
     assert not look_at(chromium, axe, request.getfixturevalue(name), scheme)
 

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""MATERIAL arguments: FILE[:/prim/path] of a stage, or FILE.mtlx[:name]."""
+"""MATERIAL arguments: FILE[:/prim/path] of a stage, FILE.mtlx[:name], or library:NAME."""
 import os
 
 from patina import inputs
 from patina.cli import compiled, openStage, overrides
 from patina.cli.errors import CommandError
+from patina.library import catalog
 
-MATERIAL_HELP = "FILE[:/prim/path] of a stage or FILE.mtlx[:name]; without a path or name: the only material of the file"
+MATERIAL_HELP = ("FILE[:/prim/path] of a stage, FILE.mtlx[:name], or library:NAME of Patina's own (patina view --library shows "
+                 "them); without a path or name: the only material of the file")
 
 
 def split(text):
@@ -14,6 +16,8 @@ def split(text):
     of namespaces"""
     if os.path.exists(text):
         return text, ""
+    if text.startswith(catalog.PREFIX):
+        return catalog.path_of(text[len(catalog.PREFIX):]), ""
     for at in (i for i in range(len(text) - 1, 0, -1) if text[i] == ":"):
         if os.path.isfile(text[:at]):
             return text[:at], text[at + 1:]

@@ -20,6 +20,8 @@ def add_arguments(parser):
         "the only material", "every material"))
     parser.add_argument("--demo", choices=sorted(DEMOS), help="a page that is part of Patina: " + "; ".join(
         f"{name}, {text}" for name, text in DEMOS.items()))
+    parser.add_argument("--library", action="store_true", help="a page of pictures instead: every material of Patina's library "
+                                                               "in both back ends, with its source")
     parser.add_argument("-o", "--output", required=True, metavar="FILE", help="the page, FILE.html")
     parser.add_argument("--title", metavar="TEXT", help="of the page (default: the materials' names)")
     parser.add_argument("--environment", action="append", default=[], metavar="FILE",
@@ -35,8 +37,9 @@ def add_arguments(parser):
     parser.add_argument("--compare", action="store_true", help="embed a path-traced picture of each material, with a "
                                                                "wipe and the FLIP figure")
     parser.add_argument("--compareShapes", action="store_true", help="the same on every shape of the page")
-    parser.add_argument("--compareWidth", type=int, default=256, metavar="N", help="its size (default: 256)")
-    parser.add_argument("--compareSamples", type=int, default=256, metavar="N", help="its samples (default: 256)")
+    parser.add_argument("--compareWidth", type=int, default=256, metavar="N",
+                        help="size of those pictures, and of the library's (default: 256)")
+    parser.add_argument("--compareSamples", type=int, default=256, metavar="N", help="their samples (default: 256)")
     parser.add_argument("--textureSize", type=int, default=1024, metavar="N",
                         help="largest side of textures and environments in the page (default: 1024)")
     parser.add_argument("--set", action="append", default=[], metavar="PRIM.INPUT=VALUE",
@@ -46,6 +49,24 @@ def add_arguments(parser):
 
 
 def run(arguments):
+    if not 16 <= arguments.compareWidth <= 2048 or not 1 <= arguments.compareSamples <= 65536:
+        raise UsageError("patina view: --compareWidth is 16 to 2048, --compareSamples 1 to 65536")
+    text, warnings = _library(arguments) if arguments.library else _page(arguments)
+    statistics.report(warnings, sys.stderr, json=False)
+    outputs.write_text(arguments.output, text)
+    print(f"{arguments.output}: {len(text) / 1e6:.2f} MB")
+
+
+def _library(arguments):
+    from patina.library import page
+
+    if arguments.material or arguments.demo:
+        raise UsageError("patina view: --library brings its own materials")
+    outputs.check_all([arguments.output])
+    return page.document(arguments.compareWidth, arguments.compareSamples)
+
+
+def _page(arguments):
     from patina.view import build
 
     if arguments.demo:
@@ -58,9 +79,4 @@ def run(arguments):
         raise UsageError("patina view: no MATERIAL (see patina view --help)")
     if not 1 <= arguments.textureSize <= 4096:
         raise UsageError("patina view: --textureSize is 1 to 4096")
-    if not 16 <= arguments.compareWidth <= 2048 or not 1 <= arguments.compareSamples <= 65536:
-        raise UsageError("patina view: --compareWidth is 16 to 2048, --compareSamples 1 to 65536")
-    text, warnings = build.page_of(arguments)
-    statistics.report(warnings, sys.stderr, json=False)
-    outputs.write_text(arguments.output, text)
-    print(f"{arguments.output}: {len(text) / 1e6:.2f} MB")
+    return build.page_of(arguments)

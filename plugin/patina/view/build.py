@@ -99,8 +99,6 @@ def _share_presets(found):
 
 def page_of(arguments):
     """:returns: the page's text, and warnings"""
-    if not os.path.isdir(os.path.dirname(os.path.abspath(arguments.output))):
-        raise CommandError(f"there is no folder for {arguments.output}")
     outputs.check_all([arguments.output, arguments.writeControls])
     builder = Builder(arguments)
     builder.read()

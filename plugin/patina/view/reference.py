@@ -59,6 +59,7 @@ def _mesh(edit, mesh, to_world):
 def render(network, mesh, to_world, environment, camera, eye, width, samples, backend="embree", scene=None,
            **more):
     """
+    :param mesh: see _mesh(), or a function of a scene's edit that draws `/shape` with `/material` itself
     :param environment: see _dome(); None for none
     :param scene: a `_patina.Scene` whose lights (but no domes) light the shape too, or None
     :param more: further render settings
@@ -75,7 +76,10 @@ def render(network, mesh, to_world, environment, camera, eye, width, samples, ba
             if environment:
                 _dome(edit, folder, environment)
             edit.set_material("/material", network)
-            _mesh(edit, mesh, to_world)
+            if callable(mesh):
+                mesh(edit)
+            else:
+                _mesh(edit, mesh, to_world)
         renderer.start(scene, "/camera", settings, film)
         try:
             while not renderer.wait(0.2):  # signals are heard in between

@@ -115,6 +115,34 @@ def test_portals(tmp_path, scene_index):
     compare(wanted, image, scene_index)
 
 
+LENSES = {
+    "fisheye": ('token patina:projection = "fisheyeEquisolid"', "float patina:fieldOfView = 150"),
+    "spherical": ('string arnold:camera = "spherical_camera"',),
+    "cylindrical": ('token primvars:patina:projection = "cylindrical"', "float patina:verticalFieldOfView = 70"),
+    "stereo": ('token patina:stereo = "overUnder"', "float patina:interocularDistance = 0.3",
+               "float patina:convergenceDistance = 6"),
+    "blades": ("int ri:camera:aperturensides = 5", "float patina:apertureAspect = 2", "float fStop = 1",
+               "float focusDistance = 4"),
+    "distortion": ("float patina:distortionK1 = -0.2",)}
+
+
+@MODES
+@pytest.mark.parametrize("lens", LENSES)
+def test_lenses(tmp_path, lens, scene_index):
+    with open(os.path.join(stages.SCENES, "lightRect.usda"), encoding="utf-8") as file:
+        text = file.read()
+    line = "        float2 clippingRange = (0.01, 10000)\n"
+    assert line in text
+    stage = tmp_path / "lens.usda"
+    stage.write_text(text.replace(line, line + "".join(f"        {attribute}\n" for attribute in LENSES[lens])))
+    shot = stages.Shot(str(stage), tmp_path)
+    image, dump = render_with_hydra(shot, tmp_path, scene_index)
+    plain = stages.Shot(os.path.join(stages.SCENES, "lightRect.usda"), tmp_path)
+    assert sceneText.difference(dump, plain.scene.dump(), native_shapes=scene_index) != ""
+    assert sceneText.difference(dump, shot.scene.dump(), native_shapes=scene_index) == ""
+    compare(shot, image, scene_index)
+
+
 @pytest.mark.slow
 @MODES
 @pytest.mark.parametrize("stage", stages.assets(), ids=stages.name_of)

@@ -43,18 +43,26 @@ float AmbientOcclusion::sample(const CameraRay& ray, Sampler& sampler,
     const vec3 origin = position + normal * offset;
     vec3 x, y;
     frameOf(normal, x, y);
-    constexpr float twoPi = 6.2831853071795865f;
+    // A rank-1 lattice (golden ratio), shifted at random: stratified for any number of rays. From
+    // one ray to the next its angle turns by the golden angle.
+    constexpr float turnX = -0.73736888f, turnY = -0.67549029f; // cos, sin of 2 pi 0.6180340
     const vec2 shift = sampler.next2();
+    const float phi = 6.2831853071795865f * shift.y;
+    vec2 around(std::cos(phi), std::sin(phi));
     int seen = 0;
-    for (int i = 0; i < rays; ++i) {
-        // A rank-1 lattice (golden ratio), shifted at random: stratified for any number of rays.
-        const float u = (float(i) + shift.x) / float(rays);
-        float v = float(i) * 0.61803398875f + shift.y;
-        v -= std::floor(v);
-        const float radius = std::sqrt(u), phi = twoPi * v;
-        const vec3 direction = x * (radius * std::cos(phi)) + y * (radius * std::sin(phi)) +
-                               normal * std::sqrt(std::max(0.0f, 1.0f - u));
-        seen += !scene.occluded(origin, direction, 0.0f, INFINITY, ray.time, RayShadow);
+    for (int begin = 0; begin < rays; begin += EmbreeScene::packet) {
+        const int count = std::min(rays - begin, EmbreeScene::packet);
+        vec3 directions[EmbreeScene::packet];
+        for (int i = 0; i < count; ++i) {
+            const float u = (float(begin + i) + shift.x) / float(rays);
+            const vec2 across = std::sqrt(u) * around;
+            directions[i] =
+                x * across.x + y * across.y + normal * std::sqrt(std::max(0.0f, 1.0f - u));
+            around = vec2(around.x * turnX - around.y * turnY, around.x * turnY + around.y * turnX);
+        }
+        const unsigned blocked = scene.occludedRays(origin, directions, count, ray.time, RayShadow);
+        for (int i = 0; i < count; ++i)
+            seen += (blocked >> i & 1u) == 0;
     }
     rayCount += uint64_t(rays);
     return float(seen) / float(rays);

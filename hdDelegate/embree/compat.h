@@ -34,6 +34,16 @@ inline void embreeOccluded(RTCScene scene, EmbreeContext* context, RTCRay* ray) 
     rtcOccluded1(scene, ray, &args);
 }
 
+/// @param valid -1 for each ray to trace, aligned to 64 bytes as the rays are
+inline void embreeOccluded16(const int* valid, RTCScene scene, EmbreeContext* context,
+                             RTCRay16* rays) {
+    RTCOccludedArguments args;
+    rtcInitOccludedArguments(&args);
+    args.context = context;
+    args.flags = RTC_RAY_QUERY_FLAG_INCOHERENT;
+    rtcOccluded16(valid, scene, rays, &args);
+}
+
 #else
 
 using EmbreeContext = RTCIntersectContext;
@@ -47,6 +57,12 @@ inline void embreeIntersect(RTCScene scene, EmbreeContext* context, RTCRayHit* r
 
 inline void embreeOccluded(RTCScene scene, EmbreeContext* context, RTCRay* ray) {
     rtcOccluded1(scene, context, ray);
+}
+
+/// @param valid -1 for each ray to trace, aligned to 64 bytes as the rays are
+inline void embreeOccluded16(const int* valid, RTCScene scene, EmbreeContext* context,
+                             RTCRay16* rays) {
+    rtcOccluded16(valid, scene, context, rays);
 }
 
 #endif

@@ -110,18 +110,21 @@ void instanceIntersect(const RTCIntersectFunctionNArguments* args) {
 }
 
 void instanceOccluded(const RTCOccludedFunctionNArguments* args) {
-    if (!args->valid[0]) return;
     const auto* record = static_cast<const GroupRecord*>(args->geometryUserPtr);
     auto& context = *reinterpret_cast<TraceContext*>(args->context);
     if (context.depth >= TraceContext::maxDepth) return;
-    auto* ray = reinterpret_cast<RTCRay*>(args->ray);
     const int instance = record->instances[args->primID];
     const EmbreeGroup* target = record->node->targets[instance];
-    RTCRay local = transformRay(*ray, glm::inverse(record->node->transformAt(instance, ray->time)));
-    if (!isTraceable(local, target->rayLimit)) return;
-    Descent descent(context, record, instance, target);
-    embreeOccluded(target->scene, &context.base, &local);
-    if (local.tfar < 0.0f) ray->tfar = -INFINITY;
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (!args->valid[i]) continue;
+        const RTCRay ray = rtcGetRayFromRayN(args->ray, args->N, i);
+        RTCRay local =
+            transformRay(ray, glm::inverse(record->node->transformAt(instance, ray.time)));
+        if (!isTraceable(local, target->rayLimit)) continue;
+        Descent descent(context, record, instance, target);
+        embreeOccluded(target->scene, &context.base, &local);
+        if (local.tfar < 0.0f) RTCRayN_tfar(args->ray, args->N, i) = -INFINITY;
+    }
 }
 
 /// How large coordinates of rays may be for Embree to take them into an instance.

@@ -70,9 +70,9 @@ std::unique_ptr<CausticCasters> EmbreeRenderer::casters(const RenderSettings& se
 
 PhotonMap EmbreeRenderer::photons(const Integrator& integrator, const CausticCasters& casters,
                                   int block) {
-    // A photon takes about as long as a path of a few vertices.
-    constexpr double perPath = 0.25;
-    constexpr int min = 1 << 13, max = 1 << 20; // 1 << 20 take 72 MB
+    // Where caustics are not all there is, paths have most of the noise and cost less.
+    constexpr double perPath = 1.0 / 16.0;
+    constexpr int min = 1 << 11, max = 1 << 20; // 1 << 20 take 72 MB
     const double wanted =
         perPath * PhotonPass::samples * _settings.width * double(_settings.height);
     const int count = int(std::clamp(wanted, double(min), double(max)));

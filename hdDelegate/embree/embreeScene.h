@@ -65,6 +65,12 @@ public:
     /// Whether anything blocks the way. Only valid as an answer when allOpaque().
     bool occluded(const vec3& origin, const vec3& direction, float near, float far, float time,
                   unsigned mask) const;
+    static constexpr int packet = 16; ///< rays that occludedRays takes at once
+    /// The same for up to `packet` rays from one point to any distance, in less time than each
+    /// alone. @param directions of length 1
+    /// @returns bit i: something blocks ray i
+    unsigned occludedRays(const vec3& origin, const vec3* directions, int count, float time,
+                          unsigned mask) const;
 
     bool allOpaque() const { return _translucent == 0; } ///< no material lets shadow rays through
     const VolumeScene& volumes() const { return _volumes; }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/embree/embreeScene.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace patina {
 
 bool EmbreeScene::finishHit(const RTCRayHit& rayHit, const TraceContext& context, Hit& hit) const {
@@ -82,6 +85,31 @@ bool EmbreeScene::occluded(const vec3& origin, const vec3& direction, float near
     if (!accepts(ray)) return true;
     embreeOccluded(_world->scene, &context.base, &ray);
     return ray.tfar < 0.0f;
+}
+
+unsigned EmbreeScene::occludedRays(const vec3& origin, const vec3* directions, int count,
+                                   float time, unsigned mask) const {
+    TraceContext context;
+    initContext(&context.base);
+    context.group = _world;
+    alignas(64) RTCRay16 rays;
+    alignas(64) int valid[packet];
+    unsigned blocked = 0;
+    for (int i = 0; i < packet; ++i) {
+        const vec3& direction = directions[std::min(i, count - 1)];
+        const RTCRay ray = {origin.x,    origin.y, origin.z, 0.0f, direction.x, direction.y,
+                            direction.z, time,     INFINITY, mask, 0,           0};
+        valid[i] = i < count && accepts(ray) ? -1 : 0;
+        if (i < count && !valid[i]) blocked |= 1u << i;
+        rays.org_x[i] = ray.org_x, rays.org_y[i] = ray.org_y, rays.org_z[i] = ray.org_z;
+        rays.dir_x[i] = ray.dir_x, rays.dir_y[i] = ray.dir_y, rays.dir_z[i] = ray.dir_z;
+        rays.tnear[i] = ray.tnear, rays.tfar[i] = ray.tfar, rays.time[i] = ray.time;
+        rays.mask[i] = ray.mask, rays.id[i] = unsigned(i), rays.flags[i] = 0;
+    }
+    embreeOccluded16(valid, _world->scene, &context.base, &rays);
+    for (int i = 0; i < count; ++i)
+        if (valid[i] && rays.tfar[i] < 0.0f) blocked |= 1u << i;
+    return blocked;
 }
 
 } // namespace patina

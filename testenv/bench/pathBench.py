@@ -95,7 +95,7 @@ def measure(name, commands, options, pictures):
                                                                          encoding="utf-8") as log:
         scene = pathScenes.SCENES[name](folder)
         pathWorker.save(scene, folder, {"width": options.size[0], "height": options.size[1], "depth": options.depth,
-                                        "threads": options.threads})
+                                        "threads": options.threads, "methods": options.method})
         workers, found = {}, {}
         try:
             for who, command in commands.items():
@@ -166,12 +166,15 @@ def main(arguments):
     parser.add_argument("--depth", type=int, default=8, help="bounces (default: 8)")
     parser.add_argument("--threads", type=int, default=0, help="of each renderer (default: all)")
     parser.add_argument("--target", type=float, default=1e-3, help="relMSE (default: 1e-3)")
+    parser.add_argument("--method", action="append", default=[], metavar="CHOICE=METHOD", help="of Patina (repeatable)")
     parser.add_argument("--without", action="append", default=[], help="leaves a renderer out, as Cycles (repeatable)")
     parser.add_argument("--images", metavar="FOLDER", help="writes what each renderer drew")
     parser.add_argument("--json", help="writes the figures to this file")
     options = parser.parse_args(arguments)
     options.size = tuple(map(int, options.size.split("x")))
     options.samples = tuple(map(int, options.samples.split(",")))
+    options.method = dict(word.split("=", 1) if "=" in word else parser.error("--method takes CHOICE=METHOD")
+                          for word in options.method)
     unknown = [name for name in options.scenes if name not in pathScenes.SCENES]
     if unknown or len(options.samples) != 2 or options.samples[0] >= options.samples[1] or options.runs < 2:
         parser.error(f"there is no scene {unknown[0]}" if unknown else "--samples takes few and many, --runs at least 2")

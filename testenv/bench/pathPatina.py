@@ -140,7 +140,8 @@ def main(folder):
             "width": scene["width"], "height": scene["height"], "samples": samples, "seed": seed, "threads": scene["threads"],
             "maxDepth": scene["depth"], "filterRadius": 0.5, "checkpointSeconds": 0.0,
             "rouletteDepth": 1 if scene.get("roulette", True) else 4096,
-            "methods": {"layerTransmittance": "largest"}}, film)  # as peers do, so that pictures are equally bright
+            "methods": {"layerTransmittance": "largest",  # as peers do, so that pictures are equally bright
+                        **scene.get("methods", {})}}, film)
         renderer.wait()
         state = renderer.progress()
         if state["failed"]:

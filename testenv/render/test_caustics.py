@@ -122,7 +122,7 @@ def test_a_slab_passes_what_fresnel_and_beer_leave(tmp_path, color):
 def test_photons_show_what_paths_find(tmp_path):
     path = stage(tmp_path, BALL, LAMP, roughness=0.5, aperture=20)
     means = {}
-    for method, samples in (("photons", 16), ("paths", 256)):
+    for method, samples in (("photons", 64), ("paths", 256)):
         made = opened(path, method, "--samples", samples)
         images = np.array([made.image(seed)[..., 1] for seed in SEEDS])
         # Quarters of the image: what photons blur stays in them.

@@ -215,3 +215,37 @@ TEST(EmbreeScene, VisibilityMasksRays) {
     EXPECT_FALSE(built.hit({0, 0, 1}, {0, 0, -1}, hit));
     EXPECT_TRUE(built.embree.intersect({0, 0, 1}, {0, 0, -1}, 0, 10, 0, RayIndirect, hit));
 }
+
+TEST(EmbreeScene, PacketsMeetWhatEachOfTheirRaysMeets) {
+    for (const bool nested : {false, true}) {
+        Built built;
+        SceneEdit edit = built.scene.edit();
+        edit.set(std::shared_ptr<const Geometry>(makeQuad("/wall")));
+        edit.set(std::shared_ptr<const Geometry>(makeQuad("/leaf", "A")));
+        edit.set(std::shared_ptr<const Instancer>(makeInstancer(
+            "/i1", nested ? "B" : "", "A", {translate(4, 0, 0), translate(8, 0, -1)})));
+        if (nested)
+            edit.set(std::shared_ptr<const Instancer>(
+                makeInstancer("/i2", "", "B", {translate(0, 0.3f, 0), translate(12, 0, 0)})));
+        edit.commit();
+        built.update();
+        const vec3 origin(4, 0.1f, 3);
+        for (const int count : {1, 7, EmbreeScene::packet}) {
+            vec3 directions[EmbreeScene::packet];
+            for (int i = 0; i < count; ++i)
+                directions[i] = glm::normalize(vec3(-1.9f + 0.31f * float(i), 0.0f, -1.0f));
+            if (count > 3) directions[3] = vec3(NAN);
+            const unsigned blocked =
+                built.embree.occludedRays(origin, directions, count, 0.0f, RayShadow);
+            unsigned wanted = 0;
+            for (int i = 0; i < count; ++i)
+                if (built.embree.occluded(origin, directions[i], 0, INFINITY, 0, RayShadow))
+                    wanted |= 1u << i;
+            EXPECT_EQ(blocked, wanted) << "nested " << nested << ", " << count << " rays";
+            if (count == EmbreeScene::packet) {
+                EXPECT_NE(wanted, 0u);
+                EXPECT_NE(wanted, 0xffffu) << "some pass";
+            }
+        }
+    }
+}

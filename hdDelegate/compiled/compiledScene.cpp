@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/compiled/compiledScene.h"
 
+#include <algorithm>
 #include <map>
 
 namespace patina {
@@ -24,6 +25,8 @@ std::shared_ptr<CompiledScene> CompiledScene::of(const std::shared_ptr<Scene>& s
 
 CompiledState CompiledScene::compiled(const SceneState& state, const RenderSettings& settings) {
     const std::lock_guard<std::mutex> lock(_mutex);
+    constexpr double most = 1e12; // MiB
+    _textures.setMemory(uint64_t(std::min(settings.textureMemory, most) * (1 << 20)));
     const auto delta = _scene->changes(_compiledVersion, state.version);
     const bool known = delta && _compiled.placements;
     if (!known || !delta->instancers.empty() || _excludePaths != settings.excludePaths)

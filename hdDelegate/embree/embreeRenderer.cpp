@@ -24,6 +24,7 @@ void EmbreeRenderer::publish(const TileSchedule& schedule) {
         progress.statistics["shadowRays"] = double(_shadowRays);
         progress.statistics["paths"] = double(_paths);
         progress.statistics["droppedSamples"] = double(_film->droppedSamples());
+        _compiled->textures().memory().addStatistics(progress.statistics);
         if (_settings.timeMaterials) progress.materialSeconds = materialSeconds();
     });
 }

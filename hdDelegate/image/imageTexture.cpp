@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hdDelegate/image/imageTexture.h"
 
+#include "hdDelegate/image/mipAverage.h"
+#include "hdDelegate/image/texelMath.h"
 #include "hdDelegate/parallel.h"
 
-#include <OpenImageIO/half.h>
-
-#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 
 namespace patina {
 
 namespace {
-
-size_t bytesOf(TexelType type) {
-    return type == TexelType::U8 ? 1 : type == TexelType::Float ? 4 : 2;
-}
 
 constexpr int outside = -1; ///< of a black border
 
@@ -47,104 +43,54 @@ float reduced(float s, TextureWrap wrap) {
     return std::min(std::max(s, -1.0f), 2.0f);
 }
 
-/// Which texels of a side of n, with which weights, make texel i of a side of half (rounded down).
-struct Span {
-    int first, count;
-    float weights[4];
-    Span(int i, int n, int half) : first(int(int64_t(i) * n / half)), count(0) {
-        double ratio = double(n) / half, from = i * ratio, to = from + ratio;
-        for (int j = first; j < n && j < to - 1e-9 && count < 4; ++j)
-            weights[count++] = float((std::min(to, j + 1.0) - std::max(from, double(j))) / ratio);
+/// The number of channels is a constant, so that the loop over them unrolls.
+template <class T, int N> void addFourTexels(const void* texels, int width, const int* x,
+                                             const int* y, const float* weights,
+                                             const TexelFormat& format, float* sum) {
+    const float *color = format.decode.data(), *last = format.last().data();
+    const T* rows[2] = {static_cast<const T*>(texels) + size_t(y[0]) * size_t(width) * N,
+                        static_cast<const T*>(texels) + size_t(y[1]) * size_t(width) * N};
+    for (int i = 0; i < 4; ++i) {
+        const T* p = rows[i >> 1] + size_t(x[i & 1]) * N;
+        for (int c = 0; c < N; ++c)
+            sum[c] += weights[i] * linearOf(p[c], c == N - 1 ? last : color);
     }
-};
-
-/// Finds the 8-bit code whose linear value is nearest.
-class Encoder {
-public:
-    explicit Encoder(const std::array<float, 256>& decode) : _decode(decode) {
-        int code = 0;
-        for (int i = 0; i < cells; ++i) {
-            while (code < 255 && middle(code) <= float(i) / cells)
-                ++code;
-            _guess[size_t(i)] = uint8_t(code);
-        }
-    }
-    uint8_t operator()(float linear) const {
-        int cell = int(std::min(std::max(linear, 0.0f), 1.0f) * cells);
-        int code = _guess[size_t(std::min(cell, cells - 1))];
-        while (code < 255 && middle(code) <= linear)
-            ++code;
-        return uint8_t(code);
-    }
-
-private:
-    static constexpr int cells = 4096;
-    float middle(int code) const {
-        return 0.5f * (_decode[size_t(code)] + _decode[size_t(code) + 1]);
-    }
-    const std::array<float, 256>& _decode;
-    std::array<uint8_t, cells> _guess;
-};
-
-inline float linearOf(uint8_t v, const float* table) {
-    return table[v];
-}
-inline float linearOf(uint16_t v, const float*) {
-    return v * (1.0f / 65535.0f);
-}
-inline float linearOf(half v, const float*) {
-    return float(v);
-}
-inline float linearOf(float v, const float*) {
-    return v;
 }
 
-inline void store(float v, const Encoder& encode, uint8_t& to) {
-    to = encode(v);
-}
-inline void store(float v, const Encoder&, uint16_t& to) {
-    to = uint16_t(std::min(std::max(v, 0.0f), 1.0f) * 65535.0f + 0.5f);
-}
-inline void store(float v, const Encoder&, half& to) {
-    to = half(v);
-}
-inline void store(float v, const Encoder&, float& to) {
-    to = v;
-}
+const glm::vec4 magenta(1, 0, 1, 1);
 
 } // namespace
 
-int channelCount(TexelLayout layout) {
-    static const int counts[] = {1, 2, 2, 3, 4};
-    return counts[int(layout)];
+template <class T> ImageTexture::AddFour ImageTexture::addFourOf(int channels) {
+    static const AddFour functions[] = {addFourTexels<T, 1>, addFourTexels<T, 2>,
+                                        addFourTexels<T, 3>, addFourTexels<T, 4>};
+    return functions[channels - 1];
+}
+
+ImageTexture::ImageTexture(int width, int height, const TexelFormat& format,
+                           std::unique_ptr<const TexelTiles> tiles)
+    : _format(format), _levels(mipLevels(width, height)), _tiles(std::move(tiles)) {
+    _texels = _levels.back().offset + 1;
+    switch (format.type) {
+    case TexelType::U8: _addFour = addFourOf<uint8_t>(channels()); break;
+    case TexelType::U16: _addFour = addFourOf<uint16_t>(channels()); break;
+    case TexelType::Half: _addFour = addFourOf<half>(channels()); break;
+    case TexelType::Float: _addFour = addFourOf<float>(channels()); break;
+    }
 }
 
 ImageTexture::ImageTexture(int width, int height, TexelLayout layout, TexelType type)
-    : _channels(channelCount(layout)), _layout(layout), _type(type) {
-    for (int w = width, h = height;; w = std::max(1, w / 2), h = std::max(1, h / 2)) {
-        _levels.push_back({w, h, _texels});
-        _texels += size_t(w) * size_t(h);
-        if (w == 1 && h == 1) break;
-    }
-    _data.reset(
-        new uint8_t[memoryBytes()]); // left as it is: pages are touched when they are filled
-    for (size_t i = 0; i < 256; ++i)
-        _plain[i] = float(i) / 255.0f;
-    _decode = _plain;
-    switch (_type) {
-    case TexelType::U8: _functions = functionsOf<uint8_t>(_channels); break;
-    case TexelType::U16: _functions = functionsOf<uint16_t>(_channels); break;
-    case TexelType::Half: _functions = functionsOf<half>(_channels); break;
-    case TexelType::Float: _functions = functionsOf<float>(_channels); break;
-    }
+    : ImageTexture(width, height, TexelFormat(layout, type), nullptr) {
+    // Left as it is: pages are touched when they are filled.
+    _data.reset(new uint8_t[memoryBytes()]);
 }
 
 size_t ImageTexture::memoryBytes() const {
-    return _texels * size_t(_channels) * bytesOf(_type);
+    return _tiles ? 0 : _texels * _format.texelBytes();
 }
 
 const void* ImageTexture::levelData(int level) const {
-    return _data.get() + _levels[size_t(level)].offset * size_t(_channels) * bytesOf(_type);
+    return _data.get() + _levels[size_t(level)].offset * _format.texelBytes();
 }
 
 void* ImageTexture::levelData(int level) {
@@ -152,63 +98,29 @@ void* ImageTexture::levelData(int level) {
 }
 
 void ImageTexture::setDecodeTable(const std::array<float, 256>& table) {
-    _decode = table;
+    _format.decode = table;
 }
 
-const float* ImageTexture::lastTable() const {
-    bool alpha = _layout == TexelLayout::GreyAlpha || _layout == TexelLayout::Rgba;
-    return alpha ? _plain.data() : _decode.data();
+void ImageTexture::buildPyramid(int first) {
+    const MipAverage average(_format);
+    for (int number = std::max(first, 1); number < int(_levels.size()); ++number) {
+        const Level from = _levels[size_t(number) - 1], to = _levels[size_t(number)];
+        const size_t row = size_t(to.width) * _format.texelBytes();
+        uint8_t* target = static_cast<uint8_t*>(levelData(number));
+        parallelRanges(0, to.height, [&](int begin, int end) {
+            average.make(from, to, levelData(number - 1), {0, 0, from.width, from.height},
+                         target + size_t(begin) * row, {0, begin, to.width, end});
+        });
+    }
 }
 
-// The number of channels is a constant in what follows, so that the loops over them unroll.
-
-template <class T, int N> void ImageTexture::buildLevel(int number) {
-    const Level from = _levels[size_t(number) - 1], to = _levels[size_t(number)];
-    const T* source = static_cast<const T*>(levelData(number - 1));
-    T* target = static_cast<T*>(levelData(number));
-    const float *color = _decode.data(), *last = lastTable();
-    const Encoder encodeColor(_decode), encodeLast(last == color ? _decode : _plain);
-    std::vector<Span> columns;
-    for (int x = 0; x < to.width; ++x)
-        columns.emplace_back(x, from.width, to.width);
-    parallelRanges(0, to.height, [&](int begin, int end) {
-        std::vector<float> row(size_t(from.width) * N);
-        for (int y = begin; y < end; ++y) {
-            Span rows(y, from.height, to.height);
-            std::fill(row.begin(), row.end(), 0.0f);
-            for (int j = 0; j < rows.count; ++j) {
-                const T* p = source + size_t(rows.first + j) * size_t(from.width) * N;
-                for (size_t i = 0; i < row.size(); i += N)
-                    for (size_t c = 0; c < N; ++c)
-                        row[i + c] +=
-                            rows.weights[j] * linearOf(p[i + c], c == N - 1 ? last : color);
-            }
-            T* p = target + size_t(y) * size_t(to.width) * N;
-            for (int x = 0; x < to.width; ++x, p += N) {
-                const Span& span = columns[size_t(x)];
-                for (int c = 0; c < N; ++c) {
-                    float sum = 0;
-                    for (int i = 0; i < span.count; ++i)
-                        sum += span.weights[i] * row[size_t(span.first + i) * N + size_t(c)];
-                    store(sum, c == N - 1 ? encodeLast : encodeColor, p[c]);
-                }
-            }
-        }
-    });
-}
-
-void ImageTexture::buildPyramid() {
-    for (int level = 1; level < int(_levels.size()); ++level)
-        (this->*_functions.buildLevel)(level);
-}
-
-template <class T> bool ImageTexture::takeGrey(const ImageTexture& colored) {
-    const size_t from = size_t(colored._channels), to = size_t(_channels);
-    const size_t row = size_t(width());
-    const T* source = static_cast<const T*>(colored.levelData(0));
-    T* target = static_cast<T*>(levelData(0));
+template <class T> bool ImageTexture::takeGrey(const ImageTexture& colored, int level) {
+    const size_t from = size_t(colored.channels()), to = size_t(channels());
+    const size_t row = size_t(_levels[size_t(level)].width);
+    const T* source = static_cast<const T*>(colored.levelData(level));
+    T* target = static_cast<T*>(levelData(level));
     std::atomic<bool> grey{true};
-    parallelRanges(0, height(), [&](int begin, int end) {
+    parallelRanges(0, _levels[size_t(level)].height, [&](int begin, int end) {
         for (int y = begin; y < end && grey; ++y) {
             const T* p = source + size_t(y) * row * from;
             T* q = target + size_t(y) * row * to;
@@ -224,20 +136,22 @@ template <class T> bool ImageTexture::takeGrey(const ImageTexture& colored) {
     return grey;
 }
 
-std::shared_ptr<ImageTexture> ImageTexture::asGrey() const {
-    if (_channels < 3) return nullptr;
+std::shared_ptr<ImageTexture> ImageTexture::asGrey(int filled) const {
+    if (channels() < 3) return nullptr;
     auto grey = std::make_shared<ImageTexture>(
-        width(), height(), _channels == 4 ? TexelLayout::GreyAlpha : TexelLayout::Grey, _type);
-    grey->setDecodeTable(_decode);
-    const size_t bytes = bytesOf(_type); // texels are compared by their bits
-    const bool all = bytes == 1   ? grey->takeGrey<uint8_t>(*this)
-                     : bytes == 2 ? grey->takeGrey<uint16_t>(*this)
-                                  : grey->takeGrey<uint32_t>(*this);
-    return all ? grey : nullptr;
+        width(), height(), channels() == 4 ? TexelLayout::GreyAlpha : TexelLayout::Grey, type());
+    grey->setDecodeTable(_format.decode);
+    const size_t bytes = bytesOf(type()); // texels are compared by their bits
+    for (int level = 0; level < filled; ++level)
+        if (!(bytes == 1   ? grey->takeGrey<uint8_t>(*this, level)
+              : bytes == 2 ? grey->takeGrey<uint16_t>(*this, level)
+                           : grey->takeGrey<uint32_t>(*this, level)))
+            return nullptr;
+    return grey;
 }
 
 glm::vec4 ImageTexture::expand(const float* c) const {
-    switch (_layout) {
+    switch (_format.layout) {
     case TexelLayout::Grey: return {c[0], c[0], c[0], 1.0f};
     case TexelLayout::GreyAlpha: return {c[0], c[0], c[0], c[1]};
     case TexelLayout::RedGreen: return {c[0], c[1], 0.0f, 1.0f};
@@ -247,34 +161,44 @@ glm::vec4 ImageTexture::expand(const float* c) const {
     return {c[0], c[1], c[2], c[3]};
 }
 
-template <class T, int N> void ImageTexture::addFour(const Level& level, const int* x, const int* y,
-                                                     const float* weights, float* sum) const {
-    const T* texels = reinterpret_cast<const T*>(_data.get()) + level.offset * N;
-    const float *color = _decode.data(), *last = lastTable();
-    const T* rows[2] = {texels + size_t(y[0]) * size_t(level.width) * N,
-                        texels + size_t(y[1]) * size_t(level.width) * N};
-    for (int i = 0; i < 4; ++i) {
-        const T* p = rows[i >> 1] + size_t(x[i & 1]) * N;
-        for (int c = 0; c < N; ++c)
-            sum[c] += weights[i] * linearOf(p[c], c == N - 1 ? last : color);
-    }
+bool ImageTexture::addFour(int number, const int* x, const int* y, const float* weights,
+                           float* sum) const {
+    if (_tiles) return addFourOfTiles(number, x, y, weights, sum);
+    _addFour(levelData(number), _levels[size_t(number)].width, x, y, weights, _format, sum);
+    return true;
 }
 
-template <class T> ImageTexture::Functions ImageTexture::functionsOf(int channels) {
-    static const Functions functions[] = {
-        {&ImageTexture::addFour<T, 1>, &ImageTexture::buildLevel<T, 1>},
-        {&ImageTexture::addFour<T, 2>, &ImageTexture::buildLevel<T, 2>},
-        {&ImageTexture::addFour<T, 3>, &ImageTexture::buildLevel<T, 3>},
-        {&ImageTexture::addFour<T, 4>, &ImageTexture::buildLevel<T, 4>}};
-    return functions[channels - 1];
+bool ImageTexture::addFourOfTiles(int number, const int* x, const int* y, const float* weights,
+                                  float* sum) const {
+    constexpr int side = TexelTiles::side;
+    const int columns[2] = {x[0] / side, x[1] / side}, rows[2] = {y[0] / side, y[1] / side};
+    if (columns[0] == columns[1] && rows[0] == rows[1]) {
+        const TexelTiles::Tile tile = _tiles->tile(number, columns[0], rows[0]);
+        if (!tile.texels) return false;
+        const int inX[2] = {x[0] % side, x[1] % side}, inY[2] = {y[0] % side, y[1] % side};
+        _addFour(tile.texels, tile.width, inX, inY, weights, _format, sum);
+        return true;
+    }
+    // Copies: a tile stays only until the next.
+    const size_t bytes = _format.texelBytes();
+    alignas(16) uint8_t block[4 * 4 * sizeof(float)];
+    for (int i = 0; i < 4; ++i) {
+        const TexelTiles::Tile tile = _tiles->tile(number, columns[i & 1], rows[i >> 1]);
+        if (!tile.texels) return false;
+        const size_t at = size_t(y[i >> 1] % side) * size_t(tile.width) + size_t(x[i & 1] % side);
+        std::memcpy(block + size_t(i) * bytes,
+                    static_cast<const uint8_t*>(tile.texels) + at * bytes, bytes);
+    }
+    static constexpr int both[2] = {0, 1};
+    _addFour(block, 2, both, both, weights, _format, sum);
+    return true;
 }
 
 glm::vec4 ImageTexture::texel(int level, int x, int y) const {
     const int xs[2] = {x, x}, ys[2] = {y, y};
     const float weights[4] = {1, 0, 0, 0};
     float sum[4] = {0, 0, 0, 0};
-    (this->*_functions.addFour)(_levels[size_t(level)], xs, ys, weights, sum);
-    return expand(sum);
+    return addFour(level, xs, ys, weights, sum) ? expand(sum) : magenta;
 }
 
 glm::vec4 ImageTexture::bilinear(int number, glm::vec2 st, TextureWrap wrapS,
@@ -294,8 +218,7 @@ glm::vec4 ImageTexture::bilinear(int number, glm::vec2 st, TextureWrap wrapS,
         return result;
     }
     float sum[4] = {0, 0, 0, 0};
-    (this->*_functions.addFour)(level, x, y, weights, sum);
-    return expand(sum);
+    return addFour(number, x, y, weights, sum) ? expand(sum) : magenta;
 }
 
 glm::vec4 ImageTexture::sample(glm::vec2 uv, float footprint, TextureWrap wrapS,

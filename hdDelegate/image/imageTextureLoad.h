@@ -11,6 +11,8 @@
 
 namespace patina {
 
+struct TileStore;
+
 /// Where an image comes from, and whom to name when something is wrong with it.
 struct ImageSource {
     std::string file;
@@ -18,10 +20,14 @@ struct ImageSource {
     std::string prim, input;
 };
 
-/// Looks at the file's header only.
-/// @param layout receives what its channels mean
-/// @returns an empty text, or the reason in one line why it cannot be read
-std::string probeImage(const std::string& file, TexelLayout& layout);
+/// What a file's header says.
+struct ImageHeader {
+    std::string problem;  ///< in one line why it cannot be read; empty: nothing is known against it
+    std::string tooLarge; ///< why it cannot be read whole; empty: it can
+    TexelLayout layout = TexelLayout::Rgb;
+    uint64_t bytes = 0; ///< of all levels, about
+};
+ImageHeader probeImage(const std::string& file);
 
 /// Reads any format of OIIO into a mip pyramid in linear Rec.709. 8-bit files stay 8-bit where
 /// their colour space works channel by channel; 16-bit data stays 16-bit; half stays half. Colour
@@ -33,6 +39,15 @@ std::string probeImage(const std::string& file, TexelLayout& layout);
 /// @returns null after a warning when the file cannot be read
 std::shared_ptr<ImageTexture> loadImageTexture(const ImageSource& source,
                                                const ColorSpaces& colorSpaces,
+                                               Diagnostics& diagnostics);
+
+/// A texture of which only the tiles that are sampled are read, when they are. As
+/// loadImageTexture() else, to the bit; tiles that cannot be read are magenta, as are those of
+/// further levels that are made from them, and the first is warned of.
+/// @returns null after a warning when the file cannot be read
+std::shared_ptr<ImageTexture> openTiledTexture(const ImageSource& source,
+                                               const ColorSpaces& colorSpaces,
+                                               const std::shared_ptr<TileStore>& store,
                                                Diagnostics& diagnostics);
 
 /// A colour image in linear Rec.709 floats.

@@ -62,15 +62,23 @@ struct TextureSystem::Image {
     ImageSource source;
     const ColorSpaces& colorSpaces;
     Diagnostics& diagnostics;
-    TexelLayout layout = TexelLayout::Rgb;
+    TextureMemory& memory;
+    ImageHeader header;
     std::string problem; ///< of the header
 
     mutable std::once_flag once;
     mutable std::shared_ptr<ImageTexture> texture;
     mutable std::atomic<bool> loaded{false};
+    mutable std::mutex wholeMutex;
+    mutable std::weak_ptr<const ImageTexture> wholeTexture; ///< where `texture` is not
 
-    Image(const ImageSource& s, const ColorSpaces& c, Diagnostics& d)
-        : source(s), colorSpaces(c), diagnostics(d), problem(probeImage(s.file, layout)) {}
+    Image(const ImageSource& s, const ColorSpaces& c, Diagnostics& d, TextureMemory& m)
+        : source(s), colorSpaces(c), diagnostics(d), memory(m), header(probeImage(s.file)),
+          problem(header.problem) {
+        if (problem.empty() && !header.tooLarge.empty() && !memory.isSet())
+            problem = header.tooLarge + "; --textureMemory reads larger ones";
+        if (problem.empty()) memory.opened(header.bytes);
+    }
 
     const ImageTexture* get() const {
         if (!loaded.load(std::memory_order_acquire)) load();
@@ -78,9 +86,23 @@ struct TextureSystem::Image {
     }
     void load() const {
         std::call_once(once, [this] {
-            if (problem.empty()) texture = loadImageTexture(source, colorSpaces, diagnostics);
+            if (problem.empty()) texture = read();
             loaded.store(true, std::memory_order_release);
         });
+    }
+    std::shared_ptr<ImageTexture> read() const {
+        if (!header.tooLarge.empty() || !memory.takeWhole(header.bytes))
+            return openTiledTexture(source, colorSpaces, memory.store(), diagnostics);
+        std::shared_ptr<ImageTexture> whole = loadImageTexture(source, colorSpaces, diagnostics);
+        memory.correctWhole(header.bytes, whole ? whole->memoryBytes() : 0);
+        return whole;
+    }
+    std::shared_ptr<const ImageTexture> whole() const {
+        if (!get() || texture->isWhole()) return texture;
+        const std::lock_guard<std::mutex> lock(wholeMutex);
+        std::shared_ptr<const ImageTexture> held = wholeTexture.lock();
+        if (!held) wholeTexture = held = loadImageTexture(source, colorSpaces, diagnostics);
+        return held;
     }
 };
 
@@ -110,9 +132,13 @@ TextureSystem::TextureSystem(Diagnostics& diagnostics, const ColorSpaces& colorS
 
 TextureSystem::~TextureSystem() = default;
 
+void TextureSystem::setMemory(uint64_t bytes) {
+    _memory.setBytes(bytes);
+}
+
 std::shared_ptr<TextureSystem::Image> TextureSystem::shareImage(const ImageSource& source) {
     std::shared_ptr<Image>& image = _images[source.file + '\n' + source.colorSpace];
-    if (!image) image = std::make_shared<Image>(source, _colorSpaces, _diagnostics);
+    if (!image) image = std::make_shared<Image>(source, _colorSpaces, _diagnostics, _memory);
     return image;
 }
 
@@ -181,7 +207,7 @@ bool TextureSystem::valid(int handle) const {
 
 int TextureSystem::channels(int handle) const {
     const Image* image = valid(handle) ? _entries[size_t(handle)]->firstImage() : nullptr;
-    return image ? channelCount(image->layout) : 4;
+    return image ? channelCount(image->header.layout) : 4;
 }
 
 TextureTiling TextureSystem::tiling(int handle) const {
@@ -247,8 +273,7 @@ std::shared_ptr<const ImageTexture> TextureSystem::image(int handle, int tile) c
     const Entry& entry = *_entries[size_t(handle)];
     size_t i = entry.udim ? size_t(std::max(0, tile - firstTile)) : 0;
     if (i >= entry.tiles.size() || !entry.tiles[i]) return nullptr;
-    entry.tiles[i]->get();
-    return entry.tiles[i]->texture;
+    return entry.tiles[i]->whole();
 }
 
 const TextureRequest& TextureSystem::request(int handle) const {
@@ -264,15 +289,8 @@ void TextureSystem::loadAll() const {
 }
 
 size_t TextureSystem::memoryBytes() const {
-    std::map<const ImageTexture*, size_t> sizes; // handles share images
-    for (auto& entry : _entries)
-        for (auto& image : entry->tiles)
-            if (image && image->loaded.load(std::memory_order_acquire) && image->texture)
-                sizes[image->texture.get()] = image->texture->memoryBytes();
-    size_t sum = 0;
-    for (auto& s : sizes)
-        sum += s.second;
-    return sum;
+    const TextureMemory::Counts counts = _memory.counts();
+    return counts.whole + counts.tiles;
 }
 
 } // namespace patina

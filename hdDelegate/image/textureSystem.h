@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hdDelegate/image/imageTextureLoad.h"
+#include "hdDelegate/image/textureMemory.h"
 
 #include <tbb/concurrent_vector.h>
 
@@ -29,14 +30,20 @@ public:
     TextureTiling tiling(int handle) const override;
     std::shared_ptr<const EmissionProfile> openProfile(const TextureRequest& request) override;
 
+    /// How much memory textures take, for those that are read from now on (TextureMemory).
+    /// @param bytes 0: half of the machine's
+    void setMemory(uint64_t bytes);
+
     /// Reads what was opened and not yet read, with all threads.
     void loadAll() const;
-    /// Texels of a handle, for back ends with samplers of their own; null for a missing one.
+    /// All texels of a handle, for back ends with samplers of their own; null for a missing one.
+    /// Where they are not kept in memory they are read anew, and stay for as long as they are held.
     /// @param tile UDIM number; of a plain texture any
     std::shared_ptr<const ImageTexture> image(int handle, int tile = 1001) const;
     /// The request that a handle was opened with.
     const TextureRequest& request(int handle) const;
     size_t memoryBytes() const; ///< of the texels in memory
+    const TextureMemory& memory() const { return _memory; }
 
 private:
     struct Image;
@@ -47,6 +54,7 @@ private:
 
     Diagnostics& _diagnostics;
     const ColorSpaces& _colorSpaces;
+    mutable TextureMemory _memory;
     std::mutex _mutex; ///< of open()
     std::map<std::string, int> _handles;
     std::map<std::string, std::shared_ptr<Image>> _images;

@@ -27,7 +27,9 @@ struct RenderProgress {
     bool mayWait = false;      ///< a listener that is told this may wait until its image is seen
     std::string backend;       ///< what the film's samples were made by: embree, raster
     /// "rays", "paths", "secondsBuild" (of this start), "trianglesStored", "instances", "bytes" (of
-    /// meshes and acceleration structures); and counts since the renderer was made, which tell what
+    /// meshes and acceleration structures), "textureBytes" (in memory; where some are read by tiles
+    /// also "textureTileBytes", "textureTilePeakBytes", "textureTileCapacity" and
+    /// "textureTilesMade" of those); and counts since the renderer was made, which tell what
     /// edits cost: "surfacesBuilt", "surfacesTessellated" (the others were only moved),
     /// "groupsBuilt" (acceleration structures), "programsBuilt", "lightsBuilt", "primsLookedAt" (to
     /// see whether they have to be built). While programs are

@@ -63,6 +63,7 @@ struct SettingRow {
     SettingRow& flagOff(const char*, const char*) { return *this; }
     SettingRow& flagRange(double, double) { return *this; }
     SettingRow& flagAbove(double) { return *this; }
+    SettingRow& flagSize() { return *this; }
     SettingRow& flagDefault(double) { return *this; }
     SettingRow& group(const char*) { return *this; }
 };

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Flags of render settings, made from the rows of hdDelegate/scene/settings.def."""
 import math
+import re
 
 from patina.cli import rows
 
@@ -44,7 +45,8 @@ def add_one(group, name, texts=None):
         return
     metavar, text = row.words["flag"]
     text = text.format(**texts) if texts else text
-    keywords = {"choices": row.words["choices"][0].split()} if "choices" in row.words else {"type": _parser(row)}
+    keywords = {"choices": row.words["choices"][0].split()} if "choices" in row.words else {
+        "type": _size_parser(row) if "flagSize" in row.words else _parser(row)}
     group.add_argument("--" + name, metavar=metavar, default=_default(row), help=text, **keywords)
 
 
@@ -86,6 +88,24 @@ def value_of(row, value):
     if not math.isfinite(number) or not allowed or (kind in _WHOLE and not (number == int(number) and number <= _WHOLE[kind])):
         raise ValueError(value)
     return int(number) if kind in _WHOLE else number
+
+
+_UNITS = {"": 1.0, "MIB": 1.0, "GIB": 1024.0, "TIB": 1024.0**2, "MB": 1e6 / 2**20, "GB": 1e9 / 2**20, "TB": 1e12 / 2**20}
+
+
+def _size_parser(row):
+    """:returns: function of a text such as 4GiB, which gives MiB; as _parser else"""
+    least = row.words["flagRange"][0]
+
+    def parse(text):
+        match = re.fullmatch(r"([0-9]*\.?[0-9]+)\s*([A-Za-z]*)", text.strip())
+        value = float(match[1]) * _UNITS[match[2].upper()] if match and match[2].upper() in _UNITS else -1.0
+        if not least <= value < math.inf:
+            raise ValueError
+        return value
+
+    parse.__name__ = f"size ({least} MiB or more, such as 500MiB or 4GiB)"
+    return parse
 
 
 def _parser(row):

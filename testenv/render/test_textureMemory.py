@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Textures beyond memory: the same bits, whatever --textureMemory is, within it."""
+import json
+import os
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+import tiledTiff
+from rendering import color, patina, record
+
+MIB = 1 << 20
+SMALL = ("--imageWidth", 48, "--imageHeight", 32, "--samples", 4, "--threads", 2)
+
+
+def stage(folder, files, repeats=1):
+    """Quads that glow as textures do, beside each other and tilted, so that all levels are seen. :returns: its path"""
+    prims = []
+    for i, file in enumerate(files):
+        x = i - 0.5 * len(files)
+        prims.append(f"""
+def Mesh "q{i}" (prepend apiSchemas = ["MaterialBindingAPI"])
+{{
+    int[] faceVertexCounts = [4]
+    int[] faceVertexIndices = [0, 1, 2, 3]
+    point3f[] points = [({x}, -0.8, 1), ({x + 0.95}, -0.8, 1), ({x + 0.95}, 1.2, -9), ({x}, 1.2, -9)]
+    texCoord2f[] primvars:st = [(0, 0), ({repeats}, 0), ({repeats}, {repeats}), (0, {repeats})] (interpolation = "vertex")
+    rel material:binding = </m{i}>
+}}
+def Material "m{i}"
+{{
+    token outputs:surface.connect = </m{i}/s.outputs:surface>
+    def Shader "s"
+    {{
+        uniform token info:id = "UsdPreviewSurface"
+        color3f inputs:emissiveColor.connect = </m{i}/t.outputs:rgb>
+        color3f inputs:diffuseColor = (0, 0, 0)
+        token outputs:surface
+    }}
+    def Shader "t"
+    {{
+        uniform token info:id = "UsdUVTexture"
+        asset inputs:file = @{file}@
+        token inputs:wrapS = "repeat"
+        token inputs:wrapT = "mirror"
+        float2 inputs:st.connect = </m{i}/p.outputs:result>
+        float3 outputs:rgb
+    }}
+    def Shader "p"
+    {{
+        uniform token info:id = "UsdPrimvarReader_float2"
+        string inputs:varname = "st"
+        float2 outputs:result
+    }}
+}}""")
+    path = os.path.join(folder, "stage.usda")
+    with open(path, "w", encoding="utf-8") as text:
+        text.write(f"""#usda 1.0
+def Camera "camera"
+{{
+    float horizontalAperture = 36
+    float verticalAperture = 24
+    float focalLength = {40 / len(files) ** 0.5}
+    float2 clippingRange = (0.01, 100)
+    double3 xformOp:translate = (0, 0, 3)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+}}""" + "\n".join(prims) + "\n")
+    return path
+
+
+def render(path, image, *arguments):
+    """:returns: pixels, the frame's statistics"""
+    numbers = str(image) + ".json"
+    record(path, image, *SMALL, *arguments, f"--json={numbers}")
+    with open(numbers, encoding="utf-8") as file:
+        return color(image), json.load(file)["frames"][0]
+
+
+@pytest.mark.parametrize("levels", [True, False])
+def test_ten_times_the_memory_shows_the_same_bits_within_it(levels, tmp_path):
+    texels = 0
+    for i in range(4):
+        texels += tiledTiff.write(tmp_path / f"{i}.tif", 1024, seed=i, levels=levels)
+    path = stage(tmp_path, [f"{i}.tif" for i in range(4)], repeats=2)
+    whole, facts = render(path, tmp_path / "whole.exr")
+    assert facts["textureBytes"] >= texels and "textureTileBytes" not in facts
+    tiled, facts = render(path, tmp_path / "tiled.exr", "--textureMemory", "1MiB")
+    assert texels >= 10 * MIB
+    assert 0 < facts["textureTilePeakBytes"] <= facts["textureTileCapacity"] <= MIB
+    assert np.ptp(whole) > 0.1 and np.array_equal(whole, tiled)
+    plenty, facts = render(path, tmp_path / "plenty.exr", "--textureMemory", "1TiB")
+    assert "textureTileBytes" not in facts and np.array_equal(whole, plenty)
+
+
+def test_gigabytes_of_texels_in_a_few_megabytes(tmp_path):
+    """Each file alone is larger than what is read whole."""
+    texels = tiledTiff.write(tmp_path / "0.tif", 65536)
+    for i in range(1, 8):
+        os.link(tmp_path / "0.tif", tmp_path / f"{i}.tif")
+    assert 8 * texels > 100e9
+    path = stage(tmp_path, [f"{i}.tif" for i in range(8)])
+    _, facts = render(path, tmp_path / "a.exr", "--textureMemory", "64MiB")
+    assert facts["textureTilePeakBytes"] <= facts["textureTileCapacity"] <= 64 * MIB
+    assert color(tmp_path / "a.exr").max() > 0.1
+    refused = patina("record", path, tmp_path / "b.exr", *SMALL)
+    assert "takes more bytes than" in refused.stderr and "--textureMemory" in refused.stderr
+
+
+@pytest.mark.skipif(not shutil.which("maketx"), reason="maketx is not installed")
+def test_files_of_maketx(tmp_path):
+    tiledTiff.write(tmp_path / "plain.tif", 1024, levels=False)
+    subprocess.run(["maketx", tmp_path / "plain.tif", "-o", tmp_path / "made.tx"], check=True)
+    path = stage(tmp_path, ["made.tx"])
+    whole, _ = render(path, tmp_path / "whole.exr")
+    tiled, facts = render(path, tmp_path / "tiled.exr", "--textureMemory", "1MiB")
+    assert facts["textureTilesMade"] > 0 and np.array_equal(whole, tiled)
+
+
+@pytest.mark.parametrize("value", ["0", "-1", "much", "4 parsecs", "0.5MiB", "nan", "inf", "1e400", "GiB", ""])
+def test_sizes_that_are_none(value, tmp_path):
+    wrong = patina("record", "a.usda", "b.png", f"--textureMemory={value}", check=False)
+    assert wrong.returncode == 2 and "size (1 MiB or more" in wrong.stderr
+
+
+@pytest.mark.parametrize("value, mebibytes", [("500", 500), ("500MiB", 500), ("4GiB", 4096), ("1.5 gib", 1536), ("2TiB", 2097152),
+                                              ("1GB", 1e9 / MIB)])
+def test_sizes(value, mebibytes):
+    from patina.cli import settingFlags
+
+    parse = settingFlags._size_parser(settingFlags.table()["textureMemory"])
+    assert parse(value) == pytest.approx(mebibytes)

@@ -9,6 +9,7 @@ const lineHeight = 18; // pixels, as in page.css
 export class CodeEditor {
     // @param changed called after the user has typed
     constructor(changed) {
+        this.lines = [""];
         this.marks = new Map(); // line -> "error" or "warning"
         this.area = element("textarea", { id: "codeText", spellcheck: false, wrap: "off", autocomplete: "off",
                                           autocapitalize: "off", "aria-describedby": "codeState" });

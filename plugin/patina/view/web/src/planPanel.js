@@ -22,6 +22,8 @@ export class PlanPanel {
         const now = state.methods[state.material];
         for (const [button, method] of this.buttons)
             button.setAttribute("aria-pressed", String(now ? now.point === method.point && now.name === method.name : method.own));
+        for (const [button, input, to] of this.moves)
+            button.setAttribute("aria-pressed", String(String(state.values[state.material][input]) === String(to)));
         if (this.cuts) this.cuts.setAttribute("aria-pressed", String(state.whole));
     }
 
@@ -29,6 +31,7 @@ export class PlanPanel {
         const { state } = this.page, { plan, notes, programs } = state.current;
         this.material = state.material;
         this.buttons = [];
+        this.moves = [];
         this.readout = element("p", { id: "planState", role: "status" });
         this.picture = element("div", { id: "planPicture" });
         this.cuts = plan.leftOut.length && programs[0].whole ? element("button", { type: "button", id: "planCuts",
@@ -43,14 +46,16 @@ export class PlanPanel {
             plan.leftOut.length ? list(plan.leftOut, "planLeftOut") : element("p", { id: "planLeftOut" }, "Nothing."),
             plan.leftOut.length ? element("p", {}, "What has no weight or is black changes nothing while its inputs stay as authored. ",
                                           this.cuts) : null,
+            plan.effects.length ? this.effects(plan) : null,
             notes.length ? element("h3", {}, "Not shown by this page") : null,
             notes.length ? list(notes, "planNotes") : null);
     }
 
     table(plan) {
         const heads = ["method", "predicted error", "time", "albedo", "change of it", ""];
-        const table = element("table", {}, element("caption", {}, "Errors are of relative luminance against the slowest, exact " +
-            "method; times are over the method in use by default; albedo is the luminance that comes back of even light."),
+        const table = element("table", {}, element("caption", {}, "Errors are of relative luminance against the exact method, over " +
+            "all bounces between surfaces like this; times are over the default method's; albedo is the luminance that the " +
+            "material sends on in even light of 1, of samples."),
             element("thead", {}, element("tr", {}, ...heads.map(text => text ? element("th", { scope: "col" }, text)
                                                                             : element("td", {})))));
         for (const choice of plan.choices) {
@@ -59,6 +64,37 @@ export class PlanPanel {
                                  ...choice.methods.map(method => this.row(plan, choice, method))));
         }
         return table;
+    }
+
+    // Inputs that would bring more lobes.
+    effects(plan) {
+        const { page } = this, { state } = page, { inputs } = state.current, heads = ["input", "now", "to", "albedo", "change of it"];
+        const cell = text => element("td", { className: "number" }, text), numbers = v => v.map(short).join(" ");
+        const body = element("tbody", {}, ...plan.effects.map(({ input, to, albedo }) => {
+            const { input: name, value } = inputs[input];
+            const button = element("button", { type: "button", "aria-label": `draw with ${name} ${numbers(to)}`,
+                                               onclick: () => this.move(input, to) }, "draw");
+            this.moves.push([button, input, to]);
+            return element("tr", {}, element("th", { scope: "row" }, element("code", {}, name)), cell(numbers(value)), cell(numbers(to)),
+                           cell(albedo ? luminance(albedo).toFixed(3) : "\u2013"),
+                           cell(albedo && plan.albedo ? percent(relative(plan.albedo, albedo)) : "\u2013"), element("td", {}, button));
+        }));
+        return element("table", { id: "planEffects" }, element("caption", {}, "Inputs at which the plan would keep more: the albedo " +
+            "at the end of the range that is farther from the authored value."),
+            element("thead", {}, element("tr", {}, ...heads.map(text => element("th", { scope: "col" }, text)), element("td", {}))), body);
+    }
+
+    // Moves an input to a value, or back to the authored one.
+    async move(input, to) {
+        const { page } = this, { state } = page, values = state.values[state.material], { inputs } = state.current;
+        const start = inputs[input].value;
+        if (String(values[input]) === String(to)) {
+            values[input] = start.slice();
+            page.refresh();
+            return this.say("The input is as it was authored.");
+        }
+        return this.measure(() => { values[input] = start.slice(); }, () => { values[input] = to.slice(); },
+                            `${inputs[input].input} at ${to.map(short).join(" ")}`, "");
     }
 
     row(plan, choice, method) {

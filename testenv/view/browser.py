@@ -72,6 +72,11 @@ class Browser:
             page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null;")
         page.goto(f"file://{os.path.abspath(path)}{query}")
 
+    def shows(self, path):
+        """:returns: whether a page is open still, and has told nothing"""
+        alive = self._browser is not None and self._browser.is_connected() and self._page is not None
+        return alive and self._page.url.partition("?")[0] == f"file://{os.path.abspath(path)}" and not self._messages
+
     def evaluate(self, code):
         """Runs statements in the page, where `page` is the page and `viewer` its viewer; `return` gives JSON."""
         return self._page.evaluate("(async () => { const page = await window.patina.ready, viewer = page?.viewer;"

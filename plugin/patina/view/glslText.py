@@ -9,9 +9,9 @@ MAX_UNIFORMS = 128  # WebGL2 promises 224 vectors; more values come by a texture
 
 
 def lean(text):
-    """Without comments, blank lines and #line: nobody reads the page's text, but everybody loads it."""
+    """Without comments, blank lines and #line, which everybody would load; indented, for who reads it in the page."""
     text = re.sub(r"//[^\n]*", "", text)
-    lines = (line.strip() for line in text.split("\n"))
+    lines = (line.rstrip() for line in text.split("\n"))
     return "\n".join(line for line in lines if line and not line.startswith("#line")) + "\n"
 
 

@@ -2,7 +2,7 @@
 """A material as the page has it: two texts, its inputs, their controls."""
 from patina.cli import compiled
 from patina.cli.errors import CommandError
-from patina.view import choices, controls, glslText, images, live
+from patina.view import choices, controls, glslText, images, live, plan
 
 LONGEST_TEXT = 200000
 MAX_TEXTURES = 12  # of 16; the page itself has albedos, environment, lights and parameters
@@ -75,9 +75,10 @@ def build(name, network, methods, textures):
     """
     module = compiled.load()
 
-    def compile_one(changed, largest=1):
-        return module.web_material(changed, methods, largest)
+    def compiler(forced):
+        return lambda changed, largest=1: module.web_material(changed, forced, largest)
 
+    compile_one = compiler(methods)
     inputs, beyond, (made, lean, lobes, chosen) = _authored(name, network, compile_one, textures)
     found, fixed = choices.find(network, inputs)
     wanted, left = choices.combinations(found)
@@ -92,15 +93,28 @@ def build(name, network, methods, textures):
             programs.append(other)
         places[",".join(map(str, picked))] = programs.index(other)
         lobes += more
+
+    def with_methods(forced):
+        made, _, more, _ = _program(name, network, inputs, compiler(forced), textures, chosen)
+        return made, more
+
+    def add(made, more):
+        lobes.extend(more)
+        programs.append(made)
+        return len(programs) - 1
+
     fixed += [choices.Fixed(c.node, c.name, c.kind, c.options[c.at][0], "every value is a program of its own, and "
                             f"a page has room for {choices.MAX_PROGRAMS} of them")
               for c in (found[i] for i in left)]
+    entries = controls.entries(inputs, [c for i, c in enumerate(found) if i not in left], fixed)
+    planned = {**plan.build(network, methods, with_methods, add),
+               "effects": plan.effects(network, inputs, chosen, entries, methods)}
     material = {"name": name, "programs": programs, "places": places,
                 "inputs": [{"input": f"{i.node}.{i.name}", "kind": i.kind, "value": list(i.value)} for i in inputs],
                 "choices": [{"input": c.key, "kind": c.kind, "values": [v for _, v in c.options], "at": c.at}
                             for c in found],
-                "controls": controls.entries(inputs, [c for i, c in enumerate(found) if i not in left], fixed),
-                "presets": [], "sentence": ""}
+                "controls": entries,
+                "presets": [], "sentence": "", "plan": planned}
     notes = [text for key, text in _NOTES if lean[key]] + list(dict.fromkeys(lean["leftOut"]))
     if lean["volumeOnly"]:
         notes.append("a volume without a surface is not shown")

@@ -46,8 +46,8 @@ def document(data, lobes):
     data, replaced = finite(data)
     warnings = [f"{replaced} numbers of the page are not finite and shown as 0"] if replaced else []
     texts = {"library": glslText.library(), "programs": [m["programs"] for m in data["materials"]],
-             "layers": [m["layer"] for m in data["materials"]]}
-    kept = [{k: v for k, v in m.items() if k not in ("programs", "layer")} for m in data["materials"]]
+             "layers": [m["layer"] for m in data["materials"]], "plans": [m["plan"] for m in data["materials"]]}
+    kept = [{k: v for k, v in m.items() if k not in ("programs", "layer", "plan")} for m in data["materials"]]
     whole = {**data, "materials": kept, "texts": blobs.pack_text(json.dumps(texts, allow_nan=False)),
              "albedo": albedo.texture(lobes)}
     script = bundle.script()

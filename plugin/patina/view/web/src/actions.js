@@ -39,6 +39,8 @@ export function addActions(gui, page) {
         const button = folder.add({ run }, "run").name(title);
         button.domElement.dataset.action = name;
     };
+    add("shader", "shader (c)", () => page.drawer.toggle(page.code));
+    add("plan", "plan (l)", () => page.drawer.toggle(page.plan));
     add("png", "save the picture (p)", () => savePicture(page));
     add("layer", "save the values as .usda", () => saveLayer(page));
     add("link", "copy a link to this", () => copyLink(page));

@@ -13,31 +13,43 @@ export async function loadReferences(viewer, data) {
 
 const tick = () => new Promise(done => setTimeout(done));
 
+// Draws pictures of another size, and then goes on with the page's own.
+// @param use called with draw(), which gives { colors, cover }: three numbers a pixel, linear, and one, top row first
+export async function aside(page, width, height, use) {
+    const { viewer } = page, size = [viewer.width, viewer.height];
+    page.paused = true;
+    try {
+        viewer.resize(width, height);
+        return await use(async () => {
+            viewer.invalidate();
+            while (viewer.step()) await tick();
+            const own = viewer.accumulator.read(), n = width * height;
+            const colors = new Float32Array(3 * n), cover = new Float32Array(n);
+            for (let i = 0; i < n; ++i) {
+                const from = 4 * ((height - 1 - Math.floor(i / width)) * width + i % width);
+                colors.set(own.subarray(from, from + 3), 3 * i);
+                cover[i] = own[from + 3];
+            }
+            return { colors, cover };
+        });
+    } finally {
+        viewer.resize(...size);
+        viewer.invalidate();
+        page.paused = false;
+    }
+}
+
 // Mean FLIP of what the page draws from the same place, at the reference's size.
 export async function measure(page) {
     const { viewer, state } = page, reference = viewer.reference();
     if (!reference) return null;
-    const [width, height] = [viewer.width, viewer.height];
-    page.paused = true;
-    try {
-        viewer.resize(reference.width, reference.height);
-        viewer.invalidate();
-        while (viewer.step()) await tick();
-        const own = viewer.accumulator.read(), other = reference.texture.image.data;
-        const n = reference.width * reference.height, a = new Float32Array(3 * n), b = new Float32Array(3 * n);
-        for (let y = 0; y < reference.height; ++y)
-            for (let x = 0; x < reference.width; ++x)
-                for (let c = 0; c < 3; ++c) {
-                    const at = y * reference.width + x, flipped = (reference.height - 1 - y) * reference.width + x;
-                    a[3 * at + c] = own[4 * flipped + c];
-                    b[3 * at + c] = THREE.DataUtils.fromHalfFloat(other[4 * at + c]);
-                }
-        return meanFlip(b, a, reference.width, reference.height, 2 ** state.exposure);
-    } finally {
-        viewer.resize(width, height);
-        viewer.invalidate();
-        page.paused = false;
-    }
+    const { width, height } = reference, other = reference.texture.image.data;
+    return aside(page, width, height, async draw => {
+        const { colors } = await draw(), b = new Float32Array(3 * width * height);
+        for (let i = 0; i < width * height; ++i)
+            for (let c = 0; c < 3; ++c) b[3 * i + c] = THREE.DataUtils.fromHalfFloat(other[4 * i + c]);
+        return meanFlip(b, colors, width, height, 2 ** state.exposure);
+    });
 }
 
 export function addCompare(gui, page) {

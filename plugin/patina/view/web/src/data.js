@@ -3,9 +3,9 @@
 
 export async function readDocument() {
     const data = JSON.parse(document.getElementById("patina-data").textContent);
-    const { library, programs, layers } = JSON.parse(new TextDecoder().decode(await unpack(data.texts, "u1")));
+    const { library, programs, layers, plans } = JSON.parse(new TextDecoder().decode(await unpack(data.texts, "u1")));
     data.library = library;
-    data.materials.forEach((m, i) => Object.assign(m, { programs: programs[i], layer: layers[i] }));
+    data.materials.forEach((m, i) => Object.assign(m, { programs: programs[i], layer: layers[i], plan: plans[i] }));
     return data;
 }
 

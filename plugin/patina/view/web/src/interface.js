@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts of the interface, and what they do to the state.
 import { TrackballControls } from "three/examples/jsm/controls/TrackballControls.js";
+import { CodePanel } from "./codePanel.js";
 import { loadReferences, measure } from "./compare.js";
+import { Drawer } from "./drawer.js";
 import { listen } from "./keyboard.js";
 import { Panel } from "./panel.js";
+import { PlanPanel } from "./planPanel.js";
 
 // The size of the canvas in pixels: what its box shows, or what the address asks for (?width=256).
 function sizeOf(canvas) {
@@ -25,6 +28,10 @@ export class Page {
         new ResizeObserver(() => this.fit()).observe(viewer.canvas);
         this.fit();
         this.panel = new Panel(this);
+        this.drawer = new Drawer();
+        this.code = new CodePanel(this);
+        this.plan = new PlanPanel(this);
+        viewer.canvas.addEventListener("webglcontextlost", () => this.lose());
         listen(this);
     }
 
@@ -44,7 +51,15 @@ export class Page {
         this.viewer.invalidate();
     }
 
+    // A shader that never ends, for one. three.js sets up anew what it has when the browser allows.
+    lose() {
+        this.code.edits.putAllAside();
+        this.say("The browser has stopped this page's graphics, perhaps because a shader took too long. The page draws " +
+                 "with the generated text; what was written is still in the shader's panel.");
+    }
+
     beforeStep() {
+        this.drawer.refresh();
         this.controls.update();
         this.state.eye = this.viewer.camera.position.toArray();
     }
@@ -77,6 +92,7 @@ export class Page {
         const { material } = this.state;
         this.state.reset();
         this.state.material = material;
+        this.code.edits.putAllAside();
         history.replaceState(null, "", location.pathname + location.search);
         this.placeCamera();
         this.refresh();

@@ -37,13 +37,14 @@ export function listen(page) {
                    page.refresh(); },
         "[": () => { page.state.exposure -= 0.5; page.refresh(); },
         "]": () => { page.state.exposure += 0.5; page.refresh(); },
+        c: () => page.drawer.toggle(page.code), l: () => page.drawer.toggle(page.plan),
         p: () => savePicture(page), r: () => page.reset(),
         "?": () => page.say("Keys: arrows turn, + and - come nearer and go, n and b next material and back, " +
-            "s shape, e environment, [ and ] exposure, p picture, r reset.")
+            "s shape, e environment, [ and ] exposure, p picture, c shader, l plan, r reset.")
     };
     window.addEventListener("keydown", event => {
         if (event.ctrlKey || event.metaKey || event.altKey) return;
-        if (event.target.closest?.("input, select, button, textarea, #panel")) return;
+        if (event.target.closest?.("input, select, button, textarea, #panel, #drawer")) return;
         if (!(event.key in keys)) return;
         event.preventDefault();
         keys[event.key]();

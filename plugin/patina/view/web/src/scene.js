@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything that is drawn: the shape with its material, and what stands behind it.
 import * as THREE from "three";
-import { makeMaterial } from "./materials.js";
+import { makeMaterial, textKey } from "./materials.js";
 
 export class PageScene {
     constructor(data, parts) {
@@ -20,6 +20,7 @@ export class PageScene {
             clipToWorld: { value: new THREE.Matrix4() }, plain: { value: new THREE.Vector4() }
         };
         this.programs = new Map();
+        this.edited = new Map(); // texts that a user has changed and compiled
         this.mesh = new THREE.Mesh();
         this.backdrop = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), new THREE.RawShaderMaterial({
             glslVersion: THREE.GLSL3, uniforms: this.shared, depthTest: false, depthWrite: false,
@@ -33,10 +34,14 @@ export class PageScene {
 
     // The lean text while the sliders that it leaves out stand where they were, else the whole.
     programFor(index, program, needsAll) {
-        const key = `${index} ${program} ${needsAll}`;
-        if (!this.programs.has(key))
-            this.programs.set(key, makeMaterial(this.data, index, program, needsAll, this.shared, this.parts.textures));
+        const key = textKey(this.data.materials[index], index, program, needsAll);
+        if (this.edited.has(key)) return this.edited.get(key);
+        if (!this.programs.has(key)) this.programs.set(key, this.make(index, program, needsAll));
         return this.programs.get(key);
+    }
+
+    make(index, program, needsAll, parts) {
+        return makeMaterial(this.data, index, program, needsAll, this.shared, this.parts.textures, parts);
     }
 
     setShape(shape) {

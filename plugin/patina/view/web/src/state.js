@@ -15,19 +15,37 @@ export class State {
         this.values = data.materials.map(m => m.inputs.map(i => i.value.slice()));
         this.choices = data.materials.map(m => m.choices.map(c => c.at));
         this.lights = data.lights.map(() => ({ on: true, gain: 1, color: [1, 1, 1] }));
+        this.methods = data.materials.map(() => null); // { point, name } of one that is not the plan's
+        this.whole = false; // the text with every input, though none needs it
         this.wedge = null;
         this.wipe = 1;
     }
 
     get current() { return this.data.materials[this.material]; }
 
-    // Which of the material's programs has the choices that were made.
-    get program() { return this.current.places[this.choices[this.material].join()] ?? 0; }
+    // Which of the material's programs has the method or the choices that were made.
+    get program() {
+        return this.programOf(this.methods[this.material]) ??
+            this.current.places[this.choices[this.material].join()] ?? 0;
+    }
+
+    programOf(method) {
+        const point = this.current.plan.choices.find(c => c.point === method?.point);
+        return point?.methods.find(m => m.name === method.name)?.program ?? null;
+    }
+
+    // Draws with a method that has a program, or (null) with those of the plan. Its program has the
+    // authored choices.
+    useMethod(method) {
+        this.methods[this.material] = this.programOf(method) === null ? null : method;
+        if (this.methods[this.material]) this.choices[this.material] = this.current.choices.map(c => c.at);
+    }
 
     // Where no program was made for what is chosen together, this choice stands alone.
     // @returns whether others had to go back to where they were authored
     choose(index, at) {
         const { current, material } = this, start = current.choices.map(c => c.at);
+        this.methods[material] = null;
         const together = this.choices[material].map((old, i) => i === index ? at : old);
         const alone = start.map((old, i) => i === index ? at : old);
         const fits = together.join() in current.places;
@@ -40,7 +58,7 @@ export class State {
         const m = this.current, { lean } = m.programs[this.program];
         const changed = this.values[this.material].some((v, i) =>
             !lean.live.includes(i) && String(v) !== String(m.inputs[i].value));
-        return changed || Boolean(this.wedge && !lean.live.includes(this.wedge.input));
+        return this.whole || changed || Boolean(this.wedge && !lean.live.includes(this.wedge.input));
     }
 
     // A narrow picture keeps the width in view.
@@ -68,7 +86,7 @@ export class State {
         }));
         if (Object.keys(values).length) out.values = values;
         if (String(this.choices) !== String(fresh.choices)) out.choices = this.choices;
-        for (const key of [...Object.keys(this.data.start), "lights", "wedge"])
+        for (const key of [...Object.keys(this.data.start), "lights", "wedge", "methods", "whole"])
             if (JSON.stringify(this[key]) !== JSON.stringify(fresh[key])) out[key] = this[key];
         return Object.keys(out).length ? encodeURIComponent(JSON.stringify(out)) : "";
     }
@@ -94,6 +112,14 @@ export class State {
         this.shape = clamped(this.shape, this.data.shapes.length);
         this.environment = clamped(this.environment, this.data.environments.length);
         this.samples = Math.min(1024, Math.max(4, Math.round(this.samples) || 64));
+        this.whole = read.whole === true;
+        (Array.isArray(read.methods) ? read.methods : []).forEach((method, m) => {
+            const plan = this.data.materials[m]?.plan.choices.find(c => c.point === method?.point);
+            const known = plan?.methods.find(x => x.name === method.name && x.program !== null);
+            if (!known) return;
+            this.methods[m] = { point: plan.point, name: known.name };
+            this.choices[m] = this.data.materials[m].choices.map(c => c.at);
+        });
         const w = read.wedge;
         if (w && this.current.inputs[w.input] && [w.from, w.to].every(Number.isFinite) &&
             Number.isInteger(w.count) && w.count >= 1 && w.count <= 9)

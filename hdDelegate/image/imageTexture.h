@@ -52,7 +52,7 @@ public:
     void setDecodeTable(const std::array<float, 256>& table);
 
     /// Grey images are often saved as colour: level 0 with one channel in place of three that are
-    /// equal in every texel, to the bit. What it is sampled for is the same; its pyramid is not
+    /// equal in every texel, to the bit. Samples of it are the same; its pyramid is not
     /// built yet.
     /// @returns null where a texel has a colour, or there is no third channel
     /// @throws std::bad_alloc

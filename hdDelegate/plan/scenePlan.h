@@ -35,9 +35,9 @@ public:
 
     static constexpr int depthStandard = 16, maxPlannedDepth = 1024;
 
-    /// What noise may take of a tolerance: all that methods, subdivision and depth leave, and never
-    /// less than their own shares leave (methods that are forced may spoil more). 0 and below: all
-    /// samples.
+    /// The part of a tolerance that noise may take: all that methods, subdivision and depth leave,
+    /// and never less than their own shares leave (methods that are forced may spoil more). 0 and
+    /// below: all samples.
     double noise(double tolerance) const;
 
     /// For RenderProgress::statistics; nothing without a tolerance.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What input may ask for at most in this process: the rows of materialNetwork/limits.def, and --limit NAME=VALUE."""
+"""The most that input may ask for in this process: the rows of materialNetwork/limits.def, and --limit NAME=VALUE."""
 import argparse
 import functools
 import sys

@@ -26,7 +26,7 @@ COLUMNS = ("stage", "backend", "tolerance", "predicted", "methodError", "methodW
            "defaultSpeedup", "defaultError", "error", "state", "noise", "samples", "width", "height", "seconds",
            "truthSeconds", "problem")
 
-# What becomes of a tolerance. Only the first is a promise kept; of the last two nothing can be said.
+# The ways a tolerance may end. Only the first is a promise kept; of the last two nothing can be said.
 WITHIN, OUTSIDE, SAMPLES, SECONDS, REFERENCE = "within", "outside", "samples ended", "seconds ended", "reference noisy"
 
 # The error of a few pixels is a matter of chance: several such pictures, with seeds of their own, stand for a larger one.

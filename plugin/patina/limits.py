@@ -38,8 +38,8 @@ class _Limit(argparse.Action):
 
 def add_flag(group):
     group.add_argument("--limit", action=_Limit, default=[], metavar="NAME=VALUE",
-                       help="what the input may ask for at most, beyond which parts of it are left out with a message "
-                            "(repeatable); --limit list shows all of them")
+                       help="the most that the input may ask for; parts beyond it are left out with a message (repeatable); "
+                            "--limit list shows all limits")
 
 
 def listing():

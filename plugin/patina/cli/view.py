@@ -2,7 +2,7 @@
 """Writes one HTML page that shows materials in a browser: no server, no network, opens from a file.
 
 The page draws with WebGL2, by the very lobes of the rasterizer, and has a slider for every input of
-the materials. It needs Node and npm once, to fetch and bundle what the page is made of.
+the materials. It needs Node and npm once, to fetch and bundle the page's script.
 """
 import os
 import sys
@@ -11,7 +11,7 @@ from patina import limits
 from patina.cli import materials, methods, outputs, statistics
 from patina.cli.errors import UsageError
 
-DEMOS = {"classic": "the classic reflectance models as steel and hematite, and what each cannot show",
+DEMOS = {"classic": "the classic reflectance models as steel and hematite, and the limits of each",
          "layers": "standard_surface with its layers switched on one by one"}
 
 
